@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "seamwire/intrinsic_mesh.hpp"
+#include "seamwire/metric.hpp"
+#include "seamwire/surface.hpp"
+#include "seamwire/task.hpp"
+
+namespace seamwire {
+
+/// What the priority of an invalid triangle, and sigma, are measured by.
+enum class Perimeter { kMetric, kEuclidean };
+
+struct EmbedOptions {
+  /// Subdivision stops once every invalid triangle left has a smaller perimeter (sigma of Section 4.1; 0: until none is
+  /// left).
+  double sigma = 0.0;
+  Perimeter perimeter = Perimeter::kMetric;
+  /// At most this many triangles are added; what is invalid then becomes a hole.
+  std::size_t max_faces_added = 4'000'000;
+};
+
+/// A surface in an anisotropic metric, as a refined mesh with edge lengths (Section 4.1). The first vertices are the
+/// caller's, with their numbers; new ones are midpoints of edges.
+struct Embedding {
+  IntrinsicMesh mesh;  ///< the valid triangles; what stayed invalid is a hole, whose edges are still there to run along
+  std::vector<Vector> points;             ///< in the caller's coordinates, one a vertex of `mesh`
+  std::vector<std::int32_t> source_face;  ///< the caller's face that each triangle of `mesh` lies in
+  std::size_t invalid_before = 0;         ///< invalid triangles of the input
+  std::size_t faces_added = 0;
+  std::size_t invalid_left = 0;  ///< holes
+  bool hit_cap = false;          ///< max_faces_added ended the subdivision
+  std::vector<std::int32_t>
+      unreachable;  ///< the caller's vertices in a face, but in no valid triangle and on no edge to run along
+};
+
+/// Bisects invalid triangles, largest perimeter first, at the midpoint of their longest edge in the metric, until none
+/// is left. Lengths are those of the ambient reading (metric.hpp). Throws InvalidInput where metric and surface differ
+/// in size, or a tensor is not finite; Cancelled.
+Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions& options = {}, const Task& task = {});
+
+}  // namespace seamwire

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "seamwire/intrinsic_mesh.hpp"
+#include "seamwire/task.hpp"
+
+namespace seamwire {
+
+/// A point that a geodesic passes: a vertex (half_edge < 0), or a point on an edge.
+struct PathPoint {
+  std::int32_t vertex = -1;
+  std::int32_t half_edge = -1;
+  double t = 0.0;  ///< 0 at the tail of the half-edge, 1 at its tip
+};
+
+/// A geodesic over an IntrinsicMesh, from the seed to a target: straight in each triangle.
+struct IntrinsicPath {
+  std::vector<PathPoint> points;    ///< empty where the target is unreachable; one point where it is the seed
+  std::vector<std::int32_t> faces;  ///< the triangle each segment crosses or bounds; -1 along a loose edge
+  double length = std::numeric_limits<double>::infinity();  ///< sum of the segments
+};
+
+class GeodesicMesh;  // the solver's own, flat form of the mesh
+
+/// Exact distances from one seed to every vertex, with what it takes to trace the paths.
+class DistanceField {
+ public:
+  struct TraceRecord;  // geodesics.cpp
+  DistanceField(std::shared_ptr<const GeodesicMesh> mesh, std::int32_t seed, std::vector<double> distances,
+                std::vector<TraceRecord> records);
+
+  std::int32_t seed() const { return seed_; }
+  /// One a vertex; infinite where no path leads.
+  const std::vector<double>& distances() const { return distances_; }
+  /// The shortest path from the seed to a vertex, in time proportional to the triangles it crosses. Its length is the
+  /// distance to rounding. Throws InvalidInput for a vertex out of range.
+  IntrinsicPath trace(std::int32_t vertex) const;
+
+ private:
+  std::shared_ptr<const GeodesicMesh> mesh_;
+  std::int32_t seed_;
+  std::vector<double> distances_;
+  std::vector<TraceRecord> records_;
+};
+
+/// What the work of a solve consisted of; the same for the same input on every machine.
+struct GeodesicCounters {
+  std::size_t lists = 0;    ///< window lists propagated
+  std::size_t windows = 0;  ///< windows propagated
+};
+
+/// Solver for repeated seeds on one mesh: the triangle-oriented wavefront of Qin et al., "Fast and Exact Discrete
+/// Geodesic Computation Based on Triangle-Oriented Wavefront Propagation" (2016), with the filter of Xin and Wang
+/// (2009), on edge lengths alone. solve() may be called from several threads at once.
+class ExactGeodesics {
+ public:
+  /// Throws InvalidInput for a length that is not positive and finite, a triangle that fails the triangle inequality,
+  /// or twins that do not match.
+  explicit ExactGeodesics(const IntrinsicMesh& mesh);
+  /// Throws InvalidInput for a seed out of range; Cancelled.
+  DistanceField solve(std::int32_t seed, const Task& task = {}, GeodesicCounters* counters = nullptr) const;
+
+ private:
+  std::shared_ptr<const GeodesicMesh> mesh_;
+};
+
+}  // namespace seamwire

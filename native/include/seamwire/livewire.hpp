@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "seamwire/edge_wire.hpp"
+#include "seamwire/metric.hpp"
+#include "seamwire/surface.hpp"
+#include "seamwire/wire.hpp"
+
+namespace seamwire {
+
+/// Where wires run: across the surface, as exact geodesics, or along its real edges.
+enum class Along { kSurface, kEdges };
+
+struct LiveWireOptions {
+  Along along = Along::kSurface;
+  Strength strength = {.parameter = 0.1};  ///< of feature_metric()
+  double turning = 3.0;                    ///< q of edge_wires()
+  double loop_turning = 20.0;              ///< q of edge_loop()
+};
+
+/// One of the two wires from the seed to a target. `vertices` are the ends of the edges that would be marked: along
+/// edges the wire itself, across the surface the chain it snaps to.
+struct LiveCandidate {
+  Follow follow = Follow::kMin;
+  std::vector<Vector> points;       ///< in the caller's coordinates; empty: no such wire
+  std::vector<std::int32_t> faces;  ///< per segment, across the surface only
+  std::vector<std::int32_t> vertices;
+  double length = std::numeric_limits<double>::infinity();
+  bool final = false;  ///< false: this metric's field is still being computed, and there is no wire yet
+};
+
+struct LiveWires {
+  std::array<LiveCandidate, 2> wires;  ///< that of M_min, that of M_max
+  int shorter = 0;                     ///< the one shorter in its own metric (Section 5)
+  bool final() const { return wires[0].final && wires[1].final; }
+};
+
+/// Both metrics for one surface, each computed on a thread of its own; seed, then the two wires to any target (Section
+/// 5). All members may be called from one thread at a time; none but wait() waits for the computation.
+class LiveWire {
+ public:
+  explicit LiveWire(std::shared_ptr<const Surface> surface, const LiveWireOptions& options = {});
+  ~LiveWire();  ///< stops the running work
+  LiveWire(const LiveWire&) = delete;
+  LiveWire& operator=(const LiveWire&) = delete;
+
+  /// Starts the wires from a pick, dropping those of an earlier one. Across the surface the pick must be a vertex.
+  /// `forward` as in edge_wires(). Throws InvalidInput where the pick is not part of the surface.
+  void seed(const Pick& pick, bool forward = false);
+  /// The wires from the seed to a target now. Throws InvalidInput for a target that is not part of the surface or where
+  /// there is no seed.
+  LiveWires wires(const Pick& target) const;
+  /// The closed chain through an edge, the cheaper of the two metrics'; along edges only. Empty vertices: none, or not
+  /// ready.
+  EdgeChain loop(const Edge& edge) const;
+
+  /// Fraction of the running work that is done, 1 when all is; waits for it at most `seconds`.
+  double progress() const;
+  bool wait(double seconds = std::numeric_limits<double>::infinity()) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace seamwire

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numbers>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "seamwire/surface.hpp"
+
+/// Meshes with known answers, made on the spot.
+namespace seamwire::shapes {
+
+struct Mesh {
+  std::vector<Vector> points;
+  std::vector<Triangle> triangles;
+
+  Surface surface() const { return Surface(points, triangles); }
+};
+
+/// The unit square in z = 0, n x n squares of two triangles each; inner vertices moved by up to `jitter` cell widths.
+inline Mesh grid(int n, double jitter = 0.0, unsigned seed = 1) {
+  Mesh mesh;
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> move(-jitter, jitter);
+  for (int j = 0; j <= n; ++j) {
+    for (int i = 0; i <= n; ++i) {
+      const bool inner = i > 0 && j > 0 && i < n && j < n;
+      const double dx = inner && jitter > 0 ? move(random) : 0.0;
+      const double dy = inner && jitter > 0 ? move(random) : 0.0;
+      mesh.points.emplace_back((i + dx) / n, (j + dy) / n, 0.0);
+    }
+  }
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      const int a = j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
+      mesh.triangles.push_back({a, b, d});
+      mesh.triangles.push_back({a, d, c});
+    }
+  }
+  return mesh;
+}
+
+/// An icosahedron subdivided `level` times, on the sphere of the given radius about the origin.
+inline Mesh icosphere(int level, double radius = 0.5) {
+  const double g = std::numbers::phi;
+  Mesh mesh;
+  mesh.points = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                 {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
+  mesh.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                    {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+  for (Vector& p : mesh.points) p = radius * p.normalized();
+  for (int l = 0; l < level; ++l) {
+    std::map<std::pair<int, int>, int> midpoints;
+    const auto midpoint = [&](int a, int b) {
+      const auto [it, is_new] = midpoints.try_emplace(std::minmax(a, b), static_cast<int>(mesh.points.size()));
+      if (is_new) {
+        mesh.points.push_back(
+            radius *
+            (mesh.points[static_cast<std::size_t>(a)] + mesh.points[static_cast<std::size_t>(b)]).normalized());
+      }
+      return it->second;
+    };
+    std::vector<Triangle> finer;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const int ab = midpoint(a, b), bc = midpoint(b, c), ca = midpoint(c, a);
+      finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+    mesh.triangles = std::move(finer);
+  }
+  return mesh;
+}
+
+/// A grid of nu x nv cells whose corners are at point(u, v), u and v in [0, 1]; closed in a direction where its flag is
+/// set.
+template <class PointAt>
+Mesh parametric(int nu, int nv, bool closed_u, bool closed_v, const PointAt& point) {
+  Mesh mesh;
+  const int columns = nu + !closed_u, rows = nv + !closed_v;
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < columns; ++i) mesh.points.push_back(point(double(i) / nu, double(j) / nv));
+  }
+  const auto at = [&](int i, int j) { return (j % rows) * columns + i % columns; };
+  for (int j = 0; j < nv; ++j) {
+    for (int i = 0; i < nu; ++i) {
+      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  return mesh;
+}
+
+/// An open cylinder about the z axis: n cells around, `rows` along its height.
+inline Mesh cylinder(int n, int rows, double radius = 0.25, double height = 1.0) {
+  return parametric(n, rows, true, false, [=](double u, double v) {
+    const double a = 2 * std::numbers::pi * u;
+    return Vector(radius * std::cos(a), radius * std::sin(a), height * v);
+  });
+}
+
+/// A torus about the z axis: nu cells around the axis, nv around the tube; v = 0 on the outer equator.
+inline Mesh torus(int nu, int nv, double large = 0.35, double small = 0.15) {
+  return parametric(nu, nv, true, true, [=](double u, double v) {
+    const double a = 2 * std::numbers::pi * u, b = 2 * std::numbers::pi * v;
+    const double ring = large + small * std::cos(b);
+    return Vector(ring * std::cos(a), ring * std::sin(a), small * std::sin(b));
+  });
+}
+
+}  // namespace seamwire::shapes
