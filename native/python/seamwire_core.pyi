@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Anisotropic geodesics and live wires on triangle meshes.
+
+After Zhuang, Zou, Carr, Ju, "Anisotropic geodesics for live-wire mesh segmentation" (2014).
+
+Lengths and curvatures are of the model scaled to the unit cube (Section 3 of the paper) unless the name says otherwise; points are in
+the caller's coordinates. Wrong input raises ValueError with the numbers of the elements; an index out of range too. Long functions release
+the GIL and take `progress`, called now and then with the fraction done; returning False cancels, and Cancelled is raised.
+Arrays that a result hands out are read-only views of its memory.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Pick = int | tuple[int, int]
+"""A vertex, or an edge by its two vertices."""
+Progress = Callable[[float], bool | None]
+
+class Cancelled(RuntimeError): ...  # noqa: N818
+
+class SurfaceReport:
+    """What was odd about the input; nothing here is an error."""
+
+    nonmanifold_edges: NDArray[np.int32]  # (k, 2)
+    unorientable_edges: NDArray[np.int32]  # (k, 2)
+    flipped_faces: NDArray[np.int32]
+    zero_area_faces: NDArray[np.int32]
+    degenerate_faces: NDArray[np.int32]
+    duplicate_faces: NDArray[np.int32]
+    isolated_vertices: NDArray[np.int32]
+    boundary_edges: int
+    components: int
+
+class Surface:
+    """A triangle mesh as people have it: points (n, 3), triangles (m, 3), real edges (e, 2) or None for every edge of a triangle."""
+
+    def __init__(self, points: ArrayLike, triangles: ArrayLike, edges: ArrayLike | None = None) -> None: ...
+    points: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+    edges: NDArray[np.int32]
+    scale: float  # caller's coordinates * scale fit the unit cube
+    report: SurfaceReport
+
+class Curvature:
+    k1: NDArray[np.float64]
+    k2: NDArray[np.float64]
+    d1: NDArray[np.float64]  # (n, 3)
+    d2: NDArray[np.float64]
+    normals: NDArray[np.float64]
+    difference: NDArray[np.float64]  # s of eq. 5
+
+class Metric:
+    normals: NDArray[np.float64]  # (n, 3)
+    tensors: NDArray[np.float64]  # (n, 3, 3)
+    max_anisotropy: float
+
+class Embedding:
+    points: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+    edges: NDArray[np.int32]  # (e, 2)
+    lengths: NDArray[np.float64]  # (e,)
+    source_face: NDArray[np.int32]
+    invalid_before: int
+    faces_added: int
+    invalid_left: int
+    hit_cap: bool
+    unreachable: NDArray[np.int32]
+
+class Wire:
+    from_vertex: int
+    to_vertex: int
+    points: NDArray[np.float64]  # (p, 3)
+    faces: NDArray[np.int32]  # (p - 1,)
+    length: float
+    euclidean_length: float
+
+class DistanceField:
+    seed: int
+    distances: NDArray[np.float64]  # (n,) at the caller's vertices
+    def trace(self, vertex: int) -> Wire: ...
+
+class EdgeChain:
+    vertices: NDArray[np.int32]
+    length: float
+
+class EdgeWires:
+    def trace(self, target: Pick) -> EdgeChain: ...
+
+class LiveCandidate:
+    follow: Literal["min", "max"]
+    points: NDArray[np.float64]
+    faces: NDArray[np.int32]
+    vertices: NDArray[np.int32]  # the edges that would be marked
+    length: float
+    final: bool
+
+class LiveWires:
+    wires: tuple[LiveCandidate, LiveCandidate]
+    shorter: int
+    final: bool
+
+class LiveWire:
+    def __init__(
+        self,
+        surface: Surface,
+        gamma: float | None = None,
+        max_anisotropy: float | None = None,
+        clamp_percentile: float | None = None,
+        along: Literal["surface", "edges"] = "surface",
+        turning: float = 3.0,
+        loop_turning: float = 20.0,
+    ) -> None:
+        """Neither gamma nor max_anisotropy: gamma = 0.1 across the surface, max_anisotropy = 10 and clamp_percentile = 99 along edges."""
+    def seed(self, pick: Pick, forward: bool = False) -> None: ...
+    def wires(self, target: Pick) -> LiveWires: ...
+    def loop(self, edge: tuple[int, int]) -> EdgeChain: ...
+    def progress(self) -> float: ...
+    def wait(self, seconds: float | None = None) -> bool: ...
+
+def principal_curvatures(surface: Surface) -> Curvature: ...
+def feature_metric(
+    surface: Surface,
+    curvature: Curvature,
+    follow: Literal["min", "max"] = "min",
+    gamma: float | None = None,
+    max_anisotropy: float | None = None,
+    clamp_percentile: float | None = None,
+) -> Metric:
+    """Eq. 5. Neither gamma nor max_anisotropy: gamma = 0.1."""
+def campen_metric(
+    surface: Surface,
+    curvature: Curvature,
+    follow: Literal["min", "max"] = "min",
+    alpha: float | None = None,
+    max_anisotropy: float | None = None,
+) -> Metric: ...
+def pottmann_kovacs_metric(
+    surface: Surface,
+    curvature: Curvature,
+    follow: Literal["min", "max"] = "min",
+    beta: float | None = None,
+    max_anisotropy: float | None = None,
+) -> Metric: ...
+def euclidean_metric(surface: Surface, curvature: Curvature) -> Metric: ...
+def embed(
+    surface: Surface,
+    metric: Metric,
+    sigma: float = 0.0,
+    perimeter: Literal["metric", "euclidean"] = "metric",
+    max_faces_added: int = 4_000_000,
+    progress: Progress | None = None,
+) -> Embedding: ...
+def distance_field(embedding: Embedding, seed: int, progress: Progress | None = None) -> DistanceField: ...
+def snap_to_edges(surface: Surface, wire: Wire) -> NDArray[np.int32]: ...
+def edge_wires(
+    surface: Surface,
+    metric: Metric,
+    seed: Pick,
+    turning: float = 3.0,
+    forward: bool = False,
+    progress: Progress | None = None,
+) -> EdgeWires: ...
+def edge_loop(surface: Surface, metric: Metric, edge: Sequence[int], turning: float = 20.0) -> EdgeChain: ...
