@@ -33,18 +33,18 @@ struct Strength {
   std::optional<double> clamp_percentile = std::nullopt;
 };
 
-/// Eq. 5, the paper's metric: l1 = 1 + gamma s, l2 = 1 / l1. Parameter: gamma.
+/// Eq. 5, the paper's metric: l1 = 1 + gamma s, l2 = 1 / l1. Parameter: gamma; max_anisotropy A means gamma =
+/// (A - 1) / max s, or 0 where max s is but rounding (planes, spheres).
 Metric feature_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Strength& strength);
-/// Eq. 3, Campen et al.: l1 = alpha, l2 = 1. Parameter: alpha; max_anisotropy A means alpha = A^2.
+/// Eq. 3, Campen et al.: l1 = alpha, l2 = 1. Parameter: alpha; max_anisotropy A means alpha = A^2. Nothing to clamp.
 Metric campen_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Strength& strength);
-/// Eq. 4, Pottmann et al., Kovacs et al.: l1 = k1^2 + beta, l2 = k2^2 + beta. Parameter: beta.
+/// Eq. 4, Pottmann et al., Kovacs et al.: l1 = k1^2 + beta, l2 = k2^2 + beta. Parameter: beta; at least 1e-12 of the
+/// largest k1^2 is taken, so that the norm is nowhere zero. max_anisotropy 1, and flat surfaces, give the Euclidean
+/// one.
 Metric pottmann_kovacs_metric(const Surface& surface, const Curvature& curvature, Follow follow,
                               const Strength& strength);
 /// The identity.
 Metric euclidean_metric(const Surface& surface, const Curvature& curvature);
-
-/// Largest sqrt(l1 / l2) over the vertices.
-double max_anisotropy(const Metric& metric);
 
 /// A tensor with its normal, and the norm it gives to any vector: g(e)^2 = e^T M e + sqrt(l1 l2) (n.e)^2, the "ambient"
 /// reading of the norm of an edge, which need not be tangent (docs/method.md says why).
@@ -53,10 +53,17 @@ struct TensorAt {
   Eigen::Matrix3d tensor;
 };
 double ambient_norm(const TensorAt& at, const Vector& e);
+/// sqrt(l1 l2), which the norm above gives to the normal.
+double normal_weight(const Eigen::Matrix3d& tensor);
+/// sqrt(l1 / l2); 1 where the normal is zero.
+double anisotropy(const TensorAt& at);
+/// The largest over the vertices.
+double max_anisotropy(const Metric& metric);
 /// Length of a straight edge along which the quadratic form varies linearly, so that its squared norm runs from a^2 to
 /// b^2: (2/3) (a^2 + a b + b^2) / (a + b); 0 where both are 0.
 double integrated_length(double norm_at_start, double norm_at_end);
-/// Length of the straight edge between two of the surface's vertices.
+/// Length of the straight edge between two of the surface's vertices, which must be in range; symmetric to the last
+/// bit.
 double edge_length(const Surface& surface, const Metric& metric, std::int32_t a, std::int32_t b);
 
 }  // namespace seamwire
