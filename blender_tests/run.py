@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Run pytest inside Blender: ``blender [--background] --factory-startup --python blender_tests/run.py -- PYTEST_ARGUMENTS``.
+
+Expects the environment that ``scripts/blender-test`` sets: SEAMWIRE_BLENDER_PACKAGES, the folder that holds pytest and greenlet, and
+BLENDER_USER_SCRIPTS, the folder that holds the add-on.
+
+In the background pytest simply runs. With a window it must not hold Blender's event loop, or no event would ever reach the tool: it
+runs in a greenlet of its own that a timer resumes, and every wait of the test (``ui.wait()``, see ``ui.py``) switches back to Blender.
+Tests are therefore plain functions in both cases.
+"""
+
+import faulthandler
+import os
+import sys
+import traceback
+from pathlib import Path
+
+sys.path.insert(0, os.environ["SEAMWIRE_BLENDER_PACKAGES"])
+sys.path.insert(0, str(Path(__file__).parent))
+
+import addon_utils  # noqa: E402
+import bpy  # noqa: E402
+import pytest  # noqa: E402
+
+
+def leave(code: int) -> None:
+    """End the process at once: Blender's own way out asks questions, and does not always hand on the exit code."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(code)
+
+
+def enable_addon() -> None:
+    """Enable the add-on and fail loudly where Blender would only print."""
+    failures: list[str] = []
+    module = addon_utils.enable("seamwire", default_set=True, handle_error=lambda _: failures.append(traceback.format_exc()))
+    if module is None or failures:
+        sys.stderr.write("The add-on seamwire could not be enabled.\n" + "".join(failures))
+        leave(3)
+
+
+def run_pytest() -> int:
+    arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
+    return int(pytest.main(["-p", "no:cacheprovider", *arguments]))
+
+
+def run_with_window() -> None:
+    import greenlet
+    import ui
+
+    # Blender's start-up makes its window and the first redraws before a timer fires, but the regions get their sizes a little later.
+    ticks_before_start = 5
+    main = greenlet.getcurrent()
+    tests = greenlet.greenlet(run_pytest, parent=main)
+
+    def tick() -> float:
+        nonlocal ticks_before_start
+        if ticks_before_start > 0:
+            ticks_before_start -= 1
+            return 0.0
+        try:
+            code = tests.switch()
+        except BaseException:  # whatever it is, the process must end with a failure and not wait for its time limit
+            traceback.print_exc()
+            leave(3)
+        if tests.dead:
+            leave(code)
+        return 0.0
+
+    ui.prepare_blender(switch_to_blender=main.switch)
+    bpy.app.timers.register(tick, persistent=True)
+
+
+faulthandler.enable()
+enable_addon()
+if bpy.app.background:
+    leave(run_pytest())
+run_with_window()

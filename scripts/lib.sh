@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What the scripts share; to be sourced. Sets the working folder to the top of the project.
+
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+ROOT=$PWD
+
+# Debian's own tools, whatever stands before them: the add-on's module must be built for the Python that Blender embeds.
+export PATH=/usr/bin:/bin:/usr/sbin:/sbin:$PATH
+unset PYTHONPATH PYTHONHOME
+PYTHON=/usr/bin/python3
+VENV=$ROOT/.venv
+
+# The folders where Blender finds the add-on and keeps its settings in tests and demo; the user's own stay untouched.
+export SEAMWIRE_BLENDER_PACKAGES=$ROOT/build/blender-packages
+export BLENDER_USER_SCRIPTS=$ROOT/build/blender/scripts
+export BLENDER_USER_CONFIG=$ROOT/build/blender/config
+ADDON=$BLENDER_USER_SCRIPTS/addons/seamwire
+REPORTS=$ROOT/build/reports
+
+say() { printf '\033[1m== %s\033[0m\n' "$*"; }
+die() { printf '%s\n' "$*" >&2; exit 1; }
+
+# A number that changes with the contents of the files and folders named.
+fingerprint() {
+  find "$@" -type f ! -name '*.pyc' -print0 | LC_ALL=C sort -z | xargs -0 sha256sum | sha256sum | cut -d' ' -f1
+}
+
+# once STAMP FINGERPRINT COMMAND...: runs the command unless it went well before with the same fingerprint.
+once() {
+  local stamp=$ROOT/build/stamps/$1 print=$2
+  shift 2
+  if [ "$(cat "$stamp" 2>/dev/null)" = "$print" ]; then return 0; fi
+  rm -f "$stamp"
+  "$@"
+  mkdir -p "$ROOT/build/stamps"
+  printf '%s\n' "$print" >"$stamp"
+}
+
+# with_window COMMAND...: runs it on a virtual display of its own, drawn by the processor.
+with_window() {
+  env -u WAYLAND_DISPLAY LIBGL_ALWAYS_SOFTWARE=1 xvfb-run -a -s "-screen 0 1280x960x24" "$@"
+}
