@@ -2,7 +2,16 @@
 #pragma once
 
 #include <Eigen/Core>
+
+// A property of Eigen vectors is grown by values that Eigen leaves uninitialised, on purpose.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
 
 // EigenVectorT.hh specialises what the headers above it declare.
 #include <OpenMesh/Core/Geometry/EigenVectorT.hh>
@@ -37,7 +46,7 @@ struct SurfaceReport {
   std::vector<Edge> nonmanifold_edges;      ///< edges with three or more faces: the surface is cut open there
   std::vector<Edge> unorientable_edges;     ///< cut open because the faces could not be oriented alike (Moebius strip)
   std::vector<std::int32_t> flipped_faces;  ///< turned over to agree with their neighbours
-  std::vector<std::int32_t> zero_area_faces;    ///< kept, unless two of their corners are the same vertex
+  std::vector<std::int32_t> zero_area_faces;    ///< three different corners in line: kept
   std::vector<std::int32_t> degenerate_faces;   ///< two corners are one vertex: left out, their edges stay
   std::vector<std::int32_t> duplicate_faces;    ///< same three vertices as an earlier face: left out
   std::vector<std::int32_t> isolated_vertices;  ///< in no face and no edge
@@ -55,8 +64,8 @@ class Surface {
  public:
   /// `points`: finite. `triangles`: vertex numbers in [0, points.size()). `edges`: the real edges where faces are
   /// polygons that have been triangulated, and edges without a face; nullopt: every edge of a triangle. Throws
-  /// InvalidInput, naming the element, for a non-finite coordinate, an index out of range, an edge from a vertex to
-  /// itself, or a mesh without any edge.
+  /// InvalidInput, naming the element, for a coordinate that is not finite or above 1e150 in size, an index out of
+  /// range, an edge from a vertex to itself, or a mesh without any edge.
   Surface(std::vector<Vector> points, std::vector<Triangle> triangles,
           std::optional<std::vector<Edge>> edges = std::nullopt);
 
@@ -73,8 +82,10 @@ class Surface {
   double scale() const { return scale_; }
 
   const HalfEdgeMesh& half_edges() const { return mesh_; }
-  /// Number of the caller's vertex for each vertex (corner fan) of half_edges(), and of the caller's face for each of
-  /// its faces.
+  /// Number of the caller's vertex for each vertex (corner fan) of half_edges(), ascending, and of the caller's face
+  /// for each of its faces, ascending; both are the identity on a clean mesh. A face's vertices are listed from the
+  /// caller's first corner on. A caller's vertex without a face has no fan. Two edges may join the same two fans (a
+  /// slit one edge long), so find half-edges by walking, never by their end points.
   const std::vector<std::int32_t>& vertex_of_fan() const { return vertex_of_fan_; }
   const std::vector<std::int32_t>& face_of_half_edge_face() const { return source_face_; }
   /// Edges that no face of half_edges() carries, along which a path may run all the same: edges without faces, and
