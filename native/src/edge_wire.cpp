@@ -1,2 +1,516 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Chains of edges that are short in a metric and turn little. The turn at a vertex is the discrete geodesic curvature
+// of Polthier and Schmies, "Straightest Geodesics on Polyhedral Surfaces" (1998); the search is Dijkstra's over
+// directed edges, so that the cost of a step may depend on the step before (Caldwell, "On finding minimum routes in a
+// network with turn penalties", 1961). Loops are found by the A* search of Hart, Nilsson and Raphael (1968).
 #include "seamwire/edge_wire.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace seamwire {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+/// Flat rows: the directed edges that leave vertex v are numbered first[v] .. first[v + 1], by ascending head. A
+/// directed edge's number is also the number of the search's state "just arrived over this edge".
+class EdgeGraph {
+ public:
+  EdgeGraph(const Surface& surface, const Metric& metric);
+
+  std::int32_t vertex_count() const { return static_cast<std::int32_t>(first_.size()) - 1; }
+  std::size_t directed_count() const { return head_.size(); }
+  std::int32_t begin(std::int32_t v) const { return first_[at(v)]; }
+  std::int32_t end(std::int32_t v) const { return first_[at(v) + 1]; }
+  std::int32_t head(std::int32_t e) const { return head_[at(e)]; }
+  std::int32_t twin(std::int32_t e) const { return twin_[at(e)]; }
+  std::int32_t tail(std::int32_t e) const { return head(twin(e)); }
+  double length(std::int32_t e) const { return step_[at(e)].length; }
+  double mean_length() const { return mean_length_; }
+
+  /// The directed edge from a to b; -1 if there is none.
+  std::int32_t find(std::int32_t a, std::int32_t b) const;
+
+  /// 1 - cos kappa of a chain that arrives against `back` and leaves over `out`, both directed edges from one vertex.
+  double turn(std::int32_t back, std::int32_t out) const {
+    const Step &p = step_[at(back)], &r = step_[at(out)];
+    return std::max(0.0, 1.0 + p.x * r.x + p.y * r.y + p.z * r.z);
+  }
+
+ private:
+  /// `x, y, z`: a vector for each directed edge such that the turn between two of a vertex is 1 plus their product:
+  /// - in a closed fan of total angle T, the edge at angle a is the unit vector at 2 pi a / T, since then
+  ///   -cos(2 pi (a - b) / T) = cos(pi |left - right| / T);
+  /// - in an open fan it is the unit vector at a itself: the turn is pi minus the angle between. The third components
+  /// of
+  ///   the two boundary edges make their own turn zero and are invisible to the other edges, which have none;
+  /// - elsewhere it is the edge's direction in space.
+  struct Step {
+    double length, x, y, z;
+  };
+
+  void set_fan(const Surface& surface, HalfEdgeMesh::VertexHandle fan);
+  void set_directions_in_space(const Surface& surface, std::int32_t v);
+
+  std::vector<std::int32_t> first_, head_, twin_;
+  std::vector<Step> step_;
+  double mean_length_ = 0.0;
+};
+
+EdgeGraph::EdgeGraph(const Surface& surface, const Metric& metric) {
+  if (metric.size() != surface.vertex_count()) {
+    throw InvalidInput("the metric has " + std::to_string(metric.size()) + " tensors, the surface " +
+                       std::to_string(surface.vertex_count()) + " vertices");
+  }
+  const std::vector<Edge>& edges = surface.edges();
+  first_.assign(surface.vertex_count() + 1, 0);
+  for (const auto& [a, b] : edges) {
+    ++first_[at(a) + 1];
+    ++first_[at(b) + 1];
+  }
+  for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
+  head_.resize(2 * edges.size());
+  twin_.resize(2 * edges.size());
+  step_.resize(2 * edges.size());
+  std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
+  for (const auto& [a, b] : edges) {  // sorted, so each row is
+    const std::int32_t there = next[at(a)]++, back = next[at(b)]++;
+    const double length = edge_length(surface, metric, a, b);
+    head_[at(there)] = b;
+    head_[at(back)] = a;
+    twin_[at(there)] = back;
+    twin_[at(back)] = there;
+    step_[at(there)].length = step_[at(back)].length = length;
+    mean_length_ += length / static_cast<double>(edges.size());
+  }
+
+  const std::vector<std::int32_t>& vertex_of_fan = surface.vertex_of_fan();
+  std::vector<std::int32_t> fans(surface.vertex_count(), 0);
+  for (const std::int32_t v : vertex_of_fan) ++fans[at(v)];
+  for (std::int32_t v = 0; v < vertex_count(); ++v) {
+    if (fans[at(v)] != 1) set_directions_in_space(surface, v);
+  }
+  for (const auto fan : surface.half_edges().vertices()) {
+    if (fans[at(vertex_of_fan[at(fan.idx())])] == 1) set_fan(surface, fan);
+  }
+}
+
+void EdgeGraph::set_fan(const Surface& surface, HalfEdgeMesh::VertexHandle fan) {
+  const HalfEdgeMesh& mesh = surface.half_edges();
+  const std::vector<std::int32_t>& vertex_of_fan = surface.vertex_of_fan();
+  const std::int32_t v = vertex_of_fan[at(fan.idx())];
+  const auto neighbor = [&](HalfEdgeMesh::HalfedgeHandle h) {
+    return vertex_of_fan[at(mesh.to_vertex_handle(h).idx())];
+  };
+  const auto spoke = [&](HalfEdgeMesh::HalfedgeHandle h) -> Vector {
+    return surface.scale() * (surface.points()[at(neighbor(h))] - surface.points()[at(v)]);
+  };
+
+  HalfEdgeMesh::HalfedgeHandle start = mesh.halfedge_handle(fan);
+  if (!start.is_valid()) return set_directions_in_space(surface, v);
+  bool open = false;
+  for (auto h = start; !open;) {  // backwards, to the fan's first edge if it has one
+    const auto opposite = mesh.opposite_halfedge_handle(h);
+    if (mesh.is_boundary(opposite)) {
+      open = true;
+      start = h;
+    } else if ((h = mesh.next_halfedge_handle(opposite)) == start) {
+      break;
+    }
+  }
+
+  struct Spoke {
+    std::int32_t edge;
+    double angle;
+  };
+  std::vector<Spoke> spokes;  // of real edges; diagonals of polygons only add their angles
+  std::int32_t first_edge = -1, last_edge = -1;
+  double total = 0.0;
+  for (auto h = start;;) {
+    last_edge = find(v, neighbor(h));
+    if (h == start) first_edge = last_edge;
+    if (last_edge >= 0) spokes.push_back({last_edge, total});
+    if (mesh.is_boundary(h)) break;
+    const auto before = mesh.next_halfedge_handle(mesh.next_halfedge_handle(h));
+    const auto following = mesh.opposite_halfedge_handle(before);
+    const Vector p = spoke(h), r = spoke(following);
+    total += std::atan2(p.cross(r).norm(), p.dot(r));
+    h = following;
+    if (h == start) break;
+  }
+
+  // A fan that holds one of the edges twice (it was cut open there) or not at all (a loose one) is broken as well.
+  std::vector<std::int32_t> distinct(spokes.size());
+  std::ranges::transform(spokes, distinct.begin(), &Spoke::edge);
+  std::ranges::sort(distinct);
+  const bool twice = std::ranges::adjacent_find(distinct) != distinct.end();
+  if (twice || distinct.size() != at(end(v) - begin(v)) || !(total > 0.0)) return set_directions_in_space(surface, v);
+
+  const double scale = open ? 1.0 : 2.0 * std::numbers::pi / total;
+  for (const auto& [edge, angle] : spokes) {
+    Step& step = step_[at(edge)];
+    step.x = std::cos(scale * angle);
+    step.y = std::sin(scale * angle);
+    step.z = 0.0;
+  }
+  if (open && first_edge >= 0 && last_edge >= 0) {
+    step_[at(first_edge)].z = std::sqrt(std::max(0.0, 1.0 + std::cos(total)));
+    step_[at(last_edge)].z = -step_[at(first_edge)].z;
+  }
+}
+
+void EdgeGraph::set_directions_in_space(const Surface& surface, std::int32_t v) {
+  const Vector& from = surface.points()[at(v)];
+  for (std::int32_t e = begin(v); e < end(v); ++e) {
+    // Zero for an edge of length zero: it has no direction, and every turn there counts as a right angle.
+    const Vector direction = (surface.scale() * (surface.points()[at(head(e))] - from)).stableNormalized();
+    step_[at(e)].x = direction.x();
+    step_[at(e)].y = direction.y();
+    step_[at(e)].z = direction.z();
+  }
+}
+
+std::int32_t EdgeGraph::find(std::int32_t a, std::int32_t b) const {
+  const auto row_begin = head_.begin() + begin(a), row_end = head_.begin() + end(a);
+  const auto it = std::lower_bound(row_begin, row_end, b);
+  return it != row_end && *it == b ? static_cast<std::int32_t>(it - head_.begin()) : -1;
+}
+
+std::shared_ptr<const EdgeGraph> make_edge_graph(const Surface& surface, const Metric& metric) {
+  return std::make_shared<const EdgeGraph>(surface, metric);
+}
+
+namespace {
+
+/// A heap with four children a node: shallower than a binary one, and the children share a cache line. Equal keys come
+/// out by state, so the order depends on nothing else.
+class Queue {
+ public:
+  struct Entry {
+    double key;
+    std::int32_t state;
+    bool operator<(const Entry& o) const { return key < o.key || (key == o.key && state < o.state); }
+  };
+
+  bool empty() const { return heap_.empty(); }
+
+  void push(double key, std::int32_t state) {
+    const Entry entry{key, state};
+    std::size_t i = heap_.size();
+    heap_.push_back(entry);
+    while (i > 0) {
+      const std::size_t parent = (i - 1) / 4;
+      if (!(entry < heap_[parent])) break;
+      heap_[i] = heap_[parent];
+      i = parent;
+    }
+    heap_[i] = entry;
+  }
+
+  Entry pop() {
+    const Entry top = heap_.front(), entry = heap_.back();
+    heap_.pop_back();
+    if (heap_.empty()) return top;
+    for (std::size_t i = 0;;) {
+      const std::size_t child = 4 * i + 1, children_end = std::min(child + 4, heap_.size());
+      std::size_t least = child;
+      for (std::size_t c = child + 1; c < children_end; ++c) least = heap_[c] < heap_[least] ? c : least;
+      if (child >= heap_.size() || !(heap_[least] < entry)) {
+        heap_[i] = entry;
+        return top;
+      }
+      heap_[i] = heap_[least];
+      i = least;
+    }
+  }
+
+ private:
+  std::vector<Entry> heap_;
+};
+
+/// Dijkstra's search over directed edges for chains that repeat no vertex.
+///
+/// The cheapest walk may cross itself: where edges are much shorter than the mean, going round a small circle is
+/// cheaper than a sharp turn. A step to a vertex that the chain has already visited is therefore refused, and the next
+/// best way into that directed edge is taken. The first chain to arrive at a vertex is never refused, and it goes on
+/// over all the vertex's other edges, so a chain to every edge in reach is found: the cheapest walk's where that has no
+/// repeated vertex, else one whose beginnings are the search's own chains (the cheapest of all simple chains is
+/// NP-hard).
+class Search {
+ public:
+  Search(const EdgeGraph& graph, double turning)
+      : graph_(graph),
+        turn_cost_(turning * graph.mean_length()),
+        cost_(graph.directed_count(), kInfinity),
+        previous_(graph.directed_count(), -1),
+        settled_(graph.directed_count(), 0),
+        arrival_(at(graph.vertex_count()), kInfinity) {}
+
+  /// No chain may enter this vertex.
+  void block(std::int32_t v) {
+    for (std::int32_t e = graph_.begin(v); e < graph_.end(v); ++e) cost_[at(graph_.twin(e))] = kBlocked;
+  }
+  /// Chains may enter this vertex, but not leave it; if `onto` is a directed edge from it, they pay for the turn onto
+  /// it.
+  void end_at(std::int32_t v, std::int32_t onto) {
+    end_ = v;
+    onto_ = onto;
+  }
+  /// Chains begin with this directed edge, or another one that is given so.
+  void start(std::int32_t e) {
+    cost_[at(e)] = graph_.length(e);
+    roots_.push_back(e);
+  }
+
+  /// Settles directed edges by ascending cost + remaining(head) until `done(edge)`; returns that edge, or -1.
+  /// `remaining` must be a lower bound that no step lowers by more than its cost; infinity keeps chains out.
+  template <class Remaining, class Done>
+  std::int32_t run(const Remaining& remaining, const Done& done, const Task& task);
+
+  /// After run().
+  std::vector<double> take_costs() {
+    std::ranges::replace(cost_, kBlocked, kInfinity);
+    return std::move(cost_);
+  }
+  std::vector<std::int32_t> take_previous() { return std::move(previous_); }
+
+ private:
+  static constexpr double kBlocked = -1.0;  // below every cost, so nothing improves on it
+
+  double cost_of_step(std::int32_t from, std::int32_t to) const {
+    double turns = graph_.turn(graph_.twin(from), to);
+    if (onto_ >= 0 && graph_.head(to) == end_) turns += graph_.turn(graph_.twin(to), onto_);
+    return graph_.length(to) + turn_cost_ * turns;
+  }
+
+  /// Whether the chain that ends with `e` visits `v` (its very first vertex is not looked at). Costs rise along a
+  /// chain, so no part of it that is cheaper than the first arrival at v matters.
+  bool visits(std::int32_t e, std::int32_t v) const {
+    const double first = arrival_[at(v)];
+    if (first == kInfinity) return false;
+    for (; e >= 0 && cost_[at(e)] >= first; e = previous_[at(e)]) {
+      if (graph_.head(e) == v) return true;
+    }
+    return false;
+  }
+
+  const EdgeGraph& graph_;
+  double turn_cost_;
+  std::int32_t end_ = -1, onto_ = -1;
+  std::vector<double> cost_;
+  std::vector<std::int32_t> previous_;
+  std::vector<std::uint8_t> settled_;
+  std::vector<double> arrival_;  // cost of the first chain that arrived at each vertex
+  std::vector<std::int32_t> roots_;
+  Queue queue_;
+};
+
+template <class Remaining, class Done>
+std::int32_t Search::run(const Remaining& remaining, const Done& done, const Task& task) {
+  constexpr std::size_t kPatience = 8192;  // steps between two looks at the task: well under a millisecond
+  const auto relax = [&](std::int32_t from, std::int32_t to) {
+    const double cost = cost_[at(from)] + cost_of_step(from, to);
+    if (!(cost < cost_[at(to)])) return;
+    const double key = cost + remaining(graph_.head(to));
+    if (key == kInfinity) return;
+    cost_[at(to)] = cost;
+    previous_[at(to)] = from;
+    queue_.push(key, to);
+  };
+  for (const std::int32_t e : roots_) queue_.push(cost_[at(e)] + remaining(graph_.head(e)), e);
+  for (std::size_t count = 0; !queue_.empty();) {
+    const auto [key, e] = queue_.pop();
+    const std::int32_t v = graph_.head(e), from = previous_[at(e)];
+    if (settled_[at(e)] != 0 || key != cost_[at(e)] + remaining(v)) continue;  // a better one came in between
+    if (from >= 0 && visits(from, v)) {
+      cost_[at(e)] = kInfinity;
+      const std::int32_t u = graph_.tail(e);
+      for (std::int32_t back = graph_.begin(u); back < graph_.end(u); ++back) {
+        const std::int32_t other = graph_.twin(back);
+        if (settled_[at(other)] != 0 && back != e && !visits(other, v)) relax(other, e);
+      }
+      continue;
+    }
+    settled_[at(e)] = 1;
+    arrival_[at(v)] = std::min(arrival_[at(v)], cost_[at(e)]);
+    if (done(e)) return e;
+    if (++count % kPatience == 0) {
+      task.check(static_cast<double>(count) / static_cast<double>(graph_.directed_count()));
+    }
+    if (v == end_) continue;
+    const std::int32_t back = graph_.twin(e);
+    for (std::int32_t to = graph_.begin(v); to < back; ++to) relax(e, to);
+    for (std::int32_t to = back + 1; to < graph_.end(v); ++to) relax(e, to);
+  }
+  return -1;
+}
+
+/// The vertices of the chain that ends with `e`.
+std::vector<std::int32_t> chain_to(const EdgeGraph& graph, const std::vector<std::int32_t>& previous, std::int32_t e) {
+  std::vector<std::int32_t> chain;
+  for (;; e = previous[at(e)]) {
+    chain.push_back(graph.head(e));
+    if (previous[at(e)] >= 0) continue;
+    chain.push_back(graph.tail(e));
+    std::ranges::reverse(chain);
+    return chain;
+  }
+}
+
+void check_pick(const EdgeGraph& graph, const Pick& pick, const std::string& what) {
+  for (const std::int32_t v : {pick.a, pick.b}) {
+    if (v == pick.b && !pick.is_edge()) continue;
+    if (v < 0 || v >= graph.vertex_count()) {
+      throw InvalidInput(what + ": vertex " + std::to_string(v) + " does not exist, the surface has " +
+                         std::to_string(graph.vertex_count()) + " vertices");
+    }
+  }
+  if (pick.is_edge() && graph.find(pick.a, pick.b) < 0) {
+    throw InvalidInput(what + ": there is no edge between the vertices " + std::to_string(pick.a) + " and " +
+                       std::to_string(pick.b));
+  }
+}
+
+void check_turning(double turning) {
+  if (!(turning >= 0.0) || turning == kInfinity) {
+    throw InvalidInput("turning must be a number that is not negative, not " + std::to_string(turning));
+  }
+}
+
+}  // namespace
+
+struct EdgeWires::Search {
+  std::shared_ptr<const EdgeGraph> graph;
+  Pick seed;
+  std::vector<double> cost;            // of the chain up to and with each directed edge
+  std::vector<std::int32_t> previous;  // the directed edge before it in that chain
+};
+
+EdgeWires::EdgeWires(std::shared_ptr<const Search> search) : search_(std::move(search)) {}
+
+EdgeChain EdgeWires::trace(const Pick& target) const {
+  const EdgeGraph& graph = *search_->graph;
+  check_pick(graph, target, "target");
+  if (!target.is_edge() && target == search_->seed) return {{target.a}, 0.0};
+
+  std::int32_t best = -1;
+  const auto consider = [&](std::int32_t e) {
+    if (search_->cost[at(e)] < (best < 0 ? kInfinity : search_->cost[at(best)])) best = e;
+  };
+  if (target.is_edge()) {
+    const std::int32_t e = graph.find(std::min(target.a, target.b), std::max(target.a, target.b));
+    consider(e);
+    consider(graph.twin(e));
+  } else {
+    for (std::int32_t e = graph.begin(target.a); e < graph.end(target.a); ++e) consider(graph.twin(e));
+  }
+  if (best < 0) return {};
+  return {chain_to(graph, search_->previous, best), search_->cost[at(best)]};
+}
+
+EdgeWires edge_wires(std::shared_ptr<const EdgeGraph> graph, const Pick& seed, double turning, bool forward,
+                     const Task& task) {
+  check_pick(*graph, seed, "seed");
+  check_turning(turning);
+  Search search(*graph, turning);
+  if (!seed.is_edge()) {
+    search.block(seed.a);
+    for (std::int32_t e = graph->begin(seed.a); e < graph->end(seed.a); ++e) search.start(e);
+  } else {
+    const std::int32_t e = graph->find(seed.a, seed.b);
+    search.block(seed.b);
+    if (forward) {
+      search.end_at(seed.a, -1);
+    } else {
+      search.block(seed.a);
+      search.start(graph->twin(e));
+    }
+    search.start(e);
+  }
+  search.run([](std::int32_t) { return 0.0; }, [](std::int32_t) { return false; }, task);
+  std::vector<double> cost = search.take_costs();
+  return EdgeWires(std::make_shared<const EdgeWires::Search>(
+      EdgeWires::Search{std::move(graph), seed, std::move(cost), search.take_previous()}));
+}
+
+namespace {
+
+/// What the closed chain a -> b -> c (-> d) -> a costs at the least, over all c and d: where to stop searching for a
+/// loop.
+double cheapest_small_loop(const EdgeGraph& graph, std::int32_t ab, double turn_cost) {
+  const std::int32_t a = graph.tail(ab), b = graph.head(ab);
+  const auto turn = [&](std::int32_t from, std::int32_t to) { return turn_cost * graph.turn(graph.twin(from), to); };
+  double best = kInfinity;
+  for (std::int32_t bc = graph.begin(b); bc < graph.end(b); ++bc) {
+    const std::int32_t c = graph.head(bc);
+    if (c == a) continue;
+    const double up_to_c = graph.length(ab) + turn(ab, bc) + graph.length(bc);
+    if (const std::int32_t ca = graph.find(c, a); ca >= 0) {
+      best = std::min(best, up_to_c + turn(bc, ca) + graph.length(ca) + turn(ca, ab));
+    }
+    for (std::int32_t cd = graph.begin(c); cd < graph.end(c); ++cd) {
+      const std::int32_t d = graph.head(cd);
+      const std::int32_t da = d == a || d == b ? -1 : graph.find(d, a);
+      if (da < 0) continue;
+      best = std::min(best, up_to_c + turn(bc, cd) + graph.length(cd) + turn(cd, da) + graph.length(da) + turn(da, ab));
+    }
+  }
+  return best;
+}
+
+/// Metric distance along edges to `target`, without turns; infinity beyond `radius`.
+std::vector<double> distances(const EdgeGraph& graph, std::int32_t target, double radius) {
+  std::vector<double> distance(at(graph.vertex_count()), kInfinity);
+  Queue queue;
+  distance[at(target)] = 0.0;
+  queue.push(0.0, target);
+  while (!queue.empty()) {
+    const auto [d, v] = queue.pop();
+    if (d != distance[at(v)]) continue;
+    for (std::int32_t e = graph.begin(v); e < graph.end(v); ++e) {
+      const double there = d + graph.length(e);
+      if (!(there <= radius && there < distance[at(graph.head(e))])) continue;
+      distance[at(graph.head(e))] = there;
+      queue.push(there, graph.head(e));
+    }
+  }
+  return distance;
+}
+
+}  // namespace
+
+EdgeChain edge_loop(const EdgeGraph& graph, const Edge& edge, double turning, const Task& task) {
+  check_pick(graph, {edge[0], edge[1]}, "loop");
+  check_turning(turning);
+  const std::int32_t a = std::min(edge[0], edge[1]), b = std::max(edge[0], edge[1]);
+  const std::int32_t ab = graph.find(a, b);
+
+  // No vertex of a loop is further from a than half its length. A little room for rounding.
+  const double bound = (1.0 + 1e-9) * cheapest_small_loop(graph, ab, turning * graph.mean_length());
+  const std::vector<double> way_back = distances(graph, a, 0.5 * bound);
+  Search search(graph, turning);
+  search.block(b);
+  search.end_at(a, ab);
+  search.start(ab);
+  const std::int32_t last = search.run([&](std::int32_t v) { return way_back[at(v)]; },
+                                       [&](std::int32_t e) { return graph.head(e) == a; }, task);
+  if (last < 0) return {};
+  EdgeChain loop;
+  loop.length = search.take_costs()[at(last)];
+  loop.vertices = chain_to(graph, search.take_previous(), last);
+  loop.vertices.pop_back();  // a, once more
+  return loop;
+}
+
+}  // namespace seamwire
