@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Seamwire: live-wire seam drawing for Blender."""
+
+from importlib import import_module
+
+bl_info = {
+    "name": "Seamwire",
+    "description": "Draw UV seams with live wires that follow the shape of the mesh",
+    "author": "The Seamwire authors",
+    "version": (0, 1, 0),
+    "blender": (3, 4, 0),
+    "location": "3D View > Edit Mode > Edge > Draw Seamwires",
+    "category": "UV",
+}
+
+_PARTS = ("operator", "keymap", "ui")
+
+
+def register() -> None:
+    """Add the operators, the key and the menu entries."""
+    for part in _PARTS:
+        import_module(f".{part}", __package__).register()
+
+
+def unregister() -> None:
+    """Remove them."""
+    for part in reversed(_PARTS):
+        import_module(f".{part}", __package__).unregister()

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The edit mesh as arrays, and seams back into it.
+
+Vertices, edges and faces carry the numbers that the edit mesh counts them by, hidden ones included; hidden faces and
+edges are left out of what wires may run on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import bmesh
+import numpy as np
+
+if TYPE_CHECKING:
+    import bpy
+    from mathutils import Matrix
+    from numpy.typing import NDArray
+
+    from .session import Pick
+
+
+@dataclass(frozen=True)
+class Arrays:
+    """What the library needs of an edit mesh.
+
+    Parameters
+    ----------
+    points
+        (n, 3) vertices, stretched as the object's matrix stretches them: lengths are those that are seen.
+    triangles
+        (m, 3) the visible faces, cut into triangles by Blender.
+    edges
+        (e, 2) the visible edges of the polygons, no diagonals.
+    to_object
+        (3, 3) takes `points` to object coordinates: ``points @ to_object.T``.
+    """
+
+    points: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+    edges: NDArray[np.int32]
+    to_object: NDArray[np.float64]
+
+
+class Cage:
+    """The edit mesh of one object, as long as its topology stays what it is.
+
+    Parameters
+    ----------
+    obj
+        A mesh object in edit mode.
+    """
+
+    def __init__(self, obj: bpy.types.Object) -> None:
+        self.name = obj.name
+        self.mesh = obj.data
+        self.bm = bmesh.from_edit_mesh(obj.data)
+        self._lookup()
+        self._counts = self._count()
+
+    def _lookup(self) -> None:
+        for sequence in (self.bm.verts, self.bm.edges, self.bm.faces):
+            sequence.ensure_lookup_table()
+            sequence.index_update()
+
+    def _count(self) -> tuple[int, int, int]:
+        return len(self.bm.verts), len(self.bm.edges), len(self.bm.faces)
+
+    def intact(self) -> bool:
+        """Whether the edit mesh is still there, with as many vertices, edges and faces as before."""
+        return self.bm.is_valid and self._count() == self._counts
+
+    def problem_with(self, picks: Iterable[Pick]) -> str:
+        """Say in words what keeps picks from being seeds; an empty string where nothing does."""
+        count = self._counts[0]
+        for pick in picks:
+            for vertex in pick if isinstance(pick, tuple) else (pick,):
+                if vertex >= count:
+                    return f"There is no vertex {vertex}: the mesh has {count}, numbered from 0"
+                if self.bm.verts[vertex].hide:
+                    return f"Vertex {vertex} is hidden"
+            if isinstance(pick, tuple):
+                edge = self._edge(pick)
+                if edge is None:
+                    return f"There is no edge {pick[0]}-{pick[1]}"
+                if edge.hide:
+                    return f"Edge {pick[0]}-{pick[1]} is hidden"
+        return ""
+
+    def _edge(self, pair: tuple[int, int]) -> bmesh.types.BMEdge | None:
+        return self.bm.edges.get((self.bm.verts[pair[0]], self.bm.verts[pair[1]]))
+
+    def mark_seams(self, edges: Iterable[tuple[int, int]]) -> int:
+        """Make edges seams, and change nothing else.
+
+        Returns
+        -------
+        int
+            How many were not seams before.
+
+        Raises
+        ------
+        ValueError
+            Where two vertices have no edge between them; then nothing is changed.
+        """
+        self._lookup()
+        found = []
+        for pair in edges:
+            edge = self._edge(pair)
+            if edge is None:
+                raise ValueError(f"There is no edge {pair[0]}-{pair[1]} to mark")
+            found.append(edge)
+        new = [edge for edge in found if not edge.seam]
+        for edge in new:
+            edge.seam = True
+        if new:
+            bmesh.update_edit_mesh(self.mesh, loop_triangles=False, destructive=False)
+        return len(new)
+
+
+def read(obj: bpy.types.Object) -> Arrays:
+    """Read the edit mesh of an object.
+
+    Raises
+    ------
+    ValueError
+        Where no edge is visible.
+    """
+    obj.update_from_editmode()  # the mesh then has the edit mesh's data, by the same numbers
+    mesh = obj.data
+    points = _column(mesh.vertices, "co", np.float32, 3).astype(np.float64)
+    edges = _column(mesh.edges, "vertices", np.int32, 2)
+    edges = edges[~_column(mesh.edges, "hide", np.bool_)]
+    if len(edges) == 0:
+        raise ValueError("No edge of the mesh is visible: there is nothing to draw on")
+    mesh.calc_loop_triangles()
+    triangles = _column(mesh.loop_triangles, "vertices", np.int32, 3)
+    hidden = _column(mesh.polygons, "hide", np.bool_)
+    if hidden.any():
+        triangles = triangles[~hidden[_column(mesh.loop_triangles, "polygon_index", np.int32)]]
+    stretch = visible_stretch(obj.matrix_world)
+    return Arrays(points @ stretch, triangles, edges, np.linalg.inv(stretch))
+
+
+def _column(items: bpy.types.bpy_prop_collection, name: str, dtype: type, width: int = 1) -> NDArray:
+    flat = np.empty(len(items) * width, dtype=dtype)
+    items.foreach_get(name, flat)
+    return flat if width == 1 else flat.reshape(-1, width)
+
+
+def visible_stretch(matrix: Matrix) -> NDArray[np.float64]:
+    """Return what an object's matrix does to lengths, without its rotation.
+
+    Returns
+    -------
+    (3, 3) array
+        The symmetric S of the polar decomposition R S; the identity where scaling is uniform, for the library does not
+        mind the size, and where the matrix flattens the object.
+    """
+    linear = np.array(matrix.to_3x3(), dtype=np.float64)
+    values, vectors = np.linalg.eigh(linear.T @ linear)
+    lengths = np.sqrt(np.maximum(values, 0.0))
+    # The matrix is of single precision: a rotation alone is off by some 1e-7.
+    if lengths[0] <= 1e-6 * lengths[2] or lengths[2] - lengths[0] <= 1e-5 * lengths[2]:
+        return np.eye(3)
+    return (vectors * lengths) @ vectors.T
