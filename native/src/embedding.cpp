@@ -1,2 +1,344 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "seamwire/embedding.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <string>
+#include <vector>
+
+namespace seamwire {
+namespace {
+
+using VertexHandle = OpenMesh::VertexHandle;
+using HalfedgeHandle = OpenMesh::HalfedgeHandle;
+using EdgeHandle = OpenMesh::EdgeHandle;
+using FaceHandle = OpenMesh::FaceHandle;
+
+// A triangle is valid where its longest edge is shorter than the others together by this fraction: exact geodesics
+// unfold it, and the square root in the unfolding leaves half of its digits.
+constexpr double kSlack = 1e-10;
+// Lengths that differ by less than this fraction are equal, so that rounding, which depends on the scale of the input,
+// does not choose which edge to bisect.
+constexpr double kEqual = 1e-9;
+// A face lower than this fraction of its longest edge has no area. Bisecting it never ends: its parts have none either.
+constexpr double kFlat = 1e-9;
+// Normals whose sum is shorter than this have no direction in the middle.
+constexpr double kOpposite = 1e-6;
+// Splits between two reports of progress: about a millisecond.
+constexpr std::size_t kReportEvery = 1024;
+
+std::size_t index(OpenMesh::BaseHandle handle) { return static_cast<std::size_t>(handle.idx()); }
+
+// The tensor after the least rotation that takes its normal to n.
+Eigen::Matrix3d turned(const TensorAt& at, const Vector& n) {
+  const double c = at.normal.dot(n);
+  if (n.isZero(0)) return at.tensor;
+  if (at.normal.isZero(0) || 1 + c < kOpposite) {
+    // No normal, or the opposite one, which has the same tangent plane.
+    const Eigen::Matrix3d onto = Eigen::Matrix3d::Identity() - n * n.transpose();
+    return onto * at.tensor * onto;
+  }
+  const Vector v = at.normal.cross(n);
+  Eigen::Matrix3d r = v * v.transpose() / (1 + c);
+  r.diagonal().array() += c;
+  r(0, 1) -= v.z();
+  r(1, 0) += v.z();
+  r(0, 2) += v.y();
+  r(2, 0) -= v.y();
+  r(1, 2) -= v.x();
+  r(2, 1) += v.x();
+  return r * at.tensor * r.transpose();
+}
+
+// Normal and tensor in the middle of an edge: the mean of the normals, and of the tensors turned onto it. The
+// anisotropy is at most that of the ends.
+TensorAt middle(const TensorAt& a, const TensorAt& b) {
+  Vector n = a.normal + b.normal;
+  const double length = n.norm();
+  n = length > kOpposite ? Vector(n / length) : a.normal;
+  return {n, (turned(a, n) + turned(b, n)) / 2};
+}
+
+void check_metric(const Surface& surface, const Metric& metric) {
+  const std::size_t n = surface.vertex_count();
+  if (metric.tensors.size() != n || metric.normals.size() != n) {
+    throw InvalidInput("metric of " + std::to_string(metric.size()) + " vertices for a surface of " +
+                       std::to_string(n));
+  }
+  for (std::size_t v = 0; v < n; ++v) {
+    if (!metric.tensors[v].allFinite() || !metric.normals[v].allFinite()) {
+      throw InvalidInput("the metric at vertex " + std::to_string(v) + " is not finite");
+    }
+  }
+}
+
+/// A copy of the surface's half-edge mesh, refined in place.
+class Refinement {
+ public:
+  Refinement(const Surface& surface, const Metric& metric, const EmbedOptions& options);
+
+  void run(const Task& task);
+  Embedding result() const;
+
+ private:
+  struct Candidate {
+    float perimeter;  // rounded, so that the scale of the input does not choose between equal ones
+    std::int32_t face;
+
+    // Of equal ones, the first.
+    friend bool operator<(const Candidate& a, const Candidate& b) {
+      return a.perimeter != b.perimeter ? a.perimeter < b.perimeter : a.face > b.face;
+    }
+  };
+
+  bool is_new(VertexHandle v) const { return index(v) >= fans_; }
+  std::int32_t number(VertexHandle v) const;
+  TensorAt tensor_at(VertexHandle v) const;
+  double norm(VertexHandle at, const Vector& e) const;
+  double length(HalfedgeHandle h) const { return lengths_[index(mesh_.edge_handle(h))]; }
+  double measure(HalfedgeHandle h) const;
+  std::array<HalfedgeHandle, 3> sides(FaceHandle f) const;
+  bool is_valid(FaceHandle f) const;
+  bool is_flat(FaceHandle f) const;
+  double perimeter(FaceHandle f) const;
+  HalfedgeHandle longest(FaceHandle f) const;
+  void consider(FaceHandle f);
+  void bisect(EdgeHandle e);
+
+  const Surface& surface_;
+  const Metric& metric_;
+  const EmbedOptions& options_;
+  HalfEdgeMesh mesh_;
+  std::size_t fans_;                       // vertices of the surface's half-edge mesh
+  std::vector<TensorAt> tensors_;          // of the new vertices
+  std::vector<double> weights_;            // normal_weight() of the tensor of every vertex
+  std::vector<double> lengths_;            // per edge
+  std::vector<std::int32_t> source_face_;  // per face
+  std::priority_queue<Candidate> queue_;   // invalid triangles that may be bisected; entries grow stale
+  std::size_t invalid_before_ = 0;
+  std::size_t faces_added_ = 0;
+  bool hit_cap_ = false;
+};
+
+Refinement::Refinement(const Surface& surface, const Metric& metric, const EmbedOptions& options)
+    : surface_(surface),
+      metric_(metric),
+      options_(options),
+      mesh_(surface.half_edges()),
+      fans_(mesh_.n_vertices()),
+      source_face_(surface.face_of_half_edge_face()) {
+  weights_.reserve(fans_);
+  for (const std::int32_t v : surface.vertex_of_fan()) {
+    weights_.push_back(normal_weight(metric.tensors[static_cast<std::size_t>(v)]));
+  }
+  for (std::size_t v = 0; v < fans_; ++v) {
+    mesh_.point(VertexHandle(static_cast<int>(v))) =
+        surface.points()[static_cast<std::size_t>(surface.vertex_of_fan()[v])];
+  }
+  lengths_.reserve(mesh_.n_edges());
+  for (const EdgeHandle e : mesh_.edges()) lengths_.push_back(measure(mesh_.halfedge_handle(e, 0)));
+}
+
+std::int32_t Refinement::number(VertexHandle v) const {
+  return is_new(v) ? static_cast<std::int32_t>(surface_.vertex_count() + index(v) - fans_)
+                   : surface_.vertex_of_fan()[index(v)];
+}
+
+TensorAt Refinement::tensor_at(VertexHandle v) const {
+  if (is_new(v)) return tensors_[index(v) - fans_];
+  const auto i = static_cast<std::size_t>(surface_.vertex_of_fan()[index(v)]);
+  return {metric_.normals[i], metric_.tensors[i]};
+}
+
+double Refinement::norm(VertexHandle at, const Vector& e) const {
+  const auto i = is_new(at) ? index(at) - fans_ : static_cast<std::size_t>(surface_.vertex_of_fan()[index(at)]);
+  const Eigen::Matrix3d& m = is_new(at) ? tensors_[i].tensor : metric_.tensors[i];
+  const Vector& n = is_new(at) ? tensors_[i].normal : metric_.normals[i];
+  const double out = n.dot(e);
+  return std::sqrt(std::max(0.0, e.dot(m * e) + weights_[index(at)] * out * out));
+}
+
+// Length of an edge in the metric, from both of its ends.
+double Refinement::measure(HalfedgeHandle h) const {
+  const VertexHandle a = mesh_.from_vertex_handle(h), b = mesh_.to_vertex_handle(h);
+  const Vector e = (mesh_.point(b) - mesh_.point(a)) * surface_.scale();
+  return integrated_length(norm(a, e), norm(b, e));
+}
+
+std::array<HalfedgeHandle, 3> Refinement::sides(FaceHandle f) const {
+  const HalfedgeHandle a = mesh_.halfedge_handle(f), b = mesh_.next_halfedge_handle(a);
+  return {a, b, mesh_.next_halfedge_handle(b)};
+}
+
+bool Refinement::is_valid(FaceHandle f) const {
+  const auto [h0, h1, h2] = sides(f);
+  const double a = length(h0), b = length(h1), c = length(h2);
+  const double most = std::max({a, b, c});
+  return most < (a + b + c - most) * (1 - kSlack);
+}
+
+bool Refinement::is_flat(FaceHandle f) const {
+  const auto [h0, h1, h2] = sides(f);
+  const Vector a = mesh_.calc_edge_vector(h0), b = mesh_.calc_edge_vector(h1), c = mesh_.calc_edge_vector(h2);
+  return !(a.cross(b).norm() > kFlat * std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm()}));
+}
+
+double Refinement::perimeter(FaceHandle f) const {
+  const auto [h0, h1, h2] = sides(f);
+  if (options_.perimeter == Perimeter::kMetric) return length(h0) + length(h1) + length(h2);
+  return (mesh_.calc_edge_length(h0) + mesh_.calc_edge_length(h1) + mesh_.calc_edge_length(h2)) * surface_.scale();
+}
+
+HalfedgeHandle Refinement::longest(FaceHandle f) const {
+  const auto [h0, h1, h2] = sides(f);
+  HalfedgeHandle best = h0;
+  for (const HalfedgeHandle h : {h1, h2}) {
+    if (length(h) > length(best) * (1 + kEqual)) best = h;
+  }
+  return best;
+}
+
+void Refinement::consider(FaceHandle f) {
+  if (is_valid(f) || is_flat(f)) return;
+  const double p = perimeter(f);
+  if (p >= options_.sigma) queue_.push({static_cast<float>(p), f.idx()});
+}
+
+void Refinement::bisect(EdgeHandle e) {
+  const HalfedgeHandle h = mesh_.halfedge_handle(e, 0), o = mesh_.halfedge_handle(e, 1);
+  const VertexHandle a = mesh_.from_vertex_handle(h), b = mesh_.to_vertex_handle(h);
+  // The new faces come in this order (OpenMesh's TriConnectivity::split).
+  for (const HalfedgeHandle side : {h, o}) {
+    if (mesh_.is_boundary(side)) continue;
+    source_face_.push_back(source_face_[index(mesh_.face_handle(side))]);
+    ++faces_added_;
+  }
+  tensors_.push_back(middle(tensor_at(a), tensor_at(b)));
+  weights_.push_back(normal_weight(tensors_.back().tensor));
+  const VertexHandle p = mesh_.add_vertex((mesh_.point(a) + mesh_.point(b)) / 2);
+  mesh_.split(e, p);
+
+  lengths_.resize(mesh_.n_edges());
+  const HalfedgeHandle first = mesh_.halfedge_handle(p);
+  HalfedgeHandle out = first;
+  do {
+    lengths_[index(mesh_.edge_handle(out))] = measure(out);
+    out = mesh_.next_halfedge_handle(mesh_.opposite_halfedge_handle(out));
+  } while (out != first);
+  do {
+    if (!mesh_.is_boundary(out)) consider(mesh_.face_handle(out));
+    out = mesh_.next_halfedge_handle(mesh_.opposite_halfedge_handle(out));
+  } while (out != first);
+}
+
+void Refinement::run(const Task& task) {
+  for (const FaceHandle f : mesh_.faces()) {
+    if (!is_valid(f)) ++invalid_before_;
+    consider(f);
+  }
+  double progress = 0;
+  task.check(progress);
+  for (std::size_t splits = 0; !queue_.empty();) {
+    const Candidate next = queue_.top();
+    queue_.pop();
+    const FaceHandle f(next.face);
+    // A face changes when a neighbour is bisected, and is queued again if it is still invalid.
+    if (static_cast<float>(perimeter(f)) != next.perimeter || is_valid(f)) continue;
+    const HalfedgeHandle h = longest(f);
+    const std::size_t more = mesh_.is_boundary(mesh_.opposite_halfedge_handle(h)) ? 1 : 2;
+    if (faces_added_ + more > options_.max_faces_added) {
+      hit_cap_ = true;
+      return;
+    }
+    bisect(mesh_.edge_handle(h));
+    if (++splits % kReportEvery == 0) {
+      // How many splits are still to come is not known; each queued triangle needs one at least.
+      const auto done = static_cast<double>(splits);
+      progress = std::max(progress, done / (done + static_cast<double>(queue_.size())));
+      task.check(progress);
+    }
+  }
+}
+
+Embedding Refinement::result() const {
+  Embedding out;
+  const std::size_t callers = surface_.vertex_count(), added = mesh_.n_vertices() - fans_;
+  out.points.reserve(callers + added);
+  out.points = surface_.points();
+  for (std::size_t v = fans_; v < mesh_.n_vertices(); ++v) {
+    out.points.push_back(mesh_.point(VertexHandle(static_cast<int>(v))));
+  }
+  out.invalid_before = invalid_before_;
+  out.faces_added = faces_added_;
+  out.hit_cap = hit_cap_;
+
+  IntrinsicMesh& mesh = out.mesh;
+  mesh.vertex_count = static_cast<std::int32_t>(callers + added);
+  mesh.triangles.reserve(mesh_.n_faces());
+  mesh.lengths.reserve(3 * mesh_.n_faces());
+  out.source_face.reserve(mesh_.n_faces());
+  std::vector<std::int32_t> renumbered(mesh_.n_halfedges(), -1);
+  for (const FaceHandle f : mesh_.faces()) {
+    if (!is_valid(f)) {
+      ++out.invalid_left;
+      continue;
+    }
+    Triangle triangle;
+    std::size_t i = 0;
+    for (const HalfedgeHandle h : sides(f)) {
+      renumbered[index(h)] = static_cast<std::int32_t>(mesh.lengths.size());
+      mesh.lengths.push_back(length(h));
+      triangle[i++] = number(mesh_.from_vertex_handle(h));
+    }
+    mesh.triangles.push_back(triangle);
+    out.source_face.push_back(source_face_[index(f)]);
+  }
+  mesh.twins.resize(mesh.lengths.size());
+  for (const HalfedgeHandle h : mesh_.halfedges()) {
+    const std::int32_t i = renumbered[index(h)];
+    if (i >= 0) mesh.twins[static_cast<std::size_t>(i)] = renumbered[index(mesh_.opposite_halfedge_handle(h))];
+  }
+
+  for (const EdgeHandle e : mesh_.edges()) {
+    const HalfedgeHandle h = mesh_.halfedge_handle(e, 0), o = mesh_.halfedge_handle(e, 1);
+    if (renumbered[index(h)] >= 0 || renumbered[index(o)] >= 0) continue;
+    mesh.loose_edges.push_back(
+        {number(mesh_.from_vertex_handle(h)), number(mesh_.to_vertex_handle(h)), lengths_[index(e)]});
+  }
+  for (const auto& [a, b] : surface_.loose_edges()) {
+    mesh.loose_edges.push_back({a, b, edge_length(surface_, metric_, a, b)});
+  }
+
+  std::vector<bool> reached(callers + added, false);
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::int32_t v : triangle) reached[static_cast<std::size_t>(v)] = true;
+  }
+  for (const LooseEdge& edge : mesh.loose_edges) {
+    reached[static_cast<std::size_t>(edge.a)] = reached[static_cast<std::size_t>(edge.b)] = true;
+  }
+  for (const Triangle& triangle : surface_.triangles()) {
+    for (const std::int32_t v : triangle) {
+      if (reached[static_cast<std::size_t>(v)]) continue;
+      out.unreachable.push_back(v);
+      reached[static_cast<std::size_t>(v)] = true;
+    }
+  }
+  std::sort(out.unreachable.begin(), out.unreachable.end());
+  return out;
+}
+
+}  // namespace
+
+Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions& options, const Task& task) {
+  check_metric(surface, metric);
+  if (!(options.sigma >= 0)) throw InvalidInput("sigma is " + std::to_string(options.sigma) + ", not 0 or more");
+  task.check(0);
+  Refinement refinement(surface, metric, options);
+  refinement.run(task);
+  Embedding out = refinement.result();
+  task.check(1);
+  return out;
+}
+
+}  // namespace seamwire

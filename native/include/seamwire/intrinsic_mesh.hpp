@@ -9,7 +9,8 @@
 
 namespace seamwire {
 
-/// An edge without a face, along which a path may run.
+/// An edge without a face, along which a path may run. Its length is finite and not negative: it is 0 between vertices
+/// at the same place.
 struct LooseEdge {
   std::int32_t a, b;
   double length;
