@@ -18,9 +18,9 @@ from pathlib import Path
 sys.path.insert(0, os.environ["SEAMWIRE_BLENDER_PACKAGES"])
 sys.path.insert(0, str(Path(__file__).parent))
 
-import addon_utils  # noqa: E402
-import bpy  # noqa: E402
-import pytest  # noqa: E402
+import addon_utils
+import bpy
+import pytest
 
 
 def leave(code: int) -> None:
@@ -33,18 +33,22 @@ def leave(code: int) -> None:
 def enable_addon() -> None:
     """Enable the add-on and fail loudly where Blender would only print."""
     failures: list[str] = []
-    module = addon_utils.enable("seamwire", default_set=True, handle_error=lambda _: failures.append(traceback.format_exc()))
+    module = addon_utils.enable(
+        "seamwire", default_set=True, handle_error=lambda _: failures.append(traceback.format_exc())
+    )
     if module is None or failures:
         sys.stderr.write("The add-on seamwire could not be enabled.\n" + "".join(failures))
         leave(3)
 
 
 def run_pytest() -> int:
+    """Run pytest with the arguments after ``--`` and return its exit code."""
     arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
     return int(pytest.main(["-p", "no:cacheprovider", *arguments]))
 
 
 def run_with_window() -> None:
+    """Start pytest as soon as Blender's window stands, in turns with Blender's event loop."""
     import greenlet
     import ui
 

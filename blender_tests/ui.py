@@ -159,7 +159,9 @@ class Ui:
         assert at is not None, f"{point} is behind the viewer"
         return at.x, at.y
 
-    def look(self, rotation: tuple[float, float, float, float], centre: tuple[float, float, float], distance: float) -> None:
+    def look(
+        self, rotation: tuple[float, float, float, float], centre: tuple[float, float, float], distance: float
+    ) -> None:
         """Look at a point in orthographic projection, with the view rotation as a quaternion."""
         self.view.view_perspective = "ORTHO"
         self.view.view_rotation = rotation
