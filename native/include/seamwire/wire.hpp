@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "seamwire/embedding.hpp"
@@ -13,22 +14,41 @@ namespace seamwire {
 
 /// A geodesic on the caller's surface, from `from` to `to`.
 struct Wire {
-  std::int32_t from = -1, to = -1;  ///< the caller's vertices
-  std::vector<Vector> points;       ///< in the caller's coordinates; empty where `to` is unreachable
-  std::vector<std::int32_t> faces;  ///< the caller's face that each segment lies in; -1 along an edge without a face
+  std::int32_t from = -1, to = -1;     ///< the caller's vertices
+  std::vector<Vector> points;          ///< in the caller's coordinates; empty where `to` is unreachable
+  std::vector<std::int32_t> vertices;  ///< per point: the caller's vertex it is, or -1
+  std::vector<std::int32_t> faces;     ///< the caller's face that each segment lies in; -1 along an edge without a face
   double length = std::numeric_limits<double>::infinity();  ///< in the metric, of the model scaled to the unit cube
   double euclidean_length =
       std::numeric_limits<double>::infinity();  ///< of the points, of the model scaled to the unit cube
 };
 
-/// Maps a path over an embedding to the caller's surface. New vertices of an embedding are midpoints of edges, so a
-/// path is straight in each of the caller's faces it crosses or turns on points of those faces.
+/// Maps a path over an embedding to the caller's surface. New vertices of an embedding are midpoints of edges, so each
+/// segment of a path lies in one of the caller's faces. Points on a straight line in one face are left out.
 Wire map_wire(const Surface& surface, const Embedding& embedding, const IntrinsicPath& path);
 
+/// The shortest wire from the seed of a field over `embedding` to one of the caller's vertices. Throws InvalidInput for
+/// a vertex out of range.
+Wire trace_wire(const Surface& surface, const Embedding& embedding, const DistanceField& field, std::int32_t vertex);
+
+/// What snapping needs to know of a surface: its polygons (triangles joined across what is not a real edge) and the
+/// real edges around them. Immutable, so wires may be snapped on several threads.
+class SnapGraph {
+ public:
+  explicit SnapGraph(const Surface& surface);
+
+  struct Data;  // wire.cpp
+  const Data& data() const { return *data_; }
+
+ private:
+  std::shared_ptr<const Data> data_;
+};
+
 /// The path of real edges (Surface::edges()) from wire.from to wire.to that stays closest to the wire: of all paths
-/// along the edges of the (polygon) faces that the wire crosses, and of their neighbours, the one with the least
-/// integral of its distance to the wire. Connected, without a repeated vertex. Empty where the wire is, or where no
-/// such path exists.
-std::vector<std::int32_t> snap_to_edges(const Surface& surface, const Wire& wire);
+/// along the edges of the polygons that the wire crosses, and of the polygons that share an edge with those, the one
+/// with the least integral of its distance to the wire. Where these do not connect the ends, of the polygons around
+/// them, ring by ring. Connected, without a repeated vertex. Empty where the wire is, or where no path of edges leads.
+/// Takes time proportional to the faces crossed. Throws InvalidInput for a wire that is not on the surface.
+std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire);
 
 }  // namespace seamwire

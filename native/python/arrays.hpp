@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "seamwire/edge_wire.hpp"
+#include "seamwire/surface.hpp"
+
+/// Between NumPy's arrays and the library's vectors.
+namespace seamwire::python {
+
+namespace py = pybind11;
+
+/// What the caller gave, copied. Any array-like of numbers, of any strides; anything else is an InvalidInput that
+/// begins with `name`. Copies run without the GIL.
+std::vector<Vector> points_from(py::handle value, const std::string& name);
+std::vector<Triangle> triangles_from(py::handle value, const std::string& name);
+std::vector<Edge> edges_from(py::handle value, const std::string& name);
+
+/// A vertex number of a surface with `count` vertices, an edge between two of them, or either.
+std::int32_t vertex_from(py::handle value, std::size_t count, const std::string& name);
+Edge edge_from(py::handle value, std::size_t count, const std::string& name);
+Pick pick_from(py::handle value, std::size_t count, const std::string& name);
+
+/// Read-only views of memory that `owner` keeps alive. The views keep the owner.
+template <class T>
+py::array view(const T* data, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides, py::handle owner) {
+  py::array_t<T> array(std::move(shape), std::move(strides), data, owner);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+template <class T>
+py::array view(const std::vector<T>& values, py::handle owner) {
+  return view(values.data(), {static_cast<py::ssize_t>(values.size())}, {sizeof(T)}, owner);
+}
+
+template <class T, std::size_t N>
+py::array view(const std::vector<std::array<T, N>>& rows, py::handle owner) {
+  const T* data = rows.empty() ? nullptr : rows.front().data();
+  return view(data, {static_cast<py::ssize_t>(rows.size()), N}, {N * sizeof(T), sizeof(T)}, owner);
+}
+
+inline py::array view(const std::vector<Vector>& rows, py::handle owner) {
+  const double* data = rows.empty() ? nullptr : rows.front().data();
+  return view(data, {static_cast<py::ssize_t>(rows.size()), 3}, {sizeof(Vector), sizeof(double)}, owner);
+}
+
+inline py::array view(const std::vector<Eigen::Matrix3d>& matrices, py::handle owner) {
+  const double* data = matrices.empty() ? nullptr : matrices.front().data();
+  return view(data, {static_cast<py::ssize_t>(matrices.size()), 3, 3},
+              {sizeof(Eigen::Matrix3d), sizeof(double), 3 * sizeof(double)}, owner);  // Eigen stores columns
+}
+
+}  // namespace seamwire::python

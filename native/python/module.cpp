@@ -1,0 +1,588 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "arrays.hpp"
+#include "objects.hpp"
+#include "seamwire/errors.hpp"
+#include "watch.hpp"
+
+namespace seamwire::python {
+
+namespace {
+
+using OptionalNumber = std::optional<double>;
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.6g", value);
+  return text;
+}
+
+/// An attribute that is a view of a member of T::*.
+template <class T, class Get>
+py::cpp_function array_of(const Get& get) {
+  return [get](py::object self) { return view(get(self.cast<const T&>()), self); };
+}
+
+Follow follow_from(const std::string& name) {
+  if (name == "min") return Follow::kMin;
+  if (name == "max") return Follow::kMax;
+  throw InvalidInput("follow: expected 'min' or 'max', got '" + name + "'");
+}
+
+Perimeter perimeter_from(const std::string& name) {
+  if (name == "metric") return Perimeter::kMetric;
+  if (name == "euclidean") return Perimeter::kEuclidean;
+  throw InvalidInput("perimeter: expected 'metric' or 'euclidean', got '" + name + "'");
+}
+
+void check_size(const char* what, std::size_t size, const Surface& surface) {
+  if (size == surface.vertex_count()) return;
+  throw InvalidInput(std::string(what) + " of " + std::to_string(size) + " vertices given for a surface of " +
+                     std::to_string(surface.vertex_count()));
+}
+
+using MetricFunction = Metric (*)(const Surface&, const Curvature&, Follow, const Strength&);
+
+std::unique_ptr<MetricObject> make_metric(MetricFunction function, const SurfaceObject& surface,
+                                          const CurvatureObject& curvature, const std::string& follow,
+                                          const Strength& strength) {
+  const Follow direction = follow_from(follow);
+  check_size("curvature", curvature.curvature.k1.size(), *surface.surface);
+  return without_gil([&] {
+    return std::make_unique<MetricObject>(function(*surface.surface, curvature.curvature, direction, strength));
+  });
+}
+
+void bind_surface(py::module_& module) {
+  py::class_<ReportObject>(module, "SurfaceReport", "What was odd about the input; nothing here is an error.")
+      .def_property_readonly("nonmanifold_edges", array_of<ReportObject>([](const auto& r) -> auto& {
+                               return r.surface->report().nonmanifold_edges;
+                             }),
+                             "(k, 2) int32: edges with three or more faces; the surface is cut open there.")
+      .def_property_readonly("unorientable_edges", array_of<ReportObject>([](const auto& r) -> auto& {
+                               return r.surface->report().unorientable_edges;
+                             }),
+                             "(k, 2) int32: cut open because the faces could not be oriented alike.")
+      .def_property_readonly("flipped_faces", array_of<ReportObject>([](const auto& r) -> auto& {
+                               return r.surface->report().flipped_faces;
+                             }),
+                             "(k,) int32: turned over to agree with their neighbours.")
+      .def_property_readonly("zero_area_faces", array_of<ReportObject>([](const auto& r) -> auto& {
+                               return r.surface->report().zero_area_faces;
+                             }),
+                             "(k,) int32: kept, unless two of their corners are the same vertex.")
+      .def_property_readonly("degenerate_faces", array_of<ReportObject>([](const auto& r) -> auto& {
+                               return r.surface->report().degenerate_faces;
+                             }),
+                             "(k,) int32: two corners are one vertex; left out, their edges stay.")
+      .def_property_readonly("duplicate_faces", array_of<ReportObject>([](const auto& r) -> auto& {
+                               return r.surface->report().duplicate_faces;
+                             }),
+                             "(k,) int32: the three vertices of an earlier face; left out.")
+      .def_property_readonly("isolated_vertices", array_of<ReportObject>([](const auto& r) -> auto& {
+                               return r.surface->report().isolated_vertices;
+                             }),
+                             "(k,) int32: in no face and no edge.")
+      .def_property_readonly(
+          "boundary_edges", [](const ReportObject& r) { return r.surface->report().boundary_edges; },
+          "Number of edges with one face.")
+      .def_property_readonly(
+          "components", [](const ReportObject& r) { return r.surface->report().components; },
+          "Number of parts connected by edges; isolated vertices are not counted.")
+      .def("__repr__", [](const ReportObject& object) {
+        const SurfaceReport& report = object.surface->report();
+        std::string text = "<SurfaceReport: " + std::to_string(report.components) + " components, " +
+                           std::to_string(report.boundary_edges) + " boundary edges";
+        const auto add = [&](std::size_t count, const char* what) {
+          if (count > 0) text += ", " + std::to_string(count) + " " + what;
+        };
+        add(report.nonmanifold_edges.size(), "non-manifold edges");
+        add(report.unorientable_edges.size(), "unorientable edges");
+        add(report.flipped_faces.size(), "flipped faces");
+        add(report.zero_area_faces.size(), "zero-area faces");
+        add(report.degenerate_faces.size(), "degenerate faces");
+        add(report.duplicate_faces.size(), "duplicate faces");
+        add(report.isolated_vertices.size(), "isolated vertices");
+        return text + ">";
+      });
+
+  py::class_<SurfaceObject>(module, "Surface", R"(A triangle mesh as people have it.
+
+Boundaries, several components, isolated vertices, zero-area faces, mixed orientation, edges with three or more faces
+and duplicate faces are all taken, and counted in `report`. Vertices and faces keep the caller's numbers.
+
+Parameters
+----------
+points : (n, 3) array_like of float
+    Finite coordinates.
+triangles : (m, 3) array_like of int
+    Vertex numbers, of any integer type.
+edges : (e, 2) array_like of int, optional
+    The real edges, where faces are polygons that have been triangulated, and edges without a face. None: every edge
+    of a triangle.
+
+Raises
+------
+ValueError
+    Where an array has the wrong shape or type, a coordinate is not finite, a vertex number is out of range, an edge
+    joins a vertex to itself, or there is no edge; the message names the element.
+)")
+      .def(py::init([](const py::object& points, const py::object& triangles, const py::object& edges) {
+             auto p = points_from(points, "points");
+             auto t = triangles_from(triangles, "triangles");
+             auto e = edges.is_none() ? std::nullopt : std::optional(edges_from(edges, "edges"));
+             return without_gil([&] {
+               return std::make_unique<SurfaceObject>(
+                   std::make_shared<const Surface>(std::move(p), std::move(t), std::move(e)));
+             });
+           }),
+           py::arg("points"), py::arg("triangles"), py::arg("edges") = py::none())
+      .def_property_readonly("points",
+                             array_of<SurfaceObject>([](const auto& s) -> auto& { return s.surface->points(); }),
+                             "(n, 3) float64, as given.")
+      .def_property_readonly("triangles",
+                             array_of<SurfaceObject>([](const auto& s) -> auto& { return s.surface->triangles(); }),
+                             "(m, 3) int32, as given.")
+      .def_property_readonly("edges",
+                             array_of<SurfaceObject>([](const auto& s) -> auto& { return s.surface->edges(); }),
+                             "(e, 2) int32: the real edges, each once, the smaller vertex first, sorted.")
+      .def_property_readonly(
+          "scale", [](const SurfaceObject& s) { return s.surface->scale(); },
+          "The caller's coordinates times this fit the unit cube.")
+      .def_property_readonly("report", [](const SurfaceObject& s) { return ReportObject{s.surface}; })
+      .def("__repr__", [](const SurfaceObject& s) {
+        return "<Surface: " + std::to_string(s.surface->vertex_count()) + " vertices, " +
+               std::to_string(s.surface->face_count()) + " triangles, " + std::to_string(s.surface->edges().size()) +
+               " edges>";
+      });
+}
+
+void bind_metric(py::module_& module) {
+  py::class_<CurvatureObject>(module, "Curvature", R"(Principal curvatures at the vertices.
+
+Of the model scaled to the unit cube, in 1 / side of the cube. 0 at vertices without a usable face.)")
+      .def_property_readonly("k1", array_of<CurvatureObject>([](const auto& c) -> auto& { return c.curvature.k1; }),
+                             "(n,) float64: the curvature larger in absolute value.")
+      .def_property_readonly("k2", array_of<CurvatureObject>([](const auto& c) -> auto& { return c.curvature.k2; }),
+                             "(n,) float64: the curvature smaller in absolute value.")
+      .def_property_readonly("d1", array_of<CurvatureObject>([](const auto& c) -> auto& { return c.curvature.d1; }),
+                             "(n, 3) float64: direction of k1, unit, tangent.")
+      .def_property_readonly("d2", array_of<CurvatureObject>([](const auto& c) -> auto& { return c.curvature.d2; }),
+                             "(n, 3) float64: direction of k2, unit, tangent.")
+      .def_property_readonly("normals",
+                             array_of<CurvatureObject>([](const auto& c) -> auto& { return c.curvature.normals; }),
+                             "(n, 3) float64: unit normals.")
+      .def_property_readonly("difference",
+                             array_of<CurvatureObject>([](const auto& c) -> auto& { return c.difference; }),
+                             "(n,) float64: s of eq. 5, |k1| - |k2|.")
+      .def("__repr__", [](const CurvatureObject& c) {
+        const double most = c.difference.empty() ? 0.0 : *std::max_element(c.difference.begin(), c.difference.end());
+        return "<Curvature: " + std::to_string(c.difference.size()) + " vertices, largest difference " + number(most) +
+               ">";
+      });
+
+  py::class_<MetricObject>(module, "Metric", "An anisotropic metric: a tensor on the tangent plane of each vertex.")
+      .def_property_readonly("normals", array_of<MetricObject>([](const auto& m) -> auto& { return m.metric.normals; }),
+                             "(n, 3) float64: unit; zero at vertices without a face.")
+      .def_property_readonly("tensors", array_of<MetricObject>([](const auto& m) -> auto& { return m.metric.tensors; }),
+                             "(n, 3, 3) float64: symmetric; the normal maps to zero.")
+      .def_property_readonly(
+          "max_anisotropy", [](const MetricObject& m) { return without_gil([&] { return max_anisotropy(m.metric); }); },
+          "Largest ratio of the lengths of unit vectors at a vertex.")
+      .def("__repr__", [](const MetricObject& m) {
+        return "<Metric: " + std::to_string(m.metric.size()) + " vertices, maximum anisotropy " +
+               number(max_anisotropy(m.metric)) + ">";
+      });
+
+  module.def(
+      "principal_curvatures",
+      [](const SurfaceObject& surface) {
+        return without_gil([&] {
+          Curvature curvature = principal_curvatures(*surface.surface);
+          auto difference = curvature.difference();
+          return std::make_unique<CurvatureObject>(CurvatureObject{std::move(curvature), std::move(difference)});
+        });
+      },
+      py::arg("surface"), R"(Principal curvatures at the vertices of a surface.
+
+Rusinkiewicz, "Estimating Curvatures and Their Derivatives on Triangle Meshes" (2004), with normals weighted as in Max,
+"Weights for Computing Vertex Normals from Facet Normals" (1999).)");
+  module.def(
+      "feature_metric",
+      [](const SurfaceObject& surface, const CurvatureObject& curvature, const std::string& follow,
+         OptionalNumber gamma, OptionalNumber max_anisotropy, OptionalNumber clamp_percentile) {
+        if (!gamma && !max_anisotropy) gamma = 0.1;
+        return make_metric(feature_metric, surface, curvature, follow, {gamma, max_anisotropy, clamp_percentile});
+      },
+      py::arg("surface"), py::arg("curvature"), py::arg("follow") = "min", py::arg("gamma") = py::none(),
+      py::arg("max_anisotropy") = py::none(), py::arg("clamp_percentile") = py::none(),
+      R"(The metric of the paper, eq. 5: l1 = 1 + gamma s, l2 = 1 / l1.
+
+Parameters
+----------
+surface : Surface
+curvature : Curvature
+    Of that surface.
+follow : {'min', 'max'}
+    The principal direction along which paths are short: 'min' follows ridges and valleys.
+gamma : float, optional
+    At least 0; 0.1 if max_anisotropy is not given either.
+max_anisotropy : float, optional
+    At least 1: chooses gamma such that this is the largest anisotropy of a vertex.
+clamp_percentile : float, optional
+    In (0, 100]: s above this percentile of its values counts as that value.
+
+Raises
+------
+ValueError
+    Where both or wrong parameters are given, or the curvature is of another surface.
+)");
+  module.def(
+      "campen_metric",
+      [](const SurfaceObject& surface, const CurvatureObject& curvature, const std::string& follow,
+         OptionalNumber alpha, OptionalNumber max_anisotropy) {
+        return make_metric(campen_metric, surface, curvature, follow, {alpha, max_anisotropy, std::nullopt});
+      },
+      py::arg("surface"), py::arg("curvature"), py::arg("follow") = "min", py::arg("alpha") = py::none(),
+      py::arg("max_anisotropy") = py::none(), R"(The metric of Campen et al., eq. 3: l1 = alpha, l2 = 1.
+
+One of alpha (at least 1) and max_anisotropy (at least 1; its square is alpha) is given; else ValueError.)");
+  module.def(
+      "pottmann_kovacs_metric",
+      [](const SurfaceObject& surface, const CurvatureObject& curvature, const std::string& follow, OptionalNumber beta,
+         OptionalNumber max_anisotropy) {
+        return make_metric(pottmann_kovacs_metric, surface, curvature, follow, {beta, max_anisotropy, std::nullopt});
+      },
+      py::arg("surface"), py::arg("curvature"), py::arg("follow") = "min", py::arg("beta") = py::none(),
+      py::arg("max_anisotropy") = py::none(),
+      R"(The metric of Pottmann et al. and Kovacs et al., eq. 4: l1 = k1^2 + beta, l2 = k2^2 + beta.
+
+One of beta (at least 0) and max_anisotropy (at least 1) is given; else ValueError.)");
+  module.def(
+      "euclidean_metric",
+      [](const SurfaceObject& surface, const CurvatureObject& curvature) {
+        check_size("curvature", curvature.curvature.k1.size(), *surface.surface);
+        return without_gil(
+            [&] { return std::make_unique<MetricObject>(euclidean_metric(*surface.surface, curvature.curvature)); });
+      },
+      py::arg("surface"), py::arg("curvature"), "The metric in which lengths are those of space.");
+}
+
+void bind_geodesics(py::module_& module) {
+  py::class_<EmbeddingObject, std::shared_ptr<EmbeddingObject>>(
+      module, "Embedding",
+      R"(A surface in a metric, as a refined mesh with edge lengths (Section 4.1 of the paper).
+
+The first vertices are those of the surface, with their numbers; new ones are midpoints of edges.)")
+      .def_property_readonly("points",
+                             array_of<EmbeddingObject>([](const auto& e) -> auto& { return e.embedding.points; }),
+                             "(p, 3) float64, in the caller's coordinates.")
+      .def_property_readonly(
+          "triangles", array_of<EmbeddingObject>([](const auto& e) -> auto& { return e.embedding.mesh.triangles; }),
+          "(t, 3) int32: the valid triangles.")
+      .def_property_readonly(
+          "edges",
+          [](py::object self) {
+            const auto& object = self.cast<const EmbeddingObject&>();
+            return view(without_gil([&]() -> const auto* { return &object.edges(); })->vertices, self);
+          },
+          "(e, 2) int32: each edge once, those to run along without a triangle last.")
+      .def_property_readonly(
+          "lengths",
+          [](py::object self) {
+            const auto& object = self.cast<const EmbeddingObject&>();
+            return view(without_gil([&]() -> const auto* { return &object.edges(); })->lengths, self);
+          },
+          "(e,) float64: lengths of `edges` in the metric.")
+      .def_property_readonly("source_face",
+                             array_of<EmbeddingObject>([](const auto& e) -> auto& { return e.embedding.source_face; }),
+                             "(t,) int32: the surface's triangle that each triangle lies in.")
+      .def_property_readonly("unreachable",
+                             array_of<EmbeddingObject>([](const auto& e) -> auto& { return e.embedding.unreachable; }),
+                             "(k,) int32: vertices in a face, but in no valid triangle and on no edge to run along.")
+      .def_property_readonly(
+          "invalid_before", [](const EmbeddingObject& e) { return e.embedding.invalid_before; },
+          "Number of invalid triangles of the surface.")
+      .def_property_readonly("faces_added", [](const EmbeddingObject& e) { return e.embedding.faces_added; })
+      .def_property_readonly(
+          "invalid_left", [](const EmbeddingObject& e) { return e.embedding.invalid_left; },
+          "Number of triangles that stayed invalid: holes.")
+      .def_property_readonly(
+          "hit_cap", [](const EmbeddingObject& e) { return e.embedding.hit_cap; },
+          "Whether max_faces_added ended the subdivision.")
+      .def("__repr__", [](const EmbeddingObject& e) {
+        return "<Embedding: " + std::to_string(e.embedding.points.size()) + " vertices, " +
+               std::to_string(e.embedding.mesh.face_count()) + " triangles, " +
+               std::to_string(e.embedding.faces_added) + " added, " + std::to_string(e.embedding.invalid_left) +
+               " invalid left>";
+      });
+
+  py::class_<Wire>(module, "Wire", "A geodesic on a surface, from one of its vertices to another.")
+      .def_readonly("from_vertex", &Wire::from)
+      .def_readonly("to_vertex", &Wire::to)
+      .def_property_readonly("points", array_of<Wire>([](const auto& w) -> auto& { return w.points; }),
+                             "(p, 3) float64, in the caller's coordinates; no rows where the target is unreachable.")
+      .def_property_readonly("faces", array_of<Wire>([](const auto& w) -> auto& { return w.faces; }),
+                             "(p - 1,) int32: the triangle each segment lies in; -1 along an edge without a face.")
+      .def_readonly("length", &Wire::length,
+                    "In the metric, of the model scaled to the unit cube; inf where the target is unreachable.")
+      .def_readonly("euclidean_length", &Wire::euclidean_length, "Of the points, of the model scaled to the unit cube.")
+      .def("__repr__", [](const Wire& w) {
+        return "<Wire: from " + std::to_string(w.from) + " to " + std::to_string(w.to) + ", " +
+               std::to_string(w.points.size()) + " points, length " + number(w.length) + ">";
+      });
+
+  py::class_<FieldObject>(module, "DistanceField", "Exact distances from a seed to every vertex.")
+      .def_property_readonly("seed", [](const FieldObject& f) { return f.field.seed(); })
+      .def_property_readonly(
+          "distances",
+          [](py::object self) {
+            const auto& object = self.cast<const FieldObject&>();
+            const auto count = static_cast<py::ssize_t>(object.embedding->surface->vertex_count());
+            return view(object.field.distances().data(), {count}, {sizeof(double)}, self);
+          },
+          "(n,) float64 at the surface's vertices, in the metric; inf where no path leads.")
+      .def(
+          "trace",
+          [](const FieldObject& object, const py::object& vertex) {
+            const EmbeddingObject& on = *object.embedding;
+            const std::int32_t target = vertex_from(vertex, on.surface->vertex_count(), "vertex");
+            return without_gil([&] { return trace_wire(*on.surface, on.embedding, object.field, target); });
+          },
+          py::arg("vertex"), R"(The shortest path from the seed to a vertex.
+
+Returns
+-------
+Wire
+    Its length is the vertex's distance. Without points where the vertex is unreachable.
+
+Raises
+------
+ValueError
+    Where the vertex is out of range.
+)")
+      .def("__repr__", [](const FieldObject& f) {
+        return "<DistanceField: from " + std::to_string(f.field.seed()) + " to " +
+               std::to_string(f.embedding->surface->vertex_count()) + " vertices>";
+      });
+
+  module.def(
+      "embed",
+      [](const SurfaceObject& surface, const MetricObject& metric, double sigma, const std::string& perimeter,
+         const py::object& max_faces_added, const py::object& progress) {
+        EmbedOptions options{.sigma = sigma, .perimeter = perimeter_from(perimeter)};
+        const auto cap = PyNumber_AsSsize_t(max_faces_added.ptr(), nullptr);  // what is too large is clamped
+        if (cap == -1 && PyErr_Occurred() != nullptr) throw py::error_already_set();
+        if (cap < 0) throw InvalidInput("max_faces_added: expected a number that is not negative");
+        options.max_faces_added = static_cast<std::size_t>(cap);
+        if (!(sigma >= 0.0)) throw InvalidInput("sigma: expected a number that is not negative");
+        check_size("metric", metric.metric.size(), *surface.surface);
+        return Watch(progress).run([&](const Task& task) {
+          return std::make_shared<EmbeddingObject>(surface.surface,
+                                                   embed(*surface.surface, metric.metric, options, task));
+        });
+      },
+      py::arg("surface"), py::arg("metric"), py::arg("sigma") = 0.0, py::arg("perimeter") = "metric",
+      py::arg("max_faces_added") = 4'000'000, py::arg("progress") = py::none(),
+      R"(Subdivides a surface until its triangles can have the edge lengths that a metric gives them (Section 4.1).
+
+Parameters
+----------
+surface : Surface
+metric : Metric
+    Of that surface.
+sigma : float
+    Stop once every invalid triangle left has a smaller perimeter.
+perimeter : {'metric', 'euclidean'}
+    What that perimeter is measured by.
+max_faces_added : int
+    Stop after that many new triangles.
+progress : callable, optional
+    Called now and then with the fraction done; returning False cancels.
+
+Raises
+------
+ValueError
+    Where a parameter is wrong or the metric is of another surface.
+Cancelled
+)");
+  module.def(
+      "distance_field",
+      [](const std::shared_ptr<EmbeddingObject>& embedding, const py::object& seed, const py::object& progress) {
+        const std::int32_t vertex = vertex_from(seed, embedding->surface->vertex_count(), "seed");
+        return Watch(progress).run([&](const Task& task) {
+          return std::make_unique<FieldObject>(FieldObject{embedding, embedding->geodesics().solve(vertex, task)});
+        });
+      },
+      py::arg("embedding"), py::arg("seed"), py::arg("progress") = py::none(),
+      R"(Exact distances from a vertex over an embedding.
+
+Parameters
+----------
+embedding : Embedding
+    What the solver needs of it is built at the first call and kept with it.
+seed : int
+    A vertex of the surface.
+progress : callable, optional
+    Called now and then with the fraction done; returning False cancels.
+
+Raises
+------
+ValueError
+    Where the seed is out of range.
+Cancelled
+)");
+  module.def(
+      "snap_to_edges",
+      [](const SurfaceObject& surface, const Wire& wire) {
+        auto path = std::make_unique<std::vector<std::int32_t>>(
+            without_gil([&] { return snap_to_edges(*surface.surface, surface.snap_graph(), wire); }));
+        const auto* const vertices = path.get();
+        const py::capsule owner(path.release(), [](void* p) { delete static_cast<std::vector<std::int32_t>*>(p); });
+        return view(*vertices, owner);
+      },
+      py::arg("surface"), py::arg("wire"),
+      R"(The path of real edges that stays closest to a wire, from its start to its end.
+
+Of the paths along edges of the faces that the wire crosses and of their neighbours, the one with the least integral of
+its distance to the wire.
+
+Returns
+-------
+(k,) int32
+    Vertices, none twice; empty where the wire is, or where there is no such path.
+
+Raises
+------
+ValueError
+    Where the wire is not on the surface.
+)");
+}
+
+void bind_edge_wires(py::module_& module) {
+  py::class_<EdgeChain>(module, "EdgeChain", "A chain of edges.")
+      .def_property_readonly("vertices", array_of<EdgeChain>([](const auto& c) -> auto& { return c.vertices; }),
+                             "(p,) int32: in order, picked edges included; empty: there is none.")
+      .def_readonly("length", &EdgeChain::length, "Metric lengths plus the cost of turning; inf: there is none.")
+      .def("__repr__", [](const EdgeChain& c) {
+        return "<EdgeChain: " + std::to_string(c.vertices.size()) + " vertices, length " + number(c.length) + ">";
+      });
+
+  py::class_<EdgeWiresObject>(module, "EdgeWires", "The cheapest chains of edges from a vertex or an edge.")
+      .def(
+          "trace",
+          [](const EdgeWiresObject& object, const py::object& target) {
+            const Pick pick = pick_from(target, object.vertex_count, "target");
+            return without_gil([&] { return object.wires.trace(pick); });
+          },
+          py::arg("target"), R"(The cheapest chain to a vertex, or to an edge (a, b), both picks included.
+
+Raises
+------
+ValueError
+    Where the target is not a vertex or an edge of the surface.
+)")
+      .def("__repr__", [](const EdgeWiresObject& object) {
+        return "<EdgeWires: on " + std::to_string(object.vertex_count) + " vertices>";
+      });
+
+  module.def(
+      "edge_wires",
+      [](const SurfaceObject& surface, const MetricObject& metric, const py::object& seed, double turning, bool forward,
+         const py::object& progress) {
+        const std::size_t count = surface.surface->vertex_count();
+        const Pick pick = pick_from(seed, count, "seed");
+        check_size("metric", metric.metric.size(), *surface.surface);
+        return Watch(progress).run([&](const Task& task) {
+          return std::make_unique<EdgeWiresObject>(
+              EdgeWiresObject{count, edge_wires(metric.edge_graph(surface.surface), pick, turning, forward, task)});
+        });
+      },
+      py::arg("surface"), py::arg("metric"), py::arg("seed"), py::arg("turning") = 3.0, py::arg("forward") = false,
+      py::arg("progress") = py::none(), R"(The cheapest chains of real edges from a pick: metric length plus turning.
+
+Parameters
+----------
+surface : Surface
+metric : Metric
+    Of that surface. What the search needs of both is built at the first call and kept with the metric.
+seed : int or (int, int)
+    A vertex, or an edge by its two vertices.
+turning : float
+    q, not negative: what turning costs, in mean edge lengths.
+forward : bool
+    The seed edge has just been drawn from its first vertex to its second, so chains leave it over the second.
+progress : callable, optional
+    Called now and then with the fraction done; returning False cancels.
+
+Raises
+------
+ValueError
+    Where the seed is not a vertex or an edge of the surface, turning is wrong, or the metric is of another surface.
+Cancelled
+)");
+  module.def(
+      "edge_loop",
+      [](const SurfaceObject& surface, const MetricObject& metric, const py::object& edge, double turning) {
+        const Edge through = edge_from(edge, surface.surface->vertex_count(), "edge");
+        check_size("metric", metric.metric.size(), *surface.surface);
+        return Watch(py::none()).run([&](const Task& task) {
+          return edge_loop(*metric.edge_graph(surface.surface), through, turning, task);
+        });
+      },
+      py::arg("surface"), py::arg("metric"), py::arg("edge"), py::arg("turning") = 20.0,
+      R"(The cheapest closed chain through an edge, its first vertex not repeated; empty where there is none.
+
+Raises
+------
+ValueError
+    Where the edge is not one of the surface's, turning is wrong, or the metric is of another surface.
+)");
+}
+
+}  // namespace
+
+EmbeddingObject::Edges EmbeddingObject::list_edges(const IntrinsicMesh& mesh) {
+  Edges edges;
+  for (std::size_t h = 0; h < mesh.twins.size(); ++h) {
+    const auto half_edge = static_cast<std::int32_t>(h);
+    if (mesh.twins[h] >= 0 && mesh.twins[h] < half_edge) continue;
+    edges.vertices.push_back({mesh.tail(half_edge), mesh.tip(half_edge)});
+    edges.lengths.push_back(mesh.lengths[h]);
+  }
+  for (const LooseEdge& edge : mesh.loose_edges) {
+    edges.vertices.push_back({edge.a, edge.b});
+    edges.lengths.push_back(edge.length);
+  }
+  return edges;
+}
+
+}  // namespace seamwire::python
+
+PYBIND11_MODULE(seamwire_core, module) {
+  using namespace seamwire::python;
+  module.doc() = R"(Anisotropic geodesics and live wires on triangle meshes.
+
+After Zhuang, Zou, Carr, Ju, "Anisotropic geodesics for live-wire mesh segmentation" (2014).
+
+Lengths and curvatures are of the model scaled to the unit cube (Section 3 of the paper) unless the name says otherwise;
+points are in the caller's coordinates. Wrong input raises ValueError with the numbers of the elements; an index out of
+range too. Long functions release the GIL and take `progress`, called now and then with the fraction done; returning
+False cancels, and Cancelled is raised. Arrays that a result hands out are read-only views of its memory.)";
+  module.attr("__version__") = SEAMWIRE_VERSION;
+  pybind11::register_exception<seamwire::Cancelled>(module, "Cancelled", PyExc_RuntimeError);
+  bind_surface(module);
+  bind_metric(module);
+  bind_geodesics(module);
+  bind_edge_wires(module);
+  bind_live_wire(module);
+}

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "seamwire/curvature.hpp"
+#include "seamwire/edge_wire.hpp"
+#include "seamwire/embedding.hpp"
+#include "seamwire/geodesics.hpp"
+#include "seamwire/metric.hpp"
+#include "seamwire/surface.hpp"
+#include "seamwire/wire.hpp"
+
+/// What Python objects hold: a result of the library, and what is built from it once, when first needed.
+namespace seamwire::python {
+
+namespace py = pybind11;
+
+/// A value built once, by the first thread that asks; the others wait. Ask without the GIL.
+template <class T>
+class Lazy {
+ public:
+  template <class Make>
+  const T& get(const Make& make) const {
+    std::call_once(once_, [&] { value_ = std::make_unique<const T>(make()); });
+    return *value_;
+  }
+
+ private:
+  mutable std::once_flag once_;
+  mutable std::unique_ptr<const T> value_;
+};
+
+struct SurfaceObject {
+  explicit SurfaceObject(std::shared_ptr<const Surface> built) : surface(std::move(built)) {}
+  const SnapGraph& snap_graph() const {
+    return snap_graph_.get([this] { return SnapGraph(*surface); });
+  }
+
+  std::shared_ptr<const Surface> surface;
+
+ private:
+  Lazy<SnapGraph> snap_graph_;
+};
+
+struct ReportObject {
+  std::shared_ptr<const Surface> surface;
+};
+
+struct CurvatureObject {
+  Curvature curvature;
+  std::vector<double> difference;
+};
+
+struct MetricObject {
+  explicit MetricObject(Metric computed) : metric(std::move(computed)) {}
+  /// The graph of a surface in this metric. That of the last surface is kept; ask without the GIL.
+  std::shared_ptr<const EdgeGraph> edge_graph(const std::shared_ptr<const Surface>& surface) const {
+    const std::scoped_lock lock(mutex_);
+    if (!graph_ || graph_surface_.lock() != surface) {
+      graph_ = make_edge_graph(*surface, metric);
+      graph_surface_ = surface;
+    }
+    return graph_;
+  }
+
+  Metric metric;
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::weak_ptr<const Surface> graph_surface_;
+  mutable std::shared_ptr<const EdgeGraph> graph_;
+};
+
+struct EmbeddingObject {
+  /// Each edge once, as its two vertices and its length.
+  struct Edges {
+    std::vector<Edge> vertices;
+    std::vector<double> lengths;
+  };
+
+  EmbeddingObject(std::shared_ptr<const Surface> of, Embedding computed)
+      : surface(std::move(of)), embedding(std::move(computed)) {}
+  const ExactGeodesics& geodesics() const {
+    return geodesics_.get([this] { return ExactGeodesics(embedding.mesh); });
+  }
+  const Edges& edges() const {
+    return edges_.get([this] { return list_edges(embedding.mesh); });
+  }
+
+  std::shared_ptr<const Surface> surface;
+  Embedding embedding;
+
+ private:
+  static Edges list_edges(const IntrinsicMesh& mesh);
+
+  Lazy<ExactGeodesics> geodesics_;
+  Lazy<Edges> edges_;
+};
+
+struct FieldObject {
+  std::shared_ptr<const EmbeddingObject> embedding;
+  DistanceField field;
+};
+
+struct EdgeWiresObject {
+  std::size_t vertex_count;
+  EdgeWires wires;
+};
+
+/// Adds LiveWire and what it answers with.
+void bind_live_wire(py::module_& module);
+
+}  // namespace seamwire::python
