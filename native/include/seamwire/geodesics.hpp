@@ -45,7 +45,7 @@ class DistanceField {
   std::shared_ptr<const GeodesicMesh> mesh_;
   std::int32_t seed_;
   std::vector<double> distances_;
-  std::vector<TraceRecord> records_;
+  std::shared_ptr<const std::vector<TraceRecord>> records_;  // of a type that is complete in geodesics.cpp only
 };
 
 /// What the work of a solve consisted of; the same for the same input on every machine.
