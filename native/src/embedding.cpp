@@ -96,6 +96,7 @@ class Refinement {
   std::int32_t number(VertexHandle v) const;
   TensorAt tensor_at(VertexHandle v) const;
   double norm(VertexHandle at, const Vector& e) const;
+  Vector vector(HalfedgeHandle h) const;
   double length(HalfedgeHandle h) const { return lengths_[index(mesh_.edge_handle(h))]; }
   double measure(HalfedgeHandle h) const;
   std::array<HalfedgeHandle, 3> sides(FaceHandle f) const;
@@ -132,10 +133,6 @@ Refinement::Refinement(const Surface& surface, const Metric& metric, const Embed
   for (const std::int32_t v : surface.vertex_of_fan()) {
     weights_.push_back(normal_weight(metric.tensors[static_cast<std::size_t>(v)]));
   }
-  for (std::size_t v = 0; v < fans_; ++v) {
-    mesh_.point(VertexHandle(static_cast<int>(v))) =
-        surface.points()[static_cast<std::size_t>(surface.vertex_of_fan()[v])];
-  }
   lengths_.reserve(mesh_.n_edges());
   for (const EdgeHandle e : mesh_.edges()) lengths_.push_back(measure(mesh_.halfedge_handle(e, 0)));
 }
@@ -159,10 +156,15 @@ double Refinement::norm(VertexHandle at, const Vector& e) const {
   return std::sqrt(std::max(0.0, e.dot(m * e) + weights_[index(at)] * out * out));
 }
 
+// A half-edge in the unit cube.
+Vector Refinement::vector(HalfedgeHandle h) const {
+  return (mesh_.point(mesh_.to_vertex_handle(h)) - mesh_.point(mesh_.from_vertex_handle(h))) * surface_.scale();
+}
+
 // Length of an edge in the metric, from both of its ends.
 double Refinement::measure(HalfedgeHandle h) const {
   const VertexHandle a = mesh_.from_vertex_handle(h), b = mesh_.to_vertex_handle(h);
-  const Vector e = (mesh_.point(b) - mesh_.point(a)) * surface_.scale();
+  const Vector e = vector(h);
   return integrated_length(norm(a, e), norm(b, e));
 }
 
@@ -180,14 +182,14 @@ bool Refinement::is_valid(FaceHandle f) const {
 
 bool Refinement::is_flat(FaceHandle f) const {
   const auto [h0, h1, h2] = sides(f);
-  const Vector a = mesh_.calc_edge_vector(h0), b = mesh_.calc_edge_vector(h1), c = mesh_.calc_edge_vector(h2);
+  const Vector a = vector(h0), b = vector(h1), c = vector(h2);
   return !(a.cross(b).norm() > kFlat * std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm()}));
 }
 
 double Refinement::perimeter(FaceHandle f) const {
   const auto [h0, h1, h2] = sides(f);
   if (options_.perimeter == Perimeter::kMetric) return length(h0) + length(h1) + length(h2);
-  return (mesh_.calc_edge_length(h0) + mesh_.calc_edge_length(h1) + mesh_.calc_edge_length(h2)) * surface_.scale();
+  return vector(h0).norm() + vector(h1).norm() + vector(h2).norm();
 }
 
 HalfedgeHandle Refinement::longest(FaceHandle f) const {

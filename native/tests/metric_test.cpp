@@ -2,3 +2,250 @@
 #include "seamwire/metric.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+#include <string>
+
+#include "shapes.hpp"
+
+namespace seamwire {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+// A square in z = 0 whose vertices have the given curvatures, the larger along x.
+struct Patch {
+  Surface surface = shapes::grid(4).surface();
+  Curvature curvature;
+
+  explicit Patch(const std::function<std::pair<double, double>(std::size_t)>& k) {
+    for (std::size_t v = 0; v < surface.vertex_count(); ++v) {
+      const auto [k1, k2] = k(v);
+      curvature.k1.push_back(k1);
+      curvature.k2.push_back(k2);
+      curvature.d1.push_back(Vector::UnitX());
+      curvature.d2.push_back(Vector::UnitY());
+      curvature.normals.push_back(Vector::UnitZ());
+    }
+  }
+};
+
+// s = 1, 2, ... 25.
+Patch rising() {
+  return Patch([](std::size_t v) { return std::pair(3.0 + static_cast<double>(v), -2.0); });
+}
+
+TensorAt at(const Metric& metric, std::size_t v) { return {metric.normals[v], metric.tensors[v]}; }
+
+void expect_isotropic(const Metric& metric) {
+  for (std::size_t v = 0; v < metric.size(); ++v) {
+    for (const Vector& e : {Vector(1, 0, 0), Vector(.3, -.4, 0), Vector(.2, .5, .7)}) {
+      EXPECT_NEAR(ambient_norm(at(metric, v), e), e.norm(), 1e-15);
+    }
+  }
+  EXPECT_EQ(max_anisotropy(metric), 1);
+}
+
+std::string message(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "nothing thrown";
+}
+
+TEST(FeatureMetric, HasTheEigenvaluesOfEquation5AndFollowsTheDirectionAskedFor) {
+  const Patch patch = rising();
+  const double gamma = 0.1;
+  const Metric min = feature_metric(patch.surface, patch.curvature, Follow::kMin, {.parameter = gamma});
+  const Metric max = feature_metric(patch.surface, patch.curvature, Follow::kMax, {.parameter = gamma});
+  for (std::size_t v = 0; v < min.size(); ++v) {
+    const double l1 = 1 + gamma * (1 + static_cast<double>(v));
+    // Along ridges, the direction of minimal curvature (y), the way is short under M_min, and long across.
+    EXPECT_NEAR(ambient_norm(at(min, v), Vector::UnitX()), std::sqrt(l1), 1e-14);
+    EXPECT_NEAR(ambient_norm(at(min, v), Vector::UnitY()), std::sqrt(1 / l1), 1e-14);
+    EXPECT_NEAR(ambient_norm(at(max, v), Vector::UnitX()), std::sqrt(1 / l1), 1e-14);
+    EXPECT_NEAR(ambient_norm(at(max, v), Vector::UnitY()), std::sqrt(l1), 1e-14);
+    EXPECT_NEAR(anisotropy(at(min, v)), l1, 1e-13);
+  }
+  EXPECT_NEAR(max_anisotropy(min), 1 + gamma * 25, 1e-13);
+}
+
+TEST(FeatureMetric, IsEuclideanAtGammaZero) {
+  const Patch patch = rising();
+  expect_isotropic(feature_metric(patch.surface, patch.curvature, Follow::kMin, {.parameter = 0}));
+  expect_isotropic(feature_metric(patch.surface, patch.curvature, Follow::kMax, {.max_anisotropy = 1}));
+}
+
+TEST(FeatureMetric, IsEuclideanWhereThereIsNoFeatureToScaleBy) {
+  const Patch plane([](std::size_t) { return std::pair(0.0, 0.0); });
+  // A sphere whose curvatures differ by rounding.
+  const Patch sphere([](std::size_t v) { return std::pair(2 + 1e-12 * static_cast<double>(v), 2.0); });
+  expect_isotropic(feature_metric(plane.surface, plane.curvature, Follow::kMin, {.max_anisotropy = 30}));
+  expect_isotropic(feature_metric(sphere.surface, sphere.curvature, Follow::kMin, {.max_anisotropy = 30}));
+  expect_isotropic(pottmann_kovacs_metric(plane.surface, plane.curvature, Follow::kMin, {.max_anisotropy = 30}));
+}
+
+TEST(FeatureMetric, ClampsSingleStrongVerticesAtAPercentile) {
+  const Patch patch([](std::size_t v) { return std::pair(v == 7 ? 7219.0 : static_cast<double>(v), 0.0); });
+  // s is 0..24 but for one; its 25 values have their 75th percentile at the 19th of them: 0..6, 8..19.
+  const Strength strength{.parameter = 1, .max_anisotropy = std::nullopt, .clamp_percentile = 75};
+  const Metric metric = feature_metric(patch.surface, patch.curvature, Follow::kMin, strength);
+  EXPECT_NEAR(anisotropy(at(metric, 7)), 1 + 19, 1e-12);
+  EXPECT_NEAR(anisotropy(at(metric, 24)), 1 + 19, 1e-12);
+  EXPECT_NEAR(anisotropy(at(metric, 18)), 1 + 18, 1e-12);
+  // Between two values it is interpolated: position 24 * .76 = 18.24.
+  const Strength between{.parameter = 1, .max_anisotropy = std::nullopt, .clamp_percentile = 76};
+  EXPECT_NEAR(max_anisotropy(feature_metric(patch.surface, patch.curvature, Follow::kMin, between)), 1 + 19.24, 1e-12);
+  const Strength all{.parameter = 1, .max_anisotropy = std::nullopt, .clamp_percentile = 100};
+  EXPECT_NEAR(max_anisotropy(feature_metric(patch.surface, patch.curvature, Follow::kMin, all)), 7220, 1e-8);
+}
+
+TEST(Metrics, ReachTheMaximumAnisotropyAskedForAndNoMore) {
+  const Patch patch = rising();
+  for (const double a : {1.5, 10.0, 100.0}) {
+    for (const Follow follow : {Follow::kMin, Follow::kMax}) {
+      const Strength strength{.max_anisotropy = a};
+      // lambda2 is computed to rounding relative to lambda1 = A^2 lambda2, at most.
+      EXPECT_NEAR(max_anisotropy(feature_metric(patch.surface, patch.curvature, follow, strength)), a, 1e-11 * a);
+      EXPECT_NEAR(max_anisotropy(campen_metric(patch.surface, patch.curvature, follow, strength)), a, 1e-11 * a);
+    }
+  }
+  // Pottmann-Kovacs cannot exceed |k1 / k2| = 27 / 2 here.
+  for (const double a : {1.0, 1.5, 10.0}) {
+    const Metric metric = pottmann_kovacs_metric(patch.surface, patch.curvature, Follow::kMin, {.max_anisotropy = a});
+    EXPECT_NEAR(max_anisotropy(metric), a, 1e-11 * a);
+  }
+  const Metric metric = pottmann_kovacs_metric(patch.surface, patch.curvature, Follow::kMin, {.max_anisotropy = 100});
+  EXPECT_NEAR(max_anisotropy(metric), 27 / 2.0, 1e-8);  // beta is 1e-12 of the largest k1^2, not 0
+}
+
+TEST(CampenMetric, HasTheEigenvaluesOfEquation3Everywhere) {
+  const Patch patch([](std::size_t v) { return std::pair(v % 2 == 0 ? 5.0 : 0.0, 0.0); });
+  const Metric metric = campen_metric(patch.surface, patch.curvature, Follow::kMin, {.parameter = 400});
+  for (std::size_t v = 0; v < metric.size(); ++v) {
+    EXPECT_NEAR(ambient_norm(at(metric, v), Vector::UnitX()), 20, 1e-13);
+    EXPECT_NEAR(ambient_norm(at(metric, v), Vector::UnitY()), 1, 1e-13);
+    EXPECT_NEAR(ambient_norm(at(metric, v), Vector::UnitZ()), std::sqrt(20), 1e-13);
+  }
+}
+
+TEST(PottmannKovacsMetric, HasTheEigenvaluesOfEquation4) {
+  const Patch patch = rising();
+  const Metric metric = pottmann_kovacs_metric(patch.surface, patch.curvature, Follow::kMax, {.parameter = 0.5});
+  for (std::size_t v = 0; v < metric.size(); ++v) {
+    const double k1 = 3.0 + static_cast<double>(v);
+    EXPECT_NEAR(ambient_norm(at(metric, v), Vector::UnitY()), std::sqrt(k1 * k1 + 0.5), 1e-13);
+    EXPECT_NEAR(ambient_norm(at(metric, v), Vector::UnitX()), std::sqrt(4 + 0.5), 1e-13);
+  }
+}
+
+TEST(PottmannKovacsMetric, VanishesNowhere) {
+  // Flat on one side: with beta = 0 lengths there would be zero.
+  const Patch patch([](std::size_t v) { return v < 10 ? std::pair(0.0, 0.0) : std::pair(4.0, 4.0); });
+  for (const Strength& strength : {Strength{.parameter = 0}, Strength{.max_anisotropy = 5}}) {
+    const Metric metric = pottmann_kovacs_metric(patch.surface, patch.curvature, Follow::kMin, strength);
+    for (std::size_t v = 0; v < metric.size(); ++v) EXPECT_GT(ambient_norm(at(metric, v), Vector(1, 1, 0)), 0);
+    EXPECT_NEAR(max_anisotropy(metric), 1, 1e-12);
+  }
+}
+
+TEST(Metrics, AreEuclideanAtVerticesWithoutANormal) {
+  Patch patch = rising();
+  patch.curvature.normals[24] = patch.curvature.d1[24] = patch.curvature.d2[24] = Vector::Zero();
+  for (const Metric& metric : {feature_metric(patch.surface, patch.curvature, Follow::kMin, {.parameter = 1}),
+                               campen_metric(patch.surface, patch.curvature, Follow::kMin, {.parameter = 9}),
+                               euclidean_metric(patch.surface, patch.curvature)}) {
+    EXPECT_DOUBLE_EQ(ambient_norm(at(metric, 24), Vector(1, 2, 3)), Vector(1, 2, 3).norm());
+  }
+  // Nor do such vertices decide how strong it is elsewhere: the largest s is that of vertex 23.
+  const Metric metric = feature_metric(patch.surface, patch.curvature, Follow::kMin, {.max_anisotropy = 9});
+  EXPECT_NEAR(anisotropy(at(metric, 23)), 9, 1e-12);
+}
+
+TEST(EuclideanMetric, GivesEveryVectorItsLength) {
+  const Patch patch = rising();
+  expect_isotropic(euclidean_metric(patch.surface, patch.curvature));
+}
+
+TEST(Metrics, RefuseWhatMakesNoSense) {
+  const Patch patch = rising();
+  const auto feature = [&](const Strength& strength) {
+    return message([&] { feature_metric(patch.surface, patch.curvature, Follow::kMin, strength); });
+  };
+  EXPECT_NE(feature({}).find("either"), std::string::npos);
+  EXPECT_NE(feature({.parameter = 1, .max_anisotropy = 2}).find("either"), std::string::npos);
+  for (const double bad : {-1.0, kInfinity, kNan}) {
+    EXPECT_NE(feature({.parameter = bad}).find("parameter"), std::string::npos) << bad;
+    EXPECT_NE(feature({.max_anisotropy = bad}).find("anisotropy"), std::string::npos) << bad;
+  }
+  EXPECT_NE(feature({.max_anisotropy = 0.9}).find("anisotropy"), std::string::npos);
+  for (const double bad : {0.0, -1.0, 100.1, kNan}) {
+    const Strength strength{.parameter = 1, .max_anisotropy = std::nullopt, .clamp_percentile = bad};
+    EXPECT_NE(feature(strength).find("percentile"), std::string::npos) << bad;
+  }
+  // A finite gamma can still be too much for numbers.
+  EXPECT_NE(feature({.parameter = 1e308}).find("vertex"), std::string::npos);
+  EXPECT_THROW(campen_metric(patch.surface, patch.curvature, Follow::kMin, {.parameter = 0.5}), InvalidInput);
+  EXPECT_THROW(pottmann_kovacs_metric(patch.surface, patch.curvature, Follow::kMin, {.parameter = -0.5}), InvalidInput);
+}
+
+TEST(Metrics, NameTheVertexWhoseCurvatureIsNotFinite) {
+  Patch patch = rising();
+  patch.curvature.k2[11] = kNan;
+  const std::string said =
+      message([&] { feature_metric(patch.surface, patch.curvature, Follow::kMin, {.parameter = 1}); });
+  EXPECT_NE(said.find("vertex 11 "), std::string::npos) << said;
+  patch.curvature.k2.pop_back();
+  EXPECT_THROW(euclidean_metric(patch.surface, patch.curvature), InvalidInput);
+}
+
+TEST(AmbientNorm, IsAQuadraticFormOnSpaceThatGivesTheNormalTheGeometricMean) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int trial = 0; trial < 100; ++trial) {
+    const auto vector = [&] { return Vector(uniform(random), uniform(random), uniform(random)); };
+    const Vector n = vector().normalized(), e1 = n.cross(vector()).normalized(), e2 = n.cross(e1);
+    const double l1 = 1 + 50 * std::abs(uniform(random)), l2 = 1 / (1 + 20 * std::abs(uniform(random)));
+    const TensorAt tensor{n, l1 * e1 * e1.transpose() + l2 * e2 * e2.transpose()};
+    const Vector e = vector();
+    const double expected =
+        l1 * std::pow(e.dot(e1), 2) + l2 * std::pow(e.dot(e2), 2) + std::sqrt(l1 * l2) * std::pow(e.dot(n), 2);
+    EXPECT_NEAR(std::pow(ambient_norm(tensor, e), 2), expected, 1e-12 * expected);
+    EXPECT_DOUBLE_EQ(ambient_norm(tensor, e), ambient_norm(tensor, -e));
+    EXPECT_NEAR(anisotropy(tensor), std::sqrt(l1 / l2), 1e-11 * std::sqrt(l1 / l2));
+  }
+}
+
+TEST(IntegratedLength, IsTheIntegralOfANormWhoseSquareIsLinear) {
+  for (const auto& [a, b] : {std::pair(1.0, 1.0), {0.2, 3.0}, {5.0, 0.0}, {1e-3, 1e3}}) {
+    const int n = 20000;
+    double sum = 0;
+    for (int i = 0; i < n; ++i) sum += std::sqrt(a * a + (b * b - a * a) * (i + 0.5) / n) / n;
+    // The midpoint rule is off by about n^-1.5 where the norm starts at zero.
+    EXPECT_NEAR(integrated_length(a, b), sum, 1e-6 * sum);
+    EXPECT_EQ(integrated_length(a, b), integrated_length(b, a));
+  }
+  EXPECT_EQ(integrated_length(0, 0), 0);
+  EXPECT_DOUBLE_EQ(integrated_length(0.7, 0.7), 0.7);
+}
+
+TEST(EdgeLength, IsOfTheModelInTheUnitCubeAndTheSameBothWays) {
+  shapes::Mesh mesh = shapes::grid(4);
+  for (Vector& p : mesh.points) p *= 8;
+  const Surface surface = mesh.surface();
+  const Patch patch = rising();
+  const Metric metric = feature_metric(surface, patch.curvature, Follow::kMin, {.parameter = 1});
+  // Vertices 0 and 1 are a quarter of the square apart, across the direction to follow; l1 there is 2 and 3.
+  EXPECT_NEAR(edge_length(surface, metric, 0, 1), integrated_length(std::sqrt(2.0), std::sqrt(3.0)) / 4, 1e-15);
+  EXPECT_EQ(edge_length(surface, metric, 0, 6), edge_length(surface, metric, 6, 0));
+}
+
+}  // namespace
+}  // namespace seamwire
