@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A hand and an eye for tests in Blender's real window: simulated events, waits, and the pixels of the viewport.
+"""A hand and an eye for tests in Blender's real window: events, waits, and the pixels of the viewport.
 
-Blender must have been started with ``--enable-event-simulate`` by ``run.py``.
+``Ui`` sends Blender's own simulated events, which need ``--enable-event-simulate``. ``RealUi`` moves the X display's pointer and presses
+its keys with xdotool: slower, but it is all that a person's hand is, double clicks and the motion in between included.
 """
 
+import subprocess
 import sys
+import time
 import traceback
 from collections.abc import Callable
 from contextlib import AbstractContextManager
@@ -189,3 +192,57 @@ class Ui:
         finally:
             bpy.types.SpaceView3D.draw_handler_remove(handle, "WINDOW")
         return taken[-1]
+
+
+class RealUi(Ui):
+    """The same hand, on the real pointer and keyboard of the display."""
+
+    BUTTONS = {"LEFTMOUSE": "1", "MIDDLEMOUSE": "2", "RIGHTMOUSE": "3", "WHEELUPMOUSE": "4", "WHEELDOWNMOUSE": "5"}
+    KEYS = {"RET": "Return", "ESC": "Escape", "TAB": "Tab", "SPACE": "space", "LEFT_ALT": "alt", "LEFT_CTRL": "ctrl"}
+
+    def event(
+        self,
+        kind: str,
+        value: str,
+        at: tuple[float, float] | None = None,
+        *,
+        shift: bool = False,
+        ctrl: bool = False,
+        alt: bool = False,
+        text: str | None = None,
+        ticks: int = 4,
+    ) -> None:
+        """Do what the event tells of; ``text`` is what the keyboard makes of the key."""
+        commands: list[str] = []
+        if at is not None:
+            commands += ["mousemove", *self._on_display(at)]
+        held = [name for name, is_held in (("shift", shift), ("ctrl", ctrl), ("alt", alt)) if is_held]
+        for name in held:
+            commands += ["keydown", name]
+        if kind.startswith("WHEEL"):
+            commands += ["click", self.BUTTONS[kind]]
+        elif kind in self.BUTTONS:
+            commands += ["mousedown" if value == "PRESS" else "mouseup", self.BUTTONS[kind]]
+        elif kind != "MOUSEMOVE":
+            commands += ["keydown" if value == "PRESS" else "keyup", self.KEYS.get(kind, kind.lower())]
+        for name in held:
+            commands += ["keyup", name]
+        self._do(commands, ticks)
+
+    def double_click(self, at: tuple[float, float], button: str = "LEFTMOUSE") -> None:
+        """Click twice within the time that Blender takes for a double click."""
+        self._do(["mousemove", *self._on_display(at)], ticks=4)
+        self._do(["click", "--repeat", "2", "--delay", "40", self.BUTTONS[button]], ticks=6)
+
+    def _on_display(self, at: tuple[float, float]) -> tuple[str, str]:
+        # X counts rows from the top of the display, Blender from its bottom; without a window manager the window has no frame.
+        geometry = subprocess.run(["xdotool", "getdisplaygeometry"], check=True, capture_output=True, text=True)
+        height = int(geometry.stdout.split()[1])
+        x = self.window.x + self.region.x + round(at[0])
+        y = height - 1 - (self.window.y + self.region.y + round(at[1]))
+        return str(x), str(y)
+
+    def _do(self, commands: list[str], ticks: int) -> None:
+        subprocess.run(["xdotool", *commands], check=True)
+        time.sleep(0.05)  # the X server hands the events on in its own time
+        self.wait(ticks)

@@ -7,12 +7,22 @@ import pytest
 import ui as driver
 
 
-@pytest.fixture
-def ui() -> Iterator[driver.Ui]:
-    """Blender's window; after the test, nothing that the add-on's operators, panels or drawing raised may be left."""
+def watched(hand: driver.Ui) -> Iterator[driver.Ui]:
+    """Hand it out; after the test, nothing that the add-on's operators, panels or drawing raised may be left."""
     driver.take_errors()
-    hand = driver.Ui()
     yield hand
     hand.wait()
     errors = driver.take_errors()
     assert not errors, "\n".join(errors)
+
+
+@pytest.fixture
+def ui() -> Iterator[driver.Ui]:
+    """Blender's window, driven by simulated events."""
+    yield from watched(driver.Ui())
+
+
+@pytest.fixture
+def real_ui() -> Iterator[driver.RealUi]:
+    """Blender's window, driven by the display's pointer and keyboard: only in files named ``test_real_*.py``."""
+    yield from watched(driver.RealUi())
