@@ -77,10 +77,18 @@ class Seed:
     forward
         The wire before this one ended on the edge `pick`, running from its first vertex to its second: the next wire
         goes on from there.
+    clicked
+        What was clicked, where that is not `pick`.
     """
 
     pick: Pick
     forward: bool = False
+    clicked: Pick | None = None
+
+    @property
+    def place(self) -> Pick:
+        """Where the seed is shown."""
+        return self.pick if self.clicked is None else self.clicked
 
     @property
     def vertex(self) -> int:
@@ -251,8 +259,9 @@ class Session:
     def seeds(self) -> list[Pick]:
         """Return every seed of the network, each once, in the order they were placed."""
         ends = [pick for wire in self.wires if not wire.closed for pick in (wire.start, wire.end)]
-        if self.seed is not None and not (ends and self._state.seed and self._state.seed.forward):
-            ends.append(self.seed)
+        seed = self._state.seed
+        if seed is not None:
+            ends.append(seed.vertex if self.along == "SURFACE" else seed.place)
         return list({_undirected(pick): None for pick in ends})
 
     def edges(self) -> list[tuple[int, int]]:
@@ -510,7 +519,7 @@ class Session:
             return self._refuse(self.message or f"No wire reaches {_name(pick)}")
         seed = Seed(pick)
         if self.along == "EDGES":
-            seed = Seed((wire.vertices[-2], wire.vertices[-1]), forward=True)
+            seed = Seed((wire.vertices[-2], wire.vertices[-1]), forward=True, clicked=pick)
         if not self._change(_State((*self.wires, wire), seed)):
             return False
         self._last_click = (pick, len(self._undo))
@@ -563,7 +572,7 @@ class Session:
             vertices = vertices[1:]  # the edge before the seed belongs to the wire before
         if len(vertices) < 2:
             return None
-        return Wire("EDGES", vertices, self._points[list(vertices)], seed.pick, target)
+        return Wire("EDGES", vertices, self._points[list(vertices)], seed.place, target)
 
     def _find_loop(self, edge: Pick) -> Wire | None:
         if not isinstance(edge, tuple):

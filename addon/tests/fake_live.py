@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A live wire small enough to see through: a grid, walked by breadth-first search, computed when the test says so."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass
+class FakeCandidate:
+    """A candidate as the library hands it out."""
+
+    points: NDArray[np.float64]
+    vertices: NDArray[np.int32]
+    length: float
+    final: bool
+
+
+@dataclass
+class FakeWires:
+    """Both candidates."""
+
+    wires: tuple[FakeCandidate, FakeCandidate]
+    shorter: int
+    final: bool
+
+
+@dataclass
+class FakeChain:
+    """A chain of edges."""
+
+    vertices: NDArray[np.int32]
+
+
+def grid_points(size: int) -> NDArray[np.float64]:
+    """Return size x size points; vertex y * size + x lies at (x, y, 0)."""
+    return np.array([[x, y, 0.0] for y in range(size) for x in range(size)], dtype=np.float64)
+
+
+@dataclass
+class FakeLive:
+    """Wires on a grid: candidate 0 goes along x first, candidate 1 along y first.
+
+    The first is shorter, unless `shorter` says otherwise. Vertices in `islands` are reached by no wire.
+    """
+
+    size: int
+    along: str = "EDGES"
+    ready: tuple[bool, bool] = (True, True)
+    shorter: int = 0
+    islands: tuple[int, ...] = ()
+    seeded: tuple[object, bool] | None = None
+    seeds: list[tuple[object, bool]] = field(default_factory=list)
+
+    def seed(self, pick: object, forward: bool = False) -> None:
+        for vertex in pick if isinstance(pick, tuple) else (pick,):
+            if not 0 <= vertex < self.size**2:
+                raise ValueError(f"vertex {vertex} is not part of the surface")
+        self.seeded = (pick, forward)
+        self.seeds.append(self.seeded)
+
+    def _walk(self, start: int, end: int, x_first: bool) -> list[int]:
+        x, y = start % self.size, start // self.size
+        to_x, to_y = end % self.size, end // self.size
+        path = [start]
+        for axis in ("xy", "yx")[not x_first]:
+            while (x != to_x) if axis == "x" else (y != to_y):
+                if axis == "x":
+                    x += 1 if to_x > x else -1
+                else:
+                    y += 1 if to_y > y else -1
+                path.append(y * self.size + x)
+        return path
+
+    def wires(self, target: object) -> FakeWires:
+        pick, _ = self.seeded
+        head = list(pick) if isinstance(pick, tuple) else [pick]
+        tail = list(target) if isinstance(target, tuple) else [target]
+        candidates = []
+        for index in (0, 1):
+            path = head[:-1] + self._walk(head[-1], tail[0], x_first=index == 0) + tail[1:]
+            if not self.ready[index] or set(tail) & set(self.islands):
+                path = []
+            points = grid_points(self.size)[path] if path else np.empty((0, 3))
+            length = float(len(path)) if path else float("inf")
+            candidates.append(FakeCandidate(points, np.array(path, dtype=np.int32), length, self.ready[index]))
+        return FakeWires((candidates[0], candidates[1]), self.shorter, all(self.ready))
+
+    def loop(self, edge: tuple[int, int]) -> FakeChain:
+        a, b = edge
+        if not all(self.ready) or abs(a - b) != 1:
+            return FakeChain(np.empty(0, dtype=np.int32))
+        turn = self.size if max(a, b) + self.size < self.size**2 else -self.size
+        return FakeChain(np.array([a, b, b + turn, a + turn], dtype=np.int32))
+
+    def progress(self) -> float:
+        return sum(self.ready) / 2.0
+
+    def wait(self, seconds: float | None = None) -> bool:
+        self.ready = (True, True)
+        return True
