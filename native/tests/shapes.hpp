@@ -111,4 +111,24 @@ inline Mesh torus(int nu, int nv, double large = 0.35, double small = 0.15) {
   });
 }
 
+/// A band of n squares of two triangles each whose end is glued to its start after half a turn, at the edge (0, 1), the
+/// only one where its faces do not agree on a side.
+inline Mesh moebius(int n) {
+  Mesh mesh;
+  for (int i = 0; i < n; ++i) {
+    const double a = 2 * std::numbers::pi * i / n;
+    for (const double w : {-0.1, 0.1}) {
+      const double ring = 0.5 + w * std::cos(a / 2);
+      mesh.points.emplace_back(ring * std::cos(a), ring * std::sin(a), w * std::sin(a / 2));
+    }
+  }
+  for (int i = 0; i < n; ++i) {
+    const bool last = i == n - 1;
+    const int a = 2 * i, b = a + 1, c = last ? 1 : a + 2, d = last ? 0 : a + 3;
+    mesh.triangles.push_back({a, c, b});
+    mesh.triangles.push_back({c, d, b});
+  }
+  return mesh;
+}
+
 }  // namespace seamwire::shapes

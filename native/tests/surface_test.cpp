@@ -7,7 +7,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <random>
 #include <set>
 #include <string>
@@ -117,28 +116,6 @@ Mesh tetrahedron() {
           .triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
 }
 
-// A band of n squares whose end is glued to its start after half a turn. All agree but at the glued edge (0, 1).
-Mesh moebius(int n) {
-  Mesh mesh;
-  for (int i = 0; i < n; ++i) {
-    const double a = 2 * std::numbers::pi * i / n;
-    for (const double w : {-0.1, 0.1}) {
-      const double r = 0.5 + w * std::cos(a / 2);
-      mesh.points.emplace_back(r * std::cos(a), r * std::sin(a), w * std::sin(a / 2));
-    }
-  }
-  for (int i = 0; i < n; ++i) {
-    const bool last = i == n - 1;
-    const int a = 2 * i;
-    const int b = a + 1;
-    const int c = last ? 1 : a + 2;
-    const int d = last ? 0 : a + 3;
-    mesh.triangles.push_back({a, c, b});
-    mesh.triangles.push_back({c, d, b});
-  }
-  return mesh;
-}
-
 TEST(Surface, KeepsNumbersAndFindsNothingOddOnCleanMeshes) {
   for (const Mesh& mesh : {shapes::grid(7, 0.3), shapes::icosphere(2), shapes::cylinder(9, 4), shapes::torus(12, 8)}) {
     const Surface surface = mesh.surface();
@@ -240,7 +217,7 @@ TEST(Surface, OrientsEachComponentByItself) {
 }
 
 TEST(Surface, CutsAMoebiusStripWhereItsOrientationBreaks) {
-  const Surface surface = moebius(12).surface();
+  const Surface surface = shapes::moebius(12).surface();
   expect_sound(surface);
   EXPECT_EQ(surface.report().unorientable_edges, (Edges{{0, 1}}));
   EXPECT_TRUE(surface.report().flipped_faces.empty());
@@ -253,7 +230,7 @@ TEST(Surface, CutsAMoebiusStripWhereItsOrientationBreaks) {
 TEST(Surface, CutsAOneSidedSurfaceOfAnyOrientation) {
   std::mt19937 random(3);
   for (int trial = 0; trial < 20; ++trial) {
-    Mesh mesh = moebius(9);
+    Mesh mesh = shapes::moebius(9);
     for (Triangle& t : mesh.triangles) {
       if (random() % 2 == 0) std::swap(t[1], t[2]);
     }
