@@ -33,23 +33,6 @@ void check_sizes(const Surface& surface, const Curvature& curvature) {
   }
 }
 
-void check_strength(const Strength& strength, double smallest_parameter) {
-  if (strength.parameter.has_value() == strength.max_anisotropy.has_value()) {
-    throw InvalidInput("a metric needs either its parameter or a maximum anisotropy");
-  }
-  if (strength.parameter && !(std::isfinite(*strength.parameter) && *strength.parameter >= smallest_parameter)) {
-    throw InvalidInput("parameter of the metric is " + number(*strength.parameter) +
-                       ", not a finite number of at least " + number(smallest_parameter));
-  }
-  if (strength.max_anisotropy && !(std::isfinite(*strength.max_anisotropy) && *strength.max_anisotropy >= 1)) {
-    throw InvalidInput("maximum anisotropy is " + number(*strength.max_anisotropy) +
-                       ", not a finite number of at least 1");
-  }
-  if (strength.clamp_percentile && !(*strength.clamp_percentile > 0 && *strength.clamp_percentile <= 100)) {
-    throw InvalidInput("percentile to clamp at is " + number(*strength.clamp_percentile) + ", not in (0, 100]");
-  }
-}
-
 bool has_normal(const Curvature& curvature, std::size_t v) { return curvature.normals[v].squaredNorm() > 0; }
 
 // The percentile of values, interpolated linearly between the two nearest.
@@ -130,6 +113,23 @@ PlaneTensor in_plane(const TensorAt& at) {
 }
 
 }  // namespace
+
+void check_strength(const Strength& strength, double smallest_parameter) {
+  if (strength.parameter.has_value() == strength.max_anisotropy.has_value()) {
+    throw InvalidInput("a metric needs either its parameter or a maximum anisotropy");
+  }
+  if (strength.parameter && !(std::isfinite(*strength.parameter) && *strength.parameter >= smallest_parameter)) {
+    throw InvalidInput("parameter of the metric is " + number(*strength.parameter) +
+                       ", not a finite number of at least " + number(smallest_parameter));
+  }
+  if (strength.max_anisotropy && !(std::isfinite(*strength.max_anisotropy) && *strength.max_anisotropy >= 1)) {
+    throw InvalidInput("maximum anisotropy is " + number(*strength.max_anisotropy) +
+                       ", not a finite number of at least 1");
+  }
+  if (strength.clamp_percentile && !(*strength.clamp_percentile > 0 && *strength.clamp_percentile <= 100)) {
+    throw InvalidInput("percentile to clamp at is " + number(*strength.clamp_percentile) + ", not in (0, 100]");
+  }
+}
 
 Metric feature_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Strength& strength) {
   check_sizes(surface, curvature);

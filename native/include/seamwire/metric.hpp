@@ -33,6 +33,9 @@ struct Strength {
   std::optional<double> clamp_percentile = std::nullopt;
 };
 
+/// Throws InvalidInput where a strength is not as said there; `smallest_parameter`: 1 for Campen.
+void check_strength(const Strength& strength, double smallest_parameter = 0.0);
+
 /// Eq. 5, the paper's metric: l1 = 1 + gamma s, l2 = 1 / l1. Parameter: gamma; max_anisotropy A means gamma =
 /// (A - 1) / max s, or 0 where max s is but rounding (planes, spheres).
 Metric feature_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Strength& strength);
