@@ -60,12 +60,12 @@ def _only_active(context: bpy.types.Context) -> str:
     return f"Only '{context.active_object.name}' is drawn on, not the {_count(others, 'other object')} in edit mode"
 
 
-class MESH_OT_seamwire_mark(bpy.types.Operator):  # noqa: N801 - Blender's naming
+class MESH_OT_seamwire_mark(bpy.types.Operator):
     """Mark the seams of wires between given vertices or edges"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_mark"
     bl_label = "Mark Seamwires"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012
+    bl_options = {"REGISTER", "UNDO"}
 
     chains: bpy.props.StringProperty(
         name="Chains",
@@ -287,11 +287,8 @@ class Drawing:
         if shown == self._shown:
             return
         self._shown = shown
-        self._workspace.status_text_set(self._draw_status)
+        self._workspace.status_text_set(ui.status_drawer(drawing, self.notes))
         self._redraw()
-
-    def _draw_status(self, header: bpy.types.Header, _context: bpy.types.Context) -> None:
-        ui.draw_status(header.layout, self.session, self.notes)
 
     def _redraw(self) -> None:
         for window in self._manager.windows:
@@ -336,12 +333,12 @@ def _region_3d(area: bpy.types.Area, region: bpy.types.Region) -> bpy.types.Regi
     return quads[windows.index(region)]
 
 
-class MESH_OT_seamwire_draw(bpy.types.Operator):  # noqa: N801 - Blender's naming
+class MESH_OT_seamwire_draw(bpy.types.Operator):
     """Draw seams with live wires that follow the shape of the mesh"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_draw"
     bl_label = "Draw Seamwires"
-    bl_options = {"UNDO"}  # noqa: RUF012
+    bl_options = {"UNDO"}
 
     along: bpy.props.EnumProperty(
         name="Along", description="Where wires run at first", items=_ALONG_ITEMS, default="EDGES"

@@ -10,6 +10,8 @@ import bpy
 from . import keymap
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from .session import Session
 
 MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "VIEW3D_MT_edit_mesh_context_menu")
@@ -54,11 +56,18 @@ def hints(session: Session, notes: tuple[str, ...] = ()) -> list[Hint]:
     return found + [("INFO", note) for note in notes]
 
 
-def draw_status(layout: bpy.types.UILayout, session: Session, notes: tuple[str, ...]) -> None:
-    """Draw the hints in the status bar."""
-    row = layout.row(align=False)
-    for icon, text in hints(session, notes):
-        row.label(text=text, icon=icon)
+def status_drawer(session: Session, notes: tuple[str, ...]) -> Callable[[bpy.types.Header, bpy.types.Context], None]:
+    """Return what draws the hints in the status bar.
+
+    A plain function: Blender makes it a method of its header class, and crashes on a bound method.
+    """
+
+    def draw(header: bpy.types.Header, _context: bpy.types.Context) -> None:
+        row = header.layout.row(align=False)
+        for icon, text in hints(session, notes):
+            row.label(text=text, icon=icon)
+
+    return draw
 
 
 def _draw_menu(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
