@@ -2,6 +2,7 @@
 #include "seamwire/embedding.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <queue>
 #include <string>
@@ -23,42 +24,12 @@ constexpr double kSlack = 1e-10;
 constexpr double kEqual = 1e-9;
 // A face lower than this fraction of its longest edge has no area. Bisecting it never ends: its parts have none either.
 constexpr double kFlat = 1e-9;
-// Normals whose sum is shorter than this have no direction in the middle.
-constexpr double kOpposite = 1e-6;
+// Times that all faces without an area are looked at, each time because some could be taken away the time before.
+constexpr int kMendingPasses = 64;
 // Splits between two reports of progress: about a millisecond.
 constexpr std::size_t kReportEvery = 1024;
 
 std::size_t index(OpenMesh::BaseHandle handle) { return static_cast<std::size_t>(handle.idx()); }
-
-// The tensor after the least rotation that takes its normal to n.
-Eigen::Matrix3d turned(const TensorAt& at, const Vector& n) {
-  const double c = at.normal.dot(n);
-  if (n.isZero(0)) return at.tensor;
-  if (at.normal.isZero(0) || 1 + c < kOpposite) {
-    // No normal, or the opposite one, which has the same tangent plane.
-    const Eigen::Matrix3d onto = Eigen::Matrix3d::Identity() - n * n.transpose();
-    return onto * at.tensor * onto;
-  }
-  const Vector v = at.normal.cross(n);
-  Eigen::Matrix3d r = v * v.transpose() / (1 + c);
-  r.diagonal().array() += c;
-  r(0, 1) -= v.z();
-  r(1, 0) += v.z();
-  r(0, 2) += v.y();
-  r(2, 0) -= v.y();
-  r(1, 2) -= v.x();
-  r(2, 1) += v.x();
-  return r * at.tensor * r.transpose();
-}
-
-// Normal and tensor in the middle of an edge: the mean of the normals, and of the tensors turned onto it. The
-// anisotropy is at most that of the ends.
-TensorAt middle(const TensorAt& a, const TensorAt& b) {
-  Vector n = a.normal + b.normal;
-  const double length = n.norm();
-  n = length > kOpposite ? Vector(n / length) : a.normal;
-  return {n, (turned(a, n) + turned(b, n)) / 2};
-}
 
 void check_metric(const Surface& surface, const Metric& metric) {
   const std::size_t n = surface.vertex_count();
@@ -73,7 +44,7 @@ void check_metric(const Surface& surface, const Metric& metric) {
   }
 }
 
-/// A copy of the surface's half-edge mesh, refined in place.
+/// A copy of the surface's half-edge mesh, refined in place. OpenMesh's ranges leave out what was merged away.
 class Refinement {
  public:
   Refinement(const Surface& surface, const Metric& metric, const EmbedOptions& options);
@@ -104,6 +75,10 @@ class Refinement {
   bool is_flat(FaceHandle f) const;
   double perimeter(FaceHandle f) const;
   HalfedgeHandle longest(FaceHandle f) const;
+  bool is_gone(FaceHandle f) const { return has_merged_ && mesh_.status(f).deleted(); }
+  void mend();
+  bool merge_ends(FaceHandle f);
+  FaceHandle flip_longest(FaceHandle f);
   void consider(FaceHandle f);
   void bisect(EdgeHandle e);
 
@@ -117,6 +92,8 @@ class Refinement {
   std::vector<double> lengths_;            // per edge
   std::vector<std::int32_t> source_face_;  // per face
   std::priority_queue<Candidate> queue_;   // invalid triangles that may be bisected; entries grow stale
+  std::vector<LooseEdge> merged_;          // between vertices at the same place, of which only the second has faces now
+  bool has_merged_ = false;
   std::size_t invalid_before_ = 0;
   std::size_t faces_added_ = 0;
   bool hit_cap_ = false;
@@ -133,8 +110,9 @@ Refinement::Refinement(const Surface& surface, const Metric& metric, const Embed
   for (const std::int32_t v : surface.vertex_of_fan()) {
     weights_.push_back(normal_weight(metric.tensors[static_cast<std::size_t>(v)]));
   }
-  lengths_.reserve(mesh_.n_edges());
-  for (const EdgeHandle e : mesh_.edges()) lengths_.push_back(measure(mesh_.halfedge_handle(e, 0)));
+  mend();
+  lengths_.resize(mesh_.n_edges());
+  for (const EdgeHandle e : mesh_.edges()) lengths_[index(e)] = measure(mesh_.halfedge_handle(e, 0));
 }
 
 std::int32_t Refinement::number(VertexHandle v) const {
@@ -163,14 +141,14 @@ Vector Refinement::vector(HalfedgeHandle h) const {
 
 // Length of an edge in the metric, from both of its ends.
 double Refinement::measure(HalfedgeHandle h) const {
-  const VertexHandle a = mesh_.from_vertex_handle(h), b = mesh_.to_vertex_handle(h);
   const Vector e = vector(h);
-  return integrated_length(norm(a, e), norm(b, e));
+  return integrated_length(norm(mesh_.from_vertex_handle(h), e), norm(mesh_.to_vertex_handle(h), e));
 }
 
+// From the face's first corner on, as OpenMesh lists its vertices.
 std::array<HalfedgeHandle, 3> Refinement::sides(FaceHandle f) const {
   const HalfedgeHandle a = mesh_.halfedge_handle(f), b = mesh_.next_halfedge_handle(a);
-  return {a, b, mesh_.next_halfedge_handle(b)};
+  return {b, mesh_.next_halfedge_handle(b), a};
 }
 
 bool Refinement::is_valid(FaceHandle f) const {
@@ -201,6 +179,82 @@ HalfedgeHandle Refinement::longest(FaceHandle f) const {
   return best;
 }
 
+// Takes away faces without an area, across which no path could go, without a change to the surface: of one with two
+// corners at the same place the two are merged, and of one with a corner on the opposite edge that edge is flipped, so
+// that the face beyond it, of which the corner is a point too, is split there.
+void Refinement::mend() {
+  std::vector<FaceHandle> flat;
+  for (const FaceHandle f : mesh_.faces()) {
+    if (is_flat(f)) flat.push_back(f);
+  }
+  const auto mended = [&](FaceHandle f) { return is_gone(f) || !is_flat(f); };
+  const std::size_t before = flat.size();
+  bool progress = before > 0;
+  for (int pass = 0; progress && pass < kMendingPasses; ++pass) {
+    progress = false;
+    for (std::size_t i = 0, count = flat.size(); i < count; ++i) {
+      if (mended(flat[i])) continue;
+      if (merge_ends(flat[i])) {
+        progress = true;
+      } else if (const FaceHandle beyond = flip_longest(flat[i]); beyond.is_valid()) {
+        progress = true;
+        flat.push_back(beyond);
+      }
+    }
+    std::erase_if(flat, mended);
+    std::sort(flat.begin(), flat.end());
+    flat.erase(std::unique(flat.begin(), flat.end()), flat.end());
+  }
+  invalid_before_ = before - std::min(before, flat.size());
+}
+
+// Merges the ends of the shortest edge if it is the reason why the face has no area.
+bool Refinement::merge_ends(FaceHandle f) {
+  const auto by_length = [&](HalfedgeHandle a, HalfedgeHandle b) {
+    return vector(a).squaredNorm() < vector(b).squaredNorm();
+  };
+  const auto all = sides(f);
+  const auto [shortest, longest] = std::minmax_element(all.begin(), all.end(), by_length);
+  if (vector(*shortest).norm() > kFlat * vector(*longest).norm()) return false;
+  if (!has_merged_) {
+    mesh_.request_vertex_status();
+    mesh_.request_halfedge_status();
+    mesh_.request_edge_status();
+    mesh_.request_face_status();
+    has_merged_ = true;
+  }
+  for (const HalfedgeHandle h : {*shortest, mesh_.opposite_halfedge_handle(*shortest)}) {
+    const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
+    // A second edge between the two would become a loop.
+    if (std::ranges::count(mesh_.vv_range(from), to) != 1 || !mesh_.is_collapse_ok(h)) continue;
+    merged_.push_back({number(from), number(to), measure(h)});
+    mesh_.collapse(h);
+    return true;
+  }
+  return false;
+}
+
+// Flips the longest edge if that leaves fewer faces without an area, or shorter edges; then, and only then, returns the
+// face that was beyond it.
+FaceHandle Refinement::flip_longest(FaceHandle f) {
+  HalfedgeHandle h = sides(f)[0];
+  for (const HalfedgeHandle side : sides(f)) {
+    if (vector(side).squaredNorm() > vector(h).squaredNorm()) h = side;
+  }
+  const HalfedgeHandle opposite = mesh_.opposite_halfedge_handle(h);
+  const EdgeHandle e = mesh_.edge_handle(h);
+  if (mesh_.is_boundary(opposite) || !mesh_.is_flip_ok(e)) return FaceHandle();
+  const FaceHandle beyond = mesh_.face_handle(opposite);
+  const auto apex = [&](HalfedgeHandle side) {
+    return mesh_.point(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(side)));
+  };
+  const double flipped = (apex(opposite) - apex(h)).norm() * surface_.scale();
+  if (is_flat(beyond) && !(flipped < vector(h).norm() * (1 - kEqual))) return FaceHandle();
+  mesh_.flip(e);
+  source_face_[index(f)] = source_face_[index(beyond)];
+  return beyond;
+}
+
 void Refinement::consider(FaceHandle f) {
   if (is_valid(f) || is_flat(f)) return;
   const double p = perimeter(f);
@@ -216,7 +270,7 @@ void Refinement::bisect(EdgeHandle e) {
     source_face_.push_back(source_face_[index(mesh_.face_handle(side))]);
     ++faces_added_;
   }
-  tensors_.push_back(middle(tensor_at(a), tensor_at(b)));
+  tensors_.push_back(midpoint_tensor(tensor_at(a), tensor_at(b)));
   weights_.push_back(normal_weight(tensors_.back().tensor));
   const VertexHandle p = mesh_.add_vertex((mesh_.point(a) + mesh_.point(b)) / 2);
   mesh_.split(e, p);
@@ -308,6 +362,7 @@ Embedding Refinement::result() const {
     mesh.loose_edges.push_back(
         {number(mesh_.from_vertex_handle(h)), number(mesh_.to_vertex_handle(h)), lengths_[index(e)]});
   }
+  mesh.loose_edges.insert(mesh.loose_edges.end(), merged_.begin(), merged_.end());
   for (const auto& [a, b] : surface_.loose_edges()) {
     mesh.loose_edges.push_back({a, b, edge_length(surface_, metric_, a, b)});
   }

@@ -16,6 +16,9 @@ constexpr double kNoDifference = 1e-9;
 // Smallest beta, as a fraction of the largest k1^2: where k1 = k2 = 0 the norm would vanish without it.
 constexpr double kSmallestBeta = 1e-12;
 
+// Normals whose sum is shorter than this have no direction in the middle.
+constexpr double kOpposite = 1e-6;
+
 std::string number(double x) { return std::to_string(x); }
 
 void check_sizes(const Surface& surface, const Curvature& curvature) {
@@ -110,6 +113,27 @@ PlaneTensor in_plane(const TensorAt& at) {
   const Vector v = at.normal.cross(u);
   const Vector mu = at.tensor * u;
   return {u.dot(mu), v.dot(mu), v.dot(at.tensor * v)};
+}
+
+// The tensor after the least rotation that takes its normal to n.
+Eigen::Matrix3d turned(const TensorAt& at, const Vector& n) {
+  const double c = at.normal.dot(n);
+  if (n.isZero(0)) return at.tensor;
+  if (at.normal.isZero(0) || 1 + c < kOpposite) {
+    // No normal, or the opposite one, which has the same tangent plane.
+    const Eigen::Matrix3d onto = Eigen::Matrix3d::Identity() - n * n.transpose();
+    return onto * at.tensor * onto;
+  }
+  const Vector v = at.normal.cross(n);
+  Eigen::Matrix3d r = v * v.transpose() / (1 + c);
+  r.diagonal().array() += c;
+  r(0, 1) -= v.z();
+  r(1, 0) += v.z();
+  r(0, 2) += v.y();
+  r(2, 0) -= v.y();
+  r(1, 2) -= v.x();
+  r(2, 1) += v.x();
+  return r * at.tensor * r.transpose();
 }
 
 }  // namespace
@@ -213,6 +237,13 @@ double normal_weight(const Eigen::Matrix3d& m) {
 double ambient_norm(const TensorAt& at, const Vector& e) {
   const double out = at.normal.dot(e);
   return std::sqrt(std::max(0.0, e.dot(at.tensor * e) + normal_weight(at.tensor) * out * out));
+}
+
+TensorAt midpoint_tensor(const TensorAt& a, const TensorAt& b) {
+  Vector n = a.normal + b.normal;
+  const double length = n.norm();
+  n = length > kOpposite ? Vector(n / length) : a.normal;
+  return {n, (turned(a, n) + turned(b, n)) / 2};
 }
 
 double integrated_length(double norm_at_start, double norm_at_end) {

@@ -2,3 +2,475 @@
 #include "seamwire/embedding.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "shapes.hpp"
+
+namespace seamwire {
+namespace {
+
+using shapes::Mesh;
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+// The same tensor everywhere on a plane z = const: stretched by the roots of l1 along (cos, sin)(angle) and l2 across.
+Metric plane_metric(const Surface& surface, double l1, double l2, double angle) {
+  const Vector e1(std::cos(angle), std::sin(angle), 0), e2(-std::sin(angle), std::cos(angle), 0);
+  const Eigen::Matrix3d tensor = l1 * e1 * e1.transpose() + l2 * e2 * e2.transpose();
+  return {std::vector<Vector>(surface.vertex_count(), Vector::UnitZ()),
+          std::vector<Eigen::Matrix3d>(surface.vertex_count(), tensor)};
+}
+
+// The identity as a quadratic form on space, for surfaces whose normals do not matter.
+Metric identity_metric(const Surface& surface) {
+  return {std::vector<Vector>(surface.vertex_count(), Vector::Zero()),
+          std::vector<Eigen::Matrix3d>(surface.vertex_count(), Eigen::Matrix3d::Identity())};
+}
+
+// A metric that no smooth surface has: at each vertex a direction of its own, at anisotropy A.
+Metric random_metric(const Surface& surface, double a, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> angle(0, std::numbers::pi);
+  Metric metric = plane_metric(surface, 1, 1, 0);
+  for (Eigen::Matrix3d& tensor : metric.tensors) {
+    const double t = angle(random);
+    const Vector e1(std::cos(t), std::sin(t), 0), e2(-std::sin(t), std::cos(t), 0);
+    tensor = a * e1 * e1.transpose() + 1 / a * e2 * e2.transpose();
+  }
+  return metric;
+}
+
+double area(const Vector& a, const Vector& b, const Vector& c) { return (b - a).cross(c - a).norm() / 2; }
+
+// What every embedding must be. `left` is the area of its holes, if it may have any.
+void expect_sound(const Surface& surface, const Embedding& embedding) {
+  const IntrinsicMesh& mesh = embedding.mesh;
+  const std::size_t n = mesh.face_count();
+  ASSERT_EQ(mesh.lengths.size(), 3 * n);
+  ASSERT_EQ(mesh.twins.size(), 3 * n);
+  ASSERT_EQ(embedding.source_face.size(), n);
+  ASSERT_EQ(embedding.points.size(), at(mesh.vertex_count));
+  ASSERT_TRUE(std::equal(surface.points().begin(), surface.points().end(), embedding.points.begin()));
+  for (std::size_t f = 0; f < n; ++f) {
+    double sum = 0, longest = 0;
+    for (std::size_t h = 3 * f; h < 3 * f + 3; ++h) {
+      ASSERT_GT(mesh.lengths[h], 0);
+      ASSERT_TRUE(std::isfinite(mesh.lengths[h]));
+      sum += mesh.lengths[h];
+      longest = std::max(longest, mesh.lengths[h]);
+      const std::int32_t i = static_cast<std::int32_t>(h), twin = mesh.twins[h];
+      if (twin < 0) continue;
+      ASSERT_EQ(mesh.twins[at(twin)], i);
+      ASSERT_EQ(mesh.lengths[at(twin)], mesh.lengths[h]);
+      ASSERT_EQ(mesh.tail(twin), mesh.tip(i));
+      ASSERT_EQ(mesh.tip(twin), mesh.tail(i));
+    }
+    ASSERT_LT(longest, (sum - longest) * (1 - 1e-10));
+  }
+
+  // Each refined face lies in its source face: its corners have barycentric coordinates there that are not negative.
+  std::vector<double> covered(surface.face_count(), 0.0);
+  for (std::size_t f = 0; f < n; ++f) {
+    const Triangle& source = surface.triangles()[at(embedding.source_face[f])];
+    const Vector &a = surface.points()[at(source[0])], &b = surface.points()[at(source[1])],
+                 &c = surface.points()[at(source[2])];
+    const double whole = area(a, b, c);
+    for (const std::int32_t v : mesh.triangles[f]) {
+      const Vector& p = embedding.points[at(v)];
+      ASSERT_NEAR(area(p, b, c) + area(a, p, c) + area(a, b, p), whole, 1e-8 * whole) << "refined face " << f;
+    }
+    const Triangle& t = mesh.triangles[f];
+    covered[at(embedding.source_face[f])] +=
+        area(embedding.points[at(t[0])], embedding.points[at(t[1])], embedding.points[at(t[2])]);
+  }
+  if (embedding.invalid_left > 0 || !surface.report().duplicate_faces.empty()) return;
+  for (std::size_t f = 0; f < surface.face_count(); ++f) {
+    const auto& [a, b, c] = surface.triangles()[f];
+    const double whole = area(surface.points()[at(a)], surface.points()[at(b)], surface.points()[at(c)]);
+    EXPECT_NEAR(covered[f], whole, 1e-12 + 1e-9 * whole) << "face " << f;
+  }
+}
+
+// Which vertices triangles and loose edges connect to the first.
+std::vector<bool> connected_to(const IntrinsicMesh& mesh, std::int32_t first) {
+  std::vector<std::vector<std::int32_t>> neighbours(at(mesh.vertex_count));
+  const auto join = [&](std::int32_t a, std::int32_t b) {
+    neighbours[at(a)].push_back(b);
+    neighbours[at(b)].push_back(a);
+  };
+  for (const auto& [a, b, c] : mesh.triangles) join(a, b), join(b, c);
+  for (const LooseEdge& edge : mesh.loose_edges) join(edge.a, edge.b);
+  std::vector<bool> reached(at(mesh.vertex_count), false);
+  std::vector<std::int32_t> todo{first};
+  reached[at(first)] = true;
+  while (!todo.empty()) {
+    const std::int32_t v = todo.back();
+    todo.pop_back();
+    for (const std::int32_t w : neighbours[at(v)]) {
+      if (!reached[at(w)]) todo.push_back(w);
+      reached[at(w)] = true;
+    }
+  }
+  return reached;
+}
+
+TEST(Embed, AConstantTensorOnAPlaneLeavesNothingToBisect) {
+  const Surface surface = shapes::grid(24, 0.3).surface();
+  for (const double a : {1.0, 5.0, 20.0, 100.0}) {
+    for (const double angle : {0.0, 0.4, 1.1, 2.9}) {
+      const Metric metric = plane_metric(surface, a, 1 / a, angle);
+      const Embedding embedding = embed(surface, metric);
+      EXPECT_EQ(embedding.invalid_before, 0U);
+      EXPECT_EQ(embedding.faces_added, 0U);
+      EXPECT_EQ(embedding.invalid_left, 0U);
+      EXPECT_FALSE(embedding.hit_cap);
+      EXPECT_TRUE(embedding.unreachable.empty());
+      EXPECT_TRUE(embedding.mesh.loose_edges.empty());
+      expect_sound(surface, embedding);
+      for (std::int32_t h = 0; h < static_cast<std::int32_t>(embedding.mesh.lengths.size()); ++h) {
+        const Vector e = surface.points()[at(embedding.mesh.tip(h))] - surface.points()[at(embedding.mesh.tail(h))];
+        const double expected = std::sqrt(e.dot(metric.tensors[0] * e));
+        // sqrt(v^T M v) to 1e-9, as distances are to be; rounding is A^2 of a last place.
+        EXPECT_NEAR(embedding.mesh.lengths[at(h)], expected, 1e-9 * expected);
+      }
+    }
+  }
+}
+
+TEST(Embed, RefinesUntilEveryTriangleIsValid) {
+  const Surface surface = shapes::grid(12, 0.2).surface();
+  for (const double a : {3.0, 10.0, 30.0}) {
+    const Embedding embedding = embed(surface, random_metric(surface, a, 3));
+    EXPECT_GT(embedding.invalid_before, 0U);
+    EXPECT_GT(embedding.faces_added, 0U);
+    EXPECT_EQ(embedding.invalid_left, 0U);
+    EXPECT_EQ(embedding.mesh.face_count(), surface.face_count() + embedding.faces_added);
+    EXPECT_TRUE(embedding.mesh.loose_edges.empty());
+    expect_sound(surface, embedding);
+  }
+}
+
+TEST(Embed, NewVerticesAreInTheCallersCoordinates) {
+  Mesh mesh = shapes::grid(6);
+  for (Vector& p : mesh.points) p = Vector(100, 200, 300) + 50 * p;
+  const Surface surface = mesh.surface();
+  const Embedding embedding = embed(surface, random_metric(surface, 10, 3));
+  ASSERT_GT(embedding.mesh.vertex_count, 49);
+  expect_sound(surface, embedding);
+}
+
+TEST(Embed, DoesNotDependOnTheScaleOfTheInput) {
+  const Mesh mesh = shapes::torus(24, 12);
+  const Surface one = mesh.surface();
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  Metric metric;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    const Vector p = mesh.points[v], ring = 0.35 * Vector(p.x(), p.y(), 0).normalized();
+    const Vector n = (p - ring).normalized(), e1 = n.cross(Vector(normal(random), normal(random), 1)).normalized();
+    metric.normals.push_back(n);
+    metric.tensors.push_back(12 * e1 * e1.transpose() + n.cross(e1) * n.cross(e1).transpose() / 12);
+  }
+  const Embedding expected = embed(one, metric);
+  ASSERT_GT(expected.faces_added, 100U);
+  for (const double scale : {1e-3, 0.7, 3.0, 12345.678}) {
+    Mesh scaled = mesh;
+    for (Vector& p : scaled.points) p *= scale;
+    const Embedding embedding = embed(scaled.surface(), metric);
+    ASSERT_EQ(embedding.mesh.triangles, expected.mesh.triangles) << scale;
+    EXPECT_EQ(embedding.mesh.twins, expected.mesh.twins);
+    for (std::size_t h = 0; h < embedding.mesh.lengths.size(); ++h) {
+      ASSERT_NEAR(embedding.mesh.lengths[h], expected.mesh.lengths[h], 1e-12 * expected.mesh.lengths[h]);
+    }
+  }
+}
+
+TEST(Embed, GivesTheSameEveryTime) {
+  const Surface surface = shapes::grid(12).surface();
+  const Metric metric = random_metric(surface, 10, 3);
+  const Embedding a = embed(surface, metric), b = embed(surface, metric);
+  EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
+  EXPECT_EQ(a.mesh.lengths, b.mesh.lengths);
+}
+
+TEST(MidpointTensor, IsNeverMoreAnisotropicThanTheEnds) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto vector = [&] { return Vector(uniform(random), uniform(random), uniform(random)); };
+  const auto tensor = [&] {
+    const Vector n = vector().normalized(), e1 = n.cross(vector()).normalized(), e2 = n.cross(e1);
+    const double a = 1 + 30 * std::abs(uniform(random)), scale = 1.5 + uniform(random);
+    return TensorAt{n, scale * (a * e1 * e1.transpose() + 1 / a * e2 * e2.transpose())};
+  };
+  for (int trial = 0; trial < 1000; ++trial) {
+    std::vector<TensorAt> all{tensor(), tensor(), tensor(), tensor()};
+    double largest = 0;
+    for (const TensorAt& t : all) largest = std::max(largest, anisotropy(t));
+    while (all.size() < 24) {
+      const std::size_t i = random() % all.size(), j = random() % all.size();
+      all.push_back(midpoint_tensor(all[i], all[j]));
+      EXPECT_NEAR(all.back().normal.norm(), 1, 1e-14);
+      EXPECT_LE((all.back().tensor * all.back().normal).norm(), 1e-13 * all.back().tensor.norm());
+      EXPECT_LE(anisotropy(all.back()), largest * (1 + 1e-9));
+    }
+  }
+}
+
+TEST(MidpointTensor, TurnsTensorsWithTheirNormals) {
+  // A quarter turn of the plane about the direction of the minor eigenvector leaves that one, and takes e1 along.
+  const auto bent = [](double angle) {
+    const Vector n(std::sin(angle), 0, std::cos(angle)), e1(std::cos(angle), 0, -std::sin(angle));
+    return TensorAt{n, 9 * e1 * e1.transpose() + Vector::UnitY() * Vector::UnitY().transpose()};
+  };
+  const TensorAt middle = midpoint_tensor(bent(0), bent(std::numbers::pi / 2)), expected = bent(std::numbers::pi / 4);
+  EXPECT_TRUE(middle.normal.isApprox(expected.normal, 1e-14));
+  EXPECT_TRUE(middle.tensor.isApprox(expected.tensor, 1e-14));
+}
+
+TEST(MidpointTensor, KeepsOneOfOppositeNormals) {
+  const TensorAt a{Vector::UnitZ(), Vector(4, 1, 0).asDiagonal()}, b{-Vector::UnitZ(), Vector(1, 4, 0).asDiagonal()};
+  const TensorAt middle = midpoint_tensor(a, b);
+  EXPECT_EQ(middle.normal, a.normal);
+  EXPECT_TRUE(middle.tensor.isApprox(Eigen::Matrix3d(Vector(2.5, 2.5, 0).asDiagonal()), 1e-14));
+}
+
+TEST(Embed, StopsAtTheCapAndLeavesHolesWithEdgesToRunAlong) {
+  const Surface surface = shapes::grid(12).surface();
+  const Metric metric = random_metric(surface, 10, 3);
+  const std::size_t needed = embed(surface, metric).faces_added;
+  for (const std::size_t cap : {std::size_t{0}, std::size_t{1}, needed / 3, needed - 1}) {
+    const Embedding embedding = embed(surface, metric, {.max_faces_added = cap});
+    EXPECT_LE(embedding.faces_added, cap);
+    EXPECT_TRUE(embedding.hit_cap);
+    EXPECT_GT(embedding.invalid_left, 0U);
+    EXPECT_EQ(embedding.mesh.face_count() + embedding.invalid_left, surface.face_count() + embedding.faces_added);
+    EXPECT_TRUE(embedding.unreachable.empty());
+    expect_sound(surface, embedding);
+    const std::vector<bool> reached = connected_to(embedding.mesh, 0);
+    EXPECT_EQ(std::ranges::count(reached, false), 0);
+    for (const LooseEdge& edge : embedding.mesh.loose_edges) EXPECT_GT(edge.length, 0);
+  }
+  const Embedding enough = embed(surface, metric, {.max_faces_added = needed});
+  EXPECT_FALSE(enough.hit_cap);
+  EXPECT_EQ(enough.invalid_left, 0U);
+}
+
+TEST(Embed, LeavesInvalidTrianglesSmallerThanSigma) {
+  const Surface surface = shapes::grid(12).surface();
+  const Metric metric = random_metric(surface, 10, 3);
+  const Embedding all = embed(surface, metric);
+  for (const Perimeter perimeter : {Perimeter::kMetric, Perimeter::kEuclidean}) {
+    for (const double sigma : {1e-3, 0.05, 0.2, 100.0}) {
+      const Embedding embedding = embed(surface, metric, {.sigma = sigma, .perimeter = perimeter});
+      EXPECT_EQ(embedding.faces_added > 0, sigma < 100);
+      // The longest edge of an invalid triangle is half of its perimeter or more, the perimeter less than sigma.
+      if (perimeter == Perimeter::kMetric) {
+        for (const LooseEdge& edge : embedding.mesh.loose_edges) EXPECT_LT(edge.length, sigma);
+      }
+      EXPECT_FALSE(embedding.hit_cap);
+      EXPECT_EQ(embedding.mesh.face_count() + embedding.invalid_left, surface.face_count() + embedding.faces_added);
+      expect_sound(surface, embedding);
+    }
+  }
+  // In Euclid's measure a cell has perimeter (2 + sqrt 2) / 12 = .2845: above it nothing is bisected, below it all are.
+  EXPECT_EQ(embed(surface, metric, {.sigma = 0.285, .perimeter = Perimeter::kEuclidean}).faces_added, 0U);
+  EXPECT_GE(embed(surface, metric, {.sigma = 0.284, .perimeter = Perimeter::kEuclidean}).faces_added,
+            all.invalid_before / 2);
+}
+
+TEST(Embed, SplitsLargestPerimeterFirst) {
+  const Surface surface = shapes::grid(12).surface();
+  const Metric metric = random_metric(surface, 10, 3);
+  // After a few splits no invalid triangle is larger than the largest that is bisected next.
+  const Embedding few = embed(surface, metric, {.max_faces_added = 2});
+  const Embedding none = embed(surface, metric, {.max_faces_added = 0});
+  const auto longest_loose = [](const Embedding& e) {
+    double longest = 0;
+    for (const LooseEdge& edge : e.mesh.loose_edges) longest = std::max(longest, edge.length);
+    return longest;
+  };
+  EXPECT_LE(longest_loose(few), longest_loose(none));
+  EXPECT_EQ(few.faces_added, 2U);
+}
+
+TEST(Embed, BisectsBoundaryEdges) {
+  // One triangle, whose long edge in the metric is on the boundary: splits add one face each.
+  const Surface surface({{0, 0, 0}, {1, 0, 0}, {0.5, 0.4, 0}}, {{0, 1, 2}});
+  Metric metric = plane_metric(surface, 1, 1, 0);
+  metric.tensors[0] *= 100;
+  const Embedding embedding = embed(surface, metric);
+  EXPECT_EQ(embedding.invalid_left, 0U);
+  EXPECT_EQ(embedding.mesh.face_count(), 1 + embedding.faces_added);
+  expect_sound(surface, embedding);
+  metric.tensors[0] *= 1e-4;
+  metric.tensors[2] *= 1e-4;
+  const Embedding another = embed(surface, metric);
+  EXPECT_GT(another.faces_added, 0U);
+  expect_sound(surface, another);
+}
+
+TEST(Embed, KeepsOneNumberForAVertexOfSeveralFans) {
+  // Three squares on one edge, and a bow tie on vertex 1.
+  const Surface surface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {2, 1, 0}, {2, 0, 0}},
+                        {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {1, 5, 6}});
+  ASSERT_EQ(surface.report().nonmanifold_edges.size(), 1U);
+  Metric metric = identity_metric(surface);
+  const Embedding plain = embed(surface, metric);
+  EXPECT_EQ(plain.mesh.triangles, surface.triangles());
+  EXPECT_EQ(plain.mesh.twins, std::vector<std::int32_t>(12, -1));
+  // Strong enough that faces of every fan are bisected.
+  metric.tensors[1] *= 1e4;
+  const Embedding embedding = embed(surface, metric);
+  for (std::int32_t f = 0; f < 4; ++f) EXPECT_GE(std::ranges::count(embedding.source_face, f), 2);
+  EXPECT_EQ(embedding.invalid_left, 0U);
+  expect_sound(surface, embedding);
+  const std::vector<bool> reached = connected_to(embedding.mesh, 6);
+  EXPECT_EQ(std::ranges::count(reached, false), 0);
+}
+
+TEST(Embed, CarriesEdgesWithoutFaces) {
+  const Surface surface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}, {3, 3, 3}}, {{0, 1, 2}},
+                        std::vector<Edge>{{0, 1}, {1, 3}});
+  const Embedding embedding = embed(surface, identity_metric(surface));
+  ASSERT_EQ(embedding.mesh.loose_edges.size(), 1U);
+  EXPECT_EQ(embedding.mesh.loose_edges[0].a, 1);
+  EXPECT_EQ(embedding.mesh.loose_edges[0].b, 3);
+  EXPECT_DOUBLE_EQ(embedding.mesh.loose_edges[0].length, surface.scale());
+  EXPECT_TRUE(embedding.unreachable.empty());  // vertex 4 is isolated in the input already
+}
+
+TEST(Embed, FlipsFacesWithACornerOnTheOppositeEdge) {
+  // A square cut along its diagonal 0-2, with vertex 4 on the diagonal, on one side only: face 1 has no area.
+  for (const double t : {0.5, 0.3, 1e-3}) {
+    const Surface surface({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {t, t, 0}},
+                          {{0, 1, 2}, {0, 2, 4}, {0, 4, 3}, {4, 2, 3}});
+    ASSERT_EQ(surface.report().zero_area_faces, std::vector<std::int32_t>{1});
+    const Embedding embedding = embed(surface, identity_metric(surface));
+    EXPECT_EQ(embedding.invalid_before, 1U);
+    EXPECT_EQ(embedding.invalid_left, 0U);
+    EXPECT_EQ(embedding.mesh.face_count(), 4U);
+    EXPECT_TRUE(embedding.mesh.loose_edges.empty());
+    EXPECT_EQ(std::ranges::count(embedding.source_face, 0), 2);
+    expect_sound(surface, embedding);
+    // The vertex on the diagonal is an inner one now: all four of its half-edges have twins.
+    for (std::int32_t h = 0; h < 12; ++h) {
+      if (embedding.mesh.tail(h) == 4) {
+        EXPECT_GE(embedding.mesh.twins[at(h)], 0);
+      }
+    }
+  }
+}
+
+TEST(Embed, MergesVerticesAtTheSamePlace) {
+  // A fan about (0.5, 0.5), where vertices 4 and 5 are both: faces 4 and 5 between them have no area.
+  const Surface surface({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {.5, .5, 0}, {.5, .5, 0}},
+                        {{0, 1, 4}, {1, 2, 5}, {2, 3, 5}, {3, 0, 4}, {1, 5, 4}, {3, 4, 5}});
+  ASSERT_EQ(surface.report().zero_area_faces.size(), 2U);
+  const Embedding embedding = embed(surface, identity_metric(surface));
+  EXPECT_EQ(embedding.invalid_before, 2U);
+  EXPECT_EQ(embedding.invalid_left, 0U);
+  EXPECT_EQ(embedding.mesh.face_count(), 4U);
+  EXPECT_TRUE(embedding.unreachable.empty());
+  ASSERT_EQ(embedding.mesh.loose_edges.size(), 1U);
+  const LooseEdge& edge = embedding.mesh.loose_edges[0];
+  EXPECT_EQ(std::set<std::int32_t>({edge.a, edge.b}), std::set<std::int32_t>({4, 5}));
+  EXPECT_EQ(edge.length, 0);
+  // The four faces close up around the one that is left.
+  EXPECT_EQ(std::ranges::count(embedding.mesh.twins, -1), 4);
+  expect_sound(surface, embedding);
+}
+
+TEST(Embed, MendsManyFacesWithoutAnAreaAtOnce) {
+  // A row of vertices on the long edge of one triangle, joined to it by a fan without an area, with faces below.
+  Mesh mesh;
+  const int n = 9;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {.5, 1, 0}, {.5, -1, 0}};
+  for (int i = 1; i < n; ++i) mesh.points.emplace_back(double(i) / n, 0, 0);
+  const auto row = [&](int i) { return i == 0 ? 0 : i == n ? 1 : i + 3; };
+  mesh.triangles.push_back({0, 1, 2});
+  for (int i = 0; i < n; ++i) {
+    mesh.triangles.push_back({row(i), 3, row(i + 1)});
+    if (i > 0) mesh.triangles.push_back({0, row(i), row(i + 1)});
+  }
+  const Surface surface = mesh.surface();
+  ASSERT_EQ(surface.report().boundary_edges, 4U);
+  const Embedding embedding = embed(surface, identity_metric(surface));
+  EXPECT_EQ(embedding.invalid_before, static_cast<std::size_t>(n - 1));
+  EXPECT_EQ(embedding.invalid_left, 0U);
+  EXPECT_EQ(std::ranges::count(embedding.mesh.twins, -1), 4);
+  EXPECT_EQ(std::ranges::count(embedding.source_face, 0), n);
+  expect_sound(surface, embedding);
+}
+
+TEST(Embed, EndsOnFacesWithoutAnAreaThatNothingMends) {
+  // A face in line on its own, one point three times, and two faces back to back.
+  const Surface surface({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {5, 5, 5}, {5, 5, 5}, {5, 5, 5}}, {{0, 1, 2}, {3, 4, 5}});
+  const Embedding embedding = embed(surface, identity_metric(surface));
+  EXPECT_EQ(embedding.invalid_before, 2U);
+  EXPECT_EQ(embedding.faces_added, 0U);
+  EXPECT_EQ(embedding.mesh.face_count(), 0U);
+  EXPECT_TRUE(embedding.unreachable.empty());
+  const std::vector<bool> line = connected_to(embedding.mesh, 0), point = connected_to(embedding.mesh, 3);
+  EXPECT_TRUE(line[1] && line[2] && !line[3]);
+  EXPECT_TRUE(point[4] && point[5] && !point[0]);
+}
+
+TEST(Embed, NamesVerticesThatNothingLeadsTo) {
+  // Face 1 is one vertex three times: it has no edge.
+  const Surface surface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {3, 3, 3}});
+  EXPECT_EQ(embed(surface, identity_metric(surface)).unreachable, std::vector<std::int32_t>{3});
+}
+
+TEST(Embed, TakesTensorsThatDifferByManyOrders) {
+  const Surface surface = shapes::grid(4).surface();
+  Metric metric = random_metric(surface, 1000, 1);
+  metric.tensors[12] *= 1e12;
+  const Embedding embedding = embed(surface, metric, {.max_faces_added = 20'000});
+  expect_sound(surface, embedding);
+  EXPECT_EQ(std::ranges::count(connected_to(embedding.mesh, 0), false), 0);
+}
+
+TEST(Embed, RefusesAMetricThatDoesNotFit) {
+  const Surface surface = shapes::grid(3).surface();
+  Metric metric = plane_metric(surface, 1, 1, 0);
+  metric.tensors[5](1, 2) = std::numeric_limits<double>::quiet_NaN();
+  try {
+    embed(surface, metric);
+    ADD_FAILURE() << "nothing thrown";
+  } catch (const InvalidInput& error) {
+    EXPECT_NE(std::string(error.what()).find("vertex 5 "), std::string::npos) << error.what();
+  }
+  metric.tensors.pop_back();
+  EXPECT_THROW(embed(surface, metric), InvalidInput);
+  const Metric good = plane_metric(surface, 1, 1, 0);
+  EXPECT_THROW(embed(surface, good, {.sigma = -1}), InvalidInput);
+  EXPECT_THROW(embed(surface, good, {.sigma = std::numeric_limits<double>::quiet_NaN()}), InvalidInput);
+}
+
+TEST(Embed, ReportsProgressAndStopsWhenTold) {
+  const Surface surface = shapes::grid(40).surface();
+  const Metric metric = random_metric(surface, 30, 3);
+  std::vector<double> seen;
+  embed(surface, metric, {}, {.stop = {}, .progress = [&](double done) { return seen.push_back(done), true; }});
+  ASSERT_GE(seen.size(), 4U);
+  EXPECT_TRUE(std::ranges::is_sorted(seen));
+  EXPECT_GE(seen.front(), 0);
+  EXPECT_EQ(seen.back(), 1);
+  std::size_t calls = 0;
+  EXPECT_THROW(embed(surface, metric, {}, {.stop = {}, .progress = [&](double) { return ++calls < 3; }}), Cancelled);
+  EXPECT_EQ(calls, 3U);
+  std::stop_source source;
+  source.request_stop();
+  EXPECT_THROW(embed(surface, metric, {}, {.stop = source.get_token(), .progress = {}}), Cancelled);
+}
+
+}  // namespace
+}  // namespace seamwire

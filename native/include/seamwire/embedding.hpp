@@ -30,7 +30,7 @@ struct Embedding {
   IntrinsicMesh mesh;  ///< the valid triangles; what stayed invalid is a hole, whose edges are still there to run along
   std::vector<Vector> points;             ///< in the caller's coordinates, one a vertex of `mesh`
   std::vector<std::int32_t> source_face;  ///< the caller's face that each triangle of `mesh` lies in
-  std::size_t invalid_before = 0;         ///< invalid triangles of the input
+  std::size_t invalid_before = 0;         ///< invalid triangles of the input, those without an area among them
   std::size_t faces_added = 0;
   std::size_t invalid_left = 0;  ///< holes
   bool hit_cap = false;          ///< max_faces_added ended the subdivision
@@ -39,8 +39,16 @@ struct Embedding {
 };
 
 /// Bisects invalid triangles, largest perimeter first, at the midpoint of their longest edge in the metric, until none
-/// is left. Lengths are those of the ambient reading (metric.hpp). Throws InvalidInput where metric and surface differ
-/// in size, or a tensor is not finite; Cancelled.
+/// is left. Lengths are those of the ambient reading (metric.hpp).
+///
+/// Where the surface is cut open each side is bisected on its own. Triangles without an area cannot be bisected away:
+/// they are taken away before, by merging corners at the same place (one of the two vertices then has no triangle, but
+/// a loose edge of length 0 to the other) or flipping the longest edge; where neither is possible, they become holes.
+/// Every edge of a hole that no valid triangle has is a loose edge, so that what the input's edges connect stays
+/// connected.
+///
+/// Throws InvalidInput where metric and surface differ in size, a tensor is not finite, or sigma is negative;
+/// Cancelled.
 Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions& options = {}, const Task& task = {});
 
 }  // namespace seamwire

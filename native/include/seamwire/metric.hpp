@@ -62,6 +62,9 @@ double normal_weight(const Eigen::Matrix3d& tensor);
 double anisotropy(const TensorAt& at);
 /// The largest over the vertices.
 double max_anisotropy(const Metric& metric);
+/// In the middle between two: the mean of the normals, normalised (of opposite ones, the first), and of the tensors,
+/// each turned by the least rotation onto that normal. Its anisotropy is at most that of the ends.
+TensorAt midpoint_tensor(const TensorAt& a, const TensorAt& b);
 /// Length of a straight edge along which the quadratic form varies linearly, so that its squared norm runs from a^2 to
 /// b^2: (2/3) (a^2 + a b + b^2) / (a + b); 0 where both are 0.
 double integrated_length(double norm_at_start, double norm_at_end);
