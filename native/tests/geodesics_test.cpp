@@ -2,3 +2,474 @@
 #include "seamwire/geodesics.hpp"
 
 #include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <set>
+#include <string>
+#include <thread>
+
+#include "intrinsic.hpp"
+#include "reference_geodesics.hpp"
+
+namespace seamwire {
+namespace {
+
+using shapes::intrinsic;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// Where a point of a path lies in a triangle laid into the plane; fails if it lies in another triangle.
+Eigen::Vector2d place(const IntrinsicMesh& mesh, std::int32_t face, const PathPoint& point) {
+  const double a = mesh.lengths[index(3 * face)], b = mesh.lengths[index(3 * face + 1)],
+               c = mesh.lengths[index(3 * face + 2)];
+  const double x = (a * a + c * c - b * b) / (2 * a);
+  const Eigen::Vector2d corners[3] = {{0, 0}, {a, 0}, {x, std::sqrt(std::max(c * c - x * x, 0.0))}};
+  if (point.half_edge < 0) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (mesh.triangles[index(face)][i] == point.vertex) return corners[i];
+    }
+    ADD_FAILURE() << "vertex " << point.vertex << " is no corner of triangle " << face;
+    return {};
+  }
+  EXPECT_GE(point.t, 0.0);
+  EXPECT_LE(point.t, 1.0);
+  const bool is_own = point.half_edge / 3 == face;
+  const std::int32_t h = is_own ? point.half_edge : mesh.twins[index(point.half_edge)];
+  if (h < 0 || h / 3 != face) {
+    ADD_FAILURE() << "half-edge " << point.half_edge << " is no edge of triangle " << face;
+    return {};
+  }
+  const double t = is_own ? point.t : 1 - point.t;
+  const auto i = index(h % 3);
+  return (1 - t) * corners[i] + t * corners[(i + 1) % 3];
+}
+
+/// The path's length, summed over its segments from nothing but the mesh's lengths.
+double length_of(const IntrinsicMesh& mesh, const IntrinsicPath& path) {
+  double sum = 0.0;
+  EXPECT_EQ(path.faces.size() + 1, path.points.size());
+  for (std::size_t i = 0; i < path.faces.size(); ++i) {
+    const PathPoint &a = path.points[i], &b = path.points[i + 1];
+    if (path.faces[i] >= 0) {
+      sum += (place(mesh, path.faces[i], a) - place(mesh, path.faces[i], b)).norm();
+      continue;
+    }
+    double shortest = kInfinity;
+    for (const LooseEdge& edge : mesh.loose_edges) {
+      const bool is_it = (edge.a == a.vertex && edge.b == b.vertex) || (edge.a == b.vertex && edge.b == a.vertex);
+      if (is_it) shortest = std::min(shortest, edge.length);
+    }
+    sum += shortest;
+  }
+  return sum;
+}
+
+/// Every path starts at the seed, ends at its vertex, and is as long as the distance says. 1e-9: crossings are found by
+/// unfolding, whose rounding grows with the number of triangles.
+void expect_paths_as_long_as_distances(const IntrinsicMesh& mesh, const DistanceField& field) {
+  for (std::int32_t v = 0; v < mesh.vertex_count; ++v) {
+    const double distance = field.distances()[index(v)];
+    const IntrinsicPath path = field.trace(v);
+    if (std::isinf(distance)) {
+      EXPECT_TRUE(path.points.empty());
+      EXPECT_TRUE(std::isinf(path.length));
+      continue;
+    }
+    ASSERT_FALSE(path.points.empty());
+    EXPECT_EQ(path.points.front().vertex, field.seed());
+    EXPECT_EQ(path.points.back().vertex, v);
+    EXPECT_NEAR(path.length, distance, 1e-9 * distance) << "vertex " << v;
+    EXPECT_NEAR(length_of(mesh, path), distance, 1e-9 * distance) << "vertex " << v;
+  }
+}
+
+/// 1e-9 is what "exact" means here; both solvers are off by rounding, some 1e-14.
+void expect_distances(const std::vector<double>& found, const std::vector<double>& expected, double tolerance = 1e-9) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t v = 0; v < found.size(); ++v) {
+    if (std::isinf(expected[v])) {
+      EXPECT_TRUE(std::isinf(found[v])) << "vertex " << v;
+    } else {
+      EXPECT_NEAR(found[v], expected[v], tolerance * expected[v]) << "vertex " << v;
+    }
+  }
+}
+
+void expect_exact(const IntrinsicMesh& mesh, const std::vector<std::int32_t>& seeds) {
+  const ExactGeodesics geodesics(mesh);
+  const reference::Geodesics reference(mesh);
+  for (const std::int32_t seed : seeds) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const DistanceField field = geodesics.solve(seed);
+    EXPECT_EQ(field.seed(), seed);
+    expect_distances(field.distances(), reference.distances(seed));
+    expect_paths_as_long_as_distances(mesh, field);
+  }
+}
+
+/// The plane: distances are those of the mapped points.
+void expect_plane(const shapes::Mesh& mesh, const Eigen::Matrix3d& map, std::int32_t seed, double tolerance) {
+  const IntrinsicMesh plane = intrinsic(mesh, map);
+  const DistanceField field = ExactGeodesics(plane).solve(seed);
+  std::vector<double> expected;
+  for (const Vector& p : mesh.points) expected.push_back((map * (p - mesh.points[index(seed)])).norm());
+  expect_distances(field.distances(), expected, tolerance);
+  expect_paths_as_long_as_distances(plane, field);
+}
+
+Eigen::Matrix3d stretch(double factor, double angle) {
+  const Eigen::AngleAxisd turn(angle, Vector::UnitZ());
+  return turn.toRotationMatrix() * Vector(factor, 1 / factor, 1).asDiagonal() * turn.toRotationMatrix().transpose();
+}
+
+// Equal distances everywhere: a queue or a filter that mishandles ties loses vertices here.
+TEST(Geodesics, RegularGridHasEuclideanDistances) {
+  const shapes::Mesh grid = shapes::grid(32);
+  for (const std::int32_t seed : {0, 16 * 33 + 16, 5 * 33 + 30, 33 * 33 - 1}) {
+    expect_plane(grid, Eigen::Matrix3d::Identity(), seed, 1e-12);
+  }
+}
+
+TEST(Geodesics, JitteredGridHasEuclideanDistances) {
+  const shapes::Mesh grid = shapes::grid(24, 0.3);
+  for (const std::int32_t seed : {0, 12 * 25 + 12, 100}) {
+    expect_plane(grid, Eigen::Matrix3d::Identity(), seed, 1e-12);
+  }
+}
+
+// Needles of up to 1 : 1e4; rounding of the angles grows with that.
+TEST(Geodesics, StretchedPlaneHasTheMappedDistances) {
+  for (const double factor : {3.0, 10.0}) {
+    for (const double angle : {0.0, 0.3, 1.0}) {
+      expect_plane(shapes::grid(16, 0.25), stretch(factor, angle), 8 * 17 + 8, 1e-9);
+      expect_plane(shapes::grid(16), stretch(factor, angle), 40, 1e-9);
+    }
+  }
+}
+
+struct Named {
+  std::string name;
+  shapes::Mesh mesh;
+};
+
+/// `detail`: 1 or 2; the reference solver's time grows with the square of the number of faces and with the stretch.
+std::vector<Named> exactness_meshes(int detail) {
+  const auto ring = [](const Vector& p) { return (p - Vector(0.5, 0.5, 0)).norm() < 0.23; };
+  const auto cut = [](const Vector& p) { return p.x() > 0.1 && p.y() > 0.05 && p.z() > -0.1; };
+  return {{"icosphere", shapes::icosphere(2)},
+          {"bumpy sphere", shapes::bumpy(shapes::icosphere(1 + detail), 0.12)},
+          {"torus", shapes::torus(12 * detail, 6 * detail)},
+          {"bumpy torus", shapes::bumpy(shapes::torus(12 * detail, 7 * detail), 0.08, 2)},
+          {"cylinder", shapes::cylinder(8 * detail, 5 * detail)},
+          {"plane with a hole", shapes::without(shapes::grid(8 * detail, 0.2), ring)},
+          {"bumpy sphere with a hole", shapes::without(shapes::bumpy(shapes::icosphere(1 + detail), 0.1, 3), cut)}};
+}
+
+class ExactOn : public testing::TestWithParam<int> {};
+
+TEST_P(ExactOn, EuclideanLengths) {
+  const auto [name, mesh] = exactness_meshes(2)[static_cast<std::size_t>(GetParam())];
+  SCOPED_TRACE(name);
+  expect_exact(intrinsic(mesh), {0, mesh.triangles[7][1], mesh.triangles.back()[2]});
+}
+
+TEST_P(ExactOn, StretchedSpace) {
+  const auto [name, mesh] = exactness_meshes(1)[static_cast<std::size_t>(GetParam())];
+  SCOPED_TRACE(name);
+  for (const double factor : {2.0, 100.0}) {
+    const Eigen::Matrix3d map = Vector(std::sqrt(factor), 1, 1 / std::sqrt(factor)).asDiagonal();
+    expect_exact(intrinsic(mesh, map), {mesh.triangles[5][0]});
+  }
+}
+
+// Lengths that no surface in space need have: each triangle fulfils the triangle inequality, as no edge is longer than
+// twice another one.
+TEST_P(ExactOn, RandomLengths) {
+  const auto [name, mesh] = exactness_meshes(2)[static_cast<std::size_t>(GetParam())];
+  SCOPED_TRACE(name);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> length(1.02, 2.0);
+  expect_exact(intrinsic(mesh, [&](int, int) { return length(random); }), {mesh.triangles[3][0]});
+}
+
+INSTANTIATE_TEST_SUITE_P(Geodesics, ExactOn, testing::Range(0, 7));
+
+TEST(Geodesics, SingleTriangle) {
+  shapes::Mesh mesh;
+  mesh.points = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  const IntrinsicMesh triangle = intrinsic(mesh);
+  const DistanceField field = ExactGeodesics(triangle).solve(1);
+  EXPECT_EQ(field.distances(), (std::vector<double>{3, 0, 5}));
+  const IntrinsicPath path = field.trace(2);
+  EXPECT_EQ(path.faces, std::vector<std::int32_t>{0});
+  const IntrinsicPath to_seed = field.trace(1);
+  EXPECT_EQ(to_seed.points.size(), 1u);
+  EXPECT_EQ(to_seed.length, 0.0);
+}
+
+TEST(Geodesics, ConeUnrollsToAPlane) {
+  // Six equilateral triangles less one: the angle at the tip is 300 degrees, so two rim vertices three apart see each
+  // other over the tip at 150 degrees, in a straight line of length 2 sin(75 degrees).
+  shapes::Mesh mesh;
+  mesh.points.assign(6, Vector::Zero());
+  for (int i = 0; i < 5; ++i) mesh.triangles.push_back({5, i, (i + 1) % 5});
+  const IntrinsicMesh cone = intrinsic(mesh, [](int, int) { return 1.0; });
+  const DistanceField field = ExactGeodesics(cone).solve(0);
+  expect_distances(field.distances(), {0, 1, std::sqrt(3.0), std::sqrt(3.0), 1, 1}, 1e-14);
+  expect_paths_as_long_as_distances(cone, field);
+}
+
+TEST(Geodesics, GoesAroundAHole) {
+  // A square hole of side 1/2 in the middle of the unit square: from corner to corner the path touches its corner.
+  const shapes::Mesh mesh = shapes::without(
+      shapes::grid(8), [](const Vector& p) { return std::abs(p.x() - 0.5) < 0.25 && std::abs(p.y() - 0.5) < 0.25; });
+  const IntrinsicMesh holed = intrinsic(mesh);
+  const DistanceField field = ExactGeodesics(holed).solve(0);
+  EXPECT_NEAR(field.distances()[80], 2 * std::hypot(0.75, 0.25), 1e-14);
+  EXPECT_TRUE(std::isinf(field.distances()[40]));
+  expect_exact(holed, {0, 8, 30});
+}
+
+TEST(Geodesics, PassesAnEdgeOfThreeFacesAtItsVertices) {
+  // Three half planes on one line, cut open there: from one to another only through the line's vertices.
+  shapes::Mesh mesh;
+  for (int page = 0; page < 3; ++page) {
+    const double a = 2.1 * page;
+    for (int j = 0; j <= 8; ++j) {
+      for (int i = page == 0 ? 0 : 1; i <= 6; ++i) {
+        mesh.points.emplace_back(i * std::cos(a), i * std::sin(a), j);
+      }
+    }
+  }
+  const auto at = [](int page, int i, int j) {
+    return page == 0 || i == 0 ? 7 * j + i : 63 + 54 * (page - 1) + 6 * j + i - 1;
+  };
+  for (int page = 0; page < 3; ++page) {
+    for (int j = 0; j < 8; ++j) {
+      for (int i = 0; i < 6; ++i) {
+        mesh.triangles.push_back({at(page, i, j), at(page, i + 1, j), at(page, i + 1, j + 1)});
+        mesh.triangles.push_back({at(page, i, j), at(page, i + 1, j + 1), at(page, i, j + 1)});
+      }
+    }
+  }
+  const IntrinsicMesh book = intrinsic(mesh);
+  EXPECT_EQ(std::count(book.twins.begin(), book.twins.end(), -1), 3 * (8 + 8 + 6 + 6));
+  const DistanceField field = ExactGeodesics(book).solve(at(1, 3, 2));
+  EXPECT_NEAR(field.distances()[index(at(2, 3, 2))], 6.0, 1e-14);
+  // Across the line at half height between two of its vertices it would be straight; it has to go over a vertex.
+  EXPECT_NEAR(field.distances()[index(at(2, 3, 3))], 3 + std::hypot(3, 1), 1e-14);
+  expect_exact(book, {at(1, 3, 2), at(0, 0, 4), at(2, 6, 8)});
+}
+
+TEST(Geodesics, PassesFromFanToFanThroughOneVertex) {
+  // Two icospheres that share a vertex: all distances on the second go through it.
+  const shapes::Mesh ball = shapes::icosphere(1);
+  shapes::Mesh mesh = ball;
+  const int shift = static_cast<int>(ball.points.size());
+  const auto moved = [&](int v) { return v == 0 ? 0 : v + shift; };
+  for (const Vector& p : ball.points) mesh.points.push_back(p + 2 * ball.points[0]);
+  for (const auto& [a, b, c] : ball.triangles) mesh.triangles.push_back({moved(a), moved(b), moved(c)});
+  const IntrinsicMesh two = intrinsic(mesh);
+  const DistanceField field = ExactGeodesics(two).solve(20);
+  const DistanceField from_knot = ExactGeodesics(two).solve(0);
+  for (int v = shift + 1; v < 2 * shift; ++v) {
+    EXPECT_NEAR(field.distances()[index(v)], field.distances()[0] + from_knot.distances()[index(v)], 1e-12);
+  }
+  EXPECT_TRUE(std::isinf(field.distances()[index(shift)]));  // the point left over
+  expect_exact(two, {20, 0});
+}
+
+TEST(Geodesics, RunsAlongLooseEdges) {
+  // Two separate squares and a chain of loose edges between them, one of length zero, and a bridge over the first.
+  shapes::Mesh mesh = shapes::grid(6);
+  const auto half = static_cast<std::int32_t>(mesh.points.size());
+  const shapes::Mesh other = shapes::grid(6);
+  for (const Vector& p : other.points) mesh.points.push_back(p + Vector(3, 0, 0));
+  for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({a + half, b + half, c + half});
+  mesh.points.emplace_back(2, 0, 0);
+  IntrinsicMesh joined = intrinsic(mesh);
+  const std::int32_t middle = 2 * half;
+  joined.vertex_count = middle + 2;
+  joined.loose_edges = {{24, middle, 1.5}, {middle, middle + 1, 0.0}, {half + 24, middle + 1, 0.5}, {0, 48, 0.25}};
+  const DistanceField field = ExactGeodesics(joined).solve(0);
+  EXPECT_NEAR(field.distances()[48], 0.25, 0);
+  const double to_24 = std::hypot(0.5, 0.5);
+  EXPECT_NEAR(field.distances()[index(half + 24)], std::min(to_24, 0.25 + to_24) + 2.0, 1e-14);
+  const IntrinsicPath path = field.trace(half + 24);
+  EXPECT_EQ(std::count(path.faces.begin(), path.faces.end(), -1), 3);
+  expect_exact(joined, {0, middle, middle + 1, half + 3, 20});
+}
+
+TEST(Geodesics, UnreachableIsInfinitelyFar) {
+  shapes::Mesh mesh = shapes::icosphere(1);
+  const auto count = static_cast<int>(mesh.points.size());
+  for (int i = 0; i < count; ++i) mesh.points.push_back(mesh.points[index(i)] + Vector(2, 0, 0));
+  const shapes::Mesh one = shapes::icosphere(1);
+  for (const auto& [a, b, c] : one.triangles) mesh.triangles.push_back({a + count, b + count, c + count});
+  mesh.points.emplace_back(9, 9, 9);
+  const IntrinsicMesh two = intrinsic(mesh);
+  const DistanceField field = ExactGeodesics(two).solve(3);
+  for (int v = 0; v <= 2 * count; ++v) EXPECT_EQ(std::isinf(field.distances()[index(v)]), v >= count);
+  EXPECT_TRUE(field.trace(count).points.empty());
+  expect_exact(two, {3, count + 5, 2 * count});
+}
+
+TEST(Geodesics, MeshWithoutFacesIsItsLooseEdges) {
+  IntrinsicMesh wire;
+  wire.vertex_count = 4;
+  wire.loose_edges = {{0, 1, 1.0}, {1, 2, 2.0}, {0, 2, 5.0}};
+  const DistanceField field = ExactGeodesics(wire).solve(0);
+  EXPECT_EQ(field.distances(), (std::vector<double>{0, 1, 3, kInfinity}));
+  EXPECT_EQ(field.trace(2).points.size(), 3u);
+  EXPECT_EQ(field.trace(2).length, 3.0);
+}
+
+TEST(Geodesics, MoebiusStripCutOpenIsABentStrip) {
+  // The last column is glued to the first one upside down, cut open for want of an orientation: through vertices only.
+  shapes::Mesh mesh = shapes::grid(10);
+  const auto wrap = [](std::int32_t v) { return v % 11 == 10 ? (10 - v / 11) * 11 : v; };
+  for (Triangle& t : mesh.triangles) t = {wrap(t[0]), wrap(t[1]), wrap(t[2])};
+  for (int j = 0; j <= 10; ++j) {
+    for (int i = 0; i <= 10; ++i) {
+      const double u = 2 * std::numbers::pi * i / 10, w = 0.06 * (j - 5);
+      mesh.points[index(11 * j + i)] = {(1 + w * std::cos(u / 2)) * std::cos(u),
+                                        (1 + w * std::cos(u / 2)) * std::sin(u), w * std::sin(u / 2)};
+    }
+  }
+  const IntrinsicMesh strip = intrinsic(mesh);
+  EXPECT_GT(std::count(strip.twins.begin(), strip.twins.end(), -1), 20);
+  expect_exact(strip, {0, 5 * 11 + 5, 3 * 11 + 9});
+}
+
+TEST(Geodesics, DistancesAreSymmetricInTheirEnds) {
+  const shapes::Mesh mesh = shapes::bumpy(shapes::torus(30, 16), 0.08);
+  const ExactGeodesics geodesics(intrinsic(mesh));
+  const std::vector<std::int32_t> seeds = {0, 77, 251, 400};
+  std::vector<DistanceField> fields;
+  for (const std::int32_t seed : seeds) fields.push_back(geodesics.solve(seed));
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double there = fields[i].distances()[index(seeds[j])];
+      EXPECT_NEAR(there, fields[j].distances()[index(seeds[i])], 1e-12 * there);
+    }
+  }
+}
+
+TEST(Geodesics, NumberingDoesNotMatter) {
+  const shapes::Mesh mesh = shapes::bumpy(shapes::icosphere(3), 0.1);
+  std::mt19937 random(3);
+  std::vector<std::int32_t> new_number(mesh.points.size());
+  for (std::size_t v = 0; v < new_number.size(); ++v) new_number[v] = static_cast<std::int32_t>(v);
+  std::shuffle(new_number.begin(), new_number.end(), random);
+  shapes::Mesh shuffled = mesh;
+  for (std::size_t v = 0; v < new_number.size(); ++v) shuffled.points[index(new_number[v])] = mesh.points[v];
+  for (Triangle& t : shuffled.triangles) {
+    t = {new_number[index(t[1])], new_number[index(t[2])], new_number[index(t[0])]};
+  }
+  std::shuffle(shuffled.triangles.begin(), shuffled.triangles.end(), random);
+  const DistanceField field = ExactGeodesics(intrinsic(mesh)).solve(11);
+  const IntrinsicMesh other_mesh = intrinsic(shuffled);
+  const DistanceField other = ExactGeodesics(other_mesh).solve(new_number[11]);
+  std::vector<double> expected(mesh.points.size());
+  for (std::size_t v = 0; v < expected.size(); ++v) expected[index(new_number[v])] = field.distances()[v];
+  expect_distances(other.distances(), expected, 1e-12);
+  expect_paths_as_long_as_distances(other_mesh, other);
+}
+
+TEST(Geodesics, RepeatedSolvesAgreeToTheBit) {
+  const ExactGeodesics geodesics(intrinsic(shapes::bumpy(shapes::icosphere(4), 0.1)));
+  GeodesicCounters counters, counters_again;
+  const DistanceField field = geodesics.solve(5, {}, &counters);
+  DistanceField again = field;
+  std::jthread([&] { again = geodesics.solve(5, {}, &counters_again); }).join();
+  EXPECT_EQ(field.distances(), again.distances());
+  EXPECT_GT(counters.lists, 5120u);
+  EXPECT_GT(counters.windows, counters.lists);
+  EXPECT_EQ(counters.lists, counters_again.lists);
+  EXPECT_EQ(counters.windows, counters_again.windows);
+}
+
+// The filter and the two-sides rule keep the windows to some twenty a triangle on meshes of this size; without one of
+// them they are several times as many, and without both they never end.
+TEST(Geodesics, WindowsStayFew) {
+  GeodesicCounters counters;
+  ExactGeodesics(intrinsic(shapes::grid(100, 0.2))).solve(5000, {}, &counters);
+  EXPECT_LT(counters.windows, 32u * 20000u);
+  ExactGeodesics(intrinsic(shapes::grid(100))).solve(5000, {}, &counters);
+  EXPECT_LT(counters.windows, 32u * 20000u);
+}
+
+TEST(Geodesics, ProgressRisesAndCancelEndsTheWork) {
+  const ExactGeodesics geodesics(intrinsic(shapes::bumpy(shapes::icosphere(5), 0.1)));
+  std::vector<double> fractions;
+  Task task;
+  task.progress = [&](double fraction) {
+    fractions.push_back(fraction);
+    return true;
+  };
+  const DistanceField field = geodesics.solve(0, task);
+  EXPECT_GT(fractions.size(), 10u);
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+  EXPECT_GE(fractions.front(), 0.0);
+  EXPECT_EQ(fractions.back(), 1.0);
+
+  task.progress = [&](double fraction) { return fraction < 0.5; };
+  EXPECT_THROW(geodesics.solve(0, task), Cancelled);
+  std::stop_source stop;
+  stop.request_stop();
+  task = {.stop = stop.get_token(), .progress = {}};
+  EXPECT_THROW(geodesics.solve(0, task), Cancelled);
+}
+
+void expect_invalid(const IntrinsicMesh& mesh, const std::string& part_of_message) {
+  try {
+    const ExactGeodesics geodesics(mesh);
+    FAIL() << "accepted, expected: " << part_of_message;
+  } catch (const InvalidInput& error) {
+    EXPECT_NE(std::string(error.what()).find(part_of_message), std::string::npos) << error.what();
+  }
+}
+
+TEST(Geodesics, WrongInputIsNamed) {
+  const IntrinsicMesh good = intrinsic(shapes::grid(3));
+  IntrinsicMesh bad = good;
+  bad.lengths[4] = std::numeric_limits<double>::quiet_NaN();
+  expect_invalid(bad, "half-edge 4 ");
+  bad = good;
+  bad.lengths[5] = 0;
+  expect_invalid(bad, "positive");
+  bad = good;
+  bad.lengths[4] *= 1.5;
+  expect_invalid(bad, "its twin");
+  bad = good;
+  bad.lengths[0] *= 9;
+  expect_invalid(bad, "triangle 0");
+  bad = good;
+  bad.twins[2] = 7;
+  expect_invalid(bad, "half-edge 2 ");
+  bad = good;
+  bad.twins.pop_back();
+  expect_invalid(bad, "3 entries");
+  bad = good;
+  bad.triangles[3][1] = 99;
+  expect_invalid(bad, "vertex 99");
+  bad = good;
+  bad.loose_edges = {{0, 1, 0.0}, {0, 1, -1.0}};
+  expect_invalid(bad, "loose edge 1");
+  bad.loose_edges = {{0, -4, 1.0}};
+  expect_invalid(bad, "vertex -4");
+
+  const ExactGeodesics geodesics(good);
+  EXPECT_THROW(geodesics.solve(-1), InvalidInput);
+  EXPECT_THROW(geodesics.solve(16), InvalidInput);
+  const DistanceField field = geodesics.solve(2);
+  EXPECT_THROW(field.trace(-1), InvalidInput);
+  EXPECT_THROW(field.trace(16), InvalidInput);
+}
+
+}  // namespace
+}  // namespace seamwire

@@ -131,4 +131,26 @@ inline Mesh moebius(int n) {
   return mesh;
 }
 
+/// Every point moved by a smooth wave and by a random part, each up to `amount`: hills, dents and saddles.
+inline Mesh bumpy(Mesh mesh, double amount, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> move(-amount, amount);
+  for (Vector& p : mesh.points) {
+    const double wave = amount * std::sin(17 * p.x()) * std::sin(13 * p.y() + 1) * std::cos(11 * p.z());
+    const double dx = move(random), dy = move(random), dz = move(random);
+    p = (1 + 4 * wave) * p + 0.3 * Vector(dx, dy, dz);
+  }
+  return mesh;
+}
+
+/// Without the triangles for which remove(center) holds; the points stay.
+template <class Remove>
+Mesh without(Mesh mesh, const Remove& remove) {
+  std::erase_if(mesh.triangles, [&](const Triangle& t) {
+    const auto point = [&](std::size_t i) -> const Vector& { return mesh.points[static_cast<std::size_t>(t[i])]; };
+    return remove(Vector((point(0) + point(1) + point(2)) / 3));
+  });
+  return mesh;
+}
+
 }  // namespace seamwire::shapes

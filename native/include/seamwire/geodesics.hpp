@@ -30,7 +30,15 @@ class GeodesicMesh;  // the solver's own, flat form of the mesh
 /// Exact distances from one seed to every vertex, with what it takes to trace the paths.
 class DistanceField {
  public:
-  struct TraceRecord;  // geodesics.cpp
+  /// How the shortest path arrives at a vertex, in the solver's own numbering.
+  struct TraceRecord {
+    double x = 0.0, y = 0.0;  ///< the source unfolded into the frame of `half_edge`; along an edge: x is its length
+    std::int32_t half_edge = kNone;  ///< crossed last (>= 0); ~h: straight along half-edge h; kNone: the seed, or none
+    std::int32_t source = -1;        ///< the vertex the path runs straight from
+
+    static constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::min();
+    static constexpr std::int32_t kLooseEdge = kNone + 1;  ///< straight along an edge without faces
+  };
   DistanceField(std::shared_ptr<const GeodesicMesh> mesh, std::int32_t seed, std::vector<double> distances,
                 std::vector<TraceRecord> records);
 
@@ -45,7 +53,7 @@ class DistanceField {
   std::shared_ptr<const GeodesicMesh> mesh_;
   std::int32_t seed_;
   std::vector<double> distances_;
-  std::shared_ptr<const std::vector<TraceRecord>> records_;  // of a type that is complete in geodesics.cpp only
+  std::vector<TraceRecord> records_;
 };
 
 /// What the work of a solve consisted of; the same for the same input on every machine.

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geodesic_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <string>
+
+namespace seamwire {
+namespace {
+
+std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// A vertex that is flat up to rounding must not count as one that bends paths: every one of them would send out
+/// windows that nothing needs. What is lost behind a vertex with 1e-7 too much is of second order, 1e-14 of the length.
+constexpr double kFlatness = 1e-7;
+
+/// Lengths computed from coordinates may miss the triangle inequality by rounding where the corners are in line.
+constexpr double kRounding = 1e-12;
+
+std::string text(double number) { return std::to_string(number); }
+std::string text(std::int32_t number) { return std::to_string(number); }
+
+void check_vertex(const IntrinsicMesh& mesh, std::int32_t vertex, const char* what, std::size_t number) {
+  if (vertex < 0 || vertex >= mesh.vertex_count) {
+    throw InvalidInput(std::string(what) + " " + std::to_string(number) + ": vertex " + text(vertex) +
+                       " is out of range, there are " + text(mesh.vertex_count));
+  }
+}
+
+void check(const IntrinsicMesh& mesh) {
+  const auto half_edge_count = 3 * mesh.triangles.size();
+  if (mesh.twins.size() != half_edge_count || mesh.lengths.size() != half_edge_count) {
+    throw InvalidInput("twins and lengths must have 3 entries a triangle: " + std::to_string(mesh.triangles.size()) +
+                       " triangles, " + std::to_string(mesh.twins.size()) + " twins, " +
+                       std::to_string(mesh.lengths.size()) + " lengths");
+  }
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    for (const std::int32_t v : mesh.triangles[f]) check_vertex(mesh, v, "triangle", f);
+  }
+  const auto count = static_cast<std::int32_t>(half_edge_count);
+  for (std::int32_t h = 0; h < count; ++h) {
+    const auto where = [&] { return "half-edge " + text(h) + " of triangle " + text(h / 3); };
+    const double length = mesh.lengths[index(h)];
+    if (!(length > 0) || !std::isfinite(length)) {
+      throw InvalidInput(where() + ": its length must be positive and finite, not " + text(length));
+    }
+    const std::int32_t twin = mesh.twins[index(h)];
+    if (twin == -1) continue;
+    if (twin < 0 || twin >= count || twin == h || mesh.twins[index(twin)] != h) {
+      throw InvalidInput(where() + ": its twin, " + text(twin) + ", does not name it back");
+    }
+    if (mesh.tail(twin) != mesh.tip(h) || mesh.tip(twin) != mesh.tail(h)) {
+      throw InvalidInput(where() + ": its twin, " + text(twin) +
+                         ", does not run the other way between the same vertices");
+    }
+    if (mesh.lengths[index(twin)] != length) {
+      throw InvalidInput(where() + ": it is " + text(length) + " long, its twin, " + text(twin) + ", " +
+                         text(mesh.lengths[index(twin)]));
+    }
+  }
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const double a = mesh.lengths[3 * f], b = mesh.lengths[3 * f + 1], c = mesh.lengths[3 * f + 2];
+    const double longest = std::max({a, b, c});
+    if (longest - (a + b + c - longest) > kRounding * longest) {
+      throw InvalidInput("triangle " + std::to_string(f) + ": the lengths " + text(a) + ", " + text(b) + ", " +
+                         text(c) + " fail the triangle inequality");
+    }
+  }
+  for (std::size_t i = 0; i < mesh.loose_edges.size(); ++i) {
+    const LooseEdge& edge = mesh.loose_edges[i];
+    check_vertex(mesh, edge.a, "loose edge", i);
+    check_vertex(mesh, edge.b, "loose edge", i);
+    if (!(edge.length >= 0) || !std::isfinite(edge.length)) {
+      throw InvalidInput("loose edge " + std::to_string(i) + ": its length must be finite and not negative, not " +
+                         text(edge.length));
+    }
+  }
+}
+
+/// Height of the apex over the base. W. Kahan, "Miscalculating area and angles of a needle-like triangle".
+double height(double base, double left, double right) {
+  double a = base, b = left, c = right;
+  if (a < b) std::swap(a, b);
+  if (a < c) std::swap(a, c);
+  if (b < c) std::swap(b, c);
+  const double product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
+  return std::sqrt(std::max(product, 0.0)) / (2 * base);
+}
+
+/// Where the apex stands over the base, from its tail: (left^2 + base^2 - right^2) / (2 base), with the difference
+/// taken between the two that are nearest to each other.
+double foot(double base, double left, double right) {
+  const double square = std::abs(base - right) < std::abs(left - right) ? left * left + (base - right) * (base + right)
+                                                                        : base * base + (left - right) * (left + right);
+  return square / (2 * base);
+}
+
+/// Rows of an adjacency: for each i, where its items begin, given how many it has in counts[i + 1].
+void accumulate_rows(std::vector<std::int32_t>& counts) {
+  std::partial_sum(counts.begin(), counts.end(), counts.begin());
+}
+
+}  // namespace
+
+GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh) {
+  check(mesh);
+  renumber(mesh);
+
+  std::vector<std::int32_t> own_face(original_face_.size());
+  for (std::size_t f = 0; f < original_face_.size(); ++f)
+    own_face[index(original_face_[f])] = static_cast<std::int32_t>(f);
+  const auto entered_over = [&](std::int32_t original) {
+    const std::int32_t twin = mesh.twins[index(original)];
+    return twin < 0 ? -1 : 3 * own_face[index(twin / 3)] + twin % 3;
+  };
+  half_edges_.resize(3 * original_face_.size());
+  for (std::size_t h = 0; h < half_edges_.size(); ++h) {
+    const std::int32_t original = original_half_edge(static_cast<std::int32_t>(h));
+    const std::int32_t after = next(original), before = previous(original);
+    const double base = mesh.lengths[index(original)];
+    const double left = mesh.lengths[index(before)], right = mesh.lengths[index(after)];
+    half_edges_[h] = {.length = base,
+                      .apex_x = foot(base, left, right),
+                      .apex_y = height(base, left, right),
+                      .left_inverse = 1 / left,
+                      .right_inverse = 1 / right,
+                      .tail = own_vertex(mesh.tail(original)),
+                      .tip = own_vertex(mesh.tip(original)),
+                      .apex = own_vertex(mesh.apex(original)),
+                      .left = entered_over(before),
+                      .right = entered_over(after)};
+  }
+
+  first_out_.assign(vertex_count() + 1, 0);
+  for (const HalfEdge& h : half_edges_) ++first_out_[index(h.tail) + 1];
+  accumulate_rows(first_out_);
+  out_.resize(half_edges_.size());
+  std::vector<std::int32_t> free_slot(first_out_.begin(), first_out_.end() - 1);
+  for (std::size_t h = 0; h < half_edges_.size(); ++h) {
+    out_[index(free_slot[index(half_edges_[h].tail)]++)] = static_cast<std::int32_t>(h);
+  }
+
+  first_loose_.assign(vertex_count() + 1, 0);
+  for (const LooseEdge& edge : mesh.loose_edges) {
+    ++first_loose_[index(own_vertex(edge.a)) + 1];
+    ++first_loose_[index(own_vertex(edge.b)) + 1];
+  }
+  accumulate_rows(first_loose_);
+  loose_.resize(2 * mesh.loose_edges.size());
+  free_slot.assign(first_loose_.begin(), first_loose_.end() - 1);
+  for (const LooseEdge& edge : mesh.loose_edges) {
+    const std::int32_t a = own_vertex(edge.a), b = own_vertex(edge.b);
+    loose_[index(free_slot[index(a)]++)] = {b, edge.length};
+    loose_[index(free_slot[index(b)]++)] = {a, edge.length};
+  }
+
+  find_bending_vertices();
+}
+
+/// Breadth first over the triangles, a component after the other; a face gets its number with its first vertex.
+void GeodesicMesh::renumber(const IntrinsicMesh& mesh) {
+  const auto vertices = index(mesh.vertex_count);
+  std::vector<std::int32_t> first(vertices + 1, 0), corners(3 * mesh.triangles.size());
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::int32_t v : triangle) ++first[index(v) + 1];
+  }
+  accumulate_rows(first);
+  std::vector<std::int32_t> free_slot(first.begin(), first.end() - 1);
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    for (const std::int32_t v : mesh.triangles[f]) corners[index(free_slot[index(v)]++)] = static_cast<std::int32_t>(f);
+  }
+
+  own_vertex_.assign(vertices, -1);
+  original_vertex_.reserve(vertices);
+  original_face_.reserve(mesh.triangles.size());
+  std::vector<std::uint8_t> numbered(mesh.triangles.size(), 0);
+  const auto number = [&](std::int32_t v) {
+    if (own_vertex_[index(v)] >= 0) return;
+    own_vertex_[index(v)] = static_cast<std::int32_t>(original_vertex_.size());
+    original_vertex_.push_back(v);
+  };
+  std::size_t done = 0;
+  for (std::int32_t root = 0; root < mesh.vertex_count; ++root) {
+    number(root);
+    for (; done < original_vertex_.size(); ++done) {
+      const auto v = index(original_vertex_[done]);
+      for (auto i = index(first[v]); i < index(first[v + 1]); ++i) {
+        const std::int32_t face = corners[i];
+        if (numbered[index(face)]) continue;
+        numbered[index(face)] = 1;
+        original_face_.push_back(face);
+        for (const std::int32_t corner : mesh.triangles[index(face)]) number(corner);
+      }
+    }
+  }
+}
+
+void GeodesicMesh::find_bending_vertices() {
+  bends_paths_.assign(vertex_count(), 0);
+  for (std::int32_t v = 0; v < static_cast<std::int32_t>(vertex_count()); ++v) {
+    const auto leaving = out(v);
+    bool bends = !loose(v).empty();
+    double angle = 0.0;
+    for (const std::int32_t h : leaving) {
+      angle += std::atan2(half_edge(h).apex_y, half_edge(h).apex_x);
+      bends = bends || twin(h) < 0 || half_edge(h).left < 0;
+    }
+    if (!bends && !leaving.empty()) {
+      // Around one closed fan; whatever is not met belongs to another.
+      std::size_t met = 0;
+      std::int32_t h = leaving.front();
+      do {
+        h = half_edge(h).left;
+        ++met;
+      } while (h != leaving.front());
+      bends = met != leaving.size();
+    }
+    bends_paths_[index(v)] = bends || angle > 2 * std::numbers::pi + kFlatness;
+  }
+}
+
+}  // namespace seamwire

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Paths from one record a vertex. A record says over which half-edge the shortest path arrives, and where its source
+// lies when unfolded into that half-edge's frame. That is all a straight line needs: unfold triangle after triangle
+// towards the source and see on which side of the line each apex lies. At the source its own record takes over.
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "geodesic_mesh.hpp"
+#include "seamwire/geodesics.hpp"
+
+namespace seamwire {
+namespace {
+
+using HalfEdge = GeodesicMesh::HalfEdge;
+using TraceRecord = DistanceField::TraceRecord;
+
+/// A line that passes a vertex this close (in parts of the triangle's base) may as well go through it, ...
+constexpr double kSnapWidth = 1e-9;
+/// ... if the distances say so, up to this part of the whole. The other side of such a vertex would be a guess.
+constexpr double kSnapDistance = 1e-10;
+/// How far (in parts of the triangle's longest side) unfolding may have moved the source from its vertex.
+constexpr double kSameVertex = 1e-6;
+
+struct Point2 {
+  double x, y;
+};
+
+double distance(const Point2& a, const Point2& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+double cross(const Point2& a, const Point2& b) { return a.x * b.y - a.y * b.x; }
+
+/// Into the frame of the half-edge entered over the left or the right side.
+Point2 to_left(const HalfEdge& h, const Point2& p) {
+  const double c = h.apex_x * h.left_inverse, s = h.apex_y * h.left_inverse;
+  return {p.x * c + p.y * s, p.y * c - p.x * s};
+}
+Point2 to_right(const HalfEdge& h, const Point2& p) {
+  const double c = (h.length - h.apex_x) * h.right_inverse, s = -h.apex_y * h.right_inverse;
+  const double x = p.x - h.apex_x, y = p.y - h.apex_y;
+  return {x * c + y * s, y * c - x * s};
+}
+Point2 to_twin(const HalfEdge& h, const Point2& p) { return {h.length - p.x, -p.y}; }
+
+/// Where the segment from p (below) to q (above) meets the base.
+double crossing(const HalfEdge& h, const Point2& p, const Point2& q) {
+  return std::clamp(p.x + (q.x - p.x) * (-p.y / (q.y - p.y)), 0.0, h.length);
+}
+
+/// Walks from a vertex back to the seed, and writes down what it passes.
+class Tracer {
+ public:
+  Tracer(const GeodesicMesh& mesh, const std::vector<double>& distances, const std::vector<TraceRecord>& records)
+      : mesh_(mesh), distances_(distances), records_(records) {}
+
+  IntrinsicPath run(std::int32_t vertex) {
+    path_.length = 0.0;
+    path_.points.push_back({.vertex = mesh_.original_vertex(vertex)});
+    for (;;) {
+      const TraceRecord& record = records_[static_cast<std::size_t>(vertex)];
+      if (record.half_edge == TraceRecord::kNone) break;
+      if (record.half_edge >= 0) {
+        vertex = follow_line(vertex, record);
+      } else {
+        const bool is_loose = record.half_edge == TraceRecord::kLooseEdge;
+        add_vertex(record.source, is_loose ? -1 : ~record.half_edge, record.x);
+        vertex = record.source;
+      }
+    }
+    std::reverse(path_.points.begin(), path_.points.end());
+    std::reverse(path_.faces.begin(), path_.faces.end());
+    return std::move(path_);
+  }
+
+ private:
+  /// A vertex beside the line, from which to go on if the line leads nowhere; with the path's state when it was passed.
+  struct Passed {
+    double length = std::numeric_limits<double>::infinity();
+    std::int32_t vertex = -1, half_edge = -1;
+    double segment = 0.0, path_length = 0.0;
+    std::size_t points = 0;
+  };
+
+  double at(std::int32_t vertex) const { return distances_[static_cast<std::size_t>(mesh_.original_vertex(vertex))]; }
+
+  void add_segment(std::int32_t half_edge, double length) {
+    path_.faces.push_back(half_edge < 0 ? -1 : mesh_.original_half_edge(half_edge) / 3);
+    path_.length += length;
+  }
+  void add_vertex(std::int32_t vertex, std::int32_t half_edge, double length) {
+    add_segment(half_edge, length);
+    path_.points.push_back({.vertex = mesh_.original_vertex(vertex)});
+  }
+  void add_crossing(std::int32_t half_edge, double x, std::int32_t behind, double length) {
+    add_segment(behind, length);
+    path_.points.push_back(
+        {.half_edge = mesh_.original_half_edge(half_edge), .t = x / mesh_.half_edge(half_edge).length});
+  }
+
+  /// From `vertex` straight towards its source. Returns the vertex to go on from: the source, or one on the way.
+  std::int32_t follow_line(std::int32_t vertex, const TraceRecord& record) {
+    const HalfEdge& first = mesh_.half_edge(record.half_edge);
+    Point2 from{first.apex_x, first.apex_y}, source{record.x, record.y};
+    best_ = {};
+    for (const std::int32_t side : {0, 1}) {
+      const Point2 corner{side == 0 ? 0.0 : first.length, 0.0};
+      const std::int32_t u = side == 0 ? first.tail : first.tip;
+      if (passes(vertex, u, corner, from, source, from, record.half_edge, first.length)) return take_best();
+    }
+
+    // `h` is the half-edge entered, `behind` the last one of the triangle left; `here` is the last point, in h's frame.
+    std::int32_t h = mesh_.twin(record.half_edge), behind = record.half_edge;
+    Point2 here = to_twin(first, from);
+    from = here;
+    source = to_twin(first, source);
+    // A straight line crosses no triangle twice unless it winds around a cone; this many crossings are a mistake.
+    std::size_t crossings_left = 16 * mesh_.half_edge_count();
+    while (h >= 0 && source.y > 0 && crossings_left-- > 0) {
+      const HalfEdge& edge = mesh_.half_edge(h);
+      const double x = crossing(edge, from, source);
+      add_crossing(h, x, behind, distance(here, {x, 0.0}));
+      here = {x, 0.0};
+      const Point2 apex{edge.apex_x, edge.apex_y};
+      const double size = std::max(edge.length, std::hypot(apex.x, apex.y));
+      if (edge.apex == record.source && distance(apex, source) <= kSameVertex * size) {
+        add_vertex(edge.apex, h, distance(here, apex));
+        return edge.apex;
+      }
+      if (passes(vertex, edge.apex, apex, from, source, here, h, edge.length)) return take_best();
+      const bool apex_is_left = cross({source.x - from.x, source.y - from.y}, {apex.x - from.x, apex.y - from.y}) > 0;
+      behind = h;
+      h = apex_is_left ? edge.right : edge.left;
+      const auto move = [&](const Point2& p) { return apex_is_left ? to_right(edge, p) : to_left(edge, p); };
+      from = move(from);
+      source = move(source);
+      here = move(here);
+    }
+    if (best_.vertex < 0) {
+      throw std::logic_error("the path to vertex " + std::to_string(mesh_.original_vertex(vertex)) + " lost its way");
+    }
+    return take_best();
+  }
+
+  /// Remembers the vertex u beside the line if it is the best so far; true if the line is as good as through it.
+  bool passes(std::int32_t vertex, std::int32_t u, const Point2& at_u, const Point2& from, const Point2& source,
+              const Point2& here, std::int32_t half_edge, double base) {
+    if (!(at(u) < at(vertex))) return false;
+    const double length = at(u) + distance(from, at_u);
+    const Passed candidate{length, u, half_edge, distance(here, at_u), path_.length, path_.points.size()};
+    if (length < best_.length) best_ = candidate;
+    const Point2 line{source.x - from.x, source.y - from.y}, aside{at_u.x - from.x, at_u.y - from.y};
+    const bool is_near = std::abs(cross(line, aside)) <= kSnapWidth * base * std::hypot(line.x, line.y);
+    if (!is_near || std::abs(length - at(vertex)) > kSnapDistance * at(vertex)) return false;
+    best_ = candidate;
+    return true;
+  }
+
+  std::int32_t take_best() {
+    path_.points.resize(best_.points);
+    path_.faces.resize(best_.points - 1);
+    path_.length = best_.path_length;
+    add_vertex(best_.vertex, best_.half_edge, best_.segment);
+    return best_.vertex;
+  }
+
+  const GeodesicMesh& mesh_;
+  const std::vector<double>& distances_;
+  const std::vector<TraceRecord>& records_;
+  IntrinsicPath path_;
+  Passed best_;
+};
+
+}  // namespace
+
+DistanceField::DistanceField(std::shared_ptr<const GeodesicMesh> mesh, std::int32_t seed, std::vector<double> distances,
+                             std::vector<TraceRecord> records)
+    : mesh_(std::move(mesh)), seed_(seed), distances_(std::move(distances)), records_(std::move(records)) {}
+
+IntrinsicPath DistanceField::trace(std::int32_t vertex) const {
+  if (vertex < 0 || static_cast<std::size_t>(vertex) >= distances_.size()) {
+    throw InvalidInput("vertex " + std::to_string(vertex) + " is out of range, there are " +
+                       std::to_string(distances_.size()));
+  }
+  if (std::isinf(distances_[static_cast<std::size_t>(vertex)])) return {};
+  return Tracer(*mesh_, distances_, records_).run(mesh_->own_vertex(vertex));
+}
+
+}  // namespace seamwire

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "seamwire/intrinsic_mesh.hpp"
+#include "shapes.hpp"
+
+/// Meshes known by their edge lengths, made from shapes.
+namespace seamwire::shapes {
+
+/// Glues triangles along the edges that exactly two of them share in opposite directions, and gives every edge the
+/// length length(a, b), a < b.
+template <class Length>
+IntrinsicMesh intrinsic(const Mesh& mesh, const Length& length) {
+  IntrinsicMesh result;
+  result.vertex_count = static_cast<std::int32_t>(mesh.points.size());
+  result.triangles = mesh.triangles;
+  const auto count = static_cast<std::int32_t>(3 * mesh.triangles.size());
+  std::map<std::pair<int, int>, std::vector<std::int32_t>> half_edges_of;
+  for (std::int32_t h = 0; h < count; ++h) {
+    half_edges_of[std::minmax({result.tail(h), result.tip(h)})].push_back(h);
+  }
+  result.twins.assign(3 * mesh.triangles.size(), -1);
+  result.lengths.assign(3 * mesh.triangles.size(), 0.0);
+  for (const auto& [edge, half_edges] : half_edges_of) {
+    const double its_length = length(edge.first, edge.second);
+    for (const std::int32_t h : half_edges) result.lengths[static_cast<std::size_t>(h)] = its_length;
+    if (half_edges.size() == 2 && result.tail(half_edges[0]) == result.tip(half_edges[1])) {
+      result.twins[static_cast<std::size_t>(half_edges[0])] = half_edges[1];
+      result.twins[static_cast<std::size_t>(half_edges[1])] = half_edges[0];
+    }
+  }
+  return result;
+}
+
+/// The lengths that the points have after a linear map.
+inline IntrinsicMesh intrinsic(const Mesh& mesh, const Eigen::Matrix3d& map = Eigen::Matrix3d::Identity()) {
+  return intrinsic(mesh, [&](int a, int b) {
+    return (map * (mesh.points[static_cast<std::size_t>(a)] - mesh.points[static_cast<std::size_t>(b)])).norm();
+  });
+}
+
+}  // namespace seamwire::shapes
