@@ -63,6 +63,7 @@ class Refinement {
     }
   };
 
+  void orient_normals();
   bool is_new(VertexHandle v) const { return index(v) >= fans_; }
   std::int32_t number(VertexHandle v) const;
   TensorAt tensor_at(VertexHandle v) const;
@@ -86,10 +87,11 @@ class Refinement {
   const Metric& metric_;
   const EmbedOptions& options_;
   HalfEdgeMesh mesh_;
-  std::size_t fans_;                       // vertices of the surface's half-edge mesh
-  std::vector<TensorAt> tensors_;          // of the new vertices
-  std::vector<double> weights_;            // normal_weight() of the tensor of every vertex
-  std::vector<double> lengths_;            // per edge
+  std::size_t fans_;               // vertices of the surface's half-edge mesh
+  std::vector<bool> is_turned_;    // per fan: its side of the surface is the other one than its vertex's normal's
+  std::vector<TensorAt> tensors_;  // of the new vertices
+  std::vector<double> weights_;    // normal_weight() of the tensor of every vertex
+  std::vector<double> lengths_;    // per edge
   std::vector<std::int32_t> source_face_;  // per face
   std::priority_queue<Candidate> queue_;   // invalid triangles that may be bisected; entries grow stale
   std::vector<LooseEdge> merged_;          // between vertices at the same place, of which only the second has faces now
@@ -110,9 +112,29 @@ Refinement::Refinement(const Surface& surface, const Metric& metric, const Embed
   for (const std::int32_t v : surface.vertex_of_fan()) {
     weights_.push_back(normal_weight(metric.tensors[static_cast<std::size_t>(v)]));
   }
+  orient_normals();
   mend();
   lengths_.resize(mesh_.n_edges());
   for (const EdgeHandle e : mesh_.edges()) lengths_[index(e)] = measure(mesh_.halfedge_handle(e, 0));
+}
+
+// A vertex has one normal, but its fans need not agree on which side of the surface is outside: where a one-sided
+// surface is cut they cannot. Normals in the middle of edges are means, so they must be of one side.
+void Refinement::orient_normals() {
+  is_turned_.assign(fans_, false);
+  const auto& vertex_of_fan = surface_.vertex_of_fan();  // ascending
+  if (std::adjacent_find(vertex_of_fan.begin(), vertex_of_fan.end()) == vertex_of_fan.end()) return;
+  std::vector<Vector> normals(fans_, Vector::Zero());
+  for (const FaceHandle f : mesh_.faces()) {
+    const auto [a, b, c] = sides(f);
+    const Vector normal = vector(a).cross(vector(b));
+    for (const HalfedgeHandle h : {a, b, c}) normals[index(mesh_.from_vertex_handle(h))] += normal;
+  }
+  for (std::size_t fan = 0; fan < fans_; ++fan) {
+    const std::int32_t v = vertex_of_fan[fan];
+    const bool is_shared = (fan > 0 && vertex_of_fan[fan - 1] == v) || (fan + 1 < fans_ && vertex_of_fan[fan + 1] == v);
+    is_turned_[fan] = is_shared && normals[fan].dot(metric_.normals[static_cast<std::size_t>(v)]) < 0;
+  }
 }
 
 std::int32_t Refinement::number(VertexHandle v) const {
@@ -123,7 +145,7 @@ std::int32_t Refinement::number(VertexHandle v) const {
 TensorAt Refinement::tensor_at(VertexHandle v) const {
   if (is_new(v)) return tensors_[index(v) - fans_];
   const auto i = static_cast<std::size_t>(surface_.vertex_of_fan()[index(v)]);
-  return {metric_.normals[i], metric_.tensors[i]};
+  return {is_turned_[index(v)] ? Vector(-metric_.normals[i]) : metric_.normals[i], metric_.tensors[i]};
 }
 
 double Refinement::norm(VertexHandle at, const Vector& e) const {
