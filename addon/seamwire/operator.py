@@ -8,6 +8,7 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
 import bpy
+import numpy as np
 
 from . import edit_mesh, keymap, native, session, ui
 from .keymap import Action
@@ -137,7 +138,7 @@ class Drawing:
         self.cage = edit_mesh.Cage(self._obj)
         arrays = edit_mesh.read(self._obj)
         self.session = session.Session(_live_maker(arrays), arrays.points, along)
-        self._picker = Picker(self.cage.bm)
+        self._picker = Picker(self.cage.bm, float(np.ptp(arrays.points, axis=0).max()))
         self._ending = ExitStack()
         try:
             self._overlay = Overlay(self.session, self._obj, arrays.points, arrays.to_object)

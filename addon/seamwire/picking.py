@@ -103,16 +103,16 @@ class Picker:
     ----------
     bm
         The edit mesh. Its topology and its coordinates must stay as they are while the picker is used.
+    size
+        How large it is, in object coordinates, in any direction: a measure for steps that are small beside it.
     """
 
-    def __init__(self, bm: bmesh.types.BMesh) -> None:
+    def __init__(self, bm: bmesh.types.BMesh, size: float) -> None:
         self._bm = bm
         self._tree = BVHTree.FromBMesh(bm)
         bm.verts.ensure_lookup_table()
         bm.faces.ensure_lookup_table()
-        corners = [vertex.co for vertex in bm.verts]
-        spans = [max(co[axis] for co in corners) - min(co[axis] for co in corners) for axis in range(3)] or [0.0]
-        self._step = max(1e-6 * max(spans), 1e-12)
+        self._step = max(1e-6 * size, 1e-12)
 
     def pick(
         self, view: View, matrix: Matrix, cursor: tuple[float, float], vertices_only: bool, reach: float = REACH
@@ -195,21 +195,18 @@ class Picker:
     @staticmethod
     def _surroundings(face: bmesh.types.BMFace, view: View, matrix: Matrix) -> Iterator[bmesh.types.BMEdge]:
         """Yield the edges of a face and of those around it that turn the same side to the viewer."""
+        # (0, 0, -1, 0) in clip space is the eye, or the direction to it where there is no perspective.
+        *eye, weight = np.linalg.inv(view.perspective) @ (0.0, 0.0, -1.0, 0.0)
+        to_eye = Vector(eye)
+        normals = matrix.to_3x3().inverted().transposed()
 
         def side(of: bmesh.types.BMFace) -> float:
-            # The eye in clip space is the direction (0, 0, -1, 0) in an orthographic view and in a perspective one.
-            eye = np.linalg.inv(view.perspective) @ (0.0, 0.0, -1.0, 0.0)
-            centre = np.array(matrix @ of.calc_center_median())
-            towards = eye[:3] / eye[3] - centre if abs(eye[3]) > 1e-9 else eye[:3]
-            return float(np.dot(towards, np.array(normal_matrix @ of.normal)))
+            towards = to_eye / weight - matrix @ of.calc_center_median() if abs(weight) > 1e-9 else to_eye
+            return towards.dot(normals @ of.normal)
 
-        normal_matrix = matrix.to_3x3().inverted().transposed()
         yield from face.edges
         facing = side(face)
-        seen = {face}
-        for vertex in face.verts:
-            for other in vertex.link_faces:
-                if other not in seen and not other.hide:
-                    seen.add(other)
-                    if side(other) * facing > 0.0:
-                        yield from other.edges
+        around = {other for vertex in face.verts for other in vertex.link_faces if not other.hide}
+        for other in around - {face}:
+            if side(other) * facing > 0.0:
+                yield from other.edges

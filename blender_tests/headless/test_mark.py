@@ -1,0 +1,260 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What ``mesh.seamwire_mark`` marks, and that it changes nothing else."""
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from scene import add_grid, add_layers, add_object, add_suzanne, chain, edit, ends, head, seams, snapshot
+
+
+def mark(chains: str, along: str = "EDGES") -> set[str]:
+    return bpy.ops.mesh.seamwire_mark(chains=chains, along=along)
+
+
+def hide_faces(obj: bpy.types.Object, faces: set[int]) -> None:
+    bm = bmesh.from_edit_mesh(obj.data)
+    for face in bm.faces:
+        if face.index in faces:
+            face.hide_set(True)
+    bmesh.update_edit_mesh(obj.data)
+
+
+@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
+def test_a_row_of_a_grid_is_marked_from_end_to_end(along: str) -> None:
+    obj = add_grid(9)
+    edit()
+    assert mark("36 44", along) == {"FINISHED"}
+    assert seams(obj) == chain(*range(36, 45))
+
+
+@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
+def test_chains_go_on_from_seed_to_seed(along: str) -> None:
+    obj = add_grid(9)
+    edit()
+    mark("0 8 80; 36 38", along)
+    assert seams(obj) == sorted(chain(*range(9)) + chain(*range(8, 81, 9)) + chain(36, 37, 38))
+
+
+def test_edges_are_seeds_and_part_of_the_wire() -> None:
+    obj = add_grid(9)
+    edit()
+    mark("36-37 42-43 80")
+    marked = seams(obj)
+    assert set(chain(*range(36, 44))) <= set(marked)
+    assert ends(marked) == [36, 80]
+
+
+@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
+def test_on_suzanne_a_wire_joins_its_seeds_and_nothing_else_changes(along: str) -> None:
+    obj = add_suzanne(levels=1)
+    add_layers(obj)
+    first, second, third = head(obj, 3)
+    edit()
+    before = snapshot(obj, with_seams=False)
+    mark(f"{first} {second} {third}", along)
+    marked = seams(obj)
+    assert {first, second, third} <= {vertex for edge in marked for vertex in edge}
+    assert ends(marked) == [first, third]
+    assert snapshot(obj, with_seams=False) == before
+
+
+def test_no_wire_takes_the_diagonal_of_a_polygon() -> None:
+    # Four quads around the middle of the grid made one octagon: from one of its corners to the opposite one there is a
+    # straight way through it, along diagonals only.
+    obj = add_grid(5)
+    edit()
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    bmesh.ops.dissolve_verts(bm, verts=[bm.verts[12]])
+    bmesh.update_edit_mesh(obj.data)
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    octagon = max(bm.faces, key=lambda face: len(face.verts))
+    corners = [v.index for v in sorted(octagon.verts, key=lambda v: tuple(v.co))]
+    assert len(corners) == 8
+    mark(f"{corners[0]} {corners[-1]}")
+    assert len(seams(obj)) == 4, "half around it"
+    mark(f"{corners[0]} {corners[-1]}", "SURFACE")
+    assert ends(seams(obj)) in ([], sorted((corners[0], corners[-1]))), "chains between the two corners only"
+
+
+@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
+def test_wires_do_not_enter_hidden_faces(along: str) -> None:
+    # The faces of the middle column are hidden up to the topmost: the only way leads over the top row.
+    obj = add_grid(6)
+    edit()
+    hide_faces(obj, {2, 7, 12, 17})
+    bm = bmesh.from_edit_mesh(obj.data)
+    hidden = {tuple(sorted(v.index for v in e.verts)) for e in bm.edges if e.hide}
+    assert hidden == {(2, 3), (8, 9), (14, 15), (20, 21)}
+    mark("2 3", along)
+    marked = seams(obj)
+    assert not hidden & set(marked)
+    assert ends(marked) == [2, 3]
+    assert {(26, 27), (32, 33)} & set(marked)
+
+
+@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
+def test_a_turned_moved_and_scaled_object_gets_the_same_seams(along: str) -> None:
+    plain = add_suzanne()
+    seeds = " ".join(map(str, head(plain, 3)))
+    edit()
+    mark(seeds, along)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    expected = seams(plain)
+    plain.select_set(False)
+    placed = add_suzanne()
+    placed.location = (3.0, -2.0, 11.0)
+    placed.rotation_euler = (0.3, 1.1, -0.7)
+    placed.scale = (7.0, 7.0, 7.0)
+    bpy.context.view_layer.update()
+    edit()
+    mark(seeds, along)
+    assert seams(placed) == expected
+
+
+def test_lengths_are_those_that_are_seen() -> None:
+    from seamwire import edit_mesh
+
+    obj = add_suzanne()
+    obj.rotation_euler = (0.3, 1.1, -0.7)
+    obj.scale = (1.0, 4.0, 0.5)
+    bpy.context.view_layer.update()
+    edit()
+    arrays = edit_mesh.read(obj)
+    bm = bmesh.from_edit_mesh(obj.data)
+    world = np.array([obj.matrix_world @ v.co for v in bm.verts])
+    a, b = arrays.edges.T
+    seen = np.linalg.norm(world[a] - world[b], axis=1)
+    read = np.linalg.norm(arrays.points[a] - arrays.points[b], axis=1)
+    assert np.allclose(read, seen, rtol=1e-5), "Blender's matrices are of single precision"
+    back = arrays.points @ arrays.to_object.T
+    assert np.allclose(back, [v.co for v in bm.verts], atol=1e-6)
+
+
+def test_a_flattened_object_is_read_without_its_matrix() -> None:
+    from seamwire import edit_mesh
+
+    obj = add_grid(3)
+    obj.scale = (1.0, 1.0, 0.0)
+    bpy.context.view_layer.update()
+    edit()
+    assert np.allclose(edit_mesh.read(obj).to_object, np.eye(3))
+    assert mark("0 2") == {"FINISHED"}
+
+
+def test_modifiers_do_not_count() -> None:
+    obj = add_grid(5)
+    obj.modifiers.new("Subdivision", "SUBSURF").levels = 2
+    obj.modifiers.new("Mirror", "MIRROR")
+    edit()
+    mark("10 14")
+    assert seams(obj) == chain(10, 11, 12, 13, 14)
+
+
+def test_of_several_objects_in_edit_mode_only_the_active_one_is_marked() -> None:
+    other = add_grid(5, name="Other")
+    obj = add_grid(5, name="Active")
+    edit()
+    assert {o.name for o in bpy.context.objects_in_mode} == {"Other", "Active"}
+    mark("10 14")
+    assert seams(obj) == chain(10, 11, 12, 13, 14)
+    assert seams(other) == []
+
+
+def test_seams_that_were_there_stay() -> None:
+    obj = add_grid(5)
+    edit()
+    mark("0 4")
+    mark("2 22")
+    assert seams(obj) == sorted(chain(0, 1, 2, 3, 4) + chain(2, 7, 12, 17, 22))
+
+
+def test_wires_run_along_edges_without_faces() -> None:
+    obj = add_object([(0, 0, 0), (1, 0, 0), (1, 1, 0), (2, 1, 0), (3, 1, 0)], [(0, 1, 2)], [(2, 3), (3, 4)])
+    edit()
+    mark("0 4")
+    marked = seams(obj)
+    assert set(chain(2, 3, 4)) <= set(marked)
+    assert ends(marked) == [0, 4]
+
+
+def test_what_can_be_reached_is_marked_and_the_rest_said(capfd: pytest.CaptureFixture[str]) -> None:
+    obj = add_object(
+        [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (5, 0, 0), (6, 0, 0), (6, 1, 0)], [(0, 1, 2, 3), (4, 5, 6)]
+    )
+    edit()
+    assert mark("0 1 5") == {"FINISHED"}
+    assert seams(obj) == [(0, 1)]
+    assert "Chain 1: No wire reaches vertex 5" in capfd.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("chains", "along", "said"),
+    [
+        ("", "EDGES", "no chains"),
+        ("0 one", "EDGES", "'one'"),
+        ("0 1; 7", "EDGES", "Chain 2"),
+        ("0 25", "EDGES", "no vertex 25"),
+        ("0 99999999999999999999", "EDGES", "no vertex 9999"),
+        ("0 0-2", "EDGES", "no edge 0-2"),
+        ("0 6-25", "EDGES", "no vertex 25"),
+        ("0-1 4", "SURFACE", "seeds are vertices"),
+        ("0 24", "EDGES", "Vertex 24 is hidden"),
+        ("0 18-19", "EDGES", None),
+        ("0 19-24", "EDGES", "hidden"),
+    ],
+)
+def test_wrong_seeds_are_said_and_nothing_is_marked(chains: str, along: str, said: str | None) -> None:
+    obj = add_grid(5)
+    edit()
+    hide_faces(obj, {15})
+    before = snapshot(obj)
+    if said is None:
+        mark(chains, along)
+        return
+    with pytest.raises(RuntimeError, match=said):
+        mark(chains, along)
+    assert snapshot(obj) == before
+
+
+def test_a_mesh_without_anything_visible_is_said() -> None:
+    obj = add_grid(3)
+    edit()
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.hide()
+    with pytest.raises(RuntimeError, match="hidden"):
+        mark("0 2")
+    assert seams(obj) == []
+
+
+@pytest.mark.parametrize("size", [0, 1])
+def test_a_mesh_without_edges_is_said(size: int) -> None:
+    add_object([(0.0, 0.0, 0.0)] * size, [])
+    edit()
+    with pytest.raises(RuntimeError, match=r"no vertex|No edge"):
+        mark("0 0")
+
+
+def test_outside_edit_mode_the_operators_cannot_be_called() -> None:
+    add_grid(3)
+    assert not bpy.ops.mesh.seamwire_mark.poll()
+    assert not bpy.ops.mesh.seamwire_draw.poll()
+    with pytest.raises(RuntimeError, match="poll"):
+        mark("0 2")
+
+
+def test_marking_is_one_step_of_undo() -> None:
+    obj = add_grid(5)
+    edit()
+    bpy.ops.ed.undo_push(message="Before")
+    name = obj.name
+    bpy.ops.mesh.seamwire_mark("EXEC_DEFAULT", True, chains="0 4; 10 14")
+    assert len(seams(obj)) == 8
+    bpy.ops.ed.undo()
+    obj = bpy.data.objects[name]
+    assert obj.mode == "EDIT"
+    assert seams(obj) == []
+    bpy.ops.ed.redo()
+    assert len(seams(bpy.data.objects[name])) == 8
