@@ -92,7 +92,7 @@ class ItemsByEdge {
     std::vector<Index> items;
     for (std::size_t v = 0; v + 1 < first_.size(); ++v) {
       for (Index k = first_[v]; k < first_[v + 1];) {
-        const Index w = static_cast<Index>(keys_[k] >> 32);
+        const auto w = static_cast<Index>(keys_[k] >> 32);
         items.clear();
         for (; k < first_[v + 1] && static_cast<Index>(keys_[k] >> 32) == w; ++k) {
           items.push_back(static_cast<Index>(keys_[k] & 0xffffffff));
@@ -283,7 +283,7 @@ Fans find_fans(std::size_t vertex_count, const Faces& faces, const std::vector<I
   for (Index start = 0; start < faces.side_count(); ++start) {
     if (fans.of_corner[start] != kNone) continue;
     const Index vertex = faces.vertex(start);
-    const Index fan = static_cast<Index>(vertex_found.size());
+    const auto fan = static_cast<Index>(vertex_found.size());
     vertex_found.push_back(vertex);
     fans.of_corner[start] = fan;
     // A corner's vertex is on the side that starts there and on the one before: around it both ways.

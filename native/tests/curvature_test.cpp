@@ -249,6 +249,15 @@ TEST(Curvature, IsFiniteOnRandomTriangles) {
   }
 }
 
+TEST(Curvature, IsFiniteAtTheEndsOfTheRange) {
+  const Mesh mesh = shapes::icosphere(1);
+  for (const double c : {1e-320, 1e-200, 1e149}) {
+    const Surface surface = transformed(mesh, Eigen::Affine3d(Eigen::Scaling(c))).surface();
+    EXPECT_TRUE(std::isfinite(surface.scale()));
+    expect_sound(surface, principal_curvatures(surface));
+  }
+}
+
 TEST(Curvature, IsFiniteWhereNormalsCancel) {
   // Two faces back to back along an edge: folded flat, their normals at it cancel.
   const Surface surface({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 1, 0}}, {{0, 1, 2}, {1, 0, 3}});
