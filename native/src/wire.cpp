@@ -75,6 +75,17 @@ Wire map_wire(const Surface& surface, const Embedding& embedding, const Intrinsi
   return wire;
 }
 
+Wire trace_wire(const Surface& surface, const Embedding& embedding, const DistanceField& field, std::int32_t vertex) {
+  if (vertex < 0 || index(vertex) >= surface.vertex_count()) {
+    throw InvalidInput("vertex " + std::to_string(vertex) + " is out of range: the surface has " +
+                       std::to_string(surface.vertex_count()) + " vertices");
+  }
+  Wire wire = map_wire(surface, embedding, field.trace(vertex));
+  wire.from = field.seed();
+  wire.to = vertex;
+  return wire;
+}
+
 // ---------------------------------------------------------------------------------------------------------------------
 // Snapping
 

@@ -2,3 +2,395 @@
 #include "seamwire/wire.hpp"
 
 #include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <queue>
+#include <set>
+
+#include "seamwire/metric.hpp"
+#include "shapes.hpp"
+
+namespace seamwire {
+namespace {
+
+std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+Embedding embed_features(const Surface& surface, Follow follow, double max_anisotropy) {
+  return embed(surface, feature_metric(surface, principal_curvatures(surface), follow,
+                                       {.parameter = {}, .max_anisotropy = max_anisotropy}));
+}
+
+Embedding embed_euclidean(const Surface& surface) {
+  return embed(surface, euclidean_metric(surface, principal_curvatures(surface)));
+}
+
+double distance_to_segment(const Vector& p, const Vector& a, const Vector& b) {
+  const Vector along = b - a;
+  const double length2 = along.squaredNorm();
+  const double t = length2 > 0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
+  return (p - a - t * along).norm();
+}
+
+double distance_to_triangle(const Vector& p, const Vector& a, const Vector& b, const Vector& c) {
+  const Vector normal = (b - a).cross(c - a).normalized();
+  const Vector q = p - (p - a).dot(normal) * normal;
+  const bool inside = (b - a).cross(q - a).dot(normal) >= 0 && (c - b).cross(q - b).dot(normal) >= 0 &&
+                      (a - c).cross(q - c).dot(normal) >= 0;
+  const double to_rim =
+      std::min({distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
+  return inside ? std::min((p - q).norm(), to_rim) : to_rim;
+}
+
+double distance_to_face(const Surface& surface, std::int32_t face, const Vector& p) {
+  const auto& [a, b, c] = surface.triangles()[index(face)];
+  return distance_to_triangle(p, surface.points()[index(a)], surface.points()[index(b)], surface.points()[index(c)]);
+}
+
+double distance_to_wire(const Wire& wire, const Vector& p) {
+  double least = (p - wire.points[0]).norm();
+  for (std::size_t i = 1; i < wire.points.size(); ++i) {
+    least = std::min(least, distance_to_segment(p, wire.points[i - 1], wire.points[i]));
+  }
+  return least;
+}
+
+/// What snapping minimises, by brute force.
+double closeness(const Surface& surface, const Wire& wire, std::int32_t a, std::int32_t b) {
+  constexpr int kSamples = 400;
+  const Vector &p = surface.points()[index(a)], &q = surface.points()[index(b)];
+  double sum = 0;
+  for (int i = 0; i < kSamples; ++i) {
+    const double t = (i + 0.5) / kSamples;
+    sum += distance_to_wire(wire, (1 - t) * p + t * q);
+  }
+  return sum * (q - p).norm() / kSamples;
+}
+
+/// The edges of the faces that a wire crosses and of the faces that share an edge with those. Every edge of a triangle
+/// must be real.
+std::set<Edge> band_of(const Surface& surface, const Wire& wire) {
+  const auto sides = [&](std::int32_t face) {
+    const auto& [a, b, c] = surface.triangles()[index(face)];
+    return std::array<Edge, 3>{Edge{std::min(a, b), std::max(a, b)}, Edge{std::min(b, c), std::max(b, c)},
+                               Edge{std::min(c, a), std::max(c, a)}};
+  };
+  std::set<Edge> crossed;
+  for (const std::int32_t face : wire.faces) {
+    for (const Edge& edge : sides(face)) crossed.insert(edge);
+  }
+  std::set<Edge> band = crossed;
+  for (std::int32_t f = 0; index(f) < surface.face_count(); ++f) {
+    const auto edges = sides(f);
+    if (std::any_of(edges.begin(), edges.end(), [&](const Edge& e) { return crossed.contains(e); })) {
+      band.insert(edges.begin(), edges.end());
+    }
+  }
+  return band;
+}
+
+Edge sorted(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
+
+void expect_chain(const Surface& surface, const std::vector<std::int32_t>& path, std::int32_t from, std::int32_t to) {
+  ASSERT_FALSE(path.empty());
+  EXPECT_EQ(path.front(), from);
+  EXPECT_EQ(path.back(), to);
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    EXPECT_TRUE(std::binary_search(surface.edges().begin(), surface.edges().end(), sorted(path[i - 1], path[i])))
+        << path[i - 1] << " " << path[i];
+  }
+  EXPECT_EQ(std::set<std::int32_t>(path.begin(), path.end()).size(), path.size()) << "a vertex twice";
+}
+
+/// One triangle of the caller's, in an embedding bisected at the midpoint 3 of its edge 0 1.
+struct Bisected {
+  Surface surface{{{0, 0, 0}, {2, 0, 0}, {1, 1, 0}}, {{0, 1, 2}}};
+  Embedding embedding;
+
+  Bisected() {
+    embedding.mesh = {.vertex_count = 4,
+                      .triangles = {{0, 3, 2}, {3, 1, 2}},
+                      .twins = {-1, 5, -1, -1, -1, 1},
+                      .lengths = {1, 1, std::sqrt(2), 1, std::sqrt(2), 1},
+                      .loose_edges = {{1, 3, 1}}};
+    embedding.points = {{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {1, 0, 0}};
+    embedding.source_face = {0, 0};
+  }
+};
+
+TEST(MapWire, LeavesOutPointsOnAStraightLineInOneFace) {
+  const Bisected on;
+  const IntrinsicPath straight{.points = {{.vertex = 0}, {.vertex = 3}, {.vertex = 1}}, .faces = {0, 1}, .length = 2};
+  const Wire wire = map_wire(on.surface, on.embedding, straight);
+  ASSERT_EQ(wire.points.size(), 2u);
+  EXPECT_EQ(wire.points[1], Vector(2, 0, 0));
+  EXPECT_EQ(wire.vertices, (std::vector<std::int32_t>{0, 1}));
+  EXPECT_EQ(wire.faces, (std::vector<std::int32_t>{0}));
+  EXPECT_EQ(wire.length, 2);
+  EXPECT_DOUBLE_EQ(wire.euclidean_length, 1);  // the model is 2 wide
+  EXPECT_EQ(wire.from, 0);
+  EXPECT_EQ(wire.to, 1);
+}
+
+TEST(MapWire, KeepsTurnsInsideAFace) {
+  const Bisected on;
+  const IntrinsicPath bent{.points = {{.vertex = 0}, {.half_edge = 1, .t = 0.25}, {.vertex = 1}}, .faces = {0, 1}};
+  const Wire wire = map_wire(on.surface, on.embedding, bent);
+  ASSERT_EQ(wire.points.size(), 3u);
+  EXPECT_EQ(wire.points[1], Vector(1, 0.25, 0));
+  EXPECT_EQ(wire.vertices, (std::vector<std::int32_t>{0, -1, 1}));
+  EXPECT_EQ(wire.faces, (std::vector<std::int32_t>{0, 0}));
+  EXPECT_NEAR(wire.euclidean_length, std::hypot(1, 0.25), 1e-15);
+}
+
+TEST(MapWire, LeavesOutPointsThatAreOne) {
+  const Bisected on;
+  const IntrinsicPath path{.points = {{.vertex = 0}, {.half_edge = 1, .t = 1}, {.vertex = 2}}, .faces = {0, 1}};
+  const Wire wire = map_wire(on.surface, on.embedding, path);
+  EXPECT_EQ(wire.vertices, (std::vector<std::int32_t>{0, 2}));
+  EXPECT_EQ(wire.faces, (std::vector<std::int32_t>{0}));
+}
+
+TEST(MapWire, AnEdgeWithoutAFaceHasNone) {
+  const Bisected on;
+  const IntrinsicPath path{.points = {{.vertex = 2}, {.vertex = 3}, {.vertex = 1}}, .faces = {1, -1}};
+  EXPECT_EQ(map_wire(on.surface, on.embedding, path).faces, (std::vector<std::int32_t>{0, -1}));
+}
+
+TEST(TraceWire, IsTheSeedAloneOrNothingWhereThereIsNoPath) {
+  const auto two = [] {
+    shapes::Mesh mesh = shapes::grid(2);
+    const auto n = static_cast<std::int32_t>(mesh.points.size());
+    for (std::size_t i = 0, end = mesh.points.size(); i < end; ++i) mesh.points.emplace_back(mesh.points[i] * 2);
+    for (std::size_t f = 0, end = mesh.triangles.size(); f < end; ++f) {
+      const auto [a, b, c] = mesh.triangles[f];
+      mesh.triangles.push_back({a + n, b + n, c + n});
+    }
+    return mesh.surface();
+  }();
+  const Embedding embedding = embed_euclidean(two);
+  const DistanceField field = ExactGeodesics(embedding.mesh).solve(4);
+  const Wire here = trace_wire(two, embedding, field, 4);
+  EXPECT_EQ(here.points, (std::vector<Vector>{two.points()[4]}));
+  EXPECT_EQ(here.length, 0);
+  EXPECT_EQ(here.euclidean_length, 0);
+  EXPECT_EQ(snap_to_edges(two, SnapGraph(two), here), (std::vector<std::int32_t>{4}));
+  const Wire nowhere = trace_wire(two, embedding, field, 10);
+  EXPECT_TRUE(nowhere.points.empty() && nowhere.faces.empty());
+  EXPECT_EQ(nowhere.from, 4);
+  EXPECT_EQ(nowhere.to, 10);
+  EXPECT_EQ(nowhere.length, std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(snap_to_edges(two, SnapGraph(two), nowhere).empty());
+  EXPECT_THROW(trace_wire(two, embedding, field, 18), InvalidInput);
+  EXPECT_THROW(trace_wire(two, embedding, field, -1), InvalidInput);
+}
+
+TEST(TraceWire, OnAPlaneIsTheStraightLine) {
+  const Surface surface = shapes::grid(12, 0.3).surface();
+  const Embedding embedding = embed_euclidean(surface);
+  const DistanceField field = ExactGeodesics(embedding.mesh).solve(0);
+  for (std::int32_t v = 1; index(v) < surface.vertex_count(); ++v) {
+    const Wire wire = trace_wire(surface, embedding, field, v);
+    const double expected = surface.points()[index(v)].norm();
+    EXPECT_NEAR(wire.length, expected, 1e-9 * expected);
+    EXPECT_NEAR(wire.euclidean_length, expected, 1e-9 * expected);
+    for (const Vector& p : wire.points) {
+      EXPECT_LT(distance_to_segment(p, {0, 0, 0}, surface.points()[index(v)]), 1e-7) << v;
+    }
+  }
+}
+
+struct Case {
+  const char* name;
+  shapes::Mesh mesh;
+  Follow follow;
+  double max_anisotropy;
+};
+
+/// Meshes in strong metrics, so that their embeddings are refined.
+std::vector<Case> refined_cases() {
+  return {{"torus, min", shapes::torus(40, 24), Follow::kMin, 8},
+          {"torus, max", shapes::torus(40, 24), Follow::kMax, 8},
+          {"cylinder, max", shapes::cylinder(24, 10), Follow::kMax, 6},
+          {"sphere", shapes::icosphere(3), Follow::kMin, 5}};
+}
+
+TEST(TraceWire, LiesOnTheFacesItNamesAndIsAsLongAsTheDistance) {
+  for (const Case& c : refined_cases()) {
+    const Surface surface = c.mesh.surface();
+    const Embedding embedding = embed_features(surface, c.follow, c.max_anisotropy);
+    const DistanceField field = ExactGeodesics(embedding.mesh).solve(3);
+    for (std::int32_t v = 0; index(v) < surface.vertex_count(); ++v) {
+      const Wire wire = trace_wire(surface, embedding, field, v);
+      ASSERT_FALSE(wire.points.empty()) << c.name << " " << v;
+      ASSERT_EQ(wire.faces.size() + 1, wire.points.size());
+      ASSERT_EQ(wire.vertices.size(), wire.points.size());
+      EXPECT_EQ(wire.points.front(), surface.points()[3]);
+      EXPECT_EQ(wire.points.back(), surface.points()[index(v)]);
+      EXPECT_NEAR(wire.length, field.distances()[index(v)], 1e-9 * wire.length) << c.name << " " << v;
+      double length = 0;
+      for (std::size_t i = 0; i < wire.faces.size(); ++i) {
+        ASSERT_GE(wire.faces[i], 0);
+        // Both ends in the face, so all of the segment; rounding of midpoints of coordinates below 1.
+        for (const Vector& p : {wire.points[i], wire.points[i + 1]}) {
+          ASSERT_LT(distance_to_face(surface, wire.faces[i], p), 1e-12) << c.name << " " << v << " " << i;
+        }
+        length += (wire.points[i + 1] - wire.points[i]).norm();
+      }
+      EXPECT_NEAR(wire.euclidean_length, length * surface.scale(), 1e-12);
+      for (std::size_t i = 0; i < wire.points.size(); ++i) {
+        if (wire.vertices[i] < 0) continue;
+        EXPECT_EQ(wire.points[i], surface.points()[index(wire.vertices[i])]);
+      }
+    }
+  }
+}
+
+/// A wire through the given points of a flat grid, of which the ends are vertices.
+Wire polyline(const Surface& surface, std::int32_t from, std::vector<Vector> points, std::int32_t to,
+              std::vector<std::int32_t> faces) {
+  Wire wire{.from = from, .to = to, .points = std::move(points), .vertices = {}, .faces = std::move(faces)};
+  wire.vertices.assign(wire.points.size(), -1);
+  wire.vertices.front() = from;
+  wire.vertices.back() = to;
+  wire.euclidean_length = 0;
+  for (std::size_t i = 1; i < wire.points.size(); ++i) {
+    wire.euclidean_length += (wire.points[i] - wire.points[i - 1]).norm() * surface.scale();
+  }
+  return wire;
+}
+
+TEST(SnapToEdges, AWireAlongEdgesSnapsToThem) {
+  const Surface surface = shapes::grid(8).surface();
+  const Embedding embedding = embed_euclidean(surface);
+  const DistanceField field = ExactGeodesics(embedding.mesh).solve(4 * 9);  // half way up the left side
+  const auto path = snap_to_edges(surface, SnapGraph(surface), trace_wire(surface, embedding, field, 4 * 9 + 8));
+  std::vector<std::int32_t> row;
+  for (std::int32_t i = 0; i <= 8; ++i) row.push_back(4 * 9 + i);
+  EXPECT_EQ(path, row);
+}
+
+TEST(SnapToEdges, GivesAChainInTheBandOfTheWireThatIsClosestToIt) {
+  for (const Case& c : refined_cases()) {
+    const Surface surface = c.mesh.surface();
+    const SnapGraph graph(surface);
+    const Embedding embedding = embed_features(surface, c.follow, c.max_anisotropy);
+    const DistanceField field = ExactGeodesics(embedding.mesh).solve(0);
+    for (std::int32_t v = 5; index(v) < surface.vertex_count(); v += 97) {
+      const Wire wire = trace_wire(surface, embedding, field, v);
+      const auto path = snap_to_edges(surface, graph, wire);
+      expect_chain(surface, path, 0, v);
+      const std::set<Edge> band = band_of(surface, wire);
+      double cost = 0;
+      for (std::size_t i = 1; i < path.size(); ++i) {
+        EXPECT_TRUE(band.contains(sorted(path[i - 1], path[i]))) << c.name << " to " << v;
+        cost += closeness(surface, wire, path[i - 1], path[i]);
+      }
+      // Bellman and Ford's relaxation of the whole band with finely sampled weights.
+      std::map<Edge, double> weights;
+      for (const Edge& e : band) weights[e] = closeness(surface, wire, e[0], e[1]);
+      std::map<std::int32_t, double> costs{{0, 0.0}};
+      for (bool changed = true; changed;) {
+        changed = false;
+        for (const auto& [e, weight] : weights) {
+          for (const auto& [a, b] : {std::pair(e[0], e[1]), std::pair(e[1], e[0])}) {
+            if (!costs.contains(a) || (costs.contains(b) && costs[b] <= costs[a] + weight)) continue;
+            costs[b] = costs[a] + weight;
+            changed = true;
+          }
+        }
+      }
+      // The library takes 8 samples an edge; a kink between two of them is an error of at most 1/64 of the edge's part.
+      EXPECT_LE(cost, 1.02 * costs[v] + 1e-9) << c.name << " to " << v;
+    }
+  }
+}
+
+TEST(SnapToEdges, NeverTakesADiagonalOfAPolygon) {
+  const int n = 10;
+  const shapes::Mesh mesh = shapes::grid(n, 0.2);
+  std::vector<Edge> edges;
+  for (std::int32_t j = 0; j <= n; ++j) {
+    for (std::int32_t i = 0; i <= n; ++i) {
+      const std::int32_t v = j * (n + 1) + i;
+      if (i < n) edges.push_back({v, v + 1});
+      if (j < n) edges.push_back({v, v + n + 1});
+    }
+  }
+  const Surface surface(mesh.points, mesh.triangles, edges);
+  const Embedding embedding = embed_euclidean(surface);
+  const DistanceField field = ExactGeodesics(embedding.mesh).solve(0);
+  const SnapGraph graph(surface);
+  for (std::int32_t v = 1; index(v) < surface.vertex_count(); ++v) {
+    const auto path = snap_to_edges(surface, graph, trace_wire(surface, embedding, field, v));
+    expect_chain(surface, path, 0, v);
+    EXPECT_GE(path.size(), index(v % (n + 1) + v / (n + 1) + 1)) << "steps along two directions only";
+  }
+}
+
+/// A square ring of which nothing but the outer and the inner outline is a real edge: one polygon with a hole.
+struct Ring {
+  std::vector<Vector> points = {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}, {1, 1, 0}, {2, 1, 0}, {2, 2, 0}, {1, 2, 0}};
+  std::vector<Triangle> triangles;
+  std::vector<Edge> edges;
+
+  Ring() {
+    for (std::int32_t i = 0; i < 4; ++i) {
+      const std::int32_t j = (i + 1) % 4;
+      triangles.insert(triangles.end(), {{i, j, j + 4}, {i, j + 4, i + 4}});
+      edges.insert(edges.end(), {{i, j}, {i + 4, j + 4}});
+    }
+  }
+  Surface surface() const { return {points, triangles, edges}; }
+};
+
+TEST(SnapToEdges, WidensTheBandWhereItDoesNotConnectTheEnds) {
+  Ring ring;
+  ring.points.emplace_back(4, 4, 0);
+  ring.edges.insert(ring.edges.end(), {{2, 8}, {8, 6}});  // round about, without a face
+  const Surface surface = ring.surface();
+  const Wire wire = polyline(surface, 0, {{0, 0, 0}, {1, 1, 0}}, 4, {0});
+  const auto path = snap_to_edges(surface, SnapGraph(surface), wire);
+  expect_chain(surface, path, 0, 4);
+  EXPECT_NE(std::find(path.begin(), path.end(), 8), path.end());
+}
+
+TEST(SnapToEdges, IsEmptyWhereNoPathOfEdgesLeads) {
+  const Surface surface = Ring().surface();
+  const Wire wire = polyline(surface, 0, {{0, 0, 0}, {1, 1, 0}}, 4, {0});
+  EXPECT_TRUE(snap_to_edges(surface, SnapGraph(surface), wire).empty());
+}
+
+TEST(SnapToEdges, StaysOnTheSheetOfTheWire) {
+  // A strip folded back onto itself, so close that the other sheet is nearer to the wire than the next edge is.
+  const int n = 20, rows = 6;
+  const shapes::Mesh mesh = shapes::parametric(2 * n, rows, false, false, [](double u, double v) {
+    return u <= 0.5 ? Vector(2 * u, 0.3 * v, 0) : Vector(2 - 2 * u, 0.3 * v, 1e-6);
+  });
+  const Surface surface = mesh.surface();
+  const Embedding embedding = embed_euclidean(surface);
+  const std::int32_t columns = 2 * n + 1, from = columns, to = 4 * columns + n - 2;
+  const DistanceField field = ExactGeodesics(embedding.mesh).solve(from);
+  const auto path = snap_to_edges(surface, SnapGraph(surface), trace_wire(surface, embedding, field, to));
+  expect_chain(surface, path, from, to);
+  for (const std::int32_t v : path) EXPECT_LE(v % columns, n) << "on the other sheet";
+}
+
+TEST(SnapToEdges, RefusesAWireOfAnotherSurface) {
+  const Surface surface = shapes::grid(2).surface();
+  const SnapGraph graph(surface);
+  const Wire wire = polyline(surface, 0, {{0, 0, 0}, {0.5, 0, 0}}, 1, {0});
+  EXPECT_EQ(snap_to_edges(surface, graph, wire), (std::vector<std::int32_t>{0, 1}));
+  for (const auto& spoil : std::vector<void (*)(Wire&)>{
+           [](Wire& w) { w.from = 9; }, [](Wire& w) { w.to = -1; }, [](Wire& w) { w.faces[0] = 8; },
+           [](Wire& w) { w.vertices[0] = 9; }, [](Wire& w) { w.vertices.clear(); }, [](Wire& w) { w.faces.clear(); }}) {
+    Wire wrong = wire;
+    spoil(wrong);
+    EXPECT_THROW(snap_to_edges(surface, graph, wrong), InvalidInput);
+  }
+}
+
+}  // namespace
+}  // namespace seamwire
