@@ -368,17 +368,25 @@ std::vector<std::int32_t> chain_to(const EdgeGraph& graph, const std::vector<std
   }
 }
 
+void check_vertex(const EdgeGraph& graph, std::int32_t v, const std::string& what) {
+  if (v >= 0 && v < graph.vertex_count()) return;
+  throw InvalidInput(what + ": vertex " + std::to_string(v) + " does not exist, the surface has " +
+                     std::to_string(graph.vertex_count()) + " vertices");
+}
+
+void check_edge(const EdgeGraph& graph, std::int32_t a, std::int32_t b, const std::string& what) {
+  check_vertex(graph, a, what);
+  check_vertex(graph, b, what);
+  if (graph.find(a, b) >= 0) return;
+  throw InvalidInput(what + ": there is no edge between the vertices " + std::to_string(a) + " and " +
+                     std::to_string(b));
+}
+
 void check_pick(const EdgeGraph& graph, const Pick& pick, const std::string& what) {
-  for (const std::int32_t v : {pick.a, pick.b}) {
-    if (v == pick.b && !pick.is_edge()) continue;
-    if (v < 0 || v >= graph.vertex_count()) {
-      throw InvalidInput(what + ": vertex " + std::to_string(v) + " does not exist, the surface has " +
-                         std::to_string(graph.vertex_count()) + " vertices");
-    }
-  }
-  if (pick.is_edge() && graph.find(pick.a, pick.b) < 0) {
-    throw InvalidInput(what + ": there is no edge between the vertices " + std::to_string(pick.a) + " and " +
-                       std::to_string(pick.b));
+  if (pick.b == -1) {
+    check_vertex(graph, pick.a, what);
+  } else {
+    check_edge(graph, pick.a, pick.b, what);
   }
 }
 
@@ -491,7 +499,7 @@ std::vector<double> distances(const EdgeGraph& graph, std::int32_t target, doubl
 }  // namespace
 
 EdgeChain edge_loop(const EdgeGraph& graph, const Edge& edge, double turning, const Task& task) {
-  check_pick(graph, {edge[0], edge[1]}, "loop");
+  check_edge(graph, edge[0], edge[1], "loop");
   check_turning(turning);
   const std::int32_t a = std::min(edge[0], edge[1]), b = std::max(edge[0], edge[1]);
   const std::int32_t ab = graph.find(a, b);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -150,6 +152,97 @@ Mesh without(Mesh mesh, const Remove& remove) {
     const auto point = [&](std::size_t i) -> const Vector& { return mesh.points[static_cast<std::size_t>(t[i])]; };
     return remove(Vector((point(0) + point(1) + point(2)) / 3));
   });
+  return mesh;
+}
+
+/// A mesh of quads, with their sides as its real edges: triangulated, the diagonals are none.
+struct QuadMesh {
+  std::vector<Vector> points;
+  std::vector<std::array<std::int32_t, 4>> quads;
+
+  std::vector<Triangle> triangles() const {
+    std::vector<Triangle> result;
+    for (const auto& [a, b, c, d] : quads) result.insert(result.end(), {{a, b, c}, {a, c, d}});
+    return result;
+  }
+  std::vector<Edge> edges() const {
+    std::vector<Edge> result;
+    for (const auto& q : quads) {
+      for (std::size_t i = 0; i < 4; ++i) {
+        const auto [a, b] = std::minmax(q[i], q[(i + 1) % 4]);
+        result.push_back({a, b});
+      }
+    }
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
+  Surface surface() const { return Surface(points, triangles(), edges()); }
+};
+
+/// As parametric(), of quads. The corner (i, j) is vertex j * columns + i, with nu columns where u is closed, else
+/// nu + 1.
+template <class PointAt>
+QuadMesh parametric_quads(int nu, int nv, bool closed_u, bool closed_v, const PointAt& point) {
+  QuadMesh mesh;
+  const int columns = nu + !closed_u, rows = nv + !closed_v;
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < columns; ++i) mesh.points.push_back(point(double(i) / nu, double(j) / nv));
+  }
+  const auto at = [&](int i, int j) { return (j % rows) * columns + i % columns; };
+  for (int j = 0; j < nv; ++j) {
+    for (int i = 0; i < nu; ++i) mesh.quads.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+  }
+  return mesh;
+}
+
+/// The unit square in z = 0, n x n quads.
+inline QuadMesh quad_grid(int n) {
+  return parametric_quads(n, n, false, false, [](double u, double v) { return Vector(u, v, 0.0); });
+}
+
+/// An open cylinder about the z axis: n quads around, `rows` along its height.
+inline QuadMesh quad_cylinder(int n, int rows, double radius = 0.25, double height = 1.0) {
+  return parametric_quads(n, rows, true, false, [=](double u, double v) {
+    const double a = 2 * std::numbers::pi * u;
+    return Vector(radius * std::cos(a), radius * std::sin(a), height * v);
+  });
+}
+
+/// A torus about the z axis: nu quads around the axis, nv around the tube; v = 0 on the outer equator.
+inline QuadMesh quad_torus(int nu, int nv, double large = 0.35, double small = 0.15) {
+  return parametric_quads(nu, nv, true, true, [=](double u, double v) {
+    const double a = 2 * std::numbers::pi * u, b = 2 * std::numbers::pi * v;
+    const double ring = large + small * std::cos(b);
+    return Vector(ring * std::cos(a), ring * std::sin(a), small * std::sin(b));
+  });
+}
+
+/// The unit cube [0, 1]^3, each side n x n quads.
+inline QuadMesh quad_cube(int n) {
+  QuadMesh mesh;
+  std::map<std::array<int, 3>, std::int32_t> numbers;
+  const auto vertex = [&](const std::array<int, 3>& p) {
+    const auto [it, is_new] = numbers.try_emplace(p, static_cast<std::int32_t>(mesh.points.size()));
+    if (is_new) mesh.points.emplace_back(double(p[0]) / n, double(p[1]) / n, double(p[2]) / n);
+    return it->second;
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const int side : {0, n}) {
+      const auto corner = [&](int i, int j) {
+        std::array<int, 3> p{};
+        p[axis] = side;
+        p[(axis + 1) % 3] = side == 0 ? j : i;  // so that all quads look outwards
+        p[(axis + 2) % 3] = side == 0 ? i : j;
+        return vertex(p);
+      };
+      for (int j = 0; j < n; ++j) {
+        for (int i = 0; i < n; ++i) {
+          mesh.quads.push_back({corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)});
+        }
+      }
+    }
+  }
   return mesh;
 }
 

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Seamwire as a seam tool to be measured: given a polygon mesh, what it offers between picked edges and for a click on an edge.
+
+Wires along edges with both metrics, the shorter one first; the settings are the tool's defaults along edges.
+"""
+
+import numpy as np
+import seamwire_core as sw
+
+MAX_ANISOTROPY = 10.0
+CLAMP_PERCENTILE = 99.0
+TURNING = 3.0
+LOOP_TURNING = 20.0
+
+
+def polygon_edges(offsets: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """The edges (e, 2) of polygons; face f has the corners corners[offsets[f]:offsets[f + 1]]."""
+    following = np.arange(1, len(corners) + 1)
+    following[offsets[1:] - 1] = offsets[:-1]
+    return np.unique(np.sort(np.column_stack((corners, corners[following])), axis=1), axis=0)
+
+
+def fan_triangles(offsets: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """Each polygon as triangles (m, 3) around its first corner."""
+    counts = np.maximum(np.diff(offsets) - 2, 0)
+    first = np.repeat(offsets[:-1], counts)
+    step = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+    return np.column_stack((corners[first], corners[first + step + 1], corners[first + step + 2]))
+
+
+class SeamwireEngine:
+    def __init__(self, **settings: float) -> None:
+        self.anisotropy = settings.get("anisotropy", MAX_ANISOTROPY)
+        self.turning = settings.get("turning", TURNING)
+        self.loop_turning = settings.get("loop_turning", LOOP_TURNING)
+
+    def prepare(self, points: np.ndarray, offsets: np.ndarray, corners: np.ndarray) -> None:
+        edges = polygon_edges(offsets, corners)
+        self.surface = sw.Surface(points, fan_triangles(offsets, corners), edges[edges[:, 0] != edges[:, 1]])
+        curvature = sw.principal_curvatures(self.surface)
+        self.metrics = [
+            sw.feature_metric(
+                self.surface,
+                curvature,
+                follow=follow,
+                max_anisotropy=self.anisotropy,
+                clamp_percentile=CLAMP_PERCENTILE,
+            )
+            for follow in ("min", "max")
+        ]
+
+    def wires(self, seed: tuple[int, int], targets: list[tuple[int, int]], forward: bool) -> list[list[list[int]]]:
+        fields = [sw.edge_wires(self.surface, m, seed, turning=self.turning, forward=forward) for m in self.metrics]
+        offered = []
+        for target in targets:
+            chains = sorted((field.trace(target) for field in fields), key=lambda chain: chain.length)
+            offered.append([list(chain.vertices) for chain in chains if len(chain.vertices)])
+        return offered
+
+    def loop(self, edge: tuple[int, int]) -> list[int] | None:
+        chains = [sw.edge_loop(self.surface, m, edge, turning=self.loop_turning) for m in self.metrics]
+        best = min((c for c in chains if c is not None), key=lambda chain: chain.length, default=None)
+        return list(best.vertices) if best is not None and len(best.vertices) else None
