@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -193,50 +194,70 @@ std::shared_ptr<const EdgeGraph> make_edge_graph(const Surface& surface, const M
 
 namespace {
 
-/// A heap with four children a node: shallower than a binary one, and the children share a cache line. Equal keys come
-/// out by state, so the order depends on nothing else.
+/// A queue for searches whose keys only grow, after Dial, "Algorithm 360: Shortest-path forest with topological
+/// ordering" (1969): buckets of equal width, of which only the lowest is kept as a heap, so that it stays in the cache.
+/// Keys beyond the last bucket wait in a list. Equal keys come out by state, so the order depends on nothing else.
 class Queue {
  public:
   struct Entry {
     double key;
     std::int32_t state;
-    bool operator<(const Entry& o) const { return key < o.key || (key == o.key && state < o.state); }
+    bool operator>(const Entry& o) const { return key > o.key || (key == o.key && state > o.state); }
   };
 
-  bool empty() const { return heap_.empty(); }
+  /// `step`: the most that a step often adds to a key. Only the speed depends on it.
+  explicit Queue(double step) : buckets_(kBuckets), per_width_(step > 0.0 ? kBucketsPerStep / step : 0.0) {}
+
+  bool empty() const { return size_ == 0; }
 
   void push(double key, std::int32_t state) {
-    const Entry entry{key, state};
-    std::size_t i = heap_.size();
-    heap_.push_back(entry);
-    while (i > 0) {
-      const std::size_t parent = (i - 1) / 4;
-      if (!(entry < heap_[parent])) break;
-      heap_[i] = heap_[parent];
-      i = parent;
-    }
-    heap_[i] = entry;
+    ++size_;
+    place({key, state});
   }
 
+  /// Not on an empty queue.
   Entry pop() {
-    const Entry top = heap_.front(), entry = heap_.back();
-    heap_.pop_back();
-    if (heap_.empty()) return top;
-    for (std::size_t i = 0;;) {
-      const std::size_t child = 4 * i + 1, children_end = std::min(child + 4, heap_.size());
-      std::size_t least = child;
-      for (std::size_t c = child + 1; c < children_end; ++c) least = heap_[c] < heap_[least] ? c : least;
-      if (child >= heap_.size() || !(heap_[least] < entry)) {
-        heap_[i] = entry;
-        return top;
-      }
-      heap_[i] = heap_[least];
-      i = least;
-    }
+    while (buckets_[lowest_].empty()) advance();
+    std::vector<Entry>& bucket = buckets_[lowest_];
+    std::pop_heap(bucket.begin(), bucket.end(), std::greater<>());
+    const Entry top = bucket.back();
+    bucket.pop_back();
+    --size_;
+    return top;
   }
 
  private:
-  std::vector<Entry> heap_;
+  static constexpr std::size_t kBuckets = 1024;
+  static constexpr double kBucketsPerStep = 128.0;
+
+  void place(const Entry& entry) {
+    const double number = (entry.key - base_) * per_width_;
+    if (!(number < static_cast<double>(kBuckets))) {
+      beyond_.push_back(entry);
+    } else if (number < static_cast<double>(lowest_ + 1)) {
+      buckets_[lowest_].push_back(entry);
+      std::push_heap(buckets_[lowest_].begin(), buckets_[lowest_].end(), std::greater<>());
+    } else {
+      buckets_[static_cast<std::size_t>(number)].push_back(entry);
+    }
+  }
+
+  void advance() {
+    if (++lowest_ < kBuckets) {
+      std::make_heap(buckets_[lowest_].begin(), buckets_[lowest_].end(), std::greater<>());
+      return;
+    }
+    lowest_ = 0;
+    base_ = std::ranges::min(beyond_, {}, &Entry::key).key;
+    std::vector<Entry> waiting;
+    waiting.swap(beyond_);
+    for (const Entry& entry : waiting) place(entry);
+  }
+
+  std::vector<std::vector<Entry>> buckets_;
+  std::vector<Entry> beyond_;
+  std::size_t size_ = 0, lowest_ = 0;
+  double base_ = 0.0, per_width_;
 };
 
 /// Dijkstra's search over directed edges for chains that repeat no vertex.
@@ -255,7 +276,8 @@ class Search {
         cost_(graph.directed_count(), kInfinity),
         previous_(graph.directed_count(), -1),
         settled_(graph.directed_count(), 0),
-        arrival_(at(graph.vertex_count()), kInfinity) {}
+        arrival_(at(graph.vertex_count()), kInfinity),
+        queue_((1.0 + 2.0 * turning) * graph.mean_length()) {}
 
   /// No chain may enter this vertex.
   void block(std::int32_t v) {
@@ -480,7 +502,7 @@ double cheapest_small_loop(const EdgeGraph& graph, std::int32_t ab, double turn_
 /// Metric distance along edges to `target`, without turns; infinity beyond `radius`.
 std::vector<double> distances(const EdgeGraph& graph, std::int32_t target, double radius) {
   std::vector<double> distance(at(graph.vertex_count()), kInfinity);
-  Queue queue;
+  Queue queue(graph.mean_length());
   distance[at(target)] = 0.0;
   queue.push(0.0, target);
   while (!queue.empty()) {
