@@ -217,9 +217,9 @@ TEST(EdgeWires, FollowTheEdgeLoopOverTheEdgesOfACube) {
   };
   // Up the side x = 0 in the plane y = 3/8, over the top, and down the other side; the metric is the one of the tool.
   Chain loop;
-  for (int k = 2; k <= 8; ++k) loop.push_back(number({0, 3 / 8.0, k / 8.0}));
+  for (int k = 4; k <= 8; ++k) loop.push_back(number({0, 3 / 8.0, k / 8.0}));
   for (int i = 1; i <= 8; ++i) loop.push_back(number({i / 8.0, 3 / 8.0, 1}));
-  for (int k = 7; k >= 4; --k) loop.push_back(number({1, 3 / 8.0, k / 8.0}));
+  for (int k = 7; k >= 5; --k) loop.push_back(number({1, 3 / 8.0, k / 8.0}));
   const Curvature curvature = principal_curvatures(surface);
   for (const Follow follow : {Follow::kMin, Follow::kMax}) {
     const Metric metric = feature_metric(surface, curvature, follow, {.max_anisotropy = 10, .clamp_percentile = 99});
