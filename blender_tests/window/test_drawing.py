@@ -1,0 +1,470 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Drawing in the real window: what is marked, what is seen, and that nothing is left behind."""
+
+import math
+from collections.abc import Iterator
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+import ui as driver
+from mathutils import Euler
+from numpy.typing import NDArray
+from scene import add_grid, add_layers, chain, edit, seams, snapshot
+from seamwire import operator
+from seamwire.session import Session
+
+ORANGE, RED, GREEN, WHITE = (1.0, 0.72, 0.05), (1.0, 0.25, 0.15), (0.3, 1.0, 0.55), (1.0, 1.0, 1.0)
+
+
+class Desk:
+    """A grid in edit mode seen from above, with the tool running on it. Vertex y * 9 + x is column x of row y."""
+
+    def __init__(self, ui: driver.Ui, obj: bpy.types.Object) -> None:
+        self.ui = ui
+        self.obj = obj
+        add_layers(obj)
+        ui.wait()
+        with ui.override():
+            edit()
+        ui.look_from_top(distance=4.0)
+        self.before = snapshot(obj)
+
+    def start(self, **options: str) -> Session:
+        with self.ui.override():
+            assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", **options) == {"RUNNING_MODAL"}
+        self.ui.wait()
+        return self.session
+
+    @property
+    def session(self) -> Session:
+        return operator._running[0].session
+
+    @property
+    def running(self) -> bool:
+        return bool(operator._running)
+
+    def at(self, *vertices: int) -> tuple[float, float]:
+        """Return where a vertex is seen, or the middle of an edge."""
+        bm = bmesh.from_edit_mesh(self.obj.data)
+        bm.verts.ensure_lookup_table()
+        points = np.array([self.obj.matrix_world @ bm.verts[v].co for v in vertices])
+        return self.ui.on_screen(tuple(points.mean(axis=0)))
+
+    def unchanged(self) -> bool:
+        return snapshot(self.obj) == self.before
+
+
+@pytest.fixture
+def desk(ui: driver.Ui) -> Iterator[Desk]:
+    yield Desk(ui, add_grid(9))
+    leave(ui)
+
+
+@pytest.fixture
+def barrel(ui: driver.Ui) -> Iterator[Desk]:
+    """Half a tube along y, seen from above: the two wires between corners of a square differ."""
+    obj = add_grid(9)
+    for v in obj.data.vertices:
+        angle = v.co.x * 0.5 * math.pi * 0.9
+        v.co.x, v.co.z = math.sin(angle), math.cos(angle)
+    yield Desk(ui, obj)
+    leave(ui)
+
+
+def leave(ui: driver.Ui) -> None:
+    for drawing in tuple(operator._running):
+        drawing.close()
+    ui.move((ui.region.width * 0.5, ui.region.height * 0.5))
+    ui.wait()
+
+
+def near(pixels: NDArray[np.float32], at: tuple[float, float], radius: int = 2) -> NDArray[np.float32]:
+    x, y = round(at[0]), round(at[1])
+    return pixels[y - radius : y + radius + 1, x - radius : x + radius + 1, :3].reshape(-1, 3)
+
+
+def shows(pixels: NDArray[np.float32], at: tuple[float, float], colour: tuple[float, float, float]) -> bool:
+    """Whether a pixel within two of a position has a colour, up to what antialiasing and blending take from it."""
+    return bool((np.abs(near(pixels, at) - colour).max(axis=1) < 0.12).any())
+
+
+def test_wires_are_drawn_kept_and_marked(desk: Desk) -> None:
+    session, ui = desk.start(), desk.ui
+    ui.click(desk.at(36), ctrl=True)
+    assert session.seed == 36
+    ui.move(desk.at(40))
+    ui.wait_until(lambda: session.active is not None)
+    assert session.active.vertices == (36, 37, 38, 39, 40)
+    pixels = ui.pixels()
+    assert shows(pixels, desk.at(37, 38), ORANGE)
+    assert shows(pixels, desk.at(36), WHITE)
+    assert not shows(pixels, desk.at(41, 42), ORANGE)
+    ui.click(desk.at(40))
+    ui.move(desk.at(44))
+    ui.wait_until(lambda: session.active is not None)
+    pixels = ui.pixels()
+    assert shows(pixels, desk.at(37, 38), RED), "kept"
+    assert shows(pixels, desk.at(41, 42), ORANGE), "live"
+    ui.click(desk.at(44))
+    ui.click(desk.at(20), button="RIGHTMOUSE")
+    assert session.seed is None
+    ui.click(desk.at(0), ctrl=True)
+    ui.click(desk.at(2))
+    ui.wait_until(lambda: len(session.wires) == 3)
+    assert desk.unchanged(), "nothing is written before the end"
+    ui.key("RET")
+    assert not desk.running
+    assert seams(desk.obj) == sorted(chain(*range(36, 45)) + chain(0, 1, 2))
+    after = snapshot(desk.obj, with_seams=False)
+    assert after == {key: value for key, value in desk.before.items() if key != "seams"}
+    ui.move(desk.at(20))
+    assert not shows(ui.pixels(), desk.at(36), WHITE), "the overlay is gone"
+
+
+def test_the_result_is_one_step_of_undo(desk: Desk) -> None:
+    session, ui = desk.start(), desk.ui
+    name = desk.obj.name
+    ui.click(desk.at(0), ctrl=True)
+    ui.click(desk.at(4))
+    ui.click(desk.at(40))
+    ui.wait_until(lambda: len(session.wires) == 2)
+    ui.key("RET")
+    assert len(seams(desk.obj)) == 8
+    ui.key("Z", ctrl=True)
+    obj = bpy.data.objects[name]
+    assert obj.mode == "EDIT"
+    assert seams(obj) == []
+    ui.key("Z", ctrl=True, shift=True)
+    assert len(seams(bpy.data.objects[name])) == 8
+
+
+def test_edges_are_lit_before_the_click_and_picked(desk: Desk) -> None:
+    session, ui = desk.start(), desk.ui
+    middle = desk.at(36, 37)
+    assert not shows(ui.pixels(), middle, WHITE)
+    ui.move(middle)
+    assert set(session.target) == {36, 37}
+    assert shows(ui.pixels(), middle, WHITE)
+    ui.click(middle, ctrl=True)
+    ui.click(desk.at(42, 43))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    assert session.edges() == chain(*range(36, 44))
+
+
+def test_escape_leaves_the_mesh_as_it_was(desk: Desk) -> None:
+    session, ui = desk.start(), desk.ui
+    ui.click(desk.at(36), ctrl=True)
+    ui.click(desk.at(44))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.click(desk.at(60))
+    ui.key("ESC")
+    assert not desk.running
+    assert desk.unchanged()
+
+
+def test_enter_without_a_wire_leaves_the_mesh_as_it_was(desk: Desk) -> None:
+    desk.start()
+    desk.ui.click(desk.at(36), ctrl=True)
+    desk.ui.key("RET")
+    assert not desk.running
+    assert desk.unchanged()
+
+
+def test_the_wheel_toggles_over_the_mesh_and_zooms_beside_it(barrel: Desk) -> None:
+    session, ui = barrel.start(), barrel.ui
+    ui.click(barrel.at(20), ctrl=True)
+    ui.move(barrel.at(60))
+    ui.wait_until(lambda: session.other is not None)
+    active, other = session.active.vertices, session.other.vertices
+    distance = ui.view.view_distance
+    ui.wheel(up=True)
+    assert session.active.vertices == other
+    assert ui.view.view_distance == distance
+    inside = barrel.at(*other[1:3])
+    assert shows(ui.pixels(), inside, ORANGE)
+    ui.wheel(up=False)
+    assert session.active.vertices == active
+    beside = (ui.region.width * 0.5, ui.region.height - 110.0)
+    ui.move(beside)
+    assert session.target is None
+    ui.wheel(up=True, at=beside)
+    assert ui.view.view_distance < distance, "zoomed"
+    ui.wheel(up=False, at=beside)
+    ui.move(barrel.at(60))
+    ui.wheel(up=True)
+    ui.click(barrel.at(60))
+    assert session.wires[0].vertices == other
+
+
+def test_undo_and_redo_stay_inside_the_tool(desk: Desk) -> None:
+    session, ui = desk.start(), desk.ui
+    ui.click(desk.at(36), ctrl=True)
+    ui.click(desk.at(40))
+    ui.click(desk.at(76))
+    ui.wait_until(lambda: len(session.wires) == 2)
+    ui.key("Z", ctrl=True)
+    assert [wire.end for wire in session.wires] == [40]
+    ui.key("Z", ctrl=True, shift=True)
+    assert [wire.end for wire in session.wires] == [40, 76]
+    for _ in range(5):
+        ui.key("Z", ctrl=True)
+    assert session.wires == ()
+    assert desk.running
+    assert bpy.context.mode == "EDIT_MESH"
+    assert desk.unchanged()
+
+
+def test_blenders_undo_is_kept_away_in_other_editors_too(desk: Desk) -> None:
+    desk.start()
+    ui = desk.ui
+    other = next(area for area in ui.window.screen.areas if area.type == "PROPERTIES")
+    inside = (other.x + other.width // 2 - ui.region.x, other.y + other.height // 2 - ui.region.y)
+    ui.move(inside)
+    ui.key("Z", ctrl=True)
+    assert desk.running
+    assert bpy.context.mode == "EDIT_MESH"
+    ui.key("ESC")
+    assert desk.running, "keys over other editors are not the tool's"
+
+
+def test_alt_shows_the_loop_and_an_alt_click_takes_it(barrel: Desk) -> None:
+    session, ui = barrel.start(), barrel.ui
+    edge = barrel.at(40, 49)
+    ui.wait_until(lambda: not session.computing)
+    ui.move(edge)
+    assert session.loop_preview is None
+    ui.move(edge, alt=True)
+    preview = session.loop_preview
+    assert preview is not None
+    assert (40, 49) in preview.edges()
+    assert shows(ui.pixels(), barrel.at(*preview.vertices[1:3]), GREEN)
+    ui.click(edge, alt=True)
+    assert session.edges() == sorted(preview.edges())
+    ui.move(edge)
+    assert session.loop_preview is None
+    assert session.seed is None
+
+
+def test_e_switches_to_the_surface_and_back(barrel: Desk) -> None:
+    session, ui = barrel.start(), barrel.ui
+    ui.click(barrel.at(20), ctrl=True)
+    ui.click(barrel.at(24))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.move(barrel.at(60))
+    ui.key("E")
+    assert session.along == "SURFACE"
+    ui.move(barrel.at(61))
+    ui.wait_until(lambda: session.active is not None)
+    assert session.active.along == "SURFACE"
+    assert session.active.vertices[0] == 24
+    assert session.active.vertices[-1] == 61
+    ui.move(barrel.at(60))
+    ui.wait_until(lambda: session.active is not None)
+    ui.click(barrel.at(60))
+    ui.key("E")
+    ui.move(barrel.at(76))
+    ui.wait_until(lambda: session.active is not None)
+    assert session.active.along == "EDGES"
+    assert session.active.vertices[0] == 60
+    marked = session.edges()
+    assert {v for edge in marked for v in edge} >= {20, 24, 60}
+    ui.key("RET")
+    assert seams(barrel.obj) == marked
+
+
+def test_the_view_can_be_moved_while_drawing(desk: Desk) -> None:
+    session, ui = desk.start(), desk.ui
+    ui.click(desk.at(36), ctrl=True)
+    before = ui.view.view_rotation.copy()
+    centre = desk.at(40)
+    ui.move(centre)
+    ui.event("MIDDLEMOUSE", "PRESS", centre)
+    for step in range(1, 4):
+        ui.move((centre[0] + 12.0 * step, centre[1] + 8.0 * step))
+    ui.event("MIDDLEMOUSE", "RELEASE")
+    assert ui.view.view_rotation.rotation_difference(before).angle > 0.02
+    assert desk.running
+    ui.click(desk.at(44))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    assert session.edges() == chain(*range(36, 45)), "picked where it is seen now"
+    ui.key("NUMPAD_7")
+    assert desk.running
+
+
+def test_keys_of_edit_mode_do_nothing_while_drawing(desk: Desk) -> None:
+    desk.start()
+    ui = desk.ui
+    ui.move(desk.at(40))
+    for key in ("A", "X", "G", "F", "P", "H", "DEL", "TAB", "SPACE"):
+        ui.key(key)
+    ui.key("A", alt=True)
+    ui.wheel(up=True, alt=True)
+    assert desk.running
+    assert desk.unchanged()
+
+
+def test_wires_on_the_far_side_are_faint(desk: Desk) -> None:
+    session, ui = desk.start(), desk.ui
+    ui.click(desk.at(36), ctrl=True)
+    ui.click(desk.at(44))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    at = desk.at(37, 38)
+    assert shows(ui.pixels(), at, RED)
+    # A second sheet above the first, as seen from the eye, is in Blender's way and not in the drawing's.
+    mesh = bpy.data.meshes.new("Cover")
+    mesh.from_pydata([(-3, -3, 1), (3, -3, 1), (3, 3, 1), (-3, 3, 1)], [], [(0, 1, 2, 3)])
+    cover = bpy.data.objects.new("Cover", mesh)
+    bpy.context.collection.objects.link(cover)
+    ui.wait(3)
+    pixels = ui.pixels()
+    assert not shows(pixels, at, RED)
+    surroundings = near(pixels, (at[0], at[1] + 25.0)).mean(axis=0)
+    faint = near(pixels, at, radius=1)
+    assert (faint[:, 0] - faint[:, 1]).max() > (surroundings[0] - surroundings[1]) + 0.05, "reddish still"
+
+
+def test_on_a_turned_and_unevenly_scaled_object_wires_lie_on_the_mesh(ui: driver.Ui) -> None:
+    obj = add_grid(9)
+    obj.scale = (0.5, 1.4, 2.0)
+    obj.rotation_euler = Euler((0.3, -0.4, 0.6))
+    obj.location = (0.2, 0.1, -3.0)
+    bpy.context.view_layer.update()
+    desk = Desk(ui, obj)
+    session = desk.start()
+    ui.view.view_location = obj.location
+    ui.wait()
+    ui.click(desk.at(36), ctrl=True)
+    ui.move(desk.at(44))
+    ui.wait_until(lambda: session.active is not None)
+    assert session.active.vertices == tuple(range(36, 45))
+    pixels = ui.pixels()
+    for first in range(37, 43):
+        assert shows(pixels, desk.at(first, first + 1), ORANGE)
+    ui.key("ESC")
+    assert desk.unchanged()
+
+
+def test_leaving_edit_mode_ends_the_tool(desk: Desk) -> None:
+    desk.start()
+    desk.ui.click(desk.at(36), ctrl=True)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    desk.ui.move((300.0, 300.0))
+    assert not desk.running
+    assert seams(desk.obj) == []
+
+
+def test_changing_the_mesh_ends_the_tool(desk: Desk) -> None:
+    session, ui = desk.start(), desk.ui
+    ui.click(desk.at(36), ctrl=True)
+    ui.click(desk.at(44))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    bm = bmesh.from_edit_mesh(desk.obj.data)
+    bm.verts.ensure_lookup_table()
+    bmesh.ops.delete(bm, geom=[bm.verts[80]], context="VERTS")
+    bmesh.update_edit_mesh(desk.obj.data)
+    ui.move((300.0, 300.0))
+    assert not desk.running
+    assert seams(desk.obj) == []
+
+
+def test_removing_the_object_ends_the_tool(desk: Desk) -> None:
+    desk.start()
+    desk.ui.click(desk.at(36), ctrl=True)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.data.objects.remove(desk.obj)
+    desk.ui.move((300.0, 300.0))
+    assert not desk.running
+
+
+def test_an_error_ends_the_tool_and_leaves_the_mesh(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    session, ui = desk.start(), desk.ui
+    ui.click(desk.at(36), ctrl=True)
+    ui.click(desk.at(44))
+    ui.wait_until(lambda: len(session.wires) == 1)
+
+    def fail(*_: object, **__: object) -> None:
+        raise RuntimeError("as the test wants it")
+
+    monkeypatch.setattr(session, "hover", fail)
+    ui.move(desk.at(50))
+    assert not desk.running
+    assert desk.unchanged()
+    monkeypatch.undo()
+    desk.start()
+    assert desk.running, "the tool can be started again"
+
+
+def test_an_error_while_drawing_the_overlay_ends_the_tool(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    session, ui = desk.start(), desk.ui
+
+    def fail() -> None:
+        raise RuntimeError("as the test wants it")
+
+    monkeypatch.setattr(session, "seeds", fail)
+    ui.move(desk.at(36))
+    ui.wait(2)
+    ui.move(desk.at(40))
+    assert not desk.running
+    assert desk.unchanged()
+
+
+def test_disabling_the_addon_ends_the_tool(desk: Desk) -> None:
+    import addon_utils
+
+    desk.start()
+    desk.ui.click(desk.at(36), ctrl=True)
+    try:
+        addon_utils.disable("seamwire")
+        assert not desk.running
+        desk.ui.move(desk.at(40))
+        assert desk.unchanged()
+    finally:
+        addon_utils.enable("seamwire")
+
+
+def test_the_tool_runs_once_at_a_time_and_only_in_edit_mode(desk: Desk) -> None:
+    desk.start()
+    with desk.ui.override():
+        assert not bpy.ops.mesh.seamwire_draw.poll()
+    desk.ui.move(desk.at(40))
+    desk.ui.key("ESC")
+    with desk.ui.override():
+        assert bpy.ops.mesh.seamwire_draw.poll()
+
+
+def test_wires_that_are_being_computed_come_when_they_are_ready(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    ready = [False]
+
+    class Slow:
+        """A live wire that is ready when the test says so."""
+
+        def __init__(self, live: object) -> None:
+            self.live = live
+
+        def __getattr__(self, name: str) -> object:
+            return getattr(self.live, name)
+
+        def progress(self) -> float:
+            return self.live.progress() if ready[0] else 0.25
+
+        def wires(self, target: object) -> object:
+            if ready[0]:
+                self.live.wait()
+                return self.live.wires(target)
+            nothing = type("Nothing", (), {"points": [], "vertices": [], "length": math.inf, "final": False})()
+            return type("Wires", (), {"wires": (nothing, nothing), "shorter": 0, "final": False})()
+
+    make = operator._live_maker
+    monkeypatch.setattr(operator, "_live_maker", lambda arrays: lambda along: Slow(make(arrays)(along)))
+    session, ui = desk.start(), desk.ui
+    ui.click(desk.at(36), ctrl=True)
+    ui.click(desk.at(44))
+    assert session.computing
+    assert session.waiting_clicks == 1
+    assert session.wires == ()
+    ready[0] = True
+    ui.wait_until(lambda: len(session.wires) == 1)
+    assert session.edges() == chain(*range(36, 45))
+    assert not session.computing
