@@ -99,10 +99,11 @@ class Ui:
         """``with ui.override(): bpy.ops...`` runs an operator in the viewport. Do not wait inside it."""
         return bpy.context.temp_override(window=self.window, area=self.area, region=self.region)
 
-    def wait(self, ticks: int = 2) -> None:
-        """Let Blender handle its events and redraw."""
+    def wait(self, ticks: int = 2, redraw: bool = False) -> None:
+        """Let Blender handle its events, and redraw what asks for it; or the viewport in any case."""
         for _ in range(ticks):
-            self.area.tag_redraw()
+            if redraw:
+                self.area.tag_redraw()
             _switch_to_blender()
 
     def wait_until(self, condition: Callable[[], bool], ticks: int = 400) -> None:
@@ -170,7 +171,7 @@ class Ui:
         self.view.view_rotation = rotation
         self.view.view_location = centre
         self.view.view_distance = distance
-        self.wait()
+        self.wait(redraw=True)
 
     def look_from_top(self, centre: tuple[float, float, float] = (0.0, 0.0, 0.0), distance: float = 5.0) -> None:
         """Look straight down: the scene's x to the right, its y up."""
@@ -188,6 +189,7 @@ class Ui:
 
         handle = bpy.types.SpaceView3D.draw_handler_add(read, (), "WINDOW", "POST_PIXEL")
         try:
+            self.area.tag_redraw()
             self.wait_until(lambda: bool(taken))
         finally:
             bpy.types.SpaceView3D.draw_handler_remove(handle, "WINDOW")

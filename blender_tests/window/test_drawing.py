@@ -124,6 +124,7 @@ def test_wires_are_drawn_kept_and_marked(desk: Desk) -> None:
 
 
 def test_the_result_is_one_step_of_undo(desk: Desk) -> None:
+    bpy.ops.ed.undo_push(message="Before")  # calls from Python leave no steps of their own
     session, ui = desk.start(), desk.ui
     name = desk.obj.name
     ui.click(desk.at(0), ctrl=True)
@@ -317,7 +318,7 @@ def test_wires_on_the_far_side_are_faint(desk: Desk) -> None:
     mesh.from_pydata([(-3, -3, 1), (3, -3, 1), (3, 3, 1), (-3, 3, 1)], [], [(0, 1, 2, 3)])
     cover = bpy.data.objects.new("Cover", mesh)
     bpy.context.collection.objects.link(cover)
-    ui.wait(3)
+    ui.wait(redraw=True)
     pixels = ui.pixels()
     assert not shows(pixels, at, RED)
     surroundings = near(pixels, (at[0], at[1] + 25.0)).mean(axis=0)
@@ -334,7 +335,7 @@ def test_on_a_turned_and_unevenly_scaled_object_wires_lie_on_the_mesh(ui: driver
     desk = Desk(ui, obj)
     session = desk.start()
     ui.view.view_location = obj.location
-    ui.wait()
+    ui.wait(redraw=True)
     ui.click(desk.at(36), ctrl=True)
     ui.move(desk.at(44))
     ui.wait_until(lambda: session.active is not None)
@@ -404,7 +405,7 @@ def test_an_error_while_drawing_the_overlay_ends_the_tool(desk: Desk, monkeypatc
 
     monkeypatch.setattr(session, "seeds", fail)
     ui.move(desk.at(36))
-    ui.wait(2)
+    ui.wait(redraw=True)
     ui.move(desk.at(40))
     assert not desk.running
     assert desk.unchanged()
