@@ -12,6 +12,7 @@
 #include <functional>
 #include <numbers>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace seamwire {
@@ -194,70 +195,94 @@ std::shared_ptr<const EdgeGraph> make_edge_graph(const Surface& surface, const M
 
 namespace {
 
-/// A queue for searches whose keys only grow, after Dial, "Algorithm 360: Shortest-path forest with topological
-/// ordering" (1969): buckets of equal width, of which only the lowest is kept as a heap, so that it stays in the cache.
-/// Keys beyond the last bucket wait in a list. Equal keys come out by state, so the order depends on nothing else.
+/// A queue for searches whose keys only grow: buckets of equal width, after Dial, "Algorithm 360: Shortest-path forest
+/// with topological ordering" (1969). A state that no step reaches for less than a bucket's width cannot get better
+/// once its bucket is the lowest, so it may come out in any order (Goldberg, "A simple shortest path algorithm with
+/// linear average time", 2001, calls that width its caliber). The few others of the lowest bucket are kept as a heap,
+/// and come out last. Keys beyond the last bucket wait in a list. The order depends on the calls alone.
 class Queue {
  public:
   struct Entry {
     double key;
     std::int32_t state;
+    bool in_order;
     bool operator>(const Entry& o) const { return key > o.key || (key == o.key && state > o.state); }
   };
 
   /// `step`: the most that a step often adds to a key. Only the speed depends on it.
-  explicit Queue(double step) : buckets_(kBuckets), per_width_(step > 0.0 ? kBucketsPerStep / step : 0.0) {}
+  explicit Queue(double step)
+      : width_(step / kBucketsPerStep),
+        per_width_(std::isfinite(1.0 / width_) ? 1.0 / width_ : 0.0),
+        buckets_(kBuckets) {}
 
   bool empty() const { return size_ == 0; }
 
-  void push(double key, std::int32_t state) {
+  /// `least`: no step to the state costs less.
+  void push(double key, std::int32_t state, double least) {
     ++size_;
-    place({key, state});
+    place({key, state, !(least > kRoom * width_)});
   }
 
   /// Not on an empty queue.
   Entry pop() {
-    while (buckets_[lowest_].empty()) advance();
-    std::vector<Entry>& bucket = buckets_[lowest_];
-    std::pop_heap(bucket.begin(), bucket.end(), std::greater<>());
-    const Entry top = bucket.back();
-    bucket.pop_back();
+    while (buckets_[lowest_].empty() && heap_.empty()) advance();
+    std::vector<Entry>& from = buckets_[lowest_].empty() ? heap_ : buckets_[lowest_];
+    if (&from == &heap_) std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
+    const Entry entry = from.back();
+    from.pop_back();
     --size_;
-    return top;
+    return entry;
   }
 
  private:
   static constexpr std::size_t kBuckets = 1024;
   static constexpr double kBucketsPerStep = 128.0;
+  static constexpr double kRoom = 1.001;  // much more than keys are rounded by
 
   void place(const Entry& entry) {
     const double number = (entry.key - base_) * per_width_;
     if (!(number < static_cast<double>(kBuckets))) {
       beyond_.push_back(entry);
     } else if (number < static_cast<double>(lowest_ + 1)) {
-      buckets_[lowest_].push_back(entry);
-      std::push_heap(buckets_[lowest_].begin(), buckets_[lowest_].end(), std::greater<>());
+      heap_.push_back(entry);
+      std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
     } else {
       buckets_[static_cast<std::size_t>(number)].push_back(entry);
     }
   }
 
   void advance() {
-    if (++lowest_ < kBuckets) {
-      std::make_heap(buckets_[lowest_].begin(), buckets_[lowest_].end(), std::greater<>());
-      return;
+    if (++lowest_ == kBuckets) {
+      lowest_ = 0;
+      base_ = std::ranges::min(beyond_, {}, &Entry::key).key;
+      std::vector<Entry> waiting;
+      waiting.swap(beyond_);
+      for (const Entry& entry : waiting) place(entry);
     }
-    lowest_ = 0;
-    base_ = std::ranges::min(beyond_, {}, &Entry::key).key;
-    std::vector<Entry> waiting;
-    waiting.swap(beyond_);
-    for (const Entry& entry : waiting) place(entry);
+    std::vector<Entry>& bucket = buckets_[lowest_];
+    const auto rest = std::partition(bucket.begin(), bucket.end(), [](const Entry& e) { return !e.in_order; });
+    heap_.insert(heap_.end(), rest, bucket.end());
+    bucket.erase(rest, bucket.end());
+    std::make_heap(heap_.begin(), heap_.end(), std::greater<>());
   }
 
+  double width_, per_width_, base_ = 0.0;
   std::vector<std::vector<Entry>> buckets_;
-  std::vector<Entry> beyond_;
-  std::size_t size_ = 0, lowest_ = 0;
-  double base_ = 0.0, per_width_;
+  std::size_t lowest_ = 0, size_ = 0;
+  std::vector<Entry> heap_;    // of the lowest bucket, what must come out in order
+  std::vector<Entry> beyond_;  // the last bucket
+};
+
+/// A search that goes in all directions alike.
+struct Unguided {
+  double operator()(std::int32_t) const { return 0.0; }
+};
+
+/// A directed edge in a search.
+struct State {
+  double cost = kInfinity;     // of the cheapest chain up to and with it
+  std::int32_t previous = -1;  // the directed edge before it in that chain
+  std::int32_t head = -1;      // as in the graph; here so that following a chain back touches one place a step
 };
 
 /// Dijkstra's search over directed edges for chains that repeat no vertex.
@@ -273,15 +298,18 @@ class Search {
   Search(const EdgeGraph& graph, double turning)
       : graph_(graph),
         turn_cost_(turning * graph.mean_length()),
-        cost_(graph.directed_count(), kInfinity),
-        previous_(graph.directed_count(), -1),
+        states_(graph.directed_count()),
         settled_(graph.directed_count(), 0),
         arrival_(at(graph.vertex_count()), kInfinity),
-        queue_((1.0 + 2.0 * turning) * graph.mean_length()) {}
+        queue_((1.0 + 2.0 * turning) * graph.mean_length()) {
+    for (std::size_t e = 0; e < states_.size(); ++e) {
+      states_[e].head = graph.head(static_cast<std::int32_t>(e));
+    }
+  }
 
   /// No chain may enter this vertex.
   void block(std::int32_t v) {
-    for (std::int32_t e = graph_.begin(v); e < graph_.end(v); ++e) cost_[at(graph_.twin(e))] = kBlocked;
+    for (std::int32_t e = graph_.begin(v); e < graph_.end(v); ++e) states_[at(graph_.twin(e))].cost = kBlocked;
   }
   /// Chains may enter this vertex, but not leave it; if `onto` is a directed edge from it, they pay for the turn onto
   /// it.
@@ -291,7 +319,7 @@ class Search {
   }
   /// Chains begin with this directed edge, or another one that is given so.
   void start(std::int32_t e) {
-    cost_[at(e)] = graph_.length(e);
+    states_[at(e)].cost = graph_.length(e);
     roots_.push_back(e);
   }
 
@@ -301,11 +329,12 @@ class Search {
   std::int32_t run(const Remaining& remaining, const Done& done, const Task& task);
 
   /// After run().
-  std::vector<double> take_costs() {
-    std::ranges::replace(cost_, kBlocked, kInfinity);
-    return std::move(cost_);
+  std::vector<State> take_states() {
+    for (State& state : states_) {
+      if (state.cost == kBlocked) state.cost = kInfinity;
+    }
+    return std::move(states_);
   }
-  std::vector<std::int32_t> take_previous() { return std::move(previous_); }
 
  private:
   static constexpr double kBlocked = -1.0;  // below every cost, so nothing improves on it
@@ -321,8 +350,11 @@ class Search {
   bool visits(std::int32_t e, std::int32_t v) const {
     const double first = arrival_[at(v)];
     if (first == kInfinity) return false;
-    for (; e >= 0 && cost_[at(e)] >= first; e = previous_[at(e)]) {
-      if (graph_.head(e) == v) return true;
+    while (e >= 0) {
+      const State& state = states_[at(e)];
+      if (state.cost < first) return false;
+      if (state.head == v) return true;
+      e = state.previous;
     }
     return false;
   }
@@ -330,8 +362,7 @@ class Search {
   const EdgeGraph& graph_;
   double turn_cost_;
   std::int32_t end_ = -1, onto_ = -1;
-  std::vector<double> cost_;
-  std::vector<std::int32_t> previous_;
+  std::vector<State> states_;
   std::vector<std::uint8_t> settled_;
   std::vector<double> arrival_;  // cost of the first chain that arrived at each vertex
   std::vector<std::int32_t> roots_;
@@ -341,22 +372,27 @@ class Search {
 template <class Remaining, class Done>
 std::int32_t Search::run(const Remaining& remaining, const Done& done, const Task& task) {
   constexpr std::size_t kPatience = 8192;  // steps between two looks at the task: well under a millisecond
-  const auto relax = [&](std::int32_t from, std::int32_t to) {
-    const double cost = cost_[at(from)] + cost_of_step(from, to);
-    if (!(cost < cost_[at(to)])) return;
-    const double key = cost + remaining(graph_.head(to));
-    if (key == kInfinity) return;
-    cost_[at(to)] = cost;
-    previous_[at(to)] = from;
-    queue_.push(key, to);
+  const auto least = [&](std::int32_t e) {
+    return std::is_same_v<Remaining, Unguided> ? graph_.length(e) : 0.0;  // a guide may take back all of a step
   };
-  for (const std::int32_t e : roots_) queue_.push(cost_[at(e)] + remaining(graph_.head(e)), e);
+  const auto relax = [&](std::int32_t from, std::int32_t to) {
+    const double cost = states_[at(from)].cost + cost_of_step(from, to);
+    State& state = states_[at(to)];
+    if (!(cost < state.cost)) return;
+    const double key = cost + remaining(state.head);
+    if (key == kInfinity) return;
+    state.cost = cost;
+    state.previous = from;
+    queue_.push(key, to, least(to));
+  };
+  for (const std::int32_t e : roots_) queue_.push(states_[at(e)].cost + remaining(graph_.head(e)), e, least(e));
   for (std::size_t count = 0; !queue_.empty();) {
-    const auto [key, e] = queue_.pop();
-    const std::int32_t v = graph_.head(e), from = previous_[at(e)];
-    if (settled_[at(e)] != 0 || key != cost_[at(e)] + remaining(v)) continue;  // a better one came in between
-    if (from >= 0 && visits(from, v)) {
-      cost_[at(e)] = kInfinity;
+    const auto [key, e, in_order] = queue_.pop();
+    State& state = states_[at(e)];
+    const std::int32_t v = state.head;
+    if (settled_[at(e)] != 0 || key != state.cost + remaining(v)) continue;  // a better one came in between
+    if (state.previous >= 0 && visits(state.previous, v)) {
+      state.cost = kInfinity;
       const std::int32_t u = graph_.tail(e);
       for (std::int32_t back = graph_.begin(u); back < graph_.end(u); ++back) {
         const std::int32_t other = graph_.twin(back);
@@ -365,7 +401,7 @@ std::int32_t Search::run(const Remaining& remaining, const Done& done, const Tas
       continue;
     }
     settled_[at(e)] = 1;
-    arrival_[at(v)] = std::min(arrival_[at(v)], cost_[at(e)]);
+    arrival_[at(v)] = std::min(arrival_[at(v)], state.cost);
     if (done(e)) return e;
     if (++count % kPatience == 0) {
       task.check(static_cast<double>(count) / static_cast<double>(graph_.directed_count()));
@@ -378,16 +414,17 @@ std::int32_t Search::run(const Remaining& remaining, const Done& done, const Tas
   return -1;
 }
 
-/// The vertices of the chain that ends with `e`.
-std::vector<std::int32_t> chain_to(const EdgeGraph& graph, const std::vector<std::int32_t>& previous, std::int32_t e) {
-  std::vector<std::int32_t> chain;
-  for (;; e = previous[at(e)]) {
-    chain.push_back(graph.head(e));
-    if (previous[at(e)] >= 0) continue;
-    chain.push_back(graph.tail(e));
-    std::ranges::reverse(chain);
-    return chain;
+/// The chain that ends with `e`.
+EdgeChain chain_to(const EdgeGraph& graph, const std::vector<State>& states, std::int32_t e) {
+  EdgeChain chain{{}, states[at(e)].cost};
+  std::int32_t first = e;
+  for (; e >= 0; e = states[at(e)].previous) {
+    chain.vertices.push_back(states[at(e)].head);
+    first = e;
   }
+  chain.vertices.push_back(graph.tail(first));
+  std::ranges::reverse(chain.vertices);
+  return chain;
 }
 
 void check_vertex(const EdgeGraph& graph, std::int32_t v, const std::string& what) {
@@ -423,8 +460,7 @@ void check_turning(double turning) {
 struct EdgeWires::Search {
   std::shared_ptr<const EdgeGraph> graph;
   Pick seed;
-  std::vector<double> cost;            // of the chain up to and with each directed edge
-  std::vector<std::int32_t> previous;  // the directed edge before it in that chain
+  std::vector<State> states;
 };
 
 EdgeWires::EdgeWires(std::shared_ptr<const Search> search) : search_(std::move(search)) {}
@@ -436,7 +472,7 @@ EdgeChain EdgeWires::trace(const Pick& target) const {
 
   std::int32_t best = -1;
   const auto consider = [&](std::int32_t e) {
-    if (search_->cost[at(e)] < (best < 0 ? kInfinity : search_->cost[at(best)])) best = e;
+    if (search_->states[at(e)].cost < (best < 0 ? kInfinity : search_->states[at(best)].cost)) best = e;
   };
   if (target.is_edge()) {
     const std::int32_t e = graph.find(std::min(target.a, target.b), std::max(target.a, target.b));
@@ -446,7 +482,7 @@ EdgeChain EdgeWires::trace(const Pick& target) const {
     for (std::int32_t e = graph.begin(target.a); e < graph.end(target.a); ++e) consider(graph.twin(e));
   }
   if (best < 0) return {};
-  return {chain_to(graph, search_->previous, best), search_->cost[at(best)]};
+  return chain_to(graph, search_->states, best);
 }
 
 EdgeWires edge_wires(std::shared_ptr<const EdgeGraph> graph, const Pick& seed, double turning, bool forward,
@@ -468,10 +504,10 @@ EdgeWires edge_wires(std::shared_ptr<const EdgeGraph> graph, const Pick& seed, d
     }
     search.start(e);
   }
-  search.run([](std::int32_t) { return 0.0; }, [](std::int32_t) { return false; }, task);
-  std::vector<double> cost = search.take_costs();
-  return EdgeWires(std::make_shared<const EdgeWires::Search>(
-      EdgeWires::Search{std::move(graph), seed, std::move(cost), search.take_previous()}));
+  search.run(
+      Unguided(), [](std::int32_t) { return false; }, task);
+  return EdgeWires(
+      std::make_shared<const EdgeWires::Search>(EdgeWires::Search{std::move(graph), seed, search.take_states()}));
 }
 
 namespace {
@@ -504,15 +540,15 @@ std::vector<double> distances(const EdgeGraph& graph, std::int32_t target, doubl
   std::vector<double> distance(at(graph.vertex_count()), kInfinity);
   Queue queue(graph.mean_length());
   distance[at(target)] = 0.0;
-  queue.push(0.0, target);
+  queue.push(0.0, target, 0.0);
   while (!queue.empty()) {
-    const auto [d, v] = queue.pop();
+    const auto [d, v, in_order] = queue.pop();
     if (d != distance[at(v)]) continue;
     for (std::int32_t e = graph.begin(v); e < graph.end(v); ++e) {
       const double there = d + graph.length(e);
       if (!(there <= radius && there < distance[at(graph.head(e))])) continue;
       distance[at(graph.head(e))] = there;
-      queue.push(there, graph.head(e));
+      queue.push(there, graph.head(e), 0.0);
     }
   }
   return distance;
@@ -536,9 +572,7 @@ EdgeChain edge_loop(const EdgeGraph& graph, const Edge& edge, double turning, co
   const std::int32_t last = search.run([&](std::int32_t v) { return way_back[at(v)]; },
                                        [&](std::int32_t e) { return graph.head(e) == a; }, task);
   if (last < 0) return {};
-  EdgeChain loop;
-  loop.length = search.take_costs()[at(last)];
-  loop.vertices = chain_to(graph, search.take_previous(), last);
+  EdgeChain loop = chain_to(graph, search.take_states(), last);
   loop.vertices.pop_back();  // a, once more
   return loop;
 }
