@@ -8,10 +8,12 @@
 namespace seamwire {
 
 /// Principal curvatures at the caller's vertices, of the model scaled to the unit cube (unit: 1 / side of the cube).
-/// Vertices without a usable face have curvature 0, and a zero normal if they have none.
+/// Never infinite or NaN. Triangles lower than 2^-22 of the cube (corners in line but for 32-bit rounding) are skipped;
+/// a vertex with no other has curvature 0, and a zero normal if none has any area. A vertex of several corner fans
+/// takes the side of its first fan: fans that face the other way count turned over, each fitted with its own normals.
 struct Curvature {
   std::vector<double> k1, k2;   ///< |k1| >= |k2|
-  std::vector<Vector> d1, d2;   ///< their directions: unit, orthogonal, in the tangent plane
+  std::vector<Vector> d1, d2;   ///< their directions: unit, orthogonal, in the tangent plane; any without a normal
   std::vector<Vector> normals;  ///< unit
 
   /// s of eq. 5: |k1| - |k2|, the strength of a ridge or valley.
