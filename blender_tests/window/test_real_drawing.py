@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Drawing with the display's own pointer: what simulated events cannot do."""
+
+import bpy
+import ui as driver
+from scene import add_grid, chain, edit, seams, snapshot
+from seamwire import operator
+
+
+def test_a_double_click_takes_a_loop_and_single_clicks_draw(real_ui: driver.RealUi) -> None:
+    ui = real_ui
+    # A band around the z axis, closed: its rings are its loops. Vertex y * 12 + x is column x of ring y.
+    bpy.ops.mesh.primitive_cylinder_add(vertices=12, depth=2.0, end_fill_type="NOTHING")
+    obj = bpy.context.active_object
+    ui.wait()
+    with ui.override():
+        edit()
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.mesh.subdivide(number_cuts=1)
+    ui.look((0.70710678, 0.70710678, 0.0, 0.0), (0.0, 0.0, 0.0), 5.0)  # from the front: x to the right, z up
+    before = snapshot(obj, with_seams=False)
+    with ui.override():
+        bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT")
+    session = operator._running[0].session
+    ui.wait_until(lambda: not session.computing)
+    middle = ui.on_screen((0.13, -0.96, 0.0))
+    ui.move(middle)
+    assert isinstance(session.target, tuple)
+    ui.double_click(middle)
+    ui.wait_until(lambda: len(session.wires) == 1)
+    loop = session.wires[0]
+    assert loop.closed
+    assert {round(obj.data.vertices[v].co.z, 3) for v in loop.vertices} == {0.0} or len(loop.vertices) >= 12
+    assert session.seed is None, "the first of the two clicks left nothing"
+    marked = session.edges()
+    ui.key("RET")
+    ui.wait_until(lambda: not operator._running)
+    assert seams(obj) == marked
+    after = snapshot(obj, with_seams=False)
+    assert after == before
+
+
+def test_a_wire_is_drawn_by_hand(real_ui: driver.RealUi) -> None:
+    ui = real_ui
+    obj = add_grid(9)
+    ui.wait()
+    with ui.override():
+        edit()
+    ui.look_from_top(distance=4.0)
+    with ui.override():
+        bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT")
+    session = operator._running[0].session
+
+    def at(vertex: int) -> tuple[float, float]:
+        return ui.on_screen(tuple(obj.data.vertices[vertex].co))
+
+    ui.click(at(36), ctrl=True)
+    assert session.seed == 36
+    ui.move(at(40))
+    ui.wait_until(lambda: session.active is not None)
+    ui.click(at(44))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.click(at(60), button="RIGHTMOUSE")
+    assert session.seed is None
+    ui.key("RET")
+    ui.wait_until(lambda: not operator._running)
+    assert seams(obj) == chain(*range(36, 45))
