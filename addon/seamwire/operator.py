@@ -174,9 +174,7 @@ class Drawing:
     # What can happen from outside
 
     def trouble(self, context: bpy.types.Context) -> str:
-        """Say why drawing cannot go on; an empty string where it can."""
-        if self._overlay.error is not None:
-            raise self._overlay.error
+        """Say why drawing cannot go on; an empty string where it can. Raises what the overlay could not draw."""
         if context.mode != "EDIT_MESH":
             return "Edit mode was left"
         obj = context.active_object
@@ -184,6 +182,8 @@ class Drawing:
             return "Another object became the active one"
         if not self.cage.intact():
             return "The mesh was changed"
+        if self._overlay.error is not None:
+            raise self._overlay.error
         return ""
 
     # Events

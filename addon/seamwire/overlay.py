@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -16,7 +15,7 @@ from mathutils import Matrix, Vector
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .session import Pick, Session, Wire
+    from .session import Pick, Session
 
 Colour = tuple[float, float, float, float]
 
@@ -98,47 +97,45 @@ class Overlay:
 
     def _build(self) -> None:
         session = self._session
-        self._lines = []
-        self._dots = []
+        pieces: dict[Style, list[NDArray[np.float64]]] = {}
+
+        def add_curve(style: Style, points: NDArray[np.float64]) -> None:
+            pieces.setdefault(style, []).append(np.stack([points[:-1], points[1:]], axis=1).reshape(-1, 3))
+
+        def add_edges(style: Style, edges: list[tuple[int, int]]) -> None:
+            pieces.setdefault(style, []).append(self._points[np.array(edges).reshape(-1)])
+
+        # What is added first lies below.
         for wire in session.wires:
             if wire.along == "SURFACE":
-                self._add_edges(MARKED, wire.edges())
-            self._add_curve(KEPT, wire.points)
-        other, active = session.other, session.active
-        if other is not None:
-            self._add_curve(OTHER, other.points)
-        if active is not None:
-            self._add_active(active)
+                add_edges(MARKED, wire.edges())
+        for wire in session.wires:
+            add_curve(KEPT, wire.points)
+        if session.other is not None:
+            add_curve(OTHER, session.other.points)
+        if session.active is not None:
+            if session.active.along == "SURFACE":
+                add_edges(WILL_MARK, session.active.edges())
+            add_curve(ACTIVE, session.active.points)
         if session.loop_preview is not None:
-            self._add_curve(LOOP, session.loop_preview.points)
+            add_curve(LOOP, session.loop_preview.points)
+        if isinstance(session.target, tuple):
+            add_edges(HOVER, [session.target])
+        self._lines = [
+            (style, batch_for_shader(self._line, "LINES", {"pos": np.concatenate(parts).astype(np.float32)}))
+            for style, parts in pieces.items()
+        ]
+        self._dots = []
         seeds = [self._place(pick) for pick in session.seeds()]
         if seeds:
             self._dots.append((SEED, np.array(seeds)))
-        if session.target is not None:
-            if isinstance(session.target, tuple):
-                self._add_edges(HOVER, [session.target])
-            else:
-                self._dots.append((HOVER_DOT, self._points[[session.target]]))
+        if session.target is not None and not isinstance(session.target, tuple):
+            self._dots.append((HOVER_DOT, self._points[[session.target]]))
         self._revision = session.revision
-
-    def _add_active(self, wire: Wire) -> None:
-        if wire.along == "SURFACE":
-            self._add_edges(WILL_MARK, wire.edges())
-        self._add_curve(ACTIVE, wire.points)
 
     def _place(self, pick: Pick) -> NDArray[np.float64]:
         """Return where a pick is shown: an edge by its middle."""
         return self._points[list(pick)].mean(axis=0) if isinstance(pick, tuple) else self._points[pick]
-
-    def _add_curve(self, style: Style, points: NDArray[np.float64]) -> None:
-        pairs = np.stack([points[:-1], points[1:]], axis=1).reshape(-1, 3)
-        self._lines.append((style, self._batch(pairs)))
-
-    def _add_edges(self, style: Style, edges: Iterable[tuple[int, int]]) -> None:
-        self._lines.append((style, self._batch(self._points[np.array(list(edges), dtype=np.int64).reshape(-1)])))
-
-    def _batch(self, pairs: NDArray[np.float64]) -> gpu.types.GPUBatch:
-        return batch_for_shader(self._line, "LINES", {"pos": pairs.astype(np.float32)})
 
     # Drawing it
 
