@@ -116,6 +116,7 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh) {
     return twin < 0 ? -1 : 3 * own_face[index(twin / 3)] + twin % 3;
   };
   half_edges_.resize(3 * original_face_.size());
+  angle_.resize(half_edges_.size());
   for (std::size_t h = 0; h < half_edges_.size(); ++h) {
     const std::int32_t original = original_half_edge(static_cast<std::int32_t>(h));
     const std::int32_t after = next(original), before = previous(original);
@@ -131,6 +132,7 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh) {
                       .apex = own_vertex(mesh.apex(original)),
                       .left = entered_over(before),
                       .right = entered_over(after)};
+    angle_[h] = std::atan2(half_edges_[h].apex_y, half_edges_[h].apex_x);
   }
 
   first_out_.assign(vertex_count() + 1, 0);
@@ -204,7 +206,7 @@ void GeodesicMesh::find_bending_vertices() {
     bool bends = !loose(v).empty();
     double angle = 0.0;
     for (const std::int32_t h : leaving) {
-      angle += std::atan2(half_edge(h).apex_y, half_edge(h).apex_x);
+      angle += angle_[index(h)];
       bends = bends || twin(h) < 0 || half_edge(h).left < 0;
     }
     if (!bends && !leaving.empty()) {

@@ -42,6 +42,9 @@ class GeodesicMesh {
   /// The other half-edge of h's edge, -1 on the boundary.
   std::int32_t twin(std::int32_t h) const { return half_edge(previous(h)).right; }
 
+  /// The angle at the tail of h in its triangle.
+  double angle(std::int32_t h) const { return angle_[static_cast<std::size_t>(h)]; }
+
   /// Half-edges that leave a vertex, of all its fans.
   std::span<const std::int32_t> out(std::int32_t vertex) const { return row(out_, first_out_, vertex); }
   std::span<const Loose> loose(std::int32_t vertex) const { return row(loose_, first_loose_, vertex); }
@@ -66,6 +69,7 @@ class GeodesicMesh {
   void find_bending_vertices();
 
   std::vector<HalfEdge> half_edges_;
+  std::vector<double> angle_;
   std::vector<std::int32_t> out_, first_out_;
   std::vector<Loose> loose_;
   std::vector<std::int32_t> first_loose_;

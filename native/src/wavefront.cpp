@@ -15,6 +15,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <utility>
 
 #include "vertex_queue.hpp"
 #include "window_lists.hpp"
@@ -34,6 +36,8 @@ constexpr double kLeastWidth = 1e-12;
 /// Where a window's way to the apex is closer to an end of the base than this part of it and not straight, it is the
 /// way over that end, which is known better from the end itself.
 constexpr double kCornerWidth = 1e-9;
+/// A path arrives at a vertex in a direction known up to this angle: ties, and gains too small to count, are within it.
+constexpr double kShadowMargin = 1e-3;
 /// A source whose distance falls by less than this part of it does not send out windows again: that is rounding.
 constexpr double kLeastGain = 1e-13;
 /// Windows (a list counts as some) between two looks at the task: a fraction of a millisecond.
@@ -104,28 +108,104 @@ class Wavefront {
     }
   }
 
-  /// v becomes a source: it sees all of every opposite edge, and paths run from it along its edges.
+  /// v becomes a source: paths run from it along its edges, and straight on over its triangles.
   void send_out(std::int32_t v) {
     const double from = distance(v);
     for (const std::int32_t h : mesh_.out(v)) {
-      const HalfEdge& edge = mesh_.half_edge(h);
-      const HalfEdge& before = mesh_.half_edge(GeodesicMesh::previous(h));
-      lower(edge.tip, from + edge.length, {.x = edge.length, .half_edge = ~h, .source = v});
-      lower(edge.apex, from + before.length,
-            {.x = before.length, .half_edge = ~GeodesicMesh::previous(h), .source = v});
-      if (edge.right < 0) continue;
-      const double cosine = (edge.length - edge.apex_x) * edge.right_inverse;
-      const double sine = -edge.apex_y * edge.right_inverse;
-      const double x = -edge.apex_x * cosine - edge.apex_y * sine, y = edge.apex_x * sine - edge.apex_y * cosine;
-      if (!(y < 0)) continue;
-      WindowList& list = lists_[index(edge.right)];
-      list.reserve_back(1, blocks_).set(0, 0.0, mesh_.half_edge(edge.right).length, x, y, from, v);
-      list.grew_back(1, blocks_);
-      enqueue_if_passed(edge.right);
+      const std::int32_t before = GeodesicMesh::previous(h);
+      const double tip_length = mesh_.half_edge(h).length, apex_length = mesh_.half_edge(before).length;
+      lower(mesh_.half_edge(h).tip, from + tip_length, {.x = tip_length, .half_edge = ~h, .source = v});
+      lower(mesh_.half_edge(h).apex, from + apex_length, {.x = apex_length, .half_edge = ~before, .source = v});
     }
     for (const auto& [to, length] : mesh_.loose(v)) {
       lower(to, from + length, {.x = length, .half_edge = TraceRecord::kLooseEdge, .source = v});
     }
+
+    const auto [arrival, angle] = arrival_at(v);
+    std::size_t corners = 0;
+    if (arrival >= 0) corners = send_into_shadow(v, arrival, angle);
+    if (corners == mesh_.out(v).size()) return;
+    // Fans that the path did not arrive in see all of it.
+    for (const std::int32_t h : mesh_.out(v)) {
+      if (corners == 0 || std::find(fan_.begin(), fan_.end(), h) == fan_.end()) {
+        send_window(v, h, 0.0, mesh_.angle(h));
+      }
+    }
+  }
+
+  /// The corner in which the shortest path arrives at v, named by the half-edge that leaves v there, and its angle from
+  /// that half-edge; -1 at the seed and where it comes along a loose edge.
+  std::pair<std::int32_t, double> arrival_at(std::int32_t v) const {
+    const TraceRecord& record = result_.records[index(v)];
+    if (record.half_edge >= 0) {
+      const HalfEdge& edge = mesh_.half_edge(record.half_edge);
+      const double x = record.x - edge.apex_x, y = record.y - edge.apex_y;
+      const double turn = std::atan2(edge.apex_y * x - edge.apex_x * y, -edge.apex_x * x - edge.apex_y * y);
+      const std::int32_t corner = GeodesicMesh::previous(record.half_edge);
+      return {corner, std::clamp(turn, 0.0, mesh_.angle(corner))};
+    }
+    if (record.half_edge == TraceRecord::kNone || record.half_edge == TraceRecord::kLooseEdge) return {-1, 0.0};
+    const std::int32_t along = ~record.half_edge;
+    const HalfEdge& edge = mesh_.half_edge(along);
+    if (edge.tail == edge.tip) return {-1, 0.0};
+    if (edge.tail == v) return {along, 0.0};
+    return {GeodesicMesh::next(along), mesh_.angle(GeodesicMesh::next(along))};
+  }
+
+  /// A shortest path that bends at v has an angle of at least pi on both sides. Sends windows to where that is so, in
+  /// the fan of the corner where the path arrives; returns how many corners this fan has, and leaves them in fan_.
+  std::size_t send_into_shadow(std::int32_t v, std::int32_t arrival, double angle) {
+    constexpr double kShadow = std::numbers::pi - kShadowMargin;
+    fan_.clear();
+    double turned = -angle;
+    std::int32_t h = arrival;
+    do {
+      fan_.push_back(h);
+      turned += mesh_.angle(h);
+      h = mesh_.half_edge(h).left;
+    } while (h >= 0 && h != arrival);
+    const double shadow_end = h == arrival ? turned + angle - kShadow : std::numeric_limits<double>::infinity();
+    turned = -angle;
+    for (const std::int32_t corner : fan_) {
+      send_window(v, corner, kShadow - turned, shadow_end - turned);
+      turned += mesh_.angle(corner);
+    }
+    if (h == arrival) return fan_.size();
+    // An open fan: the other way round to its other end.
+    turned = angle;
+    for (h = mesh_.twin(arrival); h >= 0; h = mesh_.twin(h)) {
+      h = GeodesicMesh::next(h);
+      fan_.push_back(h);
+      const double whole = mesh_.angle(h);
+      send_window(v, h, -1.0, whole - (kShadow - turned));
+      turned += whole;
+    }
+    return fan_.size();
+  }
+
+  /// A window from v over the corner between h and the edge on its left, for the directions from `begin` to `end`, as
+  /// angles from h.
+  void send_window(std::int32_t v, std::int32_t h, double begin, double end) {
+    const HalfEdge& edge = mesh_.half_edge(h);
+    if (edge.right < 0 || !(begin < end) || end <= 0 || begin >= mesh_.angle(h)) return;
+    const double cosine = (edge.length - edge.apex_x) * edge.right_inverse;
+    const double sine = -edge.apex_y * edge.right_inverse;
+    const double x = -edge.apex_x * cosine - edge.apex_y * sine, y = edge.apex_x * sine - edge.apex_y * cosine;
+    if (!(y < 0)) return;
+    // Where the line from v in a direction meets the opposite edge, from its tip (the apex here).
+    const double length = mesh_.half_edge(edge.right).length;
+    const auto meets = [&](double direction) {
+      const double dx = std::cos(direction), dy = std::sin(direction);
+      const double rx = dx * cosine + dy * sine, ry = dy * cosine - dx * sine;
+      return ry > 0 ? std::clamp(x - y * rx / ry, 0.0, length) : rx < 0 ? 0.0 : length;
+    };
+    const double b0 = end < mesh_.angle(h) ? meets(end) : 0.0;
+    const double b1 = begin > 0 ? meets(begin) : length;
+    if (!(b1 - b0 > kLeastWidth * length)) return;
+    WindowList& list = lists_[index(edge.right)];
+    list.reserve_back(1, blocks_).set(0, b0, b1, x, y, distance(v), v);
+    list.grew_back(1, blocks_);
+    enqueue_if_passed(edge.right);
   }
 
   void enqueue(std::int32_t h) {
@@ -172,6 +252,82 @@ class Wavefront {
     return over_tail < 0 || over_tip < 0 || over_tail * over_tail < square1 || over_tip * over_tip < square0;
   }
 
+  static double distance_at(const Windows& w, std::size_t i, double b) {
+    return w.distance[i] + std::sqrt((b - w.x[i]) * (b - w.x[i]) + w.y[i] * w.y[i]);
+  }
+
+  /// Where on the base the windows i and j are equally far, between begin and end, at which different ones are nearer:
+  /// the root of d_i + |s_i - b| = d_j + |s_j - b|, squared twice.
+  static double border(const Windows& w, std::size_t i, std::size_t j, double begin, double end) {
+    const double gap = w.distance[j] - w.distance[i], gap2 = gap * gap;
+    const double xi = w.x[i] - begin, xj = w.x[j] - begin;
+    const double norm_i = xi * xi + w.y[i] * w.y[i], norm_j = xj * xj + w.y[j] * w.y[j];
+    const double p = xj - xi, q = 0.5 * (norm_i - norm_j - gap2);
+    const double a = p * p - gap2, b = p * q + gap2 * xj, c = q * q - gap2 * norm_j;
+    const double root = std::sqrt(std::max(b * b - a * c, 0.0));
+    const double sum = b < 0 ? root - b : -root - b;
+    const double r0 = sum / a, r1 = c / sum;
+    // One of the two may belong to the equation's mirror image, d_i - |s_i - b|.
+    const double width = end - begin;
+    double best = 0.5 * width, best_miss = std::numeric_limits<double>::infinity();
+    for (const double r : {r0, r1}) {
+      if (!(r >= 0 && r <= width)) continue;
+      const double miss = std::abs(distance_at(w, i, begin + r) - distance_at(w, j, begin + r));
+      if (miss < best_miss) {
+        best = r;
+        best_miss = miss;
+      }
+    }
+    if (best_miss > 1e-12 * distance_at(w, i, begin)) return std::nan("");
+    return begin + best;
+  }
+
+  /// Drops what is useless from a list, in place, and cuts back windows where the one beside them is nearer. Returns
+  /// how many are left.
+  std::uint32_t prune(const Windows& w, std::uint32_t size, double at_tail, double at_tip, double length) {
+    std::uint32_t kept = 0;
+    const double narrow = kLeastWidth * length;
+    for (std::uint32_t next = 0; next < size; ++next) {
+      if (is_useless(at_tail, at_tip, length, w.b0[next], w.b1[next], w.x[next], w.y[next], w.distance[next])) continue;
+      if (kept != next) w.set(kept, w.b0[next], w.b1[next], w.x[next], w.y[next], w.distance[next], w.source[next]);
+      bool is_alive = true;
+      while (kept > 0) {
+        const std::size_t i = kept - 1, j = kept;
+        const double begin = std::max(w.b0[i], w.b0[j]), end = std::min(w.b1[i], w.b1[j]);
+        if (!(end - begin > narrow)) break;
+        const double at_begin = distance_at(w, i, begin) - distance_at(w, j, begin);
+        const double at_end = distance_at(w, i, end) - distance_at(w, j, end);
+        // The difference of the two distances rises or falls all along the overlap if the line through both sources
+        // does not meet it.
+        const double side_begin = (w.x[i] - begin) * w.y[j] - (w.x[j] - begin) * w.y[i];
+        const double side_end = (w.x[i] - end) * w.y[j] - (w.x[j] - end) * w.y[i];
+        if (side_begin * side_end < 0) break;
+        double i_until = end, j_from = begin;  // i is the nearer one up to here; j from here on
+        if (at_begin <= 0 && at_end <= 0) {
+          j_from = end;
+        } else if (at_begin >= 0 && at_end >= 0) {
+          i_until = begin;
+        } else if (at_begin < 0) {
+          const double b = border(w, i, j, begin, end);
+          if (!std::isnan(b)) i_until = j_from = b;
+        } else {
+          break;
+        }
+        if (i_until < end && w.b1[i] <= end) w.b1[i] = i_until;
+        if (j_from > begin && w.b0[j] >= begin) w.b0[j] = j_from;
+        if (!(w.b1[j] - w.b0[j] > narrow)) {
+          is_alive = false;
+          break;
+        }
+        if (w.b1[i] - w.b0[i] > narrow) break;
+        w.set(i, w.b0[j], w.b1[j], w.x[j], w.y[j], w.distance[j], w.source[j]);
+        --kept;
+      }
+      kept += is_alive;
+    }
+    return kept;
+  }
+
   /// Carries the list of h through the triangle it enters.
   void propagate(std::int32_t h) {
     WindowList list = std::exchange(lists_[index(h)], {});
@@ -191,12 +347,12 @@ class Wavefront {
       split = edge.length;
       record = {.x = right_length, .half_edge = ~GeodesicMesh::next(h), .source = edge.tip};
     }
-    feet_.resize(std::max<std::size_t>(feet_.size(), list.size));
-    std::uint32_t kept = 0;
-    for (std::uint32_t i = 0; i < list.size; ++i) {
+    const std::uint32_t kept = prune(in, list.size, at_tail, at_tip, edge.length);
+    feet_.resize(std::max<std::size_t>(feet_.size(), kept));
+    for (std::uint32_t i = 0; i < kept; ++i) {
       const double b0 = in.b0[i], b1 = in.b1[i], x = in.x[i], y = in.y[i], d = in.distance[i];
-      if (is_useless(at_tail, at_tip, edge.length, b0, b1, x, y, d)) continue;
       const double foot = x + (edge.apex_x - x) * -y / (edge.apex_y - y);
+      feet_[i] = foot;
       const double through = std::clamp(foot, b0, b1);
       const double to_apex = d + std::sqrt((through - x) * (through - x) + y * y) +
                              std::sqrt((through - edge.apex_x) * (through - edge.apex_x) + edge.apex_y * edge.apex_y);
@@ -207,8 +363,6 @@ class Wavefront {
         split = through;
         record = {.x = x, .y = y, .half_edge = h, .source = in.source[i]};
       }
-      in.set(kept, b0, b1, x, y, d, in.source[i]);
-      feet_[kept++] = foot;
     }
     lower(edge.apex, shortest, record);
     const double at_apex = distance(edge.apex);
@@ -284,7 +438,7 @@ class Wavefront {
   WindowBlocks blocks_;
   std::vector<WindowList> lists_;
   std::vector<std::uint8_t> is_waiting_;
-  std::vector<std::int32_t> waiting_, sources_again_;
+  std::vector<std::int32_t> waiting_, sources_again_, fan_;
   std::vector<double> feet_;
   std::size_t vertices_done_ = 0, work_ = 0;
 };
