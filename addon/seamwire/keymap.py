@@ -42,13 +42,13 @@ class Key:
     shift: bool | None = None
     alt: bool | None = None
 
-    def matches(self, event: bpy.types.Event) -> bool:
-        """Whether an event is this key."""
+    def matches(self, event: bpy.types.Event, value: str) -> bool:
+        """Whether an event of this value is this key."""
         ctrl = event.ctrl or event.oskey
         held = ((self.ctrl, ctrl), (self.shift, event.shift), (self.alt, event.alt))
         return (
             event.type == self.type
-            and event.value == self.value
+            and value == self.value
             and all(wanted is None or wanted == is_held for wanted, is_held in held)
         )
 
@@ -88,9 +88,43 @@ _NAVIGATION = frozenset(
 _SHADING_AND_SIDEBARS = frozenset({"Z", "N", "T"})
 
 
-def action_of(event: bpy.types.Event) -> Action | None:
-    """Return what an event asks for."""
-    return next((key.action for key in KEYS if key.matches(event)), None)
+def action_of(event: bpy.types.Event, double: bool = False) -> Action | None:
+    """Return what an event asks for; `double`: it is the second press of a double click."""
+    value = "DOUBLE_CLICK" if double else event.value
+    return next((key.action for key in KEYS if key.matches(event, value)), None)
+
+
+class DoubleClicks:
+    """Finds double clicks: Blender hands modal operators the second press as any other.
+
+    The time that counts is that from the first release to the second press, as they are handled: where a redraw comes
+    between the two presses, however long it takes, the release has waited as well.
+    """
+
+    def __init__(self) -> None:
+        self._released: tuple[float, int, int] | None = None
+
+    def is_second(self, event: bpy.types.Event, now: float, inputs: bpy.types.PreferencesInput) -> bool:
+        """Whether an event is the second press of a double click. To be asked of every event of the left button.
+
+        Parameters
+        ----------
+        event
+            Of the left mouse button.
+        now
+            Seconds, from any beginning.
+        inputs
+            The preferences, for what counts as a double click and as the same place.
+        """
+        if event.value == "RELEASE":
+            self._released = (now, event.mouse_x, event.mouse_y)
+            return False
+        released, self._released = self._released, None
+        if released is None or event.value != "PRESS":
+            return False
+        soon = (now - released[0]) * 1000.0 < inputs.mouse_double_click_time
+        away = max(abs(event.mouse_x - released[1]), abs(event.mouse_y - released[2]))
+        return soon and away <= inputs.drag_threshold_mouse
 
 
 def is_navigation(event: bpy.types.Event) -> bool:

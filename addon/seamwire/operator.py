@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import time
 import traceback
 from contextlib import ExitStack
 from typing import TYPE_CHECKING
@@ -125,7 +126,7 @@ class Drawing:
         self._obj = context.active_object
         self._timer: bpy.types.Timer | None = None
         self._cursor = ""
-        self._mouse: tuple[int, int] | None = None
+        self._clicks = keymap.DoubleClicks()
         self._shown: tuple[int, int, bool] | None = None
         self.notes = tuple(
             note
@@ -202,7 +203,10 @@ class Drawing:
             return {"PASS_THROUGH"}
         inside = self._view_at(event.mouse_x, event.mouse_y)
         self._set_cursor("CROSSHAIR" if inside else "")
-        action = keymap.action_of(event)
+        double = event.type == "LEFTMOUSE" and self._clicks.is_second(
+            event, time.monotonic(), context.preferences.inputs
+        )
+        action = keymap.action_of(event, double)
         if inside is None:
             if keymap.is_blender_undo(event):
                 return {"RUNNING_MODAL"}

@@ -537,7 +537,7 @@ class Session:
         self.revision += 1
         self._read_progress()
         seed = self._state.seed
-        if seed is None or target is None:
+        if seed is None or target is None or self._at_seed(target):
             return
         if self.along == "SURFACE" and isinstance(target, tuple):
             self.message = f"Across the surface wires begin and end at vertices, not at edge {_name(target)}"
@@ -550,7 +550,7 @@ class Session:
         live.final = found.final
         live.shorter = found.shorter
         live.wires = (self._wire(found.wires[0], target), self._wire(found.wires[1], target))
-        if live.final and live.wires == (None, None) and not self._at_seed(target):
+        if live.final and live.wires == (None, None):
             self.message = f"No wire reaches {_name(target)}"
 
     def _at_seed(self, pick: Pick) -> bool:

@@ -103,6 +103,16 @@ def test_clicking_the_seed_again_keeps_nothing() -> None:
     assert "somewhere else" in session.message
 
 
+def test_clicking_the_seeds_own_edge_again_keeps_nothing() -> None:
+    session = Table().session
+    session.click((0, 1))
+    assert not session.click((1, 0))
+    session.click((3, 4))
+    assert not session.click((3, 4))
+    assert not session.click(4), "the wire's end"
+    assert len(session.wires) == 1
+
+
 def test_ending_a_chain_leaves_the_kept_wires_and_no_live_one() -> None:
     session = Table().session
     session.click(0)

@@ -249,6 +249,23 @@ def test_alt_shows_the_loop_and_an_alt_click_takes_it(cone: Desk) -> None:
     assert session.seed is None
 
 
+def test_a_double_click_on_an_edge_takes_its_loop(cone: Desk) -> None:
+    session, ui = cone.start(), cone.ui
+    bpy.context.preferences.inputs.mouse_double_click_time = 1000  # redraws may be slow here
+    edge = cone.at(40, 49)
+    ui.wait_until(lambda: not session.computing)
+    ui.move(edge)
+    for _ in range(2):
+        ui.event("LEFTMOUSE", "PRESS", ticks=1)
+        ui.event("LEFTMOUSE", "RELEASE", ticks=1)
+    ui.wait_until(lambda: len(session.wires) == 1)
+    assert session.wires[0].closed
+    assert (40, 49) in session.edges()
+    assert session.seed is None, "the first of the two clicks left nothing"
+    ui.key("Z", ctrl=True)
+    assert session.wires == ()
+
+
 def test_e_switches_to_the_surface_and_back(cone: Desk) -> None:
     session, ui = cone.start(), cone.ui
     ui.click(cone.at(20), ctrl=True)
