@@ -270,7 +270,7 @@ class Queue {
   std::vector<std::vector<Entry>> buckets_;
   std::size_t lowest_ = 0, size_ = 0;
   std::vector<Entry> heap_;    // of the lowest bucket, what must come out in order
-  std::vector<Entry> beyond_;  // the last bucket
+  std::vector<Entry> beyond_;  // keys past the last bucket
 };
 
 /// A search that goes in all directions alike.

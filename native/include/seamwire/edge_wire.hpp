@@ -21,7 +21,7 @@ struct Pick {
   friend bool operator==(const Pick&, const Pick&) = default;
 };
 
-/// A chain of real edges.
+/// A chain of real edges. It repeats no vertex, except that one from a forward seed may end where it began.
 struct EdgeChain {
   std::vector<std::int32_t> vertices;                       ///< in order, picked edges included; empty: there is none
   double length = std::numeric_limits<double>::infinity();  ///< metric lengths plus turning cost
@@ -30,7 +30,9 @@ struct EdgeChain {
 /// The real edges of a surface with their lengths in a metric and what turning costs at each vertex: cost of a chain =
 /// sum of metric lengths + q * (mean metric edge length) * sum over its inner vertices of (1 - cos kappa), where kappa
 /// is the discrete geodesic curvature, pi |left - right| / (left + right) of the face angles on either side (Polthier
-/// and Schmies, "Straightest Geodesics", 1998). Immutable, so searches may run on several threads.
+/// and Schmies, "Straightest Geodesics", 1998). On a boundary it is zero along the boundary, else pi minus the angle
+/// between the edges; where the faces at a vertex are no single fan (an edge with three faces, a bow-tie, a loose edge)
+/// it is the turn in space. Immutable, so searches may run on several threads.
 class EdgeGraph;
 
 std::shared_ptr<const EdgeGraph> make_edge_graph(const Surface& surface, const Metric& metric);
@@ -38,8 +40,14 @@ std::shared_ptr<const EdgeGraph> make_edge_graph(const Surface& surface, const M
 /// The cheapest chains from one pick to every edge and vertex.
 class EdgeWires {
  public:
-  /// The cheapest chain to a target, both picks included. A picked edge has no direction: the better of both. Throws
-  /// InvalidInput where the target is not a vertex or an edge of the surface.
+  /// The cheapest chain to a target, both picks included. A picked edge has no direction: the better of both. The seed
+  /// itself is a chain of its own. Behind a forward seed, a target at the seed's first vertex closes the chain there.
+  /// Takes time in proportion to the chain. Throws InvalidInput where the target is not a vertex or an edge of the
+  /// surface.
+  ///
+  /// The cheapest walk may cross itself, where it can turn more cheaply in a small circle of short edges than at once.
+  /// The chain is then another one, without repeated vertices, though not always the cheapest of those: that is
+  /// NP-hard.
   EdgeChain trace(const Pick& target) const;
 
   struct Search;  // edge_wire.cpp
@@ -55,7 +63,9 @@ class EdgeWires {
 EdgeWires edge_wires(std::shared_ptr<const EdgeGraph> graph, const Pick& seed, double turning = 3.0,
                      bool forward = false, const Task& task = {});
 
-/// The cheapest closed chain through an edge, the first vertex not repeated; empty where there is none.
+/// The cheapest closed chain through an edge, without repeated vertices (found as edge_wires() finds its chains; the
+/// first vertex is not given twice); empty where there is none. Nothing dearer than the way around a face beside the
+/// edge is found, some 4 `turning` edges: for larger rings on finer meshes take a larger `turning`.
 EdgeChain edge_loop(const EdgeGraph& graph, const Edge& edge, double turning = 20.0, const Task& task = {});
 
 }  // namespace seamwire
