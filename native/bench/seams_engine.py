@@ -14,14 +14,14 @@ LOOP_TURNING = 20.0
 
 
 def polygon_edges(offsets: np.ndarray, corners: np.ndarray) -> np.ndarray:
-    """The edges (e, 2) of polygons; face f has the corners corners[offsets[f]:offsets[f + 1]]."""
+    """List the edges (e, 2) of polygons; face f has the corners corners[offsets[f]:offsets[f + 1]]."""
     following = np.arange(1, len(corners) + 1)
     following[offsets[1:] - 1] = offsets[:-1]
     return np.unique(np.sort(np.column_stack((corners, corners[following])), axis=1), axis=0)
 
 
 def fan_triangles(offsets: np.ndarray, corners: np.ndarray) -> np.ndarray:
-    """Each polygon as triangles (m, 3) around its first corner."""
+    """Cut each polygon into triangles (m, 3) around its first corner."""
     counts = np.maximum(np.diff(offsets) - 2, 0)
     first = np.repeat(offsets[:-1], counts)
     step = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
@@ -29,12 +29,15 @@ def fan_triangles(offsets: np.ndarray, corners: np.ndarray) -> np.ndarray:
 
 
 class SeamwireEngine:
+    """Wires and loops along the edges of one mesh, with the settings of the tool unless told otherwise."""
+
     def __init__(self, **settings: float) -> None:
         self.anisotropy = settings.get("anisotropy", MAX_ANISOTROPY)
         self.turning = settings.get("turning", TURNING)
         self.loop_turning = settings.get("loop_turning", LOOP_TURNING)
 
     def prepare(self, points: np.ndarray, offsets: np.ndarray, corners: np.ndarray) -> None:
+        """Take a polygon mesh; points (n, 3), and face f has the corners corners[offsets[f]:offsets[f + 1]]."""
         edges = polygon_edges(offsets, corners)
         self.surface = sw.Surface(points, fan_triangles(offsets, corners), edges[edges[:, 0] != edges[:, 1]])
         curvature = sw.principal_curvatures(self.surface)
@@ -50,6 +53,7 @@ class SeamwireEngine:
         ]
 
     def wires(self, seed: tuple[int, int], targets: list[tuple[int, int]], forward: bool) -> list[list[list[int]]]:
+        """Offer the wires from a seed edge to each target edge, the shorter first; a wire lists its vertices."""
         fields = [sw.edge_wires(self.surface, m, seed, turning=self.turning, forward=forward) for m in self.metrics]
         offered = []
         for target in targets:
@@ -58,6 +62,7 @@ class SeamwireEngine:
         return offered
 
     def loop(self, edge: tuple[int, int]) -> list[int] | None:
+        """Offer the closed chain that one click on the edge takes, its first vertex not repeated."""
         chains = [sw.edge_loop(self.surface, m, edge, turning=self.loop_turning) for m in self.metrics]
         best = min((c for c in chains if c is not None), key=lambda chain: chain.length, default=None)
         return list(best.vertices) if best is not None and len(best.vertices) else None
