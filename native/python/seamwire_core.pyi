@@ -130,6 +130,7 @@ def feature_metric(
     clamp_percentile: float | None = None,
 ) -> Metric:
     """Eq. 5. Neither gamma nor max_anisotropy: gamma = 0.1."""
+
 def campen_metric(
     surface: Surface,
     curvature: Curvature,

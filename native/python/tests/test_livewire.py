@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Live wires as Python sees them."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+import pytest
+import seamwire_core as sw
+
+
+def test_across_the_surface_gives_both_geodesics_and_their_edges(surface: sw.Surface, curvature: sw.Curvature) -> None:
+    live = sw.LiveWire(surface)
+    live.seed(3)
+    assert live.wait()
+    assert live.progress() == 1
+    both = live.wires(500)
+    assert both.final
+    assert [wire.follow for wire in both.wires] == ["min", "max"]
+    assert both.shorter == int(both.wires[1].length < both.wires[0].length)
+    for wire in both.wires:
+        metric = sw.feature_metric(surface, curvature, follow=wire.follow, gamma=0.1)
+        traced = sw.distance_field(sw.embed(surface, metric), 3).trace(500)
+        np.testing.assert_array_equal(wire.points, traced.points)
+        np.testing.assert_array_equal(wire.faces, traced.faces)
+        np.testing.assert_array_equal(wire.vertices, sw.snap_to_edges(surface, traced))
+        assert wire.length == traced.length
+
+
+def test_along_edges_gives_both_chains(surface: sw.Surface, curvature: sw.Curvature) -> None:
+    live = sw.LiveWire(surface, along="edges")
+    live.seed((3, 4), forward=True)
+    assert live.wait()
+    for wire in live.wires((500, 501)).wires:
+        metric = sw.feature_metric(surface, curvature, follow=wire.follow, max_anisotropy=10, clamp_percentile=99)
+        chain = sw.edge_wires(surface, metric, (3, 4), forward=True).trace((500, 501))
+        np.testing.assert_array_equal(wire.vertices, chain.vertices)
+        np.testing.assert_array_equal(wire.points, surface.points[chain.vertices])
+        assert wire.faces.shape == (0,)
+        assert wire.length == chain.length
+    metrics = [
+        sw.feature_metric(surface, curvature, follow=follow, max_anisotropy=10, clamp_percentile=99)
+        for follow in ("min", "max")
+    ]
+    loops = [sw.edge_loop(surface, metric, (3, 4)) for metric in metrics]
+    assert live.loop((3, 4)).length == min(loop.length for loop in loops)
+
+
+def test_wires_come_without_waiting(large: sw.Surface) -> None:
+    live = sw.LiveWire(large)
+    live.seed(0)
+    seen = set()
+    deadline = time.monotonic() + 60
+    while not (both := live.wires(999)).final:
+        seen.add(both.final)
+        for wire in both.wires:
+            assert wire.final == (len(wire.points) > 0)
+        assert 0 <= live.progress() <= 1
+        assert time.monotonic() < deadline
+    live.seed(1)
+    assert live.wires(999).wires[0].points.shape == (0, 3) or live.wires(999).wires[0].vertices[0] == 1
+
+
+def test_the_surface_may_go_before_the_wires() -> None:
+    import meshes
+
+    live = sw.LiveWire(sw.Surface(*meshes.torus(40, 24)))
+    live.seed(0)
+    live.wait()
+    points = live.wires(100).wires[0].points
+    copy = points.copy()
+    del live
+    np.testing.assert_array_equal(points, copy)
+
+
+def test_it_may_go_in_the_middle_of_its_work(large: sw.Surface) -> None:
+    for _ in range(3):
+        live = sw.LiveWire(large)
+        live.seed(0)
+        del live
+
+
+def test_waiting_ends_when_it_is_told_to(large: sw.Surface) -> None:
+    live = sw.LiveWire(large)
+    live.seed(0)
+    for seconds in (0, 1e-3, -1, 0.0):
+        assert live.wait(seconds) in (False, True)
+    assert live.wait(1e300)
+
+
+def test_without_a_seed_there_are_no_wires(surface: sw.Surface) -> None:
+    with pytest.raises(ValueError, match="no seed"):
+        sw.LiveWire(surface).wires(0)
+
+
+def test_edges_cannot_be_picked_across_the_surface(surface: sw.Surface) -> None:
+    live = sw.LiveWire(surface)
+    with pytest.raises(ValueError, match="vertex to vertex"):
+        live.seed((0, 1))
+    with pytest.raises(ValueError, match="along edges"):
+        live.loop((0, 1))
+
+
+def test_what_fails_on_a_thread_is_raised_to_the_caller(surface: sw.Surface) -> None:
+    live = sw.LiveWire(surface, gamma=1e308)
+    with pytest.raises(ValueError, match="too strong"):
+        live.wait()

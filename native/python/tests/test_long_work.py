@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Long work lets other threads run, tells how far it is, and can be stopped."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+
+import meshes
+import numpy as np
+import pytest
+import seamwire_core as sw
+
+Work = Callable[[Callable | None], object]
+
+
+@pytest.fixture
+def eager_threads() -> Iterator[None]:
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(1e-4)
+    yield
+    sys.setswitchinterval(interval)
+
+
+def longest_pause(work: Callable[[], object]) -> float:
+    """Part of work's time in which another Python thread stood still longest."""
+    moments: list[float] = []
+    stop = threading.Event()
+
+    def tick() -> None:
+        while not stop.is_set():
+            moments.append(time.perf_counter())
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    start = time.perf_counter()
+    work()
+    end = time.perf_counter()
+    stop.set()
+    thread.join()
+    inside = [start, *(m for m in moments if start <= m <= end), end]
+    return float(np.diff(inside).max() / (end - start))
+
+
+@pytest.fixture(scope="module")
+def embedding_of_large(large: sw.Surface, large_metric: sw.Metric) -> sw.Embedding:
+    return sw.embed(large, large_metric)
+
+
+def test_other_threads_run_meanwhile(large: sw.Surface, large_metric: sw.Metric, eager_threads: None) -> None:
+    points, triangles = np.asfortranarray(large.points), large.triangles.astype(np.uint16)
+    embedding = sw.embed(large, large_metric)
+
+    def live(along: str) -> None:
+        wires = sw.LiveWire(large, along=along)
+        wires.seed(0)
+        wires.wait()
+
+    calls: dict[str, Callable[[], object]] = {
+        "Surface": lambda: sw.Surface(points, triangles),
+        "principal_curvatures": lambda: sw.principal_curvatures(large),
+        "embed": lambda: sw.embed(large, large_metric),
+        "distance_field": lambda: sw.distance_field(embedding, 0),
+        "edge_wires": lambda: sw.edge_wires(large, large_metric, 0),
+        "live wire across": lambda: live("surface"),
+        "live wire along": lambda: live("edges"),
+    }
+    for name, call in calls.items():
+        # 1 if the lock were held; the system may stop the other thread for a while too, so the best of some counts.
+        assert min(longest_pause(call) for _ in range(3)) < 0.6, name
+
+
+@pytest.fixture(params=["embed", "distance_field", "edge_wires"])
+def work(
+    request: pytest.FixtureRequest, large: sw.Surface, large_metric: sw.Metric, embedding_of_large: sw.Embedding
+) -> Work:
+    return {
+        "embed": lambda progress: sw.embed(large, large_metric, progress=progress),
+        "distance_field": lambda progress: sw.distance_field(embedding_of_large, 0, progress=progress),
+        "edge_wires": lambda progress: sw.edge_wires(large, large_metric, 0, progress=progress),
+    }[request.param]
+
+
+def test_progress_is_a_fraction(work: Work) -> None:
+    fractions: list[float] = []
+    work(fractions.append)
+    assert fractions
+    assert all(0 <= f <= 1 for f in fractions)
+
+
+def test_returning_false_cancels(work: Work) -> None:
+    with pytest.raises(sw.Cancelled):
+        work(lambda _: False)
+    assert issubclass(sw.Cancelled, RuntimeError)
+    assert work(lambda _: None) is not None  # and it can be done again
+
+
+def test_what_the_callback_raises_comes_out(work: Work) -> None:
+    class OwnError(Exception):
+        pass
+
+    def fail(fraction: float) -> None:
+        raise OwnError(fraction)
+
+    with pytest.raises(OwnError) as caught:
+        work(fail)
+    assert 0 <= caught.value.args[0] <= 1
+    with pytest.raises(TypeError):
+        work(lambda: None)  # takes no argument
+
+
+def interrupt_after(seconds: float) -> threading.Timer:
+    timer = threading.Timer(seconds, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    return timer
+
+
+def test_control_c_stops_long_work(embedding_of_large: sw.Embedding) -> None:
+    timer = interrupt_after(0.03)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            for seed in range(1000):
+                sw.distance_field(embedding_of_large, seed)
+    finally:
+        timer.join()
+
+
+def test_control_c_ends_waiting(large: sw.Surface) -> None:
+    live = sw.LiveWire(large)
+    timer = interrupt_after(0.02)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            for seed in range(1000):
+                live.seed(seed)
+                live.wait()
+    finally:
+        timer.join()
+
+
+def test_what_is_kept_is_made_once_for_all_threads(surface: sw.Surface, curvature: sw.Curvature) -> None:
+    for _ in range(5):
+        metric = sw.feature_metric(surface, curvature)
+        embedding = sw.embed(surface, metric)
+        fresh = sw.Surface(surface.points, surface.triangles)
+
+        def run(seed: int) -> tuple:
+            field = sw.distance_field(embedding, seed)  # noqa: B023
+            chain = sw.edge_wires(surface, metric, seed).trace(900)  # noqa: B023
+            return field.distances, chain.vertices, sw.snap_to_edges(fresh, field.trace(900)), embedding.edges  # noqa: B023
+
+        with ThreadPoolExecutor(8) as pool:
+            results = list(pool.map(run, [5] * 16))
+        for result in results[1:]:
+            for one, other in zip(result, results[0], strict=True):
+                np.testing.assert_array_equal(one, other)
+
+
+def test_a_metric_may_serve_surfaces_of_the_same_size() -> None:
+    """The graph kept with a metric belongs to one surface; another surface gets its own."""
+    points, triangles = meshes.grid(6)
+    one, other = sw.Surface(points, triangles), sw.Surface(points * [1, 2, 1], triangles)
+    metric = sw.euclidean_metric(one, sw.principal_curvatures(one))
+    lengths = [sw.edge_wires(s, metric, 0, turning=0).trace(6).length for s in (one, other, one)]
+    assert lengths == pytest.approx([1, 0.5, 1])

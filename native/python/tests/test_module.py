@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The module against its stub, and what its functions refuse."""
+
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+
+import meshes
+import numpy as np
+import pytest
+import seamwire_core as sw
+
+STUB = ast.parse(Path(sw.__file__).with_name("seamwire_core.pyi").read_text())
+CLASSES = [node for node in STUB.body if isinstance(node, ast.ClassDef)]
+FUNCTIONS = [node for node in STUB.body if isinstance(node, ast.FunctionDef)]
+METHODS = [(c, f) for c in CLASSES for f in c.body if isinstance(f, ast.FunctionDef)]
+
+
+def documented(function: object) -> list[tuple[str, str | None]]:
+    """Parameters and their defaults as the module has them."""
+    signature = re.match(r"\w+\((.*)\) -> ", function.__doc__).group(1)
+    pieces = re.split(r", (?=\w+: )", signature) if signature else []
+    parameters = [re.fullmatch(r"(\w+): .*?(?: = (.*))?", piece).groups() for piece in pieces]
+    return [(name, default) for name, default in parameters if name != "self"]
+
+
+def declared(function: ast.FunctionDef) -> list[tuple[str, str | None]]:
+    """The same as the stub has them."""
+    arguments = function.args.args
+    defaults = [None] * (len(arguments) - len(function.args.defaults)) + [
+        repr(ast.literal_eval(default)) for default in function.args.defaults
+    ]
+    return [(a.arg, default) for a, default in zip(arguments, defaults, strict=True) if a.arg != "self"]
+
+
+def test_names_are_those_of_the_stub() -> None:
+    assert {n for n in dir(sw) if not n.startswith("_")} == {node.name for node in CLASSES + FUNCTIONS}
+
+
+@pytest.mark.parametrize("function", FUNCTIONS, ids=lambda f: f.name)
+def test_functions_are_those_of_the_stub(function: ast.FunctionDef) -> None:
+    assert documented(getattr(sw, function.name)) == declared(function)
+
+
+@pytest.mark.parametrize(("of", "method"), METHODS, ids=lambda node: node.name)
+def test_methods_are_those_of_the_stub(of: ast.ClassDef, method: ast.FunctionDef) -> None:
+    assert documented(getattr(getattr(sw, of.name), method.name)) == declared(method)
+
+
+@pytest.mark.parametrize("stub", CLASSES, ids=lambda c: c.name)
+def test_attributes_are_those_of_the_stub(stub: ast.ClassDef) -> None:
+    of = getattr(sw, stub.name)
+    expected = {n.target.id for n in stub.body if isinstance(n, ast.AnnAssign)}
+    if not issubclass(of, Exception):
+        assert {name for name, value in vars(of).items() if isinstance(value, property)} == expected
+
+
+def test_everything_says_what_it_is(surface: sw.Surface, metric: sw.Metric, field: sw.DistanceField) -> None:
+    chains = sw.edge_wires(surface, metric, 0)
+    live = sw.LiveWire(surface)
+    live.seed(0)
+    for thing in (surface, surface.report, metric, field, field.trace(5), chains, chains.trace(5), live, live.wires(5)):
+        assert repr(thing).startswith(f"<{type(thing).__name__}: ")
+    assert repr(surface) == "<Surface: 960 vertices, 1920 triangles, 2880 edges>"
+
+
+def test_results_cannot_be_made_or_changed_by_hand(surface: sw.Surface) -> None:
+    for kind in (sw.Metric, sw.Embedding, sw.Wire, sw.EdgeChain):
+        with pytest.raises(TypeError):
+            kind()
+    with pytest.raises(AttributeError):
+        surface.points = None
+
+
+WRONG_VERTICES = [-1, 960, 2**31, 2**70, -(2**70), 1.0, "1", None, True, np.float64(1), np.array([1.5]), [], {}]
+WRONG_EDGES = [(0, -1), (0, 960), (0, 2), (0, 0), (0, 1, 2), (0,), ("a", "b"), (0, None), (0, 1.0), np.array([[0, 1]])]
+
+
+@pytest.mark.parametrize("wrong", WRONG_VERTICES, ids=repr)
+def test_a_wrong_vertex_is_a_value_error(
+    wrong: object, surface: sw.Surface, metric: sw.Metric, embedding: sw.Embedding, field: sw.DistanceField
+) -> None:
+    live = sw.LiveWire(surface)
+    live.seed(0)
+    calls = [
+        lambda: sw.distance_field(embedding, wrong),
+        lambda: field.trace(wrong),
+        lambda: sw.edge_wires(surface, metric, wrong),
+        lambda: sw.edge_wires(surface, metric, 0).trace(wrong),
+        lambda: live.seed(wrong),
+        lambda: live.wires(wrong),
+    ]
+    for call in calls:
+        with pytest.raises(ValueError, match="expected|out of range"):
+            call()
+
+
+@pytest.mark.parametrize("wrong", WRONG_EDGES, ids=repr)
+def test_a_wrong_edge_is_a_value_error(wrong: object, surface: sw.Surface, metric: sw.Metric) -> None:
+    live = sw.LiveWire(surface, along="edges")
+    live.seed(0)
+    calls = [
+        lambda: sw.edge_wires(surface, metric, wrong),
+        lambda: sw.edge_wires(surface, metric, 0).trace(wrong),
+        lambda: sw.edge_loop(surface, metric, wrong),
+        lambda: live.seed(wrong),
+        lambda: live.wires(wrong),
+        lambda: live.loop(wrong),
+    ]
+    for call in calls:
+        with pytest.raises(ValueError, match="expected|out of range|no edge"):
+            call()
+
+
+def test_vertices_and_edges_of_any_integer_kind(
+    surface: sw.Surface, metric: sw.Metric, field: sw.DistanceField
+) -> None:
+    for five in (5, np.int8(5), np.uint64(5), np.array(5)):
+        assert field.trace(five).to_vertex == 5
+    for edge in ((5, 6), [6, 5], np.array([5, 6]), surface.edges[0]):
+        chain = sw.edge_wires(surface, metric, 100).trace(edge).vertices
+        assert set(map(int, edge)) <= set(chain.tolist())
+
+
+def test_wrong_parameters_are_value_errors(surface: sw.Surface, curvature: sw.Curvature, metric: sw.Metric) -> None:
+    other = sw.Surface(*meshes.grid(3))
+    nan = float("nan")
+    calls = [
+        lambda: sw.feature_metric(surface, curvature, follow="both"),
+        lambda: sw.feature_metric(surface, curvature, gamma=0.1, max_anisotropy=10),
+        lambda: sw.feature_metric(surface, curvature, gamma=-0.1),
+        lambda: sw.feature_metric(surface, curvature, gamma=nan),
+        lambda: sw.feature_metric(surface, curvature, max_anisotropy=0.5),
+        lambda: sw.feature_metric(surface, curvature, clamp_percentile=0),
+        lambda: sw.campen_metric(surface, curvature),
+        lambda: sw.pottmann_kovacs_metric(surface, curvature),
+        lambda: sw.feature_metric(other, curvature),
+        lambda: sw.campen_metric(other, curvature, alpha=4),
+        lambda: sw.pottmann_kovacs_metric(other, curvature, beta=1),
+        lambda: sw.euclidean_metric(other, curvature),
+        lambda: sw.embed(other, metric),
+        lambda: sw.embed(surface, metric, sigma=-1),
+        lambda: sw.embed(surface, metric, sigma=nan),
+        lambda: sw.embed(surface, metric, perimeter="other"),
+        lambda: sw.embed(surface, metric, max_faces_added=-1),
+        lambda: sw.embed(surface, metric, progress=1),
+        lambda: sw.edge_wires(other, metric, 0),
+        lambda: sw.edge_wires(surface, metric, 0, turning=-1),
+        lambda: sw.edge_wires(surface, metric, 0, turning=nan),
+        lambda: sw.edge_loop(other, metric, (0, 1)),
+        lambda: sw.edge_loop(surface, metric, (0, 1), turning=-1),
+        lambda: sw.LiveWire(surface, along="both"),
+        lambda: sw.LiveWire(surface, gamma=-1),
+        lambda: sw.LiveWire(surface, gamma=1, max_anisotropy=2),
+        lambda: sw.LiveWire(surface, turning=nan),
+    ]
+    for call in calls:
+        with pytest.raises(ValueError, match="."):
+            call()
