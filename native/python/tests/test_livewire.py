@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import time
 
+import meshes
 import numpy as np
 import pytest
 import seamwire_core as sw
@@ -50,21 +51,15 @@ def test_along_edges_gives_both_chains(surface: sw.Surface, curvature: sw.Curvat
 def test_wires_come_without_waiting(large: sw.Surface) -> None:
     live = sw.LiveWire(large)
     live.seed(0)
-    seen = set()
     deadline = time.monotonic() + 60
     while not (both := live.wires(999)).final:
-        seen.add(both.final)
         for wire in both.wires:
             assert wire.final == (len(wire.points) > 0)
         assert 0 <= live.progress() <= 1
         assert time.monotonic() < deadline
-    live.seed(1)
-    assert live.wires(999).wires[0].points.shape == (0, 3) or live.wires(999).wires[0].vertices[0] == 1
 
 
 def test_the_surface_may_go_before_the_wires() -> None:
-    import meshes
-
     live = sw.LiveWire(sw.Surface(*meshes.torus(40, 24)))
     live.seed(0)
     live.wait()

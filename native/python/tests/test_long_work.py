@@ -52,9 +52,10 @@ def embedding_of_large(large: sw.Surface, large_metric: sw.Metric) -> sw.Embeddi
     return sw.embed(large, large_metric)
 
 
-def test_other_threads_run_meanwhile(large: sw.Surface, large_metric: sw.Metric, eager_threads: None) -> None:
+def test_other_threads_run_meanwhile(
+    large: sw.Surface, large_metric: sw.Metric, embedding_of_large: sw.Embedding, eager_threads: None
+) -> None:
     points, triangles = np.asfortranarray(large.points), large.triangles.astype(np.uint16)
-    embedding = sw.embed(large, large_metric)
 
     def live(along: str) -> None:
         wires = sw.LiveWire(large, along=along)
@@ -65,7 +66,7 @@ def test_other_threads_run_meanwhile(large: sw.Surface, large_metric: sw.Metric,
         "Surface": lambda: sw.Surface(points, triangles),
         "principal_curvatures": lambda: sw.principal_curvatures(large),
         "embed": lambda: sw.embed(large, large_metric),
-        "distance_field": lambda: sw.distance_field(embedding, 0),
+        "distance_field": lambda: sw.distance_field(embedding_of_large, 0),
         "edge_wires": lambda: sw.edge_wires(large, large_metric, 0),
         "live wire across": lambda: live("surface"),
         "live wire along": lambda: live("edges"),
