@@ -33,6 +33,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A window narrower than this part of its edge is dropped: what is missed next to it is of second order in the width.
 constexpr double kLeastWidth = 1e-12;
+/// Two windows are compared once their overlap is this part of the narrower one: less is not worth the roots.
+constexpr double kLeastOverlap = 0.25;
 /// Where a window's way to the apex is closer to an end of the base than this part of it and not straight, it is the
 /// way over that end, which is known better from the end itself.
 constexpr double kCornerWidth = 1e-9;
@@ -267,19 +269,13 @@ class Wavefront {
     const double root = std::sqrt(std::max(b * b - a * c, 0.0));
     const double sum = b < 0 ? root - b : -root - b;
     const double r0 = sum / a, r1 = c / sum;
-    // One of the two may belong to the equation's mirror image, d_i - |s_i - b|.
     const double width = end - begin;
-    double best = 0.5 * width, best_miss = std::numeric_limits<double>::infinity();
-    for (const double r : {r0, r1}) {
-      if (!(r >= 0 && r <= width)) continue;
-      const double miss = std::abs(distance_at(w, i, begin + r) - distance_at(w, j, begin + r));
-      if (miss < best_miss) {
-        best = r;
-        best_miss = miss;
-      }
-    }
-    if (best_miss > 1e-12 * distance_at(w, i, begin)) return std::nan("");
-    return begin + best;
+    const bool is_r0_inside = r0 >= 0 && r0 <= width, is_r1_inside = r1 >= 0 && r1 <= width;
+    if (is_r0_inside != is_r1_inside) return begin + (is_r0_inside ? r0 : r1);
+    // One of the two belongs to the equation's mirror image, d_i - |s_i - b|.
+    const auto miss = [&](double r) { return std::abs(distance_at(w, i, begin + r) - distance_at(w, j, begin + r)); };
+    if (is_r0_inside) return begin + (miss(r0) < miss(r1) ? r0 : r1);
+    return std::nan("");
   }
 
   /// Drops what is useless from a list, in place, and cuts back windows where the one beside them is nearer. Returns
@@ -294,7 +290,7 @@ class Wavefront {
       while (kept > 0) {
         const std::size_t i = kept - 1, j = kept;
         const double begin = std::max(w.b0[i], w.b0[j]), end = std::min(w.b1[i], w.b1[j]);
-        if (!(end - begin > narrow)) break;
+        if (!(end - begin > kLeastOverlap * std::min(w.b1[i] - w.b0[i], w.b1[j] - w.b0[j]))) break;
         const double at_begin = distance_at(w, i, begin) - distance_at(w, j, begin);
         const double at_end = distance_at(w, i, end) - distance_at(w, j, end);
         // The difference of the two distances rises or falls all along the overlap if the line through both sources

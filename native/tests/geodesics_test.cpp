@@ -11,6 +11,9 @@
 
 #include "intrinsic.hpp"
 #include "reference_geodesics.hpp"
+#include "seamwire/curvature.hpp"
+#include "seamwire/embedding.hpp"
+#include "seamwire/metric.hpp"
 
 namespace seamwire {
 namespace {
@@ -193,6 +196,21 @@ TEST_P(ExactOn, RandomLengths) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> length(1.02, 2.0);
   expect_exact(intrinsic(mesh, [&](int, int) { return length(random); }), {mesh.triangles[3][0]});
+}
+
+// The lengths that the tool works on: anisotropic, on a refined mesh.
+TEST_P(ExactOn, EmbeddedLengths) {
+  const auto [name, mesh] = exactness_meshes(1)[static_cast<std::size_t>(GetParam())];
+  SCOPED_TRACE(name);
+  const Surface surface = mesh.surface();
+  const Curvature curvature = principal_curvatures(surface);
+  for (const Follow follow : {Follow::kMin, Follow::kMax}) {
+    const Metric metric = feature_metric(surface, curvature, follow, {.max_anisotropy = 8.0});
+    const Embedding embedding = embed(surface, metric);
+    // A plane has no feature to follow.
+    if (name != "plane with a hole") EXPECT_GT(max_anisotropy(metric), 4.0);
+    expect_exact(embedding.mesh, {0, embedding.mesh.triangles.back()[1]});
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Geodesics, ExactOn, testing::Range(0, 7));
