@@ -32,10 +32,10 @@ class Style:
 
 
 ACTIVE = Style((1.0, 0.72, 0.05, 1.0), 4.0, halo=2.5)
-OTHER = Style((0.45, 0.75, 1.0, 0.55), 2.0, halo=1.0, hidden=0.12)
+OTHER = Style((0.5, 0.8, 1.0, 0.75), 2.0, halo=1.5, hidden=0.15)
 KEPT = Style((1.0, 0.25, 0.15, 1.0), 3.5, halo=2.0)
-MARKED = Style((1.0, 0.25, 0.15, 0.9), 2.0, hidden=0.15, lift=3.0)
-WILL_MARK = Style((1.0, 0.85, 0.5, 0.9), 2.0, hidden=0.12, lift=3.0)
+MARKED = Style((1.0, 0.25, 0.15, 0.9), 2.5, halo=1.0, hidden=0.15, lift=3.0)
+WILL_MARK = Style((1.0, 0.35, 0.3, 0.9), 2.5, halo=1.0, hidden=0.15, lift=3.0)
 LOOP = Style((0.3, 1.0, 0.55, 1.0), 3.5, halo=2.5)
 HOVER = Style((1.0, 1.0, 1.0, 1.0), 3.0, halo=2.0, lift=5.0)
 SEED = Style((1.0, 1.0, 1.0, 1.0), 9.0, halo=3.5, hidden=0.35, lift=10.0)

@@ -47,7 +47,7 @@ def hints(session: Session, notes: tuple[str, ...] = ()) -> list[Hint]:
         found.append(("MOUSE_RMB", "End Chain"))
     if edges:
         found.append(("MOUSE_LMB_DRAG", "Double Click: Loop (Alt Shows It)"))
-    found.append(("EVENT_E", "Along Edges" if edges else "Across Surface"))
+    found.append(("EVENT_E", "Go Across Surface" if edges else "Go Along Edges"))
     if session.can_undo:
         found.append(("LOOP_BACK", "Ctrl Z: Take Back"))
     count = len(session.edges())
