@@ -81,7 +81,8 @@ struct LiveWire::Impl {
   Impl(std::shared_ptr<const Surface> on, const LiveWireOptions& with) : surface(std::move(on)), options(with) {}
 
   Prepared prepare(std::size_t which, std::atomic<double>& fraction);
-  Solved solve(std::shared_ptr<const Prepared> prepared, const Pick& pick, bool is_forward, const Task& task) const;
+  Solved solve(const std::shared_ptr<const Prepared>& prepared, const Pick& pick, bool is_forward,
+               const Task& task) const;
   void work(std::size_t which);
   LiveCandidate candidate(std::size_t which, const Solved* solved, const Pick& target) const;
 
@@ -139,7 +140,7 @@ Prepared LiveWire::Impl::prepare(std::size_t which, std::atomic<double>& fractio
   return prepared;
 }
 
-Solved LiveWire::Impl::solve(std::shared_ptr<const Prepared> prepared, const Pick& pick, bool is_forward,
+Solved LiveWire::Impl::solve(const std::shared_ptr<const Prepared>& prepared, const Pick& pick, bool is_forward,
                              const Task& task) const {
   Solved solved{.prepared = prepared, .field = std::nullopt, .wires = std::nullopt};
   if (options.along == Along::kSurface) {
@@ -294,10 +295,10 @@ double LiveWire::progress() const {
 }
 
 bool LiveWire::wait(double seconds) const {
-  constexpr double kForever = 1e9;  // a longer time would overflow the clock
+  constexpr double forever = 1e9;  // a longer time would overflow the clock
   std::unique_lock lock(impl_->mutex);
   const auto idle = [&] { return impl_->idle(); };
-  if (seconds >= kForever) {
+  if (seconds >= forever) {
     impl_->changed.wait(lock, idle);
   } else {
     impl_->changed.wait_for(lock, std::chrono::duration<double>(std::max(0.0, seconds)), idle);
