@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The demo inside Blender: ``blender --background --factory-startup --python scripts/demo_blender.py -- FOLDER [MESH]``.
+
+Opens a mesh, plans a network of wires (``demo_network.py``), marks it with the operator ``mesh.seamwire_mark``, unwraps, and writes
+NAME.blend and pictures into FOLDER.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import addon_utils
+import bpy
+import demo_network
+import demo_pictures
+import numpy as np
+
+MOST_TRIANGLES = 400_000
+
+
+class DemoError(Exception):
+    """What keeps the demo from going on, as a sentence for the person who called it."""
+
+
+def tell(line: str) -> None:
+    """Say what was done."""
+    print(f"   {line}", flush=True)
+
+
+def suzanne() -> bpy.types.Object:
+    """Make Blender's monkey, subdivided twice."""
+    bpy.ops.mesh.primitive_monkey_add()
+    modifier = bpy.context.object.modifiers.new("Subdivision", "SUBSURF")
+    modifier.levels = 2
+    bpy.ops.object.modifier_apply(modifier=modifier.name)
+    bpy.context.object.name = "Suzanne"
+    return bpy.context.object
+
+
+def load(path: Path) -> bpy.types.Object:
+    """Read a mesh file, all its objects joined into one without a transformation."""
+    importers = {".obj": _import_obj, ".ply": _import_ply, ".stl": _import_stl}
+    if path.suffix.lower() not in importers:
+        raise DemoError(f"{path.name}: only OBJ, PLY and STL files can be opened")
+    try:
+        importers[path.suffix.lower()](str(path))
+    except (RuntimeError, ValueError, OSError, IndexError, KeyError) as error:
+        raise DemoError(f"{path.name} cannot be read: {error}") from error
+    meshes = [obj for obj in bpy.context.scene.objects if obj.type == "MESH" and len(obj.data.polygons) > 0]
+    if not meshes:
+        raise DemoError(f"{path.name}: no faces in it")
+    for obj in bpy.context.scene.objects:
+        obj.select_set(obj in meshes)
+    bpy.context.view_layer.objects.active = meshes[0]
+    if len(meshes) > 1:
+        bpy.ops.object.join()
+    bpy.ops.object.transform_apply(location=True, rotation=True, scale=True)
+    bpy.context.object.name = path.stem
+    return bpy.context.object
+
+
+def _import_obj(path: str) -> None:
+    bpy.ops.wm.obj_import(filepath=path)
+
+
+def _import_ply(path: str) -> None:
+    if hasattr(bpy.ops.wm, "ply_import") and bpy.app.version >= (4, 0, 0):
+        bpy.ops.wm.ply_import(filepath=path)
+    else:
+        bpy.ops.import_mesh.ply(filepath=path)
+
+
+def _import_stl(path: str) -> None:
+    if hasattr(bpy.ops.wm, "stl_import") and bpy.app.version >= (4, 1, 0):
+        bpy.ops.wm.stl_import(filepath=path)
+    else:
+        bpy.ops.import_mesh.stl(filepath=path)
+
+
+def column(items: bpy.types.bpy_prop_collection, name: str, kind: type, width: int) -> np.ndarray:
+    """Read one property of all elements."""
+    values = np.empty(len(items) * width, dtype=kind)
+    items.foreach_get(name, values)
+    return values.reshape(-1, width)
+
+
+def mark(obj: bpy.types.Object, network: demo_network.Network, along: str) -> None:
+    """Mark the network's seams with the add-on's operator, and see that they are the ones planned."""
+    bpy.ops.object.mode_set(mode="EDIT")
+    result = bpy.ops.mesh.seamwire_mark(chains=network.chains(), along=along)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    if result != {"FINISHED"}:
+        raise DemoError("the seams could not be marked")
+    marked = {tuple(sorted(edge.vertices)) for edge in obj.data.edges if edge.use_seam}
+    if marked != network.edges():
+        raise DemoError(f"{len(marked)} edges are seams, not the {len(network.edges())} that the wires run along")
+
+
+def unwrap(obj: bpy.types.Object) -> None:
+    """Unwrap along the seams, islands of one scale, packed."""
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.uv.unwrap(method="ANGLE_BASED", margin=0.01)
+    bpy.ops.uv.select_all(action="SELECT")
+    bpy.ops.uv.average_islands_scale()
+    bpy.ops.uv.pack_islands(margin=0.01)
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def stretch(obj: bpy.types.Object, triangles: np.ndarray) -> np.ndarray:
+    """Return for each triangle how much longer the longest direction in the unwrapping is than the shortest: 1 is none."""
+    mesh = obj.data
+    corners = column(mesh.loop_triangles, "loops", np.int32, 3)
+    flat = column(mesh.uv_layers.active.data, "uv", np.float32, 2).astype(np.float64)[corners]
+    points = column(mesh.vertices, "co", np.float32, 3).astype(np.float64)[triangles]
+    one, two = points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]
+    along = np.linalg.norm(one, axis=1)
+    across = np.linalg.norm(np.cross(one, two), axis=1)
+    sound = (across > 1e-12 * along**2) & (along > 0)
+    one, two, along, across, flat = one[sound], two[sound], along[sound], across[sound], flat[sound]
+    # The triangle in a frame of its own is (0, 0), (along, 0), (skew, height); J takes that to the flat one.
+    skew = np.einsum("ij,ij->i", one, two) / along
+    height = across / along
+    first = (flat[:, 1] - flat[:, 0]) / along[:, None]
+    second = (flat[:, 2] - flat[:, 0] - first * skew[:, None]) / height[:, None]
+    singular = np.linalg.svd(np.stack([first, second], axis=2), compute_uv=False)
+    return singular[:, 0] / np.maximum(singular[:, 1], 1e-12)
+
+
+def run(folder: Path, path: Path | None) -> None:
+    """Do the whole demo."""
+    if addon_utils.enable("seamwire", default_set=True) is None:
+        raise DemoError("the add-on could not be enabled")
+    from seamwire import native
+
+    bpy.data.batch_remove([*bpy.data.objects, *bpy.data.meshes])
+    obj = suzanne() if path is None else load(path)
+    mesh = obj.data
+    mesh.calc_loop_triangles()
+    triangles = column(mesh.loop_triangles, "vertices", np.int32, 3)
+    if len(triangles) > MOST_TRIANGLES:
+        raise DemoError(f"{len(triangles)} triangles: the demo takes {MOST_TRIANGLES} at most")
+    points = column(mesh.vertices, "co", np.float32, 3).astype(np.float64)
+    edges = column(mesh.edges, "vertices", np.int32, 2)
+    sides = np.array([len(polygon.vertices) for polygon in mesh.polygons])
+    along = "EDGES" if (sides > 3).mean() > 0.5 else "SURFACE"
+    tell(f"{obj.name}: {len(points)} vertices, {len(sides)} faces; wires run {along.lower()}-wise")
+
+    started = time.monotonic()
+    network = demo_network.plan(native.load(), points, triangles, edges, along.lower(), tell)
+    tell(f"network planned in {time.monotonic() - started:.1f} s")
+    if not network.wires:
+        raise DemoError("nothing to cut: the whole mesh is flat enough to be unwrapped as it is")
+
+    started = time.monotonic()
+    mark(obj, network, along)
+    tell(f"{len(network.edges())} edges marked by mesh.seamwire_mark in {time.monotonic() - started:.1f} s")
+    unwrap(obj)
+    ratio = stretch(obj, triangles)
+    tell(f"unwrapped; stretch {np.median(ratio):.2f} in the median, {np.percentile(ratio, 95):.2f} for 95 % of the triangles")
+
+    started = time.monotonic()
+    scene = demo_pictures.Scene(obj, network, triangles, column(mesh.loop_triangles, "polygon_index", np.int32, 1).ravel())
+    scene.pictures(folder, obj.name, tell)
+    tell(f"pictures made in {time.monotonic() - started:.1f} s")
+    scene.clean()
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / f"{obj.name}.blend"), compress=True)
+    tell(str(folder / f"{obj.name}.blend"))
+
+
+def main() -> int:
+    """Run the demo with the arguments after ``--``."""
+    folder, *rest = sys.argv[sys.argv.index("--") + 1 :]
+    try:
+        run(Path(folder), Path(rest[0]) if rest else None)
+    except DemoError as error:
+        print(f"The demo ends here: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+sys.exit(main())
