@@ -148,7 +148,7 @@ def run(folder: Path, path: Path | None) -> None:
     edges = column(mesh.edges, "vertices", np.int32, 2)
     sides = np.array([len(polygon.vertices) for polygon in mesh.polygons])
     along = "EDGES" if (sides > 3).mean() > 0.5 else "SURFACE"
-    tell(f"{obj.name}: {len(points)} vertices, {len(sides)} faces; wires run {along.lower()}-wise")
+    tell(f"{obj.name}: {len(points)} vertices, {len(sides)} faces; wires run {'along edges' if along == 'EDGES' else 'across the surface'}")
 
     started = time.monotonic()
     network = demo_network.plan(native.load(), points, triangles, edges, along.lower(), tell)
@@ -168,7 +168,9 @@ def run(folder: Path, path: Path | None) -> None:
     scene.pictures(folder, obj.name, tell)
     tell(f"pictures made in {time.monotonic() - started:.1f} s")
     scene.clean()
+    bpy.context.view_layer.objects.active = obj
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / f"{obj.name}.blend"), compress=True)
+    (folder / "latest").write_text(str(folder / f"{obj.name}.blend"))
     tell(str(folder / f"{obj.name}.blend"))
 
 
