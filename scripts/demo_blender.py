@@ -148,7 +148,9 @@ def run(folder: Path, path: Path | None) -> None:
     edges = column(mesh.edges, "vertices", np.int32, 2)
     sides = np.array([len(polygon.vertices) for polygon in mesh.polygons])
     along = "EDGES" if (sides > 3).mean() > 0.5 else "SURFACE"
-    tell(f"{obj.name}: {len(points)} vertices, {len(sides)} faces; wires run {'along edges' if along == 'EDGES' else 'across the surface'}")
+    tell(
+        f"{obj.name}: {len(points)} vertices, {len(sides)} faces; wires run {'along edges' if along == 'EDGES' else 'across the surface'}"
+    )
 
     started = time.monotonic()
     network = demo_network.plan(native.load(), points, triangles, edges, along.lower(), tell)
@@ -161,10 +163,14 @@ def run(folder: Path, path: Path | None) -> None:
     tell(f"{len(network.edges())} edges marked by mesh.seamwire_mark in {time.monotonic() - started:.1f} s")
     unwrap(obj)
     ratio = stretch(obj, triangles)
-    tell(f"unwrapped; stretch {np.median(ratio):.2f} in the median, {np.percentile(ratio, 95):.2f} for 95 % of the triangles")
+    tell(
+        f"unwrapped; stretch {np.median(ratio):.2f} in the median, {np.percentile(ratio, 95):.2f} for 95 % of the triangles"
+    )
 
     started = time.monotonic()
-    scene = demo_pictures.Scene(obj, network, triangles, column(mesh.loop_triangles, "polygon_index", np.int32, 1).ravel())
+    scene = demo_pictures.Scene(
+        obj, network, triangles, column(mesh.loop_triangles, "polygon_index", np.int32, 1).ravel()
+    )
     scene.pictures(folder, obj.name, tell)
     tell(f"pictures made in {time.monotonic() - started:.1f} s")
     scene.clean()

@@ -139,7 +139,10 @@ class Drawing:
         found = [(pair, wire) for pair in wanted if (wire := self._wires[pair]) is not None]
         # A wire that strays into other seeds' cells runs beside their wires: it goes before them.
         strays = [float(np.isin(cell[list(wire.vertices)], pair, invert=True).mean()) for pair, wire in found]
-        return [replace(wire, strength=wire.strength / (1 + 5 * stray)) for (_, wire), stray in zip(found, strays, strict=True)]
+        return [
+            replace(wire, strength=wire.strength / (1 + 5 * stray))
+            for (_, wire), stray in zip(found, strays, strict=True)
+        ]
 
     def _wire(self, pair: Edge) -> Wire | None:
         start, end = (self.seeds[index] for index in pair)
