@@ -92,10 +92,10 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
                 raise ValueError("Across the surface seeds are vertices: give vertex numbers, not edges")
             arrays = edit_mesh.read(context.active_object)
             drawing = session.Session(_live_maker(arrays), arrays.points, self.along)
+            problems = session.draw_chains(drawing, chains)
         except (ValueError, native.NativeError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        problems = session.draw_chains(drawing, chains)
         for problem in problems:
             self.report({"WARNING"}, problem)
         if not drawing.wires:
@@ -288,12 +288,11 @@ class Drawing:
         """Show the session as it is now."""
         drawing = self.session
         self._set_timer(drawing.computing or drawing.waiting_clicks > 0)
-        shown = (drawing.revision, round(100.0 * drawing.progress), drawing.computing)
-        if shown == self._shown:
-            return
-        self._shown = shown
-        self._workspace.status_text_set(ui.status_drawer(drawing, self.notes))
-        self._redraw()
+        before, self._shown = self._shown, (drawing.revision, round(100.0 * drawing.progress), drawing.computing)
+        if self._shown != before:
+            self._workspace.status_text_set(ui.status_drawer(drawing, self.notes))
+        if before is None or self._shown[0] != before[0]:
+            self._redraw()
 
     def _redraw(self) -> None:
         for window in self._manager.windows:

@@ -526,15 +526,22 @@ class Session:
         return True
 
     def _aim(self, target: Pick | None, again: bool = False) -> None:
-        """Find both wires to a target."""
+        """Find both wires to a target; `again`: also where it is the same as before."""
         live = self._live
         if target == live.target and not again and live.final:
             return
+        before = (live.target, live.shorter, [wire is None for wire in live.wires], self.message)
         live.target = target
+        self._find_wires(target)
+        after = (live.target, live.shorter, [wire is None for wire in live.wires], self.message)
+        # Asking again while nothing is ready shows nothing new, and must not cost a redraw each time.
+        self.revision += before != after
+
+    def _find_wires(self, target: Pick | None) -> None:
+        live = self._live
         live.wires = (None, None)
         live.final = True
         self.message = ""
-        self.revision += 1
         self._read_progress()
         seed = self._state.seed
         if seed is None or target is None or self._at_seed(target):

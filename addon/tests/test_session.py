@@ -299,6 +299,25 @@ def test_a_wire_that_is_not_computed_is_not_shown_and_then_is() -> None:
     assert not session.poll(), "nothing is new"
 
 
+def test_waiting_shows_nothing_new_until_there_is_a_wire() -> None:
+    table = Table(ready=(False, False))
+    session = table.session
+    session.click(0)
+    session.hover(7)
+    before = session.revision
+    for _ in range(5):
+        session.poll()
+    assert session.revision == before
+    session.click(7)
+    before = session.revision
+    for _ in range(5):
+        session.poll()
+    assert session.revision == before
+    table.lives["EDGES"].ready = (True, True)
+    session.poll()
+    assert session.revision > before
+
+
 def test_clicks_wait_for_their_wires_in_order() -> None:
     table = Table(ready=(False, False))
     session = table.session
