@@ -281,7 +281,8 @@ class Band {
   }
   /// The polygons that share an edge with what is there.
   void add_neighbours() {
-    for (std::size_t i = 0, n = edges_.size(); i < n; ++i) add_polygons_of(edges_[i]);
+    const std::vector<std::int32_t> before = edges_;
+    for (const std::int32_t e : before) add_polygons_of(e);
   }
   /// All around the vertices of what is there. False where that is nothing new.
   bool widen() {
