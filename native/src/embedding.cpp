@@ -294,7 +294,7 @@ void Refinement::bisect(EdgeHandle e) {
   }
   tensors_.push_back(midpoint_tensor(tensor_at(a), tensor_at(b)));
   weights_.push_back(normal_weight(tensors_.back().tensor));
-  const VertexHandle p = mesh_.add_vertex((mesh_.point(a) + mesh_.point(b)) / 2);
+  const VertexHandle p(mesh_.add_vertex((mesh_.point(a) + mesh_.point(b)) / 2).idx());
   mesh_.split(e, p);
 
   lengths_.resize(mesh_.n_edges());

@@ -57,7 +57,7 @@ struct TensorAt {
 };
 double ambient_norm(const TensorAt& at, const Vector& e);
 /// sqrt(l1 l2), which the norm above gives to the normal.
-double normal_weight(const Eigen::Matrix3d& tensor);
+double normal_weight(const Eigen::Matrix3d& m);
 /// sqrt(l1 / l2); 1 where the normal is zero.
 double anisotropy(const TensorAt& at);
 /// The largest over the vertices.
