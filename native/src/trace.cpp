@@ -18,9 +18,9 @@ using HalfEdge = GeodesicMesh::HalfEdge;
 using TraceRecord = DistanceField::TraceRecord;
 
 /// A line that passes a vertex this close (in parts of the triangle's base) may as well go through it, ...
-constexpr double kSnapWidth = 1e-9;
+constexpr double kSnapWidth = 1e-7;
 /// ... if the distances say so, up to this part of the whole. The other side of such a vertex would be a guess.
-constexpr double kSnapDistance = 1e-10;
+constexpr double kSnapDistance = 1e-11;
 /// How far (in parts of the triangle's longest side) unfolding may have moved the source from its vertex.
 constexpr double kSameVertex = 1e-6;
 
