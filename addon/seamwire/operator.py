@@ -218,7 +218,7 @@ class Drawing:
             return {"PASS_THROUGH"}
         if event.type == "MOUSEMOVE" or event.type.endswith(("_ALT", "_CTRL", "_SHIFT")):
             self._hover(inside, event)
-            return {"PASS_THROUGH"}
+            return {"PASS_THROUGH" if event.type == "MOUSEMOVE" else "RUNNING_MODAL"}
         if action is Action.FINISH:
             return {"FINISHED"}
         if action is Action.LEAVE:
@@ -393,8 +393,10 @@ class MESH_OT_seamwire_draw(bpy.types.Operator):
         if not drawing.session.wires:
             self.report({"INFO"}, "No wire was kept, and nothing marked")
             return {"CANCELLED"}
-        self.report({"INFO"}, _summary(drawing.session, drawing.cage.mark_seams(drawing.session.edges())))
-        return {"FINISHED"}
+        new = drawing.cage.mark_seams(drawing.session.edges())
+        self.report({"INFO"}, _summary(drawing.session, new))
+        # Without a change there is to be no step of undo either.
+        return {"FINISHED"} if new else {"CANCELLED"}
 
     def cancel(self, _context: bpy.types.Context) -> None:
         """End drawing when Blender takes the operator away."""
