@@ -106,13 +106,12 @@ class Ui:
                 self.area.tag_redraw()
             _switch_to_blender()
 
-    def wait_until(self, condition: Callable[[], bool], ticks: int = 400) -> None:
-        """Wait until the condition holds; fail when it does not within so many turns of the event loop."""
-        for _ in range(ticks):
-            if condition():
-                return
+    def wait_until(self, condition: Callable[[], bool], seconds: float = 30.0) -> None:
+        """Wait until the condition holds; fail when it does not within some seconds."""
+        end = time.monotonic() + seconds
+        while not condition():
+            assert time.monotonic() < end, f"still not so after {seconds} seconds: {condition}"
             self.wait(1)
-        raise AssertionError(f"still not so after {ticks} turns of Blender's event loop: {condition}")
 
     def event(
         self,
