@@ -30,10 +30,18 @@ _ALONG_ITEMS = (
 )
 
 
-def _live_maker(arrays: edit_mesh.Arrays) -> Callable[[Along], LiveWire]:
+_STRENGTH = {
+    "EDGES": {"max_anisotropy": 10.0, "clamp_percentile": 99.0},
+    "SURFACE": {"max_anisotropy": 20.0, "clamp_percentile": 99.0},
+}
+"""How strongly wires are drawn to features; docs/method.md says why."""
+
+
+def live_maker(arrays: edit_mesh.Arrays) -> Callable[[Along], LiveWire]:
+    """Return what makes the live wires on a mesh for one way of running."""
     core = native.load()
     surface = core.Surface(arrays.points, arrays.triangles, arrays.edges)
-    return lambda along: core.LiveWire(surface, along=along.lower())
+    return lambda along: core.LiveWire(surface, along=along.lower(), **_STRENGTH[along])
 
 
 def _in_edit_mode(context: bpy.types.Context) -> bool:
@@ -91,7 +99,7 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
             if self.along == "SURFACE" and any(isinstance(pick, tuple) for chain in chains for pick in chain):
                 raise ValueError("Across the surface seeds are vertices: give vertex numbers, not edges")
             arrays = edit_mesh.read(context.active_object)
-            drawing = session.Session(_live_maker(arrays), arrays.points, self.along)
+            drawing = session.Session(live_maker(arrays), arrays.points, self.along)
             problems = session.draw_chains(drawing, chains)
         except (ValueError, native.NativeError) as error:
             self.report({"ERROR"}, str(error))
@@ -138,7 +146,7 @@ class Drawing:
         )
         self.cage = edit_mesh.Cage(self._obj)
         arrays = edit_mesh.read(self._obj)
-        self.session = session.Session(_live_maker(arrays), arrays.points, along)
+        self.session = session.Session(live_maker(arrays), arrays.points, along)
         self._picker = Picker(self.cage.bm, float(np.ptp(arrays.points, axis=0).max()))
         self._ending = ExitStack()
         try:

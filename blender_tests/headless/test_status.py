@@ -13,7 +13,7 @@ def session() -> Session:
     obj = add_grid(9)
     edit()
     arrays = edit_mesh.read(obj)
-    drawing = Session(operator._live_maker(arrays), arrays.points)
+    drawing = Session(operator.live_maker(arrays), arrays.points)
     drawing.wait()
     return drawing
 

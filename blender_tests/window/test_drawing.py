@@ -483,8 +483,8 @@ def test_wires_that_are_being_computed_come_when_they_are_ready(desk: Desk, monk
             nothing = type("Nothing", (), {"points": [], "vertices": [], "length": math.inf, "final": False})()
             return type("Wires", (), {"wires": (nothing, nothing), "shorter": 0, "final": False})()
 
-    make = operator._live_maker
-    monkeypatch.setattr(operator, "_live_maker", lambda arrays: lambda along: Slow(make(arrays)(along)))
+    make = operator.live_maker
+    monkeypatch.setattr(operator, "live_maker", lambda arrays: lambda along: Slow(make(arrays)(along)))
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(36), ctrl=True)
     ui.click(desk.at(44))

@@ -56,7 +56,7 @@ py::cpp_function array_of_candidate(const Get& get) {
 
 LiveWireOptions options_from(std::optional<double> gamma, std::optional<double> max_anisotropy,
                              std::optional<double> clamp_percentile, const std::string& along, double turning,
-                             double loop_turning) {
+                             std::optional<double> loop_turning) {
   LiveWireOptions options{
       .strength = {gamma, max_anisotropy, clamp_percentile}, .turning = turning, .loop_turning = loop_turning};
   if (along == "edges") {
@@ -139,8 +139,10 @@ gamma, max_anisotropy, clamp_percentile : float, optional
     clamp_percentile = 99 along edges.
 along : {'surface', 'edges'}
     Wires are exact geodesics across the surface, or chains of real edges.
-turning, loop_turning : float
-    What turning costs, of `edge_wires` and of `edge_loop`.
+turning : float
+    What turning costs, of `edge_wires`.
+loop_turning : float, optional
+    What it costs in `edge_loop`; None: 20, more on meshes of over 6400 edges, so that rings are found there too.
 
 Raises
 ------
@@ -149,14 +151,14 @@ ValueError
 )")
       .def(py::init([](const SurfaceObject& surface, std::optional<double> gamma, std::optional<double> max_anisotropy,
                        std::optional<double> clamp_percentile, const std::string& along, double turning,
-                       double loop_turning) {
+                       std::optional<double> loop_turning) {
              const LiveWireOptions options =
                  options_from(gamma, max_anisotropy, clamp_percentile, along, turning, loop_turning);
              return without_gil([&] { return std::make_unique<LiveWireObject>(surface.surface, options); });
            }),
            py::arg("surface"), py::arg("gamma") = py::none(), py::arg("max_anisotropy") = py::none(),
            py::arg("clamp_percentile") = py::none(), py::arg("along") = "surface", py::arg("turning") = 3.0,
-           py::arg("loop_turning") = 20.0)
+           py::arg("loop_turning") = py::none())
       .def(
           "seed",
           [](const LiveWireObject& object, const py::object& pick, bool forward) {

@@ -111,7 +111,7 @@ class LiveWire:
         clamp_percentile: float | None = None,
         along: Literal["surface", "edges"] = "surface",
         turning: float = 3.0,
-        loop_turning: float = 20.0,
+        loop_turning: float | None = None,
     ) -> None:
         """Neither gamma nor max_anisotropy: gamma = 0.1 across the surface, max_anisotropy = 10 and clamp_percentile = 99 along edges."""
     def seed(self, pick: Pick, forward: bool = False) -> None: ...

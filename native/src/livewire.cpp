@@ -58,12 +58,14 @@ void check_pick(const Surface& surface, Along along, const Pick& pick) {
 
 void check_options(const LiveWireOptions& options) {
   check_strength(options.strength);
-  for (const double turning : {options.turning, options.loop_turning}) {
+  for (const double turning : {options.turning, options.loop_turning.value_or(0.0)}) {
     if (!(std::isfinite(turning) && turning >= 0)) {
       throw InvalidInput("turning is " + std::to_string(turning) + ", not a finite number of at least 0");
     }
   }
 }
+
+double loop_turning_for(std::size_t edges) { return std::max(20.0, std::sqrt(static_cast<double>(edges)) / 4.0); }
 
 }  // namespace
 
@@ -280,8 +282,9 @@ EdgeChain LiveWire::loop(const Edge& edge) const {
     for (std::size_t which = 0; which < kFollow.size(); ++which) prepared[which] = impl_->workers[which].prepared;
   }
   if (!prepared[0] || !prepared[1]) return {};
-  EdgeChain min = edge_loop(*prepared[0]->graph, edge, impl_->options.loop_turning);
-  EdgeChain max = edge_loop(*prepared[1]->graph, edge, impl_->options.loop_turning);
+  const double turning = impl_->options.loop_turning.value_or(loop_turning_for(impl_->surface->edges().size()));
+  EdgeChain min = edge_loop(*prepared[0]->graph, edge, turning);
+  EdgeChain max = edge_loop(*prepared[1]->graph, edge, turning);
   return max.length < min.length ? max : min;
 }
 

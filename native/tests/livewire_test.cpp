@@ -174,6 +174,17 @@ TEST(LiveWire, AVertexWithoutAPathHasAFinalWireWithoutPoints) {
   }
 }
 
+TEST(LiveWire, FindsTheRingsOfADenseMesh) {
+  // Around one quad a chain turns four times; with q = 20 that is cheaper than the longer ring here.
+  const int nu = 400, nv = 250;
+  const auto surface = std::make_shared<const Surface>(shapes::quad_torus(nu, nv).surface());
+  LiveWire live(surface, kAlongEdges);
+  live.seed({0});
+  ASSERT_TRUE(live.wait());
+  EXPECT_EQ(live.loop({0, 1}).vertices.size(), nu);
+  EXPECT_EQ(live.loop({0, nu}).vertices.size(), nv);
+}
+
 TEST(LiveWire, RefusesWhatIsNotPartOfTheSurface) {
   const auto surface = shared(shapes::grid(4));
   LiveWire across(surface), along(surface, kAlongEdges);

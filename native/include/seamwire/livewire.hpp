@@ -20,7 +20,10 @@ struct LiveWireOptions {
   Along along = Along::kSurface;
   Strength strength = {.parameter = 0.1};  ///< of feature_metric()
   double turning = 3.0;                    ///< q of edge_wires()
-  double loop_turning = 20.0;              ///< q of edge_loop()
+  /// q of edge_loop(). nullopt: 20, and a quarter of the root of the number of edges where that is more. A circle
+  /// around one quad costs four turns, 4 q edges, so with a fixed q a ring of a dense mesh, which may have as many
+  /// edges as that root, would be dearer.
+  std::optional<double> loop_turning = std::nullopt;
 };
 
 /// One of the two wires from the seed to a target. `vertices` are the ends of the edges that would be marked: along

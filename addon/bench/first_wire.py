@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Time from the tool's start to its first wire, in Blender: ``scripts/bench-blender MESH...`` runs this.
+
+One line a mesh and a way of running: what the tool does before its first wire, step by step, in milliseconds (medians), and their sum.
+The steps are those of the tool in the viewport, but for the overlay and Blender's own redraw.
+"""
+
+import statistics
+import sys
+import time
+from pathlib import Path
+
+import addon_utils
+import bpy
+
+REPEATS = 5
+IMPORTERS = {
+    ".obj": lambda path: bpy.ops.wm.obj_import(filepath=path),
+    ".ply": lambda path: bpy.ops.import_mesh.ply(filepath=path),
+    ".stl": lambda path: bpy.ops.import_mesh.stl(filepath=path),
+}
+
+
+class Watch:
+    """Milliseconds between one call and the next."""
+
+    def __init__(self) -> None:
+        self._last = time.perf_counter()
+
+    def lap(self) -> float:
+        """Return the time since the last call."""
+        now = time.perf_counter()
+        took, self._last = now - self._last, now
+        return 1e3 * took
+
+
+def first_wire(obj: bpy.types.Object, along: str) -> dict[str, float]:
+    """Do what the tool does from its start to the first wire; return the milliseconds of each step."""
+    from seamwire import edit_mesh, operator, picking, session
+
+    steps = {}
+    watch = Watch()
+    cage = edit_mesh.Cage(obj)
+    arrays = edit_mesh.read(obj)
+    steps["read"] = watch.lap()
+    drawing = session.Session(operator.live_maker(arrays), arrays.points, along)
+    steps["surface"] = watch.lap()
+    picking.Picker(cage.bm)
+    steps["picker"] = watch.lap()
+    drawing.wait()
+    steps["metrics"] = watch.lap()
+    drawing.start(0)
+    drawing.wait()
+    steps["seed"] = watch.lap()
+    drawing.hover(len(arrays.points) // 2)
+    steps["wire"] = watch.lap()
+    if drawing.active is None:
+        sys.exit(f"No wire leads from vertex 0 to vertex {len(arrays.points) // 2} of {obj.name}")
+    return steps
+
+
+def main() -> None:
+    """Measure every mesh named on the command line."""
+    addon_utils.enable("seamwire", default_set=True)
+    for name in sys.argv[sys.argv.index("--") + 1 :]:
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        addon_utils.enable("seamwire", default_set=True)
+        IMPORTERS[Path(name).suffix.lower()](name)
+        obj = bpy.context.selected_objects[0]
+        bpy.context.view_layer.objects.active = obj
+        bpy.ops.object.mode_set(mode="EDIT")
+        for along in ("EDGES", "SURFACE"):
+            runs = [first_wire(obj, along) for _ in range(REPEATS)]
+            steps = {step: statistics.median(run[step] for run in runs) for step in runs[0]}
+            total = statistics.median(sum(run.values()) for run in runs)
+            parts = "  ".join(f"{step} {took:.1f}" for step, took in steps.items())
+            print(f"{Path(name).stem:24} {len(obj.data.polygons):8} faces  {along:8} {total:9.1f} ms:  {parts}", flush=True)
+
+
+main()
