@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The demo's pictures: wires on the model, segments in colours, a checked texture, and the UV layout. Rendered by Cycles on the processor."""
+"""The demo's pictures: wires on the model, segments in colours, a checked texture, the UV layout. Rendered by Cycles, no display needed."""
 
 from __future__ import annotations
 
@@ -306,7 +306,7 @@ def _colouring(network: Network, triangles: NDArray[np.int32]) -> NDArray[np.int
     done: set[int] = set()
     for segment in range(len(colours)):
         taken = {int(colours[other]) for other in neighbours.get(segment, set()) & done}
-        colours[segment] = min(range(len(PALETTE)), key=lambda colour: (colour in taken, used[colour]))  # noqa: B023
+        colours[segment] = min(range(len(PALETTE)), key=lambda colour: (colour in taken, used[colour]))
         used[colours[segment]] += 1
         done.add(segment)
     return colours
