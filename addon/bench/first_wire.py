@@ -45,7 +45,7 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, float]:
     steps["read"] = watch.lap()
     drawing = session.Session(operator.live_maker(arrays), arrays.points, along)
     steps["surface"] = watch.lap()
-    picking.Picker(cage.bm)
+    picking.Picker(cage.bm, 1.0)
     steps["picker"] = watch.lap()
     drawing.wait()
     steps["metrics"] = watch.lap()
@@ -74,7 +74,10 @@ def main() -> None:
             steps = {step: statistics.median(run[step] for run in runs) for step in runs[0]}
             total = statistics.median(sum(run.values()) for run in runs)
             parts = "  ".join(f"{step} {took:.1f}" for step, took in steps.items())
-            print(f"{Path(name).stem:24} {len(obj.data.polygons):8} faces  {along:8} {total:9.1f} ms:  {parts}", flush=True)
+            print(
+                f"{Path(name).stem:24} {len(obj.data.polygons):8} faces  {along:8} {total:9.1f} ms:  {parts}",
+                flush=True,
+            )
 
 
 main()

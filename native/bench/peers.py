@@ -23,6 +23,7 @@ Solve = Callable[[int], Array]
 
 
 def seamwire(points: Array, triangles: NDArray[np.int32]) -> Solve:
+    """Return our exact solver, lengths in the mesh's own units."""
     import seamwire_core as sw
 
     surface = sw.Surface(points, triangles)
@@ -33,6 +34,7 @@ def seamwire(points: Array, triangles: NDArray[np.int32]) -> Solve:
 
 
 def pygeodesic(points: Array, triangles: NDArray[np.int32]) -> Solve:
+    """Return the exact solver of Surazhsky et al. (2005)."""
     from pygeodesic import geodesic
 
     solver = geodesic.PyGeodesicAlgorithmExact(points, triangles)
@@ -40,6 +42,7 @@ def pygeodesic(points: Array, triangles: NDArray[np.int32]) -> Solve:
 
 
 def potpourri3d_heat(points: Array, triangles: NDArray[np.int32]) -> Solve:
+    """Return the heat method of Crane et al. (2013), approximate."""
     import potpourri3d
 
     solver = potpourri3d.MeshHeatMethodDistanceSolver(points, triangles)
@@ -80,6 +83,7 @@ def loop_subdivided(points: Array, triangles: NDArray[np.int32]) -> tuple[Array,
 
 
 def run(name: str, points: Array, triangles: NDArray[np.int32], seeds: list[int], repeats: int, pipe: object) -> None:
+    """Solve from each seed; send the median time and the fields through the pipe."""
     solve = SOLVERS[name](points, triangles)
     times, fields = [], []
     for seed in seeds:
@@ -92,7 +96,7 @@ def run(name: str, points: Array, triangles: NDArray[np.int32], seeds: list[int]
 
 
 def run_apart(name: str, *arguments: object) -> tuple[float, list[Array]] | None:
-    """The result of run(), or None where the library ended the process."""
+    """Return the result of run(), or None where the library ended the process."""
     receiver, sender = multiprocessing.Pipe(duplex=False)
     process = multiprocessing.Process(target=run, args=(name, *arguments, sender))
     process.start()
@@ -106,6 +110,7 @@ def run_apart(name: str, *arguments: object) -> tuple[float, list[Array]] | None
 
 
 def compare(file: Path, options: argparse.Namespace) -> None:
+    """Print what each solver takes on a mesh, and how far it is from ours."""
     import potpourri3d
 
     points, triangles = potpourri3d.read_mesh(str(file))
@@ -115,7 +120,9 @@ def compare(file: Path, options: argparse.Namespace) -> None:
     random = np.random.default_rng(0)
     seeds = [0, *(int(v) for v in random.choice(np.unique(triangles), options.seeds - 1))]
     ours = run_apart("seamwire", points, triangles, seeds, options.repeats)
-    print(f"{file.name}{' loop' + str(options.loop) if options.loop else ''}: {len(triangles)} triangles, {len(seeds)} seeds")
+    print(
+        f"{file.name}{' loop' + str(options.loop) if options.loop else ''}: {len(triangles)} triangles, {len(seeds)} seeds"
+    )
     if ours is None:
         print("  seamwire         failed")
         return
@@ -139,6 +146,7 @@ def compare(file: Path, options: argparse.Namespace) -> None:
 
 
 def main() -> None:
+    """Compare the solvers on the meshes named on the command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("meshes", nargs="+", type=Path)
     parser.add_argument("--loop", type=int, default=0, help="levels of Loop subdivision")
