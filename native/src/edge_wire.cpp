@@ -19,6 +19,9 @@ namespace seamwire {
 
 namespace {
 
+// Steps between two looks at the task: well under a millisecond.
+constexpr std::size_t kPatience = 8192;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
@@ -371,7 +374,6 @@ class Search {
 
 template <class Remaining, class Done>
 std::int32_t Search::run(const Remaining& remaining, const Done& done, const Task& task) {
-  constexpr std::size_t kPatience = 8192;  // steps between two looks at the task: well under a millisecond
   const auto least = [&](std::int32_t e) {
     return std::is_same_v<Remaining, Unguided> ? graph_.length(e) : 0.0;  // a guide may take back all of a step
   };
