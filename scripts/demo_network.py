@@ -9,6 +9,7 @@ The rule, in the order of the functions below:
 3. Where a segment is not a disk, it gets another seed, until every one is.
 4. Wires are dropped again, those that follow features least and part the flattest pairs of segments first, as long as every segment stays
    a disk that is flatter than a half sphere.
+5. Where two wires run side by side for a while and leave crumbs between them, the weaker one starts on the other instead.
 
 On a mesh that is its own mirror image in x, seeds come and wires go in pairs.
 """
@@ -17,6 +18,7 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -50,7 +52,7 @@ class Wire:
 
     def edges(self) -> list[Edge]:
         """Return the edges it marks, smaller vertex first."""
-        return [(min(a, b), max(a, b)) for a, b in zip(self.vertices, self.vertices[1:], strict=False)]
+        return [(min(a, b), max(a, b)) for a, b in pairwise(self.vertices)]
 
 
 @dataclass(frozen=True)
@@ -135,7 +137,7 @@ class Drawing:
             self._live.wait()
             for pair in wanted:
                 if pair[0] == first and pair not in self._wires:
-                    self._wires[pair] = self._wire(pair)
+                    self._wires[pair] = self._wire(self.seeds[first], self.seeds[pair[1]])
         found = [(pair, wire) for pair in wanted if (wire := self._wires[pair]) is not None]
         # A wire that strays into other seeds' cells runs beside their wires: it goes before them.
         strays = [float(np.isin(cell[list(wire.vertices)], pair, invert=True).mean()) for pair, wire in found]
@@ -144,8 +146,13 @@ class Drawing:
             for (_, wire), stray in zip(found, strays, strict=True)
         ]
 
-    def _wire(self, pair: Edge) -> Wire | None:
-        start, end = (self.seeds[index] for index in pair)
+    def wire_between(self, start: int, end: int) -> Wire | None:
+        """Return the wire between two vertices; None where there is none."""
+        self._live.seed(start)
+        self._live.wait()
+        return self._wire(start, end)
+
+    def _wire(self, start: int, end: int) -> Wire | None:
         found = self._live.wires(end)
         shorter = found.wires[found.shorter]
         if len(shorter.vertices) < 2:
@@ -282,6 +289,17 @@ class Segments:
             group[two] = one
         return len({find(piece) for piece in pieces}) == 1
 
+    def most_bent(self) -> float:
+        """Return the spread of the normals of the piece that is least flat; 1 at once where a piece is no disk."""
+        if not self.all_disks():
+            return 1.0
+        bends = 1.0 - np.linalg.norm(self._normal, axis=1) / np.maximum(self._area, 1e-300)
+        return float(bends.max(initial=BEND, where=np.array(self._area) > CRUMB * self._whole))
+
+    def crumbs(self) -> int:
+        """Return how many pieces are very small."""
+        return sum(area < CRUMB * self._whole for area in self._area)
+
     def state(self) -> tuple:
         """Return all that dropping wires changes."""
         changing = (self.wires, self._covered, self._euler, self._area, self._face_parent, self._corner_parent)
@@ -380,6 +398,27 @@ def _thin_out(segments: Segments, mirrored: Callable[[int], int]) -> None:
                 needed |= {image, tuple(sorted(wire.seeds))}
 
 
+def _sweep(drawing: Drawing, wires: list[Wire]) -> Segments:
+    """Let wires start on others where they ran beside them, as long as that leaves fewer crumbs and every segment as good."""
+    best = Segments(drawing.points, drawing.triangles, wires)
+    for wire in sorted(wires, key=lambda one: one.strength):
+        if best.crumbs() == 0:
+            break
+        others = [other for other in best.wires if other is not wire]
+        drawn = {vertex for other in others for vertex in other.vertices}
+        last = len(wire.vertices) - 1
+        contacts = [place for place, vertex in enumerate(wire.vertices) if vertex in drawn or place in (0, last)]
+        # What lies between two contacts and is long is kept, drawn anew from contact to contact.
+        kept = [(a, b) for a, b in pairwise(contacts) if b - a >= 0.3 * last]
+        if len(contacts) == 2 or not kept:
+            continue
+        parts = [drawing.wire_between(wire.vertices[a], wire.vertices[b]) for a, b in kept]
+        trial = Segments(drawing.points, drawing.triangles, others + [part for part in parts if part is not None])
+        if trial.crumbs() < best.crumbs() and trial.most_bent() <= min(best.most_bent() + 0.02, 0.99):
+            best = trial
+    return best
+
+
 def plan(
     sw: ModuleType,
     points: NDArray[np.float64],
@@ -411,6 +450,7 @@ def plan(
             break
     tell(f"{len(drawing.seeds)} seeds, {len(segments.wires)} wires between neighbours, {len(segments.label)} segments")
     _thin_out(segments, drawing.mirrored)
+    segments = _sweep(drawing, segments.wires)
     labels = segments.labels()
     state = "all of them disks" if segments.all_disks() else "some of them not disks"
     tell(f"{len(segments.wires)} wires kept, {labels.max() + 1} segments, {state}")

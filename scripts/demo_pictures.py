@@ -124,9 +124,8 @@ class Scene:
         curve.bevel_depth = 0.006 * self._radius
         curve.bevel_resolution = 3
         curve.use_fill_caps = True
-        points = np.array([vertex.co for vertex in self._mesh.vertices])
         for wire in network.wires:
-            line = points[list(wire.vertices)]
+            line = wire.points
             spline = curve.splines.new("POLY")
             spline.points.add(len(line) - 1)
             spline.points.foreach_set("co", np.concatenate([line, np.ones((len(line), 1))], axis=1).ravel())
