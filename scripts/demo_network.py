@@ -398,6 +398,11 @@ def _thin_out(segments: Segments, mirrored: Callable[[int], int]) -> None:
                 needed |= {image, tuple(sorted(wire.seeds))}
 
 
+def _edge(wire: Wire, place: int) -> Edge:
+    one, two = wire.vertices[place : place + 2]
+    return min(one, two), max(one, two)
+
+
 def _sweep(drawing: Drawing, wires: list[Wire]) -> Segments:
     """Let wires start on others where they ran beside them, as long as that leaves fewer crumbs and every segment as good."""
     best = Segments(drawing.points, drawing.triangles, wires)
@@ -408,14 +413,16 @@ def _sweep(drawing: Drawing, wires: list[Wire]) -> Segments:
         drawn = {vertex for other in others for vertex in other.vertices}
         last = len(wire.vertices) - 1
         contacts = [place for place, vertex in enumerate(wire.vertices) if vertex in drawn or place in (0, last)]
-        # What lies between two contacts and is long is kept, drawn anew from contact to contact.
-        kept = [(a, b) for a, b in pairwise(contacts) if b - a >= 0.3 * last]
-        if len(contacts) == 2 or not kept:
-            continue
-        parts = [drawing.wire_between(wire.vertices[a], wire.vertices[b]) for a, b in kept]
-        trial = Segments(drawing.points, drawing.triangles, others + [part for part in parts if part is not None])
-        if trial.crumbs() < best.crumbs() and trial.most_bent() <= min(best.most_bent() + 0.02, 0.99):
-            best = trial
+        shared = {edge for other in others for edge in other.edges()}
+        stretches = [(a, b) for a, b in pairwise(contacts) if b - a > 1 or _edge(wire, a) not in shared]
+        for left_out in stretches if len(contacts) > 2 else ():
+            parts = [
+                drawing.wire_between(wire.vertices[a], wire.vertices[b]) for a, b in stretches if (a, b) != left_out
+            ]
+            trial = Segments(drawing.points, drawing.triangles, others + [part for part in parts if part is not None])
+            if trial.crumbs() < best.crumbs() and trial.most_bent() <= min(best.most_bent() + 0.02, 0.99):
+                best = trial
+                break
     return best
 
 

@@ -298,10 +298,10 @@ double LiveWire::progress() const {
 }
 
 bool LiveWire::wait(double seconds) const {
-  constexpr double forever = 1e9;  // a longer time would overflow the clock
+  constexpr double kForever = 1e9;  // a longer time would overflow the clock
   std::unique_lock lock(impl_->mutex);
   const auto idle = [&] { return impl_->idle(); };
-  if (seconds >= forever) {
+  if (seconds >= kForever) {
     impl_->changed.wait(lock, idle);
   } else {
     impl_->changed.wait_for(lock, std::chrono::duration<double>(std::max(0.0, seconds)), idle);

@@ -223,6 +223,7 @@ class Wavefront {
 
   /// First in, first out: a list that comes later finds more windows gathered, and better distances.
   void drain() {
+    // NOLINTNEXTLINE(modernize-loop-convert): the list grows while it is read.
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
       const std::int32_t h = waiting_[i];
       is_waiting_[index(h)] = 0;

@@ -321,11 +321,11 @@ class Band {
 
 /// Integral of an edge's distance to the wire. The distance has kinks, so many points serve better than a high order.
 double closeness(const Polyline& wire, const Vector& a, const Vector& b) {
-  constexpr int samples = 8;
-  const double step = (b - a).norm() / samples;
+  constexpr int kSamples = 8;
+  const double step = (b - a).norm() / kSamples;
   double sum = 0.0, bound = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < samples; ++i) {
-    const double t = (i + 0.5) / samples;
+  for (int i = 0; i < kSamples; ++i) {
+    const double t = (i + 0.5) / kSamples;
     const double distance = wire.distance((1.0 - t) * a + t * b, bound);
     sum += distance;
     bound = (distance + step) * (1.0 + 1e-12);  // distances change no faster than their points move
