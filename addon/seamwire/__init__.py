@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Seamwire: live-wire seam drawing for Blender."""
 
+import sys
 from importlib import import_module
 
 bl_info = {
@@ -12,6 +13,10 @@ bl_info = {
     "location": "3D View > Edit Mode > Edge > Draw Seamwires",
     "category": "UV",
 }
+
+# Blender reloads this file alone when another version was installed over this one: the parts must be read anew too.
+for _name in [name for name in sys.modules if name.startswith(f"{__name__}.")]:
+    del sys.modules[_name]
 
 _PARTS = ("operator", "keymap", "ui")
 

@@ -4,8 +4,12 @@
 from __future__ import annotations
 
 import importlib
+import os
+import shutil
 import sys
 import sysconfig
+import tempfile
+import zipfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,39 +19,103 @@ if TYPE_CHECKING:
 NAME = "seamwire_core"
 FOLDER = Path(__file__).parent / "_native"
 """Where the add-on's own copy lies, in Blenders that do not install wheels themselves."""
+WHEELS = Path(__file__).parent / "wheels"
+"""The compiled part for each Python and system that this package is for, as the package brought them."""
 
 
 class NativeError(ImportError):
     """The compiled part cannot be used; the text is a sentence for the artist."""
 
 
-def load(folder: Path = FOLDER) -> ModuleType:
-    """Return the module: an installed one first, else the one in the add-on's own folder.
+def load(folder: Path = FOLDER, wheels: Path = WHEELS) -> ModuleType:
+    """Return the module: an installed one first, else the one in the add-on's own folder, unpacked there if need be.
 
     Raises
     ------
     NativeError
-        Where there is none, or none for this Python and system.
+        Where there is none, or none for this Python and system, or one of another version is loaded.
     """
     if NAME in sys.modules:
-        return sys.modules[NAME]
+        return _of_this_package(sys.modules[NAME], wheels)
     try:
-        return importlib.import_module(NAME)
+        return _of_this_package(importlib.import_module(NAME), wheels)
+    except NativeError:
+        raise
     except ImportError as error:
         installed = error
-    sys.path.insert(0, str(folder))
+    place = _unpacked(folder, wheels)
+    sys.path.insert(0, str(place))
     try:
         importlib.invalidate_caches()
         return importlib.import_module(NAME)
     except ImportError as error:
-        raise NativeError(_sentence(folder, installed, error)) from error
+        raise NativeError(_sentence(place, wheels, installed, error)) from error
     finally:
-        sys.path.remove(str(folder))
+        sys.path.remove(str(place))
 
 
-def _sentence(folder: Path, installed: ImportError, own: ImportError) -> str:
+def _of_this_package(module: ModuleType, wheels: Path) -> ModuleType:
+    # Python cannot let go of a compiled module: after an update in place the old one stays until Blender ends.
+    versions = {_version(wheel) for wheel in wheels.glob("*.whl")}
+    if versions and module.__version__ not in versions:
+        raise NativeError(
+            f"Seamwire was updated to {', '.join(sorted(versions))} while its version {module.__version__} was in use: "
+            f"restart Blender. If that does not help, remove the {NAME} in {Path(module.__file__).parent}"
+        )
+    return module
+
+
+def _unpacked(folder: Path, wheels: Path) -> Path:
+    """Return where to import from: the folder, or the one below it that the fitting wheel was unpacked to."""
+    fitting = [wheel for wheel in wheels.glob("*.whl") if _fits(wheel)]
+    if not fitting:
+        return folder
+    # One folder a wheel: a later version is never written over a file that is in use.
+    wheel = fitting[0]
+    place = folder / wheel.stem
+    if place.is_dir():
+        return place
+    try:
+        folder.mkdir(exist_ok=True)
+        with tempfile.TemporaryDirectory(dir=folder) as unfinished, zipfile.ZipFile(wheel) as archive:
+            archive.extractall(unfinished)
+            (Path(unfinished) / "done").mkdir()
+            for file in Path(unfinished).glob(f"{NAME}*"):
+                shutil.move(file, Path(unfinished) / "done" / file.name)
+            os.replace(Path(unfinished) / "done", place)
+    except OSError as error:
+        # Another Blender may have been faster.
+        if not place.is_dir():
+            raise NativeError(f"Seamwire cannot unpack its compiled part to {folder}: {error.strerror}") from error
+    return place
+
+
+def _version(wheel: Path) -> str:
+    return wheel.stem.split("-")[1]
+
+
+def _fits(wheel: Path) -> bool:
+    """Tell whether a wheel is for this Python and system, by its name: NAME-VERSION-PYTHON-ABI-PLATFORM."""
+    python, _, platforms = wheel.stem.split("-")[2:]
+    return python == f"cp{sys.version_info.major}{sys.version_info.minor}" and any(
+        _runs_here(platform) for platform in platforms.split(".")
+    )
+
+
+def _runs_here(platform: str) -> bool:
+    here = sysconfig.get_platform().replace("-", "_").replace(".", "_")
+    if here.startswith("macosx"):
+        # macosx_MAJOR_MINOR_MACHINE: the numbers tell the oldest system.
+        return platform.startswith("macosx") and platform.endswith(here.split("_", 3)[3])
+    if here.startswith("linux"):
+        return platform.startswith(("manylinux", "linux")) and platform.endswith(here.removeprefix("linux"))
+    return platform == here
+
+
+def _sentence(folder: Path, wheels: Path, installed: ImportError, own: ImportError) -> str:
     python = f"Python {sys.version_info.major}.{sys.version_info.minor} on {sysconfig.get_platform()}"
     found = sorted(path.name for path in folder.glob(f"{NAME}*") if path.suffix in {".so", ".pyd", ".dll"})
+    found += sorted(path.name for path in wheels.glob("*.whl"))
     for error in (installed, own):
         # Only "No module named seamwire_core" means that there is none: anything else was found, and did not load.
         if not (isinstance(error, ModuleNotFoundError) and error.name == NAME):

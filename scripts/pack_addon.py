@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Packs the add-on with wheels of its compiled part: ``pack_addon.py --platform PLATFORM --output FOLDER WHEEL...``.
+
+Makes FOLDER/seamwire-VERSION-PLATFORM.zip, with one folder at its top: so it installs as an extension in Blender 4.2 and later, and as an
+add-on in Blender 3.4 and later, where the add-on unpacks the wheel that fits by itself.
+"""
+
+import argparse
+import re
+import sys
+import zipfile
+from pathlib import Path
+
+ROOT = Path(__file__).parent.parent
+ADDON = ROOT / "addon" / "seamwire"
+LEFT_OUT = {"__pycache__", "_native"}
+
+
+def manifest(wheels: list[Path], platforms: list[str]) -> str:
+    """Return the add-on's manifest with what this package holds and where it runs."""
+    text = (ADDON / "blender_manifest.toml").read_text()
+    lines = ["", "platforms = [", *(f'  "{platform}",' for platform in platforms), "]"]
+    lines += ["wheels = [", *(f'  "./wheels/{wheel.name}",' for wheel in wheels), "]"]
+    return text.rstrip("\n") + "\n" + "\n".join(lines) + "\n"
+
+
+def versions() -> dict[str, str]:
+    """Return the version as each file that has to tell it does."""
+    found = {
+        "blender_manifest.toml": re.search(r'^version = "(.+)"$', (ADDON / "blender_manifest.toml").read_text(), re.M),
+        "pyproject.toml": re.search(r'^version = "(.+)"$', (ROOT / "pyproject.toml").read_text(), re.M),
+        "CMakeLists.txt": re.search(r"^project\(seamwire VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(), re.M),
+        "__init__.py": re.search(r'"version": \((\d+), (\d+), (\d+)\)', (ADDON / "__init__.py").read_text()),
+    }
+    missing = [name for name, match in found.items() if match is None]
+    if missing:
+        sys.exit(f"no version found in {', '.join(missing)}")
+    return {name: ".".join(match.groups()) for name, match in found.items()}
+
+
+def pack(output: Path, wheels: list[Path], platforms: list[str]) -> Path:
+    """Write the package and return its path."""
+    told = versions()
+    if len(set(told.values())) != 1:
+        sys.exit("the versions differ: " + ", ".join(f"{name} {version}" for name, version in told.items()))
+    version = told["pyproject.toml"]
+    others = [wheel.name for wheel in wheels if wheel.name.split("-")[:2] != ["seamwire_core", version]]
+    if others:
+        sys.exit(f"not wheels of seamwire_core {version}: {', '.join(others)}")
+    path = output / f"seamwire-{version}-{'-'.join(platforms)}.zip"
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        for file in sorted(ADDON.rglob("*")):
+            inside = file.relative_to(ADDON)
+            if file.is_file() and not LEFT_OUT & set(inside.parts) and inside.name != "blender_manifest.toml":
+                archive.write(file, Path("seamwire") / inside)
+        archive.writestr("seamwire/blender_manifest.toml", manifest(wheels, platforms))
+        for name in ("LICENSE", "THIRD-PARTY.md"):
+            archive.write(ROOT / name, f"seamwire/{name}")
+        for wheel in wheels:
+            archive.write(wheel, f"seamwire/wheels/{wheel.name}", zipfile.ZIP_STORED)
+    return path
+
+
+def main() -> None:
+    """Pack what the command line names."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--platform", action="append", required=True, help="as Blender names it: linux-x64, windows-x64, ...")
+    parser.add_argument("--output", type=Path, required=True)
+    parser.add_argument("wheels", nargs="+", type=Path)
+    arguments = parser.parse_args()
+    print(pack(arguments.output, sorted(arguments.wheels), arguments.platform))
+
+
+if __name__ == "__main__":
+    main()
