@@ -2,7 +2,8 @@
 """Run pytest inside Blender: ``blender [--background] --factory-startup --python blender_tests/run.py -- PYTEST_ARGUMENTS``.
 
 Expects the environment that ``scripts/blender-test`` sets: SEAMWIRE_BLENDER_PACKAGES, the folder that holds pytest and greenlet, and
-BLENDER_USER_SCRIPTS, the folder that holds the add-on.
+BLENDER_USER_SCRIPTS, the folder that holds the add-on. SEAMWIRE_ADDON is the add-on's name where Blender gave it another one than
+``seamwire``, as it does to extensions; the tests import it as ``seamwire`` all the same.
 
 In the background pytest simply runs. With a window it must not hold Blender's event loop, or no event would ever reach the tool: it
 runs in a greenlet of its own that a timer resumes, and every wait of the test (``ui.wait()``, see ``ui.py``) switches back to Blender.
@@ -10,7 +11,9 @@ Tests are therefore plain functions in both cases.
 """
 
 import faulthandler
+import importlib
 import os
+import pkgutil
 import sys
 import traceback
 from pathlib import Path
@@ -21,6 +24,9 @@ sys.path.insert(0, str(Path(__file__).parent))
 import addon_utils
 import bpy
 import pytest
+
+
+ADDON = os.environ.get("SEAMWIRE_ADDON", "seamwire")
 
 
 def leave(code: int) -> None:
@@ -34,11 +40,15 @@ def enable_addon() -> None:
     """Enable the add-on and fail loudly where Blender would only print."""
     failures: list[str] = []
     module = addon_utils.enable(
-        "seamwire", default_set=True, handle_error=lambda _: failures.append(traceback.format_exc())
+        ADDON, default_set=True, handle_error=lambda _: failures.append(traceback.format_exc())
     )
     if module is None or failures:
-        sys.stderr.write("The add-on seamwire could not be enabled.\n" + "".join(failures))
+        sys.stderr.write(f"The add-on {ADDON} could not be enabled.\n" + "".join(failures))
         leave(3)
+    for part in pkgutil.iter_modules(module.__path__):
+        importlib.import_module(f"{ADDON}.{part.name}")
+    for name in [name for name in sys.modules if name == ADDON or name.startswith(f"{ADDON}.")]:
+        sys.modules["seamwire" + name.removeprefix(ADDON)] = sys.modules[name]
 
 
 def run_pytest() -> int:

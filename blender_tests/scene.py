@@ -3,12 +3,16 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
 import bmesh
 import bpy
 import numpy as np
+
+ADDON = os.environ.get("SEAMWIRE_ADDON", "seamwire")
+"""The add-on's name in this Blender; to import from it, say ``seamwire``."""
 
 Edge = tuple[int, int]
 

@@ -17,6 +17,7 @@ import bpy
 import gpu
 import numpy as np
 from numpy.typing import NDArray
+from scene import ADDON
 
 _switch_to_blender: Callable[[], object] | None = None
 _errors: list[str] = []
@@ -34,7 +35,7 @@ def prepare_blender(switch_to_blender: Callable[[], object]) -> None:
     sys.excepthook = _collect_unhandled
     for name in dir(bpy.types):
         cls = getattr(bpy.types, name)
-        if getattr(cls, "__module__", "").split(".")[0] == "seamwire":
+        if getattr(cls, "__module__", "").startswith(f"{ADDON}."):
             _collect_from_methods(cls)
 
 

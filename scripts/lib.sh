@@ -11,10 +11,14 @@ unset PYTHONPATH PYTHONHOME
 PYTHON=/usr/bin/python3
 VENV=$ROOT/.venv
 
-# The folders where Blender finds the add-on and keeps its settings in tests and demo; the user's own stay untouched.
-export SEAMWIRE_BLENDER_PACKAGES=$ROOT/build/blender-packages
-export BLENDER_USER_SCRIPTS=$ROOT/build/blender/scripts
-export BLENDER_USER_CONFIG=$ROOT/build/blender/config
+# The folders where Blender finds the add-on and keeps its settings in tests and demo; the user's own stay untouched. A test of another
+# Blender than the installed one names its own.
+export SEAMWIRE_BLENDER_PACKAGES=${SEAMWIRE_BLENDER_PACKAGES:-$ROOT/build/blender-packages}
+BLENDER_USER=${SEAMWIRE_BLENDER_USER:-$ROOT/build/blender}
+export BLENDER_USER_SCRIPTS=$BLENDER_USER/scripts
+export BLENDER_USER_CONFIG=$BLENDER_USER/config
+export BLENDER_USER_DATAFILES=$BLENDER_USER/datafiles
+export BLENDER_USER_EXTENSIONS=$BLENDER_USER/extensions
 ADDON=$BLENDER_USER_SCRIPTS/addons/seamwire
 REPORTS=$ROOT/build/reports
 

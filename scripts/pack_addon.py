@@ -64,7 +64,9 @@ def pack(output: Path, wheels: list[Path], platforms: list[str]) -> Path:
 def main() -> None:
     """Pack what the command line names."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--platform", action="append", required=True, help="as Blender names it: linux-x64, windows-x64, ...")
+    parser.add_argument(
+        "--platform", action="append", required=True, help="as Blender names it: linux-x64, windows-x64, ..."
+    )
     parser.add_argument("--output", type=Path, required=True)
     parser.add_argument("wheels", nargs="+", type=Path)
     arguments = parser.parse_args()

@@ -4,8 +4,6 @@
 from __future__ import annotations
 
 import importlib
-import os
-import shutil
 import sys
 import sysconfig
 import tempfile
@@ -78,11 +76,9 @@ def _unpacked(folder: Path, wheels: Path) -> Path:
     try:
         folder.mkdir(exist_ok=True)
         with tempfile.TemporaryDirectory(dir=folder) as unfinished, zipfile.ZipFile(wheel) as archive:
-            archive.extractall(unfinished)
-            (Path(unfinished) / "done").mkdir()
-            for file in Path(unfinished).glob(f"{NAME}*"):
-                shutil.move(file, Path(unfinished) / "done" / file.name)
-            os.replace(Path(unfinished) / "done", place)
+            whole = Path(unfinished) / wheel.stem
+            archive.extractall(whole)
+            whole.replace(place)
     except OSError as error:
         # Another Blender may have been faster.
         if not place.is_dir():

@@ -4,7 +4,7 @@
 import addon_utils
 import bpy
 import pytest
-from scene import add_grid, edit, seams
+from scene import ADDON, add_grid, edit, seams
 
 MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "VIEW3D_MT_edit_mesh_context_menu")
 
@@ -17,14 +17,14 @@ def test_disabling_leaves_nothing_and_enabling_brings_all_back() -> None:
     before = entries()
     try:
         for _ in range(5):
-            addon_utils.disable("seamwire")
+            addon_utils.disable(ADDON)
             assert [count + 1 for count in entries()] == before
             assert not hasattr(bpy.types, "MESH_OT_seamwire_draw")
             assert not hasattr(bpy.types, "MESH_OT_seamwire_mark")
-            addon_utils.enable("seamwire")
+            addon_utils.enable(ADDON)
             assert entries() == before
     finally:
-        addon_utils.enable("seamwire")
+        addon_utils.enable(ADDON)
     assert bpy.ops.mesh.seamwire_mark.get_rna_type().identifier == "MESH_OT_seamwire_mark"
 
 

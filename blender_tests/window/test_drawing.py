@@ -12,7 +12,7 @@ import ui as driver
 from bl_ui.space_statusbar import STATUSBAR_HT_header
 from mathutils import Euler
 from numpy.typing import NDArray
-from scene import add_grid, add_layers, chain, edit, seams, snapshot
+from scene import ADDON, add_grid, add_layers, chain, edit, seams, snapshot
 from seamwire import operator
 from seamwire.session import Session
 
@@ -443,12 +443,12 @@ def test_disabling_the_addon_ends_the_tool(desk: Desk) -> None:
     desk.start()
     desk.ui.click(desk.at(36), ctrl=True)
     try:
-        addon_utils.disable("seamwire")
+        addon_utils.disable(ADDON)
         assert not desk.running
         desk.ui.move(desk.at(40))
         assert desk.unchanged()
     finally:
-        addon_utils.enable("seamwire")
+        addon_utils.enable(ADDON)
 
 
 def test_the_tool_runs_once_at_a_time_and_only_in_edit_mode(desk: Desk) -> None:

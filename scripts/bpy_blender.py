@@ -13,6 +13,7 @@ import bpy
 
 
 def main(arguments: list[str]) -> int:
+    """Do what the arguments say, in their order; return the exit code."""
     exit_code_of_failure = 0
     sys.argv = ["blender", *arguments]
     waiting = iter(arguments)
@@ -40,7 +41,7 @@ def main(arguments: list[str]) -> int:
         elif argument.endswith(".blend"):
             bpy.ops.wm.open_mainfile(filepath=argument)
         else:
-            print(f"bpy-blender.py does not know the argument {argument}", file=sys.stderr)
+            print(f"bpy_blender.py does not know the argument {argument}", file=sys.stderr)
             return 2
     return 0
 
