@@ -25,7 +25,6 @@ import addon_utils
 import bpy
 import pytest
 
-
 ADDON = os.environ.get("SEAMWIRE_ADDON", "seamwire")
 
 
@@ -39,9 +38,7 @@ def leave(code: int) -> None:
 def enable_addon() -> None:
     """Enable the add-on and fail loudly where Blender would only print."""
     failures: list[str] = []
-    module = addon_utils.enable(
-        ADDON, default_set=True, handle_error=lambda _: failures.append(traceback.format_exc())
-    )
+    module = addon_utils.enable(ADDON, default_set=True, handle_error=lambda _: failures.append(traceback.format_exc()))
     if module is None or failures:
         sys.stderr.write(f"The add-on {ADDON} could not be enabled.\n" + "".join(failures))
         leave(3)

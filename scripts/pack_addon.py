@@ -49,6 +49,8 @@ def pack(output: Path, wheels: list[Path], platforms: list[str]) -> Path:
         sys.exit(f"not wheels of seamwire_core {version}: {', '.join(others)}")
     path = output / f"seamwire-{version}-{'-'.join(platforms)}.zip"
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        # Blender 3.4 removes the version before only where the folder has an entry of its own.
+        archive.writestr("seamwire/", b"")
         for file in sorted(ADDON.rglob("*")):
             inside = file.relative_to(ADDON)
             if file.is_file() and not LEFT_OUT & set(inside.parts) and inside.name != "blender_manifest.toml":

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The package that was built, and the Blender to try it in: SEAMWIRE_PACKAGE, BLENDER, SEAMWIRE_BLENDER_NAME."""
+
+import os
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+from blender import Blender
+
+
+@pytest.fixture(scope="session")
+def package() -> Path:
+    """The zip that scripts/package made."""
+    return Path(os.environ["SEAMWIRE_PACKAGE"])
+
+
+@pytest.fixture
+def blender(tmp_path: Path) -> Blender:
+    """A Blender that nobody used before."""
+    return Blender(Path(os.environ["BLENDER"]), os.environ["SEAMWIRE_BLENDER_NAME"], tmp_path / "user")
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory: pytest.TempPathFactory, package: Path) -> Blender:
+    """A Blender with the package installed; tests must leave it so."""
+    user = tmp_path_factory.mktemp("installed")
+    blender = Blender(Path(os.environ["BLENDER"]), os.environ["SEAMWIRE_BLENDER_NAME"], user)
+    blender.install(package)
+    return blender

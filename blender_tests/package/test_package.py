@@ -1,0 +1,209 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The package, installed, updated and removed as a user does it, in user folders that nobody used before."""
+
+import re
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from blender import Blender, printed
+
+MARK = """
+import bpy
+bpy.ops.mesh.primitive_grid_add(x_subdivisions=4, y_subdivisions=4)
+bpy.ops.object.mode_set(mode="EDIT")
+bpy.ops.mesh.seamwire_mark(chains="0 2")
+bpy.ops.object.mode_set(mode="OBJECT")
+mesh = bpy.context.object.data
+print("marked:", sorted(tuple(sorted(edge.vertices)) for edge in mesh.edges if edge.use_seam))
+"""
+MARKED = "[(0, 1), (1, 2)]"
+"""Two edges of the grid's border, the straight way between their ends."""
+
+ABSENT = """
+import bpy, importlib.util
+print("operator:", hasattr(bpy.types, "MESH_OT_seamwire_mark"))
+print("enabled:", ADDON in bpy.context.preferences.addons)
+"""
+
+
+def changed(package: Path, target: Path, file: str, change: Callable[[str], str]) -> Path:
+    """Write a copy of the package with one text file of it changed."""
+    with zipfile.ZipFile(package) as source, zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as copy:
+        for entry in source.infolist():
+            content = source.read(entry)
+            if entry.filename == f"seamwire/{file}":
+                before = content.decode()
+                after = change(before)
+                assert after != before
+                content = after.encode()
+            copy.writestr(entry.filename, content)
+    return target
+
+
+def without_traceback(output: str) -> str:
+    """Return the output, which must hold no traceback."""
+    assert "Traceback" not in output, output
+    return output
+
+
+def test_blender_finds_the_package_valid(blender: Blender, package: Path) -> None:
+    if not blender.has_extensions or blender.is_python_module:
+        pytest.skip("this Blender has no command that validates packages")
+    output = without_traceback(blender.start("--command", "extension", "validate", str(package)))
+    assert "Success" in output
+    assert "warning" not in output.lower()
+
+
+def test_installed_it_is_there_after_a_restart_and_marks_seams(installed: Blender) -> None:
+    output = without_traceback(installed.run(MARK))
+    assert printed(output, "marked") == [MARKED]
+
+
+def test_its_own_compiled_part_is_what_runs(installed: Blender) -> None:
+    output = installed.run(MARK + "import seamwire_core; print('file:', seamwire_core.__file__)")
+    (file,) = printed(output, "file")
+    assert Path(file).is_relative_to(installed.user)
+
+
+def test_removed_it_leaves_nothing(blender: Blender, package: Path) -> None:
+    blender.install(package)
+    blender.run(MARK)
+    without_traceback(blender.remove())
+    # Blender as a Python module does not read the settings: there the add-on is simply not enabled.
+    output = without_traceback(blender.run(ABSENT, as_set_up=not blender.is_python_module))
+    assert printed(output, "operator") == ["False"]
+    assert printed(output, "enabled") == ["False"]
+    assert not blender.addon_folder.exists()
+    left = [path for path in blender.user.rglob("*") if "seamwire" in path.name]
+    assert left == []
+
+
+def test_a_later_version_takes_the_place_of_the_one_before(blender: Blender, package: Path, tmp_path: Path) -> None:
+    """The new version's parts run, not those that the old one left in memory or on disk."""
+    blender.install(package)
+    assert printed(blender.run(MARK), "marked") == [MARKED]
+    (blender.addon_folder / "left_over_from_the_old_version.py").write_text("")
+    later = later_version(package, tmp_path)
+    without_traceback(blender.install(later))
+    output = without_traceback(blender.run(MARK + VERSION))
+    assert printed(output, "marked") == [MARKED]
+    assert printed(output, "label") == ["Mark Later"]
+    assert not (blender.addon_folder / "left_over_from_the_old_version.py").exists()
+
+
+VERSION = """
+print("label:", bpy.ops.mesh.seamwire_mark.get_rna_type().name)
+"""
+
+
+def later_version(package: Path, folder: Path) -> Path:
+    """Make a package of version 0.9.9 whose operator has another label."""
+    label = re.compile(r'(bl_idname = "mesh\.seamwire_mark"\s+bl_label = )"[^"]*"')
+    step = changed(package, folder / "1.zip", "operator.py", lambda text: label.sub(r'\1"Mark Later"', text))
+    step = changed(
+        step, folder / "2.zip", "__init__.py", lambda text: re.sub(r'"version": \(.*\)', '"version": (0, 9, 9)', text)
+    )
+    return changed(
+        step,
+        folder / "seamwire-0.9.9.zip",
+        "blender_manifest.toml",
+        lambda text: re.sub(r'^version = ".*"', 'version = "0.9.9"', text, flags=re.M),
+    )
+
+
+def test_updating_while_blender_runs_brings_the_new_version_without_a_restart(
+    blender: Blender, package: Path, tmp_path: Path
+) -> None:
+    blender.install(package)
+    later = later_version(package, tmp_path)
+    if blender.has_extensions:
+        update = (
+            f"bpy.ops.extensions.package_install_files(filepath={str(later)!r}, repo='user_default', overwrite=True)\n"
+        )
+    else:
+        update = (
+            f"bpy.ops.preferences.addon_install(filepath={str(later)!r}, overwrite=True)\n"
+            "bpy.ops.preferences.addon_enable(module='seamwire')\n"
+        )
+    again = MARK.replace("import bpy\n", "bpy.ops.wm.read_homefile(use_empty=True)\n")
+    output = without_traceback(blender.run(MARK + update + again + VERSION))
+    assert printed(output, "marked") == [MARKED, MARKED]
+    assert printed(output, "label") == ["Mark Later"]
+
+
+def test_a_package_for_another_system_is_refused_in_words(blender: Blender, package: Path, tmp_path: Path) -> None:
+    if not blender.has_extensions:
+        pytest.skip("add-ons of this Blender do not tell what they run on")
+    other = changed(
+        package,
+        tmp_path / "other.zip",
+        "blender_manifest.toml",
+        lambda text: text.replace('"linux-x64"', '"windows-arm64"'),
+    )
+    _, output = blender.try_install(other)
+    assert re.search(r"windows-arm64|platform|compatible", without_traceback_but_ours(output)), output
+    assert not blender.addon_folder.exists()
+
+
+def without_traceback_but_ours(output: str) -> str:
+    """Return the output, whose only traceback may be that of the test's own call of an operator that failed."""
+    return re.sub(r"Traceback \(most recent call last\):\n  File \"<(?:string|--python-expr)>\".*\n", "", output)
+
+
+TRY = """
+import bpy
+bpy.ops.mesh.primitive_grid_add(x_subdivisions=4, y_subdivisions=4)
+bpy.ops.object.mode_set(mode="EDIT")
+try:
+    bpy.ops.mesh.seamwire_mark(chains="0 2")
+except RuntimeError as error:
+    print("said:", str(error).strip())
+"""
+
+
+def for_another_python(package: Path, target: Path) -> Path:
+    """Write a copy of the package with one wheel, for a Python that no Blender has."""
+    with zipfile.ZipFile(package) as source, zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as copy:
+        wheels = [entry for entry in source.infolist() if entry.filename.endswith(".whl")]
+        name = re.sub(r"cp3\d+-cp3\d+", "cp399-cp399", wheels[0].filename)
+        for entry in source.infolist():
+            if entry not in wheels and not entry.filename.endswith("blender_manifest.toml"):
+                copy.writestr(entry.filename, source.read(entry))
+        copy.writestr(name, source.read(wheels[0]))
+        manifest = source.read("seamwire/blender_manifest.toml").decode()
+        own = name.removeprefix("seamwire/")
+        copy.writestr(
+            "seamwire/blender_manifest.toml",
+            re.sub(r"wheels = \[.*\]", f'wheels = ["./{own}"]', manifest, flags=re.DOTALL),
+        )
+    return target
+
+
+def test_a_package_for_another_python_says_so_in_words(blender: Blender, package: Path, tmp_path: Path) -> None:
+    """Blender itself refuses to enable such an extension; as an add-on it is our operator that has to say it."""
+    _, output = blender.try_install(for_another_python(package, tmp_path / "other.zip"))
+    if blender.has_extensions:
+        assert re.search(r"Python version \(3\.\d+\) isn't compatible with \(3\.99\)", output), output
+        return
+    output = without_traceback(output + blender.run(TRY))
+    (said,) = printed(output, "said")
+    assert "built for another Python or system" in said
+
+
+ENABLING = """
+import sys, time
+import addon_utils
+start = time.thread_time()
+addon_utils.enable(ADDON)
+print("seconds:", time.thread_time() - start)
+print("loaded:", "seamwire_core" in sys.modules)
+"""
+
+
+def test_enabling_costs_less_than_50_ms_of_blenders_start(installed: Blender) -> None:
+    """Of the processor's time, the best of five starts without our add-on: what else the machine does only adds to it."""
+    outputs = [installed.run(ENABLING, as_set_up=False) for _ in range(5)]
+    seconds = [float(printed(output, "seconds")[0]) for output in outputs]
+    assert min(seconds) < 0.05, seconds
