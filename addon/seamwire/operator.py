@@ -9,17 +9,17 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
 import bpy
-import numpy as np
 
-from . import edit_mesh, keymap, native, session, ui
+from . import keymap, lazy, native, ui
 from .keymap import Action
-from .overlay import Overlay
-from .picking import Picker, View
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from . import edit_mesh, overlay, picking, session
     from .session import Along, LiveWire, Pick, Session
+else:
+    edit_mesh, overlay, picking, session = map(lazy.Part, ("edit_mesh", "overlay", "picking", "session"))
 
 _TICK = 0.05
 """Seconds between two looks at running work: redraws stay below what the eye takes for a stop."""
@@ -147,10 +147,11 @@ class Drawing:
         self.cage = edit_mesh.Cage(self._obj)
         arrays = edit_mesh.read(self._obj)
         self.session = session.Session(live_maker(arrays), arrays.points, along)
-        self._picker = Picker(self.cage.bm, float(np.ptp(arrays.points, axis=0).max()))
+        size = (arrays.points.max(axis=0) - arrays.points.min(axis=0)).max()
+        self._picker = picking.Picker(self.cage.bm, float(size))
         self._ending = ExitStack()
         try:
-            self._overlay = Overlay(self.session, self._obj, arrays.points, arrays.to_object)
+            self._overlay = overlay.Overlay(self.session, self._obj, arrays.points, arrays.to_object)
             self._ending.callback(self._redraw)
             self._ending.callback(self._overlay.remove)
             self._ending.callback(self._set_timer, False)
@@ -287,7 +288,7 @@ class Drawing:
             if any(region.type != "WINDOW" for region in under):
                 return None
             for region in under:
-                return region, View.of(region, _region_3d(area, region))
+                return region, picking.View.of(region, _region_3d(area, region))
         return None
 
     # What is seen
@@ -325,7 +326,7 @@ class Drawing:
             self._window.cursor_modal_restore()
 
 
-_Inside = tuple[bpy.types.Region, View]
+_Inside = "tuple[bpy.types.Region, picking.View]"
 
 _running: list[Drawing] = []
 """The drawings going on, so that unregistering the add-on can end them."""
