@@ -2,7 +2,7 @@
 """Counts what ``scripts/test`` ran: ``summary.py REPORTS``. Ends with 1 when anything failed.
 
 REPORTS holds ``stages.txt``, a line ``name exit-code seconds`` a stage, and for each stage ``name.xml`` or ``name.*.xml`` in JUnit's form,
-or ``name.txt`` with a line ``passed|failed what`` a check.
+or ``name.txt`` with a line ``passed|failed what`` a check. ``skipped.txt``, if there is one, says line by line what could not be had today.
 """
 
 import sys
@@ -79,6 +79,9 @@ def main() -> int:
         counts = count_stage(reports, name, int(code))
         total += counts
         lines += [f"{name} took {seconds} s", f"{name}: {counts}"]
+    skipped = reports / "skipped.txt"
+    if skipped.exists():
+        lines += skipped.read_text().splitlines()
     print(*lines, total, sep="\n")
     return 0 if total.failed == 0 else 1
 

@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A Blender to install the package in, with user folders of its own. Run from outside Blender."""
+"""A Blender to install the package in, with user folders of its own. Used from outside Blender.
+
+``python blender.py PROGRAM NAME USER PACKAGE`` installs the package there and enables the add-on.
+"""
 
 from __future__ import annotations
 
 import os
 import re
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
@@ -125,3 +129,8 @@ class Blender:
 def printed(output: str, name: str) -> list[str]:
     """Return what the lines ``name: ...`` say, in order."""
     return re.findall(rf"^{name}: (.*)$", output, re.M)
+
+
+if __name__ == "__main__":
+    _program, _name, _user, _package = sys.argv[1:]
+    Blender(Path(_program), _name, Path(_user)).install(Path(_package))
