@@ -105,6 +105,7 @@ def ends(edges: Iterable[Edge]) -> list[int]:
 def snapshot(obj: bpy.types.Object, with_seams: bool = True) -> dict[str, object]:
     """Return all that a mesh in edit mode holds and a tool might change."""
     bm = bmesh.from_edit_mesh(obj.data)
+    history = range(len(bm.select_history))
     found: dict[str, object] = {
         "vertices": [(*v.co, *v.normal, v.select, v.hide) for v in bm.verts],
         "edges": [(v.index, w.index, e.select, e.hide, e.smooth) for e in bm.edges for v, w in [e.verts]],
@@ -112,7 +113,8 @@ def snapshot(obj: bpy.types.Object, with_seams: bool = True) -> dict[str, object
             (tuple(v.index for v in f.verts), f.select, f.hide, f.smooth, f.material_index, tuple(f.normal))
             for f in bm.faces
         ],
-        "history": [(type(item).__name__, item.index) for item in bm.select_history],
+        # Not iterated: Blender 4.3 cannot, on the Python 3.13 of Debian 13.
+        "history": [(type(item).__name__, item.index) for item in map(bm.select_history.__getitem__, history)],
         "mode": tuple(bpy.context.tool_settings.mesh_select_mode),
     }
     if with_seams:

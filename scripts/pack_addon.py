@@ -70,9 +70,12 @@ def main() -> None:
         "--platform", action="append", required=True, help="as Blender names it: linux-x64, windows-x64, ..."
     )
     parser.add_argument("--output", type=Path, required=True)
-    parser.add_argument("wheels", nargs="+", type=Path)
+    parser.add_argument("wheels", nargs="+", type=Path, help="the wheels, or a folder of them")
     arguments = parser.parse_args()
-    print(pack(arguments.output, sorted(arguments.wheels), arguments.platform))
+    wheels = [wheel for path in arguments.wheels for wheel in (path.glob("*.whl") if path.is_dir() else [path])]
+    if not wheels:
+        sys.exit("no wheel to pack")
+    print(pack(arguments.output, sorted(wheels), arguments.platform))
 
 
 if __name__ == "__main__":
