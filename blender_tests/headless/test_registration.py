@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Enabling and disabling the add-on, many times in a row."""
+
+import traces
+
+TIMES = 20
+
+
+def test_enabled_and_disabled_many_times_it_leaves_nothing_behind() -> None:
+    enabled = traces.traces()
+    assert any("MESH_OT_seamwire_draw" in one for one in traces.ours(enabled))
+    assert any("mesh.seamwire_mark" in one for one in traces.ours(enabled))
+    assert any("entries: VIEW3D_MT_edit_mesh_edges" in one for one in traces.ours(enabled))
+    traces.disable()
+    try:
+        disabled = traces.traces()
+        assert traces.ours(disabled) == []
+        for _ in range(TIMES):
+            traces.enable()
+            traces.disable()
+        assert traces.difference(disabled, traces.traces()) == {}
+    finally:
+        traces.enable()
+    assert traces.difference(enabled, traces.traces()) == {}

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Enabling and disabling the add-on where there are keymaps, and while it draws."""
+
+import bpy
+import traces
+import ui as driver
+from scene import add_grid, edit
+from seamwire import operator
+
+TIMES = 20
+
+
+def test_enabled_and_disabled_many_times_it_leaves_nothing_behind(ui: driver.Ui) -> None:
+    enabled = traces.traces()
+    assert any("mesh.seamwire_draw W" in one for one in traces.ours(enabled))
+    traces.disable()
+    try:
+        ui.wait()
+        disabled = traces.traces()
+        assert [one for one in traces.ours(disabled) if not one.startswith("keymap items: Blender user")] == []
+        for _ in range(TIMES):
+            traces.enable()
+            traces.disable()
+        ui.wait()
+        assert traces.difference(disabled, traces.traces()) == {}
+    finally:
+        traces.enable()
+    ui.wait()
+    assert traces.difference(enabled, traces.traces()) == {}
+
+
+def test_disabled_while_drawing_it_ends_and_leaves_nothing_behind(ui: driver.Ui) -> None:
+    add_grid(5)
+    ui.wait()
+    with ui.override():
+        edit()
+    ui.look_from_top(distance=4.0)
+    before = traces.traces()
+    with ui.override():
+        bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT")
+    ui.move((ui.region.width * 0.5, ui.region.height * 0.5))
+    assert operator._running
+    traces.disable()
+    try:
+        assert not operator._running
+        ui.move((ui.region.width * 0.4, ui.region.height * 0.5))
+        ui.pixels()
+    finally:
+        traces.enable()
+    assert traces.difference(before, traces.traces()) == {}
