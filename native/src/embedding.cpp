@@ -26,6 +26,11 @@ constexpr double kEqual = 1e-9;
 constexpr double kFlat = 1e-9;
 // Times that all faces without an area are looked at, each time because some could be taken away the time before.
 constexpr int kMendingPasses = 64;
+// The paper's scheme may add this many triangles for each of the surface's, and this many in any case. Where it ends,
+// it mostly ends below one for each.
+constexpr std::size_t kBudget = 4, kLeastBudget = 20'000;
+// Bisections of an original face, one of a part of a part, until newest-vertex bisection begins.
+constexpr std::uint8_t kNewestDepth = 40;
 // Splits between two reports of progress: about a millisecond.
 constexpr std::size_t kReportEvery = 1024;
 
@@ -44,12 +49,18 @@ void check_metric(const Surface& surface, const Metric& metric) {
   }
 }
 
+enum class Scheme {
+  kPaper,      ///< an invalid triangle and the neighbour behind its longest edge are bisected, whatever the neighbour
+  kPropagate,  ///< the neighbour is first bisected until the common edge is the right one for it too
+};
+
 /// A copy of the surface's half-edge mesh, refined in place. OpenMesh's ranges leave out what was merged away.
 class Refinement {
  public:
-  Refinement(const Surface& surface, const Metric& metric, const EmbedOptions& options);
+  Refinement(const Surface& surface, const Metric& metric, const EmbedOptions& options, Scheme scheme);
 
-  void run(const Task& task);
+  /// False where more than `most` triangles would have to be added. Progress goes on from `progress`.
+  bool run(const Task& task, std::size_t most, double& progress);
   Embedding result() const;
 
  private:
@@ -81,11 +92,15 @@ class Refinement {
   bool merge_ends(FaceHandle f);
   FaceHandle flip_longest(FaceHandle f);
   void consider(FaceHandle f);
+  HalfedgeHandle refinement_edge(FaceHandle f) const;
+  void begin_newest_vertex_bisection();
+  bool refine(FaceHandle f, std::size_t most);
   void bisect(EdgeHandle e);
 
   const Surface& surface_;
   const Metric& metric_;
   const EmbedOptions& options_;
+  Scheme scheme_;
   HalfEdgeMesh mesh_;
   std::size_t fans_;               // vertices of the surface's half-edge mesh
   std::vector<bool> is_turned_;    // per fan: its side of the surface is the other one than its vertex's normal's
@@ -93,6 +108,10 @@ class Refinement {
   std::vector<double> weights_;    // normal_weight() of the tensor of every vertex
   std::vector<double> lengths_;    // per edge
   std::vector<std::int32_t> source_face_;  // per face
+  std::vector<std::uint8_t> depth_;        // per face: bisections since the original face, up to kNewestDepth
+  std::size_t first_newest_ = 0;           // vertices from here on are of newest-vertex bisection; 0: it has not begun
+  std::vector<std::int32_t> deferred_;     // invalid triangles left to newest-vertex bisection
+  std::vector<FaceHandle> chain_;          // triangles to bisect, the last one first
   std::priority_queue<Candidate> queue_;   // invalid triangles that may be bisected; entries grow stale
   std::vector<LooseEdge> merged_;          // between vertices at the same place, of which only the second has faces now
   bool has_merged_ = false;
@@ -101,10 +120,11 @@ class Refinement {
   bool hit_cap_ = false;
 };
 
-Refinement::Refinement(const Surface& surface, const Metric& metric, const EmbedOptions& options)
+Refinement::Refinement(const Surface& surface, const Metric& metric, const EmbedOptions& options, Scheme scheme)
     : surface_(surface),
       metric_(metric),
       options_(options),
+      scheme_(scheme),
       mesh_(surface.half_edges()),
       fans_(mesh_.n_vertices()),
       source_face_(surface.face_of_half_edge_face()) {
@@ -114,6 +134,7 @@ Refinement::Refinement(const Surface& surface, const Metric& metric, const Embed
   }
   orient_normals();
   mend();
+  depth_.assign(source_face_.size(), 0);
   lengths_.resize(mesh_.n_edges());
   for (const EdgeHandle e : mesh_.edges()) lengths_[index(e)] = measure(mesh_.halfedge_handle(e, 0));
 }
@@ -280,7 +301,66 @@ FaceHandle Refinement::flip_longest(FaceHandle f) {
 void Refinement::consider(FaceHandle f) {
   if (is_valid(f) || is_flat(f)) return;
   const double p = perimeter(f);
-  if (p >= options_.sigma) queue_.push({static_cast<float>(p), f.idx()});
+  if (p < options_.sigma) return;
+  if (scheme_ == Scheme::kPropagate && first_newest_ == 0 && depth_[index(f)] >= kNewestDepth) {
+    deferred_.push_back(f.idx());
+  } else {
+    queue_.push({static_cast<float>(p), f.idx()});
+  }
+}
+
+// The mesh as it stands becomes the starting triangulation.
+void Refinement::begin_newest_vertex_bisection() {
+  first_newest_ = mesh_.n_vertices();
+  std::vector<std::int32_t> deferred;
+  deferred.swap(deferred_);
+  std::sort(deferred.begin(), deferred.end());
+  deferred.erase(std::unique(deferred.begin(), deferred.end()), deferred.end());
+  for (const std::int32_t f : deferred) consider(FaceHandle(f));
+}
+
+// Where a triangle is to be bisected. Once newest-vertex bisection has begun: opposite its newest vertex; else, and for
+// triangles of the starting triangulation, at its longest edge. Edges are in one strict order, that of their rounded
+// lengths and then of their numbers, so a chain of neighbours with ever longer edges ends.
+HalfedgeHandle Refinement::refinement_edge(FaceHandle f) const {
+  if (scheme_ == Scheme::kPaper) return longest(f);
+  const std::array<HalfedgeHandle, 3> all = sides(f);
+  if (first_newest_ > 0) {
+    for (const HalfedgeHandle h : all) {
+      const HalfedgeHandle b = mesh_.next_halfedge_handle(h);
+      const VertexHandle apex = mesh_.to_vertex_handle(b);
+      const VertexHandle newest = std::max({apex, mesh_.from_vertex_handle(h), mesh_.to_vertex_handle(h)});
+      if (apex == newest && index(newest) >= first_newest_) return h;
+    }
+  }
+  const auto key = [&](HalfedgeHandle h) {
+    return std::pair(static_cast<float>(length(h)), mesh_.edge_handle(h).idx());
+  };
+  HalfedgeHandle best = all[0];
+  for (const HalfedgeHandle h : {all[1], all[2]}) {
+    if (key(h) > key(best)) best = h;
+  }
+  return best;
+}
+
+// Bisects a face, and before it those that the scheme wants bisected first; false where that takes too many triangles.
+bool Refinement::refine(FaceHandle f, std::size_t most) {
+  chain_.assign(1, f);
+  while (!chain_.empty()) {
+    const HalfedgeHandle h = refinement_edge(chain_.back()), beyond = mesh_.opposite_halfedge_handle(h);
+    const bool is_boundary = mesh_.is_boundary(beyond);
+    if (scheme_ == Scheme::kPropagate && !is_boundary) {
+      const FaceHandle neighbour = mesh_.face_handle(beyond);
+      if (refinement_edge(neighbour) != beyond) {
+        chain_.push_back(neighbour);
+        continue;
+      }
+    }
+    if (faces_added_ + (is_boundary ? 1 : 2) > most) return false;
+    bisect(mesh_.edge_handle(h));
+    chain_.pop_back();
+  }
+  return true;
 }
 
 void Refinement::bisect(EdgeHandle e) {
@@ -289,7 +369,10 @@ void Refinement::bisect(EdgeHandle e) {
   // The new faces come in this order (OpenMesh's TriConnectivity::split).
   for (const HalfedgeHandle side : {h, o}) {
     if (mesh_.is_boundary(side)) continue;
-    source_face_.push_back(source_face_[index(mesh_.face_handle(side))]);
+    const std::size_t f = index(mesh_.face_handle(side));
+    source_face_.push_back(source_face_[f]);
+    if (depth_[f] < kNewestDepth) ++depth_[f];
+    depth_.push_back(depth_[f]);
     ++faces_added_;
   }
   tensors_.push_back(midpoint_tensor(tensor_at(a), tensor_at(b)));
@@ -310,29 +393,30 @@ void Refinement::bisect(EdgeHandle e) {
   } while (out != first);
 }
 
-void Refinement::run(const Task& task) {
+bool Refinement::run(const Task& task, std::size_t most, double& progress) {
   for (const FaceHandle f : mesh_.faces()) {
     if (!is_valid(f)) ++invalid_before_;
     consider(f);
   }
-  double progress = 0;
   task.check(progress);
-  for (std::size_t splits = 0; !queue_.empty();) {
+  for (std::size_t steps = 0;;) {
+    if (queue_.empty()) {
+      if (deferred_.empty()) return true;
+      begin_newest_vertex_bisection();
+      continue;
+    }
     const Candidate next = queue_.top();
     queue_.pop();
     const FaceHandle f(next.face);
     // A face changes when a neighbour is bisected, and is queued again if it is still invalid.
     if (static_cast<float>(perimeter(f)) != next.perimeter || is_valid(f)) continue;
-    const HalfedgeHandle h = longest(f);
-    const std::size_t more = mesh_.is_boundary(mesh_.opposite_halfedge_handle(h)) ? 1 : 2;
-    if (faces_added_ + more > options_.max_faces_added) {
+    if (!refine(f, most)) {
       hit_cap_ = true;
-      return;
+      return false;
     }
-    bisect(mesh_.edge_handle(h));
-    if (++splits % kReportEvery == 0) {
-      // How many splits are still to come is not known; each queued triangle needs one at least.
-      const auto done = static_cast<double>(splits);
+    if (++steps % kReportEvery == 0) {
+      // How many are still to come is not known; each queued triangle needs one at least.
+      const auto done = static_cast<double>(steps);
       progress = std::max(progress, done / (done + static_cast<double>(queue_.size())));
       task.check(progress);
     }
@@ -413,11 +497,21 @@ Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions
   check_metric(surface, metric);
   if (!(options.sigma >= 0)) throw InvalidInput("sigma is " + std::to_string(options.sigma) + ", not 0 or more");
   task.check(0);
-  Refinement refinement(surface, metric, options);
-  refinement.run(task);
-  Embedding out = refinement.result();
-  task.check(1);
-  return out;
+  double progress = 0;
+  const auto done = [&](const Refinement& refinement) {
+    Embedding out = refinement.result();
+    task.check(1);
+    return out;
+  };
+  const std::size_t budget = std::max(kLeastBudget, kBudget * surface.face_count());
+  {
+    Refinement paper(surface, metric, options, Scheme::kPaper);
+    const std::size_t most = std::min(budget, options.max_faces_added);
+    if (paper.run(task, most, progress) || most == options.max_faces_added) return done(paper);
+  }
+  Refinement propagating(surface, metric, options, Scheme::kPropagate);
+  propagating.run(task, options.max_faces_added, progress);
+  return done(propagating);
 }
 
 }  // namespace seamwire

@@ -307,6 +307,54 @@ TEST(Embed, SplitsLargestPerimeterFirst) {
   EXPECT_EQ(few.faces_added, 2U);
 }
 
+// Under M_max the paper's scheme alone adds over four million triangles here.
+TEST(Embed, EndsWhereThePapersSchemeDoesNot) {
+  const Surface surface = shapes::torus(24, 40).surface();
+  const Curvature curvature = principal_curvatures(surface);
+  for (const double a : {15.0, 20.0, 30.0, 100.0, 1000.0}) {
+    for (const Follow follow : {Follow::kMin, Follow::kMax}) {
+      const Embedding embedding = embed(surface, feature_metric(surface, curvature, follow, {.max_anisotropy = a}));
+      EXPECT_FALSE(embedding.hit_cap) << a;
+      EXPECT_EQ(embedding.invalid_left, 0U) << a;
+      EXPECT_LT(embedding.faces_added, 200'000U) << a;
+      expect_sound(surface, embedding);
+    }
+  }
+}
+
+TEST(Embed, AddsWhatThePapersSchemeDoesWhereThatEnds) {
+  // 9312 is what the paper's scheme adds with no other to fall back on.
+  const Surface surface = shapes::torus(24, 40).surface();
+  const Metric metric = feature_metric(surface, principal_curvatures(surface), Follow::kMax, {.max_anisotropy = 10});
+  EXPECT_LE(embed(surface, metric).faces_added, 9312U * 3 / 2);
+}
+
+TEST(Embed, EndsOnBumpyShapesAtAnyAnisotropy) {
+  for (const Mesh& mesh : {shapes::bumpy(shapes::icosphere(3), 0.05), shapes::bumpy(shapes::torus(40, 20), 0.05)}) {
+    const Surface surface = mesh.surface();
+    const Curvature curvature = principal_curvatures(surface);
+    for (const double a : {100.0, 1000.0}) {
+      for (const Follow follow : {Follow::kMin, Follow::kMax}) {
+        const Embedding embedding = embed(surface, feature_metric(surface, curvature, follow, {.max_anisotropy = a}));
+        EXPECT_FALSE(embedding.hit_cap) << a;
+        EXPECT_EQ(embedding.invalid_left, 0U) << a;
+        expect_sound(surface, embedding);
+      }
+    }
+  }
+}
+
+// Neighbours agree on their edges, and no vertex lies within an edge, also where a chain of neighbours was bisected.
+TEST(Embed, StaysConformingWhereItLeavesThePapersScheme) {
+  const Surface surface = shapes::torus(24, 40).surface();
+  const Embedding embedding =
+      embed(surface, feature_metric(surface, principal_curvatures(surface), Follow::kMax, {.max_anisotropy = 20}));
+  ASSERT_GT(embedding.faces_added, 20'000U);  // more than the paper's scheme may add here
+  EXPECT_EQ(std::ranges::count_if(embedding.mesh.twins, [](std::int32_t twin) { return twin < 0; }), 0);
+  // A closed surface of genus 1: a vertex within an edge would leave gaps.
+  EXPECT_EQ(2 * at(embedding.mesh.vertex_count), embedding.mesh.face_count());
+}
+
 TEST(Embed, BisectsBoundaryEdges) {
   // One triangle, whose long edge in the metric is on the boundary: splits add one face each.
   const Surface surface({{0, 0, 0}, {1, 0, 0}, {0.5, 0.4, 0}}, {{0, 1, 2}});

@@ -39,7 +39,9 @@ struct Embedding {
 };
 
 /// Bisects invalid triangles, largest perimeter first, at the midpoint of their longest edge in the metric, until none
-/// is left. Lengths are those of the ambient reading (metric.hpp).
+/// is left. Where that takes more than four times the surface's triangles, and 20 000, it begins anew and bisects the
+/// neighbour behind the edge first, until that edge is the neighbour's longest too (docs/method.md). Lengths are those
+/// of the ambient reading (metric.hpp).
 ///
 /// Where the surface is cut open each side is bisected on its own. Triangles without an area cannot be bisected away:
 /// they are taken away before, by merging corners at the same place (one of the two vertices then has no triangle, but
