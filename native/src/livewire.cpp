@@ -24,6 +24,10 @@ constexpr std::array kFollow = {Follow::kMin, Follow::kMax};
 /// Fractions of the first solve's work, preparation included, at which its parts begin.
 constexpr double kEmbedBegins = 0.1, kSolveBegins = 0.5;
 
+/// An artist waits for an embedding, and one that runs away is better cut short, with small holes: at most so many
+/// triangles are added, or so many times the surface's.
+constexpr std::size_t kFacesAdded = 200'000, kFacesAddedPerFace = 12;
+
 /// What one metric needs for any seed: the first two across the surface, the last along edges.
 struct Prepared {
   std::optional<Embedding> embedding;
@@ -134,7 +138,9 @@ Prepared LiveWire::Impl::prepare(std::size_t which, std::atomic<double>& fractio
       fraction = kEmbedBegins + (kSolveBegins - kEmbedBegins) * done;
       return true;
     };
-    prepared.embedding = embed(*surface, metric, {}, task);
+    const EmbedOptions embed_options{.max_faces_added =
+                                         std::max(kFacesAdded, kFacesAddedPerFace * surface->face_count())};
+    prepared.embedding = embed(*surface, metric, embed_options, task);
     prepared.geodesics.emplace(prepared.embedding->mesh);
   } else {
     prepared.graph = make_edge_graph(*surface, metric);
