@@ -179,8 +179,8 @@ TEST(Embed, DoesNotDependOnTheScaleOfTheInput) {
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
   Metric metric;
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    const Vector p = mesh.points[v], ring = 0.35 * Vector(p.x(), p.y(), 0).normalized();
+  for (const Vector& p : mesh.points) {
+    const Vector ring = 0.35 * Vector(p.x(), p.y(), 0).normalized();
     const Vector n = (p - ring).normalized(), e1 = n.cross(Vector(normal(random), normal(random), 1)).normalized();
     metric.normals.push_back(n);
     metric.tensors.push_back(12 * e1 * e1.transpose() + n.cross(e1) * n.cross(e1).transpose() / 12);
@@ -425,7 +425,7 @@ TEST(Embed, TakesTheSidesOfAOneSidedSurfaceForOne) {
     }
     const Surface surface = mesh.surface();
     EXPECT_EQ(surface.report().unorientable_edges.size(), closed ? std::size_t{rows} : 0U);
-    const Embedding embedding = embed(surface, metric);
+    Embedding embedding = embed(surface, metric);
     expect_sound(surface, embedding);
     return embedding;
   };

@@ -59,14 +59,14 @@ double distance_to_wire(const Wire& wire, const Vector& p) {
 
 /// What snapping minimises, by brute force.
 double closeness(const Surface& surface, const Wire& wire, std::int32_t a, std::int32_t b) {
-  constexpr int samples = 400;
+  constexpr int kSamples = 400;
   const Vector &p = surface.points()[index(a)], &q = surface.points()[index(b)];
   double sum = 0;
-  for (int i = 0; i < samples; ++i) {
-    const double t = (i + 0.5) / samples;
+  for (int i = 0; i < kSamples; ++i) {
+    const double t = (i + 0.5) / kSamples;
     sum += distance_to_wire(wire, (1 - t) * p + t * q);
   }
-  return sum * (q - p).norm() / samples;
+  return sum * (q - p).norm() / kSamples;
 }
 
 /// The edges of the faces that a wire crosses and of the faces that share an edge with those. Every edge of a triangle
