@@ -115,12 +115,21 @@ def test_what_the_callback_raises_comes_out(work: Work) -> None:
         work(lambda: None)  # takes no argument
 
 
+@pytest.fixture
+def heeds_control_c() -> Iterator[None]:
+    """Listen to Ctrl-C; a shell lets what it runs in the background ignore it, and Python then does so too."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 def interrupt_after(seconds: float) -> threading.Timer:
     timer = threading.Timer(seconds, os.kill, (os.getpid(), signal.SIGINT))
     timer.start()
     return timer
 
 
+@pytest.mark.usefixtures("heeds_control_c")
 def test_control_c_stops_long_work(embedding_of_large: sw.Embedding) -> None:
     timer = interrupt_after(0.03)
     try:
@@ -131,6 +140,7 @@ def test_control_c_stops_long_work(embedding_of_large: sw.Embedding) -> None:
         timer.join()
 
 
+@pytest.mark.usefixtures("heeds_control_c")
 def test_control_c_ends_waiting(large: sw.Surface) -> None:
     live = sw.LiveWire(large)
     timer = interrupt_after(0.02)
