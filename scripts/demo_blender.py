@@ -49,7 +49,7 @@ def load(path: Path) -> bpy.types.Object:
     try:
         importers[path.suffix.lower()](str(path))
     except (RuntimeError, ValueError, OSError, IndexError, KeyError) as error:
-        raise DemoError(f"{path.name} cannot be read: {error}") from error
+        raise DemoError(f"{path.name} cannot be read: not a sound {path.suffix[1:].upper()} file") from error
     meshes = [obj for obj in bpy.context.scene.objects if obj.type == "MESH" and len(obj.data.polygons) > 0]
     if not meshes:
         raise DemoError(f"{path.name}: no faces in it")
