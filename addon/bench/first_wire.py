@@ -36,25 +36,25 @@ class Watch:
 
 def first_wire(obj: bpy.types.Object, along: str) -> dict[str, float]:
     """Do what the tool does from its start to the first wire; return the milliseconds of each step."""
-    from seamwire import edit_mesh, operator, picking, session
+    from seamwire import drawing, edit_mesh, picking, session
 
     steps = {}
     watch = Watch()
     cage = edit_mesh.Cage(obj)
     arrays = edit_mesh.read(obj)
     steps["read"] = watch.lap()
-    drawing = session.Session(operator.live_maker(arrays), arrays.points, along)
+    wires = session.Session(drawing.live_maker(arrays), arrays.points, along)
     steps["surface"] = watch.lap()
     picking.Picker(cage.bm, 1.0)
     steps["picker"] = watch.lap()
-    drawing.wait()
+    wires.wait()
     steps["metrics"] = watch.lap()
-    drawing.start(0)
-    drawing.wait()
+    wires.start(0)
+    wires.wait()
     steps["seed"] = watch.lap()
-    drawing.hover(len(arrays.points) // 2)
+    wires.hover(len(arrays.points) // 2)
     steps["wire"] = watch.lap()
-    if drawing.active is None:
+    if wires.active is None:
         sys.exit(f"No wire leads from vertex 0 to vertex {len(arrays.points) // 2} of {obj.name}")
     return steps
 

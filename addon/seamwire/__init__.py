@@ -18,11 +18,11 @@ bl_info = {
 for _name in [name for name in sys.modules if name.startswith(f"{__name__}.")]:
     del sys.modules[_name]
 
-_PARTS = ("operator", "keymap", "ui")
+_PARTS = ("preferences", "operator", "keymap", "tool", "ui")
 
 
 def register() -> None:
-    """Add the operators, the key and the menu entries."""
+    """Add the preferences, the operators, the keys, the tool and the menu entries."""
     for part in _PARTS:
         import_module(f".{part}", __package__).register()
 

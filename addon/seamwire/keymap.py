@@ -1,74 +1,173 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The keys: one to start the tool, and what each does while it runs."""
+"""The keys: one table of what each does, registered with Blender so that its user can change them."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from enum import Enum, auto
+from dataclasses import dataclass, replace
+from enum import Enum
 from typing import TYPE_CHECKING
 
 import bpy
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
 OPERATOR = "mesh.seamwire_draw"
+ACTION_OPERATOR = "mesh.seamwire_key"
+"""Stands for what a key does while the tool runs; it does nothing by itself."""
+NAME = "Seamwire"
+"""The name of the keymap that holds those keys."""
 START = {"type": "W", "value": "PRESS", "ctrl": True, "alt": True}
 
 
 class Action(Enum):
-    """What the artist asks for."""
+    """What the artist asks for; the value is what the preferences and the help call it."""
 
-    CLICK = auto()
-    START_CHAIN = auto()
-    LOOP = auto()
-    END_CHAIN = auto()
-    TOGGLE = auto()
-    SWITCH = auto()
-    UNDO = auto()
-    REDO = auto()
-    FINISH = auto()
-    LEAVE = auto()
+    CLICK = "Seed, keep, join or drag"
+    NEW_CHAIN = "New chain"
+    LOOP = "Take the loop"
+    DROP = "Drop the wire under the cursor"
+    END_CHAIN = "End the chain"
+    TOGGLE = "Other wire"
+    STRONGER = "Follow the shape more"
+    WEAKER = "Follow the shape less"
+    ZOOM_IN = "Zoom in"
+    ZOOM_OUT = "Zoom out"
+    CLOSE = "Close the loop"
+    RUN = "Run to the end"
+    MARKING = "Mark or clear"
+    XRAY = "X-ray"
+    MIRROR = "Mirror"
+    SWITCH = "Along edges or across the surface"
+    SNAP = "Snap to features"
+    RESUME = "Go on with the wires kept before"
+    HELP = "Show the keys"
+    UNDO = "Undo"
+    REDO = "Redo"
+    FINISH = "Finish"
+    LEAVE = "Drop the live wire, then leave"
 
 
 @dataclass(frozen=True)
 class Key:
-    """A key or a button and what it does. None for a modifier: held or not."""
+    """A key or a button with its modifiers: 1 held, 0 not held, -1 either."""
 
-    action: Action
     type: str
     value: str = "PRESS"
-    ctrl: bool | None = None
-    shift: bool | None = None
-    alt: bool | None = None
+    ctrl: int = 0
+    shift: int = 0
+    alt: int = 0
+    oskey: int = 0
 
     def matches(self, event: bpy.types.Event, value: str) -> bool:
-        """Whether an event of this value is this key."""
-        ctrl = event.ctrl or event.oskey
-        held = ((self.ctrl, ctrl), (self.shift, event.shift), (self.alt, event.alt))
-        return (
-            event.type == self.type
-            and value == self.value
-            and all(wanted is None or wanted == is_held for wanted, is_held in held)
-        )
+        """Whether an event is this key, taken for one of another value."""
+        pressed = "PRESS" if self.value in {"ANY", "CLICK"} else self.value
+        return event.type == self.type and value == pressed and self.held(event)
+
+    def held(self, event: bpy.types.Event) -> bool:
+        """Whether its modifiers are as it wants them. The command key of other systems counts as Ctrl."""
+        ctrl = event.ctrl if self.oskey == 1 else event.ctrl or event.oskey
+        wanted = ((self.ctrl, ctrl), (self.shift, event.shift), (self.alt, event.alt))
+        if self.oskey == 1 and not event.oskey:
+            return False
+        return all(want == -1 or bool(want) == bool(is_held) for want, is_held in wanted)
+
+    @property
+    def modifiers(self) -> str:
+        """The modifiers that must be held, as Blender writes them."""
+        names = (("Shift", self.shift), ("Ctrl", self.ctrl), ("Alt", self.alt), ("Cmd", self.oskey))
+        return " ".join(name for name, want in names if want == 1)
+
+    @property
+    def text(self) -> str:
+        """The key in words."""
+        double = "Double-" if self.value == "DOUBLE_CLICK" else ""
+        name = double + _NAMES.get(self.type, self.type.replace("_", " ").title())
+        return f"{self.modifiers} {name}".strip()
+
+    @property
+    def icon(self) -> str:
+        """Blender's icon of the key without its modifiers; an empty string where there is none."""
+        if self.type in _ICONS:
+            return _ICONS[self.type]
+        letter = len(self.type) == 1 and self.type.isalpha()
+        function = self.type[:1] == "F" and self.type[1:].isdigit() and int(self.type[1:]) <= 12
+        return f"EVENT_{self.type}" if letter or function else ""
 
 
-KEYS = (
-    Key(Action.LOOP, "LEFTMOUSE", value="DOUBLE_CLICK"),
-    Key(Action.LOOP, "LEFTMOUSE", alt=True),
-    Key(Action.START_CHAIN, "LEFTMOUSE", ctrl=True),
-    Key(Action.CLICK, "LEFTMOUSE"),
-    Key(Action.END_CHAIN, "RIGHTMOUSE"),
-    Key(Action.TOGGLE, "WHEELUPMOUSE", ctrl=False, shift=False, alt=False),
-    Key(Action.TOGGLE, "WHEELDOWNMOUSE", ctrl=False, shift=False, alt=False),
-    Key(Action.SWITCH, "E", ctrl=False, shift=False, alt=False),
-    Key(Action.UNDO, "Z", ctrl=True, shift=False, alt=False),
-    Key(Action.REDO, "Z", ctrl=True, shift=True, alt=False),
-    Key(Action.FINISH, "RET"),
-    Key(Action.FINISH, "NUMPAD_ENTER"),
-    Key(Action.LEAVE, "ESC"),
+_ANY = {"ctrl": -1, "shift": -1, "alt": -1}
+
+KEYS: tuple[tuple[Action, Key], ...] = (
+    (Action.LOOP, Key("LEFTMOUSE", "DOUBLE_CLICK")),
+    (Action.LOOP, Key("LEFTMOUSE", alt=1)),
+    (Action.NEW_CHAIN, Key("LEFTMOUSE", ctrl=1)),
+    (Action.DROP, Key("LEFTMOUSE", shift=1)),
+    (Action.DROP, Key("DEL")),
+    (Action.CLICK, Key("LEFTMOUSE")),
+    (Action.END_CHAIN, Key("RIGHTMOUSE")),
+    (Action.TOGGLE, Key("WHEELUPMOUSE")),
+    (Action.TOGGLE, Key("WHEELDOWNMOUSE")),
+    (Action.TOGGLE, Key("W")),
+    (Action.STRONGER, Key("WHEELUPMOUSE", shift=1)),
+    (Action.WEAKER, Key("WHEELDOWNMOUSE", shift=1)),
+    (Action.ZOOM_IN, Key("WHEELUPMOUSE", ctrl=1)),
+    (Action.ZOOM_OUT, Key("WHEELDOWNMOUSE", ctrl=1)),
+    (Action.CLOSE, Key("C")),
+    (Action.RUN, Key("F")),
+    (Action.MARKING, Key("X")),
+    (Action.XRAY, Key("V")),
+    (Action.MIRROR, Key("M")),
+    (Action.SWITCH, Key("E")),
+    (Action.SNAP, Key("G")),
+    (Action.RESUME, Key("R")),
+    (Action.HELP, Key("H")),
+    (Action.UNDO, Key("Z", ctrl=1)),
+    (Action.UNDO, Key("BACK_SPACE")),
+    (Action.REDO, Key("Z", ctrl=1, shift=1)),
+    (Action.FINISH, Key("RET", **_ANY)),
+    (Action.FINISH, Key("NUMPAD_ENTER", **_ANY)),
+    (Action.FINISH, Key("SPACE")),
+    (Action.LEAVE, Key("ESC", **_ANY)),
 )
 """The first that matches counts."""
+
+_NAMES = {
+    "LEFTMOUSE": "Click",
+    "RIGHTMOUSE": "Right Click",
+    "MIDDLEMOUSE": "Middle Click",
+    "WHEELUPMOUSE": "Wheel Up",
+    "WHEELDOWNMOUSE": "Wheel Down",
+    "RET": "Enter",
+    "NUMPAD_ENTER": "Numpad Enter",
+    "ESC": "Esc",
+    "DEL": "Delete",
+    "BACK_SPACE": "Backspace",
+    "ACCENT_GRAVE": "`",
+    "COMMA": ",",
+    "PERIOD": ".",
+    "ONE": "1",
+    "TWO": "2",
+    "THREE": "3",
+    "FOUR": "4",
+    "FIVE": "5",
+    "SIX": "6",
+    "SEVEN": "7",
+    "EIGHT": "8",
+    "NINE": "9",
+    "ZERO": "0",
+}
+_ICONS = {
+    "LEFTMOUSE": "MOUSE_LMB",
+    "RIGHTMOUSE": "MOUSE_RMB",
+    "MIDDLEMOUSE": "MOUSE_MMB",
+    "WHEELUPMOUSE": "MOUSE_MMB",
+    "WHEELDOWNMOUSE": "MOUSE_MMB",
+    "RET": "EVENT_RETURN",
+    "ESC": "EVENT_ESC",
+    "SPACE": "EVENT_SPACEKEY",
+    "TAB": "EVENT_TAB",
+}
+_WHEEL = ("WHEELUPMOUSE", "WHEELDOWNMOUSE")
 
 _NAVIGATION = frozenset(
     {
@@ -88,10 +187,98 @@ _NAVIGATION = frozenset(
 _SHADING_AND_SIDEBARS = frozenset({"Z", "N", "T"})
 
 
-def action_of(event: bpy.types.Event, double: bool = False) -> Action | None:
-    """Return what an event asks for; `double`: it is the second press of a double click."""
-    value = "DOUBLE_CLICK" if double else event.value
-    return next((key.action for key in KEYS if key.matches(event, value)), None)
+class Bindings:
+    """What each key does now.
+
+    Parameters
+    ----------
+    keys
+        Actions and their keys; the first that matches counts.
+    undo
+        Blender's own keys for undo and redo.
+    """
+
+    def __init__(self, keys: Sequence[tuple[Action, Key]] = KEYS, undo: Sequence[Key] = ()) -> None:
+        # A double click is a press as well: those who want two come first.
+        self._keys = sorted(keys, key=lambda pair: pair[1].value != "DOUBLE_CLICK")
+        self._undo = (*undo, Key("Z", ctrl=1, shift=-1, alt=-1))
+
+    @classmethod
+    def of_user(cls, manager: bpy.types.WindowManager) -> Bindings:
+        """Return what the user has set in Blender's preferences; the defaults where there are no keymaps."""
+        keymap = user_keymap(manager)
+        if keymap is None:
+            return cls()
+        keys = [
+            (Action[item.properties.action], _key(item))
+            for item in keymap.keymap_items
+            if item.active and item.idname == ACTION_OPERATOR and item.key_modifier == "NONE"
+        ]
+        screen = manager.keyconfigs.user.keymaps.get("Screen")
+        undo = [
+            _key(item)
+            for item in (screen.keymap_items if screen else ())
+            if item.active and item.idname in {"ed.undo", "ed.redo", "ed.undo_history"}
+        ]
+        return cls(keys, undo)
+
+    def action_of(self, event: bpy.types.Event, double: bool = False) -> Action | None:
+        """Return what an event asks for; `double`: it is the second press of a double click."""
+        values = ("DOUBLE_CLICK", event.value) if double else (event.value,)
+        return next((action for value in values for action, key in self._keys if key.matches(event, value)), None)
+
+    def keys_of(self, action: Action) -> list[Key]:
+        """Return the keys of an action."""
+        return [key for of, key in self._keys if of is action]
+
+    def previews_loop(self, event: bpy.types.Event) -> bool:
+        """Whether the modifiers are held with which a click would take a loop."""
+        keys = self.keys_of(Action.LOOP)
+        return any(key.modifiers and key.value != "DOUBLE_CLICK" and key.held(event) for key in keys)
+
+    def is_blender_undo(self, event: bpy.types.Event) -> bool:
+        """Whether an event would make Blender undo or redo: that must never happen under the running tool."""
+        return any(event.type == key.type and key.held(event) for key in self._undo)
+
+    def text(self, action: Action) -> str:
+        """Return the keys of an action in words; an empty string where it has none."""
+        keys = self.keys_of(action)
+        merged = list(keys)
+        # Both ways of the wheel are one thing to say.
+        for key in keys:
+            if key.type == _WHEEL[0] and replace(key, type=_WHEEL[1]) in keys:
+                merged[merged.index(key)] = replace(key, type="WHEEL")
+                merged.remove(replace(key, type=_WHEEL[1]))
+        return ", ".join(key.text for key in merged)
+
+    def icon(self, action: Action, single: bool = True) -> tuple[str, str]:
+        """Return the icon of the first key of an action, and what must be written before what it does.
+
+        Parameters
+        ----------
+        action
+            What the key does.
+        single
+            Prefer a key to a double click.
+        """
+        keys = self.keys_of(action)
+        if not keys:
+            return "", ""
+        key = next((key for key in keys if not single or key.value != "DOUBLE_CLICK"), keys[0])
+        if not key.icon:
+            return "", key.text
+        wheel = "Wheel" if key.type in _WHEEL else ""
+        return key.icon, f"{key.modifiers} {wheel}".strip()
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Return each action with its keys, in words, for a table."""
+        return [(self.text(action), action.value) for action in Action if self.keys_of(action)]
+
+
+def _key(item: bpy.types.KeyMapItem) -> Key:
+    if item.any:
+        return Key(item.type, item.value, -1, -1, -1, -1)
+    return Key(item.type, item.value, item.ctrl, item.shift, item.alt, item.oskey)
 
 
 class DoubleClicks:
@@ -102,63 +289,129 @@ class DoubleClicks:
     """
 
     def __init__(self) -> None:
-        self._released: tuple[float, int, int] | None = None
+        self._released: tuple[str, float, int, int] | None = None
 
     def is_second(self, event: bpy.types.Event, now: float, inputs: bpy.types.PreferencesInput) -> bool:
-        """Whether an event is the second press of a double click. To be asked of every event of the left button.
+        """Whether an event is the second press of a double click. To be asked of every event of the mouse's buttons.
 
         Parameters
         ----------
         event
-            Of the left mouse button.
+            Any; only the buttons of the mouse count.
         now
             Seconds, from any beginning.
         inputs
             The preferences, for what counts as a double click and as the same place.
         """
+        if not event.type.endswith("MOUSE") or event.type.startswith("WHEEL"):
+            return False
         if event.value == "RELEASE":
-            self._released = (now, event.mouse_x, event.mouse_y)
+            self._released = (event.type, now, event.mouse_x, event.mouse_y)
             return False
         released, self._released = self._released, None
-        if released is None or event.value != "PRESS":
+        if released is None or event.value != "PRESS" or released[0] != event.type:
             return False
-        soon = (now - released[0]) * 1000.0 < inputs.mouse_double_click_time
-        away = max(abs(event.mouse_x - released[1]), abs(event.mouse_y - released[2]))
+        soon = (now - released[1]) * 1000.0 < inputs.mouse_double_click_time
+        away = max(abs(event.mouse_x - released[2]), abs(event.mouse_y - released[3]))
         return soon and away <= inputs.drag_threshold_mouse
 
 
-def is_navigation(event: bpy.types.Event) -> bool:
+def is_navigation(event: bpy.types.Event, inputs: bpy.types.PreferencesInput | None = None) -> bool:
     """Whether an event moves the view or changes how it is shown, and nothing else."""
     if event.type.startswith("NDOF_") or (event.type.startswith("NUMPAD_") and event.type != "NUMPAD_ENTER"):
         return True
     if event.type in _SHADING_AND_SIDEBARS:
         return not event.ctrl and not event.oskey
+    if emulates_middle_button(event, inputs):
+        return True
     # Alt and the wheel change the frame.
     return event.type in _NAVIGATION and not (event.alt and event.type.startswith("WHEEL"))
 
 
-def is_blender_undo(event: bpy.types.Event) -> bool:
-    """Whether an event would make Blender undo or redo: that must never happen under the running tool."""
-    return event.type == "Z" and (event.ctrl or event.oskey)
+def emulates_middle_button(event: bpy.types.Event, inputs: bpy.types.PreferencesInput | None) -> bool:
+    """Whether an event is one of the middle button that the left one plays."""
+    if inputs is None or not inputs.use_mouse_emulate_3_button or event.type != "LEFTMOUSE":
+        return False
+    return event.oskey if getattr(inputs, "mouse_emulate_3_button_modifier", "ALT") == "OSKEY" else event.alt
+
+
+def user_keymap(manager: bpy.types.WindowManager) -> bpy.types.KeyMap | None:
+    """Return the keymap of the tool's keys with the user's changes; None where there are no keymaps."""
+    configuration = manager.keyconfigs.user
+    return configuration.keymaps.get(NAME) if configuration is not None else None
+
+
+class MESH_OT_seamwire_key(bpy.types.Operator):
+    """Holds the place of a key while seams are drawn"""  # noqa: D400 - a tooltip
+
+    bl_idname = ACTION_OPERATOR
+    bl_label = "Seamwire Key"
+    bl_options = {"INTERNAL"}
+
+    action: bpy.props.EnumProperty(
+        name="Action",
+        description="What the key does",
+        items=tuple((action.name, action.value, "") for action in Action),
+    )
+
+    @classmethod
+    def poll(cls, _context: bpy.types.Context) -> bool:
+        """Never: the drawing looks its keys up itself."""
+        return False
 
 
 _registered: list[tuple[bpy.types.KeyMap, bpy.types.KeyMapItem]] = []
+_SPACE = {"space_type": "VIEW_3D", "region_type": "WINDOW"}
 
 
 def register() -> None:
-    """Add the key that starts the tool in edit mode."""
+    """Add the key that starts the tool in edit mode, and those of the running tool."""
+    bpy.utils.register_class(MESH_OT_seamwire_key)
     _registered.extend(_add())
 
 
 def _add() -> Iterator[tuple[bpy.types.KeyMap, bpy.types.KeyMapItem]]:
-    configuration = bpy.context.window_manager.keyconfigs.addon
-    if configuration is not None:  # there is none in background mode
-        keymap = configuration.keymaps.new(name="Mesh", space_type="EMPTY")
-        yield keymap, keymap.keymap_items.new(OPERATOR, **START)
+    configurations = bpy.context.window_manager.keyconfigs
+    if configurations.addon is None:  # there may be none in background mode
+        return
+    keymap = configurations.addon.keymaps.new(name="Mesh", space_type="EMPTY")
+    yield keymap, keymap.keymap_items.new(OPERATOR, **START)
+    # Blender hands a keymap of an add-on on to the user's only where its own has one of that name.
+    configurations.default.keymaps.new(name=NAME, **_SPACE)
+    keymap = configurations.addon.keymaps.new(name=NAME, **_SPACE)
+    for action, key in KEYS:
+        if key.ctrl == key.shift == key.alt == -1:
+            item = keymap.keymap_items.new(ACTION_OPERATOR, key.type, key.value, any=True)
+        else:
+            held = {"ctrl": key.ctrl == 1, "shift": key.shift == 1, "alt": key.alt == 1}
+            item = keymap.keymap_items.new(ACTION_OPERATOR, key.type, key.value, **held)
+        item.properties.action = action.name
 
 
 def unregister() -> None:
-    """Remove it."""
+    """Remove them."""
     while _registered:
         keymap, item = _registered.pop()
         keymap.keymap_items.remove(item)
+    remove(NAME)
+    bpy.utils.unregister_class(MESH_OT_seamwire_key)
+
+
+def empty(name: str) -> None:
+    """Take the add-on's items out of a keymap, and so out of the user's, where they would stay without their keymap."""
+    configurations = bpy.context.window_manager.keyconfigs
+    keymap = configurations.addon.keymaps.get(name) if configurations.addon is not None else None
+    if keymap is not None:
+        while keymap.keymap_items:
+            keymap.keymap_items.remove(keymap.keymap_items[0])
+        configurations.update()
+
+
+def remove(name: str) -> None:
+    """Remove a keymap that is the add-on's alone."""
+    empty(name)
+    configurations = bpy.context.window_manager.keyconfigs
+    for configuration in (configurations.addon, configurations.default):
+        keymap = configuration.keymaps.get(name) if configuration is not None else None
+        if keymap is not None:
+            configuration.keymaps.remove(keymap)

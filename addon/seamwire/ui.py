@@ -14,19 +14,21 @@ if TYPE_CHECKING:
 
     from .session import Session
 
-MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "VIEW3D_MT_edit_mesh_context_menu")
+MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "VIEW3D_MT_edit_mesh_context_menu", "IMAGE_MT_uvs")
 
 Hint = tuple[str, str]
 """An icon of Blender's, and what it stands for now."""
 
 
-def hints(session: Session, notes: tuple[str, ...] = ()) -> list[Hint]:
+def hints(session: Session, keys: keymap.Bindings, notes: tuple[str, ...] = ()) -> list[Hint]:
     """Return what each button and key would do now, after what there is to say.
 
     Parameters
     ----------
     session
         The drawing.
+    keys
+        What each key does.
     notes
         What holds for the whole drawing.
     """
@@ -56,7 +58,9 @@ def hints(session: Session, notes: tuple[str, ...] = ()) -> list[Hint]:
     return found + [("INFO", note) for note in notes]
 
 
-def status_drawer(session: Session, notes: tuple[str, ...]) -> Callable[[bpy.types.Header, bpy.types.Context], None]:
+def status_drawer(
+    session: Session, keys: keymap.Bindings, notes: tuple[str, ...]
+) -> Callable[[bpy.types.Header, bpy.types.Context], None]:
     """Return what draws the hints in the status bar.
 
     A plain function: Blender makes it a method of its header class, and crashes on a bound method.
@@ -64,7 +68,7 @@ def status_drawer(session: Session, notes: tuple[str, ...]) -> Callable[[bpy.typ
 
     def draw(header: bpy.types.Header, _context: bpy.types.Context) -> None:
         row = header.layout.row(align=False)
-        for icon, text in hints(session, notes):
+        for icon, text in hints(session, keys, notes):
             row.label(text=text, icon=icon)
 
     return draw

@@ -4,7 +4,7 @@
 import bpy
 import pytest
 from scene import add_grid, edit
-from seamwire import edit_mesh, operator, ui
+from seamwire import drawing, edit_mesh, keymap, ui
 from seamwire.session import Session
 
 
@@ -13,13 +13,13 @@ def session() -> Session:
     obj = add_grid(9)
     edit()
     arrays = edit_mesh.read(obj)
-    drawing = Session(operator.live_maker(arrays), arrays.points)
-    drawing.wait()
-    return drawing
+    session = Session(drawing.live_maker(arrays), arrays.points)
+    session.wait()
+    return session
 
 
 def said(session: Session, *notes: str) -> str:
-    return "; ".join(text for _, text in ui.hints(session, notes))
+    return "; ".join(text for _, text in ui.hints(session, keymap.Bindings(), notes))
 
 
 def test_every_icon_is_one_of_blenders(session: Session) -> None:
@@ -29,10 +29,10 @@ def test_every_icon_is_one_of_blenders(session: Session) -> None:
     session.wait()
     session.hover(40)
     session.click(4)  # refused, and said
-    shown = [icon for icon, _ in ui.hints(session, ("A note",))]
+    shown = [icon for icon, _ in ui.hints(session, keymap.Bindings(), ("A note",))]
     session.switch("SURFACE")  # computing
     session.end_chain()
-    shown += [icon for icon, _ in ui.hints(session)]
+    shown += [icon for icon, _ in ui.hints(session, keymap.Bindings())]
     assert [icon for icon in shown if icon not in icons] == []
 
 

@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 import ui as driver
 from scene import add_grid, chain, edit, seams, snapshot
-from seamwire import operator
+from seamwire import drawing
 
 
 def test_a_double_click_takes_a_loop_and_single_clicks_draw(real_ui: driver.RealUi) -> None:
@@ -24,7 +24,7 @@ def test_a_double_click_takes_a_loop_and_single_clicks_draw(real_ui: driver.Real
     before = snapshot(obj, with_seams=False)
     with ui.override():
         bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT")
-    session = operator._running[0].session
+    session = drawing.running[0].session
     ui.wait_until(lambda: not session.computing)
     middle = ui.on_screen((0.13, -0.96, 0.0))
     ui.move(middle)
@@ -38,7 +38,7 @@ def test_a_double_click_takes_a_loop_and_single_clicks_draw(real_ui: driver.Real
     assert session.seed is None, "the first of the two clicks left nothing"
     marked = session.edges()
     ui.key("RET")
-    ui.wait_until(lambda: not operator._running)
+    ui.wait_until(lambda: not drawing.running)
     assert seams(obj) == marked
     after = snapshot(obj, with_seams=False)
     assert after == before
@@ -53,7 +53,7 @@ def test_a_wire_is_drawn_by_hand(real_ui: driver.RealUi) -> None:
     ui.look_from_top(distance=4.0)
     with ui.override():
         bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT")
-    session = operator._running[0].session
+    session = drawing.running[0].session
 
     def at(vertex: int) -> tuple[float, float]:
         return ui.on_screen(tuple(obj.data.vertices[vertex].co))
@@ -67,5 +67,5 @@ def test_a_wire_is_drawn_by_hand(real_ui: driver.RealUi) -> None:
     ui.click(at(60), button="RIGHTMOUSE")
     assert session.seed is None
     ui.key("RET")
-    ui.wait_until(lambda: not operator._running)
+    ui.wait_until(lambda: not drawing.running)
     assert seams(obj) == chain(*range(36, 45))

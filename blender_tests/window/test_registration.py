@@ -5,7 +5,7 @@ import bpy
 import traces
 import ui as driver
 from scene import add_grid, edit
-from seamwire import operator
+from seamwire import drawing
 
 TIMES = 20
 
@@ -39,10 +39,10 @@ def test_disabled_while_drawing_it_ends_and_leaves_nothing_behind(ui: driver.Ui)
     with ui.override():
         bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT")
     ui.move((ui.region.width * 0.5, ui.region.height * 0.5))
-    assert operator._running
+    assert drawing.running
     traces.disable()
     try:
-        assert not operator._running
+        assert not drawing.running
         ui.move((ui.region.width * 0.4, ui.region.height * 0.5))
         ui.pixels()
     finally:

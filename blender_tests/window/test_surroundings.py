@@ -4,7 +4,7 @@
 import bpy
 import ui as driver
 from scene import add_grid, edit
-from seamwire import operator
+from seamwire import drawing
 from seamwire.session import Session
 
 
@@ -17,7 +17,7 @@ def start(ui: driver.Ui) -> tuple[bpy.types.Object, Session]:
     with ui.override():
         bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT")
     ui.wait()
-    return obj, operator._running[0].session
+    return obj, drawing.running[0].session
 
 
 def test_over_toolbars_the_tool_lets_go_of_the_mouse(ui: driver.Ui) -> None:
@@ -28,17 +28,17 @@ def test_over_toolbars_the_tool_lets_go_of_the_mouse(ui: driver.Ui) -> None:
     over = (tools.x + tools.width * 0.5 - ui.region.x, tools.y + tools.height * 0.5 - ui.region.y)
     ui.move(over)
     assert session.target is None
-    assert operator._running
+    assert drawing.running
     ui.move((ui.region.width * 0.5, ui.region.height * 0.5))
     ui.key("ESC")
-    assert not operator._running
+    assert not drawing.running
 
 
 def test_loading_a_file_ends_the_tool(ui: driver.Ui) -> None:
     start(ui)
     handlers = len(bpy.app.handlers.load_pre)
     bpy.ops.wm.read_homefile(use_factory_startup=True)
-    assert not operator._running
+    assert not drawing.running
     assert len(bpy.app.handlers.load_pre) == handlers - 1
     ui.wait(4)
     fresh = driver.Ui()

@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The add-on's preferences: how the drawing looks, what the wheel does, and the keys."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import bpy
+
+from . import keymap, tool
+
+if TYPE_CHECKING:
+    from .keymap import Action
+
+
+def _colour(name: str, description: str, default: tuple[float, float, float, float]) -> object:
+    return bpy.props.FloatVectorProperty(
+        name=name, description=description, subtype="COLOR_GAMMA", size=4, min=0.0, max=1.0, default=default
+    )
+
+
+class SeamwirePreferences(bpy.types.AddonPreferences):
+    """What the add-on remembers from one start of Blender to the next."""
+
+    bl_idname = __package__
+
+    line_width: bpy.props.FloatProperty(
+        name="Line Width",
+        description="How much wider or thinner wires and seeds are drawn; Blender's display scale counts as well",
+        default=1.0,
+        min=0.25,
+        max=5.0,
+        soft_max=3.0,
+    )
+    theme_colours: bpy.props.BoolProperty(
+        name="Colours of the Theme", description="Draw kept wires in the theme's colour of seams", default=True
+    )
+    active_colour: _colour("Live Wire", "The wire that a click keeps", (1.0, 0.72, 0.05, 1.0))
+    other_colour: _colour("Other Wire", "The wire that toggling brings forward", (0.5, 0.8, 1.0, 0.75))
+    kept_colour: _colour("Kept Wires", "Wires whose edges become seams", (1.0, 0.2, 0.1, 1.0))
+    clear_colour: _colour("Cleared Seams", "Wires whose edges cease to be seams", (0.82, 0.86, 0.95, 1.0))
+    loop_colour: _colour("Loop", "The loop that a click takes", (0.3, 1.0, 0.55, 1.0))
+    seed_colour: _colour("Seeds", "Seeds, and what is under the cursor", (1.0, 1.0, 1.0, 1.0))
+    tint: bpy.props.FloatProperty(
+        name="Tint of Segments",
+        description="How strongly the segments that seams and wires make are tinted; 0: not at all",
+        default=0.22,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+    )
+    show_text: bpy.props.BoolProperty(
+        name="Text in the View", description="Write the number of segments and other hints in the 3D view", default=True
+    )
+    always_zoom: bpy.props.BoolProperty(
+        name="Wheel Always Zooms",
+        description="The wheel zooms also while a wire is live: the other wire is then had with its key alone",
+        default=False,
+    )
+    resume: bpy.props.EnumProperty(
+        name="Wires Kept Before",
+        description="What starting the tool does about the wires that an earlier drawing left with the mesh",
+        items=(
+            ("ASK", "Offer", "Say that they are there; a key takes them up again"),
+            ("ALWAYS", "Take Up", "Go on with them at once"),
+            ("NEVER", "Leave", "Begin anew"),
+        ),
+        default="ASK",
+    )
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Show them in Blender's preferences."""
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        column = layout.column(heading="Drawing")
+        column.prop(self, "line_width")
+        column.prop(self, "tint")
+        column.prop(self, "show_text")
+        column = layout.column(heading="Colours")
+        column.prop(self, "theme_colours")
+        kept = column.row()
+        kept.enabled = not self.theme_colours
+        kept.prop(self, "kept_colour")
+        for name in ("active_colour", "other_colour", "clear_colour", "loop_colour", "seed_colour"):
+            column.prop(self, name)
+        column = layout.column(heading="Manners")
+        column.prop(self, "always_zoom")
+        column.prop(self, "resume")
+        layout.use_property_split = False
+        draw_keys(layout, context)
+
+
+def draw_keys(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    """Show the keys, to be changed."""
+    configuration = context.window_manager.keyconfigs.user
+    box = layout.box()
+    box.label(text="Keys", icon="MOUSE_LMB")
+    for map_name, idname in (("Mesh", keymap.OPERATOR), (tool.KEYMAP, keymap.OPERATOR)):
+        keys = configuration.keymaps.get(map_name) if configuration is not None else None
+        for item in keys.keymap_items if keys is not None else ():
+            if item.idname == idname:
+                _draw_key(box, keys, item, "Start" if map_name == "Mesh" else "Start with the toolbar's tool")
+    keys = keymap.user_keymap(context.window_manager)
+    if keys is None:
+        box.label(text="There are no keymaps here")
+        return
+    last: Action | None = None
+    for item in keys.keymap_items:
+        if item.idname == keymap.ACTION_OPERATOR:
+            action = keymap.Action[item.properties.action]
+            _draw_key(box, keys, item, action.value if action is not last else "")
+            last = action
+    row = box.row()
+    row.context_pointer_set("keymap", keys)
+    row.label()
+    if keys.is_user_modified:
+        row.operator("preferences.keymap_restore", text="Restore All", icon="BACK")
+
+
+def _draw_key(box: bpy.types.UILayout, keys: bpy.types.KeyMap, item: bpy.types.KeyMapItem, text: str) -> None:
+    split = box.split(factor=0.4)
+    split.label(text=text)
+    row = split.row()
+    row.context_pointer_set("keymap", keys)
+    row.prop(item, "active", text="", emboss=False)
+    sub = row.row()
+    sub.active = item.active
+    sub.prop(item, "map_type", text="")
+    sub.prop(item, "type", text="", full_event=True)
+    if item.value == "DOUBLE_CLICK":
+        sub.label(text="twice")
+    if item.is_user_modified:
+        row.operator("preferences.keyitem_restore", text="", icon="BACK").item_id = item.id
+
+
+def get(context: bpy.types.Context | None = None) -> SeamwirePreferences | None:
+    """Return the preferences; None where the add-on runs without being enabled there."""
+    addons = (context or bpy.context).preferences.addons
+    return addons[__package__].preferences if __package__ in addons else None
+
+
+def register() -> None:
+    """Add the preferences."""
+    bpy.utils.register_class(SeamwirePreferences)
+
+
+def unregister() -> None:
+    """Remove them."""
+    bpy.utils.unregister_class(SeamwirePreferences)
