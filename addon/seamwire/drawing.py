@@ -16,19 +16,15 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from . import edit_mesh, overlay, picking, session
-    from .session import Along, LiveWire, Pick, Session
+    from .live import LiveWire
+    from .network import Along, Pick
+    from .session import Session
     from .tool import SeamwireSettings
 else:
     edit_mesh, overlay, picking, session = map(lazy.Part, ("edit_mesh", "overlay", "picking", "session"))
 
 _TICK = 0.05
 """Seconds between two looks at running work: redraws stay below what the eye takes for a stop."""
-
-_STRENGTH = {
-    "EDGES": {"max_anisotropy": 10.0, "clamp_percentile": 99.0},
-    "SURFACE": {"max_anisotropy": 20.0, "clamp_percentile": 99.0},
-}
-"""How strongly wires are drawn to features; docs/method.md says why."""
 
 _Inside = "tuple[bpy.types.Area, bpy.types.Region, picking.View]"
 
@@ -40,7 +36,12 @@ def live_maker(arrays: edit_mesh.Arrays) -> Callable[[Along], LiveWire]:
     """Return what makes the live wires on a mesh for one way of running."""
     core = native.load()
     surface = core.Surface(arrays.points, arrays.triangles, arrays.edges)
-    return lambda along: core.LiveWire(surface, along=along.lower(), **_STRENGTH[along])
+    return lambda along: core.LiveWire(
+        surface,
+        along=along.lower(),
+        max_anisotropy=session.STRENGTHS[along],
+        clamp_percentile=session.CLAMP_PERCENTILE,
+    )
 
 
 def count(number: int, what: str) -> str:

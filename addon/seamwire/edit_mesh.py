@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from mathutils import Matrix
     from numpy.typing import NDArray
 
-    from .session import Pick
+    from .network import Pick
 
 
 @dataclass(frozen=True)

@@ -13,10 +13,10 @@ from .drawing import Drawing, close_all, count, live_maker, only_active, running
 from .tool import ALONG_ITEMS, settings
 
 if TYPE_CHECKING:
-    from . import edit_mesh, session
+    from . import chains, edit_mesh, session
     from .session import Session
 else:
-    edit_mesh, session = map(lazy.Part, ("edit_mesh", "session"))
+    chains, edit_mesh, session = map(lazy.Part, ("chains", "edit_mesh", "session"))
 
 
 def _in_edit_mode(context: bpy.types.Context) -> bool:
@@ -25,7 +25,7 @@ def _in_edit_mode(context: bpy.types.Context) -> bool:
 
 
 def _summary(drawing: Session, new: int) -> str:
-    wires, edges = len(drawing.wires), len(drawing.edges())
+    wires, edges = len(drawing.wires), len(drawing.edges_to_mark())
     already = f", {edges - new} were seams already" if edges > new else ""
     return f"{count(wires, 'wire')}, {count(new, 'edge')} marked{already}"
 
@@ -51,16 +51,16 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Draw the chains, and mark what they run along."""
         try:
-            chains = session.parse_chains(self.chains)
+            seeds = chains.parse_chains(self.chains)
             cage = edit_mesh.Cage(context.active_object)
-            problem = cage.problem_with(pick for chain in chains for pick in chain)
+            problem = cage.problem_with(pick for chain in seeds for pick in chain)
             if problem:
                 raise ValueError(problem)
-            if self.along == "SURFACE" and any(isinstance(pick, tuple) for chain in chains for pick in chain):
+            if self.along == "SURFACE" and any(isinstance(pick, tuple) for chain in seeds for pick in chain):
                 raise ValueError("Across the surface seeds are vertices: give vertex numbers, not edges")
             arrays = edit_mesh.read(context.active_object)
             drawing = session.Session(live_maker(arrays), arrays.points, self.along)
-            problems = session.draw_chains(drawing, chains)
+            problems = chains.draw_chains(drawing, seeds)
         except (ValueError, native.NativeError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -72,7 +72,7 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
         only = only_active(context)
         if only:
             self.report({"INFO"}, only)
-        self.report({"INFO"}, _summary(drawing, cage.mark_seams(drawing.edges())))
+        self.report({"INFO"}, _summary(drawing, cage.mark_seams(drawing.edges_to_mark())))
         return {"FINISHED"}
 
 
@@ -149,7 +149,7 @@ class MESH_OT_seamwire_draw(bpy.types.Operator):
         if not drawing.session.wires:
             self.report({"INFO"}, "No wire was kept, and nothing marked")
             return {"CANCELLED"}
-        new = drawing.board.cage.mark_seams(drawing.session.edges())
+        new = drawing.board.cage.mark_seams(drawing.session.edges_to_mark())
         self.report({"INFO"}, _summary(drawing.session, new))
         # Without a change there is to be no step of undo either.
         return {"FINISHED"} if new else {"CANCELLED"}

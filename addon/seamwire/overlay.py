@@ -15,7 +15,8 @@ from mathutils import Matrix, Vector
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .session import Pick, Session
+    from .network import Pick
+    from .session import Session
 
 Colour = tuple[float, float, float, float]
 
@@ -119,8 +120,9 @@ class Overlay:
             add_curve(ACTIVE, session.active.points)
         if session.loop_preview is not None:
             add_curve(LOOP, session.loop_preview.points)
-        if isinstance(session.target, tuple):
-            add_edges(HOVER, [session.target])
+        target = None if session.target is None else session.target.pick
+        if isinstance(target, tuple):
+            add_edges(HOVER, [target])
         self._lines = [
             (style, batch_for_shader(self._line, "LINES", {"pos": np.concatenate(parts).astype(np.float32)}))
             for style, parts in pieces.items()
@@ -129,8 +131,8 @@ class Overlay:
         seeds = [self._place(pick) for pick in session.seeds()]
         if seeds:
             self._dots.append((SEED, np.array(seeds)))
-        if session.target is not None and not isinstance(session.target, tuple):
-            self._dots.append((HOVER_DOT, self._points[[session.target]]))
+        if target is not None and not isinstance(target, tuple):
+            self._dots.append((HOVER_DOT, self._points[[target]]))
         self._revision = session.revision
 
     def _place(self, pick: Pick) -> NDArray[np.float64]:

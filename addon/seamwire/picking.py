@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from mathutils import Matrix
     from numpy.typing import NDArray
 
-    from .session import Pick
+    from .network import Pick
 
 VERTEX_RADIUS = 12.0
 """Pixels around a vertex in which it is picked rather than its edge..."""

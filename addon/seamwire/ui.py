@@ -52,7 +52,7 @@ def hints(session: Session, keys: keymap.Bindings, notes: tuple[str, ...] = ()) 
     found.append(("EVENT_E", "Go Across Surface" if edges else "Go Along Edges"))
     if session.can_undo:
         found.append(("LOOP_BACK", "Ctrl Z: Take Back"))
-    count = len(session.edges())
+    count = len(session.edges_to_mark())
     found.append(("EVENT_RETURN", f"Mark {count} Edges" if count else "Finish"))
     found.append(("EVENT_ESC", "Leave Without Marking"))
     return found + [("INFO", note) for note in notes]

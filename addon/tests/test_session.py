@@ -7,7 +7,9 @@ import sys
 
 import pytest
 from fake_live import FakeLive, grid_points
-from seamwire.session import Along, Session, draw_chains, parse_chains
+from seamwire.chains import draw_chains, parse_chains
+from seamwire.network import Along
+from seamwire.session import Session
 
 SIZE = 6
 
@@ -80,7 +82,7 @@ def test_a_click_keeps_the_active_wire_and_goes_on_along_its_last_edge() -> None
     assert table.lives["EDGES"].seeded == ((2, 8), True)
     session.click(20)
     assert session.wires[1].vertices == (8, 14, 20), "the edge before the seed is the first wire's"
-    assert session.edges() == [(0, 1), (1, 2), (2, 8), (8, 14), (14, 20)]
+    assert session.edges_to_mark() == [(0, 1), (1, 2), (2, 8), (8, 14), (14, 20)]
     assert session.seeds() == [0, 8, 20]
 
 
@@ -88,7 +90,7 @@ def test_picked_edges_are_part_of_the_wire_and_shown_as_its_seeds() -> None:
     session = Table().session
     session.click((0, 1))
     session.click((3, 4))
-    assert session.edges() == [(0, 1), (1, 2), (2, 3), (3, 4)]
+    assert session.edges_to_mark() == [(0, 1), (1, 2), (2, 3), (3, 4)]
     assert session.seeds() == [(0, 1), (3, 4)]
 
 
@@ -326,7 +328,7 @@ def test_clicks_wait_for_their_wires_in_order() -> None:
     assert session.wires == ()
     assert session.waiting_clicks == 2
     session.hover(30)
-    assert session.target == 2, "what is shown is what the first of them asks for"
+    assert session.target.pick == 2, "what is shown is what the first of them asks for"
     table.lives["EDGES"].ready = (True, True)
     session.poll()
     assert [wire.vertices for wire in session.wires] == [(0, 1, 2), (2, 8, 14)]

@@ -153,12 +153,12 @@ def test_edges_are_lit_before_the_click_and_picked(desk: Desk) -> None:
     middle = desk.at(36, 37)
     assert not shows(ui.pixels(), middle, WHITE)
     ui.move(middle)
-    assert set(session.target) == {36, 37}
+    assert set(session.target.pick) == {36, 37}
     assert shows(ui.pixels(), middle, WHITE)
     ui.click(middle, ctrl=True)
     ui.click(desk.at(42, 43))
     ui.wait_until(lambda: len(session.wires) == 1)
-    assert session.edges() == chain(*range(36, 44))
+    assert session.edges_to_mark() == chain(*range(36, 44))
 
 
 def test_escape_leaves_the_mesh_as_it_was(desk: Desk) -> None:
@@ -250,7 +250,7 @@ def test_alt_shows_the_loop_and_an_alt_click_takes_it(cone: Desk) -> None:
     assert (40, 49) in preview.edges()
     assert shows(ui.pixels(), cone.at(*preview.vertices[1:3]), GREEN)
     ui.click(edge, alt=True)
-    assert session.edges() == sorted(preview.edges())
+    assert session.edges_to_mark() == sorted(preview.edges())
     ui.move(edge)
     assert session.loop_preview is None
     assert session.seed is None
@@ -267,7 +267,7 @@ def test_a_double_click_on_an_edge_takes_its_loop(cone: Desk) -> None:
         ui.event("LEFTMOUSE", "RELEASE", ticks=1)
     ui.wait_until(lambda: len(session.wires) == 1)
     assert session.wires[0].closed
-    assert (40, 49) in session.edges()
+    assert (40, 49) in session.edges_to_mark()
     assert session.seed is None, "the first of the two clicks left nothing"
     ui.key("Z", ctrl=True)
     assert session.wires == ()
@@ -294,7 +294,7 @@ def test_e_switches_to_the_surface_and_back(cone: Desk) -> None:
     ui.wait_until(lambda: session.active is not None)
     assert session.active.along == "EDGES"
     assert session.active.vertices[0] == 60
-    marked = session.edges()
+    marked = session.edges_to_mark()
     assert {v for edge in marked for v in edge} >= {20, 24, 60}
     ui.key("RET")
     assert seams(cone.obj) == marked
@@ -314,7 +314,7 @@ def test_the_view_can_be_moved_while_drawing(desk: Desk) -> None:
     assert desk.running
     ui.click(desk.at(44))
     ui.wait_until(lambda: len(session.wires) == 1)
-    assert session.edges() == chain(*range(36, 45)), "picked where it is seen now"
+    assert session.edges_to_mark() == chain(*range(36, 45)), "picked where it is seen now"
     ui.key("NUMPAD_7")
     assert desk.running
 
@@ -492,5 +492,5 @@ def test_wires_that_are_being_computed_come_when_they_are_ready(desk: Desk, monk
     assert session.wires == ()
     ready[0] = True
     ui.wait_until(lambda: len(session.wires) == 1)
-    assert session.edges() == chain(*range(36, 45))
+    assert session.edges_to_mark() == chain(*range(36, 45))
     ui.wait_until(lambda: not session.computing)

@@ -36,7 +36,7 @@ def test_every_view_of_a_quad_view_can_be_drawn_in(ui: driver.Ui) -> None:
             continue
         session.hover(None)
         ui.move((region.x + at.x - ui.region.x, region.y + at.y - ui.region.y))
-        assert session.target == 40
+        assert session.target.pick == 40
         found += 1
     assert found == 3, "from above twice, for the view that the drawing began in was turned there, and the user's"
     ui.key("ESC")

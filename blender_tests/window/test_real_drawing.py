@@ -28,7 +28,7 @@ def test_a_double_click_takes_a_loop_and_single_clicks_draw(real_ui: driver.Real
     ui.wait_until(lambda: not session.computing)
     middle = ui.on_screen((0.13, -0.96, 0.0))
     ui.move(middle)
-    assert isinstance(session.target, tuple)
+    assert isinstance(session.target.pick, tuple)
     ui.double_click(middle)
     ui.wait_until(lambda: len(session.wires) == 1)
     loop = session.wires[0]
@@ -36,7 +36,7 @@ def test_a_double_click_takes_a_loop_and_single_clicks_draw(real_ui: driver.Real
     assert len(loop.vertices) == 24
     assert np.allclose(loop.points[:, 2], 0.0)
     assert session.seed is None, "the first of the two clicks left nothing"
-    marked = session.edges()
+    marked = session.edges_to_mark()
     ui.key("RET")
     ui.wait_until(lambda: not drawing.running)
     assert seams(obj) == marked

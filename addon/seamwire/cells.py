@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Finds points by their place, for a million of them at once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_SIZE = 16.0
+"""Edge of a cell in tolerances: nearly every point is far from its cell's border, and most cells hold one point."""
+_PRIMES = np.array([73856093, 19349663, 83492791], dtype=np.int64)
+_MOST_IN_A_CELL = 64
+"""Where points are denser than this, the tolerance says nothing, and not all of them are looked at."""
+
+
+class Cells:
+    """Points in the cells of a grid.
+
+    Parameters
+    ----------
+    points
+        (n, 3) places.
+    tolerance
+        How far a point that is looked for may be; positive.
+    """
+
+    def __init__(self, points: NDArray[np.float64], tolerance: float) -> None:
+        self._points = points
+        self._tolerance = tolerance
+        self._size = _SIZE * tolerance
+        keys = self._keys(np.floor(points / self._size).astype(np.int64))
+        self._order = np.argsort(keys, kind="stable")
+        self._sorted = keys[self._order]
+
+    @staticmethod
+    def _keys(cells: NDArray[np.int64]) -> NDArray[np.int64]:
+        # Cells far from each other may share a key: distances decide in the end.
+        return cells[:, 0] * _PRIMES[0] + cells[:, 1] * _PRIMES[1] + cells[:, 2] * _PRIMES[2]
+
+    def nearest(self, places: NDArray[np.float64]) -> NDArray[np.int64]:
+        """Return for each of (m, 3) places the number of the nearest point within the tolerance; -1: there is none."""
+        best = np.full(len(places), -1, dtype=np.int64)
+        gaps = np.full(len(places), self._tolerance**2)
+        for rows, cells in self._cells_around(places):
+            self._look(places, rows, self._keys(cells), best, gaps)
+        return best
+
+    def _cells_around(self, places: NDArray[np.float64]) -> Iterator[tuple[NDArray[np.int64], NDArray[np.int64]]]:
+        """Yield rows of places with the cells that they, and all within the tolerance of them, lie in."""
+        scaled = places / self._size
+        cells = np.floor(scaled)
+        inside = scaled - cells
+        near = 1.0 / _SIZE
+        aside = (inside > 1.0 - near).astype(np.int64) - (inside < near)
+        cells = cells.astype(np.int64)
+        yield np.arange(len(places)), cells
+        for x, y, z in np.ndindex(2, 2, 2):
+            steps = np.array([x, y, z])
+            if steps.any():
+                rows = np.flatnonzero((aside[:, steps == 1] != 0).all(axis=1))
+                yield rows, cells[rows] + steps * aside[rows]
+
+    def _look(
+        self,
+        places: NDArray[np.float64],
+        rows: NDArray[np.int64],
+        keys: NDArray[np.int64],
+        best: NDArray[np.int64],
+        gaps: NDArray[np.float64],
+    ) -> None:
+        """Take what one cell for each row holds into `best` and the squared `gaps`."""
+        # In the order of the keys a search finds its way through memory that is at hand.
+        order = np.argsort(keys)
+        rows, keys = rows[order], keys[order]
+        at = np.searchsorted(self._sorted, keys)
+        for _ in range(_MOST_IN_A_CELL):
+            there = np.flatnonzero(at < len(self._sorted))
+            there = there[self._sorted[at[there]] == keys[there]]
+            if not len(there):
+                return
+            rows, keys, at = rows[there], keys[there], at[there]
+            found = self._order[at]
+            off = self._points[found] - places[rows]
+            gap = np.einsum("ij,ij->i", off, off)
+            # The first of equally near points is taken.
+            nearer = (gap < gaps[rows]) | ((gap <= gaps[rows]) & (best[rows] < 0))
+            best[rows[nearer]] = found[nearer]
+            gaps[rows[nearer]] = gap[nearer]
+            at = at + 1

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Chains of seeds as text, and drawn without a hand."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .network import Pick
+    from .session import Session
+
+_TOKEN = re.compile(r"(\d+)(?:-(\d+))?")
+
+
+def parse_chains(text: str) -> list[list[Pick]]:
+    """Read chains of seeds, such as ``"0 512 88; 7-9 40 7-9"``.
+
+    Parameters
+    ----------
+    text
+        Chains separated by semicolons; in each, seeds separated by spaces or commas: a vertex number, or an edge as its
+        two vertex numbers with a hyphen between them.
+
+    Raises
+    ------
+    ValueError
+        Where a seed is neither, where a chain has fewer than two seeds, or where there is no chain.
+    """
+    chains: list[list[Pick]] = []
+    for number, part in enumerate((p for p in text.split(";") if p.strip()), start=1):
+        chain: list[Pick] = []
+        for token in part.replace(",", " ").split():
+            match = _TOKEN.fullmatch(token)
+            if match is None:
+                raise ValueError(f"Chain {number}: '{token}' is neither a vertex number nor an edge such as 7-9")
+            first, second = match.groups()
+            if second is not None and int(first) == int(second):
+                raise ValueError(f"Chain {number}: '{token}' is not an edge: both its vertices are the same")
+            chain.append(int(first) if second is None else (int(first), int(second)))
+        if len(chain) < 2:
+            raise ValueError(f"Chain {number}: a chain needs at least two seeds, not only '{part.strip()}'")
+        chains.append(chain)
+    if not chains:
+        raise ValueError("There are no chains of seeds: give vertex numbers such as '0 512 88; 7-9 40'")
+    return chains
+
+
+def draw_chains(session: Session, chains: Iterable[Sequence[Pick]]) -> list[str]:
+    """Draw chains of seeds without a hand, waiting for each wire.
+
+    Returns
+    -------
+    list of str
+        What could not be done, in words. A chain goes on from the last seed that was reached.
+    """
+    problems = []
+    for number, chain in enumerate(chains, start=1):
+        session.end_chain()
+        for pick in chain:
+            done = session.click(pick)
+            session.wait()
+            if not done or session.message:
+                problems.append(f"Chain {number}: {session.message}")
+    session.end_chain()
+    return problems

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a drawing session asks of the library's live wires."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Literal, Protocol
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from .network import Edge, Pick
+
+MetricName = Literal["feature", "campen", "pottmann_kovacs", "euclidean"]
+"""What draws wires to features, as the library calls it."""
+
+
+class Candidate(Protocol):
+    """One of the two wires from the seed to a target, as the library gives it."""
+
+    points: NDArray[np.float64]
+    vertices: NDArray[np.int32]
+    length: float
+    final: bool
+
+
+class Candidates(Protocol):
+    """Both wires and which of them is shorter in its own metric."""
+
+    wires: tuple[Candidate, Candidate]
+    shorter: int
+    final: bool
+
+
+class Chain(Protocol):
+    """A chain of edges."""
+
+    vertices: NDArray[np.int32]
+
+
+class Loop(Chain, Protocol):
+    """A closed chain of edges; no vertices where there is none, or where it is not `final` yet."""
+
+    final: bool
+
+
+class LiveWire(Protocol):
+    """What a session asks of ``seamwire_core.LiveWire``."""
+
+    def seed(self, pick: Pick, forward: bool = False) -> None:
+        """Start the wires from a pick."""
+
+    def wires(self, target: Pick) -> Candidates:
+        """Both wires to a target, as far as they are computed."""
+
+    def loop(self, edge: Edge) -> Loop:
+        """Return the closed chain through an edge, as far as it is computed."""
+
+    def run_on(self, edge: Edge, stops: Iterable[int]) -> Chain:
+        """Return the straight way on from the end of a directed edge until a stop, a boundary or itself."""
+
+    def fork(self) -> LiveWire:
+        """Return live wires with a seed of their own and the same metric."""
+
+    def set_metric(
+        self, metric: MetricName, max_anisotropy: float | None = None, clamp_percentile: float | None = None
+    ) -> None:
+        """Compute with another metric from here on; the seed stays."""
+
+    def progress(self) -> float:
+        """Fraction of the running work that is done."""
+
+    def wait(self, seconds: float | None = None) -> bool:
+        """Wait for the running work."""

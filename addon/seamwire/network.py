@@ -1,0 +1,399 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A network of wires, as data that does not change: every edit makes a new one, so that undo is keeping the old.
+
+Knows neither Blender nor the library.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+Along = Literal["EDGES", "SURFACE"]
+"""Where wires run: along the mesh's edges, or across its surface."""
+
+Pick = int | tuple[int, int]
+"""A vertex, or an edge by its two vertices."""
+
+Edge = tuple[int, int]
+"""An edge by its vertices; in results the smaller one first."""
+
+End = Literal["start", "end"]
+
+_ids = itertools.count()
+
+
+@dataclass(frozen=True)
+class Snap:
+    """What is under the cursor.
+
+    Parameters
+    ----------
+    pick
+        The vertex or the edge that a click would take.
+    to
+        What it belongs to: the plain mesh, a seed or a wire of the network, a seam that the mesh has already, or a
+        feature nearby that was stronger than what lies under the cursor.
+    wire
+        The wire, where it belongs to one.
+    """
+
+    pick: Pick
+    to: Literal["MESH", "SEED", "WIRE", "SEAM", "FEATURE"] = "MESH"
+    wire: Wire | None = None
+
+    @classmethod
+    def of(cls, what: Snap | Pick) -> Snap:
+        """Return a snap as it is, and a pick as one on the plain mesh."""
+        return what if isinstance(what, Snap) else cls(what)
+
+
+@dataclass(frozen=True)
+class Seed:
+    """Where the next wire begins.
+
+    Parameters
+    ----------
+    pick
+        A vertex, or an edge; a directed one where `forward` is set.
+    forward
+        The wire before this one ended on the edge `pick`, running from its first vertex to its second: the next wire
+        goes on from there.
+    clicked
+        What was clicked, where that is not `pick`.
+    first
+        Where the chain began; None: here.
+    """
+
+    pick: Pick
+    forward: bool = False
+    clicked: Pick | None = None
+    first: Pick | None = None
+
+    @property
+    def place(self) -> Pick:
+        """Where the seed is shown."""
+        return self.pick if self.clicked is None else self.clicked
+
+    @property
+    def vertex(self) -> int:
+        """The vertex that stands for the seed where wires cannot begin on edges."""
+        return self.pick[1] if isinstance(self.pick, tuple) else self.pick
+
+
+@dataclass(frozen=True, eq=False)
+class Wire:
+    """A wire from one pick to another, or a closed loop.
+
+    Parameters
+    ----------
+    along
+        How it was found.
+    vertices
+        The edges that it marks: one between each two neighbours in this list, and between last and first of a loop.
+    points
+        (k, 3), the curve as it is drawn; for a loop the first point comes again at the end. Along edges one point for
+        each vertex.
+    start, end
+        The picks at its ends; the same one for a loop.
+    closed
+        Whether it is a loop.
+    marks
+        Whether its edges become seams; else they cease to be seams.
+    heading
+        The directed edge that it goes on from, where it begins at the end of another wire.
+    follow
+        Which of the library's two wires it is: 0 follows the direction of least curvature, 1 that of most.
+    alternative
+        The other of the two, where it runs elsewhere; it has no alternative itself.
+    strength
+        The metric's largest anisotropy when it was found; 0: not known.
+    id
+        Its own number, kept when its course changes.
+    """
+
+    along: Along
+    vertices: tuple[int, ...]
+    points: NDArray[np.float64]
+    start: Pick
+    end: Pick
+    closed: bool = False
+    marks: bool = True
+    heading: Edge | None = None
+    follow: int = 0
+    alternative: Wire | None = None
+    strength: float = 0.0
+    id: int = field(default_factory=_ids.__next__)
+
+    def edges(self) -> list[Edge]:
+        """Return the edges it marks or clears, in order along the wire."""
+        following = self.vertices[1:] + (self.vertices[:1] if self.closed else ())
+        return [(min(a, b), max(a, b)) for a, b in zip(self.vertices, following, strict=False)]
+
+    @property
+    def last_edge(self) -> Edge:
+        """Its last edge in the direction that it runs."""
+        return self.vertices[-2], self.vertices[-1]
+
+    def like(self, other: Wire) -> bool:
+        """Whether another wire runs the same way."""
+        if self.along == other.along == "EDGES":
+            return self.vertices == other.vertices
+        return self.points.shape == other.points.shape and bool(np.allclose(self.points, other.points, rtol=1e-6))
+
+    def toggled(self) -> Wire:
+        """Return its alternative in its place. There must be one."""
+        assert self.alternative is not None
+        back = replace(self, alternative=None)
+        return replace(self.alternative, id=self.id, marks=self.marks, alternative=back)
+
+
+@dataclass(frozen=True)
+class Network:
+    """Wires and the seed of the live one: what undo brings back and what is stored with the mesh.
+
+    Parameters
+    ----------
+    wires
+        Oldest first.
+    seed
+        Where the live wire begins; None between chains.
+    mirror
+        The axes, 0 to 2, that it is mirrored over.
+    lost
+        Wires of a stored network whose edges are gone, and whose seeds are there: to be drawn anew between them.
+    """
+
+    wires: tuple[Wire, ...] = ()
+    seed: Seed | None = None
+    mirror: tuple[int, ...] = ()
+    lost: tuple[Wire, ...] = ()
+
+    def find(self, wire: Wire | None) -> Wire | None:
+        """Return the wire with another's number, as it runs in this network."""
+        return None if wire is None else next((own for own in self.wires if own.id == wire.id), None)
+
+    def at(self, pick: Pick) -> list[tuple[Wire, End]]:
+        """Return the wires that begin or end at a pick, and which of their ends is there. Loops have no ends."""
+        place = undirected(pick)
+        return [
+            (wire, end)
+            for wire in self.wires
+            if not wire.closed
+            for end in ("start", "end")
+            if undirected(getattr(wire, end)) == place
+        ]
+
+    def seeds(self) -> list[Pick]:
+        """Return the seeds of the wires, each once, in the order they were placed."""
+        ends = [pick for wire in self.wires if not wire.closed for pick in (wire.start, wire.end)]
+        return list({undirected(pick): None for pick in ends})
+
+    def without(self, wire: Wire) -> Network:
+        """Return the network without a wire. A chain that went on from the wire's end goes on from the place itself."""
+        seed = self.seed
+        if seed is not None and seed.forward and _goes_on(wire, seed.place, seed.pick):
+            seed = replace(seed, pick=seed.place, forward=False, clicked=None)
+        return replace(self, wires=tuple(own for own in self.wires if own.id != wire.id), seed=seed)
+
+    def before(self, wire: Wire) -> Wire | None:
+        """Return the wire that a wire goes on from."""
+        return next((own for own in self.wires if own is not wire and _goes_on(own, wire.start, wire.heading)), None)
+
+    def after(self, wire: Wire) -> Wire | None:
+        """Return the wire that goes on from a wire."""
+        return next((own for own in self.wires if own is not wire and _goes_on(wire, own.start, own.heading)), None)
+
+    def with_courses(self, courses: Mapping[int, Wire | None]) -> Network:
+        """Return the network with other courses for some wires, by number; None: the wire goes.
+
+        Wires and the seed that go on from a wire with a new course go on from its new last edge.
+        """
+        changed = [wire for wire in self.wires if wire.id in courses]
+
+        def last_edge(before: Wire) -> Edge | None:
+            course = courses[before.id]
+            return None if course is None else course.last_edge
+
+        wires = []
+        for wire in self.wires:
+            new = courses.get(wire.id, wire)
+            if new is None:
+                continue
+            before = next((own for own in changed if own is not wire and _goes_on(own, wire.start, wire.heading)), None)
+            wires.append(new if before is None else replace(new, heading=last_edge(before)))
+        seed = self.seed
+        if seed is not None and seed.forward:
+            before = next((own for own in changed if _goes_on(own, seed.place, seed.pick)), None)
+            course = None if before is None else courses[before.id]
+            if course is not None:
+                seed = replace(seed, pick=course.last_edge, clicked=course.end)
+        return replace(self, wires=tuple(wires), seed=seed)
+
+    def with_seed_in(self, wire: Wire, pick: Pick, points: NDArray[np.float64]) -> Network | None:
+        """Return the network with a wire cut in two at a pick; None where that cannot be, see `split`."""
+        own = self.find(wire)
+        parts = None if own is None else split(own, pick, points)
+        if own is None or parts is None:
+            return None
+        wires = itertools.chain.from_iterable(parts if one is own else (one,) for one in self.wires)
+        return replace(self, wires=tuple(wires))
+
+    def claims(self) -> Iterator[tuple[Edge, bool]]:
+        """Yield each edge of each wire with what the wire does to it; where wires share an edge, the last one counts."""
+        for wire in self.wires:
+            for edge in wire.edges():
+                yield edge, wire.marks
+
+
+def _goes_on(wire: Wire, start: Pick, heading: Pick | None) -> bool:
+    """Whether what begins at a place, heading on from an edge, goes on from the end of a wire."""
+    return heading is not None and wire.last_edge == heading and undirected(wire.end) == undirected(start)
+
+
+def undirected(pick: Pick | None) -> Pick | None:
+    """Return a pick with an edge's smaller vertex first."""
+    return (min(pick), max(pick)) if isinstance(pick, tuple) else pick
+
+
+def name(pick: Pick) -> str:
+    """Return a pick as it is called in messages."""
+    return f"edge {pick[0]}-{pick[1]}" if isinstance(pick, tuple) else f"vertex {pick}"
+
+
+def vertices_of(pick: Pick) -> tuple[int, ...]:
+    """Return the vertex, or both vertices of an edge."""
+    return pick if isinstance(pick, tuple) else (pick,)
+
+
+def split(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[Wire, Wire] | None:
+    """Cut a wire in two where a seed is put into it.
+
+    Parameters
+    ----------
+    wire
+        Any wire. A loop is cut open twice, at the pick and opposite to it.
+    pick
+        One of its vertices or edges; across the surface a vertex of the edges that it marks.
+    points
+        (n, 3) vertices of the mesh.
+
+    Returns
+    -------
+    tuple of Wire or None
+        Both parts in order, the first with the wire's number; None where the pick is not on the wire, or at its end.
+    """
+    if wire.closed:
+        return _split_loop(wire, pick, points)
+    if wire.along == "SURFACE":
+        return _split_curve(wire, pick, points)
+    vertices = wire.vertices
+    ends = _position(vertices, pick)
+    if ends is None:
+        return None
+    before, after = ends
+    # The edge of an edge seed belongs to the part before it, as in a chain that is drawn.
+    if (before == 0 and before == after) or after == len(vertices) - 1:
+        return None
+    seed: Pick = vertices[after] if before == after else (vertices[before], vertices[after])
+    heading = (vertices[after - 1], vertices[after])
+    first = replace(wire, vertices=vertices[: after + 1], points=wire.points[: after + 1], end=seed, alternative=None)
+    second = Wire(
+        "EDGES",
+        vertices[after:],
+        wire.points[after:],
+        seed,
+        wire.end,
+        marks=wire.marks,
+        heading=heading,
+        follow=wire.follow,
+        strength=wire.strength,
+    )
+    return first, second
+
+
+def _position(vertices: tuple[int, ...], pick: Pick) -> tuple[int, int] | None:
+    """Return where a pick lies on a chain of vertices: the indices of its ends, twice the same for a vertex."""
+    if not isinstance(pick, tuple):
+        return (vertices.index(pick),) * 2 if pick in vertices else None
+    for index, pair in enumerate(itertools.pairwise(vertices)):
+        if undirected(pair) == undirected(pick):
+            return index, index + 1
+    return None
+
+
+def _split_loop(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[Wire, Wire] | None:
+    ends = _position(wire.vertices + wire.vertices[:1], pick)
+    if ends is None:
+        return None
+    count = len(wire.vertices)
+    begin = ends[1] % count
+    around = wire.vertices[begin:] + wire.vertices[: begin + 1]
+    middle = count // 2
+    seed: Pick = around[0] if ends[0] == ends[1] else (around[-2], around[-1])
+    first = replace(
+        wire,
+        vertices=around[: middle + 1],
+        points=points[list(around[: middle + 1])],
+        start=seed,
+        end=around[middle],
+        closed=False,
+        heading=(around[-2], around[-1]),
+        alternative=None,
+    )
+    second = Wire(
+        wire.along,
+        around[middle:],
+        points[list(around[middle:])],
+        around[middle],
+        seed,
+        marks=wire.marks,
+        heading=(around[middle - 1], around[middle]),
+        follow=wire.follow,
+        strength=wire.strength,
+    )
+    return first, second
+
+
+def _split_curve(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[Wire, Wire] | None:
+    if isinstance(pick, tuple) or pick not in wire.vertices[1:-1]:
+        return None
+    at = wire.vertices.index(pick)
+    place = points[pick]
+    # The curve passes near the vertex, not through it: it is led there from the nearest of its segments.
+    starts, along = wire.points[:-1], np.diff(wire.points, axis=0)
+    square = np.einsum("ij,ij->i", along, along)
+    part = np.einsum("ij,ij->i", place - starts, along) / np.where(square > 0.0, square, 1.0)
+    gaps = np.linalg.norm(starts + np.clip(part, 0.0, 1.0)[:, None] * along - place, axis=1)
+    nearest = int(np.argmin(gaps))
+    first = replace(
+        wire,
+        vertices=wire.vertices[: at + 1],
+        points=np.vstack([wire.points[: nearest + 1], place]),
+        end=pick,
+        alternative=None,
+    )
+    second = Wire(
+        "SURFACE",
+        wire.vertices[at:],
+        np.vstack([place, wire.points[nearest + 1 :]]),
+        pick,
+        wire.end,
+        marks=wire.marks,
+        follow=wire.follow,
+        strength=wire.strength,
+    )
+    return first, second
+
+
+def net_effect(claims: Iterable[tuple[Edge, bool]]) -> tuple[list[Edge], list[Edge]]:
+    """Return the edges to mark and those to clear, each sorted; of several claims to an edge the last one counts."""
+    effect = dict(claims)
+    return sorted(e for e, marks in effect.items() if marks), sorted(e for e, marks in effect.items() if not marks)
