@@ -129,6 +129,15 @@ std::vector<Triangle> triangles_from(py::handle value, const std::string& name) 
 
 std::vector<Edge> edges_from(py::handle value, const std::string& name) { return indices_from<2>(value, name); }
 
+std::vector<std::int32_t> numbers_from(py::handle value, const std::string& name) {
+  const py::array array = py::array(py::module_::import("numpy").attr("asarray")(value));
+  if (array.ndim() != 1) throw InvalidInput(name + ": expected integers of shape (n,), got shape " + shape_of(array));
+  std::vector<std::int32_t> to;
+  to.reserve(static_cast<std::size_t>(array.shape(0)));
+  for (const auto& [number] : indices_from<1>(array.attr("reshape")(-1, 1), name)) to.push_back(number);
+  return to;
+}
+
 std::int32_t vertex_from(py::handle value, std::size_t count, const std::string& name) {
   const auto number = py::reinterpret_steal<py::object>(is_integer(value) ? PyNumber_Index(value.ptr()) : nullptr);
   if (!number) {

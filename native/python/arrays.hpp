@@ -22,6 +22,8 @@ namespace py = pybind11;
 std::vector<Vector> points_from(py::handle value, const std::string& name);
 std::vector<Triangle> triangles_from(py::handle value, const std::string& name);
 std::vector<Edge> edges_from(py::handle value, const std::string& name);
+/// Numbers of vertices or faces, -1 for none, of shape (n,).
+std::vector<std::int32_t> numbers_from(py::handle value, const std::string& name);
 
 /// A vertex number of a surface with `count` vertices, an edge between two of them, or either.
 std::int32_t vertex_from(py::handle value, std::size_t count, const std::string& name);

@@ -584,5 +584,6 @@ False cancels, and Cancelled is raised. Arrays that a result hands out are read-
   bind_metric(module);
   bind_geodesics(module);
   bind_edge_wires(module);
+  bind_scribble(module);
   bind_live_wire(module);
 }

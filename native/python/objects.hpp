@@ -113,6 +113,8 @@ struct EdgeWiresObject {
   EdgeWires wires;
 };
 
+/// Adds Scribble and what applies it.
+void bind_scribble(py::module_& module);
 /// Adds LiveWire and what it answers with.
 void bind_live_wire(py::module_& module);
 

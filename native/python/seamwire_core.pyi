@@ -57,6 +57,29 @@ class Metric:
     tensors: NDArray[np.float64]  # (n, 3, 3)
     max_anisotropy: float
 
+class Scribble:
+    """A stroke on a surface, its points each in the triangle of `faces` or at the vertex of `vertices` (-1: see the other)."""
+
+    def __init__(
+        self,
+        points: ArrayLike,
+        faces: ArrayLike | None = None,
+        vertices: ArrayLike | None = None,
+        eta: float = 20.0,
+        rings: int = 10,
+        radius: float | None = None,
+        attracts: bool = True,
+        acts_on: Literal["both", "min", "max"] = "both",
+    ) -> None: ...
+    points: NDArray[np.float64]
+    faces: NDArray[np.int32]
+    vertices: NDArray[np.int32]
+    eta: float
+    rings: int
+    radius: float | None
+    attracts: bool
+    acts_on: Literal["both", "min", "max"]
+
 class Embedding:
     points: NDArray[np.float64]
     triangles: NDArray[np.int32]
@@ -146,6 +169,9 @@ def pottmann_kovacs_metric(
     max_anisotropy: float | None = None,
 ) -> Metric: ...
 def euclidean_metric(surface: Surface, curvature: Curvature) -> Metric: ...
+def apply_scribbles(
+    surface: Surface, metric: Metric, scribbles: Sequence[Scribble], follow: Literal["min", "max"] | None = None
+) -> Metric: ...
 def embed(
     surface: Surface,
     metric: Metric,
