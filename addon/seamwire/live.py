@@ -68,6 +68,9 @@ class LiveWire(Protocol):
     ) -> None:
         """Compute with another metric from here on; the seed stays."""
 
+    def feature_strength(self) -> NDArray[np.float64] | None:
+        """Return how strong the features are at the vertices; None as long as that is computed."""
+
     def progress(self) -> float:
         """Fraction of the running work that is done."""
 

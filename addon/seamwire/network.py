@@ -83,6 +83,11 @@ class Seed:
         return self.pick if self.clicked is None else self.clicked
 
     @property
+    def began(self) -> Pick:
+        """Where the chain began."""
+        return self.place if self.first is None else self.first
+
+    @property
     def vertex(self) -> int:
         """The vertex that stands for the seed where wires cannot begin on edges."""
         return self.pick[1] if isinstance(self.pick, tuple) else self.pick

@@ -854,7 +854,7 @@ class Session:
         seed = None
         if ending is None:
             before = self._network.seed
-            first = None if before is None else (before.first or before.place)
+            first = None if before is None else before.began
             seed = Seed(target.pick, first=first)
             if self.along == "EDGES":
                 seed = Seed(wire.last_edge, forward=True, clicked=target.pick, first=first)

@@ -33,6 +33,15 @@ class FakeChain:
     """A chain of edges."""
 
     vertices: NDArray[np.int32]
+    final: bool = True
+
+
+def grid_edges(size: int) -> NDArray[np.int32]:
+    """Return the edges of that grid."""
+    numbers = np.arange(size * size).reshape(size, size)
+    across = np.stack([numbers[:, :-1].ravel(), numbers[:, 1:].ravel()], axis=1)
+    up = np.stack([numbers[:-1].ravel(), numbers[1:].ravel()], axis=1)
+    return np.concatenate([across, up]).astype(np.int32)
 
 
 def grid_points(size: int) -> NDArray[np.float64]:
@@ -44,7 +53,8 @@ def grid_points(size: int) -> NDArray[np.float64]:
 class FakeLive:
     """Wires on a grid: candidate 0 goes along x first, candidate 1 along y first.
 
-    The first is shorter, unless `shorter` says otherwise. Vertices in `islands` are reached by no wire.
+    The first is shorter, unless `shorter` says otherwise. Vertices in `islands` are reached by no wire. Forks begin as
+    `fork_ready` says; a new metric makes it ready as `metric_ready` says.
     """
 
     size: int
@@ -54,6 +64,10 @@ class FakeLive:
     islands: tuple[int, ...] = ()
     seeded: tuple[object, bool] | None = None
     seeds: list[tuple[object, bool]] = field(default_factory=list)
+    fork_ready: tuple[bool, bool] = (True, True)
+    metric_ready: tuple[bool, bool] = (True, True)
+    forks: list[FakeLive] = field(default_factory=list)
+    metrics: list[tuple[str, float | None, float | None]] = field(default_factory=list)
 
     def seed(self, pick: object, forward: bool = False) -> None:
         for vertex in pick if isinstance(pick, tuple) else (pick,):
@@ -92,9 +106,33 @@ class FakeLive:
     def loop(self, edge: tuple[int, int]) -> FakeChain:
         a, b = edge
         if not all(self.ready) or abs(a - b) != 1:
-            return FakeChain(np.empty(0, dtype=np.int32))
+            return FakeChain(np.empty(0, dtype=np.int32), final=all(self.ready))
         turn = self.size if max(a, b) + self.size < self.size**2 else -self.size
         return FakeChain(np.array([a, b, b + turn, a + turn], dtype=np.int32))
+
+    def run_on(self, edge: tuple[int, int], stops: list[int]) -> FakeChain:
+        way = [edge[1]]
+        dx, dy = edge[1] % self.size - edge[0] % self.size, edge[1] // self.size - edge[0] // self.size
+        while way[-1] not in stops:
+            x, y = way[-1] % self.size + dx, way[-1] // self.size + dy
+            if not (0 <= x < self.size and 0 <= y < self.size):
+                break
+            way.append(y * self.size + x)
+        return FakeChain(np.array(way, dtype=np.int32))
+
+    def fork(self) -> FakeLive:
+        fork = FakeLive(self.size, self.along, self.fork_ready, self.shorter, self.islands)
+        self.forks.append(fork)
+        return fork
+
+    def set_metric(
+        self, metric: str, max_anisotropy: float | None = None, clamp_percentile: float | None = None
+    ) -> None:
+        self.metrics.append((metric, max_anisotropy, clamp_percentile))
+        self.ready = self.metric_ready
+
+    def feature_strength(self) -> NDArray[np.float64]:
+        return np.zeros(self.size**2)
 
     def progress(self) -> float:
         return sum(self.ready) / 2.0

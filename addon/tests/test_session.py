@@ -5,26 +5,7 @@ from __future__ import annotations
 
 import sys
 
-import pytest
-from fake_live import FakeLive, grid_points
-from seamwire.chains import draw_chains, parse_chains
-from seamwire.network import Along
-from seamwire.session import Session
-
-SIZE = 6
-
-
-class Table:
-    """A session on a grid, with the fakes it has made."""
-
-    def __init__(self, along: Along = "EDGES", **options: object) -> None:
-        self.lives: dict[str, FakeLive] = {}
-
-        def make(way: Along) -> FakeLive:
-            self.lives[way] = FakeLive(SIZE, way, **options)
-            return self.lives[way]
-
-        self.session = Session(make, grid_points(SIZE), along)
+from table import Table
 
 
 def test_nothing_of_blender_is_needed() -> None:
@@ -400,48 +381,3 @@ def test_every_change_of_what_is_seen_counts_the_revision_up() -> None:
     session.hover(None)
     session.hover(None)
     assert session.revision <= before + 1
-
-
-@pytest.mark.parametrize(
-    ("text", "chains"),
-    [
-        ("0 512 88; 7-9 40 7-9", [[0, 512, 88], [(7, 9), 40, (7, 9)]]),
-        ("0, 1", [[0, 1]]),
-        (" 3-1   2 ;", [[(3, 1), 2]]),
-    ],
-)
-def test_chains_are_read(text: str, chains: list) -> None:
-    assert parse_chains(text) == chains
-
-
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("", "no chains"),
-        (" ; ", "no chains"),
-        ("0 x", "'x'"),
-        ("0 -1", "'-1'"),
-        ("0 1; 2 3-", "Chain 2"),
-        ("0 4-4", "the same"),
-        ("7", "at least two"),
-        ("0 1.5", "'1.5'"),
-        ("0 ²", "'²'"),
-    ],
-)
-def test_what_is_not_a_chain_is_said(text: str, said: str) -> None:
-    with pytest.raises(ValueError, match=said):
-        parse_chains(text)
-
-
-def test_drawing_chains_waits_for_each_wire() -> None:
-    table = Table(ready=(False, False))
-    assert draw_chains(table.session, [[0, 2, 14], [(20, 21), (23, 24)]]) == []
-    assert [wire.vertices for wire in table.session.wires] == [(0, 1, 2), (2, 8, 14), (20, 21, 22, 23, 24)]
-    assert table.session.seed is None
-
-
-def test_drawing_chains_goes_on_past_what_cannot_be_reached() -> None:
-    table = Table(islands=(35,))
-    problems = draw_chains(table.session, [[0, 35, 3], [6, 8]])
-    assert problems == ["Chain 1: No wire reaches vertex 35"]
-    assert [wire.vertices for wire in table.session.wires] == [(0, 1, 2, 3), (6, 7, 8)]

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A session on a grid, with the live wires it has made."""
+
+from __future__ import annotations
+
+import itertools
+
+from fake_live import FakeLive, grid_edges, grid_points
+from seamwire.network import Along
+from seamwire.session import Session
+
+SIZE = 6
+
+
+class Table:
+    """A session on a grid of SIZE x SIZE vertices; vertex y * SIZE + x lies at (x, y), from the middle if `centred`."""
+
+    def __init__(
+        self, along: Along = "EDGES", seams: list[tuple[int, int]] = (), centred: bool = False, **options: object
+    ) -> None:
+        self.lives: dict[str, FakeLive] = {}
+
+        def make(way: Along) -> FakeLive:
+            self.lives[way] = FakeLive(SIZE, way, **options)
+            return self.lives[way]
+
+        self.points = grid_points(SIZE)
+        if centred:
+            self.points[:, :2] -= (SIZE - 1) / 2
+        self.session = Session(make, self.points, along, edges=grid_edges(SIZE), seams=seams)
+
+    def compute(self) -> None:
+        """Let all live wires be ready, and take it in."""
+        for live in self.lives.values():
+            for one in (live, *live.forks):
+                one.ready = (True, True)
+        self.session.poll()
+
+
+def chain(*vertices: int) -> list[tuple[int, int]]:
+    """Return the edges along vertices, sorted, smaller vertex first."""
+    return sorted((min(a, b), max(a, b)) for a, b in itertools.pairwise(vertices))
