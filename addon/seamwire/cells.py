@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -30,12 +29,12 @@ class Cells:
     """
 
     def __init__(self, points: NDArray[np.float64], tolerance: float) -> None:
-        self._points = points
         self._tolerance = tolerance
         self._size = _SIZE * tolerance
         keys = self._keys(np.floor(points / self._size).astype(np.int64))
         self._order = np.argsort(keys, kind="stable")
         self._sorted = keys[self._order]
+        self._points = points[self._order]
 
     @staticmethod
     def _keys(cells: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -46,24 +45,21 @@ class Cells:
         """Return for each of (m, 3) places the number of the nearest point within the tolerance; -1: there is none."""
         best = np.full(len(places), -1, dtype=np.int64)
         gaps = np.full(len(places), self._tolerance**2)
-        for rows, cells in self._cells_around(places):
-            self._look(places, rows, self._keys(cells), best, gaps)
-        return best
-
-    def _cells_around(self, places: NDArray[np.float64]) -> Iterator[tuple[NDArray[np.int64], NDArray[np.int64]]]:
-        """Yield rows of places with the cells that they, and all within the tolerance of them, lie in."""
         scaled = places / self._size
         cells = np.floor(scaled)
-        inside = scaled - cells
-        near = 1.0 / _SIZE
-        aside = (inside > 1.0 - near).astype(np.int64) - (inside < near)
+        scaled -= cells
         cells = cells.astype(np.int64)
-        yield np.arange(len(places)), cells
-        for x, y, z in np.ndindex(2, 2, 2):
-            steps = np.array([x, y, z])
-            if steps.any():
-                rows = np.flatnonzero((aside[:, steps == 1] != 0).all(axis=1))
-                yield rows, cells[rows] + steps * aside[rows]
+        self._look(places, np.arange(len(places)), self._keys(cells), best, gaps)
+        # Beyond the borders that are nearer than what was found, there may be something nearer.
+        near = np.sqrt(gaps)[:, None] / self._size
+        aside = (scaled > 1.0 - near).astype(np.int64) - (scaled < near)
+        border = np.flatnonzero(aside.any(axis=1))
+        for steps in np.ndindex(2, 2, 2):
+            over = np.array(steps, dtype=bool)
+            rows = border[(aside[border][:, over] != 0).all(axis=1)]
+            if over.any() and len(rows):
+                self._look(places, rows, self._keys(cells[rows] + over * aside[rows]), best, gaps)
+        return best
 
     def _look(
         self,
@@ -74,21 +70,22 @@ class Cells:
         gaps: NDArray[np.float64],
     ) -> None:
         """Take what one cell for each row holds into `best` and the squared `gaps`."""
-        # In the order of the keys a search finds its way through memory that is at hand.
+        # In the order of the keys a search goes through memory from one end to the other.
         order = np.argsort(keys)
         rows, keys = rows[order], keys[order]
+        wanted = places[rows]
         at = np.searchsorted(self._sorted, keys)
         for _ in range(_MOST_IN_A_CELL):
-            there = np.flatnonzero(at < len(self._sorted))
-            there = there[self._sorted[at[there]] == keys[there]]
-            if not len(there):
+            there = at < len(self._sorted)
+            there[there] = self._sorted[at[there]] == keys[there]
+            if not there.all():
+                rows, keys, wanted, at = rows[there], keys[there], wanted[there], at[there]
+            if not len(rows):
                 return
-            rows, keys, at = rows[there], keys[there], at[there]
-            found = self._order[at]
-            off = self._points[found] - places[rows]
+            off = self._points[at] - wanted
             gap = np.einsum("ij,ij->i", off, off)
             # The first of equally near points is taken.
             nearer = (gap < gaps[rows]) | ((gap <= gaps[rows]) & (best[rows] < 0))
-            best[rows[nearer]] = found[nearer]
+            best[rows[nearer]] = self._order[at[nearer]]
             gaps[rows[nearer]] = gap[nearer]
             at = at + 1

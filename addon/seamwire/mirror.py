@@ -69,16 +69,16 @@ class Mirror:
     @cached_property
     def symmetric_axes(self) -> tuple[int, ...]:
         """The axes over which nearly all vertices have a partner; of a large mesh a sample is asked."""
-        count = len(self._points)
-        rows = np.arange(0, count, max(1, count // _SAMPLE))
+        rows = np.arange(0, len(self._places), max(1, len(self._places) // _SAMPLE))
         sample = self._places[rows]
-        flat = np.ptp(self._places, axis=0) <= TOLERANCE if count else np.ones(3, dtype=bool)
-        # What lies in the plane is its own image: that is no symmetry worth the name.
-        return tuple(
-            axis
-            for axis in range(3)
-            if not flat[axis] and (self._cells.nearest(self._flipped(sample, (axis,))) >= 0).mean() >= SYMMETRIC
-        )
+        found = []
+        for axis in range(3):
+            # What lies in the plane is its own image, and says nothing.
+            aside = sample[np.abs(sample[:, axis]) > TOLERANCE]
+            partners = self._cells.nearest(self._flipped(aside, (axis,)))
+            if len(aside) and (partners >= 0).mean() >= SYMMETRIC:
+                found.append(axis)
+        return tuple(found)
 
     @staticmethod
     def _flipped(places: NDArray[np.float64], axes: tuple[int, ...]) -> NDArray[np.float64]:
