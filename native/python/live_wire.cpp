@@ -9,10 +9,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "arrays.hpp"
 #include "objects.hpp"
 #include "seamwire/livewire.hpp"
+#include "seamwire/segments.hpp"
 #include "watch.hpp"
 
 namespace seamwire::python {
@@ -22,6 +25,9 @@ namespace {
 struct LiveWireObject {
   LiveWireObject(std::shared_ptr<const Surface> on, const LiveWireOptions& with)
       : vertex_count(on->vertex_count()), along(with.along), live(std::make_unique<LiveWire>(std::move(on), with)) {}
+  /// A fork.
+  explicit LiveWireObject(const LiveWireObject& of, LiveWire fork)
+      : vertex_count(of.vertex_count), along(of.along), live(std::make_unique<LiveWire>(std::move(fork))) {}
   LiveWireObject(const LiveWireObject&) = delete;
   LiveWireObject& operator=(const LiveWireObject&) = delete;
   ~LiveWireObject() {
@@ -54,25 +60,35 @@ py::cpp_function array_of_candidate(const Get& get) {
   return [get](py::object self) { return view(get(self.cast<const CandidateObject&>().get()), self); };
 }
 
-LiveWireOptions options_from(std::optional<double> gamma, std::optional<double> max_anisotropy,
-                             std::optional<double> clamp_percentile, const std::string& along, double turning,
-                             std::optional<double> loop_turning) {
-  LiveWireOptions options{
-      .strength = {gamma, max_anisotropy, clamp_percentile}, .turning = turning, .loop_turning = loop_turning};
-  if (along == "edges") {
-    options.along = Along::kEdges;
-  } else if (along != "surface") {
-    throw InvalidInput("along: expected 'surface' or 'edges', got '" + along + "'");
+MetricFamily family_from(const std::string& name) {
+  if (name == "feature") return MetricFamily::kFeature;
+  if (name == "campen") return MetricFamily::kCampen;
+  if (name == "pottmann_kovacs") return MetricFamily::kPottmannKovacs;
+  if (name == "euclidean") return MetricFamily::kEuclidean;
+  throw InvalidInput("metric: expected 'feature', 'campen', 'pottmann_kovacs' or 'euclidean', got '" + name + "'");
+}
+
+/// With the defaults of each way of running.
+Strength strength_from(MetricFamily family, Along along, std::optional<double> gamma,
+                       std::optional<double> max_anisotropy, std::optional<double> clamp_percentile) {
+  if (gamma && family != MetricFamily::kFeature) {
+    throw InvalidInput("gamma: only the metric 'feature' has it; give max_anisotropy instead");
   }
-  if (!gamma && !max_anisotropy) {
-    if (options.along == Along::kSurface) {
-      options.strength.parameter = 0.1;
-    } else {
-      options.strength.max_anisotropy = 10.0;
-      if (!clamp_percentile) options.strength.clamp_percentile = 99.0;
-    }
+  Strength strength{gamma, max_anisotropy, clamp_percentile};
+  if (gamma || max_anisotropy) return strength;
+  if (along == Along::kSurface && family == MetricFamily::kFeature) {
+    strength.parameter = 0.1;
+  } else {
+    strength.max_anisotropy = 10.0;
+    if (!clamp_percentile && family == MetricFamily::kFeature) strength.clamp_percentile = 99.0;
   }
-  return options;
+  return strength;
+}
+
+Along along_from(const std::string& name) {
+  if (name == "edges") return Along::kEdges;
+  if (name == "surface") return Along::kSurface;
+  throw InvalidInput("along: expected 'surface' or 'edges', got '" + name + "'");
 }
 
 /// Waits in slices, so that Ctrl-C is heard.
@@ -91,6 +107,37 @@ bool wait_for(const LiveWire& live, std::optional<double> seconds) {
 
 }  // namespace
 
+void bind_segments(py::module_& module) {
+  module.def(
+      "face_segments",
+      [](const SurfaceObject& surface, const py::object& cut_edges) {
+        const std::vector<Edge> cuts = edges_from(cut_edges, "cut_edges");
+        auto labels = std::make_unique<std::vector<std::int32_t>>(
+            without_gil([&] { return face_segments(*surface.surface, cuts); }));
+        const auto* const values = labels.get();
+        const py::capsule owner(labels.release(), [](void* p) { delete static_cast<std::vector<std::int32_t>*>(p); });
+        return view(*values, owner);
+      },
+      py::arg("surface"), py::arg("cut_edges"), R"(The segments into which cuts along edges part a surface.
+
+Parameters
+----------
+surface : Surface
+cut_edges : (k, 2) array_like of int
+    Vertex pairs; those that are no real edges, as the diagonals of polygons, cut nothing.
+
+Returns
+-------
+(m,) int32
+    A number for each triangle: 0 in the segment of the most triangles, and so on.
+
+Raises
+------
+ValueError
+    Where a vertex is out of range.
+)");
+}
+
 void bind_live_wire(py::module_& module) {
   py::class_<CandidateObject>(module, "LiveCandidate", "One of the two wires from the seed to a target.")
       .def_property_readonly(
@@ -106,7 +153,7 @@ void bind_live_wire(py::module_& module) {
           "length", [](const CandidateObject& c) { return c.get().length; }, "In its own metric.")
       .def_property_readonly(
           "final", [](const CandidateObject& c) { return c.get().final; },
-          "False: this metric is still being computed, and there is no wire yet.")
+          "False: still being computed; what is here, if anything, will be replaced.")
       .def("__repr__", [](const CandidateObject& c) {
         return std::string("<LiveCandidate: ") + name_of(c.get().follow) + ", " +
                (c.get().final ? std::to_string(c.get().points.size()) + " points>" : "not yet>");
@@ -128,6 +175,16 @@ void bind_live_wire(py::module_& module) {
         return "<LiveWires: shorter " + std::to_string(w.wires->shorter) + (w.wires->final() ? ", final>" : ">");
       });
 
+  py::class_<LiveLoop>(module, "LiveLoop", "A closed chain of edges.")
+      .def_property_readonly(
+          "vertices", [](py::object self) { return view(self.cast<const LiveLoop&>().vertices, self); },
+          "(k,) int32, the first one not given twice; no rows: there is none, or not yet.")
+      .def_readonly("length", &LiveLoop::length, "In its metric, with the cost of turning.")
+      .def_readonly("final", &LiveLoop::final, "False: it is still being computed.")
+      .def("__repr__", [](const LiveLoop& loop) {
+        return "<LiveLoop: " + (loop.final ? std::to_string(loop.vertices.size()) + " vertices>" : "not yet>");
+      });
+
   py::class_<LiveWireObject>(module, "LiveWire",
                              R"(Two wires from a seed to any target, each metric computed on a thread of its own.
 
@@ -136,13 +193,15 @@ Parameters
 surface : Surface
 gamma, max_anisotropy, clamp_percentile : float, optional
     As in `feature_metric`. Neither gamma nor max_anisotropy: gamma = 0.1 across the surface, max_anisotropy = 10 and
-    clamp_percentile = 99 along edges.
+    clamp_percentile = 99 along edges; max_anisotropy = 10 for the other metrics, which have no gamma.
 along : {'surface', 'edges'}
     Wires are exact geodesics across the surface, or chains of real edges.
 turning : float
     What turning costs, of `edge_wires`.
 loop_turning : float, optional
     What it costs in `edge_loop`; None: 20, more on meshes of over 6400 edges, so that rings are found there too.
+metric : {'feature', 'campen', 'pottmann_kovacs', 'euclidean'}
+    What wires are short in.
 
 Raises
 ------
@@ -151,14 +210,49 @@ ValueError
 )")
       .def(py::init([](const SurfaceObject& surface, std::optional<double> gamma, std::optional<double> max_anisotropy,
                        std::optional<double> clamp_percentile, const std::string& along, double turning,
-                       std::optional<double> loop_turning) {
-             const LiveWireOptions options =
-                 options_from(gamma, max_anisotropy, clamp_percentile, along, turning, loop_turning);
+                       std::optional<double> loop_turning, const std::string& metric) {
+             LiveWireOptions options{.along = along_from(along),
+                                     .family = family_from(metric),
+                                     .turning = turning,
+                                     .loop_turning = loop_turning};
+             options.strength = strength_from(options.family, options.along, gamma, max_anisotropy, clamp_percentile);
              return without_gil([&] { return std::make_unique<LiveWireObject>(surface.surface, options); });
            }),
            py::arg("surface"), py::arg("gamma") = py::none(), py::arg("max_anisotropy") = py::none(),
            py::arg("clamp_percentile") = py::none(), py::arg("along") = "surface", py::arg("turning") = 3.0,
-           py::arg("loop_turning") = py::none())
+           py::arg("loop_turning") = py::none(), py::arg("metric") = "feature")
+      .def(
+          "fork",
+          [](const LiveWireObject& object) {
+            return without_gil([&] { return std::make_unique<LiveWireObject>(object, object.live->fork()); });
+          },
+          R"(Another live wire with the same metrics, those still being computed too, and no seed.
+
+A later `set_metric` of either does not change the other.
+
+Returns
+-------
+LiveWire
+)")
+      .def(
+          "set_metric",
+          [](const LiveWireObject& object, const std::string& metric, std::optional<double> max_anisotropy,
+             std::optional<double> gamma, std::optional<double> clamp_percentile) {
+            const MetricFamily family = family_from(metric);
+            const Strength strength = strength_from(family, object.along, gamma, max_anisotropy, clamp_percentile);
+            without_gil([&] { object.live->set_metric(family, strength); });
+          },
+          py::arg("metric") = "feature", py::arg("max_anisotropy") = py::none(), py::arg("gamma") = py::none(),
+          py::arg("clamp_percentile") = py::none(),
+          R"(Changes the metric in the background, and then seeds again; parameters as of the class.
+
+Until then wires are those of the former metric, and not final.
+
+Raises
+------
+ValueError
+    Where a parameter is wrong.
+)")
       .def(
           "seed",
           [](const LiveWireObject& object, const py::object& pick, bool forward) {
@@ -198,14 +292,16 @@ ValueError
           "loop",
           [](const LiveWireObject& object, const py::object& edge) {
             const Edge through = edge_from(edge, object.vertex_count, "edge");
-            return without_gil([&] { return object.live->loop(through); });
+            return without_gil([&] { return std::make_unique<LiveLoop>(object.live->loop(through)); });
           },
           py::arg("edge"), R"(The closed chain through an edge, the cheaper of the two metrics'; along edges only.
 
+It is computed in the background: the first call for an edge starts it, in place of that for another edge. Ask again
+until the answer is final.
+
 Returns
 -------
-EdgeChain
-    Empty where there is none, or a metric is not ready.
+LiveLoop
 
 Raises
 ------
@@ -213,12 +309,61 @@ ValueError
     Where the edge is not one of the surface's, or wires do not run along edges.
 )")
       .def(
+          "run_on",
+          [](const LiveWireObject& object, const py::object& edge, const py::iterable& stops) {
+            const Edge from = edge_from(edge, object.vertex_count, "edge");
+            std::vector<std::int32_t> vertices;
+            for (const py::handle stop : stops) vertices.push_back(vertex_from(stop, object.vertex_count, "stops"));
+            return without_gil([&] { return std::make_unique<EdgeChain>(object.live->run_on(from, vertices)); });
+          },
+          py::arg("edge"), py::arg("stops") = py::tuple(),
+          R"(The straightest way on from the second vertex of an edge, having come from its first.
+
+At each vertex it takes the edge that turns least. It ends at one of `stops` (the vertex it begins with is none), at a
+boundary (a way along a boundary goes on along it), at a vertex it has been at, and where nothing turns less than 60
+degrees.
+
+Parameters
+----------
+edge : (int, int)
+stops : iterable of int
+    Vertices.
+
+Returns
+-------
+EdgeChain
+    It begins with the edge's second vertex; only its last vertex may be an earlier one, or the edge's first. The length
+    is that in the unit cube. Without vertices: it cannot be told yet.
+
+Raises
+------
+ValueError
+    Where the edge is not one of the surface's.
+)")
+      .def(
+          "feature_strength",
+          [](const LiveWireObject& object) -> py::object {
+            auto strength = without_gil([&] { return object.live->feature_strength(); });
+            if (!strength) return py::none();
+            const std::vector<double>& values = *strength;
+            using Held = std::shared_ptr<const std::vector<double>>;
+            const py::capsule owner(new Held(std::move(strength)), [](void* p) { delete static_cast<Held*>(p); });
+            return view(values, owner);
+          },
+          R"(How strong a ridge or valley each vertex is on: s of eq. 5.
+
+Returns
+-------
+(n,) float64, or None while it is being computed
+)")
+      .def(
           "progress", [](const LiveWireObject& object) { return without_gil([&] { return object.live->progress(); }); },
-          "Fraction of the running work that is done, 1 when all is.")
+          "Fraction of the preparation and the seed's work that is done, 1 when all is.")
       .def(
           "wait",
           [](const LiveWireObject& object, std::optional<double> seconds) { return wait_for(*object.live, seconds); },
-          py::arg("seconds") = py::none(), R"(Waits for the running work, at most that long (None: until it is done).
+          py::arg("seconds") = py::none(),
+          R"(Waits for all running work, loops too, at most that long (None: until it is done).
 
 Returns
 -------

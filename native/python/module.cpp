@@ -586,4 +586,5 @@ False cancels, and Cancelled is raised. Arrays that a result hands out are read-
   bind_edge_wires(module);
   bind_scribble(module);
   bind_live_wire(module);
+  bind_segments(module);
 }

@@ -117,5 +117,7 @@ struct EdgeWiresObject {
 void bind_scribble(py::module_& module);
 /// Adds LiveWire and what it answers with.
 void bind_live_wire(py::module_& module);
+/// Adds face_segments.
+void bind_segments(py::module_& module);
 
 }  // namespace seamwire::python

@@ -9,7 +9,7 @@ the GIL and take `progress`, called now and then with the fraction done; returni
 Arrays that a result hands out are read-only views of its memory.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Literal
 
 import numpy as np
@@ -118,6 +118,11 @@ class LiveCandidate:
     faces: NDArray[np.int32]
     vertices: NDArray[np.int32]  # the edges that would be marked
     length: float
+    final: bool  # False: still being computed; what is here, if anything, will be replaced
+
+class LiveLoop:
+    vertices: NDArray[np.int32]  # the first one not given twice; empty: none, or not yet
+    length: float
     final: bool
 
 class LiveWires:
@@ -135,13 +140,31 @@ class LiveWire:
         along: Literal["surface", "edges"] = "surface",
         turning: float = 3.0,
         loop_turning: float | None = None,
+        metric: Literal["feature", "campen", "pottmann_kovacs", "euclidean"] = "feature",
     ) -> None:
         """Neither gamma nor max_anisotropy: gamma = 0.1 across the surface, max_anisotropy = 10 and clamp_percentile = 99 along edges."""
+    def fork(self) -> LiveWire:
+        """Another with the same metrics, those still being computed too, and no seed; metrics set later are each one's own."""
+    def set_metric(
+        self,
+        metric: Literal["feature", "campen", "pottmann_kovacs", "euclidean"] = "feature",
+        max_anisotropy: float | None = None,
+        gamma: float | None = None,
+        clamp_percentile: float | None = None,
+    ) -> None:
+        """In the background, and seeds again; until then wires are the former ones, and not final."""
     def seed(self, pick: Pick, forward: bool = False) -> None: ...
     def wires(self, target: Pick) -> LiveWires: ...
-    def loop(self, edge: tuple[int, int]) -> EdgeChain: ...
-    def progress(self) -> float: ...
-    def wait(self, seconds: float | None = None) -> bool: ...
+    def loop(self, edge: tuple[int, int]) -> LiveLoop:
+        """In the background, the newest edge asked for; ask again until the answer is final. A seed goes first."""
+    def run_on(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> EdgeChain:
+        """Return the straightest way on, from the edge's second vertex; its length is that in the unit cube. No vertices: not ready."""
+    def feature_strength(self) -> NDArray[np.float64] | None:
+        """Return s of eq. 5 per vertex, None while it is computed."""
+    def progress(self) -> float:
+        """Of the preparation and the seed's work."""
+    def wait(self, seconds: float | None = None) -> bool:
+        """For all running work, loops too."""
 
 def principal_curvatures(surface: Surface) -> Curvature: ...
 def feature_metric(
@@ -191,3 +214,5 @@ def edge_wires(
     progress: Progress | None = None,
 ) -> EdgeWires: ...
 def edge_loop(surface: Surface, metric: Metric, edge: Sequence[int], turning: float = 20.0) -> EdgeChain: ...
+def face_segments(surface: Surface, cut_edges: ArrayLike) -> NDArray[np.int32]:
+    """Return a segment number per triangle, 0 the one of the most triangles."""

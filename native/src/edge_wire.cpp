@@ -7,12 +7,14 @@
 #include "seamwire/edge_wire.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
 #include <numbers>
 #include <string>
 #include <type_traits>
+#include <unordered_set>
 #include <utility>
 
 namespace seamwire {
@@ -30,9 +32,9 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// Flat rows: the directed edges that leave vertex v are numbered first[v] .. first[v + 1], by ascending head. A
 /// directed edge's number is also the number of the search's state "just arrived over this edge".
-class EdgeGraph {
+class EdgeFans {
  public:
-  EdgeGraph(const Surface& surface, const Metric& metric);
+  EdgeFans(const Surface& surface, const Task& task);
 
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(first_.size()) - 1; }
   std::size_t directed_count() const { return head_.size(); }
@@ -41,43 +43,41 @@ class EdgeGraph {
   std::int32_t head(std::int32_t e) const { return head_[at(e)]; }
   std::int32_t twin(std::int32_t e) const { return twin_[at(e)]; }
   std::int32_t tail(std::int32_t e) const { return head(twin(e)); }
-  double length(std::int32_t e) const { return step_[at(e)].length; }
-  double mean_length() const { return mean_length_; }
 
   /// The directed edge from a to b; -1 if there is none.
   std::int32_t find(std::int32_t a, std::int32_t b) const;
 
   /// 1 - cos kappa of a chain that arrives against `back` and leaves over `out`, both directed edges from one vertex.
   double turn(std::int32_t back, std::int32_t out) const {
-    const Step &p = step_[at(back)], &r = step_[at(out)];
+    const Direction &p = directions_[at(back)], &r = directions_[at(out)];
     return std::max(0.0, 1.0 + p.x * r.x + p.y * r.y + p.z * r.z);
   }
 
+  /// Whether the faces at the vertex are one open fan; whether the directed edge is one of the two at its rim.
+  bool is_open(std::int32_t v) const { return is_open_[at(v)]; }
+  bool is_rim(std::int32_t e, std::int32_t v) const { return rims_[at(v)][0] == e || rims_[at(v)][1] == e; }
+
  private:
-  /// `x, y, z`: a vector for each directed edge such that the turn between two of a vertex is 1 plus their product:
+  /// A vector for each directed edge such that the turn between two of a vertex is 1 plus their product:
   /// - in a closed fan of total angle T, the edge at angle a is the unit vector at 2 pi a / T, since then
   ///   -cos(2 pi (a - b) / T) = cos(pi |left - right| / T);
   /// - in an open fan it is the unit vector at a itself: the turn is pi minus the angle between. The third components
-  /// of
-  ///   the two boundary edges make their own turn zero and are invisible to the other edges, which have none;
+  ///   of the two boundary edges make their own turn zero and are invisible to the other edges, which have none;
   /// - elsewhere it is the edge's direction in space.
-  struct Step {
-    double length, x, y, z;
+  struct Direction {
+    double x, y, z;
   };
 
   void set_fan(const Surface& surface, HalfEdgeMesh::VertexHandle fan);
   void set_directions_in_space(const Surface& surface, std::int32_t v);
 
   std::vector<std::int32_t> first_, head_, twin_;
-  std::vector<Step> step_;
-  double mean_length_ = 0.0;
+  std::vector<Direction> directions_;
+  std::vector<bool> is_open_;                      // per vertex
+  std::vector<std::array<std::int32_t, 2>> rims_;  // per vertex; -1: none, or no real edge
 };
 
-EdgeGraph::EdgeGraph(const Surface& surface, const Metric& metric) {
-  if (metric.size() != surface.vertex_count()) {
-    throw InvalidInput("the metric has " + std::to_string(metric.size()) + " tensors, the surface " +
-                       std::to_string(surface.vertex_count()) + " vertices");
-  }
+EdgeFans::EdgeFans(const Surface& surface, const Task& task) {
   const std::vector<Edge>& edges = surface.edges();
   first_.assign(surface.vertex_count() + 1, 0);
   for (const auto& [a, b] : edges) {
@@ -87,31 +87,36 @@ EdgeGraph::EdgeGraph(const Surface& surface, const Metric& metric) {
   for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
   head_.resize(2 * edges.size());
   twin_.resize(2 * edges.size());
-  step_.resize(2 * edges.size());
+  directions_.resize(2 * edges.size());
+  rims_.assign(surface.vertex_count(), {-1, -1});
+  is_open_.assign(surface.vertex_count(), false);
   std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
   for (const auto& [a, b] : edges) {  // sorted, so each row is
     const std::int32_t there = next[at(a)]++, back = next[at(b)]++;
-    const double length = edge_length(surface, metric, a, b);
     head_[at(there)] = b;
     head_[at(back)] = a;
     twin_[at(there)] = back;
     twin_[at(back)] = there;
-    step_[at(there)].length = step_[at(back)].length = length;
-    mean_length_ += length / static_cast<double>(edges.size());
   }
 
   const std::vector<std::int32_t>& vertex_of_fan = surface.vertex_of_fan();
   std::vector<std::int32_t> fans(surface.vertex_count(), 0);
   for (const std::int32_t v : vertex_of_fan) ++fans[at(v)];
-  for (std::int32_t v = 0; v < vertex_count(); ++v) {
+  const std::size_t total = surface.vertex_count() + vertex_of_fan.size();
+  std::size_t count = 0;
+  const auto look = [&] {
+    if (++count % kPatience == 0) task.check(static_cast<double>(count) / static_cast<double>(total));
+  };
+  for (std::int32_t v = 0; v < vertex_count(); ++v, look()) {
     if (fans[at(v)] != 1) set_directions_in_space(surface, v);
   }
   for (const auto fan : surface.half_edges().vertices()) {
     if (fans[at(vertex_of_fan[at(fan.idx())])] == 1) set_fan(surface, fan);
+    look();
   }
 }
 
-void EdgeGraph::set_fan(const Surface& surface, HalfEdgeMesh::VertexHandle fan) {
+void EdgeFans::set_fan(const Surface& surface, HalfEdgeMesh::VertexHandle fan) {
   const HalfEdgeMesh& mesh = surface.half_edges();
   const std::vector<std::int32_t>& vertex_of_fan = surface.vertex_of_fan();
   const std::int32_t v = vertex_of_fan[at(fan.idx())];
@@ -164,36 +169,116 @@ void EdgeGraph::set_fan(const Surface& surface, HalfEdgeMesh::VertexHandle fan) 
 
   const double scale = open ? 1.0 : 2.0 * std::numbers::pi / total;
   for (const auto& [edge, angle] : spokes) {
-    Step& step = step_[at(edge)];
-    step.x = std::cos(scale * angle);
-    step.y = std::sin(scale * angle);
-    step.z = 0.0;
+    directions_[at(edge)] = {std::cos(scale * angle), std::sin(scale * angle), 0.0};
   }
-  if (open && first_edge >= 0 && last_edge >= 0) {
-    step_[at(first_edge)].z = std::sqrt(std::max(0.0, 1.0 + std::cos(total)));
-    step_[at(last_edge)].z = -step_[at(first_edge)].z;
+  if (!open) return;
+  rims_[at(v)] = {first_edge, last_edge};
+  is_open_[at(v)] = true;
+  if (first_edge >= 0 && last_edge >= 0) {
+    directions_[at(first_edge)].z = std::sqrt(std::max(0.0, 1.0 + std::cos(total)));
+    directions_[at(last_edge)].z = -directions_[at(first_edge)].z;
   }
 }
 
-void EdgeGraph::set_directions_in_space(const Surface& surface, std::int32_t v) {
+void EdgeFans::set_directions_in_space(const Surface& surface, std::int32_t v) {
   const Vector& from = surface.points()[at(v)];
   for (std::int32_t e = begin(v); e < end(v); ++e) {
     // Zero for an edge of length zero: it has no direction, and every turn there counts as a right angle.
     const Vector direction = (surface.scale() * (surface.points()[at(head(e))] - from)).stableNormalized();
-    step_[at(e)].x = direction.x();
-    step_[at(e)].y = direction.y();
-    step_[at(e)].z = direction.z();
+    directions_[at(e)] = {direction.x(), direction.y(), direction.z()};
   }
 }
 
-std::int32_t EdgeGraph::find(std::int32_t a, std::int32_t b) const {
+std::int32_t EdgeFans::find(std::int32_t a, std::int32_t b) const {
   const auto row_begin = head_.begin() + begin(a), row_end = head_.begin() + end(a);
   const auto it = std::lower_bound(row_begin, row_end, b);
   return it != row_end && *it == b ? static_cast<std::int32_t>(it - head_.begin()) : -1;
 }
 
-std::shared_ptr<const EdgeGraph> make_edge_graph(const Surface& surface, const Metric& metric) {
-  return std::make_shared<const EdgeGraph>(surface, metric);
+std::shared_ptr<const EdgeFans> make_edge_fans(const Surface& surface, const Task& task) {
+  return std::make_shared<const EdgeFans>(surface, task);
+}
+
+/// EdgeFans and a length for each directed edge.
+class EdgeGraph {
+ public:
+  EdgeGraph(const Surface& surface, const Metric& metric, std::shared_ptr<const EdgeFans> fans, const Task& task);
+
+  std::int32_t vertex_count() const { return fans_->vertex_count(); }
+  std::size_t directed_count() const { return fans_->directed_count(); }
+  std::int32_t begin(std::int32_t v) const { return fans_->begin(v); }
+  std::int32_t end(std::int32_t v) const { return fans_->end(v); }
+  std::int32_t head(std::int32_t e) const { return fans_->head(e); }
+  std::int32_t twin(std::int32_t e) const { return fans_->twin(e); }
+  std::int32_t tail(std::int32_t e) const { return fans_->tail(e); }
+  std::int32_t find(std::int32_t a, std::int32_t b) const { return fans_->find(a, b); }
+  double turn(std::int32_t back, std::int32_t out) const { return fans_->turn(back, out); }
+  double length(std::int32_t e) const { return lengths_[at(e)]; }
+  double mean_length() const { return mean_length_; }
+
+ private:
+  std::shared_ptr<const EdgeFans> fans_;
+  std::vector<double> lengths_;
+  double mean_length_ = 0.0;
+};
+
+EdgeGraph::EdgeGraph(const Surface& surface, const Metric& metric, std::shared_ptr<const EdgeFans> fans,
+                     const Task& task) {
+  if (metric.size() != surface.vertex_count()) {
+    throw InvalidInput("the metric has " + std::to_string(metric.size()) + " tensors, the surface " +
+                       std::to_string(surface.vertex_count()) + " vertices");
+  }
+  fans_ = fans ? std::move(fans) : make_edge_fans(surface, task);
+  const std::size_t edges = surface.edges().size();
+  lengths_.resize(directed_count());
+  std::vector<std::int32_t> next(at(vertex_count()));
+  for (std::int32_t v = 0; v < vertex_count(); ++v) next[at(v)] = begin(v);
+  std::size_t count = 0;
+  for (const auto& [a, b] : surface.edges()) {  // in the order in which the rows were filled
+    const double length = edge_length(surface, metric, a, b);
+    lengths_[at(next[at(a)]++)] = lengths_[at(next[at(b)]++)] = length;
+    mean_length_ += length / static_cast<double>(edges);
+    if (++count % kPatience == 0) task.check(static_cast<double>(count) / static_cast<double>(edges));
+  }
+}
+
+std::shared_ptr<const EdgeGraph> make_edge_graph(const Surface& surface, const Metric& metric,
+                                                 std::shared_ptr<const EdgeFans> fans, const Task& task) {
+  return std::make_shared<const EdgeGraph>(surface, metric, std::move(fans), task);
+}
+
+std::vector<std::int32_t> run_on(const EdgeFans& fans, const Edge& edge, std::span<const std::int32_t> stops) {
+  // 1 - cos 60 degrees, a little less: a vertex of three equal angles offers two ways of 60 degrees and no way on.
+  constexpr double kMostTurn = 0.5 - 1e-9;
+  const auto is_vertex = [&](std::int32_t v) { return v >= 0 && v < fans.vertex_count(); };
+  std::int32_t e = is_vertex(edge[0]) && is_vertex(edge[1]) ? fans.find(edge[0], edge[1]) : -1;
+  if (e < 0) {
+    throw InvalidInput("there is no edge between the vertices " + std::to_string(edge[0]) + " and " +
+                       std::to_string(edge[1]));
+  }
+  const std::unordered_set<std::int32_t> stop_at(stops.begin(), stops.end());
+  std::unordered_set<std::int32_t> visited{edge[0], edge[1]};
+  std::vector<std::int32_t> chain{edge[1]};
+  for (std::int32_t v = edge[1];;) {
+    const std::int32_t back = fans.twin(e);
+    if (fans.is_open(v) && !fans.is_rim(back, v)) break;
+    std::int32_t best = -1;
+    double least = kMostTurn;
+    for (std::int32_t out = fans.begin(v); out < fans.end(v); ++out) {
+      if (out == back) continue;
+      const double turn = fans.turn(back, out);
+      if (turn < least) {
+        least = turn;
+        best = out;
+      }
+    }
+    if (best < 0) break;
+    e = best;
+    v = fans.head(e);
+    chain.push_back(v);
+    if (stop_at.contains(v) || !visited.insert(v).second) break;
+  }
+  return chain;
 }
 
 namespace {

@@ -8,10 +8,12 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <span>
 #include <string>
 #include <thread>
 #include <utility>
 
+#include "computed_once.hpp"
 #include "seamwire/embedding.hpp"
 #include "seamwire/geodesics.hpp"
 
@@ -21,18 +23,60 @@ namespace {
 
 constexpr std::array kFollow = {Follow::kMin, Follow::kMax};
 
-/// Fractions of the first solve's work, preparation included, at which its parts begin.
+/// Fractions of the first seed's work, preparation included, at which its parts begin.
 constexpr double kEmbedBegins = 0.1, kSolveBegins = 0.5;
 
 /// An artist waits for an embedding, and one that runs away is better cut short, with small holes: at most so many
 /// triangles are added, or so many times the surface's.
 constexpr std::size_t kFacesAdded = 200'000, kFacesAddedPerFace = 12;
 
-/// What one metric needs for any seed: the first two across the surface, the last along edges.
+struct Curved {
+  Curvature curvature;
+  std::vector<double> difference;
+};
+
+/// What the surface alone decides. Shared by all forks.
+struct Ground {
+  Ground(std::shared_ptr<const Surface> on, Along how) : surface(std::move(on)), along(how) {}
+
+  std::shared_ptr<const Curved> curved_now(const std::stop_token& stop) {
+    return curved.get(stop, [&] {
+      Curved made{.curvature = principal_curvatures(*surface), .difference = {}};
+      made.difference = made.curvature.difference();
+      return made;
+    });
+  }
+  std::shared_ptr<const SnapGraph> snap_graph_now(const std::stop_token& stop) {
+    return snap_graph.get(stop, [&] { return SnapGraph(*surface); });
+  }
+  std::shared_ptr<const EdgeFans> fans_now(const std::stop_token& stop) {
+    const auto held = fans.get(stop, [&] { return make_edge_fans(*surface, {.stop = stop, .progress = {}}); });
+    return *held;
+  }
+
+  const std::shared_ptr<const Surface> surface;
+  const Along along;
+  ComputedOnce<Curved> curved;
+  ComputedOnce<SnapGraph> snap_graph;
+  ComputedOnce<std::shared_ptr<const EdgeFans>> fans;
+};
+
+/// What one metric needs for any seed: across the surface the first three, along edges the last.
 struct Prepared {
   std::optional<Embedding> embedding;
   std::optional<ExactGeodesics> geodesics;
+  std::shared_ptr<const SnapGraph> snap_graph;
   std::shared_ptr<const EdgeGraph> graph;
+};
+
+/// The two metrics of one family and strength. Shared by forks.
+struct Metrics {
+  Metrics(MetricFamily of, const Strength& with) : family(of), strength(with) {}
+
+  const MetricFamily family;
+  const Strength strength;
+  std::array<ComputedOnce<Prepared>, 2> prepared;
+  std::array<std::atomic<double>, 2> fractions = {};  // of the preparation
 };
 
 /// The wires of one metric from one seed.
@@ -41,6 +85,51 @@ struct Solved {
   std::optional<DistanceField> field;
   std::optional<EdgeWires> wires;
 };
+
+Metric make_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Metrics& metrics) {
+  switch (metrics.family) {
+    case MetricFamily::kFeature:
+      return feature_metric(surface, curvature, follow, metrics.strength);
+    case MetricFamily::kCampen:
+      return campen_metric(surface, curvature, follow, metrics.strength);
+    case MetricFamily::kPottmannKovacs:
+      return pottmann_kovacs_metric(surface, curvature, follow, metrics.strength);
+    case MetricFamily::kEuclidean:
+      break;
+  }
+  return euclidean_metric(surface, curvature);
+}
+
+/// The metric's fractions of progress are told to `metrics`.
+Prepared prepare(Ground& ground, Metrics& metrics, std::size_t which, const std::stop_token& stop) {
+  const bool on_surface = ground.along == Along::kSurface;
+  std::atomic<double>& fraction = metrics.fractions[which];
+  Prepared prepared;
+  std::shared_ptr<const EdgeFans> fans;
+  const auto prepare_edges = [&] {
+    if (on_surface) prepared.snap_graph = ground.snap_graph_now(stop);
+    fans = ground.fans_now(stop);
+  };
+  if (which == 1) prepare_edges();  // while the other thread is at the curvatures
+  const std::shared_ptr<const Curved> curved = ground.curved_now(stop);
+  if (which == 0) prepare_edges();
+  Task task{.stop = stop, .progress = {}};
+  task.check(0.0);
+  const Metric metric = make_metric(*ground.surface, curved->curvature, kFollow[which], metrics);
+  fraction = kEmbedBegins / kSolveBegins;
+  task.progress = [&fraction](double done) {
+    fraction = (kEmbedBegins + (kSolveBegins - kEmbedBegins) * done) / kSolveBegins;
+    return true;
+  };
+  if (on_surface) {
+    const std::size_t most = std::max(kFacesAdded, kFacesAddedPerFace * ground.surface->face_count());
+    prepared.embedding = embed(*ground.surface, metric, {.max_faces_added = most}, task);
+    prepared.geodesics.emplace(prepared.embedding->mesh);
+  } else {
+    prepared.graph = make_edge_graph(*ground.surface, metric, std::move(fans), task);
+  }
+  return prepared;
+}
 
 void check_edge(const Surface& surface, const Edge& edge) {
   const Edge sorted = {std::min(edge[0], edge[1]), std::max(edge[0], edge[1])};
@@ -60,8 +149,12 @@ void check_pick(const Surface& surface, Along along, const Pick& pick) {
   }
 }
 
+void check_metric(MetricFamily family, const Strength& strength) {
+  if (family != MetricFamily::kEuclidean) check_strength(strength, family == MetricFamily::kCampen ? 1.0 : 0.0);
+}
+
 void check_options(const LiveWireOptions& options) {
-  check_strength(options.strength);
+  check_metric(options.family, options.strength);
   for (const double turning : {options.turning, options.loop_turning.value_or(0.0)}) {
     if (!(std::isfinite(turning) && turning >= 0)) {
       throw InvalidInput("turning is " + std::to_string(turning) + ", not a finite number of at least 0");
@@ -74,153 +167,202 @@ double loop_turning_for(std::size_t edges) { return std::max(20.0, std::sqrt(sta
 }  // namespace
 
 struct LiveWire::Impl {
-  /// What one worker is at. `request` numbers are those of Impl.
+  /// What one worker is at. Numbers of requests are those of Impl.
   struct Worker {
-    std::shared_ptr<const Prepared> prepared;
-    std::shared_ptr<const Solved> solved;  // for the newest request, if at all
-    std::int64_t handled = -1;             // the request that was answered, or failed, last
-    std::exception_ptr error;              // why it failed
-    std::stop_source solving;
+    std::shared_ptr<const Solved> solved;  // of the newest seed; of a former metric where solved_for is not `request`
+    std::int64_t solved_for = -1;
+    std::int64_t handled = -1;  // the request that was answered, or failed, last
+    std::exception_ptr error;   // why it failed
+    EdgeChain loop;
+    std::int64_t loop_handled = 0;
+    std::stop_source preparing, solving;  // of the running work
+    bool is_at_loop = false;
+    bool was_prepared = false;  // when it began
     std::atomic<double> fraction = 0.0;
   };
 
-  Impl(std::shared_ptr<const Surface> on, const LiveWireOptions& with) : surface(std::move(on)), options(with) {}
+  Impl(std::shared_ptr<Ground> on, std::shared_ptr<Metrics> by, const LiveWireOptions& with);
+  ~Impl();
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
 
-  Prepared prepare(std::size_t which, std::atomic<double>& fraction);
+  const Surface& surface() const { return *ground->surface; }
+  void work(std::size_t which);
+  void work_on_seed(std::size_t which, std::unique_lock<std::mutex>& lock);
+  void work_on_loop(std::size_t which, std::unique_lock<std::mutex>& lock);
   Solved solve(const std::shared_ptr<const Prepared>& prepared, const Pick& pick, bool is_forward,
                const Task& task) const;
-  void work(std::size_t which);
   LiveCandidate candidate(std::size_t which, const Solved* solved, const Pick& target) const;
 
+  /// With the lock.
   bool idle() const {
-    return std::all_of(workers.begin(), workers.end(), [&](const Worker& w) { return w.handled == request; });
+    return std::ranges::all_of(workers,
+                               [&](const Worker& w) { return w.handled == request && w.loop_handled == loop_request; });
   }
   void rethrow() const {
     for (const Worker& worker : workers) {
       if (worker.error) std::rethrow_exception(worker.error);
     }
   }
+  void drop_loop() {
+    loop_edge = {-1, -1};
+    for (Worker& worker : workers) worker.loop_handled = loop_request;
+  }
 
-  const std::shared_ptr<const Surface> surface;
-  const LiveWireOptions options;
-
-  // Made by the first worker that needs them, not changed after.
-  std::once_flag curvature_made, snap_graph_made;
-  Curvature curvature;
-  std::optional<SnapGraph> snap_graph;
+  const std::shared_ptr<Ground> ground;
+  const double turning;
+  const double loop_turning;
 
   mutable std::mutex mutex;  // guards what follows, but for the fractions
   mutable std::condition_variable changed;
-  std::stop_source quit;
-  std::int64_t request = 0;  // number of the newest seed; 0: none yet
-  Pick seed;
+  bool quit = false;
+  std::shared_ptr<Metrics> metrics;
+  std::int64_t request = 0;  // grows with each seed and each change of the metric
+  std::optional<Pick> seed;
   bool forward = false;
+  std::int64_t loop_request = 0;
+  Edge loop_edge = {-1, -1};  // of the newest loop asked for
   std::array<Worker, 2> workers;
 
   std::array<std::jthread, 2> threads;  // last, so that they end first
 };
 
-Prepared LiveWire::Impl::prepare(std::size_t which, std::atomic<double>& fraction) {
-  const bool on_surface = options.along == Along::kSurface;
-  const auto make_snap_graph = [&] {
-    if (on_surface) std::call_once(snap_graph_made, [&] { snap_graph.emplace(*surface); });
-  };
-  if (which == 1) make_snap_graph();  // while the other thread is at the curvatures
-  std::call_once(curvature_made, [&] { curvature = principal_curvatures(*surface); });
-  make_snap_graph();
-  Task task{.stop = quit.get_token(), .progress = {}};
-  task.check(0.0);
-  const Metric metric = feature_metric(*surface, curvature, kFollow[which], options.strength);
-  fraction = kEmbedBegins;
-  Prepared prepared;
-  if (on_surface) {
-    task.progress = [&fraction](double done) {
-      fraction = kEmbedBegins + (kSolveBegins - kEmbedBegins) * done;
-      return true;
-    };
-    const EmbedOptions embed_options{.max_faces_added =
-                                         std::max(kFacesAdded, kFacesAddedPerFace * surface->face_count())};
-    prepared.embedding = embed(*surface, metric, embed_options, task);
-    prepared.geodesics.emplace(prepared.embedding->mesh);
-  } else {
-    prepared.graph = make_edge_graph(*surface, metric);
+LiveWire::Impl::Impl(std::shared_ptr<Ground> on, std::shared_ptr<Metrics> by, const LiveWireOptions& with)
+    : ground(std::move(on)),
+      turning(with.turning),
+      loop_turning(with.loop_turning.value_or(loop_turning_for(ground->surface->edges().size()))),
+      metrics(std::move(by)) {
+  for (std::size_t which = 0; which < kFollow.size(); ++which) {
+    threads[which] = std::jthread([this, which] { work(which); });
   }
-  return prepared;
 }
 
-Solved LiveWire::Impl::solve(const std::shared_ptr<const Prepared>& prepared, const Pick& pick, bool is_forward,
-                             const Task& task) const {
-  Solved solved{.prepared = prepared, .field = std::nullopt, .wires = std::nullopt};
-  if (options.along == Along::kSurface) {
-    solved.field = prepared->geodesics->solve(pick.a, task);
-  } else {
-    solved.wires = edge_wires(prepared->graph, pick, options.turning, is_forward, task);
+LiveWire::Impl::~Impl() {
+  const std::scoped_lock lock(mutex);
+  quit = true;
+  for (Worker& worker : workers) {
+    worker.preparing.request_stop();
+    worker.solving.request_stop();
   }
-  return solved;
+  changed.notify_all();
 }
 
 void LiveWire::Impl::work(std::size_t which) {
   Worker& worker = workers[which];
   std::unique_lock lock(mutex);
   while (true) {
-    changed.wait(lock, [&] { return quit.stop_requested() || worker.handled != request; });
-    if (quit.stop_requested()) return;
-    const std::int64_t at = request;
-    const Pick pick = seed;
-    const bool is_forward = forward;
+    changed.wait(lock, [&] { return quit || worker.handled != request || worker.loop_handled != loop_request; });
+    if (quit) return;
+    worker.preparing = std::stop_source();
     worker.solving = std::stop_source();
-    worker.fraction = 0.0;
-    std::shared_ptr<const Prepared> prepared = worker.prepared;
-    Task task{.stop = worker.solving.get_token(), .progress = {}};
-    lock.unlock();
-
-    std::shared_ptr<const Solved> solved;
-    std::exception_ptr error;
-    try {
-      double begin = 0.0;
-      if (!prepared) {
-        prepared = std::make_shared<const Prepared>(prepare(which, worker.fraction));
-        begin = kSolveBegins;
-      }
-      if (at > 0) {
-        task.progress = [&worker, begin](double done) {
-          worker.fraction = begin + (1.0 - begin) * done;
-          return true;
-        };
-        solved = std::make_shared<const Solved>(solve(prepared, pick, is_forward, task));
-      }
-    } catch (const Cancelled&) {
-      // By a newer seed, or to quit.
-    } catch (...) {
-      error = std::current_exception();
-    }
-
-    lock.lock();
-    worker.prepared = prepared;
-    worker.handled = at;
-    if (at == request) {
-      worker.solved = std::move(solved);
-      worker.error = std::move(error);
+    if (worker.handled != request) {
+      work_on_seed(which, lock);
+    } else {
+      work_on_loop(which, lock);
     }
     changed.notify_all();
   }
 }
 
+void LiveWire::Impl::work_on_seed(std::size_t which, std::unique_lock<std::mutex>& lock) {
+  Worker& worker = workers[which];
+  const std::shared_ptr<Metrics> with = metrics;
+  const std::int64_t at = request;
+  const std::optional<Pick> pick = seed;
+  const bool is_forward = forward;
+  const std::stop_token preparing = worker.preparing.get_token();
+  worker.fraction = 0.0;
+  worker.was_prepared = with->prepared[which].peek() != nullptr;
+  const Task task{.stop = worker.solving.get_token(), .progress = [&worker](double done) {
+                    worker.fraction = done;
+                    return true;
+                  }};
+  lock.unlock();
+
+  std::shared_ptr<const Solved> solved;
+  std::exception_ptr error;
+  try {
+    const std::shared_ptr<const Prepared> prepared =
+        with->prepared[which].get(preparing, [&] { return prepare(*ground, *with, which, preparing); });
+    if (pick) {
+      task.check(0.0);
+      solved = std::make_shared<const Solved>(solve(prepared, *pick, is_forward, task));
+    }
+  } catch (const Cancelled&) {
+    // By a newer request, or to quit.
+  } catch (...) {
+    error = std::current_exception();
+  }
+
+  lock.lock();
+  worker.handled = at;
+  if (at == request) {
+    std::swap(worker.solved, solved);
+    worker.solved_for = at;
+    worker.error = std::move(error);
+  }
+  if (solved) {  // a large field takes long to free
+    lock.unlock();
+    solved = nullptr;
+    lock.lock();
+  }
+}
+
+void LiveWire::Impl::work_on_loop(std::size_t which, std::unique_lock<std::mutex>& lock) {
+  Worker& worker = workers[which];
+  const std::int64_t at = loop_request;
+  const Edge edge = loop_edge;
+  const std::shared_ptr<const Prepared> prepared = metrics->prepared[which].peek();  // null: that failed
+  const Task task{.stop = worker.solving.get_token(), .progress = {}};
+  worker.is_at_loop = true;
+  lock.unlock();
+
+  EdgeChain loop;
+  std::exception_ptr error;
+  bool is_cancelled = false;
+  try {
+    if (prepared) loop = edge_loop(*prepared->graph, edge, loop_turning, task);
+  } catch (const Cancelled&) {
+    is_cancelled = true;  // by a newer loop, which counts then, or by a seed, which goes first
+  } catch (...) {
+    error = std::current_exception();
+  }
+
+  lock.lock();
+  worker.is_at_loop = false;
+  if (is_cancelled || at != loop_request) return;
+  worker.loop_handled = at;
+  worker.loop = std::move(loop);
+  if (error) worker.error = std::move(error);
+}
+
+Solved LiveWire::Impl::solve(const std::shared_ptr<const Prepared>& prepared, const Pick& pick, bool is_forward,
+                             const Task& task) const {
+  Solved solved{.prepared = prepared, .field = std::nullopt, .wires = std::nullopt};
+  if (ground->along == Along::kSurface) {
+    solved.field = prepared->geodesics->solve(pick.a, task);
+  } else {
+    solved.wires = edge_wires(prepared->graph, pick, turning, is_forward, task);
+  }
+  return solved;
+}
+
 LiveCandidate LiveWire::Impl::candidate(std::size_t which, const Solved* solved, const Pick& target) const {
   LiveCandidate candidate;
   candidate.follow = kFollow[which];
-  candidate.final = solved != nullptr;
   if (solved == nullptr) return candidate;
   if (solved->wires) {
     EdgeChain chain = solved->wires->trace(target);
     candidate.length = chain.length;
     candidate.vertices = std::move(chain.vertices);
+    candidate.points.reserve(candidate.vertices.size());
     for (const std::int32_t v : candidate.vertices) {
-      candidate.points.push_back(surface->points()[static_cast<std::size_t>(v)]);
+      candidate.points.push_back(surface().points()[static_cast<std::size_t>(v)]);
     }
   } else {
-    Wire wire = trace_wire(*surface, *solved->prepared->embedding, *solved->field, target.a);
-    candidate.vertices = snap_to_edges(*surface, *snap_graph, wire);
+    const Prepared& prepared = *solved->prepared;
+    Wire wire = trace_wire(surface(), *prepared.embedding, *solved->field, target.a);
+    candidate.vertices = snap_to_edges(surface(), *prepared.snap_graph, wire);
     candidate.length = wire.length;
     candidate.points = std::move(wire.points);
     candidate.faces = std::move(wire.faces);
@@ -230,21 +372,42 @@ LiveCandidate LiveWire::Impl::candidate(std::size_t which, const Solved* solved,
 
 LiveWire::LiveWire(std::shared_ptr<const Surface> surface, const LiveWireOptions& options) {
   check_options(options);
-  impl_ = std::make_unique<Impl>(std::move(surface), options);
-  for (std::size_t which = 0; which < kFollow.size(); ++which) {
-    impl_->threads[which] = std::jthread([impl = impl_.get(), which] { impl->work(which); });
-  }
+  impl_ = std::make_unique<Impl>(std::make_shared<Ground>(std::move(surface), options.along),
+                                 std::make_shared<Metrics>(options.family, options.strength), options);
 }
 
-LiveWire::~LiveWire() {
+LiveWire::LiveWire(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+LiveWire::LiveWire(LiveWire&& other) noexcept = default;
+LiveWire& LiveWire::operator=(LiveWire&& other) noexcept = default;
+LiveWire::~LiveWire() = default;
+
+LiveWire LiveWire::fork() const {
+  std::shared_ptr<Metrics> metrics;
+  {
+    const std::scoped_lock lock(impl_->mutex);
+    metrics = impl_->metrics;
+  }
+  const LiveWireOptions options{.turning = impl_->turning, .loop_turning = impl_->loop_turning};
+  return LiveWire(std::make_unique<Impl>(impl_->ground, std::move(metrics), options));
+}
+
+void LiveWire::set_metric(MetricFamily family, const Strength& strength) {
+  check_metric(family, strength);
+  auto metrics = std::make_shared<Metrics>(family, strength);
   const std::scoped_lock lock(impl_->mutex);
-  impl_->quit.request_stop();
-  for (Impl::Worker& worker : impl_->workers) worker.solving.request_stop();
+  std::swap(impl_->metrics, metrics);
+  ++impl_->request;
+  impl_->drop_loop();
+  for (Impl::Worker& worker : impl_->workers) {
+    worker.preparing.request_stop();
+    worker.solving.request_stop();
+    worker.error = nullptr;
+  }
   impl_->changed.notify_all();
 }
 
 void LiveWire::seed(const Pick& pick, bool forward) {
-  check_pick(*impl_->surface, impl_->options.along, pick);
+  check_pick(impl_->surface(), impl_->ground->along, pick);
   std::array<std::shared_ptr<const Solved>, 2> dropped;  // freed without the lock
   const std::scoped_lock lock(impl_->mutex);
   ++impl_->request;
@@ -261,46 +424,80 @@ void LiveWire::seed(const Pick& pick, bool forward) {
 }
 
 LiveWires LiveWire::wires(const Pick& target) const {
-  check_pick(*impl_->surface, impl_->options.along, target);
+  check_pick(impl_->surface(), impl_->ground->along, target);
   std::array<std::shared_ptr<const Solved>, 2> solved;
+  std::array<bool, 2> is_newest{};
   {
     const std::scoped_lock lock(impl_->mutex);
-    if (impl_->request == 0) throw InvalidInput("there is no seed that wires could start from");
+    if (!impl_->seed) throw InvalidInput("there is no seed that wires could start from");
     impl_->rethrow();
-    for (std::size_t which = 0; which < kFollow.size(); ++which) solved[which] = impl_->workers[which].solved;
+    for (std::size_t which = 0; which < kFollow.size(); ++which) {
+      solved[which] = impl_->workers[which].solved;
+      is_newest[which] = impl_->workers[which].solved_for == impl_->request;
+    }
   }
   LiveWires result;
   for (std::size_t which = 0; which < kFollow.size(); ++which) {
     result.wires[which] = impl_->candidate(which, solved[which].get(), target);
+    result.wires[which].final = solved[which] != nullptr && is_newest[which];
   }
-  const auto& [min, max] = result.wires;
-  result.shorter = max.final && (!min.final || max.length < min.length) ? 1 : 0;
+  result.shorter = result.wires[1].length < result.wires[0].length ? 1 : 0;
   return result;
 }
 
-EdgeChain LiveWire::loop(const Edge& edge) const {
-  if (impl_->options.along != Along::kEdges) throw InvalidInput("loops run along edges, not across the surface");
-  check_edge(*impl_->surface, edge);
-  std::array<std::shared_ptr<const Prepared>, 2> prepared;
-  {
-    const std::scoped_lock lock(impl_->mutex);
-    impl_->rethrow();
-    for (std::size_t which = 0; which < kFollow.size(); ++which) prepared[which] = impl_->workers[which].prepared;
+LiveLoop LiveWire::loop(const Edge& edge) {
+  if (impl_->ground->along != Along::kEdges) throw InvalidInput("loops run along edges, not across the surface");
+  check_edge(impl_->surface(), edge);
+  const Edge sorted = {std::min(edge[0], edge[1]), std::max(edge[0], edge[1])};
+  const std::scoped_lock lock(impl_->mutex);
+  impl_->rethrow();
+  auto& workers = impl_->workers;
+  if (impl_->loop_edge != sorted) {
+    ++impl_->loop_request;
+    impl_->loop_edge = sorted;
+    for (Impl::Worker& worker : workers) {
+      if (worker.is_at_loop) worker.solving.request_stop();
+    }
+    impl_->changed.notify_all();
   }
-  if (!prepared[0] || !prepared[1]) return {};
-  const double turning = impl_->options.loop_turning.value_or(loop_turning_for(impl_->surface->edges().size()));
-  EdgeChain min = edge_loop(*prepared[0]->graph, edge, turning);
-  EdgeChain max = edge_loop(*prepared[1]->graph, edge, turning);
-  return max.length < min.length ? max : min;
+  if (!std::ranges::all_of(workers, [&](const auto& w) { return w.loop_handled == impl_->loop_request; })) return {};
+  const EdgeChain& cheaper = workers[1].loop.length < workers[0].loop.length ? workers[1].loop : workers[0].loop;
+  return {.vertices = cheaper.vertices, .length = cheaper.length, .final = true};
+}
+
+EdgeChain LiveWire::run_on(const Edge& edge, std::span<const std::int32_t> stops) const {
+  check_edge(impl_->surface(), edge);
+  const auto fans = impl_->ground->fans.peek();
+  if (!fans) return {};
+  EdgeChain way{.vertices = seamwire::run_on(**fans, edge, stops), .length = 0.0};
+  const auto point = [&](std::int32_t v) -> const Vector& {
+    return impl_->surface().points()[static_cast<std::size_t>(v)];
+  };
+  for (std::size_t i = 1; i < way.vertices.size(); ++i) {
+    way.length += impl_->surface().scale() * (point(way.vertices[i]) - point(way.vertices[i - 1])).norm();
+  }
+  return way;
+}
+
+std::shared_ptr<const std::vector<double>> LiveWire::feature_strength() const {
+  std::shared_ptr<const Curved> curved = impl_->ground->curved.peek();
+  return curved ? std::shared_ptr<const std::vector<double>>(curved, &curved->difference) : nullptr;
 }
 
 double LiveWire::progress() const {
   const std::scoped_lock lock(impl_->mutex);
   double sum = 0.0;
-  for (const Impl::Worker& worker : impl_->workers) {
-    sum += worker.handled == impl_->request ? 1.0 : std::clamp(worker.fraction.load(), 0.0, 1.0);
+  for (std::size_t which = 0; which < kFollow.size(); ++which) {
+    const Impl::Worker& worker = impl_->workers[which];
+    if (worker.handled == impl_->request) {
+      sum += 1.0;
+      continue;
+    }
+    const double solved = std::clamp(worker.fraction.load(), 0.0, 1.0);
+    const double prepared = std::clamp(impl_->metrics->fractions[which].load(), 0.0, 1.0);
+    sum += worker.was_prepared ? solved : kSolveBegins * prepared + (1.0 - kSolveBegins) * solved;
   }
-  return sum / static_cast<double>(impl_->workers.size());
+  return sum / static_cast<double>(kFollow.size());
 }
 
 bool LiveWire::wait(double seconds) const {

@@ -674,5 +674,71 @@ TEST(EdgeLoop, IsTheCheapestOfAllOnSmallMeshes) {
   EXPECT_LT(dearer, loops / 50);  // NP-hard, as for wires
 }
 
+// ---------------------------------------------------------------------------------------------------------------------
+// Running on
+
+using Chain = std::vector<std::int32_t>;
+
+TEST(RunOn, FollowsTheRingsOfATorusUntilItMeetsItself) {
+  const int nu = 12, nv = 8;
+  const auto fans = make_edge_fans(shapes::quad_torus(nu, nv).surface());
+  Chain around;
+  for (int i = 1; i <= nu; ++i) around.push_back(i % nu);
+  EXPECT_EQ(run_on(*fans, {0, 1}, {}), around) << "up to the vertex it came from";
+  Chain down{nu * (nv - 1)};
+  for (int j = nv - 2; j >= 0; --j) down.push_back(nu * j);
+  EXPECT_EQ(run_on(*fans, {0, nu * (nv - 1)}, {}), down);
+}
+
+TEST(RunOn, StopsAtAStopButNotAtItsBeginning) {
+  const auto fans = make_edge_fans(shapes::quad_torus(12, 8).surface());
+  const Chain stops{1, 4, 90};
+  EXPECT_EQ(run_on(*fans, {0, 1}, stops), (Chain{1, 2, 3, 4}));
+  EXPECT_EQ(run_on(*fans, {0, 1}, Chain{0}).back(), 0);
+}
+
+TEST(RunOn, StopsAtABoundaryAndGoesOnAlongOne) {
+  const auto fans = make_edge_fans(shapes::quad_grid(4).surface());  // five vertices a row
+  EXPECT_EQ(run_on(*fans, {2, 7}, {}), (Chain{7, 12, 17, 22}));
+  EXPECT_EQ(run_on(*fans, {7, 2}, {}), Chain{2}) << "already there";
+  EXPECT_EQ(run_on(*fans, {0, 1}, {}), (Chain{1, 2, 3, 4, 9, 14, 19, 24, 23, 22, 21, 20, 15, 10, 5, 0}))
+      << "a boundary does not turn at its corners";
+}
+
+TEST(RunOn, GoesAroundTheEdgeOfACubeOnlyWhereThatIsStraight) {
+  // At a corner of the cube three right angles meet: the two ways on turn by 60 degrees.
+  const int n = 4;
+  const Surface surface = shapes::quad_cube(n).surface();
+  const auto fans = make_edge_fans(surface);
+  const auto find = [&](double x, double y, double z) {
+    const auto it = std::ranges::find(surface.points(), Vector(x, y, z));
+    return static_cast<std::int32_t>(it - surface.points().begin());
+  };
+  const Chain rim = run_on(*fans, {find(0, 0, 0), find(0.25, 0, 0)}, {});
+  EXPECT_EQ(rim, (Chain{find(0.25, 0, 0), find(0.5, 0, 0), find(0.75, 0, 0), find(1, 0, 0)}));
+  const Chain ring = run_on(*fans, {find(0.25, 0.5, 1), find(0.5, 0.5, 1)}, {});
+  EXPECT_EQ(ring.size(), 4 * n) << "over four sides and back";
+  EXPECT_EQ(ring.back(), find(0.25, 0.5, 1));
+}
+
+TEST(RunOn, KeepsToAStraightLineOnTriangles) {
+  const auto fans = make_edge_fans(shapes::grid(6).surface());
+  EXPECT_EQ(run_on(*fans, {8, 16}, {}), (Chain{16, 24, 32, 40, 48})) << "along the diagonals";
+}
+
+TEST(RunOn, GoesOnInSpaceWhereFacesAreNoFan) {
+  // A chain of loose edges: straight on by 45 degrees, not by 90.
+  const std::vector<Vector> points = {{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {1, 2, 0}, {5, 5, 5}, {6, 5, 5}, {5, 6, 5}};
+  const Surface surface(points, {{4, 5, 6}}, std::vector<Edge>{{0, 1}, {1, 2}, {2, 3}, {4, 5}, {5, 6}, {4, 6}});
+  EXPECT_EQ(run_on(*make_edge_fans(surface), {0, 1}, {}), (Chain{1, 2}));
+}
+
+TEST(RunOn, RefusesWhatIsNoEdge) {
+  const auto fans = make_edge_fans(shapes::quad_grid(2).surface());
+  for (const Edge& edge : {Edge{0, 4}, Edge{0, 9}, Edge{-1, 0}, Edge{1, 1}}) {
+    EXPECT_THROW(run_on(*fans, edge, {}), InvalidInput);
+  }
+}
+
 }  // namespace
 }  // namespace seamwire

@@ -3,8 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
-#include <set>
+#include <optional>
 #include <thread>
 
 #include "seamwire/embedding.hpp"
@@ -81,9 +82,11 @@ TEST(LiveWire, AlongEdgesGivesTheChainsOfBothMetrics) {
 TEST(LiveWire, TheLoopIsTheCheaperOfBothMetrics) {
   const auto surface = shared(shapes::torus(24, 16));
   LiveWire live(surface, kAlongEdges);
-  ASSERT_TRUE(live.wait());  // loops need no seed
-  for (const Edge& edge : {Edge{0, 1}, Edge{24, 0}, Edge{5, 29}}) {
-    const EdgeChain loop = live.loop(edge);
+  for (const Edge& edge : {Edge{0, 1}, Edge{24, 0}, Edge{5, 29}}) {  // loops need no seed
+    live.loop(edge);
+    ASSERT_TRUE(live.wait());
+    const LiveLoop loop = live.loop(edge);
+    ASSERT_TRUE(loop.final);
     double least = std::numeric_limits<double>::infinity();
     for (const Follow follow : {Follow::kMin, Follow::kMax}) {
       const auto graph = make_edge_graph(*surface, metric_of(*surface, follow, kAlongEdges.strength));
@@ -181,8 +184,156 @@ TEST(LiveWire, FindsTheRingsOfADenseMesh) {
   LiveWire live(surface, kAlongEdges);
   live.seed({0});
   ASSERT_TRUE(live.wait());
-  EXPECT_EQ(live.loop({0, 1}).vertices.size(), nu);
-  EXPECT_EQ(live.loop({0, nu}).vertices.size(), nv);
+  for (const auto& [edge, size] : {std::pair{Edge{0, 1}, nu}, std::pair{Edge{0, nu}, nv}}) {
+    live.loop(edge);
+    ASSERT_TRUE(live.wait());
+    EXPECT_EQ(live.loop(edge).vertices.size(), size);
+  }
+}
+
+TEST(LiveWire, OfLoopsTheOneAskedForLastCounts) {
+  const int nu = 60, nv = 40;
+  const auto surface = std::make_shared<const Surface>(shapes::quad_torus(nu, nv).surface());
+  LiveWire live(surface, kAlongEdges);
+  for (std::int32_t v = 0; v < 200; ++v) {
+    const LiveLoop early = live.loop({v, v + nu});
+    EXPECT_EQ(early.final, !early.vertices.empty());
+    if (v % 7 == 0) live.seed({v});  // goes first, and does not make the loop forgotten
+  }
+  ASSERT_TRUE(live.wait());
+  const LiveLoop loop = live.loop({199 + nu, 199});  // an edge has no direction
+  ASSERT_TRUE(loop.final);
+  EXPECT_EQ(loop.vertices.size(), nv);
+  EXPECT_TRUE(std::ranges::count(loop.vertices, 199));
+  EXPECT_TRUE(live.wires({0}).final());
+}
+
+/// Both wires to a vertex from a live wire that has just been made.
+LiveWires fresh_wires(const std::shared_ptr<const Surface>& surface, const LiveWireOptions& options, const Pick& from,
+                      const Pick& to) {
+  LiveWire live(surface, options);
+  live.seed(from);
+  live.wait();
+  return live.wires(to);
+}
+
+void expect_equal(const LiveWires& got, const LiveWires& expected) {
+  EXPECT_TRUE(got.final());
+  EXPECT_EQ(got.shorter, expected.shorter);
+  for (std::size_t which = 0; which < 2; ++which) {
+    EXPECT_EQ(got.wires[which].points, expected.wires[which].points);
+    EXPECT_EQ(got.wires[which].vertices, expected.wires[which].vertices);
+    EXPECT_EQ(got.wires[which].length, expected.wires[which].length);
+  }
+}
+
+TEST(LiveWire, AnotherMetricIsThatOfALiveWireMadeWithIt) {
+  const auto surface = shared(shapes::bumpy(shapes::torus(32, 20), 0.02));
+  for (LiveWireOptions options : {LiveWireOptions{}, kAlongEdges}) {
+    LiveWire live(surface, options);
+    live.seed({7});
+    const std::vector<std::pair<MetricFamily, Strength>> metrics = {
+        {MetricFamily::kFeature, {.max_anisotropy = 20, .clamp_percentile = 95}},
+        {MetricFamily::kCampen, {.max_anisotropy = 5}},
+        {MetricFamily::kPottmannKovacs, {.max_anisotropy = 5}},
+        {MetricFamily::kEuclidean, {}},
+        {options.family, options.strength}};
+    for (const auto& [family, strength] : metrics) {
+      live.set_metric(family, strength);
+      ASSERT_TRUE(live.wait());
+      options.family = family;
+      options.strength = strength;
+      expect_equal(live.wires({333}), fresh_wires(surface, options, {7}, {333}));
+    }
+  }
+}
+
+TEST(LiveWire, WhileTheMetricChangesTheWiresAreTheFormerOnesAndNotFinal) {
+  const auto surface = shared(shapes::torus(160, 120));
+  LiveWire live(surface);
+  live.seed({0});
+  ASSERT_TRUE(live.wait());
+  const LiveWires before = live.wires({900});
+  live.set_metric(MetricFamily::kFeature, {.max_anisotropy = 8});
+  const LiveWires now = live.wires({900});
+  EXPECT_FALSE(now.final());
+  for (std::size_t which = 0; which < 2; ++which) {
+    if (now.wires[which].final) continue;
+    EXPECT_EQ(now.wires[which].points, before.wires[which].points);
+  }
+  live.seed({5});  // the former metric's wires are from the former seed
+  for (const LiveCandidate& wire : live.wires({900}).wires) EXPECT_TRUE(wire.final || wire.points.empty());
+  ASSERT_TRUE(live.wait());
+  EXPECT_TRUE(live.wires({900}).final());
+}
+
+TEST(LiveWire, OfMetricsTheOneSetLastCounts) {
+  const auto surface = shared(shapes::bumpy(shapes::torus(48, 32), 0.02));
+  LiveWireOptions options = kAlongEdges;
+  LiveWire live(surface, options);
+  live.seed({7});
+  for (int i = 0; i < 100; ++i) {
+    options.strength = {.max_anisotropy = 2 + 0.1 * i};
+    live.set_metric(options.family, options.strength);
+    if (i % 10 == 0) live.wait(0.002);
+  }
+  ASSERT_TRUE(live.wait());
+  expect_equal(live.wires({777}), fresh_wires(surface, options, {7}, {777}));
+}
+
+TEST(LiveWire, AForkHasTheSameMetricsAndASeedOfItsOwn) {
+  const auto surface = shared(shapes::bumpy(shapes::torus(40, 24), 0.02));
+  for (const LiveWireOptions& options : {LiveWireOptions{}, kAlongEdges}) {
+    auto live = std::make_optional<LiveWire>(surface, options);
+    live->seed({7});
+    LiveWire early = live->fork();  // while the metrics are being computed
+    EXPECT_THROW(early.wires({0}), InvalidInput) << "it has no seed yet";
+    early.seed({50});
+    ASSERT_TRUE(early.wait());
+    LiveWire late = live->fork();
+    late.seed({99});
+    ASSERT_TRUE(live->wait());
+    live->set_metric(MetricFamily::kEuclidean, {});
+    ASSERT_TRUE(late.wait());
+    ASSERT_TRUE(live->wait());
+    expect_equal(early.wires({700}), fresh_wires(surface, options, {50}, {700}));
+    live.reset();  // forks live on
+    late.seed({98});
+    ASSERT_TRUE(late.wait());
+    expect_equal(late.wires({700}), fresh_wires(surface, options, {98}, {700}));
+  }
+}
+
+TEST(LiveWire, AForkGoesOnWithWhatItsOriginLeftUndone) {
+  const auto surface = shared(shapes::torus(100, 80));
+  for (const LiveWireOptions& options : {LiveWireOptions{}, kAlongEdges}) {
+    auto live = std::make_optional<LiveWire>(surface, options);
+    LiveWire fork = live->fork();
+    fork.seed({3});
+    live.reset();
+    ASSERT_TRUE(fork.wait());
+    EXPECT_TRUE(fork.wires({99}).final());
+  }
+}
+
+TEST(LiveWire, TellsTheFeatureStrengthOfEachVertex) {
+  const auto surface = shared(shapes::torus(32, 20));
+  const LiveWire live(surface);
+  ASSERT_TRUE(live.wait());
+  ASSERT_NE(live.feature_strength(), nullptr);
+  EXPECT_EQ(*live.feature_strength(), principal_curvatures(*surface).difference());
+}
+
+TEST(LiveWire, RunsOnAlongBothKinds) {
+  const auto surface = std::make_shared<const Surface>(shapes::quad_cylinder(12, 6, 0.5, 1.0).surface());
+  for (const LiveWireOptions& options : {LiveWireOptions{}, kAlongEdges}) {
+    const LiveWire live(surface, options);
+    ASSERT_TRUE(live.wait());
+    const EdgeChain up = live.run_on({0, 12}, {});
+    EXPECT_EQ(up.vertices, (std::vector<std::int32_t>{12, 24, 36, 48, 60, 72}));
+    EXPECT_NEAR(up.length, 5.0 / 6, 1e-12);
+    EXPECT_THROW(live.run_on({0, 13}, {}), InvalidInput);
+  }
 }
 
 TEST(LiveWire, RefusesWhatIsNotPartOfTheSurface) {
@@ -204,6 +355,10 @@ TEST(LiveWire, RefusesWrongOptions) {
   const auto surface = shared(shapes::grid(4));
   EXPECT_THROW(LiveWire(surface, {.strength = {}}), InvalidInput);
   EXPECT_THROW(LiveWire(surface, {.strength = {.parameter = -1}}), InvalidInput);
+  EXPECT_THROW(LiveWire(surface, {.family = MetricFamily::kCampen, .strength = {.parameter = 0.5}}), InvalidInput);
+  LiveWire live(surface);
+  EXPECT_THROW(live.set_metric(MetricFamily::kFeature, {}), InvalidInput);
+  EXPECT_THROW(live.set_metric(MetricFamily::kCampen, {.max_anisotropy = 0.5}), InvalidInput);
   EXPECT_THROW(LiveWire(surface, {.strength = {.parameter = 1, .max_anisotropy = 2}}), InvalidInput);
   EXPECT_THROW(LiveWire(surface, {.turning = -1}), InvalidInput);
   EXPECT_THROW(LiveWire(surface, {.loop_turning = std::numeric_limits<double>::quiet_NaN()}), InvalidInput);
@@ -215,6 +370,10 @@ TEST(LiveWire, WhatFailsOnAThreadIsThrownToTheCaller) {
   live.seed({0});
   EXPECT_THROW(live.wait(), InvalidInput);
   EXPECT_THROW(live.wires({1}), InvalidInput);
+  EXPECT_THROW(live.fork().wait(), InvalidInput);
+  live.set_metric(MetricFamily::kFeature, {.parameter = 0.1});
+  EXPECT_TRUE(live.wait()) << "a metric that can be computed mends it";
+  EXPECT_TRUE(live.wires({1}).final());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "seamwire/metric.hpp"
@@ -27,15 +28,29 @@ struct EdgeChain {
   double length = std::numeric_limits<double>::infinity();  ///< metric lengths plus turning cost
 };
 
-/// The real edges of a surface with their lengths in a metric and what turning costs at each vertex: cost of a chain =
-/// sum of metric lengths + q * (mean metric edge length) * sum over its inner vertices of (1 - cos kappa), where kappa
-/// is the discrete geodesic curvature, pi |left - right| / (left + right) of the face angles on either side (Polthier
-/// and Schmies, "Straightest Geodesics", 1998). On a boundary it is zero along the boundary, else pi minus the angle
-/// between the edges; where the faces at a vertex are no single fan (an edge with three faces, a bow-tie, a loose edge)
-/// it is the turn in space. Immutable, so searches may run on several threads.
+/// The real edges around each vertex of a surface, and what it costs to turn from one to another: 1 - cos kappa, where
+/// kappa is the discrete geodesic curvature, pi |left - right| / (left + right) of the face angles on either side
+/// (Polthier and Schmies, "Straightest Geodesics", 1998). On a boundary it is zero along the boundary, else pi minus
+/// the angle between the edges; where the faces at a vertex are no single fan (an edge with three faces, a bow-tie, a
+/// loose edge) it is the turn in space. Immutable, so any number of threads may use it.
+class EdgeFans;
+
+/// Throws Cancelled.
+std::shared_ptr<const EdgeFans> make_edge_fans(const Surface& surface, const Task& task = {});
+
+/// The straightest way on from edge.b, having come from edge.a: at each vertex over the edge that turns least. It ends
+/// at a vertex of `stops` (edge.b itself is none), at a boundary (a way along a boundary goes on along it), at a vertex
+/// it has been at, edge.a among them, and where nothing turns less than 60 degrees. Begins with edge.b; only its last
+/// vertex may be an earlier one. Throws InvalidInput where that is no edge of the surface.
+std::vector<std::int32_t> run_on(const EdgeFans& fans, const Edge& edge, std::span<const std::int32_t> stops);
+
+/// EdgeFans with the lengths of the edges in a metric: cost of a chain = sum of metric lengths + q * (mean metric edge
+/// length) * sum over its inner vertices of (1 - cos kappa). Immutable, so searches may run on several threads.
 class EdgeGraph;
 
-std::shared_ptr<const EdgeGraph> make_edge_graph(const Surface& surface, const Metric& metric);
+/// `fans`: those of the surface, where they are there already. Throws Cancelled.
+std::shared_ptr<const EdgeGraph> make_edge_graph(const Surface& surface, const Metric& metric,
+                                                 std::shared_ptr<const EdgeFans> fans = nullptr, const Task& task = {});
 
 /// The cheapest chains from one pick to every edge and vertex.
 class EdgeWires {

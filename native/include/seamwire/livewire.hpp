@@ -4,7 +4,8 @@
 #include <array>
 #include <memory>
 #include <optional>
-#include <string>
+#include <span>
+#include <vector>
 
 #include "seamwire/edge_wire.hpp"
 #include "seamwire/metric.hpp"
@@ -16,9 +17,13 @@ namespace seamwire {
 /// Where wires run: across the surface, as exact geodesics, or along its real edges.
 enum class Along { kSurface, kEdges };
 
+/// Which of the metrics of metric.hpp wires are short in.
+enum class MetricFamily { kFeature, kCampen, kPottmannKovacs, kEuclidean };
+
 struct LiveWireOptions {
   Along along = Along::kSurface;
-  Strength strength = {.parameter = 0.1};  ///< of feature_metric()
+  MetricFamily family = MetricFamily::kFeature;
+  Strength strength = {.parameter = 0.1};  ///< of that metric; the Euclidean one has none
   double turning = 3.0;                    ///< q of edge_wires()
   /// q of edge_loop(). nullopt: 20, and a quarter of the root of the number of edges where that is more. A circle
   /// around one quad costs four turns, 4 q edges, so with a fixed q a ring of a dense mesh, which may have as many
@@ -34,7 +39,7 @@ struct LiveCandidate {
   std::vector<std::int32_t> faces;  ///< per segment, across the surface only
   std::vector<std::int32_t> vertices;
   double length = std::numeric_limits<double>::infinity();
-  bool final = false;  ///< false: this metric's field is still being computed, and there is no wire yet
+  bool final = false;  ///< false: still being computed; what is here, if anything, will be replaced
 };
 
 struct LiveWires {
@@ -43,14 +48,29 @@ struct LiveWires {
   bool final() const { return wires[0].final && wires[1].final; }
 };
 
+/// A closed chain of edges.
+struct LiveLoop {
+  std::vector<std::int32_t> vertices;  ///< the first one is not given twice; empty: there is none, or not yet
+  double length = std::numeric_limits<double>::infinity();
+  bool final = false;  ///< false: still being computed
+};
+
 /// Both metrics for one surface, each computed on a thread of its own; seed, then the two wires to any target (Section
 /// 5). All members may be called from one thread at a time; none but wait() waits for the computation.
 class LiveWire {
  public:
   explicit LiveWire(std::shared_ptr<const Surface> surface, const LiveWireOptions& options = {});
+  LiveWire(LiveWire&& other) noexcept;
+  LiveWire& operator=(LiveWire&& other) noexcept;
   ~LiveWire();  ///< stops the running work
-  LiveWire(const LiveWire&) = delete;
-  LiveWire& operator=(const LiveWire&) = delete;
+
+  /// Another one with the same metrics, those still being computed too, and no seed. A later set_metric() of either
+  /// does not change the other.
+  LiveWire fork() const;
+
+  /// Changes the metric in the background, and then seeds again: until then wires are those of the former metric, and
+  /// not final. Throws InvalidInput where the strength is not as said in metric.hpp.
+  void set_metric(MetricFamily family, const Strength& strength);
 
   /// Starts the wires from a pick, dropping those of an earlier one. Across the surface the pick must be a vertex.
   /// `forward` as in edge_wires(). Throws InvalidInput where the pick is not part of the surface.
@@ -58,16 +78,23 @@ class LiveWire {
   /// The wires from the seed to a target now. Throws InvalidInput for a target that is not part of the surface or where
   /// there is no seed.
   LiveWires wires(const Pick& target) const;
-  /// The closed chain through an edge, the cheaper of the two metrics'; along edges only. Empty vertices: none, or not
-  /// ready.
-  EdgeChain loop(const Edge& edge) const;
 
-  /// Fraction of the running work that is done, 1 when all is; waits for it at most `seconds`.
+  /// The closed chain through an edge, the cheaper of the two metrics'; along edges only. The first call for an edge
+  /// starts the search, in place of that for another edge; ask again until the answer is final. A seed goes first.
+  LiveLoop loop(const Edge& edge);
+  /// run_on(), with the way's length in the unit cube; no vertices where it cannot be told yet.
+  EdgeChain run_on(const Edge& edge, std::span<const std::int32_t> stops) const;
+  /// s of eq. 5 at each vertex; null while it is being computed.
+  std::shared_ptr<const std::vector<double>> feature_strength() const;
+
+  /// Fraction of the preparation and the seed's work that is done, 1 when all is.
   double progress() const;
+  /// Waits for all running work, loops too, at most `seconds`; whether it is done.
   bool wait(double seconds = std::numeric_limits<double>::infinity()) const;
 
  private:
   struct Impl;
+  explicit LiveWire(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
 

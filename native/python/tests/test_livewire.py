@@ -45,7 +45,12 @@ def test_along_edges_gives_both_chains(surface: sw.Surface, curvature: sw.Curvat
         for follow in ("min", "max")
     ]
     loops = [sw.edge_loop(surface, metric, (3, 4)) for metric in metrics]
-    assert live.loop((3, 4)).length == min(loop.length for loop in loops)
+    live.loop((3, 4))
+    assert live.wait()
+    loop = live.loop((4, 3))
+    assert loop.final
+    assert loop.length == min(loop.length for loop in loops)
+    assert loop.vertices.tolist() in [loop.vertices.tolist() for loop in loops]
 
 
 def test_wires_come_without_waiting(large: sw.Surface) -> None:
@@ -101,3 +106,73 @@ def test_what_fails_on_a_thread_is_raised_to_the_caller(surface: sw.Surface) -> 
     live = sw.LiveWire(surface, gamma=1e308)
     with pytest.raises(ValueError, match="too strong"):
         live.wait()
+
+
+def test_the_metric_changes_in_the_background(surface: sw.Surface) -> None:
+    live = sw.LiveWire(surface, along="edges")
+    live.seed(3)
+    for metric, max_anisotropy in [
+        ("feature", 30),
+        ("campen", 5),
+        ("pottmann_kovacs", 5),
+        ("euclidean", None),
+        ("feature", None),
+    ]:
+        live.set_metric(metric, max_anisotropy=max_anisotropy)
+        assert live.wait()
+        fresh = sw.LiveWire(surface, along="edges", metric=metric, max_anisotropy=max_anisotropy)
+        fresh.seed(3)
+        assert fresh.wait()
+        for got, expected in zip(live.wires(500).wires, fresh.wires(500).wires, strict=True):
+            assert got.final
+            assert got.length == expected.length
+            np.testing.assert_array_equal(got.vertices, expected.vertices)
+    for wrong in ({"metric": "manhattan"}, {"metric": "campen", "gamma": 2}, {"max_anisotropy": 0.5}):
+        with pytest.raises(ValueError, match=r"metric|gamma|anisotropy"):
+            live.set_metric(**wrong)
+
+
+def test_a_fork_has_a_seed_of_its_own(surface: sw.Surface) -> None:
+    live = sw.LiveWire(surface, along="edges")
+    live.seed(3)
+    fork = live.fork()
+    with pytest.raises(ValueError, match="no seed"):
+        fork.wires(500)
+    fork.seed(77)
+    assert live.wait()
+    del live
+    assert fork.wait()
+    assert fork.wires(500).wires[0].vertices[0] == 77
+
+
+def test_runs_on_straight(surface: sw.Surface) -> None:
+    live = sw.LiveWire(surface, along="edges")
+    assert live.wait()
+    way = live.run_on((0, 1)).vertices
+    assert way[0] == 1
+    assert len(way) > 3
+    np.testing.assert_array_equal(live.run_on((0, 1), [int(way[2]), 5]).vertices[:3], way[:3])
+    assert len(live.run_on((0, 1), {int(way[2])}).vertices) == 3
+    with pytest.raises(ValueError, match="stops"):
+        live.run_on((0, 1), [10**6])
+
+
+def test_tells_the_strength_of_features(surface: sw.Surface, curvature: sw.Curvature) -> None:
+    live = sw.LiveWire(surface)
+    assert live.wait()
+    strength = live.feature_strength()
+    del live
+    np.testing.assert_array_equal(strength, curvature.difference)
+
+
+def test_segments_are_parted_by_rings() -> None:
+    nu, nv = 24, 16
+    points, triangles = meshes.torus(nu, nv)
+    surface = sw.Surface(points, triangles)
+    assert set(sw.face_segments(surface, np.empty((0, 2), np.int32))) == {0}
+    cuts = [(nu * v + u, nu * ((v + 1) % nv) + u) for u in (0, 6) for v in range(nv)]
+    labels = sw.face_segments(surface, np.array(cuts))
+    assert labels.dtype == np.int32
+    assert np.bincount(labels).tolist() == [18 * nv * 2, 6 * nv * 2]
+    with pytest.raises(ValueError, match="out of range"):
+        sw.face_segments(surface, [(0, 10**6)])
