@@ -36,14 +36,14 @@ class Watch:
 
 def first_wire(obj: bpy.types.Object, along: str) -> dict[str, float]:
     """Do what the tool does from its start to the first wire; return the milliseconds of each step."""
-    from seamwire import drawing, edit_mesh, picking, session
+    from seamwire import board, edit_mesh, picking, session
 
     steps = {}
     watch = Watch()
     cage = edit_mesh.Cage(obj)
     arrays = edit_mesh.read(obj)
     steps["read"] = watch.lap()
-    wires = session.Session(drawing.live_maker(arrays), arrays.points, along)
+    wires = session.Session(board.live_maker(arrays), arrays.points, along)
     steps["surface"] = watch.lap()
     picking.Picker(cage.bm, 1.0)
     steps["picker"] = watch.lap()

@@ -5,115 +5,87 @@ from __future__ import annotations
 
 import time
 from contextlib import ExitStack
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import bpy
 
-from . import keymap, lazy, native, preferences, ui
+from . import keymap, lazy, preferences, ui
 from .keymap import Action
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
-    from . import edit_mesh, overlay, picking, session
-    from .live import LiveWire
-    from .network import Along, Pick
+    from . import board as boards
+    from . import network, picking, tool
+    from .board import Board
     from .session import Session
-    from .tool import SeamwireSettings
 else:
-    edit_mesh, overlay, picking, session = map(lazy.Part, ("edit_mesh", "overlay", "picking", "session"))
+    boards, network, picking, tool = map(lazy.Part, ("board", "network", "picking", "tool"))
 
 _TICK = 0.05
 """Seconds between two looks at running work: redraws stay below what the eye takes for a stop."""
-
-_Inside = "tuple[bpy.types.Area, bpy.types.Region, picking.View]"
+_CLICKS = frozenset({Action.CLICK, Action.NEW_CHAIN, Action.LOOP})
+_AXES = "XYZ"
 
 running: list[Drawing] = []
 """The drawings going on, so that unregistering the add-on can end them."""
 
 
-def live_maker(arrays: edit_mesh.Arrays) -> Callable[[Along], LiveWire]:
-    """Return what makes the live wires on a mesh for one way of running."""
-    core = native.load()
-    surface = core.Surface(arrays.points, arrays.triangles, arrays.edges)
-    return lambda along: core.LiveWire(
-        surface,
-        along=along.lower(),
-        max_anisotropy=session.STRENGTHS[along],
-        clamp_percentile=session.CLAMP_PERCENTILE,
-    )
+@dataclass(frozen=True)
+class Place:
+    """Where the mouse is: in which view, and at which of its pixels."""
+
+    area: bpy.types.Area
+    region: bpy.types.Region
+    view: picking.View
+    cursor: tuple[float, float]
 
 
-def count(number: int, what: str) -> str:
-    """Return a number with what it counts."""
-    return f"{number} {what}{'' if number == 1 else 's'}"
+@dataclass
+class _Press:
+    """A button that went down on something that can be dragged, and is not up yet."""
 
-
-def settings_changed(settings: SeamwireSettings) -> None:
-    """Let the running drawing follow its settings."""
-    for drawing in running:
-        drawing.follow(settings)
-
-
-class Board:
-    """One object that is drawn on.
-
-    Parameters
-    ----------
-    obj
-        A mesh object in edit mode.
-    along
-        Where wires run at first.
-    """
-
-    def __init__(self, obj: bpy.types.Object, along: Along) -> None:
-        self.obj = obj
-        self.cage = edit_mesh.Cage(obj)
-        arrays = edit_mesh.read(obj)
-        self.session = session.Session(live_maker(arrays), arrays.points, along)
-        size = (arrays.points.max(axis=0) - arrays.points.min(axis=0)).max()
-        self._picker = picking.Picker(self.cage.bm, float(size))
-        self.overlay = overlay.Overlay(self.session, obj, arrays.points, arrays.to_object)
-
-    def pick(self, view: picking.View, cursor: tuple[float, float]) -> Pick | None:
-        """Return what of the mesh is under the cursor."""
-        return self._picker.pick(view, self.obj.matrix_world, cursor, self.session.along == "SURFACE")
+    button: str
+    board: Board
+    snap: network.Snap
+    x: int
+    y: int
+    dragging: bool = False
 
 
 class Drawing:
-    """A drawing in a window: its sessions and handles, and what has to be put back when it ends.
+    """A drawing in a window: its boards and handles, and what has to be put back when it ends.
 
     Parameters
     ----------
     context
         With the 3D view to draw in, and the active object in edit mode.
-    along
-        Where wires run at first.
     """
 
-    def __init__(self, context: bpy.types.Context, along: Along) -> None:
+    def __init__(self, context: bpy.types.Context) -> None:
         self._window = context.window
         self._workspace = context.workspace
         self._manager = context.window_manager
+        self._settings = tool.settings(context)
+        self._objects = [obj for obj in context.objects_in_mode_unique_data if obj.type == "MESH"]
         self._timer: bpy.types.Timer | None = None
         self._cursor = ""
         self._clicks = keymap.DoubleClicks()
         self._shown: tuple[object, ...] | None = None
+        self._press: _Press | None = None
+        self._history: list[Board] = []
+        self._undone: list[Board] = []
+        self._finishing = False
+        self._leaving = False
+        self._help = False
+        self.message = ""
         self.keys = keymap.Bindings.of_user(self._manager)
-        obj = context.active_object
-        self.notes = tuple(
-            note
-            for note in (
-                only_active(context),
-                "Works on the mesh without its modifiers" if obj.modifiers else "",
-            )
-            if note
-        )
-        self.board = Board(obj, along)
+        self.boards: dict[str, Board] = {}
         self._ending = ExitStack()
         try:
             self._ending.callback(self._redraw)
-            self._ending.callback(self.board.overlay.remove)
+            self._ending.callback(self._remove_overlays)
+            self.board = self._board_of(context.active_object)
+            self.notes = ("Works on the mesh without its modifiers",) if context.active_object.modifiers else ()
             self._ending.callback(self._set_timer, False)
             self._ending.callback(self._set_cursor, "")
             self._ending.callback(self._workspace.status_text_set, None)
@@ -128,7 +100,7 @@ class Drawing:
 
     @property
     def session(self) -> Session:
-        """The session of the object that is drawn on."""
+        """The session of the object that was pointed at last."""
         return self.board.session
 
     @property
@@ -136,9 +108,18 @@ class Drawing:
         """Whether it has not been closed."""
         return self in running
 
+    @property
+    def empty(self) -> bool:
+        """Whether nothing was kept, and nothing that was kept before was dropped."""
+        return not any(board.changes for board in self.boards.values())
+
     def close(self) -> None:
         """Put everything back; more than once does no harm."""
         self._ending.close()
+
+    def _remove_overlays(self) -> None:
+        for board in self.boards.values():
+            board.remove()
 
     def _on_load(self, *_: object) -> None:
         self.close()
@@ -146,24 +127,38 @@ class Drawing:
     def _forget_load(self) -> None:
         bpy.app.handlers.load_pre.remove(self._on_load)
 
+    def _board_of(self, obj: bpy.types.Object) -> Board:
+        if obj.name not in self.boards:
+            board = boards.Board(obj, self._settings)
+            self.boards[obj.name] = board
+            own = preferences.get()
+            if board.offered is not None and own is not None and own.resume == "ALWAYS":
+                self._resume(board)
+        return self.boards[obj.name]
+
     # What can happen from outside
 
     def trouble(self, context: bpy.types.Context) -> str:
-        """Say why drawing cannot go on; an empty string where it can. Raises what the overlay could not draw."""
+        """Say why drawing cannot go on; an empty string where it can. Raises what an overlay could not draw."""
         if context.mode != "EDIT_MESH":
             return "Edit mode was left"
-        obj = context.active_object
-        if obj is None or obj.data != self.board.cage.mesh:
-            return "Another object became the active one"
-        if not self.board.cage.intact():
-            return "The mesh was changed"
-        if self.board.overlay.error is not None:
-            raise self.board.overlay.error
+        if context.workspace != self._workspace:
+            return "Another workspace was opened"
+        for board in self.boards.values():
+            if not board.intact():
+                return "The mesh was changed"
+            if board.overlay.error is not None:
+                raise board.overlay.error
         return ""
 
-    def follow(self, settings: SeamwireSettings) -> None:
+    def set_aside(self) -> int:
+        """Keep what was drawn for when the tool is started again; return how many wires that are."""
+        return sum(board.set_aside() for board in self.boards.values())
+
+    def follow(self, settings: tool.SeamwireSettings) -> None:
         """Take over settings that were changed in the tool's header."""
-        self.session.switch(settings.along)
+        for board in self.boards.values():
+            board.follow(settings)
         self.refresh()
 
     # Events
@@ -177,100 +172,312 @@ class Drawing:
             What modal() returns; FINISHED and CANCELLED ask the operator to end the drawing in that way.
         """
         if event.type == "TIMER":
-            self.session.poll()
-            self.refresh()
-            return {"PASS_THROUGH"}
+            return self._tick()
         inputs = context.preferences.inputs
-        inside = self._view_at(event.mouse_x, event.mouse_y)
-        self._set_cursor("CROSSHAIR" if inside else "")
+        place = self._place(event)
+        self._set_cursor("CROSSHAIR" if place else "")
         double = self._clicks.is_second(event, time.monotonic(), inputs)
-        if inside is None:
+        for board in self.boards.values():
+            board.follow_mirror()
+        if self._press is not None and event.type == self._press.button and event.value == "RELEASE":
+            self._release()
+            return self._done()
+        if place is None:
             if self.keys.is_blender_undo(event):
                 return {"RUNNING_MODAL"}
-            if event.type == "MOUSEMOVE" and self.session.target is not None:
+            if event.type == "MOUSEMOVE" and self.session.target is not None and self._press is None:
                 self.session.hover(None)
                 self.refresh()
             return {"PASS_THROUGH"}
         if event.type in {"INBETWEEN_MOUSEMOVE", "WINDOW_DEACTIVATE"} or event.type.startswith("TIMER"):
             return {"PASS_THROUGH"}
+        if event.type == "MOUSEMOVE" and self._press is not None:
+            self._move(place, event, inputs)
+            return self._done()
         if event.type == "MOUSEMOVE" or event.type.endswith(("_ALT", "_CTRL", "_SHIFT")):
-            self._hover(inside, event)
+            self._hover(place, event)
             return {"PASS_THROUGH" if event.type == "MOUSEMOVE" else "RUNNING_MODAL"}
         if keymap.emulates_middle_button(event, inputs):
             return {"PASS_THROUGH"}
         action = self.keys.action_of(event, double)
-        if action is Action.FINISH:
-            return {"FINISHED"}
-        if action is Action.LEAVE:
-            return {"CANCELLED"}
-        if action is not None and not (action is Action.TOGGLE and not self._toggles(inside, event)):
-            self._do(action, inside, event)
-            self.refresh()
+        if action is Action.TOGGLE and event.type.startswith("WHEEL") and not self._wheel_toggles(place):
+            action = None
+        if action is None:
+            return {"PASS_THROUGH"} if keymap.is_navigation(event) else {"RUNNING_MODAL"}
+        if getattr(event, "is_repeat", False) and action not in {Action.UNDO, Action.REDO}:
             return {"RUNNING_MODAL"}
-        return {"PASS_THROUGH"} if keymap.is_navigation(event) else {"RUNNING_MODAL"}
+        return self._act(action, place, event)
 
-    def _toggles(self, inside: _Inside, event: bpy.types.Event) -> bool:
-        """Whether toggling is meant: the wheel zooms but over the mesh while a wire is live."""
-        if not event.type.startswith("WHEEL"):
-            return True
+    def _act(self, action: Action, place: Place, event: bpy.types.Event) -> set[str]:
+        leaving, self._leaving = self._leaving, False
+        self._finishing = False
+        self.message = ""
+        if action is Action.FINISH:
+            self._cancel_press()
+            self._finishing = any(board.session.waiting_clicks for board in self.boards.values())
+            if not self._finishing:
+                return {"FINISHED"}
+            self.message = "Finishing as soon as the last wire is computed"
+        elif action is Action.LEAVE:
+            if self._leave(leaving):
+                return {"CANCELLED"}
+        elif action in _CLICKS:
+            self._click(action, place, event)
+        else:
+            self._do(action, place)
+        return self._done()
+
+    def _done(self) -> set[str]:
+        for board in self.boards.values():
+            if board.stepped():
+                self._history.append(board)
+                self._undone.clear()
+        self.session_to_settings()
+        self.refresh()
+        return {"RUNNING_MODAL"}
+
+    def _tick(self) -> set[str]:
+        for board in self.boards.values():
+            board.poll()
+        self._done()
+        if self._finishing and not any(board.session.waiting_clicks for board in self.boards.values()):
+            return {"FINISHED"}
+        return {"PASS_THROUGH"}
+
+    def _wheel_toggles(self, place: Place) -> bool:
+        """Whether the wheel toggles: over the mesh while a wire is live, unless it is always to zoom."""
         own = preferences.get()
         if own is not None and own.always_zoom:
             return False
-        return self.session.active is not None and self._pick(inside, event) is not None
+        return self.session.active is not None and self._find(place)[1] is not None
 
-    def _do(self, action: Action, inside: _Inside, event: bpy.types.Event) -> None:
+    # What keys and buttons do
+
+    def _leave(self, again: bool) -> bool:
+        """Let go of what is live, one after the other; return whether to leave."""
+        if self._cancel_press():
+            return False
         drawing = self.session
-        if action is Action.END_CHAIN:
+        if drawing.stop_preview():
+            return False
+        if drawing.waiting_clicks or drawing.seed is not None:
             drawing.end_chain()
-        elif action is Action.TOGGLE:
-            drawing.toggle()
-        elif action is Action.UNDO:
-            drawing.undo()
-        elif action is Action.REDO:
-            drawing.redo()
-        elif action is Action.SWITCH:
-            if drawing.switch("SURFACE" if drawing.along == "EDGES" else "EDGES"):
-                self._hover(inside, event)
-        elif action in {Action.ZOOM_IN, Action.ZOOM_OUT}:
-            self._zoom(inside, 1 if action is Action.ZOOM_IN else -1)
-        elif action in {Action.CLICK, Action.NEW_CHAIN, Action.LOOP}:
-            self._click(action, self._pick(inside, event))
+            return False
+        if again or self.empty:
+            return True
+        self._leaving = True
+        kept = ui.count(sum(len(board.session.wires) for board in self.boards.values()), "wire")
+        self.message = (
+            f"{self.keys.text(Action.LEAVE) or 'Again'} again: leave without the {kept} drawn. All else goes on"
+        )
+        return False
 
     def click_at(self, event: bpy.types.Event, first: str) -> None:
         """Do the click that started the tool."""
-        inside = self._view_at(event.mouse_x, event.mouse_y)
-        if inside is not None:
-            self._click(Action.LOOP if first == "LOOP" else Action.CLICK, self._pick(inside, event))
-            self.refresh()
+        place = self._place(event)
+        if place is not None:
+            self._click(Action.LOOP if first == "LOOP" else Action.CLICK, place, event)
+            self._done()
 
-    def _click(self, action: Action, pick: Pick | None) -> None:
-        drawing = self.session
-        if pick is None:
+    def _click(self, action: Action, place: Place, event: bpy.types.Event) -> None:
+        board, snap = self._find(place)
+        if board is None or snap is None:
             return
+        if board is not self.board:
+            self.session.end_chain()
+            self.session.hover(None)
+            self._turn_to(board)
+        drawing = board.session
         if action is Action.NEW_CHAIN:
-            drawing.start(pick)
-            drawing.hover(pick)
-        elif action is Action.LOOP and drawing.along == "EDGES" and isinstance(pick, tuple):
-            drawing.loop(pick)
+            drawing.start(snap)
+            drawing.hover(snap)
+        elif action is Action.LOOP and drawing.along == "EDGES" and isinstance(snap.pick, tuple):
+            drawing.loop(snap)
+        elif drawing.seed is None and not drawing.waiting_clicks and snap.to in {"SEED", "WIRE"}:
+            # Whether it is a click or the beginning of a drag is known when the button or the mouse has moved.
+            drawing.hover(snap)
+            self._press = _Press(event.type, board, snap, event.mouse_x, event.mouse_y)
         else:
-            drawing.click(pick)
+            drawing.click(snap)
 
-    def _zoom(self, inside: _Inside, delta: int) -> None:
-        area, region, _ = inside
-        with bpy.context.temp_override(window=self._window, area=area, region=region):
+    def _move(self, place: Place, event: bpy.types.Event, inputs: bpy.types.PreferencesInput) -> None:
+        press = self._press
+        assert press is not None
+        drawing = press.board.session
+        if not press.dragging:
+            away = max(abs(event.mouse_x - press.x), abs(event.mouse_y - press.y))
+            if away <= inputs.drag_threshold_mouse:
+                return
+            if not drawing.drag(press.snap):
+                self._press = None
+                return
+            press.dragging = True
+        drawing.drag_to(press.board.snap(place.view, place.cursor))
+
+    def _release(self) -> None:
+        press, self._press = self._press, None
+        assert press is not None
+        if press.dragging:
+            press.board.session.drag_end()
+        else:
+            press.board.session.click(press.snap)
+
+    def _cancel_press(self) -> bool:
+        press, self._press = self._press, None
+        cancelled = [board.session.drag_cancel() for board in self.boards.values()]
+        return press is not None or any(cancelled)
+
+    def _do(self, action: Action, place: Place) -> None:
+        drawing = self.session
+        if action is Action.END_CHAIN:
+            if not self._cancel_press():
+                drawing.end_chain()
+        elif action is Action.TOGGLE:
+            if drawing.seed is None and drawing.hovered_wire is not None:
+                drawing.toggle_kept(drawing.hovered_wire)
+            else:
+                drawing.toggle()
+        elif action is Action.DROP:
+            self._drop(place)
+        elif action in {Action.STRONGER, Action.WEAKER}:
+            self._change_strength(1 if action is Action.STRONGER else -1)
+        elif action in {Action.ZOOM_IN, Action.ZOOM_OUT}:
+            self._zoom(place, 1 if action is Action.ZOOM_IN else -1)
+        elif action is Action.CLOSE:
+            drawing.close()
+        elif action is Action.RUN:
+            drawing.run_to_end(preview=drawing.end_preview is None)
+        elif action is Action.MARKING:
+            for board in self.boards.values():
+                board.session.toggle_marking()
+        elif action is Action.XRAY:
+            self._settings.xray = not self._settings.xray
+        elif action is Action.SNAP:
+            self._settings.snap = not self._settings.snap
+            self._rehover(place)
+        elif action is Action.SWITCH:
+            if drawing.switch("SURFACE" if drawing.along == "EDGES" else "EDGES"):
+                self._settings.along = drawing.along
+                self._rehover(place)
+        elif action is Action.MIRROR:
+            self._cycle_mirror()
+        elif action is Action.RESUME:
+            self._resume(self.board)
+        elif action is Action.HELP:
+            self._help = not self._help
+        elif action is Action.UNDO:
+            self._undo()
+        elif action is Action.REDO:
+            self._redo()
+
+    def _drop(self, place: Place) -> None:
+        board, snap = self._find(place)
+        wire = snap.wire if snap is not None and snap.to == "WIRE" else None
+        if board is None or wire is None:
+            self.message = "Point at a wire to drop it"
+        else:
+            self._turn_to(board)
+            board.session.drop(wire)
+            self._rehover(place)
+
+    def _change_strength(self, steps: int) -> None:
+        if self.session.change_strength(steps):
+            self.message = f"Strength {self.session.strength:.3g}"
+
+    def _cycle_mirror(self) -> None:
+        drawing = self.session
+        symmetric = drawing.symmetric_axes
+        ways = [(), *((axis,) for axis in symmetric), *([symmetric] if len(symmetric) > 1 else ())]
+        if len(ways) == 1 and not drawing.mirror_axes:
+            self.message = "The mesh is symmetric over none of its axes"
+            return
+        now = ways.index(drawing.mirror_axes) if drawing.mirror_axes in ways else len(ways) - 1
+        axes = ways[(now + 1) % len(ways)]
+        if drawing.set_mirror(axes):
+            self.message = f"Mirrored over {', '.join(_AXES[axis] for axis in axes)}" if axes else "Not mirrored"
+
+    def _resume(self, board: Board) -> None:
+        self.message = board.resume()
+
+    def _undo(self) -> None:
+        self._press = None
+        waiting = next((board for board in self.boards.values() if board.session.waiting_clicks), None)
+        if waiting is not None:
+            waiting.session.undo()
+            return
+        while self._history:
+            board = self._history.pop()
+            if board.session.undo():
+                board.stepped()
+                self._undone.append(board)
+                self._turn_to(board)
+                return
+        self.session.undo()
+        self.board.stepped()
+
+    def _redo(self) -> None:
+        while self._undone:
+            board = self._undone.pop()
+            if board.session.redo():
+                board.stepped()
+                self._history.append(board)
+                self._turn_to(board)
+                return
+        self.session.redo()
+        self.board.stepped()
+
+    def _zoom(self, place: Place, delta: int) -> None:
+        with bpy.context.temp_override(window=self._window, area=place.area, region=place.region):
             bpy.ops.view3d.zoom("INVOKE_DEFAULT", delta=delta, use_cursor_init=True)
 
-    def _hover(self, inside: _Inside, event: bpy.types.Event) -> None:
-        self.session.hover(self._pick(inside, event), loop=self.keys.previews_loop(event))
+    # What is under the mouse
+
+    def _hover(self, place: Place, event: bpy.types.Event) -> None:
+        loop = self.keys.previews_loop(event)
+        board, snap = self._find(place)
+        if board is not None and board is not self.board:
+            self.session.hover(None)
+            # A live wire stays with its object until there is a click on another.
+            if self.session.seed is None and not self.session.waiting_clicks:
+                self._turn_to(board)
+            else:
+                snap = None
+        self.session.hover(snap, loop=loop and snap is not None)
         self.refresh()
 
-    def _pick(self, inside: _Inside, event: bpy.types.Event) -> Pick | None:
-        _, region, view = inside
-        cursor = (event.mouse_x - region.x + 0.5, event.mouse_y - region.y + 0.5)
-        return self.board.pick(view, cursor)
+    def _rehover(self, place: Place) -> None:
+        board, snap = self._find(place)
+        self.session.hover(snap if board is self.board else None)
 
-    def _view_at(self, x: int, y: int) -> _Inside | None:
+    def _turn_to(self, board: Board) -> None:
+        self.board = board
+
+    def _find(self, place: Place) -> tuple[Board | None, network.Snap | None]:
+        """Return which object is under the mouse, and what of it."""
+        near = [obj for obj in self._objects if self._may_be_at(obj, place)]
+        found = [self._board_of(obj) for obj in near]
+        if len(found) > 1:
+            depths = [(board.depth(place.view, place.cursor), board) for board in found]
+            hit = [pair for pair in depths if pair[0] is not None]
+            if hit:
+                found = [min(hit, key=lambda pair: pair[0])[1]]
+            elif self.board in found:
+                found.sort(key=lambda board: board is not self.board)
+        for board in found:
+            snap = board.snap(place.view, place.cursor)
+            if snap is not None:
+                return board, snap
+        return (found[0], None) if found else (None, None)
+
+    def _may_be_at(self, obj: bpy.types.Object, place: Place) -> bool:
+        """Whether an object may be under the mouse: the one there is, and those that were touched, always."""
+        if len(self._objects) == 1 or obj.name in self.boards:
+            return True
+        return boards.in_bounds(obj, place.view, place.cursor)
+
+    def _place(self, event: bpy.types.Event) -> Place | None:
         """Return the 3D view under the mouse, where no toolbar, sidebar or header lies over it."""
+        x, y = event.mouse_x, event.mouse_y
         for area in self._window.screen.areas:
             if area.type != "VIEW_3D" or not _contains(area, x, y):
                 continue
@@ -278,20 +485,55 @@ class Drawing:
             if any(region.type != "WINDOW" for region in under):
                 return None
             for region in under:
-                return area, region, picking.View.of(region, _region_3d(area, region))
+                view = picking.View.of(region, _region_3d(area, region))
+                return Place(area, region, view, (x - region.x + 0.5, y - region.y + 0.5))
         return None
 
     # What is seen
 
+    def session_to_settings(self) -> None:
+        """Show in the tool's header what the keys changed."""
+        self.board.tell(self._settings)
+
     def refresh(self) -> None:
-        """Show the session as it is now."""
+        """Show the sessions as they are now."""
         drawing = self.session
-        self._set_timer(drawing.computing or drawing.waiting_clicks > 0)
-        before, self._shown = self._shown, (drawing.revision, round(100.0 * drawing.progress), drawing.computing)
-        if self._shown != before:
-            self._workspace.status_text_set(ui.status_drawer(drawing, self.keys, self.notes))
-        if before is None or self._shown[0] != before[0]:
-            self._redraw()
+        self._set_timer(any(board.busy for board in self.boards.values()))
+        state = (
+            self.board,
+            tuple(board.session.revision for board in self.boards.values()),
+            round(100.0 * drawing.progress),
+            drawing.computing,
+            drawing.waiting_clicks,
+            self.board.symmetric,
+            self.message,
+            self._help,
+            self._settings.xray,
+            self._settings.snap,
+        )
+        before, self._shown = self._shown, state
+        if state == before:
+            return
+        rows = self.keys.rows() if self._help else None
+        for board in self.boards.values():
+            board.show(self._settings, front=board is self.board, help_rows=rows)
+        self._workspace.status_text_set(ui.status_drawer(self.status()))
+        self._redraw()
+
+    def status(self) -> ui.Status:
+        """Return what the status bar is to say."""
+        mirrored = self.board.symmetric
+        offers = mirrored if mirrored and not self.session.mirror_axes else ()
+        return ui.Status(
+            self.session,
+            self.keys,
+            message=self.message,
+            notes=self.notes,
+            mirror_offer="".join(_AXES[axis] for axis in offers),
+            resume_offer=self.board.offer,
+            marks=sum(len(board.session.edges_to_mark()) for board in self.boards.values()),
+            clears=sum(len(board.session.edges_to_clear()) for board in self.boards.values()),
+        )
 
     def _redraw(self) -> None:
         for window in self._manager.windows:
@@ -316,17 +558,15 @@ class Drawing:
             self._window.cursor_modal_restore()
 
 
-def only_active(context: bpy.types.Context) -> str:
-    """Say which objects in edit mode are not drawn on; an empty string where there is none."""
-    others = sum(obj.data != context.active_object.data for obj in context.objects_in_mode_unique_data)
-    if not others:
-        return ""
-    return f"Only '{context.active_object.name}' is drawn on, not the {count(others, 'other object')} in edit mode"
+def settings_changed(settings: tool.SeamwireSettings) -> None:
+    """Let the running drawing follow its settings."""
+    for drawing in running:
+        drawing.follow(settings)
 
 
-def close_all(drawings: Iterable[Drawing] = ()) -> None:
+def close_all() -> None:
     """End all drawings."""
-    for drawing in tuple(drawings or running):
+    for drawing in tuple(running):
         drawing.close()
 
 

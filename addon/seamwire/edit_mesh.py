@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import bmesh
+import bpy
 import numpy as np
 
 if TYPE_CHECKING:
-    import bpy
     from mathutils import Matrix
     from numpy.typing import NDArray
 
@@ -36,12 +36,15 @@ class Arrays:
         (e, 2) the visible edges of the polygons, no diagonals.
     to_object
         (3, 3) takes `points` to object coordinates: ``points @ to_object.T``.
+    seams
+        (k, 2) those of the visible edges that are seams.
     """
 
     points: NDArray[np.float64]
     triangles: NDArray[np.int32]
     edges: NDArray[np.int32]
     to_object: NDArray[np.float64]
+    seams: NDArray[np.int32]
 
 
 class Cage:
@@ -92,13 +95,18 @@ class Cage:
     def _edge(self, pair: tuple[int, int]) -> bmesh.types.BMEdge | None:
         return self.bm.edges.get((self.bm.verts[pair[0]], self.bm.verts[pair[1]]))
 
-    def mark_seams(self, edges: Iterable[tuple[int, int]]) -> int:
-        """Make edges seams, and change nothing else.
+    def seams(self) -> list[tuple[int, int]]:
+        """Return the edges that are seams now, smaller vertex first."""
+        pairs = ((edge.verts[0].index, edge.verts[1].index) for edge in self.bm.edges if edge.seam)
+        return [(min(pair), max(pair)) for pair in pairs]
+
+    def write_seams(self, mark: Iterable[tuple[int, int]], clear: Iterable[tuple[int, int]] = ()) -> tuple[int, int]:
+        """Make edges seams, and others no seams, and change nothing else.
 
         Returns
         -------
-        int
-            How many were not seams before.
+        tuple of int
+            How many were not seams before, and how many of the others were.
 
         Raises
         ------
@@ -106,18 +114,24 @@ class Cage:
             Where two vertices have no edge between them; then nothing is changed.
         """
         self._lookup()
+        new = [edge for edge in self._found(mark) if not edge.seam]
+        old = [edge for edge in self._found(clear) if edge.seam]
+        for edge in new:
+            edge.seam = True
+        for edge in old:
+            edge.seam = False
+        if new or old:
+            bmesh.update_edit_mesh(self.mesh, loop_triangles=False, destructive=False)
+        return len(new), len(old)
+
+    def _found(self, pairs: Iterable[tuple[int, int]]) -> list[bmesh.types.BMEdge]:
         found = []
-        for pair in edges:
+        for pair in pairs:
             edge = self._edge(pair)
             if edge is None:
                 raise ValueError(f"There is no edge {pair[0]}-{pair[1]} to mark")
             found.append(edge)
-        new = [edge for edge in found if not edge.seam]
-        for edge in new:
-            edge.seam = True
-        if new:
-            bmesh.update_edit_mesh(self.mesh, loop_triangles=False, destructive=False)
-        return len(new)
+        return found
 
 
 def read(obj: bpy.types.Object) -> Arrays:
@@ -132,7 +146,9 @@ def read(obj: bpy.types.Object) -> Arrays:
     mesh = obj.data
     points = _column(mesh.vertices, "co", np.float32, 3).astype(np.float64)
     edges = _column(mesh.edges, "vertices", np.int32, 2)
-    edges = edges[~_column(mesh.edges, "hide", np.bool_)]
+    visible = ~_column(mesh.edges, "hide", np.bool_)
+    seams = edges[visible & _column(mesh.edges, "use_seam", np.bool_)]
+    edges = edges[visible]
     if len(edges) == 0:
         raise ValueError("No edge of the mesh is visible: there is nothing to draw on")
     mesh.calc_loop_triangles()
@@ -141,7 +157,7 @@ def read(obj: bpy.types.Object) -> Arrays:
     if hidden.any():
         triangles = triangles[~hidden[_column(mesh.loop_triangles, "polygon_index", np.int32)]]
     stretch = visible_stretch(obj.matrix_world)
-    return Arrays(points @ stretch, triangles, edges, np.linalg.inv(stretch))
+    return Arrays(points @ stretch, triangles, edges, np.linalg.inv(stretch), seams)
 
 
 def _column(items: bpy.types.bpy_prop_collection, name: str, dtype: type, width: int = 1) -> NDArray:
@@ -166,3 +182,41 @@ def visible_stretch(matrix: Matrix) -> NDArray[np.float64]:
     if lengths[0] <= 1e-6 * lengths[2] or lengths[2] - lengths[0] <= 1e-5 * lengths[2]:
         return np.eye(3)
     return (vectors * lengths) @ vectors.T
+
+
+def live_unwrap(context: bpy.types.Context) -> None:
+    """Unwrap anew, as Blender's own tools for paths do after seams have changed, where the scene asks for it.
+
+    Blender does that wherever it marks seams: with nothing selected, marking does nothing else. The selection comes back.
+    """
+    if not context.tool_settings.use_edge_path_live_unwrap:
+        return
+    selections = [_Selection(obj) for obj in context.objects_in_mode_unique_data]
+    try:
+        bpy.ops.mesh.select_all(action="DESELECT")
+        bpy.ops.mesh.mark_seam(clear=False)
+    finally:
+        for selection in selections:
+            selection.restore()
+
+
+class _Selection:
+    """What is selected of an edit mesh."""
+
+    def __init__(self, obj: bpy.types.Object) -> None:
+        self._mesh = obj.data
+        bm = bmesh.from_edit_mesh(obj.data)
+        self._items = [item for items in (bm.verts, bm.edges, bm.faces) for item in items if item.select]
+        # Not iterated: Blender 4.3 cannot, on the Python 3.13 of Debian 13.
+        self._history = [bm.select_history[i] for i in range(len(bm.select_history))]
+        self._active = bm.faces.active
+
+    def restore(self) -> None:
+        bm = bmesh.from_edit_mesh(self._mesh)
+        for item in self._items:
+            item.select = True
+        bm.select_history.clear()
+        for item in self._history:
+            bm.select_history.add(item)
+        bm.faces.active = self._active
+        bmesh.update_edit_mesh(self._mesh, loop_triangles=False, destructive=False)

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING
 import bpy
 
 from . import lazy, native
-from .drawing import Drawing, close_all, count, live_maker, only_active, running
+from .drawing import Drawing, close_all, running
 from .tool import ALONG_ITEMS, settings
+from .ui import count
 
 if TYPE_CHECKING:
-    from . import chains, edit_mesh, session
-    from .session import Session
+    from . import board, chains, edit_mesh, session
 else:
-    chains, edit_mesh, session = map(lazy.Part, ("chains", "edit_mesh", "session"))
+    board, chains, edit_mesh, session = map(lazy.Part, ("board", "chains", "edit_mesh", "session"))
 
 
 def _in_edit_mode(context: bpy.types.Context) -> bool:
@@ -24,10 +24,17 @@ def _in_edit_mode(context: bpy.types.Context) -> bool:
     return context.mode == "EDIT_MESH" and obj is not None and obj.type == "MESH"
 
 
-def _summary(drawing: Session, new: int) -> str:
-    wires, edges = len(drawing.wires), len(drawing.edges_to_mark())
-    already = f", {edges - new} were seams already" if edges > new else ""
-    return f"{count(wires, 'wire')}, {count(new, 'edge')} marked{already}"
+def _summary(wires: int, marked: int, cleared: int, touched: int) -> str:
+    """Say what was done: `touched` edges are those that wires run along, seams before or not."""
+    parts = [count(wires, "wire")]
+    if marked or not cleared:
+        parts.append(f"{count(marked, 'edge')} marked")
+    if cleared:
+        parts.append(f"{count(cleared, 'edge')} cleared")
+    already = touched - marked - cleared
+    if already > 0:
+        parts.append(f"{already} {'was' if already == 1 else 'were'} so already")
+    return ", ".join(parts)
 
 
 class MESH_OT_seamwire_mark(bpy.types.Operator):
@@ -59,7 +66,14 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
             if self.along == "SURFACE" and any(isinstance(pick, tuple) for chain in seeds for pick in chain):
                 raise ValueError("Across the surface seeds are vertices: give vertex numbers, not edges")
             arrays = edit_mesh.read(context.active_object)
-            drawing = session.Session(live_maker(arrays), arrays.points, self.along)
+            drawing = session.Session(
+                board.live_maker(arrays),
+                arrays.points,
+                self.along,
+                edges=arrays.edges,
+                seams=arrays.seams,
+                to_object=arrays.to_object,
+            )
             problems = chains.draw_chains(drawing, seeds)
         except (ValueError, native.NativeError) as error:
             self.report({"ERROR"}, str(error))
@@ -69,10 +83,9 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
         if not drawing.wires:
             self.report({"ERROR"}, f"No seam was marked. {problems[0]}" if problems else "No seam was marked")
             return {"CANCELLED"}
-        only = only_active(context)
-        if only:
-            self.report({"INFO"}, only)
-        self.report({"INFO"}, _summary(drawing, cage.mark_seams(drawing.edges_to_mark())))
+        mark, clear = drawing.edges_to_mark(), drawing.edges_to_clear()
+        new, old = cage.write_seams(mark, clear)
+        self.report({"INFO"}, _summary(len(drawing.wires), new, old, len(mark) + len(clear)))
         return {"FINISHED"}
 
 
@@ -113,15 +126,15 @@ class MESH_OT_seamwire_draw(bpy.types.Operator):
         try:
             if self.properties.is_property_set("along"):
                 settings(context).along = self.along
-            self._drawing = Drawing(context, settings(context).along)
+            self._drawing = Drawing(context)
         except (ValueError, native.NativeError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         for note in self._drawing.notes:
             self.report({"INFO"}, note)
+        context.window_manager.modal_handler_add(self)
         if self.first != "NONE":
             self._drawing.click_at(event, self.first)
-        context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
@@ -132,27 +145,36 @@ class MESH_OT_seamwire_draw(bpy.types.Operator):
         try:
             trouble = drawing.trouble(context)
             if trouble:
+                kept = drawing.set_aside()
                 drawing.close()
-                self.report({"WARNING"}, f"{trouble} while seams were drawn: nothing was marked")
+                later = f"; start the tool again to go on with {count(kept, 'wire')}" if kept else ""
+                self.report({"WARNING"}, f"{trouble} while seams were drawn: nothing was marked{later}")
                 return {"CANCELLED", "PASS_THROUGH"}
             result = drawing.handle(context, event)
             if result & {"FINISHED", "CANCELLED"}:
                 drawing.close()
-            return self._finish(drawing) if "FINISHED" in result else result
+            return self._finish(context, drawing) if "FINISHED" in result else result
         except Exception as error:
             drawing.close()
             traceback.print_exc()
             self.report({"ERROR"}, f"Drawing seams ended on an error, and nothing was marked: {error}")
             return {"CANCELLED"}
 
-    def _finish(self, drawing: Drawing) -> set[str]:
-        if not drawing.session.wires:
+    def _finish(self, context: bpy.types.Context, drawing: Drawing) -> set[str]:
+        if drawing.empty:
             self.report({"INFO"}, "No wire was kept, and nothing marked")
             return {"CANCELLED"}
-        new = drawing.board.cage.mark_seams(drawing.session.edges_to_mark())
-        self.report({"INFO"}, _summary(drawing.session, new))
+        wires = marked = cleared = touched = 0
+        for one in drawing.boards.values():
+            wires += len(one.session.wires)
+            touched += len(one.session.edges_to_mark()) + len(one.session.edges_to_clear())
+            new, old = one.write()
+            marked, cleared = marked + new, cleared + old
+        if marked or cleared:
+            edit_mesh.live_unwrap(context)
+        self.report({"INFO"}, _summary(wires, marked, cleared, touched))
         # Without a change there is to be no step of undo either.
-        return {"FINISHED"} if new else {"CANCELLED"}
+        return {"FINISHED"} if marked or cleared else {"CANCELLED"}
 
     def cancel(self, _context: bpy.types.Context) -> None:
         """End drawing when Blender takes the operator away."""

@@ -176,8 +176,17 @@ class Picker:
             if found:
                 return
 
+    def depth(self, view: View, matrix: Matrix, cursor: tuple[float, float]) -> float | None:
+        """Return how far behind the near plane the mesh is under the cursor; None where it is not."""
+        hit = self._hit(view, matrix, cursor) if abs(matrix.determinant()) >= 1e-30 else None
+        return None if hit is None else (matrix @ hit[1] - Vector(view.ray(cursor)[0])).length
+
     def _cast(self, view: View, matrix: Matrix, cursor: tuple[float, float]) -> bmesh.types.BMFace | None:
         """Return the first face that is not hidden along the line that a pixel shows."""
+        hit = self._hit(view, matrix, cursor)
+        return None if hit is None else hit[0]
+
+    def _hit(self, view: View, matrix: Matrix, cursor: tuple[float, float]) -> tuple[bmesh.types.BMFace, Vector] | None:
         near, far = view.ray(cursor)
         inverse = matrix.inverted()
         origin, end = inverse @ Vector(near), inverse @ Vector(far)
@@ -188,7 +197,7 @@ class Picker:
                 return None
             face = self._bm.faces[index]
             if not face.hide:
-                return face
+                return face, location
             origin = location + self._step * direction
         return None
 

@@ -598,6 +598,15 @@ class Session:
             )
         return self._use_metric(self.metric, {**self._strengths, self.along: strength})
 
+    def set_strength(self, along: Along, strength: float) -> bool:
+        """Draw wires that run one way so strongly to features; kept wires stay as they are."""
+        low, high = _STRENGTH_RANGE
+        strength = min(max(strength, low), high)
+        # What comes from Blender's properties is of single precision.
+        if abs(strength - self._strengths[along]) <= 1e-4 * strength:
+            return True
+        return self._use_metric(self.metric, {**self._strengths, along: strength})
+
     def set_metric(self, metric: MetricName) -> bool:
         """Draw wires by another metric; kept wires stay as they are."""
         return metric == self.metric or self._use_metric(metric, self._strengths)

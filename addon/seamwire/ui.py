@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import bpy
 
 from . import keymap
+from .keymap import Action
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -19,48 +21,120 @@ MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "VIEW3D_MT_edit_mesh_c
 Hint = tuple[str, str]
 """An icon of Blender's, and what it stands for now."""
 
+_CLICKS = {
+    "SEED": "Seed",
+    "CONTINUE": "Begin at This Seed, Drag: Move It",
+    "BRANCH": "Begin on This Wire, Drag: New Seed",
+    "KEEP": "Keep Wire",
+    "JOIN": "Join Here",
+    "CLOSE": "Close the Loop",
+    "LOOP": "Take This Loop",
+    "RUN": "Keep the Wire to the End",
+    "WAIT": "Keep as Soon as Computed",
+    "MOVE": "Leave the Seed Here",
+}
+"""What a click does, by the session's intent."""
 
-def hints(session: Session, keys: keymap.Bindings, notes: tuple[str, ...] = ()) -> list[Hint]:
-    """Return what each button and key would do now, after what there is to say.
+
+@dataclass(frozen=True)
+class Status:
+    """What the status bar tells of.
 
     Parameters
     ----------
     session
-        The drawing.
+        Of the object pointed at.
     keys
         What each key does.
+    message
+        What there is to say about the last key.
     notes
         What holds for the whole drawing.
+    mirror_offer
+        The axes that the mesh is symmetric over and not mirrored, as letters.
+    resume_offer
+        Whether an earlier drawing can be gone on with.
+    marks, clears
+        How many edges finishing would mark and clear, on all objects.
     """
-    edges = session.along == "EDGES"
+
+    session: Session
+    keys: keymap.Bindings
+    message: str = ""
+    notes: tuple[str, ...] = ()
+    mirror_offer: str = ""
+    resume_offer: bool = False
+    marks: int = 0
+    clears: int = 0
+
+
+def count(number: int, what: str) -> str:
+    """Return a number with what it counts."""
+    return f"{number} {what}{'' if number == 1 else 's'}"
+
+
+def hints(status: Status) -> list[Hint]:
+    """Return what each button and key would do now, after what there is to say."""
+    session, keys = status.session, status.keys
     found: list[Hint] = []
+
+    def add(action: Action, text: str) -> None:
+        icon, before = keys.icon(action)
+        if icon or before:
+            found.append((icon or "NONE", f"{before}: {text}" if before else text))
+
     if session.computing:
-        waiting = f", {session.waiting_clicks} waiting" if session.waiting_clicks else ""
+        waiting = f", {count(session.waiting_clicks, 'click')} waiting" if session.waiting_clicks else ""
         found.append(("SORTTIME", f"Computing {100.0 * session.progress:.0f} %{waiting}"))
+    if status.message:
+        found.append(("INFO", status.message))
     if session.message:
         found.append(("ERROR", session.message))
-    if session.seed is None:
-        found.append(("MOUSE_LMB", "Ctrl: Seed" if not edges else "Ctrl: Seed on Edge or Vertex"))
-    else:
-        if session.active is not None:
-            found.append(("MOUSE_LMB", "Keep Wire"))
+    if status.resume_offer:
+        add(Action.RESUME, "Go On with the Wires Kept Before")
+    live = session.seed is not None
+    click = _CLICKS.get(session.intent.name)
+    if click:
+        add(Action.CLICK, click)
+    if live:
         if session.other is not None:
-            found.append(("MOUSE_MMB", "Wheel: Other Wire"))
-        found.append(("MOUSE_RMB", "End Chain"))
-    if edges:
-        found.append(("MOUSE_LMB_DRAG", "Double Click: Loop (Alt Shows It)"))
-    found.append(("EVENT_E", "Go Across Surface" if edges else "Go Along Edges"))
+            add(Action.TOGGLE, "Other Wire")
+        add(Action.END_CHAIN, "End Chain")
+        if session.closing_point is not None:
+            add(Action.CLOSE, "Close")
+        if session.along == "EDGES":
+            add(Action.RUN, "Run to the End" if session.end_preview is None else "Keep It")
+    else:
+        if session.hovered_wire is not None:
+            add(Action.DROP, "Drop Wire")
+            add(Action.TOGGLE, "Its Other Way")
+        if session.along == "EDGES":
+            add(Action.LOOP, "Loop")
+    add(Action.MARKING, "Clear Instead" if session.marking else "Mark Instead")
+    if session.mirror_axes:
+        add(Action.MIRROR, f"Mirror {''.join('XYZ'[axis] for axis in session.mirror_axes)}")
+    elif status.mirror_offer:
+        add(Action.MIRROR, f"Mirror? Symmetric over {status.mirror_offer}")
+    add(Action.SWITCH, "Across Surface" if session.along == "EDGES" else "Along Edges")
+    add(Action.STRONGER, f"Strength {session.strength:.3g}")
     if session.can_undo:
-        found.append(("LOOP_BACK", "Ctrl Z: Take Back"))
-    count = len(session.edges_to_mark())
-    found.append(("EVENT_RETURN", f"Mark {count} Edges" if count else "Finish"))
-    found.append(("EVENT_ESC", "Leave Without Marking"))
-    return found + [("INFO", note) for note in notes]
+        add(Action.UNDO, "Undo")
+    add(Action.FINISH, _finish(status))
+    add(Action.LEAVE, "Drop Wire" if live else "Leave")
+    add(Action.HELP, "Keys")
+    return found + [("INFO", note) for note in status.notes]
 
 
-def status_drawer(
-    session: Session, keys: keymap.Bindings, notes: tuple[str, ...]
-) -> Callable[[bpy.types.Header, bpy.types.Context], None]:
+def _finish(status: Status) -> str:
+    parts = []
+    if status.marks:
+        parts.append(f"Mark {count(status.marks, 'Edge')}")
+    if status.clears:
+        parts.append(f"Clear {count(status.clears, 'Edge')}")
+    return ", ".join(parts) or "Finish"
+
+
+def status_drawer(status: Status) -> Callable[[bpy.types.Header, bpy.types.Context], None]:
     """Return what draws the hints in the status bar.
 
     A plain function: Blender makes it a method of its header class, and crashes on a bound method.
@@ -68,7 +142,7 @@ def status_drawer(
 
     def draw(header: bpy.types.Header, _context: bpy.types.Context) -> None:
         row = header.layout.row(align=False)
-        for icon, text in hints(session, keys, notes):
+        for icon, text in hints(status):
             row.label(text=text, icon=icon)
 
     return draw

@@ -4,7 +4,8 @@
 import bpy
 import pytest
 from scene import add_grid, edit
-from seamwire import drawing, edit_mesh, keymap, ui
+from seamwire import board, edit_mesh, keymap, ui
+from seamwire.network import Snap
 from seamwire.session import Session
 
 
@@ -13,13 +14,16 @@ def session() -> Session:
     obj = add_grid(9)
     edit()
     arrays = edit_mesh.read(obj)
-    session = Session(drawing.live_maker(arrays), arrays.points)
+    session = Session(board.live_maker(arrays), arrays.points)
     session.wait()
     return session
 
 
 def said(session: Session, *notes: str) -> str:
-    return "; ".join(text for _, text in ui.hints(session, keymap.Bindings(), notes))
+    return "; ".join(
+        text
+        for _, text in ui.hints(ui.Status(session, keymap.Bindings(), notes=notes, marks=len(session.edges_to_mark())))
+    )
 
 
 def test_every_icon_is_one_of_blenders(session: Session) -> None:
@@ -29,15 +33,17 @@ def test_every_icon_is_one_of_blenders(session: Session) -> None:
     session.wait()
     session.hover(40)
     session.click(4)  # refused, and said
-    shown = [icon for icon, _ in ui.hints(session, keymap.Bindings(), ("A note",))]
+    shown = [icon for icon, _ in ui.hints(ui.Status(session, keymap.Bindings(), notes=("A note",)))]
     session.switch("SURFACE")  # computing
     session.end_chain()
-    shown += [icon for icon, _ in ui.hints(session, keymap.Bindings())]
+    shown += [icon for icon, _ in ui.hints(ui.Status(session, keymap.Bindings()))]
     assert [icon for icon in shown if icon not in icons] == []
 
 
 def test_the_hints_follow_what_is_going_on(session: Session) -> None:
-    assert "Ctrl: Seed on Edge or Vertex" in said(session)
+    assert "Seed" not in said(session), "nothing is under the cursor"
+    session.hover(36)
+    assert "Seed" in said(session)
     assert "Keep Wire" not in said(session)
     assert "Finish" in said(session)
     session.click(36)
@@ -45,15 +51,32 @@ def test_the_hints_follow_what_is_going_on(session: Session) -> None:
     session.hover(44)
     assert "Keep Wire" in said(session)
     assert "End Chain" in said(session)
-    assert "Take Back" in said(session)
+    assert "Undo" in said(session)
+    assert "Loop" not in said(session)
     session.click(44)
     assert "Mark 8 Edges" in said(session)
     session.wait()
-    assert not session.click(44)
-    assert "click somewhere else" in said(session)
-    assert "Go Across Surface" in said(session)
+    session.hover(76)
+    assert "Close" in said(session)
+    session.end_chain()
+    assert "Loop" in said(session)
+    session.hover(Snap(36, "SEED"))
+    assert "Begin at This Seed" in said(session)
+    session.hover(Snap(40, "WIRE", session.wires[0]))
+    assert "Begin on This Wire" in said(session)
+    assert "Drop Wire" in said(session)
+    session.toggle_marking()
+    assert "Mark Instead" in said(session)
+    assert "Across Surface" in said(session)
     session.switch("SURFACE")
     session.wait()
-    assert "Go Along Edges" in said(session)
+    assert "Along Edges" in said(session)
     assert "Loop" not in said(session)
     assert said(session, "Works on the cage").endswith("Works on the cage")
+
+
+def test_the_hints_name_the_keys_as_they_are_bound(session: Session) -> None:
+    keys = keymap.Bindings([(keymap.Action.MARKING, keymap.Key("J", shift=1))])
+    shown = ui.hints(ui.Status(session, keys))
+    assert ("EVENT_J", "Shift: Clear Instead") in shown
+    assert not any("Keys" in text for _, text in shown), "what has no key is not offered"

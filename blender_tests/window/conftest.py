@@ -3,6 +3,7 @@
 
 from collections.abc import Iterator
 
+import desk as desks
 import pytest
 import ui as driver
 
@@ -26,3 +27,17 @@ def ui() -> Iterator[driver.Ui]:
 def real_ui() -> Iterator[driver.RealUi]:
     """Blender's window, driven by the display's pointer and keyboard: only in files named ``test_real_*.py``."""
     yield from watched(driver.RealUi())
+
+
+@pytest.fixture
+def desk(ui: driver.Ui) -> Iterator[desks.Desk]:
+    """A flat grid to draw on; vertex y * 9 + x is column x of row y."""
+    yield desks.grid(ui)
+    desks.leave(ui)
+
+
+@pytest.fixture
+def cone(ui: driver.Ui) -> Iterator[desks.Desk]:
+    """Half a cone to draw on: the two wires from 20 to 61 differ."""
+    yield desks.half_cone(ui)
+    desks.leave(ui)

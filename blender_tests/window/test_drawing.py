@@ -2,99 +2,15 @@
 """Drawing in the real window: what is marked, what is seen, and that nothing is left behind."""
 
 import math
-from collections.abc import Iterator
 
 import bmesh
 import bpy
-import numpy as np
 import pytest
 import ui as driver
-from bl_ui.space_statusbar import STATUSBAR_HT_header
+from desk import GREEN, ORANGE, RED, WHITE, Desk, near, shows
 from mathutils import Euler
-from numpy.typing import NDArray
-from scene import ADDON, add_grid, add_layers, chain, edit, seams, snapshot
-from seamwire import drawing
-from seamwire.session import Session
-
-ORANGE, RED, GREEN, WHITE = (1.0, 0.72, 0.05), (1.0, 0.25, 0.15), (0.3, 1.0, 0.55), (1.0, 1.0, 1.0)
-
-
-class Desk:
-    """A grid in edit mode seen from above, with the tool running on it. Vertex y * 9 + x is column x of row y."""
-
-    def __init__(self, ui: driver.Ui, obj: bpy.types.Object) -> None:
-        self.ui = ui
-        self.obj = obj
-        add_layers(obj)
-        ui.wait()
-        with ui.override():
-            edit()
-        ui.look_from_top(distance=4.0)
-        self.before = snapshot(obj)
-
-    def start(self, **options: str) -> Session:
-        with self.ui.override():
-            assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", **options) == {"RUNNING_MODAL"}
-        self.ui.wait()
-        return self.session
-
-    @property
-    def session(self) -> Session:
-        return drawing.running[0].session
-
-    @property
-    def running(self) -> bool:
-        return bool(drawing.running)
-
-    def at(self, *vertices: int) -> tuple[float, float]:
-        """Return where a vertex is seen, or the middle of an edge."""
-        bm = bmesh.from_edit_mesh(self.obj.data)
-        bm.verts.ensure_lookup_table()
-        points = np.array([self.obj.matrix_world @ bm.verts[v].co for v in vertices])
-        return self.ui.on_screen(tuple(points.mean(axis=0)))
-
-    def left_clean(self) -> bool:
-        """Whether the tool has ended, and the status bar and the handlers are as they were."""
-        status = getattr(STATUSBAR_HT_header, "_draw_orig", STATUSBAR_HT_header.draw)
-        handlers = [handler for handler in bpy.app.handlers.load_pre if "seamwire" in str(handler)]
-        return not self.running and STATUSBAR_HT_header.draw is status and not handlers
-
-    def unchanged(self) -> bool:
-        return snapshot(self.obj) == self.before
-
-
-@pytest.fixture
-def desk(ui: driver.Ui) -> Iterator[Desk]:
-    yield Desk(ui, add_grid(9))
-    leave(ui)
-
-
-@pytest.fixture
-def cone(ui: driver.Ui) -> Iterator[Desk]:
-    """Half a cone along y, seen from above: the two wires from 20 to 61 differ, and neither has an equal beside it."""
-    obj = add_grid(9)
-    for v in obj.data.vertices:
-        angle = v.co.x * 0.5 * math.pi * 0.9
-        radius = 1.0 - 0.25 * v.co.y
-        v.co.x, v.co.z = radius * math.sin(angle), radius * math.cos(angle)
-    yield Desk(ui, obj)
-    leave(ui)
-
-
-def leave(ui: driver.Ui) -> None:
-    drawing.close_all()
-    ui.move((ui.region.width * 0.5, ui.region.height * 0.5))
-    ui.wait()
-
-
-def near(pixels: NDArray[np.float32], at: tuple[float, float], radius: int = 2) -> NDArray[np.float32]:
-    x, y = round(at[0]), round(at[1])
-    return pixels[y - radius : y + radius + 1, x - radius : x + radius + 1, :3].reshape(-1, 3)
-
-
-def shows(pixels: NDArray[np.float32], at: tuple[float, float], colour: tuple[float, float, float]) -> bool:
-    """Whether a pixel within two of a position has a colour, up to what antialiasing and blending take from it."""
-    return bool((np.abs(near(pixels, at) - colour).max(axis=1) < 0.12).any())
+from scene import ADDON, add_grid, chain, seams, snapshot
+from seamwire import board
 
 
 def test_wires_are_drawn_kept_and_marked(desk: Desk) -> None:
@@ -167,7 +83,14 @@ def test_escape_leaves_the_mesh_as_it_was(desk: Desk) -> None:
     ui.click(desk.at(36), ctrl=True)
     ui.click(desk.at(44))
     ui.wait_until(lambda: len(session.wires) == 1)
-    ui.click(desk.at(60))
+    ui.move(desk.at(60))
+    ui.key("ESC")
+    assert desk.running
+    assert session.seed is None, "the live wire went first"
+    assert len(session.wires) == 1
+    ui.key("ESC")
+    assert desk.running, "the kept wire would be lost: asked once more"
+    ui.move(desk.at(61))
     ui.key("ESC")
     assert desk.left_clean()
     assert desk.unchanged()
@@ -482,8 +405,8 @@ def test_wires_that_are_being_computed_come_when_they_are_ready(desk: Desk, monk
             nothing = type("Nothing", (), {"points": [], "vertices": [], "length": math.inf, "final": False})()
             return type("Wires", (), {"wires": (nothing, nothing), "shorter": 0, "final": False})()
 
-    make = drawing.live_maker
-    monkeypatch.setattr(drawing, "live_maker", lambda arrays: lambda along: Slow(make(arrays)(along)))
+    make = board.live_maker
+    monkeypatch.setattr(board, "live_maker", lambda arrays: lambda along: Slow(make(arrays)(along)))
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(36), ctrl=True)
     ui.click(desk.at(44))

@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One object that is drawn on: its edit mesh, session, picker and overlay, and the network that stays with its mesh."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+
+from . import edit_mesh, native, overlay, picking, preferences, session, storage
+from .network import Snap, undirected
+from .ui import count
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+    from .live import LiveWire
+    from .network import Along, Edge, Pick, Wire
+    from .tool import SeamwireSettings
+
+KEY = "seamwire"
+"""The mesh's custom property that holds the network."""
+
+_set_aside: dict[str, str] = {}
+"""Networks, by the mesh's name, of drawings that were interrupted."""
+
+
+def live_maker(arrays: edit_mesh.Arrays) -> Callable[[Along], LiveWire]:
+    """Return what makes the live wires on a mesh for one way of running."""
+    core = native.load()
+    surface = core.Surface(arrays.points, arrays.triangles, arrays.edges)
+    return lambda along: core.LiveWire(
+        surface,
+        along=along.lower(),
+        max_anisotropy=session.STRENGTHS[along],
+        clamp_percentile=session.CLAMP_PERCENTILE,
+    )
+
+
+def mirror_axes(mesh: bpy.types.Mesh) -> tuple[int, ...]:
+    """Return the axes over which Blender mirrors what is done to a mesh."""
+    return tuple(axis for axis, name in enumerate("xyz") if getattr(mesh, f"use_mirror_{name}"))
+
+
+def in_bounds(obj: bpy.types.Object, view: picking.View, cursor: tuple[float, float]) -> bool:
+    """Whether a pixel lies within the bounds of an object, or within reach of them."""
+    corners = np.array([(*corner, 1.0) for corner in obj.bound_box]) @ np.array(obj.matrix_world).T
+    pixels = view.to_pixels(corners[:, :3])
+    if np.isnan(pixels).any():
+        return True
+    reach = picking.REACH
+    low, high = pixels.min(axis=0) - reach, pixels.max(axis=0) + reach
+    return bool((low <= cursor).all() and (cursor <= high).all())
+
+
+class Board:
+    """One object that is drawn on.
+
+    Parameters
+    ----------
+    obj
+        A mesh object in edit mode.
+    settings
+        How wires are drawn at first.
+    """
+
+    def __init__(self, obj: bpy.types.Object, settings: SeamwireSettings) -> None:
+        self.obj = obj
+        self.cage = edit_mesh.Cage(obj)
+        arrays = edit_mesh.read(obj)
+        self._points = arrays.points
+        self._edges = arrays.edges
+        self.session = session.Session(
+            live_maker(arrays),
+            arrays.points,
+            settings.along,
+            edges=arrays.edges,
+            seams=arrays.seams,
+            strength={"EDGES": settings.strength_edges, "SURFACE": settings.strength_surface},
+            to_object=arrays.to_object,
+        )
+        self.session.set_metric(settings.metric)
+        self._mesh_mirror: tuple[int, ...] = ()
+        self.follow_mirror()
+        size = (arrays.points.max(axis=0) - arrays.points.min(axis=0)).max()
+        self._picker = picking.Picker(self.cage.bm, float(size))
+        self._network = self.session.network
+        self._resumed: frozenset[Edge] = frozenset()
+        self.symmetric: tuple[int, ...] | None = None
+        self._looking = threading.Thread(target=self._look_for_symmetry, daemon=True)
+        self._looking.start()
+        self.offered = _set_aside.pop(self.cage.mesh.name, None) or self.cage.mesh.get(KEY)
+        self.overlay = overlay.Overlay(self.session, obj, arrays.points, arrays.to_object)
+
+    def remove(self) -> None:
+        """Stop drawing the overlay."""
+        self.overlay.remove()
+
+    def _look_for_symmetry(self) -> None:
+        self.symmetric = self.session.symmetric_axes
+
+    @property
+    def offer(self) -> bool:
+        """Whether wires of an earlier drawing are to be offered."""
+        own = preferences.get()
+        return self.offered is not None and (own is None or own.resume != "NEVER")
+
+    @property
+    def busy(self) -> bool:
+        """Whether something is being computed: `poll` is to be called now and then."""
+        drawing = self.session
+        return drawing.computing or drawing.waiting_clicks > 0 or self._looking.is_alive()
+
+    @property
+    def changes(self) -> bool:
+        """Whether finishing would change anything."""
+        return bool(self.session.wires) or bool(self._resumed)
+
+    def intact(self) -> bool:
+        """Whether object and mesh are still there and being edited, with the same vertices, edges and faces."""
+        try:
+            return self.obj.mode == "EDIT" and self.obj.data == self.cage.mesh and self.cage.intact()
+        except ReferenceError:
+            return False
+
+    def poll(self) -> None:
+        """Take in what was computed."""
+        self.session.poll()
+
+    def stepped(self) -> bool:
+        """Whether there was a step since the last call that undo can take back."""
+        before, self._network = self._network, self.session.network
+        return self._network is not before and not self.session.dragging
+
+    # Settings
+
+    def follow(self, settings: SeamwireSettings) -> None:
+        """Take over settings that were changed in the tool's header."""
+        drawing = self.session
+        drawing.switch(settings.along)
+        drawing.set_metric(settings.metric)
+        drawing.set_strength("EDGES", settings.strength_edges)
+        drawing.set_strength("SURFACE", settings.strength_surface)
+
+    def follow_mirror(self) -> None:
+        """Take over the mesh's own mirror where it was changed."""
+        axes = mirror_axes(self.cage.mesh)
+        if axes != self._mesh_mirror:
+            self._mesh_mirror = axes
+            self.session.set_mirror(axes)
+
+    def tell(self, settings: SeamwireSettings) -> None:
+        """Write back what keys changed."""
+        drawing = self.session
+        name = "strength_edges" if drawing.along == "EDGES" else "strength_surface"
+        if abs(getattr(settings, name) - drawing.strength) > 1e-4 * drawing.strength:
+            setattr(settings, name, drawing.strength)
+
+    # What is under the cursor, and what is seen
+
+    def snap(self, view: picking.View, cursor: tuple[float, float]) -> Snap | None:
+        """Return what of the mesh is under the cursor."""
+        pick = self._picker.pick(view, self.obj.matrix_world, cursor, self.session.along == "SURFACE")
+        return None if pick is None else self._snap_of(pick)
+
+    def _snap_of(self, pick: Pick) -> Snap:
+        if undirected(pick) in self.session.seeds():
+            return Snap(undirected(pick), "SEED")
+        for wire in reversed(self.session.wires):
+            if pick in wire.vertices or (isinstance(pick, tuple) and undirected(pick) in wire.edges()):
+                return Snap(pick, "WIRE", wire)
+        return Snap(pick)
+
+    def depth(self, view: picking.View, cursor: tuple[float, float]) -> float | None:
+        """Return how far from the viewer the object is under the cursor; None where it is not."""
+        return self._picker.depth(view, self.obj.matrix_world, cursor)
+
+    def show(self, settings: SeamwireSettings, front: bool, help_rows: Sequence[tuple[str, str]] | None) -> None:
+        """Let the overlay follow."""
+
+    # The network, beyond this drawing
+
+    def resume(self) -> str:
+        """Go on with the wires of an earlier drawing; return what there is to say."""
+        text, self.offered = self.offered, None
+        if text is None:
+            return "There are no wires of an earlier drawing on this mesh"
+        network, problems = storage.load(text, self._points, self._edges)
+        drawn = self.session.wires
+        self.session.resume(replace(network, wires=(*network.wires, *drawn)))
+        # What these wires marked, they are to clear where they are dropped now.
+        self._resumed = frozenset(edge for wire in network.wires for edge in self._marked_by(wire))
+        return "; ".join([f"Going on with {count(len(network.wires), 'wire')}", *problems])
+
+    def _marked_by(self, wire: Wire) -> Iterator[Edge]:
+        if wire.marks:
+            for image in (wire, *self.session.mirrored(wire)):
+                yield from image.edges()
+
+    def set_aside(self) -> int:
+        """Keep the network for the next drawing on this mesh; return how many wires that are."""
+        wires = self.session.wires
+        try:
+            if wires:
+                _set_aside[self.cage.mesh.name] = storage.dump(replace(self.session.network, seed=None), self._points)
+        except ReferenceError:  # the mesh is gone, and the wires with it
+            return 0
+        return len(wires)
+
+    def write(self) -> tuple[int, int]:
+        """Mark and clear what was drawn, and store the network with the mesh.
+
+        Returns
+        -------
+        tuple of int
+            How many edges became seams, and how many ceased to be.
+        """
+        mark, clear = self.session.edges_to_mark(), self.session.edges_to_clear()
+        written = self.cage.write_seams(mark, [*clear, *(self._resumed - set(mark) - set(clear))])
+        network = replace(self.session.network, seed=None)
+        if self.offered is not None:
+            # Wires that were not taken up stay with the mesh, as far as they still are what they were.
+            earlier, _ = storage.load(self.offered, self._points, self._edges)
+            seams = set(self.cage.seams())
+            kept = [wire for wire in earlier.wires if seams.issuperset(wire.edges())]
+            network = replace(network, wires=(*kept, *network.wires))
+        if network.wires:
+            self.cage.mesh[KEY] = storage.dump(network, self._points)
+        elif KEY in self.cage.mesh:
+            del self.cage.mesh[KEY]
+        return written
