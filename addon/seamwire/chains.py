@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from .network import Pick
+    from .network import Edge, Pick
     from .session import Session
 
 _TOKEN = re.compile(r"(\d+)(?:-(\d+))?")
@@ -45,6 +45,35 @@ def parse_chains(text: str) -> list[list[Pick]]:
     if not chains:
         raise ValueError("There are no chains of seeds: give vertex numbers such as '0 512 88; 7-9 40'")
     return chains
+
+
+def parse_edges(text: str) -> list[Edge]:
+    """Read edges, such as ``"7-9 40-41"``.
+
+    Raises
+    ------
+    ValueError
+        Where one of them is not an edge.
+    """
+    edges: list[Edge] = []
+    for token in text.replace(",", " ").replace(";", " ").split():
+        match = _TOKEN.fullmatch(token)
+        if match is None or match[2] is None or int(match[1]) == int(match[2]):
+            raise ValueError(f"Loops: '{token}' is not an edge such as 7-9")
+        edges.append((int(match[1]), int(match[2])))
+    return edges
+
+
+def draw_loops(session: Session, edges: Iterable[Edge]) -> list[str]:
+    """Take the loops through edges without a hand; return what could not be done, in words."""
+    problems = []
+    for edge in edges:
+        before = len(session.wires)
+        done = session.loop(edge)
+        session.wait()
+        if not done or len(session.wires) == before:
+            problems.append(session.message or f"The loop through edge {edge[0]}-{edge[1]} is there already")
+    return problems
 
 
 def draw_chains(session: Session, chains: Iterable[Sequence[Pick]]) -> list[str]:

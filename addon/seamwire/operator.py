@@ -10,11 +10,13 @@ import bpy
 
 from . import lazy, native
 from .drawing import Drawing, close_all, running
-from .tool import ALONG_ITEMS, settings
+from .tool import ALONG_ITEMS, METRIC_ITEMS, settings
 from .ui import count
 
 if TYPE_CHECKING:
     from . import board, chains, edit_mesh, session
+    from .network import Edge, Pick
+    from .session import Session
 else:
     board, chains, edit_mesh, session = map(lazy.Part, ("board", "chains", "edit_mesh", "session"))
 
@@ -48,7 +50,31 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
         name="Chains",
         description="Chains of seeds: vertex numbers, or edges as two numbers with a hyphen; semicolons between chains",
     )
+    loops: bpy.props.StringProperty(
+        name="Loops",
+        description="Edges, each as two vertex numbers with a hyphen: the closed loop through each of them is taken",
+    )
     along: bpy.props.EnumProperty(name="Along", description="Where wires run", items=ALONG_ITEMS, default="EDGES")
+    clear: bpy.props.BoolProperty(
+        name="Clear", description="Let the edges cease to be seams instead of marking them", default=False
+    )
+    mirror: bpy.props.EnumProperty(
+        name="Mirror",
+        description="The axes over which wires are mirrored; where not given, those that the mesh is mirrored over",
+        items=(("X", "X", ""), ("Y", "Y", ""), ("Z", "Z", "")),
+        options={"ENUM_FLAG"},
+        default=set(),
+    )
+    strength: bpy.props.FloatProperty(
+        name="Strength",
+        description="How much longer than straight a way may be for following the shape, 1 to 100; 0: as the tool does",
+        default=0.0,
+        min=0.0,
+        max=100.0,
+    )
+    metric: bpy.props.EnumProperty(
+        name="Metric", description="What draws wires to features", items=METRIC_ITEMS, default="feature"
+    )
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -56,25 +82,12 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
         return _in_edit_mode(context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Draw the chains, and mark what they run along."""
+        """Draw the chains and loops, and mark or clear what they run along."""
         try:
-            seeds = chains.parse_chains(self.chains)
             cage = edit_mesh.Cage(context.active_object)
-            problem = cage.problem_with(pick for chain in seeds for pick in chain)
-            if problem:
-                raise ValueError(problem)
-            if self.along == "SURFACE" and any(isinstance(pick, tuple) for chain in seeds for pick in chain):
-                raise ValueError("Across the surface seeds are vertices: give vertex numbers, not edges")
-            arrays = edit_mesh.read(context.active_object)
-            drawing = session.Session(
-                board.live_maker(arrays),
-                arrays.points,
-                self.along,
-                edges=arrays.edges,
-                seams=arrays.seams,
-                to_object=arrays.to_object,
-            )
-            problems = chains.draw_chains(drawing, seeds)
+            seeds, loops = self._read(cage)
+            drawing = self._session(context)
+            problems = [*chains.draw_chains(drawing, seeds), *chains.draw_loops(drawing, loops)]
         except (ValueError, native.NativeError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -85,8 +98,42 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
             return {"CANCELLED"}
         mark, clear = drawing.edges_to_mark(), drawing.edges_to_clear()
         new, old = cage.write_seams(mark, clear)
+        if new or old:
+            edit_mesh.live_unwrap(context)
         self.report({"INFO"}, _summary(len(drawing.wires), new, old, len(mark) + len(clear)))
         return {"FINISHED"}
+
+    def _read(self, cage: edit_mesh.Cage) -> tuple[list[list[Pick]], list[Edge]]:
+        """Return chains and loops; raises ValueError where they cannot be drawn."""
+        loops = chains.parse_edges(self.loops)
+        seeds = [] if loops and not self.chains.strip() else chains.parse_chains(self.chains)
+        problem = cage.problem_with(pick for chain in (*seeds, loops) for pick in chain)
+        if problem:
+            raise ValueError(problem)
+        if self.along == "SURFACE" and (loops or any(isinstance(pick, tuple) for chain in seeds for pick in chain)):
+            raise ValueError("Across the surface seeds are vertices: give vertex numbers, not edges")
+        return seeds, loops
+
+    def _session(self, context: bpy.types.Context) -> Session:
+        arrays = edit_mesh.read(context.active_object)
+        drawing = session.Session(
+            board.live_maker(arrays),
+            arrays.points,
+            self.along,
+            edges=arrays.edges,
+            seams=arrays.seams,
+            to_object=arrays.to_object,
+        )
+        if self.strength:
+            drawing.set_strength(self.along, self.strength)
+        drawing.set_metric(self.metric)
+        given = self.properties.is_property_set("mirror")
+        drawing.set_mirror(
+            tuple("XYZ".index(axis) for axis in self.mirror) if given else board.mirror_axes(context.active_object.data)
+        )
+        if self.clear:
+            drawing.toggle_marking()
+        return drawing
 
 
 class MESH_OT_seamwire_draw(bpy.types.Operator):

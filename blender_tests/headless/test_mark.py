@@ -258,3 +258,58 @@ def test_marking_is_one_step_of_undo() -> None:
     assert seams(obj) == []
     bpy.ops.ed.redo()
     assert len(seams(bpy.data.objects[name])) == 8
+
+
+def test_clearing_takes_seams_away_and_leaves_the_others() -> None:
+    obj = add_grid(9)
+    edit()
+    mark("36 44")
+    assert bpy.ops.mesh.seamwire_mark(chains="38 42", clear=True) == {"FINISHED"}
+    assert seams(obj) == sorted(chain(36, 37, 38) + chain(42, 43, 44))
+
+
+def test_mirrored_wires_are_marked_as_the_mesh_or_the_operator_says() -> None:
+    obj = add_grid(9)
+    edit()
+    bpy.ops.mesh.seamwire_mark(chains="9 11", mirror={"X"})
+    both = sorted(chain(9, 10, 11) + chain(15, 16, 17))
+    assert seams(obj) == both
+    obj.data.use_mirror_y = True
+    mark("1 2")
+    assert seams(obj) == sorted([*both, (1, 2), (73, 74)])
+    bpy.ops.mesh.seamwire_mark(chains="4 5", mirror=set())
+    assert seams(obj) == sorted([*both, (1, 2), (4, 5), (73, 74)])
+
+
+def test_loops_are_taken_alone_or_beside_chains() -> None:
+    bpy.ops.mesh.primitive_cylinder_add(vertices=12, depth=2.0, end_fill_type="NOTHING")
+    obj = bpy.context.active_object
+    edit()
+    bpy.ops.mesh.subdivide(number_cuts=1)
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.index_update()
+    ring = [e for e in bm.edges if all(abs(v.co.z) < 1e-6 for v in e.verts)]
+    a, b = (v.index for v in ring[0].verts)
+    assert bpy.ops.mesh.seamwire_mark(loops=f"{a}-{b}") == {"FINISHED"}
+    middle = sorted(tuple(sorted(v.index for v in e.verts)) for e in ring)
+    assert seams(obj) == middle
+    with pytest.raises(RuntimeError, match="not an edge"):
+        bpy.ops.mesh.seamwire_mark(loops="7")
+
+
+def test_live_unwrap_follows_the_seams_and_leaves_the_selection() -> None:
+    obj = add_grid(9)
+    add_layers(obj)
+    edit()
+    before = snapshot(obj, with_seams=False)
+    mark("36 44")
+    assert snapshot(obj, with_seams=False) == before, "UVs stay where the scene does not ask for more"
+    bpy.context.tool_settings.use_edge_path_live_unwrap = True
+    try:
+        mark("4 76")
+    finally:
+        bpy.context.tool_settings.use_edge_path_live_unwrap = False
+    after = snapshot(obj, with_seams=False)
+    assert after["uv Kept"] != before["uv Kept"]
+    del after["uv Kept"], before["uv Kept"]
+    assert after == before

@@ -406,7 +406,7 @@ def test_wires_that_are_being_computed_come_when_they_are_ready(desk: Desk, monk
             return type("Wires", (), {"wires": (nothing, nothing), "shorter": 0, "final": False})()
 
     make = board.live_maker
-    monkeypatch.setattr(board, "live_maker", lambda arrays: lambda along: Slow(make(arrays)(along)))
+    monkeypatch.setattr(board, "eventual_maker", lambda arrays: lambda along: Slow(make(arrays)(along)))
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(36), ctrl=True)
     ui.click(desk.at(44))
