@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <numbers>
 #include <numeric>
 #include <string>
@@ -18,6 +19,9 @@ constexpr double kFlatness = 1e-7;
 
 /// Lengths computed from coordinates may miss the triangle inequality by rounding where the corners are in line.
 constexpr double kRounding = 1e-12;
+
+/// A step over an edge counts if it is shorter than this part of the way along two edges.
+constexpr double kShortcut = 0.95;
 
 std::string text(double number) { return std::to_string(number); }
 std::string text(std::int32_t number) { return std::to_string(number); }
@@ -135,14 +139,7 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh) {
     angle_[h] = std::atan2(half_edges_[h].apex_y, half_edges_[h].apex_x);
   }
 
-  first_out_.assign(vertex_count() + 1, 0);
-  for (const HalfEdge& h : half_edges_) ++first_out_[index(h.tail) + 1];
-  accumulate_rows(first_out_);
-  out_.resize(half_edges_.size());
-  std::vector<std::int32_t> free_slot(first_out_.begin(), first_out_.end() - 1);
-  for (std::size_t h = 0; h < half_edges_.size(); ++h) {
-    out_[index(free_slot[index(half_edges_[h].tail)]++)] = static_cast<std::int32_t>(h);
-  }
+  list_out();
 
   first_loose_.assign(vertex_count() + 1, 0);
   for (const LooseEdge& edge : mesh.loose_edges) {
@@ -151,14 +148,59 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh) {
   }
   accumulate_rows(first_loose_);
   loose_.resize(2 * mesh.loose_edges.size());
-  free_slot.assign(first_loose_.begin(), first_loose_.end() - 1);
+  std::vector<std::int32_t> free_slot(first_loose_.begin(), first_loose_.end() - 1);
   for (const LooseEdge& edge : mesh.loose_edges) {
     const std::int32_t a = own_vertex(edge.a), b = own_vertex(edge.b);
     loose_[index(free_slot[index(a)]++)] = {b, edge.length};
     loose_[index(free_slot[index(b)]++)] = {a, edge.length};
   }
 
+  list_steps();
   find_bending_vertices();
+}
+
+void GeodesicMesh::list_out() {
+  first_out_.assign(vertex_count() + 1, 0);
+  for (const HalfEdge& h : half_edges_) ++first_out_[index(h.tail) + 1];
+  accumulate_rows(first_out_);
+  out_.resize(half_edges_.size());
+  std::vector<std::int32_t> free_slot(first_out_.begin(), first_out_.end() - 1);
+  for (std::size_t h = 0; h < half_edges_.size(); ++h) {
+    out_[index(free_slot[index(half_edges_[h].tail)]++)] = static_cast<std::int32_t>(h);
+  }
+}
+
+void GeodesicMesh::list_steps() {
+  first_step_.assign(vertex_count() + 1, 0);
+  steps_.reserve(2 * half_edges_.size() + loose_.size());
+  double sum = 0.0;
+  const auto add = [&](std::int32_t to, double length) {
+    const auto rounded = static_cast<float>(length);
+    steps_.push_back({to, rounded});
+    sum += length;
+    longest_step_ = std::max(longest_step_, rounded);
+  };
+  for (std::int32_t v = 0; v < static_cast<std::int32_t>(vertex_count()); ++v) {
+    for (const std::int32_t h : out(v)) {
+      const HalfEdge& edge = half_edge(h);
+      add(edge.tip, edge.length);
+      // On the boundary nobody leaves v along the edge that arrives here.
+      if (edge.left < 0) add(edge.apex, half_edge(previous(h)).length);
+      if (edge.right < 0) continue;
+      // Over the opposite edge, from below it in the frame of the half-edge entered.
+      const HalfEdge& over = half_edge(edge.right);
+      const HalfEdge& back = half_edge(next(h));
+      const double x = over.length - back.apex_x, y = -back.apex_y;
+      const double length = std::hypot(over.apex_x - x, over.apex_y - y);
+      const double foot = x - (over.apex_x - x) * y / (over.apex_y - y);
+      const double around =
+          std::min(edge.length + 1 / over.right_inverse, half_edge(previous(h)).length + 1 / over.left_inverse);
+      if (foot > 0 && foot < over.length && length < kShortcut * around) add(over.apex, length);
+    }
+    for (const auto& [to, length] : loose(v)) add(to, length);
+    first_step_[index(v) + 1] = static_cast<std::int32_t>(steps_.size());
+  }
+  if (!steps_.empty()) mean_step_ = static_cast<float>(sum / static_cast<double>(steps_.size()));
 }
 
 /// Breadth first over the triangles, a component after the other; a face gets its number with its first vertex.
@@ -221,6 +263,79 @@ void GeodesicMesh::find_bending_vertices() {
     }
     bends_paths_[index(v)] = bends || angle > 2 * std::numbers::pi + kFlatness;
   }
+}
+
+MeshCutter::Numbers::Numbers(std::size_t count)
+    : memory_(static_cast<std::int32_t*>(std::calloc(std::max<std::size_t>(count, 1), sizeof(std::int32_t)))) {
+  if (!memory_) throw std::bad_alloc();
+}
+
+MeshPart MeshCutter::cut(std::span<const std::int32_t> vertices) {
+  for (const std::int32_t v : used_vertices_) part_vertex_[v] = 0;
+  for (const std::int32_t f : used_faces_) part_face_[f] = 0;
+  used_vertices_.clear();
+  used_faces_.clear();
+  const auto use = [](std::int32_t item, Numbers& number, std::vector<std::int32_t>& used) {
+    if (number[item] != 0) return;
+    number[item] = 1;
+    used.push_back(item);
+  };
+  for (const std::int32_t v : vertices) {
+    use(v, part_vertex_, used_vertices_);
+    for (const std::int32_t h : mesh_.out(v)) use(h / 3, part_face_, used_faces_);
+  }
+  // As in the whole mesh, so that what lies together there does so here.
+  std::sort(used_faces_.begin(), used_faces_.end());
+  for (std::size_t f = 0; f < used_faces_.size(); ++f) {
+    part_face_[used_faces_[f]] = static_cast<std::int32_t>(f) + 1;
+    for (const std::int32_t h : {3 * used_faces_[f], 3 * used_faces_[f] + 1, 3 * used_faces_[f] + 2}) {
+      use(mesh_.half_edge(h).tail, part_vertex_, used_vertices_);
+    }
+  }
+  std::sort(used_vertices_.begin(), used_vertices_.end());
+  for (std::size_t v = 0; v < used_vertices_.size(); ++v) {
+    part_vertex_[used_vertices_[v]] = static_cast<std::int32_t>(v) + 1;
+  }
+
+  const std::shared_ptr<GeodesicMesh> part(new GeodesicMesh);
+  const auto entered = [&](std::int32_t h) {
+    if (h < 0) return -1;
+    const std::int32_t face = part_face_[h / 3] - 1;
+    return face < 0 ? -1 : 3 * face + h % 3;
+  };
+  part->half_edges_.reserve(3 * used_faces_.size());
+  part->angle_.reserve(3 * used_faces_.size());
+  part->bends_paths_.resize(used_vertices_.size());
+  for (std::size_t v = 0; v < used_vertices_.size(); ++v) {
+    part->bends_paths_[v] = mesh_.bends_paths(used_vertices_[v]);
+  }
+  for (const std::int32_t face : used_faces_) {
+    for (const std::int32_t h : {3 * face, 3 * face + 1, 3 * face + 2}) {
+      GeodesicMesh::HalfEdge edge = mesh_.half_edge(h);
+      edge.tail = part_vertex(edge.tail);
+      edge.tip = part_vertex(edge.tip);
+      edge.apex = part_vertex(edge.apex);
+      edge.left = entered(edge.left);
+      edge.right = entered(edge.right);
+      if (edge.left < 0) part->bends_paths_[index(edge.tail)] = part->bends_paths_[index(edge.apex)] = 1;
+      part->half_edges_.push_back(edge);
+      part->angle_.push_back(mesh_.angle(h));
+    }
+  }
+  part->original_vertex_.resize(used_vertices_.size());
+  std::iota(part->original_vertex_.begin(), part->original_vertex_.end(), 0);
+  part->own_vertex_ = part->original_vertex_;
+  part->original_face_.resize(used_faces_.size());
+  std::iota(part->original_face_.begin(), part->original_face_.end(), 0);
+  part->list_out();
+  part->first_loose_.assign(used_vertices_.size() + 1, 0);
+  for (std::size_t v = 0; v < used_vertices_.size(); ++v) {
+    for (const auto& [to, length] : mesh_.loose(used_vertices_[v])) {
+      if (part_vertex(to) >= 0) part->loose_.push_back({part_vertex(to), length});
+    }
+    part->first_loose_[v + 1] = static_cast<std::int32_t>(part->loose_.size());
+  }
+  return {part, used_vertices_, used_faces_};
 }
 
 }  // namespace seamwire

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -30,6 +32,12 @@ class GeodesicMesh {
     std::int32_t to;
     double length;
   };
+  /// A straight way to a vertex nearby, along an edge or over one, through two triangles; in single precision: for a
+  /// first look at where to go.
+  struct Step {
+    std::int32_t to;
+    float length;
+  };
 
   /// Throws as ExactGeodesics does.
   explicit GeodesicMesh(const IntrinsicMesh& mesh);
@@ -48,6 +56,11 @@ class GeodesicMesh {
   /// Half-edges that leave a vertex, of all its fans.
   std::span<const std::int32_t> out(std::int32_t vertex) const { return row(out_, first_out_, vertex); }
   std::span<const Loose> loose(std::int32_t vertex) const { return row(loose_, first_loose_, vertex); }
+  /// The steps from a vertex: along each of its edges, those without a face too, and over the edges opposite to it
+  /// where that is a shortcut. Without the latter a regular mesh has directions that are up to 41 % too long.
+  std::span<const Step> steps(std::int32_t vertex) const { return row(steps_, first_step_, vertex); }
+  float mean_step() const { return mean_step_; }
+  float longest_step() const { return longest_step_; }
   /// Shortest paths may bend here: more than 2 pi around it, a boundary, several fans, or a loose edge.
   bool bends_paths(std::int32_t vertex) const { return bends_paths_[static_cast<std::size_t>(vertex)] != 0; }
 
@@ -65,7 +78,11 @@ class GeodesicMesh {
     const auto begin = static_cast<std::size_t>(first[index]), end = static_cast<std::size_t>(first[index + 1]);
     return {items.data() + begin, end - begin};
   }
+  friend class MeshCutter;
+  GeodesicMesh() = default;
   void renumber(const IntrinsicMesh& mesh);
+  void list_out();
+  void list_steps();
   void find_bending_vertices();
 
   std::vector<HalfEdge> half_edges_;
@@ -73,8 +90,49 @@ class GeodesicMesh {
   std::vector<std::int32_t> out_, first_out_;
   std::vector<Loose> loose_;
   std::vector<std::int32_t> first_loose_;
+  std::vector<Step> steps_;
+  std::vector<std::int32_t> first_step_;
+  float mean_step_ = 0.0F, longest_step_ = 0.0F;
   std::vector<std::uint8_t> bends_paths_;
   std::vector<std::int32_t> original_vertex_, own_vertex_, original_face_;
+};
+
+/// Triangles of a mesh as a mesh of their own, without steps(): its caller is whoever cut it, so it has no other
+/// numbers. Paths may bend at its border as at any other; on the whole mesh they are paths all the same.
+struct MeshPart {
+  std::shared_ptr<const GeodesicMesh> mesh;
+  std::vector<std::int32_t> vertices, faces;  ///< the whole mesh's, for each of the part's
+};
+
+/// Cuts parts out of a mesh in time proportional to their size; it has to outlive the cutter.
+class MeshCutter {
+ public:
+  explicit MeshCutter(const GeodesicMesh& mesh)
+      : mesh_(mesh), part_vertex_(mesh.vertex_count()), part_face_(mesh.half_edge_count() / 3) {}
+
+  /// The triangles that have one of the given vertices, and the loose edges between these.
+  MeshPart cut(std::span<const std::int32_t> vertices);
+  /// In the last part cut, -1 outside of it.
+  std::int32_t part_vertex(std::int32_t vertex) const { return part_vertex_[vertex] - 1; }
+
+ private:
+  /// Zeros that take no time: memory that the system hands out, when it is first touched, is zero.
+  class Numbers {
+   public:
+    explicit Numbers(std::size_t count);
+    std::int32_t& operator[](std::int32_t i) { return memory_[static_cast<std::size_t>(i)]; }
+    std::int32_t operator[](std::int32_t i) const { return memory_[static_cast<std::size_t>(i)]; }
+
+   private:
+    struct Free {
+      void operator()(std::int32_t* memory) const { std::free(memory); }
+    };
+    std::unique_ptr<std::int32_t[], Free> memory_;
+  };
+
+  const GeodesicMesh& mesh_;
+  Numbers part_vertex_, part_face_;  ///< and one; 0: outside
+  std::vector<std::int32_t> used_vertices_, used_faces_;
 };
 
 }  // namespace seamwire

@@ -3,13 +3,15 @@
 // Paths from one record a vertex. A record says over which half-edge the shortest path arrives, and where its source
 // lies when unfolded into that half-edge's frame. That is all a straight line needs: unfold triangle after triangle
 // towards the source and see on which side of the line each apex lies. At the source its own record takes over.
+#include "trace.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
-#include "geodesic_mesh.hpp"
-#include "seamwire/geodesics.hpp"
+#include "wavefront.hpp"
 
 namespace seamwire {
 namespace {
@@ -54,14 +56,15 @@ class Tracer {
   Tracer(const GeodesicMesh& mesh, const std::vector<double>& distances, const std::vector<TraceRecord>& records)
       : mesh_(mesh), distances_(distances), records_(records) {}
 
-  IntrinsicPath run(std::int32_t vertex) {
+  std::optional<IntrinsicPath> run(std::int32_t vertex) {
     path_.length = 0.0;
-    path_.points.push_back({.vertex = mesh_.original_vertex(vertex)});
+    path_.points.push_back({.vertex = vertex});
     for (;;) {
       const TraceRecord& record = records_[static_cast<std::size_t>(vertex)];
       if (record.half_edge == TraceRecord::kNone) break;
       if (record.half_edge >= 0) {
         vertex = follow_line(vertex, record);
+        if (vertex < 0) return std::nullopt;
       } else {
         const bool is_loose = record.half_edge == TraceRecord::kLooseEdge;
         add_vertex(record.source, is_loose ? -1 : ~record.half_edge, record.x);
@@ -85,20 +88,20 @@ class Tracer {
   double at(std::int32_t vertex) const { return distances_[static_cast<std::size_t>(mesh_.original_vertex(vertex))]; }
 
   void add_segment(std::int32_t half_edge, double length) {
-    path_.faces.push_back(half_edge < 0 ? -1 : mesh_.original_half_edge(half_edge) / 3);
+    path_.faces.push_back(half_edge < 0 ? -1 : half_edge / 3);
     path_.length += length;
   }
   void add_vertex(std::int32_t vertex, std::int32_t half_edge, double length) {
     add_segment(half_edge, length);
-    path_.points.push_back({.vertex = mesh_.original_vertex(vertex)});
+    path_.points.push_back({.vertex = vertex});
   }
   void add_crossing(std::int32_t half_edge, double x, std::int32_t behind, double length) {
     add_segment(behind, length);
-    path_.points.push_back(
-        {.half_edge = mesh_.original_half_edge(half_edge), .t = x / mesh_.half_edge(half_edge).length});
+    path_.points.push_back({.half_edge = half_edge, .t = x / mesh_.half_edge(half_edge).length});
   }
 
-  /// From `vertex` straight towards its source. Returns the vertex to go on from: the source, or one on the way.
+  /// From `vertex` straight towards its source. Returns the vertex to go on from: the source, or one on the way; -1
+  /// where the line leads nowhere.
   std::int32_t follow_line(std::int32_t vertex, const TraceRecord& record) {
     const HalfEdge& first = mesh_.half_edge(record.half_edge);
     Point2 from{first.apex_x, first.apex_y}, source{record.x, record.y};
@@ -136,10 +139,7 @@ class Tracer {
       source = move(source);
       here = move(here);
     }
-    if (best_.vertex < 0) {
-      throw std::logic_error("the path to vertex " + std::to_string(mesh_.original_vertex(vertex)) + " lost its way");
-    }
-    return take_best();
+    return best_.vertex < 0 ? -1 : take_best();
   }
 
   /// Remembers the vertex u beside the line if it is the best so far; true if the line is as good as through it.
@@ -173,6 +173,49 @@ class Tracer {
 
 }  // namespace
 
+std::optional<IntrinsicPath> trace_records(const GeodesicMesh& mesh, const std::vector<double>& distances,
+                                           const std::vector<TraceRecord>& records, std::int32_t vertex) {
+  return Tracer(mesh, distances, records).run(vertex);
+}
+
+IntrinsicPath shorten(const GeodesicMesh& mesh, MeshCutter& cutter, const IntrinsicPath& path, const Task& task) {
+  std::vector<std::int32_t> vertices;
+  for (const PathPoint& point : path.points) {
+    if (point.vertex >= 0) vertices.push_back(point.vertex);
+    if (point.half_edge < 0) continue;
+    vertices.push_back(mesh.half_edge(point.half_edge).tail);
+    vertices.push_back(mesh.half_edge(point.half_edge).tip);
+  }
+  const MeshPart part = cutter.cut(vertices);
+  const WavefrontResult result = propagate_wavefront(*part.mesh, cutter.part_vertex(path.points.front().vertex), task);
+  std::optional<IntrinsicPath> shorter =
+      trace_records(*part.mesh, result.distances, result.records, cutter.part_vertex(path.points.back().vertex));
+  if (!shorter) throw std::logic_error("a path lost its way");
+  number_as_whole(part, *shorter);
+  return std::move(*shorter);
+}
+
+void number_as_whole(const MeshPart& part, IntrinsicPath& path) {
+  for (PathPoint& point : path.points) {
+    if (point.vertex >= 0) point.vertex = part.vertices[static_cast<std::size_t>(point.vertex)];
+    if (point.half_edge < 0) continue;
+    point.half_edge = 3 * part.faces[static_cast<std::size_t>(point.half_edge / 3)] + point.half_edge % 3;
+  }
+  for (std::int32_t& face : path.faces) {
+    if (face >= 0) face = part.faces[static_cast<std::size_t>(face)];
+  }
+}
+
+void number_as_caller(const GeodesicMesh& mesh, IntrinsicPath& path) {
+  for (PathPoint& point : path.points) {
+    if (point.vertex >= 0) point.vertex = mesh.original_vertex(point.vertex);
+    if (point.half_edge >= 0) point.half_edge = mesh.original_half_edge(point.half_edge);
+  }
+  for (std::int32_t& face : path.faces) {
+    if (face >= 0) face = mesh.original_half_edge(3 * face) / 3;
+  }
+}
+
 DistanceField::DistanceField(std::shared_ptr<const GeodesicMesh> mesh, std::int32_t seed, std::vector<double> distances,
                              std::vector<TraceRecord> records)
     : mesh_(std::move(mesh)), seed_(seed), distances_(std::move(distances)), records_(std::move(records)) {}
@@ -183,7 +226,10 @@ IntrinsicPath DistanceField::trace(std::int32_t vertex) const {
                        std::to_string(distances_.size()));
   }
   if (std::isinf(distances_[static_cast<std::size_t>(vertex)])) return {};
-  return Tracer(*mesh_, distances_, records_).run(mesh_->own_vertex(vertex));
+  std::optional<IntrinsicPath> path = trace_records(*mesh_, distances_, records_, mesh_->own_vertex(vertex));
+  if (!path) throw std::logic_error("the path to vertex " + std::to_string(vertex) + " lost its way");
+  number_as_caller(*mesh_, *path);
+  return std::move(*path);
 }
 
 }  // namespace seamwire

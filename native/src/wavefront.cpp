@@ -50,10 +50,11 @@ enum class Status : std::uint8_t { kOut, kFront, kInside };
 
 class Wavefront {
  public:
-  Wavefront(const GeodesicMesh& mesh, std::int32_t seed, const Task& task)
+  Wavefront(const GeodesicMesh& mesh, std::int32_t seed, const Task& task, std::uint32_t windows_kept)
       : mesh_(mesh),
         task_(task),
         seed_(seed),
+        windows_kept_(windows_kept),
         status_(mesh.vertex_count(), Status::kOut),
         queue_(mesh.vertex_count()),
         lists_(mesh.half_edge_count()),
@@ -100,7 +101,11 @@ class Wavefront {
       if (status_[index(edge.tip)] == Status::kOut) status_[index(edge.tip)] = Status::kFront;
       if (status_[index(edge.apex)] == Status::kOut) status_[index(edge.apex)] = Status::kFront;
     }
-    if (mesh_.bends_paths(v) || v == seed_) send_out(v);
+    if (mesh_.bends_paths(v) || v == seed_) {
+      send_out(v);
+    } else if (windows_kept_ > 0) {
+      lower_neighbours(v);  // stretched windows need not cover all; this bounds what is lost
+    }
     for (const std::int32_t h : leaving) {
       enqueue(h);
       enqueue(GeodesicMesh::previous(h));
@@ -110,8 +115,8 @@ class Wavefront {
     }
   }
 
-  /// v becomes a source: paths run from it along its edges, and straight on over its triangles.
-  void send_out(std::int32_t v) {
+  /// Paths along the edges at v.
+  void lower_neighbours(std::int32_t v) {
     const double from = distance(v);
     for (const std::int32_t h : mesh_.out(v)) {
       const std::int32_t before = GeodesicMesh::previous(h);
@@ -122,7 +127,11 @@ class Wavefront {
     for (const auto& [to, length] : mesh_.loose(v)) {
       lower(to, from + length, {.x = length, .half_edge = TraceRecord::kLooseEdge, .source = v});
     }
+  }
 
+  /// v becomes a source: paths run from it along its edges, and straight on over its triangles.
+  void send_out(std::int32_t v) {
+    lower_neighbours(v);
     const auto [arrival, angle] = arrival_at(v);
     std::size_t corners = 0;
     if (arrival >= 0) corners = send_into_shadow(v, arrival, angle);
@@ -328,7 +337,7 @@ class Wavefront {
   /// Carries the list of h through the triangle it enters.
   void propagate(std::int32_t h) {
     WindowList list = std::exchange(lists_[index(h)], {});
-    const Windows in = list.windows();
+    Windows in = list.windows();
     count(list.size);
     const HalfEdge& edge = mesh_.half_edge(h);
     const double at_tail = distance(edge.tail), at_tip = distance(edge.tip);
@@ -344,12 +353,14 @@ class Wavefront {
       split = edge.length;
       record = {.x = right_length, .half_edge = ~GeodesicMesh::next(h), .source = edge.tip};
     }
-    const std::uint32_t kept = prune(in, list.size, at_tail, at_tip, edge.length);
+    std::uint32_t kept = prune(in, list.size, at_tail, at_tip, edge.length), winner = 0;
+    if (split > 0 && kept > 0) winner = kept - 1;
     feet_.resize(std::max<std::size_t>(feet_.size(), kept));
+    double* feet = feet_.data();
     for (std::uint32_t i = 0; i < kept; ++i) {
       const double b0 = in.b0[i], b1 = in.b1[i], x = in.x[i], y = in.y[i], d = in.distance[i];
       const double foot = x + (edge.apex_x - x) * -y / (edge.apex_y - y);
-      feet_[i] = foot;
+      feet[i] = foot;
       const double through = std::clamp(foot, b0, b1);
       const double to_apex = d + std::sqrt((through - x) * (through - x) + y * y) +
                              std::sqrt((through - edge.apex_x) * (through - edge.apex_x) + edge.apex_y * edge.apex_y);
@@ -359,7 +370,17 @@ class Wavefront {
         shortest = to_apex;
         split = through;
         record = {.x = x, .y = y, .half_edge = h, .source = in.source[i]};
+        winner = i;
       }
+    }
+    if (windows_kept_ > 0 && kept > windows_kept_) {
+      const std::uint32_t first =
+          std::min(winner > windows_kept_ / 2 ? winner - windows_kept_ / 2 : 0, kept - windows_kept_);
+      in.b0[first] = std::min(in.b0[first], in.b0[0]);
+      in.b1[first + windows_kept_ - 1] = std::max(in.b1[first + windows_kept_ - 1], in.b1[kept - 1]);
+      in = in + first;
+      feet = feet_.data() + first;
+      kept = windows_kept_;
     }
     lower(edge.apex, shortest, record);
     const double at_apex = distance(edge.apex);
@@ -372,14 +393,14 @@ class Wavefront {
       for (std::uint32_t i = kept; i-- > 0;) {
         const double b0 = in.b0[i], x = in.x[i], y = in.y[i], d = in.distance[i];
         const double b1 = std::min(in.b1[i], split);
-        if (!(b0 < b1) || !(b0 < feet_[i])) continue;
+        if (!(b0 < b1) || !(b0 < feet[i])) continue;
         // Where the rays over b0 and b1 meet the side, from the tail. The further right a ray, the smaller its
         // denominator; where that is not positive, the ray never gets to the side.
         const double denominator0 = -y * cosine - sine * (b0 - x);
         if (!(denominator0 > 0)) continue;
         const double t0 = -y * b0 / denominator0;
         double t1 = left_length;
-        if (b1 < feet_[i]) {
+        if (b1 < feet[i]) {
           const double denominator1 = -y * cosine - sine * (b1 - x);
           if (denominator1 > 0) t1 = std::min(-y * b1 / denominator1, left_length);
         }
@@ -403,13 +424,13 @@ class Wavefront {
       for (std::uint32_t i = 0; i < kept; ++i) {
         const double b1 = in.b1[i], x = in.x[i], y = in.y[i], d = in.distance[i];
         const double b0 = std::max(in.b0[i], split);
-        if (!(b0 < b1) || !(feet_[i] < b1)) continue;
+        if (!(b0 < b1) || !(feet[i] < b1)) continue;
         // As on the left, mirrored: distances from the tip.
         const double denominator1 = -y * cosine - sine * (b1 - x);
         if (!(denominator1 > 0)) continue;
         const double t1 = right_length - -y * (edge.length - b1) / denominator1;
         double t0 = 0.0;
-        if (b0 > feet_[i]) {
+        if (b0 > feet[i]) {
           const double denominator0 = -y * cosine - sine * (b0 - x);
           if (denominator0 > 0) t0 = std::max(right_length - -y * (edge.length - b0) / denominator0, 0.0);
         }
@@ -429,6 +450,7 @@ class Wavefront {
   const GeodesicMesh& mesh_;
   const Task& task_;
   std::int32_t seed_;
+  std::uint32_t windows_kept_;
   WavefrontResult result_;
   std::vector<Status> status_;
   VertexQueue queue_;
@@ -442,8 +464,9 @@ class Wavefront {
 
 }  // namespace
 
-WavefrontResult propagate_wavefront(const GeodesicMesh& mesh, std::int32_t seed, const Task& task) {
-  return Wavefront(mesh, seed, task).run();
+WavefrontResult propagate_wavefront(const GeodesicMesh& mesh, std::int32_t seed, const Task& task,
+                                    std::uint32_t windows_kept) {
+  return Wavefront(mesh, seed, task, windows_kept).run();
 }
 
 }  // namespace seamwire

@@ -16,6 +16,10 @@ struct WavefrontResult {
   GeodesicCounters counters;
 };
 
-WavefrontResult propagate_wavefront(const GeodesicMesh& mesh, std::int32_t seed, const Task& task);
+/// At most `windows_kept` windows of a list go on, those around the one that is shortest at the apex, stretched over
+/// what the others covered (0: all, which is exact). Distances are then approximate, and records only say about where
+/// the path comes from; every vertex that is connected to the seed has both.
+WavefrontResult propagate_wavefront(const GeodesicMesh& mesh, std::int32_t seed, const Task& task,
+                                    std::uint32_t windows_kept = 0);
 
 }  // namespace seamwire

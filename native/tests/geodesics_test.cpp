@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "intrinsic.hpp"
+#include "paths.hpp"
 #include "reference_geodesics.hpp"
 #include "seamwire/curvature.hpp"
 #include "seamwire/embedding.hpp"
@@ -18,57 +19,13 @@
 namespace seamwire {
 namespace {
 
+using paths::length_of;
+using shapes::exactness_meshes;
 using shapes::intrinsic;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-/// Where a point of a path lies in a triangle laid into the plane; fails if it lies in another triangle.
-Eigen::Vector2d place(const IntrinsicMesh& mesh, std::int32_t face, const PathPoint& point) {
-  const double a = mesh.lengths[index(3 * face)], b = mesh.lengths[index(3 * face + 1)],
-               c = mesh.lengths[index(3 * face + 2)];
-  const double x = (a * a + c * c - b * b) / (2 * a);
-  const Eigen::Vector2d corners[3] = {{0, 0}, {a, 0}, {x, std::sqrt(std::max(c * c - x * x, 0.0))}};
-  if (point.half_edge < 0) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (mesh.triangles[index(face)][i] == point.vertex) return corners[i];
-    }
-    ADD_FAILURE() << "vertex " << point.vertex << " is no corner of triangle " << face;
-    return {};
-  }
-  EXPECT_GE(point.t, 0.0);
-  EXPECT_LE(point.t, 1.0);
-  const bool is_own = point.half_edge / 3 == face;
-  const std::int32_t h = is_own ? point.half_edge : mesh.twins[index(point.half_edge)];
-  if (h < 0 || h / 3 != face) {
-    ADD_FAILURE() << "half-edge " << point.half_edge << " is no edge of triangle " << face;
-    return {};
-  }
-  const double t = is_own ? point.t : 1 - point.t;
-  const auto i = index(h % 3);
-  return (1 - t) * corners[i] + t * corners[(i + 1) % 3];
-}
-
-/// The path's length, summed over its segments from nothing but the mesh's lengths.
-double length_of(const IntrinsicMesh& mesh, const IntrinsicPath& path) {
-  double sum = 0.0;
-  EXPECT_EQ(path.faces.size() + 1, path.points.size());
-  for (std::size_t i = 0; i < path.faces.size(); ++i) {
-    const PathPoint &a = path.points[i], &b = path.points[i + 1];
-    if (path.faces[i] >= 0) {
-      sum += (place(mesh, path.faces[i], a) - place(mesh, path.faces[i], b)).norm();
-      continue;
-    }
-    double shortest = kInfinity;
-    for (const LooseEdge& edge : mesh.loose_edges) {
-      const bool is_it = (edge.a == a.vertex && edge.b == b.vertex) || (edge.a == b.vertex && edge.b == a.vertex);
-      if (is_it) shortest = std::min(shortest, edge.length);
-    }
-    sum += shortest;
-  }
-  return sum;
-}
 
 /// Every path starts at the seed, ends at its vertex, and is as long as the distance says. 1e-9: crossings are found by
 /// unfolding, whose rounding grows with the number of triangles.
@@ -151,24 +108,6 @@ TEST(Geodesics, StretchedPlaneHasTheMappedDistances) {
       expect_plane(shapes::grid(16), stretch(factor, angle), 40, 1e-9);
     }
   }
-}
-
-struct Named {
-  std::string name;
-  shapes::Mesh mesh;
-};
-
-/// `detail`: 1 or 2; the reference solver's time grows with the square of the number of faces and with the stretch.
-std::vector<Named> exactness_meshes(int detail) {
-  const auto ring = [](const Vector& p) { return (p - Vector(0.5, 0.5, 0)).norm() < 0.23; };
-  const auto cut = [](const Vector& p) { return p.x() > 0.1 && p.y() > 0.05 && p.z() > -0.1; };
-  return {{"icosphere", shapes::icosphere(2)},
-          {"bumpy sphere", shapes::bumpy(shapes::icosphere(1 + detail), 0.12)},
-          {"torus", shapes::torus(12 * detail, 6 * detail)},
-          {"bumpy torus", shapes::bumpy(shapes::torus(12 * detail, 7 * detail), 0.08, 2)},
-          {"cylinder", shapes::cylinder(8 * detail, 5 * detail)},
-          {"plane with a hole", shapes::without(shapes::grid(8 * detail, 0.2), ring)},
-          {"bumpy sphere with a hole", shapes::without(shapes::bumpy(shapes::icosphere(1 + detail), 0.1, 3), cut)}};
 }
 
 class ExactOn : public testing::TestWithParam<int> {};

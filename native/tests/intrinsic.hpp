@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -43,6 +44,25 @@ inline IntrinsicMesh intrinsic(const Mesh& mesh, const Eigen::Matrix3d& map = Ei
   return intrinsic(mesh, [&](int a, int b) {
     return (map * (mesh.points[static_cast<std::size_t>(a)] - mesh.points[static_cast<std::size_t>(b)])).norm();
   });
+}
+
+/// Closed and open ones, with and without vertices of more than a full turn.
+struct Named {
+  std::string name;
+  Mesh mesh;
+};
+
+/// `detail`: 1 or 2; the reference solver's time grows with the square of the number of faces and with the stretch.
+inline std::vector<Named> exactness_meshes(int detail) {
+  const auto ring = [](const Vector& p) { return (p - Vector(0.5, 0.5, 0)).norm() < 0.23; };
+  const auto cut = [](const Vector& p) { return p.x() > 0.1 && p.y() > 0.05 && p.z() > -0.1; };
+  return {{"icosphere", icosphere(2)},
+          {"bumpy sphere", bumpy(icosphere(1 + detail), 0.12)},
+          {"torus", torus(12 * detail, 6 * detail)},
+          {"bumpy torus", bumpy(torus(12 * detail, 7 * detail), 0.08, 2)},
+          {"cylinder", cylinder(8 * detail, 5 * detail)},
+          {"plane with a hole", without(grid(8 * detail, 0.2), ring)},
+          {"bumpy sphere with a hole", without(bumpy(icosphere(1 + detail), 0.1, 3), cut)}};
 }
 
 }  // namespace seamwire::shapes

@@ -73,6 +73,9 @@ class ExactGeodesics {
   /// Throws InvalidInput for a seed out of range; Cancelled.
   DistanceField solve(std::int32_t seed, const Task& task = {}, GeodesicCounters* counters = nullptr) const;
 
+  /// The solver's form of the mesh, immutable.
+  const std::shared_ptr<const GeodesicMesh>& mesh() const { return mesh_; }
+
  private:
   std::shared_ptr<const GeodesicMesh> mesh_;
 };
