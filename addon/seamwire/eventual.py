@@ -114,7 +114,8 @@ class EventualLive:
         if self._live is None:
             live = self._making.get()
             if self._metric is not None:
-                live.set_metric(*self._metric)
+                metric, max_anisotropy, clamp_percentile = self._metric
+                live.set_metric(metric, max_anisotropy=max_anisotropy, clamp_percentile=clamp_percentile)
             if self._seed is not None:
                 try:
                     live.seed(self._seed[0], forward=self._seed[1])
@@ -133,14 +134,14 @@ class EventualLive:
         self._refusal = None
 
     def set_metric(
-        self, metric: MetricName, max_anisotropy: float | None = None, clamp_percentile: float | None = None
+        self, metric: MetricName, *, max_anisotropy: float | None = None, clamp_percentile: float | None = None
     ) -> None:
         """Compute with another metric from here on; the seed stays."""
         live = self._made()
         if live is None:
             self._metric = (metric, max_anisotropy, clamp_percentile)
         else:
-            live.set_metric(metric, max_anisotropy, clamp_percentile)
+            live.set_metric(metric, max_anisotropy=max_anisotropy, clamp_percentile=clamp_percentile)
 
     def wires(self, target: Pick) -> Candidates:
         """Both wires to a target, as far as they are computed."""

@@ -64,9 +64,9 @@ class LiveWire(Protocol):
         """Return live wires with a seed of their own and the same metric."""
 
     def set_metric(
-        self, metric: MetricName, max_anisotropy: float | None = None, clamp_percentile: float | None = None
+        self, metric: MetricName, *, max_anisotropy: float | None = None, clamp_percentile: float | None = None
     ) -> None:
-        """Compute with another metric from here on; the seed stays."""
+        """Compute with another metric from here on; the seed stays, and so do the wires until there are new ones."""
 
     def feature_strength(self) -> NDArray[np.float64] | None:
         """Return how strong the features are at the vertices; None as long as that is computed."""

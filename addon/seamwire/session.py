@@ -70,7 +70,6 @@ class _Live:
     """The wires to what is under the cursor."""
 
     target: Snap | None = None
-    seed: Seed | None = None
     wires: tuple[Wire | None, Wire | None] = (None, None)
     finals: tuple[bool, bool] = (True, True)
     shorter: int = 0
@@ -248,13 +247,14 @@ class Session:
 
     @property
     def waiting_clicks(self) -> int:
-        """How many clicks wait for their wire."""
-        return len(self._queue)
+        """How many clicks and other deeds wait for their wires."""
+        ending = self._drag is not None and self._drag.ending
+        return len(self._queue) + len(self._jobs) + ending
 
     @property
     def can_undo(self) -> bool:
         """Whether undo() has something to take back."""
-        return bool(self._queue or self._drag) or any(network != self._network for network in self._undo)
+        return bool(self._queue or self._drag or self._jobs) or any(network != self._network for network in self._undo)
 
     @property
     def can_redo(self) -> bool:
@@ -627,12 +627,7 @@ class Session:
     def resume(self, network: Network) -> bool:
         """Go on with a stored network; its lost wires are drawn anew between their seeds, as far as they can be."""
         self._calm()
-        if not self._change(replace(network, lost=())):
-            return False
-        done = True
-        for wire in network.lost:
-            done &= self._redraw(wire, self._add_when_computed)
-        return done
+        return self._change(network) and all([self._redraw(wire, self._add_when_computed) for wire in network.lost])
 
     def undo(self) -> bool:
         """Take back the last step: a wire, a loop, a seed, a move, whatever was done; first what still waits."""
@@ -640,7 +635,12 @@ class Session:
             self._queue.pop()
             self.revision += 1
             return True
+        toggles = [job for job in self._jobs if job.apply == self._toggle_when_computed]
         if self.drag_cancel():
+            return True
+        if toggles:
+            self._jobs.remove(toggles[-1])
+            self.revision += 1
             return True
         while self._undo:
             network = self._undo.pop()
@@ -700,9 +700,12 @@ class Session:
         if way not in self._lives:
             self._lives[way] = self._make_live(way)
             if self.metric != "feature" or self._strengths[way] != STRENGTHS[way]:
-                self._lives[way].set_metric(self.metric, self._strengths[way], CLAMP_PERCENTILE)
+                self._set_metric(self._lives[way], way)
         self._read_progress()
         return self._lives[way]
+
+    def _set_metric(self, live: LiveWire, along: Along) -> None:
+        live.set_metric(self.metric, max_anisotropy=self._strengths[along], clamp_percentile=CLAMP_PERCENTILE)
 
     def _fork(self, along: Along) -> LiveWire:
         return self._engine(along).fork()
@@ -718,14 +721,11 @@ class Session:
     def _use_metric(self, metric: MetricName, strengths: dict[Along, float]) -> bool:
         if self._drag is not None:
             return self._refuse("Leave the seed first, then change what draws the wires")
-        self._drop_jobs()
-        try:
-            for along, live in self._lives.items():
-                if metric != self.metric or strengths[along] != self._strengths[along]:
-                    live.set_metric(metric, strengths[along], CLAMP_PERCENTILE)
-        except ValueError as error:
-            return self._refuse(str(error))
+        before = self.metric, self._strengths
         self.metric, self._strengths = metric, strengths
+        for along, live in self._lives.items():
+            if metric != before[0] or strengths[along] != before[1][along]:
+                self._set_metric(live, along)
         self.message = ""
         self._live.loop = None
         self._aim(self._live.target, again=True)
@@ -759,12 +759,8 @@ class Session:
         """Let go of all that is under way but the live wire."""
         self._queue.clear()
         self._last_click = None
-        self._drop_jobs()
         self.drag_cancel()
         self.stop_preview()
-
-    def _drop_jobs(self) -> None:
-        self._jobs.clear()
 
     def _set(self, network: Network) -> None:
         before, self._network = self._network, network
@@ -888,8 +884,7 @@ class Session:
     def _find_wires(self, target: Snap | None) -> None:
         live = self._live
         seed = self._network.seed
-        before = live.wires if seed == live.seed else (None, None)
-        live.wires, live.finals, live.seed = (None, None), (True, True), seed
+        live.wires, live.finals = (None, None), (True, True)
         self.message = ""
         self._read_progress()
         if seed is None or target is None or self._drag is not None or self._at_seed(target.pick):
@@ -906,12 +901,7 @@ class Session:
         live.finals = (found.wires[0].final, found.wires[1].final)
         live.shorter = found.shorter
         one, two = (self._wire(found.wires[index], index, target.pick, goal[1]) for index in (0, 1))
-        # What was there stays to be seen until there is something new.
-        keep = [
-            old if new is None and not final else new
-            for old, new, final in zip(before, (one, two), live.finals, strict=True)
-        ]
-        live.wires = (keep[0], keep[1])
+        live.wires = (one, two)
         if all(live.finals) and live.wires == (None, None):
             self.message = f"No wire reaches {name(target.pick)}"
 
@@ -963,9 +953,9 @@ class Session:
         except ValueError as error:
             self.message = str(error)
             return None
-        live.loop_final = getattr(found, "final", True)
+        live.loop_final = found.final
         vertices = tuple(int(v) for v in found.vertices)
-        if len(vertices) < 3:
+        if not found.final or len(vertices) < 3:
             return None
         return Wire(
             "EDGES", vertices, self._points[[*vertices, vertices[0]]], edge, edge, closed=True, strength=self.strength
@@ -973,6 +963,8 @@ class Session:
 
     def _preview_loop(self) -> None:
         live = self._live
+        if not live.loop_wanted and not any(queued.kind == "loop" for queued in self._queue):
+            live.loop_final = True
         if live.loop_wanted and live.loop is None and live.target is not None:
             live.loop = self._find_loop(live.target.pick)
             self.revision += live.loop is not None
@@ -1056,8 +1048,10 @@ class Session:
 
     def _toggle_when_computed(self, wire: Wire, courses: Courses) -> None:
         own = self._network.find(wire)
-        others = [way for way in courses.ways if own is not None and way is not None and not way.like(own)]
-        if own is None or not others:
+        if own is None:
+            return  # it was dropped in the meantime
+        others = [way for way in courses.ways if way is not None and not way.like(own)]
+        if not others:
             self._refuse("Both wires run along the same edges here")
         else:
             self._take_other_way(own, others[-1] if own.follow == 0 else others[0])
@@ -1073,12 +1067,20 @@ class Session:
 
     def _add_when_computed(self, wire: Wire, courses: Courses) -> None:
         found = courses.following(courses.shorter)
+
+        def with_it(network: Network) -> Network:
+            if wire not in network.lost:
+                return network
+            lost = tuple(one for one in network.lost if one is not wire)
+            return replace(network, lost=lost, wires=(*network.wires, *([found] if found else [])))
+
+        # Part of what resume() did, and of all that was done since: no step of its own.
+        self._undo = [with_it(network) for network in self._undo]
+        self._redo = [with_it(network) for network in self._redo]
+        self._set(with_it(self._network))
+        self._aim(self._live.target, again=True)
         if found is None:
             self._refuse(f"A stored wire could not be drawn again: none reaches {name(wire.end)}")
-        else:
-            # Part of what resume() did: no step of its own.
-            self._set(replace(self._network, wires=(*self._network.wires, found)))
-            self._aim(self._live.target, again=True)
 
     # How it is done: what waits
 

@@ -54,7 +54,7 @@ class FakeLive:
     """Wires on a grid: candidate 0 goes along x first, candidate 1 along y first.
 
     The first is shorter, unless `shorter` says otherwise. Vertices in `islands` are reached by no wire. Forks begin as
-    `fork_ready` says; a new metric makes it ready as `metric_ready` says.
+    `fork_ready` says; a new metric makes it ready as `metric_ready` says, and until it is the wires are `stale` ones.
     """
 
     size: int
@@ -66,6 +66,7 @@ class FakeLive:
     seeds: list[tuple[object, bool]] = field(default_factory=list)
     fork_ready: tuple[bool, bool] = (True, True)
     metric_ready: tuple[bool, bool] = (True, True)
+    stale: bool = False
     forks: list[FakeLive] = field(default_factory=list)
     metrics: list[tuple[str, float | None, float | None]] = field(default_factory=list)
 
@@ -96,7 +97,7 @@ class FakeLive:
         candidates = []
         for index in (0, 1):
             path = head[:-1] + self._walk(head[-1], tail[0], x_first=index == 0) + tail[1:]
-            if not self.ready[index] or set(tail) & set(self.islands):
+            if not (self.ready[index] or self.stale) or set(tail) & set(self.islands):
                 path = []
             points = grid_points(self.size)[path] if path else np.empty((0, 3))
             length = float(len(path)) if path else float("inf")
@@ -126,9 +127,10 @@ class FakeLive:
         return fork
 
     def set_metric(
-        self, metric: str, max_anisotropy: float | None = None, clamp_percentile: float | None = None
+        self, metric: str, *, max_anisotropy: float | None = None, clamp_percentile: float | None = None
     ) -> None:
         self.metrics.append((metric, max_anisotropy, clamp_percentile))
+        self.stale = self.stale or all(self.ready)
         self.ready = self.metric_ready
 
     def feature_strength(self) -> NDArray[np.float64]:

@@ -271,10 +271,25 @@ def test_dropping_waits_for_nothing_that_was_asked_of_the_wire() -> None:
     session.click(21)
     session.insert(session.wires[0], 9)
     session.toggle_kept(session.wires[0])
-    assert session.computing
+    assert session.waiting_clicks == 1
     session.drop(session.wires[0])
     table.compute()
     assert courses(session) == [(9, 15, 21)]
+    assert session.message == ""
+
+
+def test_undo_takes_back_what_waits_for_a_wires_other_way() -> None:
+    table = Table(fork_ready=(False, False))
+    session = table.session
+    session.click(0)
+    session.click(21)
+    session.insert(session.wires[0], 9)
+    session.toggle_kept(session.wires[0])
+    assert session.undo()
+    assert session.waiting_clicks == 0
+    table.compute()
+    assert len(session.wires) == 2
+    assert session.wires[0].vertices == (0, 1, 2, 3, 9)
 
 
 def test_a_loop_has_no_other_way() -> None:

@@ -49,7 +49,7 @@ def test_what_was_asked_for_before_is_done_then() -> None:
     slow = Slow()
     slow.live.seed(3)
     slow.live.seed((1, 2), forward=True)
-    slow.live.set_metric("campen", 5.0, 99.0)
+    slow.live.set_metric("campen", max_anisotropy=5.0, clamp_percentile=99.0)
     fork = slow.live.fork()
     fork.seed(4)
     assert not fork.wires(5).final

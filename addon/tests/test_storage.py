@@ -94,9 +94,14 @@ def test_a_wire_whose_edges_are_gone_is_drawn_anew_between_its_seeds() -> None:
     again = Table(fork_ready=(False, False))
     assert again.session.resume(network)
     assert len(again.session.wires) == 2
+    again.session.click(30)
+    again.session.click(32)
+    assert again.session.waiting_clicks == 1, "drawing goes on while it is computed"
     again.compute()
-    assert again.session.wires[-1].start == 3
-    assert again.session.wires[-1].end == 21
+    assert [(wire.start, wire.end) for wire in again.session.wires[2:]] == [(30, 32), (3, 21)]
+    again.session.undo()
+    again.session.undo()
+    assert [(wire.start, wire.end) for wire in again.session.wires[2:]] == [(3, 21)]
     assert again.session.undo()
     assert again.session.wires == (), "all of it is one step"
 

@@ -1,0 +1,230 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A session with the library's own live wires."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from fake_live import grid_edges
+from numpy.typing import NDArray
+from seamwire.eventual import EventualLive, Eventually
+from seamwire.network import Along, Snap
+from seamwire.session import CLAMP_PERCENTILE, STRENGTHS, Session
+from seamwire.storage import dump, load
+
+core = pytest.importorskip("seamwire_core")
+
+SIZE = 21
+
+
+def ridge() -> NDArray[np.float64]:
+    """Return a grid with a ridge along y, over x = 0; vertex y * SIZE + x."""
+    x, y = np.meshgrid(np.linspace(-1.0, 1.0, SIZE), np.linspace(-1.0, 1.0, SIZE))
+    return np.stack([x.ravel(), y.ravel(), np.exp(-20.0 * x.ravel() ** 2)], axis=1)
+
+
+def triangles() -> NDArray[np.int32]:
+    numbers = np.arange(SIZE * SIZE).reshape(SIZE, SIZE)
+    a, b, c, d = numbers[:-1, :-1].ravel(), numbers[:-1, 1:].ravel(), numbers[1:, 1:].ravel(), numbers[1:, :-1].ravel()
+    return np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)]).astype(np.int32)
+
+
+def at(x: int, y: int) -> int:
+    """Return the vertex `x` and `y` steps from the middle."""
+    return (y + SIZE // 2) * SIZE + x + SIZE // 2
+
+
+def draw(along: Along = "EDGES", eventual: bool = False) -> Session:
+    points = ridge()
+
+    def make(way: Along) -> object:
+        def live() -> object:
+            surface = core.Surface(points, triangles(), grid_edges(SIZE))
+            return core.LiveWire(
+                surface, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE
+            )
+
+        return EventualLive(Eventually(live)) if eventual else live()
+
+    return Session(make, points, along, edges=grid_edges(SIZE))
+
+
+def straight(x: int, y0: int, y1: int) -> tuple[int, ...]:
+    return tuple(at(x, y) for y in range(y0, y1 + 1))
+
+
+def click(session: Session, *picks: object) -> None:
+    for pick in picks:
+        session.click(pick)
+        session.wait()
+
+
+@pytest.mark.parametrize("eventual", [False, True])
+def test_a_wire_along_the_ridge_is_kept(eventual: bool) -> None:
+    session = draw(eventual=eventual)
+    session.click(at(0, -8))
+    session.click(at(0, 8))
+    session.wait()
+    assert [wire.vertices for wire in session.wires] == [straight(0, -8, 8)]
+
+
+def test_a_dragged_seed_leads_its_wires() -> None:
+    session = draw()
+    click(session, at(-6, -6), at(0, 0), at(6, 6))
+    before = session.edges_to_mark()
+    assert session.drag(at(0, 0))
+    session.drag_to(at(0, 2))
+    session.wait()
+    assert all(at(0, 2) in wire.vertices for wire in session.moved)
+    assert session.moved[0].vertices[-1] == session.moved[1].vertices[0] == at(0, 2)
+    assert session.drag_end()
+    session.wait()
+    assert session.seeds() == [at(-6, -6), at(0, 2), at(6, 6)]
+    assert session.wires[1].heading == session.wires[0].last_edge
+    for wire in session.wires:
+        assert len(set(wire.vertices)) == len(wire.vertices)
+    session.undo()
+    assert session.edges_to_mark() == before
+
+
+def test_a_wire_dragged_back_is_what_it_was() -> None:
+    session = draw()
+    click(session, at(0, -8), at(0, 0), at(0, 8))
+    before = [wire.vertices for wire in session.wires]
+    session.drag(at(0, 0))
+    for place in (at(1, 1), at(2, 0), at(0, 0)):
+        session.drag_to(place)
+        session.wait()
+    session.drag_end()
+    assert [wire.vertices for wire in session.wires] == before
+
+
+def test_an_edge_seed_is_passed_in_one_direction_wherever_it_is_dragged() -> None:
+    session = draw()
+    click(session, at(-8, 0), (at(0, 0), at(1, 0)), at(8, 0))
+    session.drag((at(0, 0), at(1, 0)))
+    for y in range(-4, 5):
+        for edge in ((at(0, y), at(1, y)), (at(1, y), at(0, y)), (at(0, y), at(0, y + 1))):
+            session.drag_to(edge)
+            session.wait()
+            one, two = session.wires
+            assert one.vertices[-1] == two.vertices[0]
+            assert set(one.last_edge) == set(edge)
+            assert not set(one.edges()) & set(two.edges())
+
+
+def test_a_seed_put_into_a_wire_and_moved_bends_it() -> None:
+    session = draw()
+    click(session, at(0, -8), at(0, 8))
+    session.drag(Snap(at(0, 0), "WIRE", session.wires[0]))
+    session.drag_to(at(5, 0))
+    session.wait()
+    session.drag_end()
+    assert session.seeds() == [at(0, -8), at(5, 0), at(0, 8)]
+    session.undo()
+    assert [wire.vertices for wire in session.wires] == [straight(0, -8, 8)]
+
+
+def test_across_the_surface_curves_follow_the_dragged_seed() -> None:
+    session = draw("SURFACE")
+    click(session, at(-6, -6), at(0, 0), at(6, 6))
+    session.drag(at(0, 0))
+    session.drag_to(at(2, -2))
+    session.wait()
+    session.drag_end()
+    first, second = session.wires
+    assert np.allclose(first.points[-1], ridge()[at(2, -2)])
+    assert np.allclose(second.points[0], ridge()[at(2, -2)])
+    assert np.allclose(second.points[-1], ridge()[at(6, 6)])
+
+
+def test_another_strength_is_computed_in_the_background() -> None:
+    session = draw()
+    click(session, at(-4, -8))
+    session.hover(at(-4, 8))
+    session.wait()
+    weak = session.active
+    session.change_strength(-20)
+    assert session.strength == 1.0
+    session.wait()
+    assert session.active.vertices == straight(-4, -8, 8), "without a pull the straight way is the shortest"
+    assert weak.vertices
+    session.set_metric("euclidean")
+    session.wait()
+    session.click(at(-4, 8))
+    assert session.wires[0].vertices == straight(-4, -8, 8)
+
+
+def test_a_wire_runs_on_over_the_ridge_to_the_boundary() -> None:
+    session = draw()
+    click(session, at(0, -8))
+    session.hover(at(0, -4))
+    session.wait()
+    assert session.run_to_end(preview=True)
+    assert session.end_preview.vertices == straight(0, -8, 10)
+    assert session.run_to_end()
+    assert session.wires[0].vertices == straight(0, -8, 10)
+
+
+def test_loops_are_found_in_the_background() -> None:
+    x = np.arange(24) * 2.0 * np.pi / 24
+    rings = [np.stack([np.cos(x), np.sin(x), np.full(24, z)], axis=1) for z in np.linspace(-2.0, 2.0, 17)]
+    points = np.concatenate(rings)
+    around = np.roll(np.arange(24), -1)
+    quads = np.concatenate(
+        [np.stack([np.arange(24), around, around + 24, np.arange(24) + 24], axis=1) + 24 * ring for ring in range(16)]
+    )
+    edges = np.unique(np.sort(np.concatenate([quads[:, [0, 1]], quads[:, [1, 2]], quads[:, [2, 3]]]), axis=1), axis=0)
+    surface = core.Surface(points, np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]), edges)
+    session = Session(lambda _: core.LiveWire(surface, along="edges"), points, edges=edges)
+    session.hover((24 * 8, 24 * 8 + 1), loop=True)
+    session.wait()
+    assert sorted(session.loop_preview.vertices) == list(range(24 * 8, 24 * 9))
+    session.hover(None)
+    assert not session.computing
+    session.loop((24 * 4, 24 * 4 + 1))
+    session.wait()
+    assert sorted(session.wires[0].vertices) == list(range(24 * 4, 24 * 5))
+    session.insert(session.wires[0], 24 * 4)
+    session.drag(24 * 4)
+    session.drag_to(24 * 6)
+    session.wait()
+    session.drag_end()
+    assert 24 * 6 in session.seeds()
+
+
+def test_mirrored_wires_lie_on_the_other_side_of_the_ridge() -> None:
+    session = draw()
+    assert 0 in session.symmetric_axes
+    session.set_mirror((0,))
+    click(session, at(3, -5), at(7, 5))
+    assert len(session.edges_to_mark()) == 2 * len(session.wires[0].edges())
+    session.start(at(0, -8))
+    session.wait()
+    click(session, at(0, 8))
+    assert session.mirrored(session.wires[1]) == []
+
+
+def test_a_stored_network_is_drawn_anew_where_its_edges_are_hidden() -> None:
+    session = draw()
+    click(session, at(0, -8), at(0, 8))
+    text = dump(session.network, ridge())
+    edges = grid_edges(SIZE)
+    left = edges[~(edges == [at(0, 0), at(0, 1)]).all(axis=1)]
+    network, problems = load(text, ridge(), left)
+    assert len(problems) == 1
+    surface = core.Surface(ridge(), triangles(), left)
+    again = Session(lambda way: core.LiveWire(surface, along=way.lower()), ridge(), edges=left)
+    again.resume(network)
+    again.wait()
+    assert again.seeds() == [at(0, -8), at(0, 8)]
+    assert (at(0, 0), at(0, 1)) not in again.edges_to_mark()
+
+
+def test_a_seed_off_the_surface_is_refused_in_words() -> None:
+    session = draw()
+    assert not session.click(SIZE * SIZE)
+    assert str(SIZE * SIZE) in session.message
+    click(session, at(0, 0))
+    assert not session.click(SIZE * SIZE)
+    assert session.message
