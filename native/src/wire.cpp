@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numeric>
 #include <queue>
 #include <span>
 #include <string>
 #include <tuple>
-#include <unordered_set>
 #include <utility>
 
 namespace seamwire {
@@ -192,10 +193,54 @@ SnapGraph::SnapGraph(const Surface& surface) {
 
 namespace {
 
+/// Numbers, each with its place in the order in which they came. An open hash table: the nodes of std::unordered_map
+/// would take longer than all the rest of finding a band.
+class Numbering {
+ public:
+  /// The number's place, and whether it is new.
+  std::pair<std::int32_t, bool> insert(std::int32_t number) {
+    if (2 * (numbers_.size() + 1) > table_.size()) grow();
+    std::int32_t& slot = slot_of(number);
+    if (slot >= 0) return {slot, false};
+    slot = static_cast<std::int32_t>(numbers_.size());
+    numbers_.push_back(number);
+    return {slot, true};
+  }
+  /// The number's place, or -1.
+  std::int32_t find(std::int32_t number) const { return table_.empty() ? -1 : table_[slot_index(number)]; }
+  const std::vector<std::int32_t>& numbers() const { return numbers_; }
+
+ private:
+  std::size_t slot_index(std::int32_t number) const {
+    const std::size_t mask = table_.size() - 1;
+    std::size_t at = (index(number) * 0x9E3779B97F4A7C15ull >> 32) & mask;
+    while (table_[at] >= 0 && numbers_[index(table_[at])] != number) at = (at + 1) & mask;
+    return at;
+  }
+  std::int32_t& slot_of(std::int32_t number) { return table_[slot_index(number)]; }
+  void grow() {
+    table_.assign(std::max<std::size_t>(64, 4 * table_.size()), -1);
+    for (std::size_t i = 0; i < numbers_.size(); ++i) slot_of(numbers_[i]) = static_cast<std::int32_t>(i);
+  }
+
+  std::vector<std::int32_t> numbers_, table_;  // of the table the size is a power of two, half of it free at the least
+};
+
 /// Distance to a polyline, by a tree of boxes over its segments.
 class Polyline {
  public:
-  explicit Polyline(const std::vector<Vector>& points) : points_(points) { build(0, segment_count()); }
+  /// In which an edge's distance is integrated. The distance has kinks, so many points serve better than a high order.
+  static constexpr std::size_t kSamples = 8;
+
+  explicit Polyline(const std::vector<Vector>& points) {
+    segments_.reserve(points.size());
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      const Vector along = points[i + 1] - points[i];
+      const double length2 = along.squaredNorm();
+      segments_.push_back({points[i], along, length2 > 0 ? 1.0 / length2 : 0.0});
+    }
+    build(points, 0, segments_.size());
+  }
 
   /// Distance from p, which is known to be at most `bound`.
   double distance(const Vector& p, double bound) const {
@@ -207,7 +252,7 @@ class Polyline {
       const Node& node = nodes_[index(stack[--size])];
       if (node.box.squaredExteriorDistance(p) > best) continue;
       if (node.left < 0) {
-        for (std::size_t s = node.begin; s < node.end; ++s) best = std::min(best, squared_distance(p, s));
+        for (std::size_t s = node.begin; s < node.end; ++s) best = std::min(best, squared_distance(p, segments_[s]));
         continue;
       }
       const std::int32_t left = node.left, right = node.right;
@@ -219,39 +264,93 @@ class Polyline {
     return std::sqrt(best);
   }
 
+  /// Integral of the distance along the edge from a to b, at which it is `at_a` and `at_b`.
+  double integral(const Vector& a, const Vector& b, double at_a, double at_b) const {
+    std::array<double, kSamples> x, y, z, best;
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      const double t = fraction(i);
+      x[i] = (1.0 - t) * a.x() + t * b.x();
+      y[i] = (1.0 - t) * a.y() + t * b.y();
+      z[i] = (1.0 - t) * a.z() + t * b.z();
+      best[i] = std::numeric_limits<double>::infinity();
+    }
+    // Distances change no faster than their points move, so none on the edge is more than this.
+    const double length = (b - a).norm(), most = 0.5 * (at_a + at_b + length) * kRoom;
+    Eigen::AlignedBox3d reach(a.cwiseMin(b).array() - most, a.cwiseMax(b).array() + most);
+    std::array<std::int32_t, 64> stack;
+    std::size_t size = 0;
+    stack[size++] = 0;
+    while (size > 0) {
+      const Node& node = nodes_[index(stack[--size])];
+      if (!reach.intersects(node.box)) continue;
+      if (node.left >= 0) {
+        stack[size++] = node.left;
+        stack[size++] = node.right;
+        continue;
+      }
+      for (std::size_t s = node.begin; s < node.end; ++s) {
+        const auto& [from, along, per_length2] = segments_[s];
+        for (std::size_t i = 0; i < kSamples; ++i) {  // a loop that compilers make vectors of
+          const double px = x[i] - from.x(), py = y[i] - from.y(), pz = z[i] - from.z();
+          double t = (px * along.x() + py * along.y() + pz * along.z()) * per_length2;
+          t = t < 0.0 ? 0.0 : t;
+          t = t > 1.0 ? 1.0 : t;
+          const double dx = px - t * along.x(), dy = py - t * along.y(), dz = pz - t * along.z();
+          const double squared = dx * dx + dy * dy + dz * dz;
+          best[i] = squared < best[i] ? squared : best[i];
+        }
+      }
+    }
+    double sum = 0.0;
+    for (const double squared : best) sum += std::sqrt(squared);
+    return sum * length / kSamples;
+  }
+
+  /// No more than integral() of an edge of that length.
+  static double least_integral(double length, double at_a, double at_b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      const double t = fraction(i) * length;
+      sum += std::max({0.0, at_a - t, at_b - (length - t)});
+    }
+    return sum * length / kSamples / kRoom;
+  }
+
  private:
+  struct Segment {
+    Vector from, along;
+    double per_length2;  // 0: it is a point
+  };
   struct Node {
     Eigen::AlignedBox3d box;
     std::size_t begin, end;
     std::int32_t left = -1, right = -1;
   };
   static constexpr std::size_t kLeaf = 4;
+  static constexpr double kRoom = 1.0 + 1e-9;  // much more than distances are rounded by
 
-  std::size_t segment_count() const { return points_.size() - 1; }
+  static double fraction(std::size_t sample) { return (static_cast<double>(sample) + 0.5) / kSamples; }
 
-  double squared_distance(const Vector& p, std::size_t segment) const {
-    const Vector& a = points_[segment];
-    const Vector along = points_[segment + 1] - a;
-    const double length2 = along.squaredNorm();
-    const double t = length2 > 0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
-    return (p - a - t * along).squaredNorm();
+  static double squared_distance(const Vector& p, const Segment& s) {
+    const double t = std::clamp((p - s.from).dot(s.along) * s.per_length2, 0.0, 1.0);
+    return (p - s.from - t * s.along).squaredNorm();
   }
 
-  std::int32_t build(std::size_t begin, std::size_t end) {
+  std::int32_t build(const std::vector<Vector>& points, std::size_t begin, std::size_t end) {
     const auto number = static_cast<std::int32_t>(nodes_.size());
     Node node{.box = {}, .begin = begin, .end = end};
-    for (std::size_t i = begin; i <= end; ++i) node.box.extend(points_[i]);
+    for (std::size_t i = begin; i <= end; ++i) node.box.extend(points[i]);
     nodes_.push_back(node);
     if (end - begin > kLeaf) {
       const std::size_t middle = begin + (end - begin) / 2;
-      const std::int32_t left = build(begin, middle), right = build(middle, end);
+      const std::int32_t left = build(points, begin, middle), right = build(points, middle, end);
       nodes_[index(number)].left = left;
       nodes_[index(number)].right = right;
     }
     return number;
   }
 
-  const std::vector<Vector>& points_;
+  std::vector<Segment> segments_;
   std::vector<Node> nodes_;
 };
 
@@ -260,7 +359,7 @@ class Band {
  public:
   Band(const Surface& surface, const SnapGraph::Data& graph) : surface_(surface), graph_(graph) {}
 
-  const std::vector<std::int32_t>& edges() const { return edges_; }
+  const std::vector<std::int32_t>& edges() const { return edges_.numbers(); }
 
   /// What the wire runs over: the polygons it crosses, the edges it follows.
   void add(const Wire& wire) {
@@ -281,16 +380,16 @@ class Band {
   }
   /// The polygons that share an edge with what is there.
   void add_neighbours() {
-    const std::vector<std::int32_t> before = edges_;
-    for (const std::int32_t e : before) add_polygons_of(e);
+    const std::size_t before = edges().size();
+    for (std::size_t i = 0; i < before; ++i) add_polygons_of(edges()[i]);
   }
   /// All around the vertices of what is there. False where that is nothing new.
   bool widen() {
-    const std::size_t n = edges_.size();
+    const std::size_t n = edges().size();
     for (; widened_ < n; ++widened_) {
-      for (const std::int32_t v : surface_.edges()[index(edges_[widened_])]) add_vertex(v);
+      for (const std::int32_t v : surface_.edges()[index(edges()[widened_])]) add_vertex(v);
     }
-    return edges_.size() > n;
+    return edges().size() > n;
   }
   void add_vertex(std::int32_t vertex) {
     if (!vertices_.insert(vertex).second) return;
@@ -301,9 +400,7 @@ class Band {
   }
 
  private:
-  void add_edge(std::int32_t edge) {
-    if (seen_.insert(edge).second) edges_.push_back(edge);
-  }
+  void add_edge(std::int32_t edge) { edges_.insert(edge); }
   void add_polygon(std::int32_t polygon) {
     if (!polygons_.insert(polygon).second) return;
     for (const std::int32_t e : graph_.edges_of_polygon[polygon]) add_edge(e);
@@ -314,89 +411,139 @@ class Band {
 
   const Surface& surface_;
   const SnapGraph::Data& graph_;
-  std::vector<std::int32_t> edges_;
+  Numbering edges_, polygons_, vertices_;
   std::size_t widened_ = 0;  // edges whose surroundings are there
-  std::unordered_set<std::int32_t> seen_, polygons_, vertices_;
 };
 
-/// Integral of an edge's distance to the wire. The distance has kinks, so many points serve better than a high order.
-double closeness(const Polyline& wire, const Vector& a, const Vector& b) {
-  constexpr int kSamples = 8;
-  const double step = (b - a).norm() / kSamples;
-  double sum = 0.0, bound = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kSamples; ++i) {
-    const double t = (i + 0.5) / kSamples;
-    const double distance = wire.distance((1.0 - t) * a + t * b, bound);
-    sum += distance;
-    bound = (distance + step) * (1.0 + 1e-12);  // distances change no faster than their points move
-  }
-  return sum * step;
-}
-
 /// Dijkstra's algorithm on a band. Empty where it does not connect the ends.
-std::vector<std::int32_t> closest_path(const Surface& surface, const std::vector<std::int32_t>& edges,
-                                       const Polyline& polyline, const Wire& wire) {
-  // Edges along the wire are for free, all but this: it decides among them by length.
-  const double per_length = 1e-6 * wire.euclidean_length / surface.scale();
-
-  std::vector<std::int32_t> vertices;
-  for (const std::int32_t e : edges) {
-    const Edge& edge = surface.edges()[index(e)];
-    vertices.insert(vertices.end(), edge.begin(), edge.end());
+///
+/// Nearly all of the time goes into the integrals that are the edges' costs, so an edge waits in the queue with a lower
+/// bound of its cost, which the distances of its ends give, and the integral is taken when it comes out and may still
+/// count.
+class BandSearch {
+ public:
+  BandSearch(const Surface& surface, const std::vector<std::int32_t>& edges, const Wire& wire)
+      : surface_(surface),
+        edges_(edges),
+        polyline_(wire.points),
+        // Edges along the wire are for free, all but this: it decides among them by length.
+        per_length_(1e-6 * wire.euclidean_length / surface.scale()) {
+    std::vector<std::array<std::int32_t, 2>> pairs;  // (vertex, edge of the band)
+    pairs.reserve(2 * edges.size());
+    ends_.reserve(edges.size());
+    for (const std::int32_t e : edges) {
+      const Edge& edge = surface.edges()[index(e)];
+      ends_.push_back({vertices_.insert(edge[0]).first, vertices_.insert(edge[1]).first});
+      for (const std::int32_t v : ends_.back()) pairs.push_back({v, static_cast<std::int32_t>(ends_.size()) - 1});
+    }
+    edges_of_ = Lists(vertices_.numbers().size(), pairs);
   }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  const auto local = [&](std::int32_t vertex) {
-    const auto found = std::lower_bound(vertices.begin(), vertices.end(), vertex);
-    return found != vertices.end() && *found == vertex ? static_cast<std::int32_t>(found - vertices.begin()) : -1;
-  };
-  const std::int32_t from = local(wire.from), to = local(wire.to);
-  if (from < 0 || to < 0) return {};
 
-  std::vector<std::array<std::int32_t, 2>> ends, pairs;  // local numbers; (vertex, edge of the band)
-  for (const std::int32_t e : edges) {
-    const Edge& edge = surface.edges()[index(e)];
-    ends.push_back({local(edge[0]), local(edge[1])});
-    for (const std::int32_t v : ends.back()) pairs.push_back({v, static_cast<std::int32_t>(ends.size()) - 1});
-  }
-  const Lists edges_of(vertices.size(), pairs);
-
-  struct Reached {
-    double cost;
-    std::int32_t vertex;
-    bool operator>(const Reached& other) const { return std::tie(cost, vertex) > std::tie(other.cost, other.vertex); }
-  };
-  std::vector<double> weights(edges.size(), -1.0);  // computed where needed
-  std::vector<double> costs(vertices.size(), std::numeric_limits<double>::infinity());
-  std::vector<std::int32_t> previous(vertices.size(), -1);
-  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> queue;
-  costs[index(from)] = 0.0;
-  queue.push({0.0, from});
-  while (!queue.empty()) {
-    const auto [cost, vertex] = queue.top();
-    queue.pop();
-    if (cost > costs[index(vertex)]) continue;
-    if (vertex == to) break;
-    for (const std::int32_t e : edges_of[vertex]) {
-      if (weights[index(e)] < 0) {
-        const Edge& edge = surface.edges()[index(edges[index(e)])];
-        const Vector &a = surface.points()[index(edge[0])], &b = surface.points()[index(edge[1])];
-        weights[index(e)] = closeness(polyline, a, b) + per_length * (b - a).norm();
-      }
-      const std::int32_t other = ends[index(e)][ends[index(e)][0] == vertex ? 1 : 0];
-      const double through = cost + weights[index(e)];
-      if (through < costs[index(other)]) {
-        costs[index(other)] = through;
-        previous[index(other)] = vertex;
-        queue.push({through, other});
+  std::vector<std::int32_t> path(std::int32_t from_vertex, std::int32_t to_vertex) {
+    const std::int32_t from = vertices_.find(from_vertex), to = vertices_.find(to_vertex);
+    if (from < 0 || to < 0) return {};
+    states_.assign(vertices_.numbers().size(), {});
+    weights_.assign(edges_.size(), -1.0);
+    states_[index(from)].cost = 0.0;
+    push(0.0, from, -1);
+    State& goal = states_[index(to)];
+    while (!queue_.empty() && !goal.is_settled) {
+      const Waiting next = queue_.top();
+      queue_.pop();
+      State& state = states_[index(next.vertex)];
+      if (state.is_settled) continue;
+      if (next.edge >= 0) {
+        reach(next.vertex, next.edge);
+      } else {
+        settle(next.vertex);
       }
     }
+    std::vector<std::int32_t> path;
+    if (!goal.is_settled) return path;
+    for (std::int32_t v = to; v >= 0; v = states_[index(v)].previous) path.push_back(vertices_.numbers()[index(v)]);
+    std::reverse(path.begin(), path.end());
+    return path;
   }
-  std::vector<std::int32_t> path;
-  if (std::isinf(costs[index(to)])) return path;
-  for (std::int32_t v = to; v >= 0; v = previous[index(v)]) path.push_back(vertices[index(v)]);
-  std::reverse(path.begin(), path.end());
-  return path;
+
+ private:
+  struct State {
+    double cost = std::numeric_limits<double>::infinity();
+    double distance = -1.0;  // from the wire; negative: not known yet
+    std::int32_t previous = -1;
+    bool is_settled = false;
+  };
+  /// A vertex at its cost, or with an edge: not known to cost less by that edge.
+  struct Waiting {
+    double cost;
+    std::int32_t number;  // the surface's, so that the order is the same whatever the band's
+    std::int32_t vertex, edge;
+    bool operator>(const Waiting& other) const {
+      return std::tie(cost, number, edge) > std::tie(other.cost, other.number, other.edge);
+    }
+  };
+
+  const Vector& point(std::int32_t vertex) const {
+    return surface_.points()[index(vertices_.numbers()[index(vertex)])];
+  }
+
+  void push(double cost, std::int32_t vertex, std::int32_t edge) {
+    queue_.push({cost, vertices_.numbers()[index(vertex)], vertex, edge});
+  }
+
+  double distance(std::int32_t vertex, double bound) {
+    double& known = states_[index(vertex)].distance;
+    if (known < 0) known = polyline_.distance(point(vertex), bound);
+    return known;
+  }
+
+  std::int32_t other_end(std::int32_t edge, std::int32_t vertex) const {
+    return ends_[index(edge)][ends_[index(edge)][0] == vertex ? 1 : 0];
+  }
+
+  void settle(std::int32_t vertex) {
+    State& state = states_[index(vertex)];
+    state.is_settled = true;
+    const double here = distance(vertex, std::numeric_limits<double>::infinity());
+    for (const std::int32_t e : edges_of_[vertex]) {
+      const std::int32_t other = other_end(e, vertex);
+      if (states_[index(other)].is_settled) continue;
+      const double length = (point(other) - point(vertex)).norm();
+      const double there = distance(other, (here + length) * (1.0 + 1e-12));
+      const double least = Polyline::least_integral(length, here, there) + per_length_ * length;
+      if (state.cost + least < states_[index(other)].cost) push(state.cost + least, other, e);
+    }
+  }
+
+  void reach(std::int32_t vertex, std::int32_t edge) {
+    State& state = states_[index(vertex)];
+    const std::int32_t before = other_end(edge, vertex);
+    double& weight = weights_[index(edge)];
+    if (weight < 0) {
+      const Vector &a = point(before), &b = point(vertex);
+      weight = polyline_.integral(a, b, states_[index(before)].distance, state.distance) + per_length_ * (b - a).norm();
+    }
+    const double through = states_[index(before)].cost + weight;
+    if (!(through < state.cost)) return;
+    state.cost = through;
+    state.previous = before;
+    push(through, vertex, -1);
+  }
+
+  const Surface& surface_;
+  const std::vector<std::int32_t>& edges_;
+  const Polyline polyline_;
+  const double per_length_;
+  Numbering vertices_;                             // of the band, which are numbered in it by their places
+  std::vector<std::array<std::int32_t, 2>> ends_;  // of the band's edges
+  Lists edges_of_;
+  std::vector<State> states_;
+  std::vector<double> weights_;  // of the band's edges; negative: not known yet
+  std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> queue_;
+};
+
+std::vector<std::int32_t> closest_path(const Surface& surface, const std::vector<std::int32_t>& edges,
+                                       const Wire& wire) {
+  return BandSearch(surface, edges, wire).path(wire.from, wire.to);
 }
 
 void check_wire(const Surface& surface, const Wire& wire) {
@@ -426,11 +573,10 @@ std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph&
   if (wire.points.empty()) return {};
   check_wire(surface, wire);
   if (wire.from == wire.to) return {wire.from};
-  const Polyline polyline(wire.points);
   Band band(surface, graph.data());
   band.add(wire);
   band.add_neighbours();
-  std::vector<std::int32_t> path = closest_path(surface, band.edges(), polyline, wire);
+  std::vector<std::int32_t> path = closest_path(surface, band.edges(), wire);
   if (!path.empty()) return path;
   // Polygons whose edges are not connected (one with a hole in it), or a wire over what is no real edge.
   DisjointSets connected(surface.vertex_count());
@@ -442,7 +588,7 @@ std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph&
       connected.join(edge[0], edge[1]);
     }
     if (connected.find(wire.from) == connected.find(wire.to)) {
-      return closest_path(surface, band.edges(), polyline, wire);
+      return closest_path(surface, band.edges(), wire);
     }
   } while (band.widen());
   return {};
