@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How many clicks reproduce artists' seams, edge for edge: with Seamwire, and with Blender's own tools.
+
+    python native/bench/seam_clicks.py SEAMS
+
+SEAMS is a folder with data/*.npz, a mesh and its seams each, and measure.py, whose simulated expert finds how far one wire reaches.
+Needs SciPy. Presses of a mouse button are counted:
+
+- Blender, edge mode: a click for the first edge of a chain, one for each shortest path from there on, and one for an edge loop, wherever
+  one lies in the seams as a whole. A path may begin where an edge loop was clicked.
+- Seamwire: a click for a chain's seed, one for each wire, and one for a closed loop or an open strip that ends at seams drawn before,
+  wherever one lies in the seams as a whole.
+- The same, mirrored: where the mesh is symmetric, edges whose images are seams too are drawn once. Blender's Select Mirror is counted as
+  if it did the same.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from blender_engine import BlenderEngine
+from seams_engine import SeamwireEngine
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
+from seamwire.mirror import Mirror  # it knows no Blender
+
+Pair = tuple[int, int]
+Edges = frozenset[Pair]
+
+
+def edges_of(chain: list[int], closed: bool) -> Edges:
+    """Return the edges of a chain, smaller vertex first."""
+    following = chain[1:] + (chain[:1] if closed else [])
+    return frozenset((min(a, b), max(a, b)) for a, b in zip(chain, following, strict=False))
+
+
+class Blender:
+    """Blender's edge mode on one mesh."""
+
+    single_edge = 1
+    """Clicks for a chain of one edge: it is marked as soon as it is selected."""
+    stops_at_seams = False
+    path_begins_at_loop = True
+
+    def __init__(self, points: np.ndarray, offsets: np.ndarray, corners: np.ndarray) -> None:
+        self.engine = BlenderEngine()
+        self.engine.prepare(points, offsets, corners)
+
+    def offers(self, edge: Pair, _stops: frozenset[int]) -> Iterable[Edges]:
+        """Return what one click on an edge can take, besides wires."""
+        yield edges_of(*self.engine.strip(edge))
+
+
+class Seamwire:
+    """The tool on one mesh, with its defaults."""
+
+    single_edge = 2
+    stops_at_seams = True
+    path_begins_at_loop = False
+
+    def __init__(self, points: np.ndarray, offsets: np.ndarray, corners: np.ndarray) -> None:
+        self.engine = SeamwireEngine()
+        self.engine.prepare(points, offsets, corners)
+        self._straight = BlenderEngine()
+        self._straight.prepare(points, offsets, corners)
+        self._loops: dict[Pair, list[int] | None] = {}
+
+    def offers(self, edge: Pair, stops: frozenset[int]) -> Iterable[Edges]:
+        """Return what one click on an edge can take, besides wires."""
+        if edge not in self._loops:
+            self._loops[edge] = self.engine.loop(edge)
+        loop = self._loops[edge]
+        if loop is not None:
+            yield edges_of(loop, True)
+        yield edges_of(*self._straight.strip(edge))
+        yield edges_of(*self._straight.strip(edge, stops))
+
+
+def clicks(measure: Any, near: dict[int, set[int]], tool: Blender | Seamwire, seams: Edges) -> int:  # noqa: ANN401
+    """Count the clicks for a set of seams: loops and strips where each saves the most, and wires for what is left."""
+    known: dict[tuple[tuple[int, ...], bool], int] = {}
+
+    def chain_clicks(chain: list[int], closed: bool) -> int:
+        key = (tuple(chain), closed)
+        if key not in known:
+            single = not closed and len(chain) == 2
+            expert = None if single else measure.Expert(tool.engine, near, chain, closed)
+            known[key] = tool.single_edge if expert is None else 1 + expert.measure()[0][0]
+        return known[key]
+
+    def wire_clicks(left: Edges) -> int:
+        return sum(chain_clicks(chain, closed) for chain, closed in measure.chains(sorted(left)))
+
+    total = 0
+    for left in connected(seams):
+        whole, taken, stops = left, 0, frozenset()
+        while left:
+            offered = {some for edge in left for some in tool.offers(edge, stops) if some <= whole}
+            costs = {some: wire_clicks(left - some) for some in offered}
+            best = min(costs, key=costs.__getitem__, default=None)
+            if best is None or costs[best] + 1 >= wire_clicks(left):
+                break
+            left, taken = left - best, taken + 1
+            if tool.stops_at_seams:
+                stops |= {vertex for edge in best for vertex in edge}
+        spared = min(taken, len(measure.chains(sorted(left)))) if tool.path_begins_at_loop else 0
+        total += wire_clicks(left) + taken - spared
+    return total
+
+
+def connected(seams: Edges) -> list[Edges]:
+    """Split edges into parts that share no vertex."""
+    part: dict[int, int] = {}
+
+    def root(vertex: int) -> int:
+        while part.setdefault(vertex, vertex) != vertex:
+            part[vertex] = part[part[vertex]]
+            vertex = part[vertex]
+        return vertex
+
+    for a, b in seams:
+        part[root(a)] = root(b)
+    groups: dict[int, set[Pair]] = {}
+    for edge in seams:
+        groups.setdefault(root(edge[0]), set()).add(edge)
+    return [frozenset(group) for group in groups.values()]
+
+
+def drawn_once(points: np.ndarray, seams: Edges) -> list[Edges]:
+    """Return what is drawn with mirroring on, and what without."""
+    mirror = Mirror(points)
+    if not mirror.symmetric_axes:
+        return [seams]
+    axis = mirror.symmetric_axes[0]
+    images = {edge: image_of(mirror, axis, edge) for edge in seams}
+    both = {edge for edge, image in images.items() if image in seams}
+    kept = frozenset(edge for edge in both if points[list(edge), axis].mean() > 0 or images[edge] == edge)
+    return [kept, seams - both]
+
+
+def image_of(mirror: Mirror, axis: int, edge: Pair) -> Pair | None:
+    """Return the mirror image of an edge; None where it has none."""
+    image = mirror.partners((axis,))[list(edge)]
+    return None if (image < 0).any() else (int(image.min()), int(image.max()))
+
+
+def main() -> None:
+    """Print a line a model, and the geometric mean of the ratios."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("seams", type=Path)
+    parser.add_argument("--models", nargs="*")
+    chosen = parser.parse_args()
+    sys.path.insert(0, str(chosen.seams))
+    measure = importlib.import_module("measure")
+    rows = []
+    for path in sorted((chosen.seams / "data").glob("*.npz")):
+        if chosen.models and path.stem not in chosen.models:
+            continue
+        points, offsets, corners, near, listed = measure.load(str(path))
+        seams = frozenset(listed)
+        mesh = (points, offsets, corners)
+        tools = Blender(*mesh), Seamwire(*mesh)
+        row = [
+            sum(clicks(measure, near, tool, part) for part in parts)
+            for parts in ([seams], drawn_once(points, seams))
+            for tool in tools
+        ]
+        rows.append(row)
+        print(
+            "{:40s} {:5d} edges, clicks: {:4d} {:4d} mirrored: {:4d} {:4d}".format(path.stem, len(seams), *row),
+            flush=True,
+        )
+    table = np.array(rows, dtype=float)
+    ratios = np.exp(np.log(table[:, 1:] / table[:, :1]).mean(axis=0))
+    print(
+        "{} models, ratio to Blender: Seamwire {:.3f}; mirrored: Blender {:.3f}, Seamwire {:.3f}".format(
+            len(rows), *ratios
+        )
+    )
+
+
+if __name__ == "__main__":
+    main()
