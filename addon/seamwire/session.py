@@ -370,7 +370,7 @@ class Session:
         network = self._joined(replace(self._network, seed=None), target)
         if not self._change(replace(network, seed=self._seed_at(network, target))):
             return False
-        self._last_click = (target.pick, len(self._undo))
+        self._last_click = (undirected(target.pick), len(self._undo))
         return True
 
     def loop(self, snap: Snap | Pick) -> bool:
@@ -383,13 +383,17 @@ class Session:
         if self.along != "EDGES" or not isinstance(edge, tuple):
             return self._refuse("Loops are taken along edges: double-click on an edge")
         self.drag_cancel()
-        if self._queue and self._queue[-1].kind == "click" and self._queue[-1].snap.pick == edge:
+        if (
+            self._queue
+            and self._queue[-1].kind == "click"
+            and undirected(self._queue[-1].snap.pick) == undirected(edge)
+        ):
             self._queue.pop()
-        elif self._last_click == (edge, len(self._undo)):
+        elif self._last_click == (undirected(edge), len(self._undo)):
             self._restore(self._undo.pop())
         self._last_click = None
         last = self.wires[-1] if self.wires else None
-        if last is not None and last.closed and edge in last.edges():
+        if last is not None and last.closed and undirected(edge) in last.edges():
             return True  # the first click of the two took it already
         wire = self._find_loop(edge)
         if wire is None:
@@ -865,7 +869,7 @@ class Session:
                 seed = Seed(wire.last_edge, forward=True, clicked=target.pick, first=first)
         if not self._change(replace(network, wires=(*network.wires, wire), seed=seed)):
             return False
-        self._last_click = (target.pick, len(self._undo))
+        self._last_click = (undirected(target.pick), len(self._undo))
         return True
 
     def _aim(self, target: Snap | None, again: bool = False) -> None:

@@ -204,6 +204,15 @@ def test_a_double_click_where_nothing_was_seeded_leaves_no_seed() -> None:
     assert session.seeds() == []
 
 
+def test_a_double_click_may_find_its_edge_the_other_way_round() -> None:
+    session = Table().session
+    session.click((15, 14))
+    session.loop((14, 15))  # by now a seed is under the cursor
+    assert session.seed is None
+    assert session.loop((15, 14))
+    assert len(session.wires) == 1
+
+
 def test_the_same_loop_is_not_taken_twice_in_a_row() -> None:
     session = Table().session
     session.loop((14, 15))
