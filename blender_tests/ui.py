@@ -5,12 +5,15 @@
 its keys with xdotool: slower, but it is all that a person's hand is, double clicks and the motion in between included.
 """
 
+import os
+import struct
 import subprocess
 import sys
 import time
 import traceback
 from collections.abc import Callable
 from contextlib import AbstractContextManager
+from pathlib import Path
 from types import TracebackType
 
 import bpy
@@ -178,7 +181,7 @@ class Ui:
         self.look((1.0, 0.0, 0.0, 0.0), centre, distance)
 
     def pixels(self) -> NDArray[np.float32]:
-        """Return the viewport's pixels with its overlays: (height, width, 4), bottom row first, the colours as the screen gets them."""
+        """Return what is drawn over the viewport's objects: (height, width, 4), bottom row first, colours as the screen gets them."""
         taken: list[NDArray[np.float32]] = []
 
         def read() -> None:
@@ -194,6 +197,24 @@ class Ui:
         finally:
             bpy.types.SpaceView3D.draw_handler_remove(handle, "WINDOW")
         return taken[-1]
+
+    def screen(self) -> NDArray[np.float32]:
+        """Return the viewport as it is seen, mesh and all: (height, width, 3), bottom row first."""
+        self.wait(3, redraw=True)
+        whole = display()
+        x, y = self.window.x + self.region.x, self.window.y + self.region.y
+        return whole[y : y + self.region.height, x : x + self.region.width]
+
+
+def display() -> NDArray[np.float32]:
+    """Return what is on the virtual display: (height, width, 3), bottom row first."""
+    data = Path(os.environ["SEAMWIRE_SCREEN"]).read_bytes()
+    # An X window dump: 25 numbers, the window's name, the colour map, then rows of blue, green, red and a byte without meaning.
+    header = struct.unpack(">25I", data[:100])
+    size, width, height, row, colours = header[0], header[4], header[5], header[12], header[19]
+    pixels = np.frombuffer(data, dtype=np.uint8, offset=size + 12 * colours, count=row * height)
+    pixels = pixels.reshape(height, row)[::-1, : 4 * width].reshape(height, width, 4)
+    return pixels[..., 2::-1].astype(np.float32) / 255.0
 
 
 class RealUi(Ui):

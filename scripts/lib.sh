@@ -41,9 +41,15 @@ once() {
   printf '%s\n' "$print" >"$stamp"
 }
 
-# with_window COMMAND...: runs it on a virtual display of its own, drawn by the processor.
+# with_window COMMAND...: runs it on a virtual display of its own, drawn by the processor. What is on the display can be read from
+# $SEAMWIRE_SCREEN, an X window dump that the X server writes to.
 with_window() {
-  env -u WAYLAND_DISPLAY LIBGL_ALWAYS_SOFTWARE=1 xvfb-run -a -s "-screen 0 1280x960x24" "$@"
+  local folder code=0
+  folder=$(mktemp -d)
+  env -u WAYLAND_DISPLAY LIBGL_ALWAYS_SOFTWARE=1 SEAMWIRE_SCREEN="$folder/Xvfb_screen0" \
+    xvfb-run -a -s "-screen 0 ${SEAMWIRE_SCREEN_SIZE:-1280x960}x24 -fbdir $folder" "$@" || code=$?
+  rm -rf "$folder"
+  return $code
 }
 
 # The Debian mirror that this machine's own packages come from.

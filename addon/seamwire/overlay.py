@@ -3,47 +3,57 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import bpy
-import gpu
 import numpy as np
-from gpu_extras.batch import batch_for_shader
-from mathutils import Matrix, Vector
+from mathutils import Matrix
+
+from . import help as keys
+from . import hud
+from .looks import Looks, Style, hue_colours
+from .paint import Eye, Faces, Lines, blended, draw_dots
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
     from numpy.typing import NDArray
 
-    from .network import Pick
+    from .network import Edge, Pick, Wire
+    from .segments import SegmentMaker
     from .session import Session
 
-Colour = tuple[float, float, float, float]
+TINT_LIFT = 1.5
+_NO_ROOM = (0.0, 0.0, 0.0, 0.0)
 
 
-@dataclass(frozen=True)
-class Style:
-    """How a line or a dot looks; width in pixels at a display scale of 1."""
+class _Sheet:
+    """What is drawn together: lines by their style, those added first below, and dots above them all."""
 
-    colour: Colour
-    width: float
-    halo: float = 0.0
-    hidden: float = 0.25
-    lift: float = 4.0
+    def __init__(self, points: NDArray[np.float64]) -> None:
+        self._points = points
+        self._pieces: dict[Style, list[NDArray[np.float64]]] = {}
+        self._places: dict[Style, list[NDArray[np.float64]]] = {}
+        self.lines: list[Lines] = []
+        self.dots: list[tuple[Style, NDArray[np.float64]]] = []
 
+    def curve(self, style: Style, points: NDArray[np.float64]) -> None:
+        if len(points) > 1:
+            self._pieces.setdefault(style, []).append(np.stack([points[:-1], points[1:]], axis=1))
 
-ACTIVE = Style((1.0, 0.72, 0.05, 1.0), 4.0, halo=2.5)
-OTHER = Style((0.5, 0.8, 1.0, 0.75), 2.0, halo=1.5, hidden=0.15)
-KEPT = Style((1.0, 0.25, 0.15, 1.0), 3.5, halo=2.0)
-MARKED = Style((1.0, 0.25, 0.15, 0.9), 2.5, halo=1.0, hidden=0.15, lift=3.0)
-WILL_MARK = Style((1.0, 0.35, 0.3, 0.9), 2.5, halo=1.0, hidden=0.15, lift=3.0)
-LOOP = Style((0.3, 1.0, 0.55, 1.0), 3.5, halo=2.5)
-HOVER = Style((1.0, 1.0, 1.0, 1.0), 3.0, halo=2.0, lift=5.0)
-SEED = Style((1.0, 1.0, 1.0, 1.0), 9.0, halo=3.5, hidden=0.35, lift=10.0)
-HOVER_DOT = Style((1.0, 1.0, 1.0, 1.0), 7.0, halo=3.0, lift=11.0)
-HALO: Colour = (0.02, 0.02, 0.03, 0.75)
+    def edges(self, style: Style, edges: Iterable[Edge]) -> None:
+        pairs = np.array(list(edges), dtype=np.int64).reshape(-1, 2)
+        if len(pairs):
+            self._pieces.setdefault(style, []).append(self._points[pairs])
 
-_DISC = np.linspace(0.0, 2.0 * np.pi, 17)
+    def dot(self, style: Style, pick: Pick) -> None:
+        """Add a dot at a vertex, or on the middle of an edge."""
+        place = self._points[list(pick)].mean(axis=0) if isinstance(pick, tuple) else self._points[pick]
+        self._places.setdefault(style, []).append(place)
+
+    def finish(self) -> None:
+        self.lines = [Lines(style, np.concatenate(parts)) for style, parts in self._pieces.items()]
+        self.dots = [(style, np.array(places)) for style, places in self._places.items()]
 
 
 class Overlay:
@@ -59,183 +69,271 @@ class Overlay:
         (n, 3) the vertices as the session has them.
     to_object
         (3, 3) takes those to object coordinates.
+    triangles
+        (m, 3) the visible faces, for the tint of segments.
+    segments
+        Computes the segments of those triangles; None: they are not shown.
+    preferences
+        The add-on's, see `Looks.of`.
 
     Notes
     -----
     An exception while drawing would be printed on every redraw: it is kept in `error` instead, and nothing more drawn.
+
+    Attributes
+    ----------
+    xray
+        Draw what lies behind the mesh like what lies before it.
+    features
+        Whether seeds snap to features: said in the text.
+    front
+        Whether this object is the one under the cursor: its session is the one that the text tells of.
+    help_rows
+        Keys and what they do, while the table of keys is to be seen.
     """
 
     def __init__(
-        self, session: Session, obj: bpy.types.Object, points: NDArray[np.float64], to_object: NDArray[np.float64]
+        self,
+        session: Session,
+        obj: bpy.types.Object,
+        points: NDArray[np.float64],
+        to_object: NDArray[np.float64],
+        *,
+        triangles: NDArray[np.int32] | None = None,
+        segments: SegmentMaker | None = None,
+        preferences: object | None = None,
     ) -> None:
         self._session = session
         self._obj = obj
         self._points = points
+        self._triangles = triangles
+        self._segments = segments
+        self._preferences = preferences
         self._to_object = Matrix(to_object.tolist()).to_4x4()
-        self._lines: list[tuple[Style, gpu.types.GPUBatch]] = []
-        self._dots: list[tuple[Style, NDArray[np.float64]]] = []
-        self._revision = -1
-        self._line = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
-        self._fill = gpu.shader.from_builtin("UNIFORM_COLOR")
-        self._handle: object | None = bpy.types.SpaceView3D.draw_handler_add(self._draw, (), "WINDOW", "POST_VIEW")
+        self._looks = self._current_looks()
+        self._kept: tuple[object, _Sheet] = (None, _Sheet(points))
+        self._live: tuple[object, _Sheet] = (None, _Sheet(points))
+        self._faces: Faces | None = None
+        self._tinted: object = None
+        self._asked: object = None
+        self.xray = False
+        self.features = False
+        self.front = True
+        self.help_rows: Sequence[keys.Row] | None = None
         self.error: Exception | None = None
+        add = bpy.types.SpaceView3D.draw_handler_add
+        self._handles = [
+            add(self._draw, (self._draw_in_scene,), "WINDOW", "POST_VIEW"),
+            add(self._draw, (self._draw_on_screen,), "WINDOW", "POST_PIXEL"),
+        ]
+        self.poll()
 
     def remove(self) -> None:
         """Stop drawing."""
-        if self._handle is not None:
-            bpy.types.SpaceView3D.draw_handler_remove(self._handle, "WINDOW")
-            self._handle = None
+        while self._handles:
+            bpy.types.SpaceView3D.draw_handler_remove(self._handles.pop(), "WINDOW")
 
-    def _draw(self) -> None:
+    # Segments come when they are ready
+
+    @property
+    def busy(self) -> bool:
+        """Whether segments are being computed: `poll` is to be called now and then."""
+        return self._segments is not None and (self._segments.busy or self._stale)
+
+    @property
+    def _stale(self) -> bool:
+        return self._asked != self._session.network_revision
+
+    def poll(self) -> bool:
+        """Ask for the segments of a network that has changed.
+
+        Returns
+        -------
+        bool
+            Whether there are new ones to be seen.
+        """
+        if self._segments is None:
+            return False
+        if self._stale:
+            self._asked = self._session.network_revision
+            self._segments.want(self._asked, cuts(self._session))
+        newest = self._segments.newest
+        return newest is not None and newest.key != self._tinted
+
+    # Drawing
+
+    def _draw(self, part: object) -> None:
         if self.error is not None:
             return
         try:
-            self._draw_all(bpy.context.region_data)
+            part()
         except Exception as error:
             self.error = error
 
+    def _current_looks(self) -> Looks:
+        return Looks.of(bpy.context.preferences.themes[0].view_3d, self._preferences)
+
+    def _draw_in_scene(self) -> None:
+        self.poll()
+        looks = self._current_looks()
+        if looks != self._looks:
+            self._looks = looks
+            self._kept = self._live = (None, self._live[1])
+        kept, live = self._kept_sheet(), self._live_sheet()
+        eye = Eye(bpy.context.region_data, self._obj.matrix_world @ self._to_object)
+        self._draw_tint(eye)
+        passes = [("NONE", False)] if self.xray else [("GREATER", True), ("LESS_EQUAL", False)]
+        for test, hidden in passes:
+            with blended(test):
+                for sheet in (kept, live):
+                    for lines in sheet.lines:
+                        lines.draw(eye, lines.style.hidden if hidden else 1.0, rim=not hidden)
+                for sheet in (kept, live):
+                    for style, places in sheet.dots:
+                        draw_dots(style, places, eye, style.hidden if hidden else 1.0, rim=not hidden)
+
+    def _draw_tint(self, eye: Eye) -> None:
+        found = None if self._segments is None else self._segments.newest
+        if found is None or self._looks.tint <= 0.0:
+            return
+        if self._faces is None:
+            self._faces = Faces(self._points)
+        if found.key != self._tinted:
+            self._faces.clear()
+            # Without a cut the parts of a mesh are no news, and tinting them would only change its colours.
+            for hue, triangles in found.pieces if found.cut else ():
+                self._faces.add(hue, triangles)
+            self._tinted = found.key
+        with blended("LESS_EQUAL"):
+            self._faces.draw(eye, hue_colours(self._looks.tint), TINT_LIFT)
+
+    def _draw_on_screen(self) -> None:
+        if not self.front:
+            return
+        left, bottom, width, height = room = free_room(bpy.context.area, bpy.context.region)
+        if room == _NO_ROOM:
+            return
+        scale = bpy.context.preferences.system.ui_scale
+        with blended("NONE"):
+            if self._looks.text:
+                found = None if self._segments is None else self._segments.newest
+                lines = hud.lines(
+                    self._session, found.count if found is not None else None, xray=self.xray, features=self.features
+                )
+                hud.draw(lines, (left, bottom), scale, bpy.context.preferences.themes[0].view_3d.space.text_hi)
+            if self.help_rows is not None:
+                keys.draw(self.help_rows, (left, bottom, width, height), scale)
+
     # What there is to draw
 
-    def _build(self) -> None:
+    def _kept_sheet(self) -> _Sheet:
+        """Return the kept wires: many, and seldom changed."""
         session = self._session
-        pieces: dict[Style, list[NDArray[np.float64]]] = {}
-
-        def add_curve(style: Style, points: NDArray[np.float64]) -> None:
-            pieces.setdefault(style, []).append(np.stack([points[:-1], points[1:]], axis=1).reshape(-1, 3))
-
-        def add_edges(style: Style, edges: list[tuple[int, int]]) -> None:
-            pieces.setdefault(style, []).append(self._points[np.array(edges).reshape(-1)])
-
-        # What is added first lies below.
-        for wire in session.wires:
+        moved = [wire.id for wire in session.moved]
+        key = (session.network_revision, tuple(moved), session.mirror_axes)
+        if self._kept[0] == key:
+            return self._kept[1]
+        looks, sheet = self._looks, _Sheet(self._points)
+        staying = [wire for wire in session.wires if wire.id not in moved]
+        for wire in staying:
+            for image in session.mirrored(wire):
+                sheet.edges(looks.mirrored if wire.marks else looks.clear, image.edges())
+        for wire in staying:
             if wire.along == "SURFACE":
-                add_edges(MARKED, wire.edges())
-        for wire in session.wires:
-            add_curve(KEPT, wire.points)
+                sheet.edges(looks.marked if wire.marks else looks.clear, wire.edges())
+        for wire in staying:
+            sheet.curve(looks.kept if wire.marks else looks.clear, wire.points)
+        sheet.finish()
+        self._kept = (key, sheet)
+        return sheet
+
+    def _live_sheet(self) -> _Sheet:
+        """Return what changes with every move of the cursor."""
+        session = self._session
+        if self._live[0] == session.revision:
+            return self._live[1]
+        looks, sheet = self._looks, _Sheet(self._points)
+        hovered = session.hovered_wire
+        if hovered is not None:
+            sheet.curve(looks.hovered, hovered.points)
+            sheet.curve(looks.kept if hovered.marks else looks.clear, hovered.points)
         if session.other is not None:
-            add_curve(OTHER, session.other.points)
+            sheet.curve(looks.other, session.other.points)
+        for wire in session.moved:
+            self._add_live(sheet, wire, looks.active)
         if session.active is not None:
-            if session.active.along == "SURFACE":
-                add_edges(WILL_MARK, session.active.edges())
-            add_curve(ACTIVE, session.active.points)
+            self._add_live(sheet, session.active, looks.computing if session.preliminary else looks.active)
         if session.loop_preview is not None:
-            add_curve(LOOP, session.loop_preview.points)
-        target = None if session.target is None else session.target.pick
-        if isinstance(target, tuple):
-            add_edges(HOVER, [target])
-        self._lines = [
-            (style, batch_for_shader(self._line, "LINES", {"pos": np.concatenate(parts).astype(np.float32)}))
-            for style, parts in pieces.items()
-        ]
-        self._dots = []
-        seeds = [self._place(pick) for pick in session.seeds()]
-        if seeds:
-            self._dots.append((SEED, np.array(seeds)))
-        if target is not None and not isinstance(target, tuple):
-            self._dots.append((HOVER_DOT, self._points[[target]]))
-        self._revision = session.revision
+            self._add_live(sheet, session.loop_preview, looks.loop)
+        if session.end_preview is not None:
+            self._add_live(sheet, session.end_preview, looks.end)
+        self._add_seeds(sheet)
+        self._add_target(sheet)
+        sheet.finish()
+        self._live = (session.revision, sheet)
+        return sheet
 
-    def _place(self, pick: Pick) -> NDArray[np.float64]:
-        """Return where a pick is shown: an edge by its middle."""
-        return self._points[list(pick)].mean(axis=0) if isinstance(pick, tuple) else self._points[pick]
+    def _add_live(self, sheet: _Sheet, wire: Wire, style: Style) -> None:
+        looks = self._looks
+        for image in self._session.mirrored(wire):
+            sheet.edges(looks.mirrored_live, image.edges())
+        if wire.along == "SURFACE":
+            sheet.edges(looks.will_mark if wire.marks else looks.clear, wire.edges())
+        sheet.curve(style, wire.points)
+        if not wire.marks and wire.along == "EDGES":
+            sheet.curve(looks.clear, wire.points)
 
-    # Drawing it
+    def _add_seeds(self, sheet: _Sheet) -> None:
+        session, looks = self._session, self._looks
+        hovered, closing, live = session.hovered_seed, session.closing_point, session.seed_place
+        for pick in session.seeds():
+            if pick in (hovered, closing):
+                continue
+            sheet.dot(looks.live_seed if pick == live else looks.seed, pick)
+        if closing is not None:
+            sheet.dot(looks.closing, closing)
+        if hovered is not None and hovered != closing:
+            sheet.dot(looks.hovered_seed, hovered)
 
-    def _draw_all(self, region_3d: bpy.types.RegionView3D) -> None:
-        if self._revision != self._session.revision:
-            self._build()
-        before = gpu.state.blend_get(), gpu.state.depth_test_get(), gpu.state.depth_mask_get()
-        gpu.state.blend_set("ALPHA")
-        gpu.state.depth_mask_set(False)
-        model = self._obj.matrix_world @ self._to_object
-        scale = bpy.context.preferences.system.ui_scale
-        try:
-            for hidden in (True, False):
-                gpu.state.depth_test_set("GREATER" if hidden else "LESS_EQUAL")
-                for style, batch in self._lines:
-                    self._draw_lines(style, batch, model, region_3d, hidden, scale)
-                for style, places in self._dots:
-                    self._draw_dots(style, places, model, region_3d, hidden, scale)
-        finally:
-            gpu.state.blend_set(before[0])
-            gpu.state.depth_test_set(before[1])
-            gpu.state.depth_mask_set(before[2])
-
-    @staticmethod
-    def _passes(style: Style, hidden: bool) -> list[tuple[Colour, float]]:
-        """Return colours and widths to draw one over the other: a dark rim, then the line."""
-        *rgb, alpha = style.colour
-        if hidden:
-            return [((*rgb, alpha * style.hidden), style.width)]
-        rim = [((*HALO[:3], HALO[3] * alpha), style.width + style.halo)] if style.halo else []
-        return [*rim, (style.colour, style.width)]
-
-    def _draw_lines(
-        self,
-        style: Style,
-        batch: gpu.types.GPUBatch,
-        model: Matrix,
-        region_3d: bpy.types.RegionView3D,
-        hidden: bool,
-        scale: float,
-    ) -> None:
-        viewport = gpu.state.viewport_get()
-        with gpu.matrix.push_pop():
-            gpu.matrix.load_matrix(lifted(region_3d, viewport[3], style.lift * scale) @ model)
-            self._line.bind()
-            self._line.uniform_float("viewportSize", viewport[2:])
-            for colour, width in self._passes(style, hidden):
-                self._line.uniform_float("lineWidth", width * scale)
-                self._line.uniform_float("color", colour)
-                batch.draw(self._line)
-
-    def _draw_dots(
-        self,
-        style: Style,
-        places: NDArray[np.float64],
-        model: Matrix,
-        region_3d: bpy.types.RegionView3D,
-        hidden: bool,
-        scale: float,
-    ) -> None:
-        height = gpu.state.viewport_get()[3]
-        view = lifted(region_3d, height, style.lift * scale) @ model
-        centres = np.array([view @ Vector(place) for place in places])
-        with gpu.matrix.push_pop():
-            gpu.matrix.load_matrix(Matrix.Identity(4))
-            self._fill.bind()
-            for colour, width in self._passes(style, hidden):
-                radii = 0.5 * width * scale * pixel_sizes(region_3d, height, centres[:, 2])
-                self._fill.uniform_float("color", colour)
-                batch_for_shader(self._fill, "TRIS", {"pos": discs(centres, radii)}).draw(self._fill)
+    def _add_target(self, sheet: _Sheet) -> None:
+        session, looks = self._session, self._looks
+        snap = session.target
+        if snap is None or snap.to == "SEED":
+            return
+        if isinstance(snap.pick, tuple):
+            sheet.edges(looks.target, [snap.pick])
+            return
+        styles = {"WIRE": looks.dot_on_wire, "SEAM": looks.dot_on_seam, "FEATURE": looks.dot_on_feature}
+        sheet.dot(styles.get(snap.to, looks.dot), snap.pick)
 
 
-def pixel_sizes(region_3d: bpy.types.RegionView3D, height: float, depths: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return how large a pixel is at depths (view coordinates, negative ahead)."""
-    size = 2.0 / (region_3d.window_matrix[1][1] * height)
-    return np.full_like(depths, size) if _orthographic(region_3d) else size * np.abs(depths)
+def cuts(session: Session) -> NDArray[np.int32]:
+    """Return the edges, (c, 2), that will be seams when the session is kept."""
+    edges = set(map(tuple, np.asarray(session.seams, dtype=np.int32).reshape(-1, 2).tolist()))
+    edges.update(session.edges_to_mark())
+    edges.difference_update(session.edges_to_clear())
+    return np.array(sorted(edges), dtype=np.int32).reshape(-1, 2)
 
 
-def lifted(region_3d: bpy.types.RegionView3D, height: float, pixels: float) -> Matrix:
-    """Return the view matrix that brings all nearer to the viewer by the depth of a number of pixels.
-
-    A line some pixels wide would sink into a surface that it lies on, by as much as the surface is steep. Drawing it
-    nearer by a few pixels' worth, whatever the distance, keeps it out and shows nothing through a part that is thicker.
-    """
-    depth = pixels * 2.0 / (region_3d.window_matrix[1][1] * height)
-    if _orthographic(region_3d):
-        return Matrix.Translation((0.0, 0.0, depth)) @ region_3d.view_matrix
-    # Towards the eye: what is seen stays in its place on the screen.
-    return Matrix.Scale(1.0 - depth, 4) @ region_3d.view_matrix
-
-
-def _orthographic(region_3d: bpy.types.RegionView3D) -> bool:
-    return region_3d.window_matrix[3][3] != 0.0
-
-
-def discs(centres: NDArray[np.float64], radii: NDArray[np.float64]) -> NDArray[np.float32]:
-    """Return triangles, (k, 3), of discs that face the viewer, in view coordinates."""
-    rim = np.stack([np.cos(_DISC), np.sin(_DISC), np.zeros_like(_DISC)], axis=1)
-    edge = centres[:, None] + radii[:, None, None] * rim
-    fans = np.stack([np.broadcast_to(centres[:, None], edge[:, 1:].shape), edge[:, :-1], edge[:, 1:]], axis=2)
-    return fans.reshape(-1, 3).astype(np.float32)
+def free_room(area: bpy.types.Area, region: bpy.types.Region) -> tuple[float, float, float, float]:
+    """Return what of a region no toolbar, sidebar, header or panel lies over: left, bottom, width, height."""
+    left, bottom, right, top = 0, 0, region.width, region.height
+    for other in area.regions:
+        if other.type == "WINDOW" or other.width <= 1 or other.height <= 1:
+            continue
+        x, y = other.x - region.x, other.y - region.y
+        if x >= region.width or y >= region.height or x + other.width <= 0 or y + other.height <= 0:
+            continue
+        if other.type == "TOOLS":
+            left = max(left, x + other.width)
+        elif other.type == "UI":
+            right = min(right, x)
+        elif other.type == "HUD":
+            bottom = max(bottom, y + other.height)
+        elif y > region.height // 2:
+            top = min(top, y)
+        else:
+            bottom = max(bottom, y + other.height)
+    if right <= left or top <= bottom:
+        return _NO_ROOM
+    return left, bottom, right - left, top - bottom

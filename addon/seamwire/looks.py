@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How wires, seeds and segments look: one table, made from the theme and the add-on's preferences."""
+
+from __future__ import annotations
+
+import colorsys
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import bpy
+
+Colour = tuple[float, float, float, float]
+
+HALO: Colour = (0.02, 0.02, 0.03, 0.75)
+"""The dark rim around lines and dots: what keeps them apart from bright meshes and from each other."""
+HUES = 12
+"""How many colours segments are told apart by."""
+
+
+@dataclass(frozen=True)
+class Style:
+    """How a line or a dot looks; sizes in pixels at a display scale of 1.
+
+    Parameters
+    ----------
+    colour
+        Red, green, blue, opacity.
+    width
+        Of the line, or of the dot.
+    halo
+        How much wider the dark rim is.
+    hidden
+        How much of the opacity is left where the mesh lies before it.
+    lift
+        By how many pixels it is drawn before the surface.
+    dash
+        Length of a dash and of the gap after it; 0: a plain line.
+    ring
+        A ring of this width and colour around a dot, inside the rim.
+    """
+
+    colour: Colour
+    width: float
+    halo: float = 0.0
+    hidden: float = 0.25
+    lift: float = 4.0
+    dash: float = 0.0
+    ring: tuple[float, Colour] | None = None
+
+
+@dataclass(frozen=True)
+class Looks:
+    """The styles of all that the overlay draws."""
+
+    active: Style
+    computing: Style
+    """The wire that is still being computed: paler than what a click would keep."""
+    other: Style
+    kept: Style
+    marked: Style
+    """Edges that will become seams, where the wire itself runs beside them."""
+    will_mark: Style
+    """Those of the live wire."""
+    clear: Style
+    """Wires and edges that will cease to be seams."""
+    mirrored: Style
+    mirrored_live: Style
+    hovered: Style
+    """Laid under a kept wire that is pointed at."""
+    loop: Style
+    end: Style
+    target: Style
+    """The edge under the cursor."""
+    seed: Style
+    hovered_seed: Style
+    live_seed: Style
+    closing: Style
+    dot: Style
+    """The vertex under the cursor; the next three where it lies on a wire, on a seam, on a feature."""
+    dot_on_wire: Style
+    dot_on_seam: Style
+    dot_on_feature: Style
+    tint: float
+    """Opacity of segments."""
+    text: bool
+
+    @classmethod
+    def of(cls, theme: bpy.types.ThemeView3D | None = None, preferences: object | None = None) -> Looks:
+        """Return the looks under a theme, as the preferences change them.
+
+        Parameters
+        ----------
+        theme
+            Of the 3D view; without it the colours are those that fit Blender's default one.
+        preferences
+            The add-on's: whatever of ``line_width``, ``active_colour``, ``other_colour``, ``kept_colour``,
+            ``clear_colour``, ``loop_colour``, ``seed_colour``, ``theme_colours``, ``tint`` and ``show_text`` it has.
+        """
+
+        def wish(name: str, default: Sequence[float]) -> Colour:
+            found = tuple(getattr(preferences, name, default))
+            return (*found, *tuple(default)[len(found) :])
+
+        seam = (1.0, 0.2, 0.1, 1.0)
+        if theme is not None and getattr(preferences, "theme_colours", True):
+            seam = vivid(tuple(theme.edge_seam))
+            kept = seam
+        else:
+            kept = wish("kept_colour", seam)
+        active = wish("active_colour", (1.0, 0.72, 0.05, 1.0))
+        other = wish("other_colour", (0.5, 0.8, 1.0, 0.75))
+        loop = wish("loop_colour", (0.3, 1.0, 0.55, 1.0))
+        clear = wish("clear_colour", (0.82, 0.86, 0.95, 1.0))
+        white = wish("seed_colour", (1.0, 1.0, 1.0, 1.0))
+        looks = cls(
+            active=Style(active, 4.0, halo=2.5, lift=6.0),
+            computing=Style(faint(active, 0.45), 4.0, halo=1.5, hidden=0.15, lift=6.0),
+            other=Style(other, 2.0, halo=1.5, hidden=0.15),
+            kept=Style(kept, 3.5, halo=2.0),
+            marked=Style(faint(kept, 0.9), 2.5, halo=1.0, hidden=0.15, lift=3.0),
+            will_mark=Style(faint(mixed(kept, active, 0.25), 0.9), 2.5, halo=1.0, hidden=0.15, lift=3.0),
+            clear=Style(clear, 3.5, halo=2.0, dash=7.0, lift=5.0),
+            mirrored=Style(faint(kept, 0.6), 2.0, halo=1.0, hidden=0.15, lift=3.0),
+            mirrored_live=Style(faint(active, 0.6), 2.0, halo=1.0, hidden=0.15, lift=3.0),
+            hovered=Style(white, 8.0, halo=2.0, hidden=0.15, lift=3.0),
+            loop=Style(loop, 3.5, halo=2.5, lift=6.0),
+            end=Style(faint(active, 0.9), 3.0, halo=2.0, dash=9.0, lift=6.0),
+            target=Style(white, 3.0, halo=2.0, lift=7.0),
+            seed=Style(white, 9.0, halo=3.5, hidden=0.35, lift=10.0),
+            live_seed=Style(white, 7.0, halo=3.0, hidden=0.35, lift=10.0, ring=(3.5, active)),
+            hovered_seed=Style(white, 12.0, halo=3.5, hidden=0.35, lift=11.0, ring=(4.0, active)),
+            closing=Style(white, 9.0, halo=3.5, hidden=0.35, lift=11.0, ring=(5.5, loop)),
+            dot=Style(white, 7.0, halo=3.0, lift=11.0),
+            dot_on_wire=Style(white, 7.0, halo=3.0, lift=11.0, ring=(5.0, kept)),
+            dot_on_seam=Style(white, 7.0, halo=3.0, lift=11.0, ring=(5.0, seam)),
+            dot_on_feature=Style(white, 5.0, halo=3.0, lift=11.0, ring=(6.0, other)),
+            tint=float(getattr(preferences, "tint", 0.22)),
+            text=bool(getattr(preferences, "show_text", True)),
+        )
+        return looks.widened(float(getattr(preferences, "line_width", 1.0)))
+
+    def widened(self, factor: float) -> Looks:
+        """Return the same with lines so many times as wide; dots grow half as fast."""
+        if factor == 1.0:
+            return self
+        dots = {"seed", "live_seed", "hovered_seed", "closing"}
+
+        def wider(name: str, style: Style) -> Style:
+            by = 0.5 * (1.0 + factor) if name in dots or name.startswith("dot") else factor
+            return replace(style, width=style.width * by)
+
+        styles = {name: wider(name, style) for name, style in vars(self).items() if isinstance(style, Style)}
+        return replace(self, **styles)
+
+
+def faint(colour: Colour, opacity: float) -> Colour:
+    """Return a colour with a share of its opacity."""
+    return (*colour[:3], colour[3] * opacity)
+
+
+def mixed(one: Colour, two: Colour, share: float) -> Colour:
+    """Return a colour on the way from one to another."""
+    red, green, blue, opacity = (a + share * (b - a) for a, b in zip(one, two, strict=True))
+    return red, green, blue, opacity
+
+
+def vivid(colour: Sequence[float]) -> Colour:
+    """Return a colour of the theme as bright as it can be in its hue: on a surface thin lines look darker than they are."""
+    hue, saturation, value = colorsys.rgb_to_hsv(*colour[:3])
+    red, green, blue = colorsys.hsv_to_rgb(hue, min(saturation, 0.85), 1.0 if saturation > 0.1 else value)
+    return red, green, blue, 1.0
+
+
+def hue_colours(opacity: float) -> list[Colour]:
+    """Return the segments' colours; those next to each other in the list are far apart in hue.
+
+    From yellow-green to pink: red and orange are left to wires and seams.
+    """
+    hues = np.linspace(0.24, 0.88, HUES)
+    # 5 of 12 steps on: coprime, so each hue comes once.
+    return [(*colorsys.hsv_to_rgb(hues[(7 + 5 * i) % HUES], 0.8, 1.0), opacity) for i in range(HUES)]

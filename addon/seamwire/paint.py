@@ -1,0 +1,293 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Lines, dots, tinted triangles and text on the GPU. Knows nothing of wires."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+import blf
+import bpy
+import gpu
+import numpy as np
+from gpu_extras.batch import batch_for_shader
+from mathutils import Matrix
+
+from .looks import HALO, Colour, Style
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from numpy.typing import NDArray
+
+_DISC = np.linspace(0.0, 2.0 * np.pi, 25)
+_FONT = 0
+
+
+@contextmanager
+def blended(depth: str) -> Iterator[None]:
+    """Draw with opacity and a depth test, ``LESS_EQUAL``, ``GREATER`` or ``NONE``, leaving the state as it was."""
+    before = gpu.state.blend_get(), gpu.state.depth_test_get(), gpu.state.depth_mask_get()
+    gpu.state.blend_set("ALPHA")
+    gpu.state.depth_mask_set(False)
+    gpu.state.depth_test_set(depth)
+    try:
+        yield
+    finally:
+        gpu.state.blend_set(before[0])
+        gpu.state.depth_test_set(before[1])
+        gpu.state.depth_mask_set(before[2])
+
+
+class Eye:
+    """From where an object is seen in the region that is being drawn.
+
+    Parameters
+    ----------
+    region_3d
+        The view.
+    model
+        (4, 4), takes what is drawn to world coordinates.
+    """
+
+    def __init__(self, region_3d: bpy.types.RegionView3D, model: Matrix) -> None:
+        self.size = gpu.state.viewport_get()[2:]
+        self.scale = bpy.context.preferences.system.ui_scale
+        self._view = region_3d.view_matrix
+        self._model = model
+        self._orthographic = region_3d.window_matrix[3][3] != 0.0
+        self._pixel = 2.0 / (region_3d.window_matrix[1][1] * self.size[1])
+        self._to_clip = np.array(region_3d.window_matrix @ region_3d.view_matrix @ model, dtype=np.float64)
+
+    def lifted(self, pixels: float) -> Matrix:
+        """Return the model-view matrix that brings all nearer to the viewer by the depth of a number of pixels.
+
+        A line some pixels wide would sink into a surface that it lies on, by as much as the surface is steep. Drawing
+        it nearer by a few pixels' worth, whatever the distance, keeps it out and shows nothing through a part that is
+        thicker.
+        """
+        depth = pixels * self.scale * self._pixel
+        if self._orthographic:
+            return Matrix.Translation((0.0, 0.0, depth)) @ self._view @ self._model
+        # Towards the eye: what is seen stays in its place on the screen.
+        return Matrix.Scale(1.0 - depth, 4) @ self._view @ self._model
+
+    def pixel_sizes(self, depths: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return how large a pixel is at depths (view coordinates, negative ahead)."""
+        return np.full_like(depths, self._pixel) if self._orthographic else self._pixel * np.abs(depths)
+
+    def on_screen(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Project (n, 3) to (n, 2) pixels; NaN behind the viewer."""
+        clip = points @ self._to_clip[:, :3].T + self._to_clip[:, 3]
+        w = np.where(clip[:, 3] > 1e-9, clip[:, 3], np.nan)[:, None]
+        return clip[:, :2] / w * 0.5 * self.size
+
+    @property
+    def key(self) -> bytes:
+        """The same as long as all is seen at the same place on the screen."""
+        return self._to_clip.tobytes() + bytes(str(self.size), "ascii")
+
+
+class Lines:
+    """Segments of one style, ready to be drawn.
+
+    Parameters
+    ----------
+    style
+        How they look.
+    ends
+        (k, 2, 3) their ends; those of a curve in order, so that dashes run on over its corners.
+    """
+
+    def __init__(self, style: Style, ends: NDArray[np.float64]) -> None:
+        self.style = style
+        self._ends = ends
+        self._shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
+        self._seen_from = b""
+        self._batch = None if style.dash else self._make(ends)
+
+    def _make(self, ends: NDArray[np.float64]) -> gpu.types.GPUBatch:
+        return batch_for_shader(self._shader, "LINES", {"pos": ends.reshape(-1, 3).astype(np.float32)})
+
+    def draw(self, eye: Eye, opacity: float = 1.0, rim: bool = True) -> None:
+        """Draw them under the depth test that is set."""
+        style = self.style
+        if style.dash and self._seen_from != eye.key:
+            self._batch = self._make(dashes(self._ends, eye.on_screen, style.dash * eye.scale))
+            self._seen_from = eye.key
+        with gpu.matrix.push_pop():
+            gpu.matrix.load_matrix(eye.lifted(style.lift))
+            self._shader.bind()
+            self._shader.uniform_float("viewportSize", eye.size)
+            for colour, width in layers(style, opacity, rim):
+                self._shader.uniform_float("lineWidth", width * eye.scale)
+                self._shader.uniform_float("color", colour)
+                self._batch.draw(self._shader)
+
+
+def layers(style: Style, opacity: float, rim: bool) -> list[tuple[Colour, float]]:
+    """Return colours and widths to draw one over the other: a dark rim, a ring, the line or the dot itself."""
+    *rgb, alpha = style.colour
+    found = []
+    outside = style.width + (2.0 * style.ring[0] if style.ring else 0.0)
+    if rim and style.halo:
+        found.append(((*HALO[:3], HALO[3] * alpha * opacity), outside + style.halo))
+    if style.ring:
+        *ring, ring_alpha = style.ring[1]
+        found.append(((*ring, ring_alpha * opacity), outside))
+        if rim:
+            found.append(((*HALO[:3], opacity), style.width + 2.0))
+    return [*found, ((*rgb, alpha * opacity), style.width)]
+
+
+def dashes(ends: NDArray[np.float64], on_screen: object, length: float, limit: int = 200_000) -> NDArray[np.float64]:
+    """Cut segments into dashes as long as the gaps between them, measured on the screen.
+
+    Parameters
+    ----------
+    ends
+        (k, 2, 3).
+    on_screen
+        Takes (n, 3) points to (n, 2) pixels.
+    length
+        Pixels of a dash.
+    limit
+        More dashes than this are not made: the segments come back as they are.
+
+    Returns
+    -------
+    (d, 2, 3) array
+    """
+    pixels = on_screen(ends.reshape(-1, 3)).reshape(-1, 2, 2)
+    sizes = np.nan_to_num(np.linalg.norm(pixels[:, 1] - pixels[:, 0], axis=1))
+    after = np.cumsum(sizes)
+    before = after - sizes
+    first = np.floor(before / (2.0 * length)).astype(np.int64)
+    counts = np.floor(after / (2.0 * length)).astype(np.int64) - first + 1
+    if not len(ends) or counts.sum() > limit:
+        return ends
+    owner = np.repeat(np.arange(len(ends)), counts)
+    number = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts) + first[owner]
+    # Dash number i covers pixels 2 i to 2 i + 1 lengths from the beginning.
+    size = np.maximum(sizes[owner], 1e-9)
+    low = np.clip((2.0 * length * number - before[owner]) / size, 0.0, 1.0)
+    high = np.clip((2.0 * length * number + length - before[owner]) / size, 0.0, 1.0)
+    some = high > low
+    owner, low, high = owner[some], low[some, None], high[some, None]
+    along = ends[owner, 1] - ends[owner, 0]
+    return np.stack([ends[owner, 0] + low * along, ends[owner, 0] + high * along], axis=1)
+
+
+def draw_dots(style: Style, places: NDArray[np.float64], eye: Eye, opacity: float = 1.0, rim: bool = True) -> None:
+    """Draw discs that face the viewer at places, (k, 3)."""
+    view = np.array(eye.lifted(style.lift), dtype=np.float64)
+    centres = places @ view[:3, :3].T + view[:3, 3]
+    shader = gpu.shader.from_builtin("UNIFORM_COLOR")
+    with gpu.matrix.push_pop():
+        gpu.matrix.load_matrix(Matrix.Identity(4))
+        shader.bind()
+        for colour, width in layers(style, opacity, rim):
+            radii = 0.5 * width * eye.scale * eye.pixel_sizes(centres[:, 2])
+            shader.uniform_float("color", colour)
+            batch_for_shader(shader, "TRIS", {"pos": discs(centres, radii)}).draw(shader)
+
+
+def discs(centres: NDArray[np.float64], radii: NDArray[np.float64]) -> NDArray[np.float32]:
+    """Return triangles, (k, 3), of discs that face the viewer, in view coordinates."""
+    rim = np.stack([np.cos(_DISC), np.sin(_DISC), np.zeros_like(_DISC)], axis=1)
+    edge = centres[:, None] + radii[:, None, None] * rim
+    fans = np.stack([np.broadcast_to(centres[:, None], edge[:, 1:].shape), edge[:, :-1], edge[:, 1:]], axis=2)
+    return fans.reshape(-1, 3).astype(np.float32)
+
+
+class Faces:
+    """Triangles of one mesh, drawn in a few colours; the vertices are handed to the GPU once.
+
+    Parameters
+    ----------
+    points
+        (n, 3).
+    """
+
+    def __init__(self, points: NDArray[np.float64]) -> None:
+        self._shader = gpu.shader.from_builtin("UNIFORM_COLOR")
+        form = gpu.types.GPUVertFormat()
+        form.attr_add(id="pos", comp_type="F32", len=3, fetch_mode="FLOAT")
+        self._points = gpu.types.GPUVertBuf(form, len(points))
+        self._points.attr_fill("pos", np.ascontiguousarray(points, dtype=np.float32))
+        self._batches: list[tuple[int, gpu.types.GPUBatch]] = []
+
+    def clear(self) -> None:
+        """Forget the triangles, not the vertices."""
+        self._batches = []
+
+    def add(self, colour: int, triangles: NDArray[np.int32]) -> None:
+        """Add triangles, (k, 3), in the colour of a number."""
+        indices = gpu.types.GPUIndexBuf(type="TRIS", seq=np.ascontiguousarray(triangles, dtype=np.uint32))
+        self._batches.append((colour, gpu.types.GPUBatch(type="TRIS", buf=self._points, elem=indices)))
+
+    def draw(self, eye: Eye, colours: Sequence[Colour], lift: float) -> None:
+        """Draw them under the depth test that is set."""
+        with gpu.matrix.push_pop():
+            gpu.matrix.load_matrix(eye.lifted(lift))
+            self._shader.bind()
+            for number, batch in self._batches:
+                self._shader.uniform_float("color", colours[number])
+                batch.draw(self._shader)
+
+
+# On the screen: pixels of the region from its bottom left
+
+
+def text_size(scale: float, factor: float = 1.0) -> float:
+    """Return the size of the interface's text, in pixels."""
+    points = bpy.context.preferences.ui_styles[0].widget.points
+    return points * scale * factor
+
+
+def set_text(size: float) -> None:
+    """Make text of this size what `text_width` measures and `draw_text` draws."""
+    blf.size(_FONT, size)
+
+
+def text_width(text: str) -> float:
+    """Return how long a text is, in pixels."""
+    return blf.dimensions(_FONT, text)[0]
+
+
+def draw_text(text: str, at: tuple[float, float], colour: Sequence[float], shadow: bool = True) -> None:
+    """Draw one line of text from a place on its base line."""
+    blf.color(_FONT, *colour)
+    if shadow:
+        # As Blender's own text in the viewport: dark under light text, light under dark.
+        bright = sum(colour[:3]) > 1.2
+        blf.enable(_FONT, blf.SHADOW)
+        blf.shadow(_FONT, 5, *((0.0, 0.0, 0.0, 0.8) if bright else (1.0, 1.0, 1.0, 0.6)))
+        blf.shadow_offset(_FONT, 1, -1)
+    blf.position(_FONT, round(at[0]), round(at[1]), 0.0)
+    blf.draw(_FONT, text)
+    blf.disable(_FONT, blf.SHADOW)
+
+
+def draw_rectangle(low: tuple[float, float], high: tuple[float, float], colour: Colour, round_by: float = 0.0) -> None:
+    """Fill a rectangle, its corners rounded by so many pixels."""
+    shader = gpu.shader.from_builtin("UNIFORM_COLOR")
+    (left, bottom), (right, top) = low, high
+    turn = np.linspace(0.0, 0.5 * np.pi, 7)
+    corners = []
+    for i, (x, y) in enumerate(
+        (
+            (right - round_by, top - round_by),
+            (left + round_by, top - round_by),
+            (left + round_by, bottom + round_by),
+            (right - round_by, bottom + round_by),
+        )
+    ):
+        angle = turn + 0.5 * np.pi * i
+        corners.append(np.stack([x + round_by * np.cos(angle), y + round_by * np.sin(angle)], axis=1))
+    rim = np.concatenate(corners)
+    middle = np.broadcast_to(((left + right) / 2, (bottom + top) / 2), rim.shape)
+    fan = np.stack([middle, rim, np.roll(rim, -1, axis=0)], axis=1).reshape(-1, 2)
+    shader.bind()
+    shader.uniform_float("color", colour)
+    batch_for_shader(shader, "TRIS", {"pos": fan.astype(np.float32)}).draw(shader)

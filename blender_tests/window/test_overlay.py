@@ -1,0 +1,504 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the overlay shows of a session: the pixels of the viewport, row by row of what there is to be seen.
+
+The sessions are made by hand: what they say is known, and the drawing of it is all that is tested.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+import ui as driver
+from numpy.typing import NDArray
+from scene import add_grid, edit
+from seamwire import edit_mesh
+from seamwire.looks import Looks, Style
+from seamwire.network import Edge, Pick, Snap, Wire
+from seamwire.overlay import Overlay
+from seamwire.segments import SegmentMaker
+
+SIDE = 9
+HUES = {"red": (0, 30), "orange": (35, 60), "green": (110, 170), "blue": (190, 225)}
+
+
+@dataclass
+class Said:
+    """A session that says what a test wants it to."""
+
+    wires: tuple[Wire, ...] = ()
+    active: Wire | None = None
+    other: Wire | None = None
+    loop_preview: Wire | None = None
+    end_preview: Wire | None = None
+    moved: tuple[Wire, ...] = ()
+    hovered_wire: Wire | None = None
+    hovered_seed: Pick | None = None
+    closing_point: Pick | None = None
+    seed_place: Pick | None = None
+    placed: tuple[Pick, ...] = ()
+    target: Snap | None = None
+    seams: tuple[Edge, ...] = ()
+    images: dict[int, list[Wire]] = field(default_factory=dict)
+    along: str = "EDGES"
+    metric: str = "feature"
+    strength: float = 10.0
+    marking: bool = True
+    preliminary: bool = False
+    mirror_axes: tuple[int, ...] = ()
+    revision: int = 0
+    network_revision: int = 0
+
+    def seeds(self) -> list[Pick]:
+        return list(self.placed)
+
+    def mirrored(self, wire: Wire) -> list[Wire]:
+        return self.images.get(wire.id, [])
+
+    def edges_to_mark(self) -> list[Edge]:
+        return [edge for wire in self.wires if wire.marks for edge in wire.edges()]
+
+    def edges_to_clear(self) -> list[Edge]:
+        return [edge for wire in self.wires if not wire.marks for edge in wire.edges()]
+
+    def say(self, **what: object) -> None:
+        """Say something else from here on."""
+        for name, value in what.items():
+            setattr(self, name, value)
+        self.revision += 1
+        self.network_revision += "wires" in what
+
+
+class Sight:
+    """A grid seen from above with an overlay on it. Vertex y * 9 + x is column x of row y."""
+
+    def __init__(self, ui: driver.Ui) -> None:
+        self.ui = ui
+        self.obj = add_grid(SIDE)
+        ui.wait()
+        with ui.override():
+            edit()
+            bpy.ops.mesh.select_all(action="DESELECT")
+        ui.look_from_top(distance=4.0)
+        self.arrays = edit_mesh.read(self.obj)
+        self.session = Said()
+        self.overlay = self.make()
+
+    def make(self, **options: object) -> Overlay:
+        return Overlay(self.session, self.obj, self.arrays.points, self.arrays.to_object, **options)
+
+    def wire(self, *vertices: int, along: str = "EDGES", marks: bool = True, points: object = None) -> Wire:
+        curve = self.arrays.points[list(vertices)] if points is None else np.array(points)
+        return Wire(along, vertices, curve, vertices[0], vertices[-1], marks=marks)
+
+    def at(self, *vertices: int) -> tuple[float, float]:
+        return self.ui.on_screen(tuple(self.arrays.points[list(vertices)].mean(axis=0)))
+
+    def pixels(self, **said: object) -> NDArray[np.float32]:
+        self.session.say(**said)
+        found = self.ui.screen()
+        if self.overlay.error is not None:
+            raise self.overlay.error
+        return found
+
+    def remove(self) -> None:
+        self.overlay.remove()
+
+
+@pytest.fixture
+def sight(ui: driver.Ui) -> Iterator[Sight]:
+    made = Sight(ui)
+    yield made
+    made.remove()
+
+
+def hue_and_strength(pixels: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Return the hue in degrees and how far from grey it is, of pixels (..., 3)."""
+    rgb = pixels[..., :3]
+    high, low = rgb.max(axis=-1), rgb.min(axis=-1)
+    chroma = high - low
+    safe = np.maximum(chroma, 1e-6)
+    red, green, blue = (rgb[..., i] for i in range(3))
+    sixth = np.where(
+        high == red,
+        (green - blue) / safe % 6.0,
+        np.where(high == green, (blue - red) / safe + 2.0, (red - green) / safe + 4.0),
+    )
+    return 60.0 * sixth, chroma
+
+
+def around(pixels: NDArray[np.float32], at: tuple[float, float], radius: int = 4) -> NDArray[np.float32]:
+    x, y = round(at[0]), round(at[1])
+    return pixels[y - radius : y + radius + 1, x - radius : x + radius + 1]
+
+
+def has(pixels: NDArray[np.float32], at: tuple[float, float], hue: str, chroma: float = 0.5, radius: int = 4) -> bool:
+    """Whether three pixels or more near a position have a hue, and are that far from grey."""
+    return amount(pixels, at, hue, chroma, radius) >= 3
+
+
+def amount(pixels: NDArray[np.float32], at: tuple[float, float], hue: str, chroma: float = 0.5, radius: int = 4) -> int:
+    angle, strength = hue_and_strength(around(pixels, at, radius))
+    low, high = HUES[hue]
+    return int(((angle >= low) & (angle <= high) & (strength > chroma)).sum())
+
+
+def bright(pixels: NDArray[np.float32], at: tuple[float, float], radius: int) -> int:
+    """Return how many pixels near a position are white."""
+    return int((around(pixels, at, radius)[..., :3].min(axis=-1) > 0.9).sum())
+
+
+def dark(pixels: NDArray[np.float32], at: tuple[float, float], radius: int) -> int:
+    return int((around(pixels, at, radius)[..., :3].max(axis=-1) < 0.2).sum())
+
+
+def profile(pixels: NDArray[np.float32], one: tuple[float, float], two: tuple[float, float]) -> NDArray[np.float32]:
+    """Return the pixels, (k, 3), on the way from one position to another."""
+    steps = int(np.hypot(two[0] - one[0], two[1] - one[1]))
+    places = np.linspace(one, two, steps).round().astype(int)
+    return pixels[places[:, 1], places[:, 0], :3]
+
+
+def shading(ui: driver.Ui, name: str) -> None:
+    """Show the viewport in one of its ways."""
+    space = ui.space
+    space.overlay.show_face_orientation = name == "FACE_ORIENTATION"
+    space.shading.show_xray = name == "XRAY"
+    space.shading.type = {"WIREFRAME": "WIREFRAME", "MATERIAL": "MATERIAL"}.get(name, "SOLID")
+    if name == "MATCAP":
+        space.shading.light = "MATCAP"
+        space.shading.studio_light = "basic_1.exr"
+    elif space.shading.type == "SOLID":
+        space.shading.light = "STUDIO"
+    if space.shading.type == "SOLID":
+        space.shading.color_type = "SINGLE"
+        space.shading.single_color = (1.0, 1.0, 1.0) if name in {"WHITE", "MATCAP"} else (0.8, 0.8, 0.8)
+
+
+def theme(name: str) -> None:
+    path = next(p for p in bpy.utils.preset_paths("interface_theme"))
+    del path
+    bpy.ops.preferences.reset_default_theme()
+    if name == "LIGHT":
+        found = [
+            file
+            for folder in bpy.utils.preset_paths("interface_theme")
+            for file in __import__("pathlib").Path(folder).glob("*ight.xml")
+        ]
+        bpy.ops.script.execute_preset(filepath=str(found[0]), menu_idname="USERPREF_MT_interface_theme_presets")
+
+
+SHADINGS = ("SOLID", "WHITE", "MATCAP", "FACE_ORIENTATION", "WIREFRAME", "XRAY", "MATERIAL")
+
+
+@pytest.mark.parametrize("colours", ["DARK", "LIGHT"])
+@pytest.mark.parametrize("name", SHADINGS)
+def test_the_active_wire_stands_out_from_the_other_and_from_the_mesh(sight: Sight, name: str, colours: str) -> None:
+    theme(colours)
+    shading(sight.ui, name)
+    try:
+        empty = sight.pixels()
+        seen = sight.pixels(active=sight.wire(*range(36, 45)), other=sight.wire(36, 45, 54, 63, 64, 65, 66))
+        for vertex in range(38, 42):
+            place = sight.at(vertex, vertex + 1)
+            assert has(seen, place, "orange"), f"the active wire at {vertex}"
+            assert not has(empty, place, "orange"), "nothing of that colour was there before"
+        beside = sight.at(64, 65)
+        assert not has(seen, beside, "orange")
+        assert has(seen, beside, "blue", chroma=0.25)
+        wide = np.count_nonzero(np.abs(profile(seen - empty, *crossing(sight, 39, 40))).max(axis=1) > 0.1)
+        thin = np.count_nonzero(np.abs(profile(seen - empty, *crossing(sight, 64, 65))).max(axis=1) > 0.1)
+        assert wide >= thin + 2, "the active one is wider too, for those who see no colours"
+    finally:
+        shading(sight.ui, "SOLID")
+        theme("DARK")
+
+
+def crossing(sight: Sight, one: int, two: int) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return two positions across the middle of an edge that runs along x."""
+    x, y = sight.at(one, two)
+    return (x + 4.0, y - 12.0), (x + 4.0, y + 12.0)
+
+
+def test_a_kept_wire_has_the_seam_colour_of_the_theme(sight: Sight) -> None:
+    view = bpy.context.preferences.themes[0].view_3d
+    before = tuple(view.edge_seam)
+    wire = sight.wire(*range(36, 45))
+    assert has(sight.pixels(wires=(wire,)), sight.at(38, 39), "red")
+    try:
+        view.edge_seam = (0.0, 0.9, 0.35)
+        assert has(sight.pixels(), sight.at(38, 39), "green")
+    finally:
+        view.edge_seam = before
+
+
+def test_colours_and_width_come_from_the_preferences(sight: Sight) -> None:
+    class Preferences:
+        line_width = 1.0
+        active_colour = (0.1, 0.9, 0.4)
+
+    def width(seen: NDArray[np.float32]) -> int:
+        angle, chroma = hue_and_strength(profile(seen, *crossing(sight, 39, 40)))
+        return int(((angle > 110) & (angle < 170) & (chroma > 0.4)).sum())
+
+    sight.overlay.remove()
+    sight.overlay = sight.make(preferences=Preferences())
+    seen = sight.pixels(active=sight.wire(*range(36, 45)))
+    assert has(seen, sight.at(38, 39), "green")
+    before = width(seen)
+    Preferences.line_width = 2.5
+    assert width(sight.pixels()) >= 2 * before
+
+
+def test_lines_grow_with_the_display_scale(sight: Sight) -> None:
+    view = bpy.context.preferences.view
+
+    def width(seen: NDArray[np.float32]) -> int:
+        angle, chroma = hue_and_strength(profile(seen, *crossing(sight, 39, 40)))
+        return int(((angle > 35) & (angle < 60) & (chroma > 0.4)).sum())
+
+    before = width(sight.pixels(active=sight.wire(*range(36, 45))))
+    try:
+        view.ui_scale = 2.0
+        sight.ui.wait(4, redraw=True)
+        assert width(sight.pixels()) >= 1.6 * before
+    finally:
+        view.ui_scale = 1.0
+        sight.ui.wait(4, redraw=True)
+
+
+def test_across_the_surface_the_edges_that_become_seams_are_shown_beside_the_wire(sight: Sight) -> None:
+    points = sight.arrays.points
+    curve = [points[36] + (0.0, 0.08, 0.0), points[44] + (0.0, 0.08, 0.0)]
+    wire = sight.wire(*range(36, 45), along="SURFACE", points=curve)
+    for said in ({"wires": (wire,)}, {"wires": (), "active": wire}):
+        seen = sight.pixels(**said)
+        assert has(seen, sight.at(38, 39), "red", radius=2), "the edges"
+        x, y = sight.ui.on_screen(tuple(np.mean(curve, axis=0)))
+        assert has(seen, (x, y), "red" if said["wires"] else "orange", radius=2), "the wire"
+
+
+def gaps(line: NDArray[np.float32]) -> int:
+    """Return how often pixels on the way change from light to dark."""
+    light = line.min(axis=1) > 0.6
+    return int(np.count_nonzero(light[:-1] & ~light[1:]))
+
+
+def test_a_wire_that_clears_seams_is_dashed_and_not_in_the_colour_of_seams(sight: Sight) -> None:
+    seen = sight.pixels(wires=(sight.wire(*range(36, 45), marks=False),))
+    for vertex in range(37, 43):
+        assert not has(seen, sight.at(vertex, vertex + 1), "red")
+    assert gaps(profile(seen, sight.at(37), sight.at(43))) >= 6
+    plain = sight.pixels(wires=(sight.wire(*range(36, 45)),))
+    assert gaps(profile(plain, sight.at(37), sight.at(43))) == 0
+
+
+def test_dashes_are_as_long_on_the_screen_from_near_and_from_far(sight: Sight) -> None:
+    wire = sight.wire(*range(36, 45), marks=False)
+    near = sight.pixels(wires=(wire,))
+    ends = sight.at(37), sight.at(43)
+    count = gaps(profile(near, *ends))
+    sight.ui.look_from_top(distance=8.0)
+    far = sight.pixels()
+    fewer = gaps(profile(far, sight.at(37), sight.at(43)))
+    assert fewer == pytest.approx(count / 2, abs=2)
+
+
+def test_hidden_parts_are_faint_and_in_xray_plain(sight: Sight) -> None:
+    at = sight.at(38, 39)
+    free = sight.pixels(wires=(sight.wire(*range(36, 45)),))
+    assert has(free, at, "red")
+    mesh = bpy.data.meshes.new("Cover")
+    mesh.from_pydata([(-3, -3, 1), (3, -3, 1), (3, 3, 1), (-3, 3, 1)], [], [(0, 1, 2, 3)])
+    cover = bpy.data.objects.new("Cover", mesh)
+    bpy.context.collection.objects.link(cover)
+    behind = sight.pixels()
+    assert not has(behind, at, "red", chroma=0.5)
+    assert has(behind, at, "red", chroma=0.08), "reddish still"
+    sight.overlay.xray = True
+    assert has(sight.pixels(), at, "red")
+
+
+def test_the_live_wire_is_drawn_over_the_kept_ones(sight: Sight) -> None:
+    seen = sight.pixels(wires=(sight.wire(*range(36, 45)),), active=sight.wire(4, 13, 22, 31, 40, 49, 58))
+    assert has(seen, sight.at(40), "orange", radius=2)
+
+
+def test_a_wire_that_is_not_final_is_paler(sight: Sight) -> None:
+    at = sight.at(38, 39)
+    final = sight.pixels(active=sight.wire(*range(36, 45)))
+    preview = sight.pixels(preliminary=True)
+    assert amount(preview, at, "orange", chroma=0.6, radius=2) < amount(final, at, "orange", chroma=0.6, radius=2) / 2
+    assert has(preview, at, "orange", chroma=0.2)
+
+
+def test_a_hovered_seed_is_larger_and_the_closing_point_ringed(sight: Sight) -> None:
+    at = sight.at(40)
+    plain = sight.pixels(placed=(40, 50))
+    assert bright(plain, at, 9) > 30
+    assert not has(plain, at, "orange", radius=9)
+    hovered = sight.pixels(hovered_seed=40)
+    assert bright(hovered, at, 9) > bright(plain, at, 9) * 1.3
+    assert has(hovered, at, "orange", radius=9)
+    assert not has(hovered, sight.at(50), "orange", radius=9), "the others stay as they were"
+    closing = sight.pixels(hovered_seed=None, closing_point=40)
+    assert has(closing, at, "green", radius=10)
+    both = sight.pixels(hovered_seed=40)
+    assert has(both, at, "green", radius=10)
+
+
+def test_the_seed_of_the_live_wire_is_told_from_the_others(sight: Sight) -> None:
+    seen = sight.pixels(placed=(40, 50), seed_place=50)
+    assert has(seen, sight.at(50), "orange", radius=8)
+    assert not has(seen, sight.at(40), "orange", radius=8)
+
+
+def test_a_seed_on_an_edge_is_shown_on_its_middle(sight: Sight) -> None:
+    seen = sight.pixels(placed=((40, 41),))
+    assert bright(seen, sight.at(40, 41), 5) > 20
+    assert bright(seen, sight.at(41), 5) == 0
+
+
+def test_wires_follow_a_dragged_seed(sight: Sight) -> None:
+    kept = sight.wire(*range(36, 45))
+    moved = Wire("EDGES", (36, 45, 54), sight.arrays.points[[36, 45, 54]], 36, 54, id=kept.id)
+    seen = sight.pixels(wires=(kept,), moved=(moved,))
+    assert has(seen, sight.at(36, 45), "orange")
+    assert not has(seen, sight.at(40, 41), "red"), "no longer where it was"
+    back = sight.pixels(moved=())
+    assert has(back, sight.at(40, 41), "red")
+
+
+def test_a_hovered_wire_is_lit(sight: Sight) -> None:
+    kept = sight.wire(*range(36, 45))
+    plain = sight.pixels(wires=(kept,))
+    lit = sight.pixels(hovered_wire=kept)
+    at = sight.at(40, 41)
+    assert bright(lit, at, 6) > bright(plain, at, 6) + 10
+    assert has(lit, at, "red")
+
+
+def test_mirrored_wires_are_thinner_than_the_wire(sight: Sight) -> None:
+    kept, image = sight.wire(*range(9, 18)), sight.wire(*range(63, 72))
+    seen = sight.pixels(wires=(kept,), images={kept.id: [image]})
+    own, other = amount(seen, sight.at(12, 13), "red", 0.3), amount(seen, sight.at(66, 67), "red", 0.3)
+    assert 0 < other < 0.75 * own
+    live = sight.pixels(wires=(), active=kept)
+    assert amount(live, sight.at(12, 13), "orange", 0.3) > amount(live, sight.at(66, 67), "orange", 0.3) > 0
+
+
+def test_the_loop_and_the_run_to_the_end_are_previewed(sight: Sight) -> None:
+    loop = sight.wire(30, 31, 32, 41, 50, 49, 48, 39)
+    end = sight.wire(*range(9, 18))
+    seen = sight.pixels(loop_preview=loop, end_preview=end)
+    assert has(seen, sight.at(31, 32), "green")
+    assert sum(has(seen, sight.at(a, b), "orange", radius=6) for a, b in pairwise(range(9, 18))) >= 7
+    angle, chroma = hue_and_strength(profile(seen, sight.at(10), sight.at(16)))
+    on = (chroma > 0.4) & (angle > 30) & (angle < 60)
+    assert np.count_nonzero(on[:-1] & ~on[1:]) >= 5, "dashed"
+
+
+def test_what_a_click_would_take_is_lit_in_its_own_way(sight: Sight) -> None:
+    at = sight.at(40)
+    empty = sight.pixels()
+    assert bright(empty, at, 7) == 0
+    assert bright(sight.pixels(target=Snap(40)), at, 7) > 20
+    on_wire = sight.pixels(target=Snap(40, "WIRE"))
+    assert has(on_wire, at, "red", radius=8)
+    assert has(sight.pixels(target=Snap(40, "FEATURE")), at, "blue", chroma=0.25, radius=8)
+    assert bright(sight.pixels(target=Snap((40, 41))), sight.at(40, 41), 4) > 8
+    assert bright(sight.pixels(target=None), at, 7) == 0
+
+
+def halves(triangles: NDArray[np.int32], cuts: NDArray[np.int32]) -> NDArray[np.int32]:
+    """Label the triangles of the grid by the side of its middle row that they are on, where that row is cut."""
+    below = (triangles // SIDE).max(axis=1) <= 4
+    return (~below).astype(np.int32) if len(cuts) >= 8 else np.zeros(len(triangles), dtype=np.int32)
+
+
+def test_segments_are_tinted_apart_and_counted(sight: Sight) -> None:
+    triangles = sight.arrays.triangles
+    sight.overlay.remove()
+    maker = SegmentMaker(triangles, lambda cuts: halves(triangles, cuts))
+    sight.overlay = sight.make(triangles=triangles, segments=maker)
+    inside = [tuple(np.add(sight.at(v, v + 10), (0.0, 0.0))) for v in (19, 55)]
+    plain = sight.pixels()
+    cut = sight.pixels(wires=(sight.wire(*range(36, 45)),))
+    below, above = (around(cut, at, 2)[..., :3].mean(axis=(0, 1)) for at in inside)
+    before = around(plain, inside[0], 2)[..., :3].mean(axis=(0, 1))
+    assert np.abs(below - before).max() > 0.03, "tinted"
+    assert np.abs(below - above).max() > 0.05, "each in its own hue"
+    assert np.abs(below - before).max() < 0.35, "softly"
+    one, two = text_pixels(plain), text_pixels(cut)
+    assert one.any(), "there is text in the corner"
+    assert (one != two).any(), "which counts the segments"
+
+
+def text_pixels(pixels: NDArray[np.float32]) -> NDArray[np.bool_]:
+    """Return which pixels of the lower left corner, beside the toolbar, are as light as text."""
+    return pixels[:90, 40:330, :3].min(axis=-1) > 0.6
+
+
+def test_the_text_tells_of_strength_clearing_and_mirror(sight: Sight) -> None:
+    seen = [
+        text_pixels(sight.pixels(**said))
+        for said in ({}, {"strength": 15.6}, {"marking": False}, {"mirror_axes": (0,)}, {"along": "SURFACE"})
+    ]
+    for one, two in pairwise(seen):
+        assert (one != two).sum() > 5
+    assert all(one.sum() > 40 for one in seen)
+
+
+def test_the_table_of_keys_is_laid_over_a_dark_ground(sight: Sight) -> None:
+    rows = [("", "Seamwire"), *((f"Key {i}", f"Does the thing of number {i}") for i in range(20))]
+    sight.overlay.help_rows = rows
+    seen = sight.pixels()
+    region = sight.ui.region
+    middle = (region.width / 2, region.height / 2)
+    assert dark(seen, middle, 60) > 0.5 * 121**2
+    assert has(seen, middle, "orange", chroma=0.4, radius=100) or has(seen, middle, "orange", chroma=0.4, radius=180)
+    sight.overlay.help_rows = None
+    assert dark(sight.pixels(), middle, 60) < 0.2 * 121**2
+
+
+def test_nothing_is_left_when_the_overlay_is_removed(sight: Sight) -> None:
+    before = sight.pixels(active=sight.wire(*range(36, 45)), placed=(36,))
+    assert has(before, sight.at(38, 39), "orange")
+    sight.overlay.remove()
+    after = sight.pixels()
+    assert not has(after, sight.at(38, 39), "orange")
+    assert not text_pixels(after).any()
+
+
+def test_an_error_is_kept_and_nothing_more_drawn(sight: Sight) -> None:
+    sight.session.seeds = lambda: 1 / 0
+    sight.session.say()
+    sight.ui.wait(redraw=True)
+    error, sight.overlay.error = sight.overlay.error, None
+    assert isinstance(error, ZeroDivisionError)
+
+
+def test_styles_are_told_apart_by_more_than_their_hue() -> None:
+    looks = Looks.of()
+    styles: list[Style] = [looks.active, looks.other, looks.kept, looks.clear, looks.mirrored, looks.loop]
+    told = {(round(sum(style.colour[:3]), 1), style.width, style.dash) for style in styles}
+    assert len(told) == len(styles)
+    assert looks.widened(2.0).active.width == 2.0 * looks.active.width
+
+
+def test_the_overlay_follows_the_object(sight: Sight) -> None:
+    seen = sight.pixels(active=sight.wire(*range(36, 45)))
+    at = sight.at(38, 39)
+    assert has(seen, at, "orange")
+    sight.obj.location = (0.0, 0.4, 0.0)
+    bpy.context.view_layer.update()
+    moved = sight.pixels()
+    assert not has(moved, at, "orange")
+    x, y = sight.ui.on_screen(tuple(np.add(sight.arrays.points[[38, 39]].mean(axis=0), (0.0, 0.4, 0.0))))
+    assert has(moved, (x, y), "orange")
+    assert bmesh.from_edit_mesh(sight.obj.data).is_valid
