@@ -17,7 +17,7 @@ from .paint import Eye, Faces, Lines, blended, draw_dots
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from .network import Edge, Pick, Wire
     from .segments import SegmentMaker
@@ -73,6 +73,8 @@ class Overlay:
         (m, 3) the visible faces, for the tint of segments.
     segments
         Computes the segments of those triangles; None: they are not shown.
+    seams
+        (s, 2) the edges that are seams already.
     preferences
         The add-on's, see `Looks.of`.
 
@@ -101,6 +103,7 @@ class Overlay:
         *,
         triangles: NDArray[np.int32] | None = None,
         segments: SegmentMaker | None = None,
+        seams: ArrayLike = (),
         preferences: object | None = None,
     ) -> None:
         self._session = session
@@ -108,6 +111,7 @@ class Overlay:
         self._points = points
         self._triangles = triangles
         self._segments = segments
+        self._seams = np.asarray(seams, dtype=np.int32).reshape(-1, 2)
         self._preferences = preferences
         self._to_object = Matrix(to_object.tolist()).to_4x4()
         self._looks = self._current_looks()
@@ -156,7 +160,7 @@ class Overlay:
             return False
         if self._stale:
             self._asked = self._session.network_revision
-            self._segments.want(self._asked, cuts(self._session))
+            self._segments.want(self._asked, cuts(self._session, self._seams))
         newest = self._segments.newest
         return newest is not None and newest.key != self._tinted
 
@@ -307,9 +311,9 @@ class Overlay:
         sheet.dot(styles.get(snap.to, looks.dot), snap.pick)
 
 
-def cuts(session: Session) -> NDArray[np.int32]:
-    """Return the edges, (c, 2), that will be seams when the session is kept."""
-    edges = set(map(tuple, np.asarray(session.seams, dtype=np.int32).reshape(-1, 2).tolist()))
+def cuts(session: Session, seams: NDArray[np.int32]) -> NDArray[np.int32]:
+    """Return the edges, (c, 2), that will be seams when the session is kept, where some are seams already."""
+    edges = set(map(tuple, np.sort(seams, axis=1).tolist()))
     edges.update(session.edges_to_mark())
     edges.difference_update(session.edges_to_clear())
     return np.array(sorted(edges), dtype=np.int32).reshape(-1, 2)

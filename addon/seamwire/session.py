@@ -177,6 +177,12 @@ class Session:
         return seed.vertex if self.along == "SURFACE" else seed.pick
 
     @property
+    def seed_place(self) -> Pick | None:
+        """Where that seed is shown, as `seeds` has it."""
+        seed = self._network.seed
+        return None if seed is None else undirected(seed.vertex if self.along == "SURFACE" else seed.place)
+
+    @property
     def target(self) -> Snap | None:
         """What is under the cursor, or what the oldest waiting click asked for."""
         return self._live.target
@@ -194,6 +200,11 @@ class Session:
         if other is None or (active is not None and active.like(other)):
             return None
         return other
+
+    @property
+    def preliminary(self) -> bool:
+        """Whether the active wire is still being computed: what is shown is not yet what a click would keep."""
+        return self.active is not None and not self._active_final()
 
     @property
     def loop_preview(self) -> Wire | None:
