@@ -12,6 +12,7 @@ from pathlib import Path
 
 import addon_utils
 import bpy
+import numpy as np
 
 REPEATS = 5
 IMPORTERS = {
@@ -45,7 +46,7 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, float]:
     steps["read"] = watch.lap()
     wires = session.Session(board.live_maker(arrays), arrays.points, along)
     steps["surface"] = watch.lap()
-    picking.Picker(cage.bm, 1.0)
+    picking.Picker(cage.bm, arrays).depth(picking.View(1.0, 1.0, np.eye(4)), obj.matrix_world, (0.5, 0.5))
     steps["picker"] = watch.lap()
     wires.wait()
     steps["metrics"] = watch.lap()

@@ -1,23 +1,28 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is under the cursor: the edge or the vertex nearest to it on the visible part of an edit mesh."""
+"""What is under the cursor: a seed, a wire, a seam, or the edge or vertex nearest to it on the visible part of an edit mesh."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 from mathutils import Vector
 from mathutils.bvhtree import BVHTree
 
+from .network import Snap
+
 if TYPE_CHECKING:
     import bmesh
     import bpy
     from mathutils import Matrix
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
-    from .network import Pick
+    from .edit_mesh import Arrays
+    from .network import Pick, Wire
+    from .session import Session
 
 VERTEX_RADIUS = 12.0
 """Pixels around a vertex in which it is picked rather than its edge..."""
@@ -25,7 +30,23 @@ VERTEX_SHARE = 0.25
 """...but never over more than this part of the edge, so that every edge can be picked."""
 REACH = 14.0
 """Pixels beside the mesh in which it is still found: rims and silhouettes are hard to hit."""
+SEED_REACH = 9.0
+"""Pixels beside a seed in which it is found..."""
+WIRE_REACH = 6.0
+"""...beside a wire..."""
+SEAM_REACH = 4.0
+"""...and beside a seam: narrower, for meshes have many, and they must not keep the edges next to them from being picked."""
+FEATURE_REACH = 10.0
+"""Pixels in which the strongest feature is looked for."""
+FEATURE_QUANTILE = 0.75
+"""A vertex counts as a feature from this share of all vertices' strengths on: on a plain nothing is stronger than noise."""
 _MAX_HIDDEN_LAYERS = 256
+_MAX_NEAR = 400
+"""Vertices that are looked at for a feature: what a far view has within a few pixels more than this, nobody can tell apart."""
+_MAX_OWNERS = 6
+"""Wires under one cursor that are tried for one that is not hidden."""
+_FEW_EDGES = 50_000
+"""So many are projected all; of more, those at the vertices that are near."""
 
 
 @dataclass(frozen=True)
@@ -49,6 +70,11 @@ class View:
         """Return the view of a 3D region."""
         return cls(region.width, region.height, np.array(region_3d.perspective_matrix, dtype=np.float64))
 
+    @cached_property
+    def inverse(self) -> NDArray[np.float64]:
+        """(4, 4), takes clip space to world coordinates."""
+        return np.linalg.inv(self.perspective)
+
     def to_pixels(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Project (n, 3) world points to (n, 2) pixels from the bottom left; NaN behind the viewer."""
         clip = points @ self.perspective[:, :3].T + self.perspective[:, 3]
@@ -58,9 +84,107 @@ class View:
     def ray(self, cursor: tuple[float, float]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return two world points on the line that a pixel shows, on the near and on the far plane."""
         x, y = 2.0 * cursor[0] / self.width - 1.0, 2.0 * cursor[1] / self.height - 1.0
-        ends = np.array([[x, y, -1.0, 1.0], [x, y, 1.0, 1.0]]) @ np.linalg.inv(self.perspective).T
+        ends = np.array([[x, y, -1.0, 1.0], [x, y, 1.0, 1.0]]) @ self.inverse.T
         ends = ends[:, :3] / ends[:, 3:]
         return ends[0], ends[1]
+
+    def pixel_size(self, point: NDArray[np.float64]) -> float:
+        """Return how far apart two world points are that are seen a pixel apart, as far away as a point."""
+        clip = self.perspective @ (*point, 1.0)
+        beside = self.inverse @ np.add(clip, (2.0 / self.width * clip[3], 0.0, 0.0, 0.0))
+        return float(np.linalg.norm(beside[:3] / beside[3] - point))
+
+
+class Projected:
+    """Points and where they are seen, computed anew only when the view or the object has moved.
+
+    Parameters
+    ----------
+    points
+        (n, 3) in object coordinates.
+    """
+
+    def __init__(self, points: NDArray[np.float64]) -> None:
+        self.points = points
+        self._key: tuple[object, ...] = ()
+        self._found: tuple[NDArray, ...] = ()
+
+    def seen(self, view: View, matrix: Matrix) -> tuple[NDArray, NDArray, NDArray]:
+        """Return x and y in pixels and the depth, larger farther away; NaN behind the viewer."""
+        world = np.array(matrix, dtype=np.float64)
+        key = (view.width, view.height, view.perspective.tobytes(), world.tobytes())
+        if key != self._key:
+            to_clip = (view.perspective @ world).astype(self.points.dtype)
+            clip = self.points @ to_clip[:, :3].T
+            clip += to_clip[:, 3]
+            with np.errstate(divide="ignore", invalid="ignore"):
+                w = np.where(clip[:, 3] > 1e-9, clip[:, 3], np.nan)
+                self._found = tuple(
+                    np.ascontiguousarray(part)
+                    for part in (
+                        (clip[:, 0] / w + 1.0) * (0.5 * view.width),
+                        (clip[:, 1] / w + 1.0) * (0.5 * view.height),
+                        clip[:, 2] / w,
+                    )
+                )
+            self._key = key
+        return self._found
+
+    def near(self, view: View, matrix: Matrix, cursor: tuple[float, float], radius: float) -> NDArray[np.int64]:
+        """Return the rows of the points that are seen in a square around the cursor."""
+        x, y, _ = self.seen(view, matrix)
+        rows = np.flatnonzero(np.abs(x - cursor[0]) <= radius)
+        return rows[np.abs(y[rows] - cursor[1]) <= radius]
+
+
+class _Segments:
+    """Straight pieces of curves, each with the number of its owner.
+
+    Parameters
+    ----------
+    curves
+        Each (k, 3), in object coordinates.
+    """
+
+    def __init__(self, curves: list[NDArray[np.float64]]) -> None:
+        none = np.empty((0, 3))
+        self.starts = Projected(np.concatenate([none, *(curve[:-1] for curve in curves)]))
+        self.ends = Projected(np.concatenate([none, *(curve[1:] for curve in curves)]))
+        self.owners = np.repeat(np.arange(len(curves)), [max(len(curve) - 1, 0) for curve in curves])
+
+    def near(
+        self, view: View, matrix: Matrix, cursor: tuple[float, float], radius: float
+    ) -> Iterator[tuple[int, NDArray[np.float64]]]:
+        """Yield owners and their points under the cursor, nearest first, each owner once."""
+        if not len(self.owners):
+            return
+        point = np.array(cursor)
+        starts = np.stack(self.starts.seen(view, matrix)[:2], axis=1)
+        along = np.stack(self.ends.seen(view, matrix)[:2], axis=1) - starts
+        square = np.einsum("ij,ij->i", along, along)
+        part = np.einsum("ij,ij->i", point - starts, along) / np.where(square > 0.0, square, 1.0)
+        part = np.clip(part, 0.0, 1.0)[:, None]
+        gaps = np.linalg.norm(starts + part * along - point, axis=1)
+        rows = np.flatnonzero(gaps <= radius)
+        done: set[int] = set()
+        for row in rows[np.argsort(gaps[rows], kind="stable")].tolist():
+            owner = int(self.owners[row])
+            if owner not in done and len(done) < _MAX_OWNERS:
+                done.add(owner)
+                start, end = self.starts.points[row], self.ends.points[row]
+                # Halves on the screen are not halves in space where there is perspective; near enough for a few pixels.
+                yield owner, start + part[row] * (end - start)
+
+
+@dataclass(frozen=True)
+class _Drawn:
+    """What of a network can be found by the cursor, in object coordinates."""
+
+    key: object
+    picks: tuple[Pick, ...]
+    seeds: Projected
+    wires: tuple[Wire, ...]
+    curves: _Segments
 
 
 def nearest_edge(
@@ -96,6 +220,13 @@ def nearest_edge(
     return index, end if to_ends[end] <= radius else None
 
 
+def _gap(point: tuple[float, float], start: NDArray[np.float64], end: NDArray[np.float64]) -> float:
+    """Return how far a point is from a segment."""
+    along = end - start
+    part = np.clip(np.dot(np.asarray(point) - start, along) / max(float(np.dot(along, along)), 1e-12), 0.0, 1.0)
+    return float(np.linalg.norm(start + part * along - point))
+
+
 class Picker:
     """Finds what is under the cursor on one edit mesh.
 
@@ -103,16 +234,237 @@ class Picker:
     ----------
     bm
         The edit mesh. Its topology and its coordinates must stay as they are while the picker is used.
-    size
-        How large it is, in object coordinates, in any direction: a measure for steps that are small beside it.
+    arrays
+        The same as arrays.
+    seams
+        (s, 2) the edges that are seams already.
+
+    Notes
+    -----
+    Blender's tree of the faces is built at the first question: 0.3 to 1 s for a million triangles, during which Blender
+    stands still.
     """
 
-    def __init__(self, bm: bmesh.types.BMesh, size: float) -> None:
+    def __init__(self, bm: bmesh.types.BMesh, arrays: Arrays, seams: ArrayLike = ()) -> None:
         self._bm = bm
-        self._tree = BVHTree.FromBMesh(bm)
+        self._points = arrays.points
+        self._to_object = arrays.to_object
+        self._all_edges = arrays.edges
+        extent = np.ptp(arrays.points, axis=0).max() if len(arrays.points) else 1.0
+        self._step = max(1e-6 * float(extent), 1e-12)
+        self._seam_edges = np.asarray(seams, dtype=np.int64).reshape(-1, 2)
+        self._drawn: _Drawn | None = None
+        self._strength: tuple[object, float] = (None, 0.0)
         bm.verts.ensure_lookup_table()
         bm.faces.ensure_lookup_table()
-        self._step = max(1e-6 * size, 1e-12)
+
+    @cached_property
+    def _tree(self) -> BVHTree:
+        return BVHTree.FromBMesh(self._bm)
+
+    @cached_property
+    def _seams(self) -> _Segments:
+        ends = self._in_object(self._points[self._seam_edges.reshape(-1)]).reshape(-1, 2, 3)
+        return _Segments(list(ends))
+
+    @cached_property
+    def _vertices(self) -> tuple[NDArray[np.int32], Projected]:
+        """Return the vertices that are not hidden, and their coordinates."""
+        numbers = np.unique(self._all_edges)
+        return numbers, Projected(self._in_object(self._points[numbers]).astype(np.float32))
+
+    def _in_object(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.asarray(points) @ self._to_object.T
+
+    def snap(
+        self,
+        view: View,
+        matrix: Matrix,
+        cursor: tuple[float, float],
+        *,
+        vertices_only: bool,
+        session: Session | None = None,
+        xray: bool = False,
+        strength: NDArray[np.float64] | None = None,
+        scale: float = 1.0,
+    ) -> Snap | None:
+        """Return what a click would take: a seed before a wire, a wire before a seam, a seam before the plain mesh.
+
+        Parameters
+        ----------
+        view
+            The view it is seen in.
+        matrix
+            The object's matrix; may rotate, scale and shear.
+        cursor
+            Pixels from the region's bottom left.
+        vertices_only
+            Find vertices of the mesh alone.
+        session
+            Whose seeds and wires can be found; without it neither they nor seams are.
+        xray
+            Find what lies behind faces too; the nearest on the screen.
+        strength
+            (n,) how strong the feature is at each vertex; then the strongest one nearby is taken.
+        scale
+            Of the display.
+        """
+        if abs(matrix.determinant()) < 1e-30:
+            return None
+        if session is not None:
+            found = self._drawn_at(session, view, matrix, cursor, xray, scale)
+            if found is not None:
+                return found
+        if xray:
+            pick = self._pick_through(view, matrix, cursor, vertices_only, scale)
+        else:
+            pick = self.pick(view, matrix, cursor, vertices_only, REACH * scale)
+        if pick is None or strength is None:
+            return None if pick is None else Snap(pick)
+        feature = self._feature_at(view, matrix, cursor, pick, strength, xray, scale)
+        return Snap(pick) if feature is None else Snap(feature, "FEATURE")
+
+    def depth(self, view: View, matrix: Matrix, cursor: tuple[float, float]) -> float | None:
+        """Return how far away the face under the cursor is, in world units from the near plane; None: there is none."""
+        if abs(matrix.determinant()) < 1e-30:
+            return None
+        hit = self._cast(view, matrix, cursor)
+        return None if hit is None else float(np.linalg.norm(np.array(matrix @ hit[1]) - view.ray(cursor)[0]))
+
+    # Seeds, wires, seams
+
+    def _drawn_at(
+        self, session: Session, view: View, matrix: Matrix, cursor: tuple[float, float], xray: bool, scale: float
+    ) -> Snap | None:
+        drawn = self._drawn_now(session)
+
+        def free(place: NDArray[np.float64]) -> bool:
+            return xray or self._visible(view, matrix, place)
+
+        rows = drawn.seeds.near(view, matrix, cursor, SEED_REACH * scale)
+        x, y, _ = drawn.seeds.seen(view, matrix)
+        gaps = np.hypot(x[rows] - cursor[0], y[rows] - cursor[1])
+        for i in np.argsort(gaps, kind="stable").tolist():
+            if gaps[i] <= SEED_REACH * scale and free(drawn.seeds.points[rows[i]]):
+                return Snap(drawn.picks[rows[i]], "SEED")
+        for owner, place in drawn.curves.near(view, matrix, cursor, WIRE_REACH * scale):
+            if free(place):
+                wire = drawn.wires[owner]
+                numbers = np.array(wire.vertices)
+                away = np.linalg.norm(self._in_object(self._points[numbers]) - place, axis=1)
+                return Snap(int(numbers[np.argmin(away)]), "WIRE", wire)
+        for owner, place in self._seams.near(view, matrix, cursor, SEAM_REACH * scale):
+            if free(place):
+                pair = self._seam_edges[owner]
+                away = np.linalg.norm(self._in_object(self._points[pair]) - place, axis=1)
+                return Snap(int(pair[np.argmin(away)]), "SEAM")
+        return None
+
+    def _drawn_now(self, session: Session) -> _Drawn:
+        """Return what can be found of a session's network. Of a dragged seed, neither it nor its wires: they follow."""
+        moved = {wire.id for wire in session.moved}
+        picks = tuple(session.seeds())
+        key = (id(session), session.network_revision, picks, tuple(sorted(moved)))
+        if self._drawn is not None and self._drawn.key == key:
+            return self._drawn
+        followed = {end for wire in session.wires if wire.id in moved for end in (wire.start, wire.end)}
+        followed |= {end[::-1] for end in followed if isinstance(end, tuple)}
+        picks = tuple(pick for pick in picks if pick not in followed)
+        places = [np.mean(self._points[list(p) if isinstance(p, tuple) else [p]], axis=0) for p in picks]
+        wires = tuple(wire for wire in session.wires if wire.id not in moved)
+        self._drawn = _Drawn(
+            key,
+            picks,
+            Projected(self._in_object(np.array(places).reshape(-1, 3))),
+            wires,
+            _Segments([self._in_object(wire.points) for wire in wires]),
+        )
+        return self._drawn
+
+    def _visible(self, view: View, matrix: Matrix, place: NDArray[np.float64]) -> bool:
+        """Whether nothing lies before a point, but for what is nearer by no more than a few pixels: it may lie in a crease."""
+        world = np.array(matrix @ Vector(place))
+        at = view.to_pixels(world[None])[0]
+        if np.isnan(at).any():
+            return False
+        hit = self._cast(view, matrix, (float(at[0]), float(at[1])))
+        if hit is None:
+            return True
+        near = view.ray((float(at[0]), float(at[1])))[0]
+        before = np.linalg.norm(world - near) - np.linalg.norm(np.array(matrix @ hit[1]) - near)
+        return bool(before <= 6.0 * view.pixel_size(world))
+
+    # Features
+
+    def _feature_at(
+        self,
+        view: View,
+        matrix: Matrix,
+        cursor: tuple[float, float],
+        pick: Pick,
+        strength: NDArray[np.float64],
+        xray: bool,
+        scale: float,
+    ) -> int | None:
+        """Return the vertex of the strongest feature within reach, going from what is under the cursor over the mesh."""
+        if self._strength[0] is not strength:
+            self._strength = (strength, float(np.quantile(strength, FEATURE_QUANTILE)) if len(strength) else 0.0)
+        radius = FEATURE_REACH * scale
+        frontier = [self._bm.verts[v] for v in (pick if isinstance(pick, tuple) else (pick,))]
+        seen = {v.index for v in frontier}
+        near: list[int] = []
+        while frontier and len(seen) < _MAX_NEAR:
+            world = np.array([matrix @ v.co for v in frontier], dtype=np.float64)
+            gaps = np.linalg.norm(view.to_pixels(world) - np.asarray(cursor), axis=1)
+            inside = [v for v, gap in zip(frontier, gaps, strict=True) if gap <= radius]
+            near += [v.index for v in inside]
+            frontier = []
+            for v in inside:
+                for edge in v.link_edges:
+                    other = edge.other_vert(v)
+                    if not edge.hide and other.index not in seen:
+                        seen.add(other.index)
+                        frontier.append(other)
+        for vertex in sorted(near, key=lambda v: -strength[v])[:4]:
+            if strength[vertex] <= self._strength[1]:
+                return None
+            if xray or self._visible(view, matrix, np.array(self._bm.verts[vertex].co)):
+                return vertex
+        return None
+
+    # The mesh
+
+    def _pick_through(
+        self, view: View, matrix: Matrix, cursor: tuple[float, float], vertices_only: bool, scale: float
+    ) -> Pick | None:
+        """Return the vertex or edge that is nearest on the screen, however much lies before it."""
+        numbers, projected = self._vertices
+        x, y, depth = projected.seen(view, matrix)
+        for radius in (REACH * scale, 5.0 * REACH * scale):
+            rows = projected.near(view, matrix, cursor, radius)
+            if len(rows):
+                break
+        if vertices_only:
+            if not len(rows):
+                return None
+            gaps = np.hypot(x[rows] - cursor[0], y[rows] - cursor[1])
+            same = rows[gaps <= gaps.min() + 1.0]  # of those at the same place, the one in front
+            return int(numbers[same[np.argmin(depth[same])]])
+        if len(self._all_edges) <= _FEW_EDGES:
+            pairs = self._all_edges
+        else:
+            gaps = np.hypot(x[rows] - cursor[0], y[rows] - cursor[1])
+            nearest = numbers[rows[np.argsort(gaps)[:_MAX_NEAR]]]
+            edges = {e for v in nearest.tolist() for e in self._bm.verts[v].link_edges if not e.hide}
+            pairs = np.array([[v.index for v in e.verts] for e in edges], dtype=np.int64).reshape(-1, 2)
+        at = np.searchsorted(numbers, pairs)
+        screen = np.stack([x, y], axis=1)
+        starts, ends = screen[at[:, 0]], screen[at[:, 1]]
+        index, end = nearest_edge(cursor, starts, ends)
+        if index < 0 or _gap(cursor, starts[index], ends[index]) > 5.0 * REACH * scale:
+            return None
+        pair = (int(pairs[index, 0]), int(pairs[index, 1]))
+        return pair if end is None else pair[end]
 
     def pick(
         self, view: View, matrix: Matrix, cursor: tuple[float, float], vertices_only: bool, reach: float = REACH
@@ -161,32 +513,25 @@ class Picker:
         self, view: View, matrix: Matrix, cursor: tuple[float, float], reach: float
     ) -> Iterator[bmesh.types.BMFace]:
         """Yield the face under the cursor; where there is none, those just beside it."""
-        face = self._cast(view, matrix, cursor)
-        if face is not None:
-            yield face
+        hit = self._cast(view, matrix, cursor)
+        if hit is not None:
+            yield hit[0]
             return
         for radius in (0.5 * reach, reach):
             found = False
             for turn in np.arange(8) * (np.pi / 4.0):
                 beside = (cursor[0] + radius * float(np.cos(turn)), cursor[1] + radius * float(np.sin(turn)))
-                face = self._cast(view, matrix, beside)
-                if face is not None:
+                hit = self._cast(view, matrix, beside)
+                if hit is not None:
                     found = True
-                    yield face
+                    yield hit[0]
             if found:
                 return
 
-    def depth(self, view: View, matrix: Matrix, cursor: tuple[float, float]) -> float | None:
-        """Return how far behind the near plane the mesh is under the cursor; None where it is not."""
-        hit = self._hit(view, matrix, cursor) if abs(matrix.determinant()) >= 1e-30 else None
-        return None if hit is None else (matrix @ hit[1] - Vector(view.ray(cursor)[0])).length
-
-    def _cast(self, view: View, matrix: Matrix, cursor: tuple[float, float]) -> bmesh.types.BMFace | None:
-        """Return the first face that is not hidden along the line that a pixel shows."""
-        hit = self._hit(view, matrix, cursor)
-        return None if hit is None else hit[0]
-
-    def _hit(self, view: View, matrix: Matrix, cursor: tuple[float, float]) -> tuple[bmesh.types.BMFace, Vector] | None:
+    def _cast(
+        self, view: View, matrix: Matrix, cursor: tuple[float, float]
+    ) -> tuple[bmesh.types.BMFace, Vector] | None:
+        """Return the first face that is not hidden along the line that a pixel shows, and where, in object coordinates."""
         near, far = view.ray(cursor)
         inverse = matrix.inverted()
         origin, end = inverse @ Vector(near), inverse @ Vector(far)
@@ -205,7 +550,7 @@ class Picker:
     def _surroundings(face: bmesh.types.BMFace, view: View, matrix: Matrix) -> Iterator[bmesh.types.BMEdge]:
         """Yield the edges of a face and of those around it that turn the same side to the viewer."""
         # (0, 0, -1, 0) in clip space is the eye, or the direction to it where there is no perspective.
-        *eye, weight = np.linalg.inv(view.perspective) @ (0.0, 0.0, -1.0, 0.0)
+        *eye, weight = view.inverse @ (0.0, 0.0, -1.0, 0.0)
         to_eye = Vector(eye)
         normals = matrix.to_3x3().inverted().transposed()
 
