@@ -10,17 +10,19 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from . import edit_mesh, native, overlay, picking, preferences, session, storage
+from . import edit_mesh, native, overlay, picking, preferences, segments, session, storage
 from .eventual import EventualLive, Eventually
-from .network import Snap, undirected
+from .looks import HUES
 from .ui import count
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
     from types import ModuleType
 
+    from numpy.typing import NDArray
+
     from .live import LiveWire
-    from .network import Along, Edge, Pick, Wire
+    from .network import Along, Edge, Snap, Wire
     from .tool import SeamwireSettings
 
 KEY = "seamwire"
@@ -37,10 +39,15 @@ def live_maker(arrays: edit_mesh.Arrays) -> Callable[[Along], LiveWire]:
     return lambda along: _live(core, surface, along)
 
 
-def eventual_maker(arrays: edit_mesh.Arrays) -> Callable[[Along], LiveWire]:
-    """Return the same, that makes them on threads: at a million faces it takes most of a second."""
+def eventual_surface(arrays: edit_mesh.Arrays) -> Eventually[object]:
+    """Return the library's surface, made on a thread: at a million faces it takes most of a second."""
     core = native.load()
-    surface = Eventually(lambda: core.Surface(arrays.points, arrays.triangles, arrays.edges))
+    return Eventually(lambda: core.Surface(arrays.points, arrays.triangles, arrays.edges))
+
+
+def maker_on(surface: Eventually[object]) -> Callable[[Along], LiveWire]:
+    """Return what makes live wires on a surface, on threads."""
+    core = native.load()
 
     def make(along: Along) -> LiveWire:
         return EventualLive(Eventually(lambda: _live(core, surface.get(), along)))
@@ -90,8 +97,11 @@ class Board:
         arrays = edit_mesh.read(obj)
         self._points = arrays.points
         self._edges = arrays.edges
+        self._settings = settings
+        self._strength: NDArray[np.float64] | None = None
+        surface = eventual_surface(arrays)
         self.session = session.Session(
-            eventual_maker(arrays),
+            maker_on(surface),
             arrays.points,
             settings.along,
             edges=arrays.edges,
@@ -102,19 +112,32 @@ class Board:
         self.session.set_metric(settings.metric)
         self._mesh_mirror: tuple[int, ...] = ()
         self.follow_mirror()
-        size = (arrays.points.max(axis=0) - arrays.points.min(axis=0)).max()
-        self._picker = picking.Picker(self.cage.bm, float(size))
+        self._picker = picking.Picker(self.cage.bm, arrays, arrays.seams)
         self._network = self.session.network
         self._resumed: frozenset[Edge] = frozenset()
         self.symmetric: tuple[int, ...] | None = None
         self._looking = threading.Thread(target=self._look_for_symmetry, daemon=True)
         self._looking.start()
         self.offered = _set_aside.pop(self.cage.mesh.name, None) or self.cage.mesh.get(KEY)
-        self.overlay = overlay.Overlay(self.session, obj, arrays.points, arrays.to_object)
+        core = native.load()
+        self._segments = segments.SegmentMaker(
+            arrays.triangles, lambda cuts: core.face_segments(surface.get(), cuts), HUES
+        )
+        self.overlay = overlay.Overlay(
+            self.session,
+            obj,
+            arrays.points,
+            arrays.to_object,
+            triangles=arrays.triangles,
+            segments=self._segments,
+            seams=arrays.seams,
+            preferences=preferences.get(),
+        )
 
     def remove(self) -> None:
         """Stop drawing the overlay."""
         self.overlay.remove()
+        self._segments.close()
 
     def _look_for_symmetry(self) -> None:
         self.symmetric = self.session.symmetric_axes
@@ -129,7 +152,7 @@ class Board:
     def busy(self) -> bool:
         """Whether something is being computed: `poll` is to be called now and then."""
         drawing = self.session
-        return drawing.computing or drawing.waiting_clicks > 0 or self._looking.is_alive()
+        return drawing.computing or drawing.waiting_clicks > 0 or self._looking.is_alive() or self.overlay.busy
 
     @property
     def changes(self) -> bool:
@@ -143,9 +166,10 @@ class Board:
         except ReferenceError:
             return False
 
-    def poll(self) -> None:
-        """Take in what was computed."""
+    def poll(self) -> bool:
+        """Take in what was computed; return whether there are new segments to be seen."""
         self.session.poll()
+        return self.overlay.poll()
 
     def stepped(self) -> bool:
         """Whether there was a step since the last call that undo can take back."""
@@ -178,18 +202,20 @@ class Board:
 
     # What is under the cursor, and what is seen
 
-    def snap(self, view: picking.View, cursor: tuple[float, float]) -> Snap | None:
-        """Return what of the mesh is under the cursor."""
-        pick = self._picker.pick(view, self.obj.matrix_world, cursor, self.session.along == "SURFACE")
-        return None if pick is None else self._snap_of(pick)
-
-    def _snap_of(self, pick: Pick) -> Snap:
-        if undirected(pick) in self.session.seeds():
-            return Snap(undirected(pick), "SEED")
-        for wire in reversed(self.session.wires):
-            if pick in wire.vertices or (isinstance(pick, tuple) and undirected(pick) in wire.edges()):
-                return Snap(pick, "WIRE", wire)
-        return Snap(pick)
+    def snap(self, view: picking.View, cursor: tuple[float, float], plain: bool = False) -> Snap | None:
+        """Return what is under the cursor; `plain`: of the mesh alone, whatever was drawn on it."""
+        if self._settings.snap and self._strength is None:
+            self._strength = self.session.feature_strength()
+        return self._picker.snap(
+            view,
+            self.obj.matrix_world,
+            cursor,
+            vertices_only=self.session.along == "SURFACE",
+            session=None if plain else self.session,
+            xray=self._settings.xray,
+            strength=self._strength if self._settings.snap and not plain else None,
+            scale=bpy.context.preferences.system.ui_scale,
+        )
 
     def depth(self, view: picking.View, cursor: tuple[float, float]) -> float | None:
         """Return how far from the viewer the object is under the cursor; None where it is not."""
@@ -197,6 +223,10 @@ class Board:
 
     def show(self, settings: SeamwireSettings, front: bool, help_rows: Sequence[tuple[str, str]] | None) -> None:
         """Let the overlay follow."""
+        self.overlay.xray = settings.xray
+        self.overlay.features = settings.snap
+        self.overlay.front = front
+        self.overlay.help_rows = help_rows
 
     # The network, beyond this drawing
 

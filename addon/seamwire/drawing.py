@@ -237,8 +237,9 @@ class Drawing:
         return {"RUNNING_MODAL"}
 
     def _tick(self) -> set[str]:
-        for board in self.boards.values():
-            board.poll()
+        new = [board.poll() for board in self.boards.values()]
+        if any(new):
+            self._redraw()
         self._done()
         if self._finishing and not any(board.session.waiting_clicks for board in self.boards.values()):
             return {"FINISHED"}
@@ -280,7 +281,7 @@ class Drawing:
             self._done()
 
     def _click(self, action: Action, place: Place, event: bpy.types.Event) -> None:
-        board, snap = self._find(place)
+        board, snap = self._find(place, plain=action is Action.LOOP)
         if board is None or snap is None:
             return
         if board is not self.board:
@@ -434,7 +435,7 @@ class Drawing:
 
     def _hover(self, place: Place, event: bpy.types.Event) -> None:
         loop = self.keys.previews_loop(event)
-        board, snap = self._find(place)
+        board, snap = self._find(place, plain=loop)
         if board is not None and board is not self.board:
             self.session.hover(None)
             # A live wire stays with its object until there is a click on another.
@@ -452,8 +453,8 @@ class Drawing:
     def _turn_to(self, board: Board) -> None:
         self.board = board
 
-    def _find(self, place: Place) -> tuple[Board | None, network.Snap | None]:
-        """Return which object is under the mouse, and what of it."""
+    def _find(self, place: Place, plain: bool = False) -> tuple[Board | None, network.Snap | None]:
+        """Return which object is under the mouse, and what of it; `plain`: of the mesh alone, as loops need it."""
         near = [obj for obj in self._objects if self._may_be_at(obj, place)]
         found = [self._board_of(obj) for obj in near]
         if len(found) > 1:
@@ -464,7 +465,7 @@ class Drawing:
             elif self.board in found:
                 found.sort(key=lambda board: board is not self.board)
         for board in found:
-            snap = board.snap(place.view, place.cursor)
+            snap = board.snap(place.view, place.cursor, plain)
             if snap is not None:
                 return board, snap
         return (found[0], None) if found else (None, None)

@@ -277,6 +277,10 @@ class Session:
         """How strongly wires are drawn to features: the metric's largest anisotropy, for the way they run now."""
         return self._strengths[self.along]
 
+    def feature_strength(self) -> NDArray[np.float64] | None:
+        """Return how strong the feature is at each vertex; None while that is computed."""
+        return self._engine().feature_strength()
+
     @property
     def mirror_axes(self) -> tuple[int, ...]:
         """The axes, 0 to 2, over which wires are mirrored."""

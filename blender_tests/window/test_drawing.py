@@ -405,8 +405,8 @@ def test_wires_that_are_being_computed_come_when_they_are_ready(desk: Desk, monk
             nothing = type("Nothing", (), {"points": [], "vertices": [], "length": math.inf, "final": False})()
             return type("Wires", (), {"wires": (nothing, nothing), "shorter": 0, "final": False})()
 
-    make = board.live_maker
-    monkeypatch.setattr(board, "eventual_maker", lambda arrays: lambda along: Slow(make(arrays)(along)))
+    make = board.maker_on
+    monkeypatch.setattr(board, "maker_on", lambda surface: lambda along: Slow(make(surface)(along)))
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(36), ctrl=True)
     ui.click(desk.at(44))
