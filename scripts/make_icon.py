@@ -6,6 +6,7 @@ all triangles, a byte for x and y each, y upwards, then a colour of four bytes f
 what the tool does in green: a wire that runs over the cube's edge from one seed to another.
 """
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -44,7 +45,7 @@ def disc(centre: NDArray[np.float64], radius: float, colour: tuple[int, int, int
 
 def away_from(line: NDArray[np.float64], wire: NDArray[np.float64], gap: float) -> list[NDArray[np.float64]]:
     """Cut a line where it comes near the wire, so that the two can be told apart at the size of a toolbar."""
-    steps = np.concatenate([np.linspace(a, b, 60, endpoint=False) for a, b in zip(line[:-1], line[1:], strict=True)])
+    steps = np.concatenate([np.linspace(a, b, 60, endpoint=False) for a, b in pairwise(line)])
     steps = np.concatenate([steps, line[-1:]])
     free = np.linalg.norm(steps[:, None] - wire[None], axis=2).min(axis=1) > gap
     parts, begin = [], None
