@@ -4,8 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <memory>
+#include <numeric>
 #include <queue>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace seamwire {
@@ -34,7 +39,7 @@ constexpr std::uint8_t kNewestDepth = 40;
 // Splits between two reports of progress: about a millisecond.
 constexpr std::size_t kReportEvery = 1024;
 
-std::size_t index(OpenMesh::BaseHandle handle) { return static_cast<std::size_t>(handle.idx()); }
+std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 void check_metric(const Surface& surface, const Metric& metric) {
   const std::size_t n = surface.vertex_count();
@@ -49,187 +54,116 @@ void check_metric(const Surface& surface, const Metric& metric) {
   }
 }
 
+std::size_t budget(const Surface& surface) { return std::max(kLeastBudget, kBudget * surface.face_count()); }
+
 enum class Scheme {
   kPaper,      ///< an invalid triangle and the neighbour behind its longest edge are bisected, whatever the neighbour
   kPropagate,  ///< the neighbour is first bisected until the common edge is the right one for it too
 };
 
-/// A copy of the surface's half-edge mesh, refined in place. OpenMesh's ranges leave out what was merged away.
-class Refinement {
- public:
-  Refinement(const Surface& surface, const Metric& metric, const EmbedOptions& options, Scheme scheme);
+// Where the quadratic form of the ambient norm (metric.hpp) is one matrix: M + sqrt(l1 l2) n n^T.
+struct Node {
+  Vector point;                // in the caller's coordinates
+  std::array<double, 6> form;  // xx, yy, zz, 2 xy, 2 xz, 2 yz
 
-  /// False where more than `most` triangles would have to be added. Progress goes on from `progress`.
-  bool run(const Task& task, std::size_t most, double& progress);
-  Embedding result() const;
+  double norm(const Vector& e) const {
+    const double x = e.x(), y = e.y(), z = e.z();
+    const double squared =
+        form[0] * x * x + form[1] * y * y + form[2] * z * z + form[3] * x * y + form[4] * x * z + form[5] * y * z;
+    return std::sqrt(std::max(0.0, squared));
+  }
+};
+
+Node node_of(const Vector& point, const Vector& n, const Eigen::Matrix3d& m) {
+  const double w = normal_weight(m);
+  return {point,
+          {m(0, 0) + w * n.x() * n.x(), m(1, 1) + w * n.y() * n.y(), m(2, 2) + w * n.z() * n.z(),
+           2 * (m(0, 1) + w * n.x() * n.y()), 2 * (m(0, 2) + w * n.x() * n.z()), 2 * (m(1, 2) + w * n.y() * n.z())}};
+}
+
+/// Triangles glued along their edges, in flat arrays: half-edge 3 f + i runs from corner i of triangle f to the next.
+struct FlatMesh {
+  std::vector<Triangle> corners;
+  std::vector<std::int32_t> twins;
+
+  std::int32_t tail(std::int32_t h) const { return corners[index(h / 3)][index(h % 3)]; }
+  std::int32_t tip(std::int32_t h) const { return corners[index(h / 3)][index((h + 1) % 3)]; }
+};
+
+std::int32_t next(std::int32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
+
+// OpenMesh's faces in their order but for deleted ones, each from its first corner on, as OpenMesh lists them.
+FlatMesh flattened(const HalfEdgeMesh& mesh) {
+  FlatMesh flat;
+  flat.corners.reserve(mesh.n_faces());
+  flat.twins.reserve(3 * mesh.n_faces());
+  std::vector<std::int32_t> number(mesh.n_halfedges(), -1);
+  std::vector<std::int32_t> half_edges;
+  half_edges.reserve(3 * mesh.n_faces());
+  for (const FaceHandle f : mesh.faces()) {
+    const HalfedgeHandle last = mesh.halfedge_handle(f), first = mesh.next_halfedge_handle(last);
+    Triangle corners;
+    std::size_t i = 0;
+    for (const HalfedgeHandle h : {first, mesh.next_halfedge_handle(first), last}) {
+      corners[i++] = mesh.from_vertex_handle(h).idx();
+      number[index(h.idx())] = static_cast<std::int32_t>(half_edges.size());
+      half_edges.push_back(h.idx());
+    }
+    flat.corners.push_back(corners);
+  }
+  for (const std::int32_t h : half_edges) flat.twins.push_back(number[index(h ^ 1)]);
+  return flat;
+}
+
+/// Takes away faces without an area, across which no path could go, on a copy of the surface's half-edge mesh and
+/// without a change to the surface.
+class Mending {
+ public:
+  Mending(const Surface& surface, const Metric& metric);
+
+  bool found_any() const { return found_any_; }
+  const HalfEdgeMesh& mesh() const { return mesh_; }
+  std::vector<std::int32_t> origins() const;
+  const std::vector<LooseEdge>& merged() const { return merged_; }
+  std::size_t taken_away() const { return taken_away_; }
 
  private:
-  struct Candidate {
-    float perimeter;  // rounded, so that the scale of the input does not choose between equal ones
-    std::int32_t face;
-
-    // Of equal ones, the first.
-    friend bool operator<(const Candidate& a, const Candidate& b) {
-      return a.perimeter != b.perimeter ? a.perimeter < b.perimeter : a.face > b.face;
-    }
-  };
-
-  void orient_normals();
-  bool is_new(VertexHandle v) const { return index(v) >= fans_; }
-  std::int32_t number(VertexHandle v) const;
-  TensorAt tensor_at(VertexHandle v) const;
-  double norm(VertexHandle at, const Vector& e) const;
-  Vector vector(HalfedgeHandle h) const;
-  double length(HalfedgeHandle h) const { return lengths_[index(mesh_.edge_handle(h))]; }
-  double measure(HalfedgeHandle h) const;
   std::array<HalfedgeHandle, 3> sides(FaceHandle f) const;
-  bool is_valid(FaceHandle f) const;
+  Vector vector(HalfedgeHandle h) const;
   bool is_flat(FaceHandle f) const;
-  double perimeter(FaceHandle f) const;
-  HalfedgeHandle longest(FaceHandle f) const;
   bool is_gone(FaceHandle f) const { return has_merged_ && mesh_.status(f).deleted(); }
-  void mend();
   bool merge_ends(FaceHandle f);
   FaceHandle flip_longest(FaceHandle f);
-  void consider(FaceHandle f);
-  HalfedgeHandle refinement_edge(FaceHandle f) const;
-  void begin_newest_vertex_bisection();
-  bool refine(FaceHandle f, std::size_t most);
-  void bisect(EdgeHandle e);
 
   const Surface& surface_;
   const Metric& metric_;
-  const EmbedOptions& options_;
-  Scheme scheme_;
   HalfEdgeMesh mesh_;
-  std::size_t fans_;               // vertices of the surface's half-edge mesh
-  std::vector<bool> is_turned_;    // per fan: its side of the surface is the other one than its vertex's normal's
-  std::vector<TensorAt> tensors_;  // of the new vertices
-  std::vector<double> weights_;    // normal_weight() of the tensor of every vertex
-  std::vector<double> lengths_;    // per edge
-  std::vector<std::int32_t> source_face_;  // per face
-  std::vector<std::uint8_t> depth_;        // per face: bisections since the original face, up to kNewestDepth
-  std::size_t first_newest_ = 0;           // vertices from here on are of newest-vertex bisection; 0: it has not begun
-  std::vector<std::int32_t> deferred_;     // invalid triangles left to newest-vertex bisection
-  std::vector<FaceHandle> chain_;          // triangles to bisect, the last one first
-  std::priority_queue<Candidate> queue_;   // invalid triangles that may be bisected; entries grow stale
-  std::vector<LooseEdge> merged_;          // between vertices at the same place, of which only the second has faces now
+  bool found_any_ = false;
+  std::vector<std::int32_t> origins_;
+  std::vector<LooseEdge> merged_;  // between vertices at the same place, of which only the second has faces now
   bool has_merged_ = false;
-  std::size_t invalid_before_ = 0;
-  std::size_t faces_added_ = 0;
-  bool hit_cap_ = false;
+  std::size_t taken_away_ = 0;
 };
 
-Refinement::Refinement(const Surface& surface, const Metric& metric, const EmbedOptions& options, Scheme scheme)
-    : surface_(surface),
-      metric_(metric),
-      options_(options),
-      scheme_(scheme),
-      mesh_(surface.half_edges()),
-      fans_(mesh_.n_vertices()),
-      source_face_(surface.face_of_half_edge_face()) {
-  weights_.reserve(fans_);
-  for (const std::int32_t v : surface.vertex_of_fan()) {
-    weights_.push_back(normal_weight(metric.tensors[static_cast<std::size_t>(v)]));
-  }
-  orient_normals();
-  mend();
-  depth_.assign(source_face_.size(), 0);
-  lengths_.resize(mesh_.n_edges());
-  for (const EdgeHandle e : mesh_.edges()) lengths_[index(e)] = measure(mesh_.halfedge_handle(e, 0));
-}
-
-// A vertex has one normal, but its fans need not agree on which side of the surface is outside: where a one-sided
-// surface is cut they cannot. Normals in the middle of edges are means, so they must be of one side.
-void Refinement::orient_normals() {
-  is_turned_.assign(fans_, false);
-  const auto& vertex_of_fan = surface_.vertex_of_fan();  // ascending
-  if (std::adjacent_find(vertex_of_fan.begin(), vertex_of_fan.end()) == vertex_of_fan.end()) return;
-  std::vector<Vector> normals(fans_, Vector::Zero());
-  for (const FaceHandle f : mesh_.faces()) {
-    const auto [a, b, c] = sides(f);
-    const Vector normal = vector(a).cross(vector(b));
-    for (const HalfedgeHandle h : {a, b, c}) normals[index(mesh_.from_vertex_handle(h))] += normal;
-  }
-  for (std::size_t fan = 0; fan < fans_; ++fan) {
-    const std::int32_t v = vertex_of_fan[fan];
-    const bool is_shared = (fan > 0 && vertex_of_fan[fan - 1] == v) || (fan + 1 < fans_ && vertex_of_fan[fan + 1] == v);
-    is_turned_[fan] = is_shared && normals[fan].dot(metric_.normals[static_cast<std::size_t>(v)]) < 0;
-  }
-}
-
-std::int32_t Refinement::number(VertexHandle v) const {
-  return is_new(v) ? static_cast<std::int32_t>(surface_.vertex_count() + index(v) - fans_)
-                   : surface_.vertex_of_fan()[index(v)];
-}
-
-TensorAt Refinement::tensor_at(VertexHandle v) const {
-  if (is_new(v)) return tensors_[index(v) - fans_];
-  const auto i = static_cast<std::size_t>(surface_.vertex_of_fan()[index(v)]);
-  return {is_turned_[index(v)] ? Vector(-metric_.normals[i]) : metric_.normals[i], metric_.tensors[i]};
-}
-
-double Refinement::norm(VertexHandle at, const Vector& e) const {
-  const auto i = is_new(at) ? index(at) - fans_ : static_cast<std::size_t>(surface_.vertex_of_fan()[index(at)]);
-  const Eigen::Matrix3d& m = is_new(at) ? tensors_[i].tensor : metric_.tensors[i];
-  const Vector& n = is_new(at) ? tensors_[i].normal : metric_.normals[i];
-  const double out = n.dot(e);
-  return std::sqrt(std::max(0.0, e.dot(m * e) + weights_[index(at)] * out * out));
-}
-
-// A half-edge in the unit cube.
-Vector Refinement::vector(HalfedgeHandle h) const {
-  return (mesh_.point(mesh_.to_vertex_handle(h)) - mesh_.point(mesh_.from_vertex_handle(h))) * surface_.scale();
-}
-
-// Length of an edge in the metric, from both of its ends.
-double Refinement::measure(HalfedgeHandle h) const {
-  const Vector e = vector(h);
-  return integrated_length(norm(mesh_.from_vertex_handle(h), e), norm(mesh_.to_vertex_handle(h), e));
-}
-
-// From the face's first corner on, as OpenMesh lists its vertices.
-std::array<HalfedgeHandle, 3> Refinement::sides(FaceHandle f) const {
-  const HalfedgeHandle a = mesh_.halfedge_handle(f), b = mesh_.next_halfedge_handle(a);
-  return {b, mesh_.next_halfedge_handle(b), a};
-}
-
-bool Refinement::is_valid(FaceHandle f) const {
-  const auto [h0, h1, h2] = sides(f);
-  const double a = length(h0), b = length(h1), c = length(h2);
-  const double most = std::max({a, b, c});
-  return most < (a + b + c - most) * (1 - kSlack);
-}
-
-bool Refinement::is_flat(FaceHandle f) const {
-  const auto [h0, h1, h2] = sides(f);
-  const Vector a = vector(h0), b = vector(h1), c = vector(h2);
+bool lacks_area(const Vector& a, const Vector& b, const Vector& c) {
   return !(a.cross(b).norm() > kFlat * std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm()}));
 }
 
-double Refinement::perimeter(FaceHandle f) const {
-  const auto [h0, h1, h2] = sides(f);
-  if (options_.perimeter == Perimeter::kMetric) return length(h0) + length(h1) + length(h2);
-  return vector(h0).norm() + vector(h1).norm() + vector(h2).norm();
-}
-
-HalfedgeHandle Refinement::longest(FaceHandle f) const {
-  const auto [h0, h1, h2] = sides(f);
-  HalfedgeHandle best = h0;
-  for (const HalfedgeHandle h : {h1, h2}) {
-    if (length(h) > length(best) * (1 + kEqual)) best = h;
-  }
-  return best;
-}
-
-// Takes away faces without an area, across which no path could go, without a change to the surface: of one with two
-// corners at the same place the two are merged, and of one with a corner on the opposite edge that edge is flipped, so
-// that the face beyond it, of which the corner is a point too, is split there.
-void Refinement::mend() {
+Mending::Mending(const Surface& surface, const Metric& metric) : surface_(surface), metric_(metric) {
+  const HalfEdgeMesh& given = surface.half_edges();
+  const double scale = surface.scale();
   std::vector<FaceHandle> flat;
-  for (const FaceHandle f : mesh_.faces()) {
-    if (is_flat(f)) flat.push_back(f);
+  for (const FaceHandle f : given.faces()) {
+    const HalfedgeHandle h = given.halfedge_handle(f);
+    const Vector &p = given.point(given.from_vertex_handle(h)), &q = given.point(given.to_vertex_handle(h)),
+                 &r = given.point(given.to_vertex_handle(given.next_halfedge_handle(h)));
+    if (lacks_area((q - p) * scale, (r - q) * scale, (p - r) * scale)) flat.push_back(f);
   }
+  found_any_ = !flat.empty();
+  if (!found_any_) return;
+  mesh_ = given;
+  origins_.resize(mesh_.n_faces());
+  std::iota(origins_.begin(), origins_.end(), 0);
   const auto mended = [&](FaceHandle f) { return is_gone(f) || !is_flat(f); };
   const std::size_t before = flat.size();
   bool progress = before > 0;
@@ -248,11 +182,34 @@ void Refinement::mend() {
     std::sort(flat.begin(), flat.end());
     flat.erase(std::unique(flat.begin(), flat.end()), flat.end());
   }
-  invalid_before_ = before - std::min(before, flat.size());
+  taken_away_ = before - std::min(before, flat.size());
+}
+
+// Of the faces that are left, in their order.
+std::vector<std::int32_t> Mending::origins() const {
+  std::vector<std::int32_t> left;
+  for (const FaceHandle f : mesh_.faces()) left.push_back(origins_[index(f.idx())]);
+  return left;
+}
+
+// From the face's first corner on, as OpenMesh lists its vertices.
+std::array<HalfedgeHandle, 3> Mending::sides(FaceHandle f) const {
+  const HalfedgeHandle a = mesh_.halfedge_handle(f), b = mesh_.next_halfedge_handle(a);
+  return {b, mesh_.next_halfedge_handle(b), a};
+}
+
+// A half-edge in the unit cube.
+Vector Mending::vector(HalfedgeHandle h) const {
+  return (mesh_.point(mesh_.to_vertex_handle(h)) - mesh_.point(mesh_.from_vertex_handle(h))) * surface_.scale();
+}
+
+bool Mending::is_flat(FaceHandle f) const {
+  const auto [a, b, c] = sides(f);
+  return lacks_area(vector(a), vector(b), vector(c));
 }
 
 // Merges the ends of the shortest edge if it is the reason why the face has no area.
-bool Refinement::merge_ends(FaceHandle f) {
+bool Mending::merge_ends(FaceHandle f) {
   const auto by_length = [&](HalfedgeHandle a, HalfedgeHandle b) {
     return vector(a).squaredNorm() < vector(b).squaredNorm();
   };
@@ -270,7 +227,8 @@ bool Refinement::merge_ends(FaceHandle f) {
     const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
     // A second edge between the two would become a loop.
     if (std::ranges::count(mesh_.vv_range(from), to) != 1 || !mesh_.is_collapse_ok(h)) continue;
-    merged_.push_back({number(from), number(to), measure(h)});
+    const std::int32_t a = surface_.vertex_of_fan()[index(from.idx())], b = surface_.vertex_of_fan()[index(to.idx())];
+    merged_.push_back({a, b, edge_length(surface_, metric_, a, b)});
     mesh_.collapse(h);
     return true;
   }
@@ -279,7 +237,7 @@ bool Refinement::merge_ends(FaceHandle f) {
 
 // Flips the longest edge if that leaves fewer faces without an area, or shorter edges; then, and only then, returns the
 // face that was beyond it.
-FaceHandle Refinement::flip_longest(FaceHandle f) {
+FaceHandle Mending::flip_longest(FaceHandle f) {
   HalfedgeHandle h = sides(f)[0];
   for (const HalfedgeHandle side : sides(f)) {
     if (vector(side).squaredNorm() > vector(h).squaredNorm()) h = side;
@@ -294,111 +252,340 @@ FaceHandle Refinement::flip_longest(FaceHandle f) {
   const double flipped = (apex(opposite) - apex(h)).norm() * surface_.scale();
   if (is_flat(beyond) && !(flipped < vector(h).norm() * (1 - kEqual))) return FaceHandle();
   mesh_.flip(e);
-  source_face_[index(f)] = source_face_[index(beyond)];
+  origins_[index(f.idx())] = origins_[index(beyond.idx())];
   return beyond;
 }
 
-void Refinement::consider(FaceHandle f) {
+// Whether all vertices and faces of the half-edge mesh have the caller's numbers.
+bool keeps_numbers(const Surface& surface) {
+  const auto& vertex_of_fan = surface.vertex_of_fan();
+  return vertex_of_fan.size() == surface.vertex_count() && surface.half_edges().n_faces() == surface.face_count() &&
+         std::adjacent_find(vertex_of_fan.begin(), vertex_of_fan.end()) == vertex_of_fan.end();
+}
+
+/// The surface's triangles, refined in place.
+class Refinement {
+ public:
+  Refinement(const Surface& surface, const Metric& metric, const EmbedOptions& options, Scheme scheme);
+  /// Goes on from an embedding of the surface in another metric, which must be `local`.
+  Refinement(const Surface& surface, const Metric& metric, const EmbedOptions& options, Embedding&& old);
+
+  /// False where more than `most` triangles would have to be added. Progress goes on from `progress`.
+  bool run(const Task& task, std::size_t most, double& progress);
+  /// The same for the triangles at vertices where the metric has changed from `former`, and what they lead to.
+  bool run_changes(const Metric& former, const Task& task, std::size_t most);
+  Embedding result() &&;
+
+ private:
+  struct Candidate {
+    float perimeter;  // rounded, so that the scale of the input does not choose between equal ones
+    std::int32_t face;
+    // Of equal ones, the first: in an order that knows the original face and the bisections of it alone, so that what
+    // happens elsewhere on the surface does not decide.
+    std::uint64_t place;
+
+    friend bool operator<(const Candidate& a, const Candidate& b) {
+      return a.perimeter != b.perimeter ? a.perimeter < b.perimeter : a.place > b.place;
+    }
+  };
+  enum class State : std::uint8_t {
+    kOriginal,  ///< as it was given
+    kRunning,   ///< bisected, or to be looked at, in this run
+    kKept,      ///< bisected in the former metric, and to stay so
+  };
+
+  void orient_normals(const HalfEdgeMesh& mesh);
+  std::int32_t number(std::int32_t v) const {
+    if (index(v) < fans_) return vertex_of_fan_[index(v)];
+    return static_cast<std::int32_t>(index(v) - fans_ + surface_.vertex_count());
+  }
+  const Node& node(std::int32_t v) const { return index(v) < fans_ ? nodes_[index(v)] : new_nodes_[index(v) - fans_]; }
+  void set_node(std::int32_t fan);
+  TensorAt tensor_at(std::int32_t v) const;
+  Vector vector(std::int32_t h) const {
+    return (node(mesh_.tip(h)).point - node(mesh_.tail(h)).point) * surface_.scale();
+  }
+  double measure(std::int32_t h) const;
+  void measure_all();
+  bool is_valid(std::int32_t f) const;
+  bool is_flat(std::int32_t f) const;
+  double perimeter(std::int32_t f) const;
+  std::int32_t longest(std::int32_t f) const;
+  void consider(std::int32_t f);
+  std::int32_t refinement_edge(std::int32_t f) const;
+  void begin_newest_vertex_bisection();
+  bool refine(std::int32_t f, std::size_t most);
+  void bisect(std::int32_t h);
+  void halve(std::int32_t h, std::int32_t middle);
+  void set_length(std::int32_t h, double length);
+  bool work_off(const Task& task, std::size_t most, double& progress);
+  std::vector<std::int32_t> changed_faces(const Metric& former) const;
+  void reset(const std::vector<std::int32_t>& seeds);
+  bool enter(std::int32_t face);
+  bool is_given_valid(std::int32_t face, const Metric& metric) const;
+  std::vector<std::int32_t> unreachable(const IntrinsicMesh& mesh) const;
+
+  const Surface& surface_;
+  const Metric& metric_;
+  const EmbedOptions& options_;
+  Scheme scheme_;
+  const std::vector<std::int32_t>& vertex_of_fan_;
+  std::size_t fans_;   // vertices of the surface's half-edge mesh
+  std::size_t faces_;  // triangles before the first bisection
+  FlatMesh mesh_;
+  std::vector<double> lengths_;        // per half-edge
+  std::vector<std::int32_t> origins_;  // per triangle: the face of the surface's half-edge mesh that it lies in
+  std::vector<std::uint32_t>
+      branch_;                       // per triangle: which part of that it is, as the number of a node of a binary tree
+  std::vector<std::uint8_t> depth_;  // per triangle: bisections since the original face, up to kNewestDepth
+  std::unique_ptr<Node[]> nodes_;    // per fan
+  std::vector<Node> new_nodes_;
+  std::vector<TensorAt> tensors_;         // of the new vertices
+  std::vector<bool> is_turned_;           // per fan: its side is the other one than its vertex's normal's; empty: none
+  std::size_t first_newest_ = 0;          // vertices from here on are of newest-vertex bisection; 0: it has not begun
+  std::vector<std::int32_t> deferred_;    // invalid triangles left to newest-vertex bisection
+  std::vector<std::int32_t> chain_;       // triangles to bisect, the last one first
+  std::priority_queue<Candidate> queue_;  // invalid triangles that may be bisected; entries grow stale
+  std::vector<LooseEdge> merged_;
+  std::vector<State> states_;            // per face of the surface's half-edge mesh, for a run of changes
+  std::vector<std::int32_t> conflicts_;  // faces that were kept and should not have been
+  std::vector<std::int32_t> running_;    // faces with State::kRunning
+  std::vector<Vector> points_;           // in the caller's coordinates, the caller's first
+  bool has_mended_ = false;
+  std::size_t invalid_before_ = 0;
+  std::size_t faces_added_ = 0;
+  bool hit_cap_ = false;
+};
+
+Refinement::Refinement(const Surface& surface, const Metric& metric, const EmbedOptions& options, Scheme scheme)
+    : surface_(surface),
+      metric_(metric),
+      options_(options),
+      scheme_(scheme),
+      vertex_of_fan_(surface.vertex_of_fan()),
+      fans_(vertex_of_fan_.size()),
+      points_(surface.points()) {
+  const Mending mending(surface, metric);
+  has_mended_ = mending.found_any();
+  const HalfEdgeMesh& mesh = has_mended_ ? mending.mesh() : surface.half_edges();
+  orient_normals(mesh);
+  mesh_ = flattened(mesh);
+  faces_ = mesh_.corners.size();
+  if (has_mended_) {
+    origins_ = mending.origins();
+    merged_ = mending.merged();
+    invalid_before_ = mending.taken_away();
+  } else {
+    origins_.resize(faces_);
+    std::iota(origins_.begin(), origins_.end(), 0);
+  }
+  branch_.assign(faces_, 1);
+  depth_.assign(faces_, 0);
+  nodes_ = std::make_unique_for_overwrite<Node[]>(fans_);
+  for (std::int32_t fan = 0; index(fan) < fans_; ++fan) set_node(fan);
+  measure_all();
+}
+
+// A vertex has one normal, but its fans need not agree on which side of the surface is outside: where a one-sided
+// surface is cut they cannot. Normals in the middle of edges are means, so they must be of one side.
+void Refinement::orient_normals(const HalfEdgeMesh& mesh) {
+  if (std::adjacent_find(vertex_of_fan_.begin(), vertex_of_fan_.end()) == vertex_of_fan_.end()) return;  // ascending
+  is_turned_.assign(fans_, false);
+  std::vector<Vector> normals(fans_, Vector::Zero());
+  for (const FaceHandle f : mesh.faces()) {
+    std::array<VertexHandle, 3> v;
+    std::size_t i = 0;
+    for (const VertexHandle corner : mesh.fv_range(f)) v[i++] = corner;
+    const Vector normal = (mesh.point(v[1]) - mesh.point(v[0])).cross(mesh.point(v[2]) - mesh.point(v[0]));
+    for (const VertexHandle corner : v) normals[index(corner.idx())] += normal;
+  }
+  for (std::size_t fan = 0; fan < fans_; ++fan) {
+    const std::int32_t v = vertex_of_fan_[fan];
+    const bool is_shared =
+        (fan > 0 && vertex_of_fan_[fan - 1] == v) || (fan + 1 < fans_ && vertex_of_fan_[fan + 1] == v);
+    is_turned_[fan] = is_shared && normals[fan].dot(metric_.normals[index(v)]) < 0;
+  }
+}
+
+void Refinement::set_node(std::int32_t fan) {
+  const std::size_t v = index(vertex_of_fan_[index(fan)]);
+  nodes_[index(fan)] = node_of(surface_.points()[v], metric_.normals[v], metric_.tensors[v]);
+}
+
+TensorAt Refinement::tensor_at(std::int32_t v) const {
+  if (index(v) >= fans_) return tensors_[index(v) - fans_];
+  const std::size_t i = index(vertex_of_fan_[index(v)]);
+  const bool is_turned = !is_turned_.empty() && is_turned_[index(v)];
+  return {is_turned ? Vector(-metric_.normals[i]) : metric_.normals[i], metric_.tensors[i]};
+}
+
+// Length of an edge in the metric, from both of its ends.
+double Refinement::measure(std::int32_t h) const {
+  const Node &a = node(mesh_.tail(h)), &b = node(mesh_.tip(h));
+  const Vector e = (b.point - a.point) * surface_.scale();
+  return integrated_length(a.norm(e), b.norm(e));
+}
+
+void Refinement::measure_all() {
+  const auto count = static_cast<std::int32_t>(mesh_.twins.size());
+  lengths_.resize(mesh_.twins.size());
+  for (std::int32_t h = 0; h < count; ++h) {
+    const std::int32_t twin = mesh_.twins[index(h)];
+    lengths_[index(h)] = twin >= 0 && twin < h ? lengths_[index(twin)] : measure(h);
+  }
+}
+
+void Refinement::set_length(std::int32_t h, double length) {
+  lengths_[index(h)] = length;
+  if (const std::int32_t twin = mesh_.twins[index(h)]; twin >= 0) lengths_[index(twin)] = length;
+}
+
+bool Refinement::is_valid(std::int32_t f) const {
+  const double *l = &lengths_[3 * index(f)], most = std::max({l[0], l[1], l[2]});
+  return most < (l[0] + l[1] + l[2] - most) * (1 - kSlack);
+}
+
+bool Refinement::is_flat(std::int32_t f) const {
+  return lacks_area(vector(3 * f), vector(3 * f + 1), vector(3 * f + 2));
+}
+
+double Refinement::perimeter(std::int32_t f) const {
+  const double* l = &lengths_[3 * index(f)];
+  if (options_.perimeter == Perimeter::kMetric) return l[0] + l[1] + l[2];
+  return vector(3 * f).norm() + vector(3 * f + 1).norm() + vector(3 * f + 2).norm();
+}
+
+std::int32_t Refinement::longest(std::int32_t f) const {
+  std::int32_t best = 3 * f;
+  for (const std::int32_t h : {3 * f + 1, 3 * f + 2}) {
+    if (lengths_[index(h)] > lengths_[index(best)] * (1 + kEqual)) best = h;
+  }
+  return best;
+}
+
+void Refinement::consider(std::int32_t f) {
   if (is_valid(f) || is_flat(f)) return;
   const double p = perimeter(f);
   if (p < options_.sigma) return;
   if (scheme_ == Scheme::kPropagate && first_newest_ == 0 && depth_[index(f)] >= kNewestDepth) {
-    deferred_.push_back(f.idx());
+    deferred_.push_back(f);
   } else {
-    queue_.push({static_cast<float>(p), f.idx()});
+    const std::uint64_t place = std::uint64_t(origins_[index(f)]) << 32 | branch_[index(f)];
+    queue_.push({static_cast<float>(p), f, place});
   }
 }
 
 // The mesh as it stands becomes the starting triangulation.
 void Refinement::begin_newest_vertex_bisection() {
-  first_newest_ = mesh_.n_vertices();
+  first_newest_ = fans_ + new_nodes_.size();
   std::vector<std::int32_t> deferred;
   deferred.swap(deferred_);
   std::sort(deferred.begin(), deferred.end());
   deferred.erase(std::unique(deferred.begin(), deferred.end()), deferred.end());
-  for (const std::int32_t f : deferred) consider(FaceHandle(f));
+  for (const std::int32_t f : deferred) consider(f);
 }
 
 // Where a triangle is to be bisected. Once newest-vertex bisection has begun: opposite its newest vertex; else, and for
 // triangles of the starting triangulation, at its longest edge. Edges are in one strict order, that of their rounded
 // lengths and then of their numbers, so a chain of neighbours with ever longer edges ends.
-HalfedgeHandle Refinement::refinement_edge(FaceHandle f) const {
+std::int32_t Refinement::refinement_edge(std::int32_t f) const {
   if (scheme_ == Scheme::kPaper) return longest(f);
-  const std::array<HalfedgeHandle, 3> all = sides(f);
   if (first_newest_ > 0) {
-    for (const HalfedgeHandle h : all) {
-      const HalfedgeHandle b = mesh_.next_halfedge_handle(h);
-      const VertexHandle apex = mesh_.to_vertex_handle(b);
-      const VertexHandle newest = std::max({apex, mesh_.from_vertex_handle(h), mesh_.to_vertex_handle(h)});
-      if (apex == newest && index(newest) >= first_newest_) return h;
-    }
+    const Triangle& corners = mesh_.corners[index(f)];
+    const auto newest = static_cast<std::int32_t>(std::ranges::max_element(corners) - corners.begin());
+    if (index(corners[index(newest)]) >= first_newest_) return next(3 * f + newest);
   }
-  const auto key = [&](HalfedgeHandle h) {
-    return std::pair(static_cast<float>(length(h)), mesh_.edge_handle(h).idx());
+  const auto key = [&](std::int32_t h) {
+    const std::int32_t twin = mesh_.twins[index(h)];
+    return std::pair(static_cast<float>(lengths_[index(h)]), twin < 0 ? h : std::min(h, twin));
   };
-  HalfedgeHandle best = all[0];
-  for (const HalfedgeHandle h : {all[1], all[2]}) {
+  std::int32_t best = 3 * f;
+  for (const std::int32_t h : {3 * f + 1, 3 * f + 2}) {
     if (key(h) > key(best)) best = h;
   }
   return best;
 }
 
 // Bisects a face, and before it those that the scheme wants bisected first; false where that takes too many triangles.
-bool Refinement::refine(FaceHandle f, std::size_t most) {
+bool Refinement::refine(std::int32_t f, std::size_t most) {
   chain_.assign(1, f);
   while (!chain_.empty()) {
-    const HalfedgeHandle h = refinement_edge(chain_.back()), beyond = mesh_.opposite_halfedge_handle(h);
-    const bool is_boundary = mesh_.is_boundary(beyond);
-    if (scheme_ == Scheme::kPropagate && !is_boundary) {
-      const FaceHandle neighbour = mesh_.face_handle(beyond);
-      if (refinement_edge(neighbour) != beyond) {
-        chain_.push_back(neighbour);
-        continue;
-      }
+    const std::int32_t h = refinement_edge(chain_.back()), beyond = mesh_.twins[index(h)];
+    if (scheme_ == Scheme::kPropagate && beyond >= 0 && refinement_edge(beyond / 3) != beyond) {
+      chain_.push_back(beyond / 3);
+      continue;
     }
-    if (faces_added_ + (is_boundary ? 1 : 2) > most) return false;
-    bisect(mesh_.edge_handle(h));
+    if (faces_added_ + (beyond < 0 ? 1 : 2) > most) return false;
+    if (states_.empty() || beyond < 0 || enter(origins_[index(beyond / 3)])) {
+      bisect(h);
+    } else {
+      conflicts_.insert(conflicts_.end(), {origins_[index(beyond / 3)], origins_[index(h / 3)]});
+    }
     chain_.pop_back();
   }
   return true;
 }
 
-void Refinement::bisect(EdgeHandle e) {
-  const HalfedgeHandle h = mesh_.halfedge_handle(e, 0), o = mesh_.halfedge_handle(e, 1);
-  const VertexHandle a = mesh_.from_vertex_handle(h), b = mesh_.to_vertex_handle(h);
-  // The new faces come in this order (OpenMesh's TriConnectivity::split).
-  for (const HalfedgeHandle side : {h, o}) {
-    if (mesh_.is_boundary(side)) continue;
-    const std::size_t f = index(mesh_.face_handle(side));
-    source_face_.push_back(source_face_[f]);
-    if (depth_[f] < kNewestDepth) ++depth_[f];
-    depth_.push_back(depth_[f]);
-    ++faces_added_;
-  }
-  tensors_.push_back(midpoint_tensor(tensor_at(a), tensor_at(b)));
-  weights_.push_back(normal_weight(tensors_.back().tensor));
-  const VertexHandle p(mesh_.add_vertex((mesh_.point(a) + mesh_.point(b)) / 2).idx());
-  mesh_.split(e, p);
+// The triangle of a half-edge from a to b keeps its half at a; that at b becomes a new triangle, whose first half-edge
+// runs from the middle to b.
+void Refinement::halve(std::int32_t h, std::int32_t middle) {
+  const std::int32_t f = h / 3, h1 = next(h);
+  const auto g = static_cast<std::int32_t>(mesh_.corners.size());
+  const std::int32_t b = mesh_.tip(h), c = mesh_.tip(h1), outer = mesh_.twins[index(h1)];
+  mesh_.corners[index(f)][index(h1 % 3)] = middle;
+  mesh_.corners.push_back({middle, b, c});
+  mesh_.twins.insert(mesh_.twins.end(), {-1, outer, h1});
+  mesh_.twins[index(h1)] = 3 * g + 2;
+  if (outer >= 0) mesh_.twins[index(outer)] = 3 * g + 1;
+  lengths_.insert(lengths_.end(), {0.0, lengths_[index(h1)], 0.0});
+  origins_.push_back(origins_[index(f)]);
+  if (depth_[index(f)] < kNewestDepth) ++depth_[index(f)];
+  depth_.push_back(depth_[index(f)]);
+  // Nodes deeper than 31 have no number left in 32 bits: they are mixed, and seldom equal.
+  const std::uint32_t branch = branch_[index(f)];
+  const std::uint32_t first = branch < 0x8000'0000U ? 2 * branch : branch * 0x9E37'79B1U | 0x8000'0000U;
+  branch_[index(f)] = first;
+  branch_.push_back(first ^ 1U);
+  ++faces_added_;
+}
 
-  lengths_.resize(mesh_.n_edges());
-  const HalfedgeHandle first = mesh_.halfedge_handle(p);
-  HalfedgeHandle out = first;
-  do {
-    lengths_[index(mesh_.edge_handle(out))] = measure(out);
-    out = mesh_.next_halfedge_handle(mesh_.opposite_halfedge_handle(out));
-  } while (out != first);
-  do {
-    if (!mesh_.is_boundary(out)) consider(mesh_.face_handle(out));
-    out = mesh_.next_halfedge_handle(mesh_.opposite_halfedge_handle(out));
-  } while (out != first);
+void Refinement::bisect(std::int32_t h) {
+  const std::int32_t a = mesh_.tail(h), b = mesh_.tip(h), o = mesh_.twins[index(h)];
+  const auto middle = static_cast<std::int32_t>(fans_ + new_nodes_.size());
+  tensors_.push_back(midpoint_tensor(tensor_at(a), tensor_at(b)));
+  points_.emplace_back((node(a).point + node(b).point) / 2);
+  new_nodes_.push_back(node_of(points_.back(), tensors_.back().normal, tensors_.back().tensor));
+  const auto count = static_cast<std::int32_t>(mesh_.corners.size());
+  halve(h, middle);
+  if (o >= 0) {
+    halve(o, middle);
+    mesh_.twins[index(h)] = 3 * (count + 1);
+    mesh_.twins[index(3 * (count + 1))] = h;
+    mesh_.twins[index(o)] = 3 * count;
+    mesh_.twins[index(3 * count)] = o;
+  }
+  // Edges around the middle: the halves of the old one, and one on each side.
+  for (const std::int32_t e : {h, 3 * count, 3 * count + 2}) set_length(e, measure(e));
+  if (o >= 0) set_length(3 * (count + 1) + 2, measure(3 * (count + 1) + 2));
+  consider(h / 3);
+  consider(count);
+  if (o >= 0) {
+    consider(o / 3);
+    consider(count + 1);
+  }
 }
 
 bool Refinement::run(const Task& task, std::size_t most, double& progress) {
-  for (const FaceHandle f : mesh_.faces()) {
-    if (!is_valid(f)) ++invalid_before_;
+  for (std::int32_t f = 0; index(f) < faces_; ++f) {
+    if (is_valid(f)) continue;
+    ++invalid_before_;
     consider(f);
   }
   task.check(progress);
+  return work_off(task, most, progress);
+}
+
+bool Refinement::work_off(const Task& task, std::size_t most, double& progress) {
   for (std::size_t steps = 0;;) {
     if (queue_.empty()) {
       if (deferred_.empty()) return true;
@@ -407,10 +594,9 @@ bool Refinement::run(const Task& task, std::size_t most, double& progress) {
     }
     const Candidate next = queue_.top();
     queue_.pop();
-    const FaceHandle f(next.face);
     // A face changes when a neighbour is bisected, and is queued again if it is still invalid.
-    if (static_cast<float>(perimeter(f)) != next.perimeter || is_valid(f)) continue;
-    if (!refine(f, most)) {
+    if (static_cast<float>(perimeter(next.face)) != next.perimeter || is_valid(next.face)) continue;
+    if (!refine(next.face, most)) {
       hit_cap_ = true;
       return false;
     }
@@ -423,72 +609,310 @@ bool Refinement::run(const Task& task, std::size_t most, double& progress) {
   }
 }
 
-Embedding Refinement::result() const {
+Embedding Refinement::result() && {
   Embedding out;
-  const std::size_t callers = surface_.vertex_count(), added = mesh_.n_vertices() - fans_;
-  out.points.reserve(callers + added);
-  out.points = surface_.points();
-  for (std::size_t v = fans_; v < mesh_.n_vertices(); ++v) {
-    out.points.push_back(mesh_.point(VertexHandle(static_cast<int>(v))));
-  }
   out.invalid_before = invalid_before_;
   out.faces_added = faces_added_;
   out.hit_cap = hit_cap_;
-
   IntrinsicMesh& mesh = out.mesh;
-  mesh.vertex_count = static_cast<std::int32_t>(callers + added);
-  mesh.triangles.reserve(mesh_.n_faces());
-  mesh.lengths.reserve(3 * mesh_.n_faces());
-  out.source_face.reserve(mesh_.n_faces());
-  std::vector<std::int32_t> renumbered(mesh_.n_halfedges(), -1);
-  for (const FaceHandle f : mesh_.faces()) {
-    if (!is_valid(f)) {
-      ++out.invalid_left;
-      continue;
+  mesh.vertex_count = static_cast<std::int32_t>(points_.size());
+  const auto faces = static_cast<std::int32_t>(mesh_.corners.size());
+  std::vector<std::int32_t> holes;
+  for (std::int32_t f = 0; f < faces; ++f) {
+    if (!is_valid(f)) holes.push_back(f);
+  }
+  out.invalid_left = holes.size();
+  const bool is_plain = keeps_numbers(surface_);
+  if (!is_plain) {
+    for (Triangle& corners : mesh_.corners) {
+      for (std::int32_t& v : corners) v = number(v);
     }
-    Triangle triangle;
-    std::size_t i = 0;
-    for (const HalfedgeHandle h : sides(f)) {
-      renumbered[index(h)] = static_cast<std::int32_t>(mesh.lengths.size());
-      mesh.lengths.push_back(length(h));
-      triangle[i++] = number(mesh_.from_vertex_handle(h));
+    for (std::int32_t& f : origins_) f = surface_.face_of_half_edge_face()[index(f)];
+  }
+  // Each edge of holes alone, once.
+  const auto is_hole = [&](std::int32_t f) { return std::binary_search(holes.begin(), holes.end(), f); };
+  for (const std::int32_t f : holes) {
+    for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
+      const std::int32_t twin = mesh_.twins[index(h)];
+      if (twin >= 0 && (twin < h || !is_hole(twin / 3))) continue;
+      mesh.loose_edges.push_back({mesh_.tail(h), mesh_.tip(h), lengths_[index(h)]});
     }
-    mesh.triangles.push_back(triangle);
-    out.source_face.push_back(source_face_[index(f)]);
   }
-  mesh.twins.resize(mesh.lengths.size());
-  for (const HalfedgeHandle h : mesh_.halfedges()) {
-    const std::int32_t i = renumbered[index(h)];
-    if (i >= 0) mesh.twins[static_cast<std::size_t>(i)] = renumbered[index(mesh_.opposite_halfedge_handle(h))];
+  if (!holes.empty()) {
+    std::vector<std::int32_t> moved(index(faces), -1);
+    std::int32_t to = 0;
+    for (std::int32_t f = 0; f < faces; ++f) {
+      if (!is_hole(f)) moved[index(f)] = to++;
+    }
+    for (std::int32_t f = 0; f < faces; ++f) {
+      if (moved[index(f)] < 0) continue;
+      const std::size_t g = index(moved[index(f)]);
+      mesh_.corners[g] = mesh_.corners[index(f)];
+      origins_[g] = origins_[index(f)];
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::int32_t twin = mesh_.twins[3 * index(f) + i];
+        const std::int32_t beyond = twin < 0 ? -1 : moved[index(twin / 3)];
+        mesh_.twins[3 * g + i] = beyond < 0 ? -1 : 3 * beyond + twin % 3;
+        lengths_[3 * g + i] = lengths_[3 * index(f) + i];
+      }
+    }
+    mesh_.corners.resize(index(to));
+    origins_.resize(index(to));
+    mesh_.twins.resize(3 * index(to));
+    lengths_.resize(3 * index(to));
   }
-
-  for (const EdgeHandle e : mesh_.edges()) {
-    const HalfedgeHandle h = mesh_.halfedge_handle(e, 0), o = mesh_.halfedge_handle(e, 1);
-    if (renumbered[index(h)] >= 0 || renumbered[index(o)] >= 0) continue;
-    mesh.loose_edges.push_back(
-        {number(mesh_.from_vertex_handle(h)), number(mesh_.to_vertex_handle(h)), lengths_[index(e)]});
-  }
+  mesh.triangles = std::move(mesh_.corners);
+  mesh.twins = std::move(mesh_.twins);
+  mesh.lengths = std::move(lengths_);
+  out.source_face = std::move(origins_);
+  out.points = std::move(points_);
   mesh.loose_edges.insert(mesh.loose_edges.end(), merged_.begin(), merged_.end());
   for (const auto& [a, b] : surface_.loose_edges()) {
     mesh.loose_edges.push_back({a, b, edge_length(surface_, metric_, a, b)});
   }
+  out.is_local = is_plain && holes.empty() && !has_mended_ && scheme_ == Scheme::kPaper;
+  if (!out.is_local) out.unreachable = unreachable(mesh);
+  return out;
+}
 
-  std::vector<bool> reached(callers + added, false);
+// Vertices of a triangle that no path leads to.
+std::vector<std::int32_t> Refinement::unreachable(const IntrinsicMesh& mesh) const {
+  std::vector<bool> reached(index(mesh.vertex_count), false);
   for (const Triangle& triangle : mesh.triangles) {
-    for (const std::int32_t v : triangle) reached[static_cast<std::size_t>(v)] = true;
+    for (const std::int32_t v : triangle) reached[index(v)] = true;
   }
-  for (const LooseEdge& edge : mesh.loose_edges) {
-    reached[static_cast<std::size_t>(edge.a)] = reached[static_cast<std::size_t>(edge.b)] = true;
-  }
+  for (const LooseEdge& edge : mesh.loose_edges) reached[index(edge.a)] = reached[index(edge.b)] = true;
+  std::vector<std::int32_t> out;
   for (const Triangle& triangle : surface_.triangles()) {
     for (const std::int32_t v : triangle) {
-      if (reached[static_cast<std::size_t>(v)]) continue;
-      out.unreachable.push_back(v);
-      reached[static_cast<std::size_t>(v)] = true;
+      if (reached[index(v)]) continue;
+      out.push_back(v);
+      reached[index(v)] = true;
     }
   }
-  std::sort(out.unreachable.begin(), out.unreachable.end());
+  std::sort(out.begin(), out.end());
   return out;
+}
+
+// Where an original triangle lies in the surface's half-edge mesh: its corners, and the twins of its half-edges.
+struct Given {
+  Triangle corners;
+  std::array<std::int32_t, 3> twins;
+};
+
+Given given(const HalfEdgeMesh& mesh, std::int32_t face) {
+  Given out;
+  const HalfedgeHandle last = mesh.halfedge_handle(FaceHandle(face)), first = mesh.next_halfedge_handle(last);
+  std::size_t i = 0;
+  for (const HalfedgeHandle h : {first, mesh.next_halfedge_handle(first), last}) {
+    out.corners[i] = mesh.from_vertex_handle(h).idx();
+    const HalfedgeHandle opposite = mesh.opposite_halfedge_handle(h);
+    if (mesh.is_boundary(opposite)) {
+      out.twins[i++] = -1;
+      continue;
+    }
+    const FaceHandle beyond = mesh.face_handle(opposite);
+    const HalfedgeHandle its_last = mesh.halfedge_handle(beyond);
+    const int at = opposite == its_last ? 2 : opposite == mesh.next_halfedge_handle(its_last) ? 0 : 1;
+    out.twins[i++] = 3 * beyond.idx() + at;
+  }
+  return out;
+}
+
+Refinement::Refinement(const Surface& surface, const Metric& metric, const EmbedOptions& options, Embedding&& old)
+    : surface_(surface),
+      metric_(metric),
+      options_(options),
+      scheme_(Scheme::kPaper),
+      vertex_of_fan_(surface.vertex_of_fan()),
+      fans_(vertex_of_fan_.size()),
+      faces_(surface.face_count()),
+      mesh_{std::move(old.mesh.triangles), std::move(old.mesh.twins)},
+      lengths_(std::move(old.mesh.lengths)),
+      origins_(std::move(old.source_face)),
+      branch_(mesh_.corners.size(), 1),
+      depth_(mesh_.corners.size(), 0),
+      nodes_(std::make_unique_for_overwrite<Node[]>(fans_)),
+      new_nodes_(old.points.size() - fans_),
+      tensors_(new_nodes_.size()),
+      states_(faces_, State::kOriginal),
+      points_(std::move(old.points)),
+      invalid_before_(old.invalid_before),
+      faces_added_(mesh_.corners.size() - faces_) {
+  for (std::size_t f = faces_; f < origins_.size(); ++f) states_[index(origins_[f])] = State::kKept;
+}
+
+std::vector<std::int32_t> Refinement::changed_faces(const Metric& former) const {
+  std::vector<std::int32_t> faces;
+  for (std::size_t v = 0; v < fans_; ++v) {
+    if (std::memcmp(former.tensors[v].data(), metric_.tensors[v].data(), sizeof(Eigen::Matrix3d)) == 0) continue;
+    for (const FaceHandle f : surface_.half_edges().vf_range(VertexHandle(static_cast<int>(v)))) {
+      faces.push_back(f.idx());
+    }
+  }
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
+// Ready to take part in this run; false for a face that was bisected before it and has to be made anew.
+bool Refinement::enter(std::int32_t face) {
+  State& state = states_[index(face)];
+  if (state == State::kKept) return false;
+  if (state == State::kOriginal) {
+    for (const std::int32_t fan : mesh_.corners[index(face)]) set_node(fan);
+    state = State::kRunning;
+    running_.push_back(face);
+  }
+  return true;
+}
+
+// Makes faces what they were before any bisection, and with them those that they are bisected together with: two faces
+// whose common edge is bisected. In doing so it moves triangles and vertices together.
+void Refinement::reset(const std::vector<std::int32_t>& seeds) {
+  const HalfEdgeMesh& mesh = surface_.half_edges();
+  // The parts of each face but the first.
+  std::vector<std::pair<std::int32_t, std::int32_t>> parts;
+  for (std::size_t f = faces_; f < origins_.size(); ++f) parts.emplace_back(origins_[f], static_cast<std::int32_t>(f));
+  std::sort(parts.begin(), parts.end());
+  const auto parts_of = [&](std::int32_t face) {
+    const auto begin = std::lower_bound(parts.begin(), parts.end(), std::pair(face, std::int32_t{-1}));
+    const auto end = std::find_if(begin, parts.end(), [face](const auto& part) { return part.first != face; });
+    return std::span(begin, end);
+  };
+
+  struct Outer {
+    std::int32_t inside, outside;
+  };
+  std::vector<Outer> sides;  // every unbisected side of a face to reset, and what is beyond it
+  std::vector<bool> is_reset(faces_, false);
+  std::vector<std::int32_t> faces;
+  const auto add = [&](std::int32_t face) {
+    if (!is_reset[index(face)]) faces.push_back(face);
+    is_reset[index(face)] = true;
+  };
+  for (const std::int32_t face : seeds) add(face);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const std::int32_t face = faces[i];
+    const Given original = given(mesh, face);
+    std::array<std::int32_t, 3> whole{-1, -1, -1};
+    const auto look = [&](std::int32_t part) {
+      for (std::int32_t h = 3 * part; h < 3 * part + 3; ++h) {
+        for (std::size_t side = 0; side < 3; ++side) {
+          if (mesh_.tail(h) == original.corners[side] && mesh_.tip(h) == original.corners[(side + 1) % 3]) {
+            whole[side] = h;
+          }
+        }
+      }
+    };
+    look(face);
+    for (const auto& [of, part] : parts_of(face)) look(part);
+    for (std::size_t side = 0; side < 3; ++side) {
+      if (whole[side] >= 0) {
+        sides.push_back({3 * face + static_cast<std::int32_t>(side), mesh_.twins[index(whole[side])]});
+      } else if (original.twins[side] >= 0) {
+        add(original.twins[side] / 3);
+      }
+    }
+  }
+  std::erase_if(
+      sides, [&](const Outer& side) { return side.outside < 0 || is_reset[index(origins_[index(side.outside / 3)])]; });
+  for (const std::int32_t face : faces) {
+    const Given original = given(mesh, face);
+    mesh_.corners[index(face)] = original.corners;
+    std::ranges::copy(original.twins, mesh_.twins.begin() + 3 * face);
+    branch_[index(face)] = 1;
+    states_[index(face)] = State::kOriginal;
+  }
+  for (const auto& [inside, outside] : sides) {
+    mesh_.twins[index(inside)] = outside;
+    mesh_.twins[index(outside)] = inside;
+  }
+
+  // The parts of those faces go.
+  std::size_t to = faces_;
+  for (std::size_t f = faces_; f < origins_.size(); ++f) {
+    if (is_reset[index(origins_[f])]) continue;
+    mesh_.corners[to] = mesh_.corners[f];
+    origins_[to] = origins_[f];
+    branch_[to] = branch_[f];
+    for (std::size_t i = 0; i < 3; ++i) {
+      lengths_[3 * to + i] = lengths_[3 * f + i];
+      const std::int32_t twin = mesh_.twins[3 * f + i];
+      mesh_.twins[3 * to + i] = twin;
+      if (twin >= 0) mesh_.twins[index(twin)] = static_cast<std::int32_t>(3 * to + i);
+    }
+    ++to;
+  }
+  mesh_.corners.resize(to);
+  mesh_.twins.resize(3 * to);
+  lengths_.resize(3 * to);
+  origins_.resize(to);
+  branch_.resize(to);
+  depth_.resize(to);
+  faces_added_ = to - faces_;
+
+  // And the vertices that nothing else has. Bisecting leaves a face's first part at the face's own place.
+  std::vector<std::int32_t> kept(origins_.begin() + static_cast<std::ptrdiff_t>(faces_), origins_.end());
+  std::sort(kept.begin(), kept.end());
+  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+  for (std::size_t f = faces_; f < to; ++f) kept.push_back(static_cast<std::int32_t>(f));
+  std::vector<std::int32_t> renumbered(new_nodes_.size(), -1);
+  for (const std::int32_t f : kept) {
+    for (const std::int32_t v : mesh_.corners[index(f)]) {
+      if (index(v) >= fans_) renumbered[index(v) - fans_] = 0;
+    }
+  }
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < renumbered.size(); ++v) {
+    if (renumbered[v] < 0) continue;
+    renumbered[v] = static_cast<std::int32_t>(fans_ + count);
+    new_nodes_[count] = new_nodes_[v];
+    tensors_[count] = tensors_[v];
+    points_[fans_ + count++] = points_[fans_ + v];
+  }
+  new_nodes_.resize(count);
+  tensors_.resize(count);
+  points_.resize(fans_ + count);
+  for (const std::int32_t f : kept) {
+    for (std::int32_t& v : mesh_.corners[index(f)]) {
+      if (index(v) >= fans_) v = renumbered[index(v) - fans_];
+    }
+  }
+
+  for (const std::int32_t face : faces) enter(face);
+  for (const std::int32_t face : faces) {
+    for (std::int32_t h = 3 * face; h < 3 * face + 3; ++h) set_length(h, measure(h));
+  }
+  for (const std::int32_t face : faces) consider(face);
+}
+
+bool Refinement::run_changes(const Metric& former, const Task& task, std::size_t most) {
+  std::vector<std::int32_t> seeds = changed_faces(former);
+  for (const std::int32_t face : seeds) {
+    invalid_before_ += is_given_valid(face, former);
+    invalid_before_ -= is_given_valid(face, metric_);
+  }
+  double progress = 0;
+  while (true) {
+    reset(seeds);
+    if (!work_off(task, most, progress)) return false;
+    if (conflicts_.empty()) return true;
+    // All else is done. What took part in a conflict begins anew, both sides of it together.
+    for (const std::int32_t face : running_) states_[index(face)] = State::kOriginal;
+    running_.clear();
+    for (std::size_t f = faces_; f < origins_.size(); ++f) states_[index(origins_[f])] = State::kKept;
+    seeds = std::exchange(conflicts_, {});
+  }
+}
+
+// Whether an original triangle is valid in a metric.
+bool Refinement::is_given_valid(std::int32_t face, const Metric& metric) const {
+  const auto [a, b, c] = given(surface_.half_edges(), face).corners;
+  std::array lengths{edge_length(surface_, metric, a, b), edge_length(surface_, metric, b, c),
+                     edge_length(surface_, metric, c, a)};
+  std::ranges::sort(lengths);
+  return lengths[2] < (lengths[0] + lengths[1]) * (1 - kSlack);
 }
 
 }  // namespace
@@ -498,20 +922,41 @@ Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions
   if (!(options.sigma >= 0)) throw InvalidInput("sigma is " + std::to_string(options.sigma) + ", not 0 or more");
   task.check(0);
   double progress = 0;
-  const auto done = [&](const Refinement& refinement) {
-    Embedding out = refinement.result();
+  const auto done = [&](Refinement&& refinement) {
+    Embedding out = std::move(refinement).result();
     task.check(1);
     return out;
   };
-  const std::size_t budget = std::max(kLeastBudget, kBudget * surface.face_count());
   {
     Refinement paper(surface, metric, options, Scheme::kPaper);
-    const std::size_t most = std::min(budget, options.max_faces_added);
-    if (paper.run(task, most, progress) || most == options.max_faces_added) return done(paper);
+    const std::size_t most = std::min(budget(surface), options.max_faces_added);
+    if (paper.run(task, most, progress) || most == options.max_faces_added) return done(std::move(paper));
   }
   Refinement propagating(surface, metric, options, Scheme::kPropagate);
   propagating.run(task, options.max_faces_added, progress);
-  return done(propagating);
+  return done(std::move(propagating));
+}
+
+Embedding re_embed(const Surface& surface, const Metric& former, const Metric& metric, Embedding old,
+                   const EmbedOptions& options, const Task& task) {
+  check_metric(surface, former);
+  check_metric(surface, metric);
+  const std::size_t faces = surface.face_count();
+  const bool fits = old.points.size() >= surface.vertex_count() &&
+                    old.mesh.face_count() + old.invalid_left >= surface.half_edges().n_faces() + old.faces_added &&
+                    std::ranges::all_of(old.source_face, [&](std::int32_t f) { return f >= 0 && index(f) < faces; });
+  if (!fits) throw InvalidInput("the former embedding is of another surface");
+  if (!old.is_local || former.normals != metric.normals) return embed(surface, metric, options, task);
+  task.check(0);
+  {
+    Refinement changes(surface, metric, options, std::move(old));
+    if (changes.run_changes(former, task, std::min(budget(surface), options.max_faces_added))) {
+      Embedding out = std::move(changes).result();
+      task.check(1);
+      return out;
+    }
+  }
+  return embed(surface, metric, options, task);
 }
 
 }  // namespace seamwire

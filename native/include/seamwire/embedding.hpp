@@ -34,6 +34,7 @@ struct Embedding {
   std::size_t faces_added = 0;
   std::size_t invalid_left = 0;  ///< holes
   bool hit_cap = false;          ///< max_faces_added ended the subdivision
+  bool is_local = false;         ///< re_embed() can go on from it: see there
   std::vector<std::int32_t>
       unreachable;  ///< the caller's vertices in a face, but in no valid triangle and on no edge to run along
 };
@@ -52,5 +53,17 @@ struct Embedding {
 /// Throws InvalidInput where metric and surface differ in size, a tensor is not finite, or sigma is negative;
 /// Cancelled.
 Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions& options = {}, const Task& task = {});
+
+/// The embedding in another metric, made from that in a former one by doing again only what touches the vertices where
+/// the two differ. The same as embed(surface, metric, options), but for the numbers of new vertices and triangles: what
+/// the subdivision does to a triangle depends on those alone that it is bisected together with, in chains of bisected
+/// edges; chains with a changed triangle are made anew, and those that they then run into. Besides that it only
+/// compares the metrics, vertex by vertex.
+///
+/// Where `old` is not local it is embed(): for surfaces with holes left, with faces taken away, cut open, or refined by
+/// propagation; also where normals differ. `old` must be of the same surface, the metric `former` and the same options;
+/// throws InvalidInput where it cannot be, and what embed() throws.
+Embedding re_embed(const Surface& surface, const Metric& former, const Metric& metric, Embedding old,
+                   const EmbedOptions& options = {}, const Task& task = {});
 
 }  // namespace seamwire
