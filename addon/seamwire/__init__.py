@@ -10,7 +10,7 @@ bl_info = {
     "author": "The Seamwire authors",
     "version": (0, 1, 0),
     "blender": (3, 4, 0),
-    "location": "3D View > Edit Mode > Edge > Draw Seamwires",
+    "location": "3D View > Edit Mode > Toolbar, Edge Menu and UV Menu",
     "category": "UV",
 }
 

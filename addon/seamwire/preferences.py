@@ -84,7 +84,7 @@ class SeamwirePreferences(bpy.types.AddonPreferences):
         kept.prop(self, "kept_colour")
         for name in ("active_colour", "other_colour", "clear_colour", "loop_colour", "seed_colour"):
             column.prop(self, name)
-        column = layout.column(heading="Manners")
+        column = layout.column(heading="Behaviour")
         column.prop(self, "always_zoom")
         column.prop(self, "resume")
         layout.use_property_split = False
@@ -98,7 +98,7 @@ def draw_keys(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     box.label(text="Keys", icon="MOUSE_LMB")
     for map_name, idname in (("Mesh", keymap.OPERATOR), (tool.KEYMAP, keymap.OPERATOR)):
         keys = configuration.keymaps.get(map_name) if configuration is not None else None
-        for item in keys.keymap_items if keys is not None else ():
+        for item in reversed(keys.keymap_items) if keys is not None else ():
             if item.idname == idname:
                 _draw_key(box, keys, item, "Start" if map_name == "Mesh" else "Start with the toolbar's tool")
     keys = keymap.user_keymap(context.window_manager)
@@ -106,11 +106,13 @@ def draw_keys(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
         box.label(text="There are no keymaps here")
         return
     last: Action | None = None
-    for item in keys.keymap_items:
-        if item.idname == keymap.ACTION_OPERATOR:
-            action = keymap.Action[item.properties.action]
-            _draw_key(box, keys, item, action.value if action is not last else "")
-            last = action
+    order = list(keymap.Action)
+    # Blender hands the newest item on first.
+    items = [item for item in reversed(keys.keymap_items) if item.idname == keymap.ACTION_OPERATOR]
+    for item in sorted(items, key=lambda item: order.index(keymap.Action[item.properties.action])):
+        action = keymap.Action[item.properties.action]
+        _draw_key(box, keys, item, action.value if action is not last else "")
+        last = action
     row = box.row()
     row.context_pointer_set("keymap", keys)
     row.label()
