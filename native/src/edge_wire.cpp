@@ -8,9 +8,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <functional>
+#include <new>
 #include <numbers>
 #include <string>
 #include <type_traits>
@@ -23,6 +26,8 @@ namespace {
 
 // Steps between two looks at the task: well under a millisecond.
 constexpr std::size_t kPatience = 8192;
+// Steps between two times that a search tells others how far it is.
+constexpr std::size_t kPublish = 256;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -305,6 +310,9 @@ class Queue {
 
   bool empty() const { return size_ == 0; }
 
+  /// No key that is still in the queue is less.
+  double floor() const { return (base_ + static_cast<double>(lowest_) * width_) * (1.0 - kRounding); }
+
   /// `least`: no step to the state costs less.
   void push(double key, std::int32_t state, double least) {
     ++size_;
@@ -325,7 +333,7 @@ class Queue {
  private:
   static constexpr std::size_t kBuckets = 1024;
   static constexpr double kBucketsPerStep = 128.0;
-  static constexpr double kRoom = 1.001;  // much more than keys are rounded by
+  static constexpr double kRoom = 1.001, kRounding = 1e-9;  // much more than keys are rounded by
 
   void place(const Entry& entry) {
     const double number = (entry.key - base_) * per_width_;
@@ -366,11 +374,36 @@ struct Unguided {
   double operator()(std::int32_t) const { return 0.0; }
 };
 
-/// A directed edge in a search.
+/// A directed edge in a search. All bits zero: no chain has reached it.
 struct State {
-  double cost = kInfinity;     // of the cheapest chain up to and with it
-  std::int32_t previous = -1;  // the directed edge before it in that chain
-  std::int32_t head = -1;      // as in the graph; here so that following a chain back touches one place a step
+  static constexpr std::int32_t kUnreached = 0, kFirst = 1, kBlocked = -1;
+
+  double cost;          // of the cheapest chain up to and with it
+  std::int32_t before;  // 2 + the directed edge before it in that chain; kFirst: none; or one of the others
+  std::int32_t head;    // as in the graph; here so that following a chain back touches one place a step
+
+  std::int32_t previous() const { return before - 2; }  // negative: it is the chain's first
+  double best() const { return before == kUnreached ? kInfinity : cost; }
+};
+
+/// An array of zeros that the system hands out page by page as they are touched, so that a search takes no more memory,
+/// or time for it, than it goes far.
+template <class T>
+class ZeroedArray {
+ public:
+  static_assert(std::is_trivial_v<T>);
+  explicit ZeroedArray(std::size_t size)
+      : values_(static_cast<T*>(std::calloc(std::max<std::size_t>(size, 1), sizeof(T)))) {
+    if (!values_) throw std::bad_alloc();
+  }
+  T& operator[](std::size_t i) { return values_.get()[i]; }
+  const T& operator[](std::size_t i) const { return values_.get()[i]; }
+
+ private:
+  struct Free {
+    void operator()(T* values) const { std::free(values); }
+  };
+  std::unique_ptr<T, Free> values_;
 };
 
 /// Dijkstra's search over directed edges for chains that repeat no vertex.
@@ -381,23 +414,23 @@ struct State {
 /// over all the vertex's other edges, so a chain to every edge in reach is found: the cheapest walk's where that has no
 /// repeated vertex, else one whose beginnings are the search's own chains (the cheapest of all simple chains is
 /// NP-hard).
+///
+/// One thread runs it; what is settled does not change any more, and others may read that meanwhile.
 class Search {
  public:
   Search(const EdgeGraph& graph, double turning)
       : graph_(graph),
         turn_cost_(turning * graph.mean_length()),
         states_(graph.directed_count()),
-        settled_(graph.directed_count(), 0),
+        settled_(graph.directed_count()),
         arrival_(at(graph.vertex_count()), kInfinity),
-        queue_((1.0 + 2.0 * turning) * graph.mean_length()) {
-    for (std::size_t e = 0; e < states_.size(); ++e) {
-      states_[e].head = graph.head(static_cast<std::int32_t>(e));
-    }
-  }
+        queue_((1.0 + 2.0 * turning) * graph.mean_length()) {}
 
   /// No chain may enter this vertex.
   void block(std::int32_t v) {
-    for (std::int32_t e = graph_.begin(v); e < graph_.end(v); ++e) states_[at(graph_.twin(e))].cost = kBlocked;
+    for (std::int32_t e = graph_.begin(v); e < graph_.end(v); ++e) {
+      states_[at(graph_.twin(e))] = {kNothing, State::kBlocked, v};
+    }
   }
   /// Chains may enter this vertex, but not leave it; if `onto` is a directed edge from it, they pay for the turn onto
   /// it.
@@ -407,7 +440,7 @@ class Search {
   }
   /// Chains begin with this directed edge, or another one that is given so.
   void start(std::int32_t e) {
-    states_[at(e)].cost = graph_.length(e);
+    states_[at(e)] = {graph_.length(e), State::kFirst, graph_.head(e)};
     roots_.push_back(e);
   }
 
@@ -416,22 +449,22 @@ class Search {
   template <class Remaining, class Done>
   std::int32_t run(const Remaining& remaining, const Done& done, const Task& task);
 
-  /// After run().
-  std::vector<State> take_states() {
-    for (State& state : states_) {
-      if (state.cost == kBlocked) state.cost = kInfinity;
-    }
-    return std::move(states_);
-  }
+  /// From any thread: what an unguided run() has settled costs what state() says, and everything that costs less than
+  /// settled_below() is settled.
+  bool is_settled(std::int32_t e) const { return settled_[at(e)].load(std::memory_order_acquire) != 0; }
+  double settled_below() const { return floor_.load(std::memory_order_acquire); }
+  const State& state(std::int32_t e) const { return states_[at(e)]; }
 
  private:
-  static constexpr double kBlocked = -1.0;  // below every cost, so nothing improves on it
+  static constexpr double kNothing = -1.0;  // below every cost, so nothing improves on it
 
   double cost_of_step(std::int32_t from, std::int32_t to) const {
     double turns = graph_.turn(graph_.twin(from), to);
     if (onto_ >= 0 && graph_.head(to) == end_) turns += graph_.turn(graph_.twin(to), onto_);
     return graph_.length(to) + turn_cost_ * turns;
   }
+
+  bool has_settled(std::int32_t e) const { return settled_[at(e)].load(std::memory_order_relaxed) != 0; }
 
   /// Whether the chain that ends with `e` visits `v` (its very first vertex is not looked at). Costs rise along a
   /// chain, so no part of it that is cheaper than the first arrival at v matters.
@@ -442,7 +475,7 @@ class Search {
       const State& state = states_[at(e)];
       if (state.cost < first) return false;
       if (state.head == v) return true;
-      e = state.previous;
+      e = state.previous();
     }
     return false;
   }
@@ -450,8 +483,9 @@ class Search {
   const EdgeGraph& graph_;
   double turn_cost_;
   std::int32_t end_ = -1, onto_ = -1;
-  std::vector<State> states_;
-  std::vector<std::uint8_t> settled_;
+  ZeroedArray<State> states_;
+  std::vector<std::atomic<std::uint8_t>> settled_;
+  std::atomic<double> floor_ = -kInfinity;
   std::vector<double> arrival_;  // cost of the first chain that arrived at each vertex
   std::vector<std::int32_t> roots_;
   Queue queue_;
@@ -465,11 +499,11 @@ std::int32_t Search::run(const Remaining& remaining, const Done& done, const Tas
   const auto relax = [&](std::int32_t from, std::int32_t to) {
     const double cost = states_[at(from)].cost + cost_of_step(from, to);
     State& state = states_[at(to)];
-    if (!(cost < state.cost)) return;
-    const double key = cost + remaining(state.head);
+    if (!(cost < state.best())) return;
+    const std::int32_t head = graph_.head(to);
+    const double key = cost + remaining(head);
     if (key == kInfinity) return;
-    state.cost = cost;
-    state.previous = from;
+    state = {cost, from + 2, head};
     queue_.push(key, to, least(to));
   };
   for (const std::int32_t e : roots_) queue_.push(states_[at(e)].cost + remaining(graph_.head(e)), e, least(e));
@@ -477,20 +511,21 @@ std::int32_t Search::run(const Remaining& remaining, const Done& done, const Tas
     const auto [key, e, in_order] = queue_.pop();
     State& state = states_[at(e)];
     const std::int32_t v = state.head;
-    if (settled_[at(e)] != 0 || key != state.cost + remaining(v)) continue;  // a better one came in between
-    if (state.previous >= 0 && visits(state.previous, v)) {
+    if (has_settled(e) || key != state.cost + remaining(v)) continue;  // a better one came in between
+    if (state.previous() >= 0 && visits(state.previous(), v)) {
       state.cost = kInfinity;
       const std::int32_t u = graph_.tail(e);
       for (std::int32_t back = graph_.begin(u); back < graph_.end(u); ++back) {
         const std::int32_t other = graph_.twin(back);
-        if (settled_[at(other)] != 0 && back != e && !visits(other, v)) relax(other, e);
+        if (has_settled(other) && back != e && !visits(other, v)) relax(other, e);
       }
       continue;
     }
-    settled_[at(e)] = 1;
+    settled_[at(e)].store(1, std::memory_order_release);
     arrival_[at(v)] = std::min(arrival_[at(v)], state.cost);
     if (done(e)) return e;
-    if (++count % kPatience == 0) {
+    if (++count % kPublish == 0) floor_.store(queue_.floor(), std::memory_order_release);
+    if (count % kPatience == 0) {
       task.check(static_cast<double>(count) / static_cast<double>(graph_.directed_count()));
     }
     if (v == end_) continue;
@@ -498,15 +533,16 @@ std::int32_t Search::run(const Remaining& remaining, const Done& done, const Tas
     for (std::int32_t to = graph_.begin(v); to < back; ++to) relax(e, to);
     for (std::int32_t to = back + 1; to < graph_.end(v); ++to) relax(e, to);
   }
+  floor_.store(kInfinity, std::memory_order_release);
   return -1;
 }
 
-/// The chain that ends with `e`.
-EdgeChain chain_to(const EdgeGraph& graph, const std::vector<State>& states, std::int32_t e) {
-  EdgeChain chain{{}, states[at(e)].cost};
+/// The chain that ends with `e`, which is settled.
+EdgeChain chain_to(const EdgeGraph& graph, const Search& search, std::int32_t e) {
+  EdgeChain chain{{}, search.state(e).cost};
   std::int32_t first = e;
-  for (; e >= 0; e = states[at(e)].previous) {
-    chain.vertices.push_back(states[at(e)].head);
+  for (; e >= 0; e = search.state(e).previous()) {
+    chain.vertices.push_back(search.state(e).head);
     first = e;
   }
   chain.vertices.push_back(graph.tail(first));
@@ -544,39 +580,37 @@ void check_turning(double turning) {
 
 }  // namespace
 
-struct EdgeWires::Search {
+struct EdgeWires::Run {
+  Run(std::shared_ptr<const EdgeGraph> on, const Pick& from, double turning)
+      : graph(std::move(on)), seed(from), search(*graph, turning) {}
+
+  /// Of the directed edges that lead to a target, the settled one that costs least; -1: there is none.
+  std::int32_t best(const Pick& target) const {
+    std::int32_t found = -1;
+    const auto consider = [&](std::int32_t e) {
+      if (!search.is_settled(e)) return;
+      if (found < 0 || search.state(e).cost < search.state(found).cost) found = e;
+    };
+    if (target.is_edge()) {
+      const std::int32_t e = graph->find(std::min(target.a, target.b), std::max(target.a, target.b));
+      consider(e);
+      consider(graph->twin(e));
+    } else {
+      for (std::int32_t e = graph->begin(target.a); e < graph->end(target.a); ++e) consider(graph->twin(e));
+    }
+    return found;
+  }
+
   std::shared_ptr<const EdgeGraph> graph;
   Pick seed;
-  std::vector<State> states;
+  Search search;
 };
 
-EdgeWires::EdgeWires(std::shared_ptr<const Search> search) : search_(std::move(search)) {}
-
-EdgeChain EdgeWires::trace(const Pick& target) const {
-  const EdgeGraph& graph = *search_->graph;
-  check_pick(graph, target, "target");
-  if (!target.is_edge() && target == search_->seed) return {{target.a}, 0.0};
-
-  std::int32_t best = -1;
-  const auto consider = [&](std::int32_t e) {
-    if (search_->states[at(e)].cost < (best < 0 ? kInfinity : search_->states[at(best)].cost)) best = e;
-  };
-  if (target.is_edge()) {
-    const std::int32_t e = graph.find(std::min(target.a, target.b), std::max(target.a, target.b));
-    consider(e);
-    consider(graph.twin(e));
-  } else {
-    for (std::int32_t e = graph.begin(target.a); e < graph.end(target.a); ++e) consider(graph.twin(e));
-  }
-  if (best < 0) return {};
-  return chain_to(graph, search_->states, best);
-}
-
-EdgeWires edge_wires(std::shared_ptr<const EdgeGraph> graph, const Pick& seed, double turning, bool forward,
-                     const Task& task) {
+EdgeWires::EdgeWires(std::shared_ptr<const EdgeGraph> graph, const Pick& seed, double turning, bool forward) {
   check_pick(*graph, seed, "seed");
   check_turning(turning);
-  Search search(*graph, turning);
+  run_ = std::make_shared<Run>(graph, seed, turning);
+  Search& search = run_->search;
   if (!seed.is_edge()) {
     search.block(seed.a);
     for (std::int32_t e = graph->begin(seed.a); e < graph->end(seed.a); ++e) search.start(e);
@@ -591,10 +625,34 @@ EdgeWires edge_wires(std::shared_ptr<const EdgeGraph> graph, const Pick& seed, d
     }
     search.start(e);
   }
-  search.run(
+}
+
+void EdgeWires::run(const Task& task) {
+  run_->search.run(
       Unguided(), [](std::int32_t) { return false; }, task);
-  return EdgeWires(
-      std::make_shared<const EdgeWires::Search>(EdgeWires::Search{std::move(graph), seed, search.take_states()}));
+}
+
+bool EdgeWires::is_final(const Pick& target) const {
+  check_pick(*run_->graph, target, "target");
+  const double below = run_->search.settled_below();  // first, so that what it speaks of is seen
+  if (below == kInfinity || (!target.is_edge() && target == run_->seed)) return true;
+  const std::int32_t best = run_->best(target);
+  return best >= 0 && run_->search.state(best).cost < below;
+}
+
+EdgeChain EdgeWires::trace(const Pick& target) const {
+  check_pick(*run_->graph, target, "target");
+  if (!target.is_edge() && target == run_->seed) return {{target.a}, 0.0};
+  const std::int32_t best = run_->best(target);
+  if (best < 0) return {};
+  return chain_to(*run_->graph, run_->search, best);
+}
+
+EdgeWires edge_wires(std::shared_ptr<const EdgeGraph> graph, const Pick& seed, double turning, bool forward,
+                     const Task& task) {
+  EdgeWires wires(std::move(graph), seed, turning, forward);
+  wires.run(task);
+  return wires;
 }
 
 namespace {
@@ -623,14 +681,16 @@ double cheapest_small_loop(const EdgeGraph& graph, std::int32_t ab, double turn_
 }
 
 /// Metric distance along edges to `target`, without turns; infinity beyond `radius`.
-std::vector<double> distances(const EdgeGraph& graph, std::int32_t target, double radius) {
+std::vector<double> distances(const EdgeGraph& graph, std::int32_t target, double radius, const Task& task) {
   std::vector<double> distance(at(graph.vertex_count()), kInfinity);
   Queue queue(graph.mean_length());
   distance[at(target)] = 0.0;
   queue.push(0.0, target, 0.0);
+  std::size_t count = 0;
   while (!queue.empty()) {
     const auto [d, v, in_order] = queue.pop();
     if (d != distance[at(v)]) continue;
+    if (++count % kPatience == 0) task.check(0.0);
     for (std::int32_t e = graph.begin(v); e < graph.end(v); ++e) {
       const double there = d + graph.length(e);
       if (!(there <= radius && there < distance[at(graph.head(e))])) continue;
@@ -651,7 +711,7 @@ EdgeChain edge_loop(const EdgeGraph& graph, const Edge& edge, double turning, co
 
   // No vertex of a loop is further from a than half its length. A little room for rounding.
   const double bound = (1.0 + 1e-9) * cheapest_small_loop(graph, ab, turning * graph.mean_length());
-  const std::vector<double> way_back = distances(graph, a, 0.5 * bound);
+  const std::vector<double> way_back = distances(graph, a, 0.5 * bound, task);
   Search search(graph, turning);
   search.block(b);
   search.end_at(a, ab);
@@ -659,7 +719,7 @@ EdgeChain edge_loop(const EdgeGraph& graph, const Edge& edge, double turning, co
   const std::int32_t last = search.run([&](std::int32_t v) { return way_back[at(v)]; },
                                        [&](std::int32_t e) { return graph.head(e) == a; }, task);
   if (last < 0) return {};
-  EdgeChain loop = chain_to(graph, search.take_states(), last);
+  EdgeChain loop = chain_to(graph, search, last);
   loop.vertices.pop_back();  // a, once more
   return loop;
 }

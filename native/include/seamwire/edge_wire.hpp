@@ -52,9 +52,22 @@ class EdgeGraph;
 std::shared_ptr<const EdgeGraph> make_edge_graph(const Surface& surface, const Metric& metric,
                                                  std::shared_ptr<const EdgeFans> fans = nullptr, const Task& task = {});
 
-/// The cheapest chains from one pick to every edge and vertex.
+/// The cheapest chains from one pick to every edge and vertex. While run() is at work on one thread, another may ask
+/// for those found so far. Copies share the search.
 class EdgeWires {
  public:
+  /// `turning`: q, not negative. `forward`: the seed edge has just been drawn from seed.a to seed.b, so the chain
+  /// leaves it over b (a directed seed counts its turn there too). Throws InvalidInput where the seed is not a vertex
+  /// or an edge of the surface.
+  EdgeWires(std::shared_ptr<const EdgeGraph> graph, const Pick& seed, double turning = 3.0, bool forward = false);
+
+  /// Searches, nearest first; once. Throws Cancelled, after which there is no more than what was found.
+  void run(const Task& task = {});
+
+  /// Whether trace() gives the cheapest chain already, or tells for sure that there is none. Throws InvalidInput where
+  /// the target is not a vertex or an edge of the surface.
+  bool is_final(const Pick& target) const;
+
   /// The cheapest chain to a target, both picks included. A picked edge has no direction: the better of both. The seed
   /// itself is a chain of its own. Behind a forward seed, a target at the seed's first vertex closes the chain there.
   /// Takes time in proportion to the chain. Throws InvalidInput where the target is not a vertex or an edge of the
@@ -65,16 +78,12 @@ class EdgeWires {
   /// NP-hard.
   EdgeChain trace(const Pick& target) const;
 
-  struct Search;  // edge_wire.cpp
-  explicit EdgeWires(std::shared_ptr<const Search> search);
-
  private:
-  std::shared_ptr<const Search> search_;
+  struct Run;  // edge_wire.cpp
+  std::shared_ptr<Run> run_;
 };
 
-/// `turning`: q, not negative. `forward`: the seed edge has just been drawn from seed.a to seed.b, so the chain leaves
-/// it over b (a directed seed counts its turn there too). Throws InvalidInput where the seed is not a vertex or an edge
-/// of the surface; Cancelled.
+/// Those of a search that has run to its end. Throws as its parts do.
 EdgeWires edge_wires(std::shared_ptr<const EdgeGraph> graph, const Pick& seed, double turning = 3.0,
                      bool forward = false, const Task& task = {});
 
