@@ -254,6 +254,20 @@ ValueError
     Where a parameter is wrong.
 )")
       .def(
+          "set_scribbles",
+          [](const LiveWireObject& object, std::vector<Scribble> scribbles) {
+            without_gil([&] { object.live->set_scribbles(std::move(scribbles)); });
+          },
+          py::arg("scribbles"),
+          R"(Changes the metric by strokes, instead of those before; in the background, as `set_metric`, which keeps them.
+
+A scribble that is not on the surface is an error of the calls that ask for results.
+
+Parameters
+----------
+scribbles : sequence of Scribble
+)")
+      .def(
           "seed",
           [](const LiveWireObject& object, const py::object& pick, bool forward) {
             const Pick at = pick_from(pick, object.vertex_count, "pick");
@@ -281,7 +295,10 @@ ValueError
             return LiveWiresObject{
                 without_gil([&] { return std::make_shared<const LiveWires>(object.live->wires(at)); })};
           },
-          py::arg("target"), R"(The wires to a target now, without waiting for the computation.
+          py::arg("target"), R"(The wires to a target now, as far as they are computed.
+
+Along edges those near the seed are final first. Across the surface a path that may be a little longer than the shortest
+is computed for the target asked for last, and is there, not final, at one of the next calls for it.
 
 Raises
 ------

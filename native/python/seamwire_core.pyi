@@ -153,6 +153,8 @@ class LiveWire:
         clamp_percentile: float | None = None,
     ) -> None:
         """In the background, and seeds again; until then wires are the former ones, and not final."""
+    def set_scribbles(self, scribbles: Sequence[Scribble]) -> None:
+        """Instead of those before; as set_metric, which keeps them. One that is off the surface: ValueError at the next call."""
     def seed(self, pick: Pick, forward: bool = False) -> None: ...
     def wires(self, target: Pick) -> LiveWires: ...
     def loop(self, edge: tuple[int, int]) -> LiveLoop:

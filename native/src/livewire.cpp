@@ -16,6 +16,7 @@
 #include "computed_once.hpp"
 #include "seamwire/embedding.hpp"
 #include "seamwire/geodesics.hpp"
+#include "seamwire/quick_paths.hpp"
 
 namespace seamwire {
 
@@ -69,21 +70,32 @@ struct Prepared {
   std::shared_ptr<const EdgeGraph> graph;
 };
 
-/// The two metrics of one family and strength. Shared by forks.
+/// The two metrics of one family and strength, after the scribbles. Shared by forks.
 struct Metrics {
-  Metrics(MetricFamily of, const Strength& with) : family(of), strength(with) {}
+  Metrics(MetricFamily of, const Strength& with, std::vector<Scribble> after)
+      : family(of), strength(with), scribbles(std::move(after)) {}
 
   const MetricFamily family;
   const Strength strength;
+  const std::vector<Scribble> scribbles;
   std::array<ComputedOnce<Prepared>, 2> prepared;
   std::array<std::atomic<double>, 2> fractions = {};  // of the preparation
 };
 
-/// The wires of one metric from one seed.
+/// The wires of one metric from one seed. Along edges it may still be at work.
 struct Solved {
   std::shared_ptr<const Prepared> prepared;
   std::optional<DistanceField> field;
   std::optional<EdgeWires> wires;
+
+  bool is_final(const Pick& target) const { return !wires || wires->is_final(target); }
+};
+
+/// A wire to one target, computed before there is a field.
+struct Preview {
+  std::int64_t request;
+  Pick target;
+  LiveCandidate candidate;
 };
 
 Metric make_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Metrics& metrics) {
@@ -115,7 +127,11 @@ Prepared prepare(Ground& ground, Metrics& metrics, std::size_t which, const std:
   if (which == 0) prepare_edges();
   Task task{.stop = stop, .progress = {}};
   task.check(0.0);
-  const Metric metric = make_metric(*ground.surface, curved->curvature, kFollow[which], metrics);
+  Metric metric = make_metric(*ground.surface, curved->curvature, kFollow[which], metrics);
+  task.check(0.0);
+  if (!metrics.scribbles.empty()) {
+    metric = apply_scribbles(*ground.surface, metric, metrics.scribbles, kFollow[which]);
+  }
   fraction = kEmbedBegins / kSolveBegins;
   task.progress = [&fraction](double done) {
     fraction = (kEmbedBegins + (kSolveBegins - kEmbedBegins) * done) / kSolveBegins;
@@ -171,8 +187,10 @@ struct LiveWire::Impl {
   struct Worker {
     std::shared_ptr<const Solved> solved;  // of the newest seed; of a former metric where solved_for is not `request`
     std::int64_t solved_for = -1;
-    std::int64_t handled = -1;  // the request that was answered, or failed, last
-    std::exception_ptr error;   // why it failed
+    std::shared_ptr<const Preview> preview;
+    std::vector<std::shared_ptr<const Solved>> dropped;  // to be freed here: that takes long for a large field
+    std::int64_t handled = -1;                           // the request that was answered, or failed, last
+    std::exception_ptr error;                            // why it failed
     EdgeChain loop;
     std::int64_t loop_handled = 0;
     std::stop_source preparing, solving;  // of the running work
@@ -190,9 +208,13 @@ struct LiveWire::Impl {
   void work(std::size_t which);
   void work_on_seed(std::size_t which, std::unique_lock<std::mutex>& lock);
   void work_on_loop(std::size_t which, std::unique_lock<std::mutex>& lock);
-  Solved solve(const std::shared_ptr<const Prepared>& prepared, const Pick& pick, bool is_forward,
-               const Task& task) const;
-  LiveCandidate candidate(std::size_t which, const Solved* solved, const Pick& target) const;
+  std::shared_ptr<const Solved> find_field(std::size_t which, const std::shared_ptr<const Prepared>& prepared,
+                                           std::int32_t from, std::int64_t at, Task task);
+  std::shared_ptr<const Solved> find_chains(std::size_t which, const std::shared_ptr<const Prepared>& prepared,
+                                            const Pick& from, bool is_forward, std::int64_t at, const Task& task);
+  LiveCandidate candidate_of(std::size_t which, const Prepared& prepared, Wire wire) const;
+  LiveCandidate candidate(std::size_t which, const Solved& solved, const Pick& target) const;
+  void change_metrics(std::shared_ptr<Metrics> to);
 
   /// With the lock.
   bool idle() const {
@@ -204,6 +226,12 @@ struct LiveWire::Impl {
       if (worker.error) std::rethrow_exception(worker.error);
     }
   }
+  /// Without the lock.
+  std::shared_ptr<Metrics> metrics_now() const {
+    const std::scoped_lock lock(mutex);
+    return metrics;
+  }
+  /// With the lock.
   void drop_loop() {
     loop_edge = {-1, -1};
     for (Worker& worker : workers) worker.loop_handled = loop_request;
@@ -220,6 +248,8 @@ struct LiveWire::Impl {
   std::int64_t request = 0;  // grows with each seed and each change of the metric
   std::optional<Pick> seed;
   bool forward = false;
+  Pick target;                            // what wires were asked for last
+  std::atomic<std::int64_t> targets = 0;  // how often that was another one
   std::int64_t loop_request = 0;
   Edge loop_edge = {-1, -1};  // of the newest loop asked for
   std::array<Worker, 2> workers;
@@ -251,8 +281,17 @@ void LiveWire::Impl::work(std::size_t which) {
   Worker& worker = workers[which];
   std::unique_lock lock(mutex);
   while (true) {
-    changed.wait(lock, [&] { return quit || worker.handled != request || worker.loop_handled != loop_request; });
+    changed.wait(lock, [&] {
+      return quit || worker.handled != request || worker.loop_handled != loop_request || !worker.dropped.empty();
+    });
     if (quit) return;
+    if (!worker.dropped.empty()) {
+      std::vector<std::shared_ptr<const Solved>> dropped = std::exchange(worker.dropped, {});
+      lock.unlock();
+      dropped.clear();
+      lock.lock();
+      continue;
+    }
     worker.preparing = std::stop_source();
     worker.solving = std::stop_source();
     if (worker.handled != request) {
@@ -286,7 +325,8 @@ void LiveWire::Impl::work_on_seed(std::size_t which, std::unique_lock<std::mutex
         with->prepared[which].get(preparing, [&] { return prepare(*ground, *with, which, preparing); });
     if (pick) {
       task.check(0.0);
-      solved = std::make_shared<const Solved>(solve(prepared, *pick, is_forward, task));
+      solved = ground->along == Along::kSurface ? find_field(which, prepared, pick->a, at, task)
+                                                : find_chains(which, prepared, *pick, is_forward, at, task);
     }
   } catch (const Cancelled&) {
     // By a newer request, or to quit.
@@ -297,15 +337,14 @@ void LiveWire::Impl::work_on_seed(std::size_t which, std::unique_lock<std::mutex
   lock.lock();
   worker.handled = at;
   if (at == request) {
-    std::swap(worker.solved, solved);
+    if (worker.solved != solved) worker.dropped.push_back(std::exchange(worker.solved, solved));
     worker.solved_for = at;
+    worker.preview = nullptr;
     worker.error = std::move(error);
   }
-  if (solved) {  // a large field takes long to free
-    lock.unlock();
-    solved = nullptr;
-    lock.lock();
-  }
+  lock.unlock();
+  solved = nullptr;
+  lock.lock();
 }
 
 void LiveWire::Impl::work_on_loop(std::size_t which, std::unique_lock<std::mutex>& lock) {
@@ -336,44 +375,105 @@ void LiveWire::Impl::work_on_loop(std::size_t which, std::unique_lock<std::mutex
   if (error) worker.error = std::move(error);
 }
 
-Solved LiveWire::Impl::solve(const std::shared_ptr<const Prepared>& prepared, const Pick& pick, bool is_forward,
-                             const Task& task) const {
-  Solved solved{.prepared = prepared, .field = std::nullopt, .wires = std::nullopt};
-  if (ground->along == Along::kSurface) {
-    solved.field = prepared->geodesics->solve(pick.a, task);
-  } else {
-    solved.wires = edge_wires(prepared->graph, pick, turning, is_forward, task);
+/// Between the steps of the search for the field it finds wires to the targets that are asked for meanwhile: on a
+/// thread of its own that would take turns with the search all the same.
+std::shared_ptr<const Solved> LiveWire::Impl::find_field(std::size_t which,
+                                                         const std::shared_ptr<const Prepared>& prepared,
+                                                         std::int32_t from, std::int64_t at, Task task) {
+  Worker& worker = workers[which];
+  QuickPaths quick(*prepared->geodesics, from);
+  std::int64_t answered = -1;
+  const auto answer = [&] {
+    const std::int64_t asked = targets;
+    if (asked == answered) return;
+    Pick to;
+    {
+      const std::scoped_lock lock(mutex);
+      to = target;
+    }
+    answered = asked;
+    if (to.a < 0) return;
+    Wire wire = map_wire(surface(), *prepared->embedding, quick.path(to.a, {.stop = task.stop, .progress = {}}));
+    wire.from = from;
+    wire.to = to.a;
+    const auto preview =
+        std::make_shared<const Preview>(Preview{at, to, candidate_of(which, *prepared, std::move(wire))});
+    const std::scoped_lock lock(mutex);
+    if (at == request) worker.preview = preview;
+  };
+  answer();
+  task.progress = [&, report = std::move(task.progress)](double done) {
+    answer();
+    return report(done);
+  };
+  DistanceField field = prepared->geodesics->solve(from, task);
+  return std::make_shared<const Solved>(Solved{.prepared = prepared, .field = std::move(field), .wires = std::nullopt});
+}
+
+/// What is found can be seen from the beginning.
+std::shared_ptr<const Solved> LiveWire::Impl::find_chains(std::size_t which,
+                                                          const std::shared_ptr<const Prepared>& prepared,
+                                                          const Pick& from, bool is_forward, std::int64_t at,
+                                                          const Task& task) {
+  EdgeWires wires(prepared->graph, from, turning, is_forward);
+  auto solved = std::make_shared<const Solved>(Solved{.prepared = prepared, .field = std::nullopt, .wires = wires});
+  {
+    const std::scoped_lock lock(mutex);
+    if (at == request) {
+      Worker& worker = workers[which];
+      worker.dropped.push_back(std::exchange(worker.solved, solved));
+      worker.solved_for = at;
+    }
   }
+  wires.run(task);
   return solved;
 }
 
-LiveCandidate LiveWire::Impl::candidate(std::size_t which, const Solved* solved, const Pick& target) const {
+LiveCandidate LiveWire::Impl::candidate_of(std::size_t which, const Prepared& prepared, Wire wire) const {
   LiveCandidate candidate;
   candidate.follow = kFollow[which];
-  if (solved == nullptr) return candidate;
-  if (solved->wires) {
-    EdgeChain chain = solved->wires->trace(target);
-    candidate.length = chain.length;
-    candidate.vertices = std::move(chain.vertices);
-    candidate.points.reserve(candidate.vertices.size());
-    for (const std::int32_t v : candidate.vertices) {
-      candidate.points.push_back(surface().points()[static_cast<std::size_t>(v)]);
-    }
-  } else {
-    const Prepared& prepared = *solved->prepared;
-    Wire wire = trace_wire(surface(), *prepared.embedding, *solved->field, target.a);
-    candidate.vertices = snap_to_edges(surface(), *prepared.snap_graph, wire);
-    candidate.length = wire.length;
-    candidate.points = std::move(wire.points);
-    candidate.faces = std::move(wire.faces);
+  candidate.vertices = snap_to_edges(surface(), *prepared.snap_graph, wire);
+  candidate.length = wire.length;
+  candidate.points = std::move(wire.points);
+  candidate.faces = std::move(wire.faces);
+  return candidate;
+}
+
+LiveCandidate LiveWire::Impl::candidate(std::size_t which, const Solved& solved, const Pick& to) const {
+  if (solved.field) {
+    const Prepared& prepared = *solved.prepared;
+    return candidate_of(which, prepared, trace_wire(surface(), *prepared.embedding, *solved.field, to.a));
+  }
+  LiveCandidate candidate;
+  candidate.follow = kFollow[which];
+  EdgeChain chain = solved.wires->trace(to);
+  candidate.length = chain.length;
+  candidate.vertices = std::move(chain.vertices);
+  candidate.points.reserve(candidate.vertices.size());
+  for (const std::int32_t v : candidate.vertices) {
+    candidate.points.push_back(surface().points()[static_cast<std::size_t>(v)]);
   }
   return candidate;
+}
+
+void LiveWire::Impl::change_metrics(std::shared_ptr<Metrics> to) {
+  const std::scoped_lock lock(mutex);
+  metrics = std::move(to);
+  ++request;
+  drop_loop();
+  for (Worker& worker : workers) {
+    worker.preparing.request_stop();
+    worker.solving.request_stop();
+    worker.error = nullptr;
+  }
+  changed.notify_all();
 }
 
 LiveWire::LiveWire(std::shared_ptr<const Surface> surface, const LiveWireOptions& options) {
   check_options(options);
   impl_ = std::make_unique<Impl>(std::make_shared<Ground>(std::move(surface), options.along),
-                                 std::make_shared<Metrics>(options.family, options.strength), options);
+                                 std::make_shared<Metrics>(options.family, options.strength, std::vector<Scribble>()),
+                                 options);
 }
 
 LiveWire::LiveWire(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -382,43 +482,33 @@ LiveWire& LiveWire::operator=(LiveWire&& other) noexcept = default;
 LiveWire::~LiveWire() = default;
 
 LiveWire LiveWire::fork() const {
-  std::shared_ptr<Metrics> metrics;
-  {
-    const std::scoped_lock lock(impl_->mutex);
-    metrics = impl_->metrics;
-  }
   const LiveWireOptions options{.turning = impl_->turning, .loop_turning = impl_->loop_turning};
-  return LiveWire(std::make_unique<Impl>(impl_->ground, std::move(metrics), options));
+  return LiveWire(std::make_unique<Impl>(impl_->ground, impl_->metrics_now(), options));
 }
 
 void LiveWire::set_metric(MetricFamily family, const Strength& strength) {
   check_metric(family, strength);
-  auto metrics = std::make_shared<Metrics>(family, strength);
-  const std::scoped_lock lock(impl_->mutex);
-  std::swap(impl_->metrics, metrics);
-  ++impl_->request;
-  impl_->drop_loop();
-  for (Impl::Worker& worker : impl_->workers) {
-    worker.preparing.request_stop();
-    worker.solving.request_stop();
-    worker.error = nullptr;
-  }
-  impl_->changed.notify_all();
+  impl_->change_metrics(std::make_shared<Metrics>(family, strength, impl_->metrics_now()->scribbles));
+}
+
+void LiveWire::set_scribbles(std::vector<Scribble> scribbles) {
+  const std::shared_ptr<Metrics> now = impl_->metrics_now();
+  if (scribbles == now->scribbles) return;
+  impl_->change_metrics(std::make_shared<Metrics>(now->family, now->strength, std::move(scribbles)));
 }
 
 void LiveWire::seed(const Pick& pick, bool forward) {
   check_pick(impl_->surface(), impl_->ground->along, pick);
-  std::array<std::shared_ptr<const Solved>, 2> dropped;  // freed without the lock
   const std::scoped_lock lock(impl_->mutex);
   ++impl_->request;
   impl_->seed = pick;
   impl_->forward = forward;
-  for (std::size_t which = 0; which < kFollow.size(); ++which) {
-    Impl::Worker& worker = impl_->workers[which];
+  impl_->target = {};
+  for (Impl::Worker& worker : impl_->workers) {
     worker.solving.request_stop();
     worker.error = nullptr;
-    dropped[which] = std::move(worker.solved);
-    worker.solved = nullptr;
+    worker.preview = nullptr;
+    if (worker.solved) worker.dropped.push_back(std::exchange(worker.solved, nullptr));
   }
   impl_->changed.notify_all();
 }
@@ -426,20 +516,35 @@ void LiveWire::seed(const Pick& pick, bool forward) {
 LiveWires LiveWire::wires(const Pick& target) const {
   check_pick(impl_->surface(), impl_->ground->along, target);
   std::array<std::shared_ptr<const Solved>, 2> solved;
+  std::array<std::shared_ptr<const Preview>, 2> previews;
   std::array<bool, 2> is_newest{};
   {
     const std::scoped_lock lock(impl_->mutex);
     if (!impl_->seed) throw InvalidInput("there is no seed that wires could start from");
     impl_->rethrow();
+    if (impl_->target != target) {
+      impl_->target = target;
+      ++impl_->targets;
+    }
     for (std::size_t which = 0; which < kFollow.size(); ++which) {
-      solved[which] = impl_->workers[which].solved;
-      is_newest[which] = impl_->workers[which].solved_for == impl_->request;
+      const Impl::Worker& worker = impl_->workers[which];
+      solved[which] = worker.solved;
+      is_newest[which] = worker.solved != nullptr && worker.solved_for == impl_->request;
+      const bool fits = worker.preview && worker.preview->request == impl_->request && worker.preview->target == target;
+      if (!is_newest[which] && fits) previews[which] = worker.preview;
     }
   }
   LiveWires result;
   for (std::size_t which = 0; which < kFollow.size(); ++which) {
-    result.wires[which] = impl_->candidate(which, solved[which].get(), target);
-    result.wires[which].final = solved[which] != nullptr && is_newest[which];
+    LiveCandidate& wire = result.wires[which];
+    wire.follow = kFollow[which];
+    if (previews[which]) {
+      wire = previews[which]->candidate;
+    } else if (solved[which]) {
+      const bool is_final = is_newest[which] && solved[which]->is_final(target);  // before it is looked up
+      wire = impl_->candidate(which, *solved[which], target);
+      wire.final = is_final;
+    }
   }
   result.shorter = result.wires[1].length < result.wires[0].length ? 1 : 0;
   return result;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -11,6 +12,7 @@
 #include <random>
 #include <set>
 #include <string>
+#include <thread>
 
 #include "shapes.hpp"
 
@@ -672,6 +674,58 @@ TEST(EdgeLoop, IsTheCheapestOfAllOnSmallMeshes) {
   compare(shapes::quad_cube(2).surface());
   EXPECT_GT(loops, 200);
   EXPECT_LT(dearer, loops / 50);  // NP-hard, as for wires
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// While a search runs
+
+TEST(EdgeWires, WhatIsFinalDuringTheSearchIsItsResult) {
+  const shapes::Mesh mesh = shapes::bumpy(shapes::torus(220, 140), 0.01);
+  const Surface surface = mesh.surface();
+  const auto graph = make_edge_graph(surface, plain_metric(surface));
+  const Pick seed{5};
+  const EdgeWires expected = edge_wires(graph, seed);
+  EdgeWires wires(graph, seed);
+  const EdgeWires same = wires;
+  EXPECT_FALSE(same.is_final({900}));
+  EXPECT_TRUE(same.trace({900}).vertices.empty());
+  EXPECT_TRUE(same.is_final(seed)) << "the seed itself";
+  std::atomic<bool> done = false;
+  std::jthread search([&] {
+    wires.run();
+    done = true;
+  });
+  for (std::int32_t i = 0; !done; ++i) {
+    const std::int32_t v = (i * 7919) % static_cast<std::int32_t>(surface.vertex_count());
+    const Edge& edge =
+        surface.edges()[static_cast<std::size_t>(i * 104729LL % static_cast<long long>(surface.edges().size()))];
+    for (const Pick& target : {Pick{v}, Pick{edge[0], edge[1]}}) {
+      const bool is_final = same.is_final(target);
+      const EdgeChain chain = same.trace(target);
+      if (is_final) {
+        EXPECT_EQ(chain.vertices, expected.trace(target).vertices);
+      } else if (!chain.vertices.empty()) {
+        EXPECT_GE(chain.length, expected.trace(target).length);
+      }
+    }
+  }
+  search.join();
+  for (std::int32_t v = 0; v < 500; ++v) EXPECT_EQ(same.trace({v}).vertices, expected.trace({v}).vertices);
+}
+
+TEST(EdgeWires, AfterCancellingWhatWasFoundIsStillRight) {
+  const Surface surface = shapes::torus(220, 140).surface();
+  const auto graph = make_edge_graph(surface, plain_metric(surface));
+  const EdgeWires expected = edge_wires(graph, {5});
+  EdgeWires wires(graph, {5});
+  EXPECT_THROW(wires.run({.stop = {}, .progress = [](double done) { return done < 0.3; }}), Cancelled);
+  int found = 0;
+  for (std::int32_t v = 0; v < static_cast<std::int32_t>(surface.vertex_count()); v += 7) {
+    if (!wires.is_final({v})) continue;
+    ++found;
+    EXPECT_EQ(wires.trace({v}).vertices, expected.trace({v}).vertices);
+  }
+  EXPECT_GT(found, 100);
 }
 
 // ---------------------------------------------------------------------------------------------------------------------

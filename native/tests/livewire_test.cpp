@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <thread>
 
@@ -27,6 +29,25 @@ Metric metric_of(const Surface& surface, Follow follow, const Strength& strength
 
 const LiveWireOptions kAlongEdges = {.along = Along::kEdges,
                                      .strength = {.max_anisotropy = 10, .clamp_percentile = 99}};
+
+/// Both wires to a vertex from a live wire that has just been made.
+LiveWires fresh_wires(const std::shared_ptr<const Surface>& surface, const LiveWireOptions& options, const Pick& from,
+                      const Pick& to) {
+  LiveWire live(surface, options);
+  live.seed(from);
+  live.wait();
+  return live.wires(to);
+}
+
+void expect_equal(const LiveWires& got, const LiveWires& expected) {
+  EXPECT_TRUE(got.final());
+  EXPECT_EQ(got.shorter, expected.shorter);
+  for (std::size_t which = 0; which < 2; ++which) {
+    EXPECT_EQ(got.wires[which].points, expected.wires[which].points);
+    EXPECT_EQ(got.wires[which].vertices, expected.wires[which].vertices);
+    EXPECT_EQ(got.wires[which].length, expected.wires[which].length);
+  }
+}
 
 TEST(LiveWire, AcrossTheSurfaceGivesTheGeodesicsOfBothMetrics) {
   const auto surface = shared(shapes::torus(32, 20));
@@ -97,27 +118,62 @@ TEST(LiveWire, TheLoopIsTheCheaperOfBothMetrics) {
   }
 }
 
-TEST(LiveWire, WhatIsNotReadyIsNotFinalAndHasNoPoints) {
-  const auto surface = shared(shapes::torus(96, 64));
+TEST(LiveWire, BeforeItIsFinalAWireIsARealPathThatMayBeLonger) {
+  const auto surface = shared(shapes::torus(160, 120));
   LiveWire live(surface);
   live.seed({0});
+  const Pick target{3000};
+  std::array<std::vector<LiveCandidate>, 2> seen;
   const auto start = std::chrono::steady_clock::now();
   LiveWires wires;
   do {
     const double progress = live.progress();
     EXPECT_GE(progress, 0);
     EXPECT_LE(progress, 1);
-    wires = live.wires({3000});
-    for (const LiveCandidate& wire : wires.wires) {
-      EXPECT_EQ(wire.final, !wire.points.empty());
-      EXPECT_EQ(wire.final, std::isfinite(wire.length));
-    }
-    if (wires.wires[0].final != wires.wires[1].final) {
-      EXPECT_TRUE(wires.wires[static_cast<std::size_t>(wires.shorter)].final);
+    wires = live.wires(target);
+    for (std::size_t which = 0; which < 2; ++which) {
+      const LiveCandidate& wire = wires.wires[which];
+      EXPECT_EQ(wire.points.empty(), std::isinf(wire.length));
+      EXPECT_TRUE(!wire.final || !wire.points.empty());
+      if (!wire.final && !wire.points.empty()) seen[which].push_back(wire);
     }
     ASSERT_LT(Seconds(std::chrono::steady_clock::now() - start).count(), 60);
     std::this_thread::yield();
   } while (!wires.final());
+  EXPECT_FALSE(seen[0].empty() && seen[1].empty()) << "none in the whole time";
+  for (std::size_t which = 0; which < 2; ++which) {
+    for (const LiveCandidate& early : seen[which]) {
+      EXPECT_EQ(early.points.front(), surface->points()[0]);
+      EXPECT_EQ(early.points.back(), surface->points()[3000]);
+      EXPECT_EQ(early.vertices.front(), 0);
+      EXPECT_EQ(early.vertices.back(), 3000);
+      EXPECT_EQ(early.faces.size() + 1, early.points.size());
+      EXPECT_GE(early.length, wires.wires[which].length * (1 - 1e-12));
+      EXPECT_LE(early.length, wires.wires[which].length * 1.05);
+    }
+  }
+}
+
+TEST(LiveWire, AlongEdgesWiresNearTheSeedAreFinalFirst) {
+  const int nu = 700, nv = 500;
+  const auto surface = std::make_shared<const Surface>(shapes::quad_torus(nu, nv).surface());
+  LiveWire live(surface, kAlongEdges);
+  ASSERT_TRUE(live.wait());  // for the preparation
+  const Pick near{3}, far{nu * nv / 2 + nu / 2};
+  bool was_first = false;
+  for (int attempt = 0; attempt < 50 && !was_first; ++attempt) {  // the machine may keep us away from a whole search
+    live.seed({0});
+    LiveWires wires;
+    do {
+      std::this_thread::yield();
+      wires = live.wires(near);
+    } while (!wires.final());
+    was_first = !live.wires(far).final();
+    const LiveWires early = wires;
+    ASSERT_TRUE(live.wait());
+    expect_equal(early, live.wires(near));
+  }
+  EXPECT_TRUE(was_first);
 }
 
 TEST(LiveWire, TheNewestSeedCounts) {
@@ -208,25 +264,6 @@ TEST(LiveWire, OfLoopsTheOneAskedForLastCounts) {
   EXPECT_TRUE(live.wires({0}).final());
 }
 
-/// Both wires to a vertex from a live wire that has just been made.
-LiveWires fresh_wires(const std::shared_ptr<const Surface>& surface, const LiveWireOptions& options, const Pick& from,
-                      const Pick& to) {
-  LiveWire live(surface, options);
-  live.seed(from);
-  live.wait();
-  return live.wires(to);
-}
-
-void expect_equal(const LiveWires& got, const LiveWires& expected) {
-  EXPECT_TRUE(got.final());
-  EXPECT_EQ(got.shorter, expected.shorter);
-  for (std::size_t which = 0; which < 2; ++which) {
-    EXPECT_EQ(got.wires[which].points, expected.wires[which].points);
-    EXPECT_EQ(got.wires[which].vertices, expected.wires[which].vertices);
-    EXPECT_EQ(got.wires[which].length, expected.wires[which].length);
-  }
-}
-
 TEST(LiveWire, AnotherMetricIsThatOfALiveWireMadeWithIt) {
   const auto surface = shared(shapes::bumpy(shapes::torus(32, 20), 0.02));
   for (LiveWireOptions options : {LiveWireOptions{}, kAlongEdges}) {
@@ -279,6 +316,55 @@ TEST(LiveWire, OfMetricsTheOneSetLastCounts) {
   }
   ASSERT_TRUE(live.wait());
   expect_equal(live.wires({777}), fresh_wires(surface, options, {7}, {777}));
+}
+
+TEST(LiveWire, ScribblesChangeTheMetricsTheyAreMeantForAndGoWithoutATrace) {
+  const auto surface = shared(shapes::grid(40));
+  Scribble scribble;
+  scribble.points = {{0.1, 0.2, 0}, {0.5, 0.4, 0}, {0.9, 0.2, 0}};
+  for (const Vector& p : scribble.points) {
+    scribble.vertices.push_back(static_cast<std::int32_t>(std::lround(p.y() * 40) * 41 + std::lround(p.x() * 40)));
+  }
+  scribble.acts_on_max = false;
+  const Pick from{scribble.vertices.front()}, to{scribble.vertices.back()};
+  for (const LiveWireOptions& options : {LiveWireOptions{}, kAlongEdges}) {
+    LiveWire live(surface, options);
+    live.seed(from);
+    ASSERT_TRUE(live.wait());
+    const LiveWires before = live.wires(to);
+    live.set_scribbles({scribble});
+    EXPECT_FALSE(live.wires(to).final());
+    ASSERT_TRUE(live.wait());
+    const LiveWires after = live.wires(to);
+    ASSERT_TRUE(after.final());
+    EXPECT_EQ(after.wires[1].points, before.wires[1].points);
+    const Metric metric = apply_scribbles(*surface, metric_of(*surface, Follow::kMin, options.strength),
+                                          std::vector{scribble}, Follow::kMin);
+    if (options.along == Along::kEdges) {
+      EXPECT_EQ(after.wires[0].vertices, edge_wires(make_edge_graph(*surface, metric), from).trace(to).vertices);
+    } else {
+      const Embedding embedding = embed(*surface, metric);
+      const DistanceField field = ExactGeodesics(embedding.mesh).solve(from.a);
+      EXPECT_EQ(after.wires[0].points, trace_wire(*surface, embedding, field, to.a).points);
+      const bool bends = std::ranges::any_of(after.wires[0].points, [](const Vector& p) { return p.y() > 0.35; });
+      EXPECT_TRUE(bends) << "as the stroke does";
+    }
+    live.set_metric(MetricFamily::kFeature, {.max_anisotropy = 3});  // scribbles stay
+    ASSERT_TRUE(live.wait());
+    EXPECT_EQ(live.wires(to).wires[1].points, before.wires[1].points) << "a plane has no features";
+    EXPECT_EQ(live.wires(to).wires[0].length, after.wires[0].length);
+    live.set_metric(options.family, options.strength);
+    live.set_scribbles({});
+    ASSERT_TRUE(live.wait());
+    expect_equal(live.wires(to), before);
+    live.set_scribbles({});
+    EXPECT_TRUE(live.wires(to).final()) << "nothing has changed";
+
+    Scribble off = scribble;
+    off.vertices[1] = 41 * 41;
+    live.set_scribbles({off});
+    EXPECT_THROW(live.wait(), InvalidInput);
+  }
 }
 
 TEST(LiveWire, AForkHasTheSameMetricsAndASeedOfItsOwn) {

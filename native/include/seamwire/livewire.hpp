@@ -9,6 +9,7 @@
 
 #include "seamwire/edge_wire.hpp"
 #include "seamwire/metric.hpp"
+#include "seamwire/scribble.hpp"
 #include "seamwire/surface.hpp"
 #include "seamwire/wire.hpp"
 
@@ -71,12 +72,17 @@ class LiveWire {
   /// Changes the metric in the background, and then seeds again: until then wires are those of the former metric, and
   /// not final. Throws InvalidInput where the strength is not as said in metric.hpp.
   void set_metric(MetricFamily family, const Strength& strength);
+  /// The strokes that change the metric from here on, instead of those before; as set_metric(). What apply_scribbles()
+  /// throws for them comes out of the calls that ask for results.
+  void set_scribbles(std::vector<Scribble> scribbles);
 
   /// Starts the wires from a pick, dropping those of an earlier one. Across the surface the pick must be a vertex.
   /// `forward` as in edge_wires(). Throws InvalidInput where the pick is not part of the surface.
   void seed(const Pick& pick, bool forward = false);
-  /// The wires from the seed to a target now. Throws InvalidInput for a target that is not part of the surface or where
-  /// there is no seed.
+  /// The wires from the seed to a target now, as far as they are computed: along edges those near the seed are final
+  /// first; across the surface a path that may be a little longer than the shortest one is computed for the target
+  /// asked for last, and is there at one of the next calls for it. Throws InvalidInput for a target that is not part of
+  /// the surface or where there is no seed.
   LiveWires wires(const Pick& target) const;
 
   /// The closed chain through an edge, the cheaper of the two metrics'; along edges only. The first call for an edge

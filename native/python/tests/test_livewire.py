@@ -59,7 +59,7 @@ def test_wires_come_without_waiting(large: sw.Surface) -> None:
     deadline = time.monotonic() + 60
     while not (both := live.wires(999)).final:
         for wire in both.wires:
-            assert wire.final == (len(wire.points) > 0)
+            assert len(wire.points) > 0 or not wire.final
         assert 0 <= live.progress() <= 1
         assert time.monotonic() < deadline
 
@@ -176,3 +176,17 @@ def test_segments_are_parted_by_rings() -> None:
     assert np.bincount(labels).tolist() == [18 * nv * 2, 6 * nv * 2]
     with pytest.raises(ValueError, match="out of range"):
         sw.face_segments(surface, [(0, 10**6)])
+
+
+def test_scribbles_are_followed_and_forgotten(surface: sw.Surface) -> None:
+    live = sw.LiveWire(surface, along="edges")
+    live.seed(0)
+    assert live.wait()
+    before = live.wires(300).wires[0].length
+    stroke = surface.edges[:1].ravel()
+    live.set_scribbles([sw.Scribble(surface.points[stroke], vertices=stroke)])
+    assert live.wait()
+    assert live.wires(300).wires[0].length != before
+    live.set_scribbles([])
+    assert live.wait()
+    assert live.wires(300).wires[0].length == before
