@@ -64,11 +64,11 @@ void EdgeDistances::reach(std::int32_t vertex, const Task& task) {
   }
 }
 
-std::vector<std::int32_t> EdgeDistances::chain(std::int32_t vertex) const {
-  std::vector<std::int32_t> result;
-  for (std::int32_t v = vertex; v >= 0; v = reached_[index(v)].from) result.push_back(v);
-  std::reverse(result.begin(), result.end());
-  return result;
+IntrinsicPath EdgeDistances::chain(std::int32_t vertex) const {
+  IntrinsicPath path;
+  for (std::int32_t v = vertex; v >= 0; v = reached_[index(v)].from) path.points.push_back({.vertex = v});
+  std::reverse(path.points.begin(), path.points.end());
+  return path;
 }
 
 }  // namespace seamwire

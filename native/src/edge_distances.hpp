@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "geodesic_mesh.hpp"
+#include "seamwire/geodesics.hpp"
 #include "seamwire/task.hpp"
 
 namespace seamwire {
 
-/// Distances along edges from a seed, computed outwards as far as they are asked for: Dijkstra's algorithm with buckets
+/// Distances along steps from a seed, computed outwards as far as they are asked for: Dijkstra's algorithm with buckets
 /// of distances instead of a heap, in which vertices are settled in any order and, if need be, again (Meyer, Sanders,
 /// "Delta-stepping: a parallelizable shortest path algorithm", 2003). In single precision: they say where to look for
 /// a path, not how long it is.
@@ -24,8 +25,9 @@ class EdgeDistances {
 
   /// Final where it is below radius(), else an upper bound; infinite where nothing led yet.
   float at(std::int32_t vertex) const { return reached_[static_cast<std::size_t>(vertex)].distance; }
-  /// A shortest chain of edges from the seed to a vertex whose distance is final.
-  std::vector<std::int32_t> chain(std::int32_t vertex) const;
+  /// The vertices of a shortest chain of steps from the seed to a vertex whose distance is final; no more than its
+  /// points.
+  IntrinsicPath chain(std::int32_t vertex) const;
   float radius() const { return static_cast<float>(current_) * width_; }
 
  private:

@@ -137,13 +137,10 @@ IntrinsicPath QuickPaths::path(std::int32_t target, const Task& task) {
   const Task silent{.stop = task.stop, .progress = {}};
   const WavefrontResult result = propagate_wavefront(*part.mesh, part_seed, silent, impl_->options.windows);
   std::optional<IntrinsicPath> path = trace_records(*part.mesh, result.distances, result.records, part_target);
-  if (path) {
-    number_as_whole(part, *path);
-  } else {
-    path.emplace();
-    for (const std::int32_t v : impl_->from_seed.chain(own_target)) path->points.push_back({.vertex = v});
+  if (path) number_as_whole(part, *path);
+  if (!path || impl_->options.windows > 0) {
+    path = shorten(mesh, impl_->cutter, path ? *path : impl_->from_seed.chain(own_target), silent);
   }
-  if (impl_->options.windows > 0 || path->faces.empty()) path = shorten(mesh, impl_->cutter, *path, silent);
   number_as_caller(mesh, *path);
   return std::move(*path);
 }

@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "edge_distances.hpp"
 #include "wavefront.hpp"
 
 namespace seamwire {
@@ -173,6 +174,17 @@ class Tracer {
 
 }  // namespace
 
+namespace {
+
+/// Where records lead nowhere: not found on any mesh tried, but stretched windows promise nothing.
+IntrinsicPath chain_of_steps(const GeodesicMesh& mesh, std::int32_t seed, std::int32_t vertex) {
+  EdgeDistances distances(mesh, seed);
+  distances.reach(vertex, {});
+  return distances.chain(vertex);
+}
+
+}  // namespace
+
 std::optional<IntrinsicPath> trace_records(const GeodesicMesh& mesh, const std::vector<double>& distances,
                                            const std::vector<TraceRecord>& records, std::int32_t vertex) {
   return Tracer(mesh, distances, records).run(vertex);
@@ -217,8 +229,12 @@ void number_as_caller(const GeodesicMesh& mesh, IntrinsicPath& path) {
 }
 
 DistanceField::DistanceField(std::shared_ptr<const GeodesicMesh> mesh, std::int32_t seed, std::vector<double> distances,
-                             std::vector<TraceRecord> records)
-    : mesh_(std::move(mesh)), seed_(seed), distances_(std::move(distances)), records_(std::move(records)) {}
+                             std::vector<TraceRecord> records, bool is_exact)
+    : mesh_(std::move(mesh)),
+      seed_(seed),
+      distances_(std::move(distances)),
+      records_(std::move(records)),
+      is_exact_(is_exact) {}
 
 IntrinsicPath DistanceField::trace(std::int32_t vertex) const {
   if (vertex < 0 || static_cast<std::size_t>(vertex) >= distances_.size()) {
@@ -227,7 +243,13 @@ IntrinsicPath DistanceField::trace(std::int32_t vertex) const {
   }
   if (std::isinf(distances_[static_cast<std::size_t>(vertex)])) return {};
   std::optional<IntrinsicPath> path = trace_records(*mesh_, distances_, records_, mesh_->own_vertex(vertex));
-  if (!path) throw std::logic_error("the path to vertex " + std::to_string(vertex) + " lost its way");
+  if (!is_exact_) {
+    MeshCutter cutter(*mesh_);
+    path = shorten(*mesh_, cutter,
+                   path ? *path : chain_of_steps(*mesh_, mesh_->own_vertex(seed_), mesh_->own_vertex(vertex)), {});
+  } else if (!path) {
+    throw std::logic_error("the path to vertex " + std::to_string(vertex) + " lost its way");
+  }
   number_as_caller(*mesh_, *path);
   return std::move(*path);
 }

@@ -27,7 +27,8 @@ struct IntrinsicPath {
 
 class GeodesicMesh;  // the solver's own, flat form of the mesh
 
-/// Exact distances from one seed to every vertex, with what it takes to trace the paths.
+/// Distances from one seed to every vertex, with what it takes to trace the paths; exact, or from a bounded number of
+/// windows.
 class DistanceField {
  public:
   /// How the shortest path arrives at a vertex, in the solver's own numbering.
@@ -40,13 +41,16 @@ class DistanceField {
     static constexpr std::int32_t kLooseEdge = kNone + 1;  ///< straight along an edge without faces
   };
   DistanceField(std::shared_ptr<const GeodesicMesh> mesh, std::int32_t seed, std::vector<double> distances,
-                std::vector<TraceRecord> records);
+                std::vector<TraceRecord> records, bool is_exact = true);
 
   std::int32_t seed() const { return seed_; }
-  /// One a vertex; infinite where no path leads.
+  bool is_exact() const { return is_exact_; }
+  /// One a vertex; infinite where no path leads. Where the field is not exact they are off to either side.
   const std::vector<double>& distances() const { return distances_; }
   /// The shortest path from the seed to a vertex, in time proportional to the triangles it crosses. Its length is the
-  /// distance to rounding. Throws InvalidInput for a vertex out of range.
+  /// distance to rounding. Where the field is not exact, it is a real path all the same, with its true length, the
+  /// shortest one within the triangles around the way that the field tells; it may be longer than the geodesic, but not
+  /// shorter. Throws InvalidInput for a vertex out of range.
   IntrinsicPath trace(std::int32_t vertex) const;
 
  private:
@@ -54,6 +58,7 @@ class DistanceField {
   std::int32_t seed_;
   std::vector<double> distances_;
   std::vector<TraceRecord> records_;
+  bool is_exact_;
 };
 
 /// What the work of a solve consisted of; the same for the same input on every machine.
@@ -73,10 +78,18 @@ class ExactGeodesics {
   /// Throws InvalidInput for a seed out of range; Cancelled.
   DistanceField solve(std::int32_t seed, const Task& task = {}, GeodesicCounters* counters = nullptr) const;
 
+  /// The same with at most `windows` > 0 windows of a list going on: those around the shortest way to the apex,
+  /// stretched over what the others covered. The more windows, the longer it takes and the nearer it comes
+  /// (docs/benchmarks.md).
+  DistanceField solve_bounded(std::int32_t seed, std::uint32_t windows, const Task& task = {},
+                              GeodesicCounters* counters = nullptr) const;
+
   /// The solver's form of the mesh, immutable.
   const std::shared_ptr<const GeodesicMesh>& mesh() const { return mesh_; }
 
  private:
+  DistanceField run(std::int32_t seed, std::uint32_t windows, const Task& task, GeodesicCounters* counters) const;
+
   std::shared_ptr<const GeodesicMesh> mesh_;
 };
 
