@@ -341,8 +341,9 @@ The first vertices are those of the surface, with their numbers; new ones are mi
                std::to_string(w.points.size()) + " points, length " + number(w.length) + ">";
       });
 
-  py::class_<FieldObject>(module, "DistanceField", "Exact distances from a seed to every vertex.")
+  py::class_<FieldObject>(module, "DistanceField", "Distances from a seed to every vertex.")
       .def_property_readonly("seed", [](const FieldObject& f) { return f.field.seed(); })
+      .def_property_readonly("is_exact", [](const FieldObject& f) { return f.field.is_exact(); })
       .def_property_readonly(
           "distances",
           [](py::object self) {
@@ -363,7 +364,7 @@ The first vertices are those of the surface, with their numbers; new ones are mi
 Returns
 -------
 Wire
-    Its length is the vertex's distance. Without points where the vertex is unreachable.
+    Its length is the vertex's distance where the field is exact. Without points where the vertex is unreachable.
 
 Raises
 ------
@@ -417,14 +418,19 @@ Cancelled
 )");
   module.def(
       "distance_field",
-      [](const std::shared_ptr<EmbeddingObject>& embedding, const py::object& seed, const py::object& progress) {
+      [](const std::shared_ptr<EmbeddingObject>& embedding, const py::object& seed, const py::object& progress,
+         const std::optional<std::int32_t>& windows) {
         const std::int32_t vertex = vertex_from(seed, embedding->surface->vertex_count(), "seed");
+        if (windows && *windows < 1) throw InvalidInput("windows: expected at least 1, or None");
         return Watch(progress).run([&](const Task& task) {
-          return std::make_unique<FieldObject>(FieldObject{embedding, embedding->geodesics().solve(vertex, task)});
+          const ExactGeodesics& geodesics = embedding->geodesics();
+          return std::make_unique<FieldObject>(FieldObject{
+              embedding, windows ? geodesics.solve_bounded(vertex, static_cast<std::uint32_t>(*windows), task)
+                                 : geodesics.solve(vertex, task)});
         });
       },
-      py::arg("embedding"), py::arg("seed"), py::arg("progress") = py::none(),
-      R"(Exact distances from a vertex over an embedding.
+      py::arg("embedding"), py::arg("seed"), py::arg("progress") = py::none(), py::arg("windows") = py::none(),
+      R"(Distances from a vertex over an embedding, exact unless `windows` are given.
 
 Parameters
 ----------
@@ -434,11 +440,14 @@ seed : int
     A vertex of the surface.
 progress : callable, optional
     Called now and then with the fraction done; returning False cancels.
+windows : int, optional
+    At most that many windows of a list go on: faster, and approximate. Paths traced are real, with their true length,
+    which is not below the shortest one's.
 
 Raises
 ------
 ValueError
-    Where the seed is out of range.
+    Where the seed is out of range or windows is less than 1.
 Cancelled
 )");
   module.def(

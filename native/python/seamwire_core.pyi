@@ -102,6 +102,7 @@ class Wire:
 
 class DistanceField:
     seed: int
+    is_exact: bool
     distances: NDArray[np.float64]  # (n,) at the caller's vertices
     def trace(self, vertex: int) -> Wire: ...
 
@@ -205,7 +206,9 @@ def embed(
     max_faces_added: int = 4_000_000,
     progress: Progress | None = None,
 ) -> Embedding: ...
-def distance_field(embedding: Embedding, seed: int, progress: Progress | None = None) -> DistanceField: ...
+def distance_field(
+    embedding: Embedding, seed: int, progress: Progress | None = None, windows: int | None = None
+) -> DistanceField: ...
 def snap_to_edges(surface: Surface, wire: Wire) -> NDArray[np.int32]: ...
 def edge_wires(
     surface: Surface,

@@ -29,7 +29,7 @@ std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// A corridor holds no vertex over which the way is longer than the shortest by this factor, however short that is.
 constexpr double kLongestDetour = 2.0;
-constexpr double kCorridorBase = 2000.0, kCorridorGrowth = 10.0;
+constexpr double kCorridorBase = 1000.0, kCorridorGrowth = 8.0;
 /// Vertices of the corridor between two looks at the task.
 constexpr std::size_t kWorkBetweenChecks = 1024;
 

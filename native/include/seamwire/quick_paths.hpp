@@ -11,7 +11,7 @@
 namespace seamwire {
 
 struct QuickPathOptions {
-  /// Vertices of the corridor that is searched for a path. 0: 2000, and ten times the
+  /// Vertices of the corridor that is searched for a path. 0: 1000, and eight times the
   /// root of the mesh's number of vertices.
   std::size_t corridor_vertices = 0;
   /// Windows of a list that go on within it, as ExactGeodesics::solve()'s; 0: all, which finds the shortest path there.
