@@ -8,7 +8,7 @@
 #include <memory>
 #include <numeric>
 #include <queue>
-#include <span>
+#include <ranges>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,13 +41,17 @@ constexpr std::size_t kReportEvery = 1024;
 
 std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-void check_metric(const Surface& surface, const Metric& metric) {
+void check_size(const Surface& surface, const Metric& metric) {
   const std::size_t n = surface.vertex_count();
   if (metric.tensors.size() != n || metric.normals.size() != n) {
     throw InvalidInput("metric of " + std::to_string(metric.size()) + " vertices for a surface of " +
                        std::to_string(n));
   }
-  for (std::size_t v = 0; v < n; ++v) {
+}
+
+void check_metric(const Surface& surface, const Metric& metric) {
+  check_size(surface, metric);
+  for (std::size_t v = 0; v < metric.size(); ++v) {
     if (!metric.tensors[v].allFinite() || !metric.normals[v].allFinite()) {
       throw InvalidInput("the metric at vertex " + std::to_string(v) + " is not finite");
     }
@@ -771,15 +775,11 @@ bool Refinement::enter(std::int32_t face) {
 // whose common edge is bisected. In doing so it moves triangles and vertices together.
 void Refinement::reset(const std::vector<std::int32_t>& seeds) {
   const HalfEdgeMesh& mesh = surface_.half_edges();
-  // The parts of each face but the first.
-  std::vector<std::pair<std::int32_t, std::int32_t>> parts;
-  for (std::size_t f = faces_; f < origins_.size(); ++f) parts.emplace_back(origins_[f], static_cast<std::int32_t>(f));
-  std::sort(parts.begin(), parts.end());
-  const auto parts_of = [&](std::int32_t face) {
-    const auto begin = std::lower_bound(parts.begin(), parts.end(), std::pair(face, std::int32_t{-1}));
-    const auto end = std::find_if(begin, parts.end(), [face](const auto& part) { return part.first != face; });
-    return std::span(begin, end);
-  };
+  // The parts of each face but the first: of a face the last one made, and of a part the one before it.
+  std::vector<std::int32_t> last_part(faces_, -1), part_before(origins_.size() - faces_);
+  for (std::size_t f = faces_; f < origins_.size(); ++f) {
+    part_before[f - faces_] = std::exchange(last_part[index(origins_[f])], static_cast<std::int32_t>(f));
+  }
 
   struct Outer {
     std::int32_t inside, outside;
@@ -806,7 +806,7 @@ void Refinement::reset(const std::vector<std::int32_t>& seeds) {
       }
     };
     look(face);
-    for (const auto& [of, part] : parts_of(face)) look(part);
+    for (std::int32_t part = last_part[index(face)]; part >= 0; part = part_before[index(part) - faces_]) look(part);
     for (std::size_t side = 0; side < 3; ++side) {
       if (whole[side] >= 0) {
         sides.push_back({3 * face + static_cast<std::int32_t>(side), mesh_.twins[index(whole[side])]});
@@ -853,9 +853,10 @@ void Refinement::reset(const std::vector<std::int32_t>& seeds) {
   faces_added_ = to - faces_;
 
   // And the vertices that nothing else has. Bisecting leaves a face's first part at the face's own place.
-  std::vector<std::int32_t> kept(origins_.begin() + static_cast<std::ptrdiff_t>(faces_), origins_.end());
-  std::sort(kept.begin(), kept.end());
-  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+  std::vector<std::int32_t> kept;
+  for (const std::int32_t face : origins_ | std::views::drop(faces_)) {
+    if (std::exchange(last_part[index(face)], -1) >= 0) kept.push_back(face);
+  }
   for (std::size_t f = faces_; f < to; ++f) kept.push_back(static_cast<std::int32_t>(f));
   std::vector<std::int32_t> renumbered(new_nodes_.size(), -1);
   for (const std::int32_t f : kept) {
@@ -939,7 +940,7 @@ Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions
 
 Embedding re_embed(const Surface& surface, const Metric& former, const Metric& metric, Embedding old,
                    const EmbedOptions& options, const Task& task) {
-  check_metric(surface, former);
+  check_size(surface, former);
   check_metric(surface, metric);
   const std::size_t faces = surface.face_count();
   const bool fits = old.points.size() >= surface.vertex_count() &&
