@@ -290,6 +290,8 @@ class Overlay:
     def _add_seeds(self, sheet: _Sheet) -> None:
         session, looks = self._session, self._looks
         hovered, closing, live = session.hovered_seed, session.closing_point, session.seed_place
+        if session.dragged_seed is not None:
+            hovered = session.dragged_seed
         for pick in session.seeds():
             if pick in (hovered, closing):
                 continue

@@ -227,6 +227,11 @@ class Session:
         return () if self._drag is None else self._drag.moved
 
     @property
+    def dragged_seed(self) -> Pick | None:
+        """The seed that is being moved, where it is now."""
+        return None if self._drag is None else undirected(self._drag.place)
+
+    @property
     def hovered_wire(self) -> Wire | None:
         """The kept wire under the cursor."""
         target = self._live.target

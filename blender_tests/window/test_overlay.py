@@ -40,6 +40,7 @@ class Said:
     moved: tuple[Wire, ...] = ()
     hovered_wire: Wire | None = None
     hovered_seed: Pick | None = None
+    dragged_seed: Pick | None = None
     closing_point: Pick | None = None
     seed_place: Pick | None = None
     placed: tuple[Pick, ...] = ()
@@ -358,10 +359,11 @@ def test_a_seed_on_an_edge_is_shown_on_its_middle(sight: Sight) -> None:
 def test_wires_follow_a_dragged_seed(sight: Sight) -> None:
     kept = sight.wire(*range(36, 45))
     moved = Wire("EDGES", (36, 45, 54), sight.arrays.points[[36, 45, 54]], 36, 54, id=kept.id)
-    seen = sight.pixels(wires=(kept,), moved=(moved,))
+    seen = sight.pixels(wires=(moved,), moved=(moved,), placed=(36, 54), dragged_seed=54)
     assert has(seen, sight.at(36, 45), "orange")
+    assert bright(seen, sight.at(54), 9) > bright(seen, sight.at(36), 9) * 1.3, "the seed in the hand is larger"
     assert not has(seen, sight.at(40, 41), "red"), "no longer where it was"
-    back = sight.pixels(moved=())
+    back = sight.pixels(wires=(kept,), moved=(), placed=(), dragged_seed=None)
     assert has(back, sight.at(40, 41), "red")
 
 

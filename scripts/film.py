@@ -1,0 +1,312 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Films the tool at work in Blender's window, with simulated events and the display's own pixels; scripts/animation runs this.
+
+``blender ... --python scripts/film.py -- animation|guide FOLDER`` leaves frames.raw or guide-*.png in the folder. The simulated mouse has
+no pointer on the display: one is drawn into the frames where it would be.
+"""
+
+import os
+import struct
+import subprocess
+import sys
+import traceback
+import zlib
+from collections.abc import Callable
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path[:0] = [os.environ["SEAMWIRE_BLENDER_PACKAGES"], str(ROOT / "blender_tests")]
+
+import addon_utils
+import bpy
+import greenlet
+import numpy as np
+import ui as driver
+from mathutils import Euler, Vector
+from numpy.typing import NDArray
+
+POINTER = np.array([(0, 0), (0, -17), (4, -13.5), (7, -20), (9.7, -18.8), (6.8, -12.6), (12, -12.3)])
+"""The outline of a mouse pointer: pixels to the right of its tip and above it."""
+PRESSED = (1.0, 0.8, 0.2)
+
+EYE, EAR, MUZZLE = (729, 1606), (317, 1146), (184, 798)
+"""Edges of Suzanne, subdivided once, with loops around an eye, an ear and the muzzle."""
+
+
+class Film:
+    """A hand that moves as people do, and a camera on the display."""
+
+    def __init__(self, folder: Path) -> None:
+        self.ui = driver.Ui()
+        self.folder = folder
+        self.frames: list[NDArray[np.uint8]] = []
+        self.at = (200.0, 120.0)
+        self.pressed = False
+        self.filming = True
+        self.obj: bpy.types.Object | None = None
+
+    def shot(self) -> NDArray[np.uint8]:
+        """Return the display as it is, with the pointer: (height, width, 3), top row first."""
+        self.ui.wait(2, redraw=True)
+        window = self.ui.window
+        picture = (driver.display()[: window.height, : window.width] * 255.0).astype(np.uint8)
+        x, y = self.at
+        draw_pointer(picture, (self.ui.region.x + x, self.ui.region.y + y), self.pressed)
+        return picture[::-1]
+
+    def hold(self, frames: int) -> None:
+        """Let the picture stand."""
+        if self.filming:
+            self.frames += [self.shot()] * frames
+
+    def go(self, to: tuple[float, float], frames: int = 10, **modifiers: bool) -> None:
+        """Move the pointer, slowly at both ends."""
+        start = self.at
+        for i in range(1, frames + 1) if self.filming else [1]:
+            share = i / frames if self.filming else 1.0
+            share = share * share * (3.0 - 2.0 * share)
+            self.at = (start[0] + share * (to[0] - start[0]), start[1] + share * (to[1] - start[1]))
+            self.ui.move(self.at, **modifiers)
+            self.settle()
+            self.hold(1)
+
+    def settle(self) -> None:
+        """Wait until what is shown is final: a film is to show the tool, and not this machine."""
+        drawing = session()
+        if drawing is not None:
+            self.ui.wait_until(lambda: session() is None or not session().computing, 60.0)
+
+    def click(self, button: str = "LEFTMOUSE", **modifiers: bool) -> None:
+        """Press and release a button where the pointer is."""
+        self.ui.event(button, "PRESS", self.at, **modifiers)
+        self.pressed = True
+        self.hold(2)
+        self.pressed = False
+        self.ui.event(button, "RELEASE", self.at, **modifiers)
+        self.settle()
+        self.hold(2)
+
+    def key(self, name: str) -> None:
+        """Press a key."""
+        self.ui.key(name)
+        self.settle()
+        self.hold(2)
+
+    def seen(self, point: Vector) -> tuple[float, float]:
+        """Return where a point of the object is seen."""
+        return self.ui.on_screen(tuple(self.obj.matrix_world @ point))
+
+    def vertex(self, *near: float) -> tuple[float, float]:
+        """Return where the vertex nearest to a place is seen."""
+        place = Vector(near)
+        return self.seen(min((v.co for v in self.obj.data.vertices), key=lambda co: (co - place).length))
+
+    def edge(self, pair: tuple[int, int]) -> tuple[float, float]:
+        """Return where the middle of an edge is seen."""
+        one, two = (self.obj.data.vertices[v].co for v in pair)
+        return self.seen((one + two) / 2)
+
+    def picture(self, name: str) -> None:
+        """Keep what is seen as a picture of the guide."""
+        write_png(self.folder / f"guide-{name}.png", self.shot())
+
+
+def session() -> object | None:
+    """Return the session of the running drawing."""
+    from seamwire import drawing
+
+    return drawing.running[0].session if drawing.running else None
+
+
+def draw_pointer(picture: NDArray[np.uint8], tip: tuple[float, float], pressed: bool) -> None:
+    """Draw a pointer, white with a dark rim, yellow while a button is down; the picture has its bottom row first."""
+    x0, y0 = int(tip[0]) - 4, int(tip[1]) - 25
+    height, width = picture.shape[:2]
+    rows, columns = np.mgrid[max(y0, 0) : min(y0 + 32, height), max(x0, 0) : min(x0 + 24, width)]
+    inside, near = np.zeros(rows.shape), np.full(rows.shape, np.inf)
+    for dx, dy in ((0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)):
+        x, y = columns + dx - tip[0], rows + dy - tip[1]
+        odd = np.zeros(rows.shape, dtype=bool)
+        for (ax, ay), (bx, by) in zip(POINTER, np.roll(POINTER, -1, axis=0), strict=True):
+            crosses = (ay > y) != (by > y)
+            odd ^= crosses & (x < (bx - ax) * (y - ay) / (by - ay if by != ay else 1.0) + ax)
+            along = np.array([bx - ax, by - ay])
+            part = np.clip(((x - ax) * along[0] + (y - ay) * along[1]) / (along @ along), 0.0, 1.0)
+            near = np.minimum(near, np.hypot(x - ax - part * along[0], y - ay - part * along[1]))
+        inside += 0.25 * odd
+    rim = np.clip(1.8 - near, 0.0, 1.0)[..., None]
+    part = picture[rows, columns] / 255.0
+    part = part * (1.0 - rim) + rim * 0.05
+    part = part * (1.0 - inside[..., None]) + inside[..., None] * (PRESSED if pressed else (1.0, 1.0, 1.0))
+    picture[rows, columns] = (part * 255.0).astype(np.uint8)
+
+
+def write_png(path: Path, picture: NDArray[np.uint8]) -> None:
+    """Write a picture, (height, width, 3), top row first."""
+
+    def chunk(kind: bytes, data: bytes) -> bytes:
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    height, width = picture.shape[:2]
+    rows = np.concatenate([np.zeros((height, 1), dtype=np.uint8), picture.reshape(height, -1)], axis=1)
+    header = chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
+    body = chunk(b"IDAT", zlib.compress(rows.tobytes(), 9))
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + header + body + chunk(b"IEND", b""))
+
+
+def stage(film: Film) -> None:
+    """Put Suzanne, subdivided once, into the window, in edit mode with the tool in the toolbar."""
+    # The display's own pointer stays where it is: out of sight.
+    subprocess.run(["xdotool", "mousemove", "5000", "5000"], check=True)
+    ui = film.ui
+    with ui.override():
+        bpy.ops.screen.screen_full_area(use_hide_panels=False)
+    ui.wait(8)
+    film.ui = ui = driver.Ui()
+    bpy.ops.object.select_all(action="SELECT")
+    bpy.ops.object.delete()
+    bpy.ops.mesh.primitive_monkey_add()
+    film.obj = obj = bpy.context.active_object
+    modifier = obj.modifiers.new("Subdivision", "SUBSURF")
+    bpy.ops.object.modifier_apply(modifier=modifier.name)
+    bpy.ops.object.shade_smooth()
+    space = ui.space
+    space.overlay.show_floor = space.overlay.show_axis_x = space.overlay.show_axis_y = False
+    space.overlay.show_cursor = space.overlay.show_text = False
+    space.show_gizmo = False
+    space.shading.show_cavity = True
+    space.shading.cavity_type = "BOTH"
+    with ui.override():
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_mode(type="EDGE")
+        bpy.ops.mesh.select_all(action="DESELECT")
+        bpy.ops.wm.tool_set_by_id(name="seamwire.draw")
+    ui.view.view_perspective = "PERSP"
+    ui.view.view_rotation = Euler((1.24, 0.0, 0.46)).to_quaternion()
+    ui.view.view_location = (0.08, 0.0, -0.02)
+    ui.view.view_distance = 3.75
+    ui.wait(4, redraw=True)
+
+
+def start(film: Film) -> None:
+    """Start the tool where the pointer is."""
+    film.ui.move(film.at)
+    with film.ui.override():
+        assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+    film.settle()
+
+
+def play(film: Film) -> None:
+    """Play what the README shows."""
+    stage(film)
+    film.at = film.vertex(0.9, -0.4, -0.6)
+    start(film)
+    film.hold(6)
+    film.go(film.vertex(0.0, -0.6, 0.80), 9)
+    film.click()
+    film.go(film.vertex(0.45, -0.60, 0.72), 7)
+    film.go(film.vertex(0.80, -0.40, 0.40), 9)
+    film.hold(2)
+    film.ui.wheel(up=True)
+    film.hold(6)
+    film.ui.wheel(up=True)
+    film.hold(5)
+    film.click()
+    film.go(film.vertex(0.55, -0.40, -0.30), 10)
+    film.click()
+    film.go(film.vertex(0.25, -0.65, -0.25), 7)
+    film.go(film.vertex(0.0, -0.75, -0.08), 7)
+    film.click()
+    film.click("RIGHTMOUSE")
+    film.hold(4)
+    film.key("M")
+    film.hold(8)
+    film.go(film.edge(EYE), 11)
+    film.go(film.edge(EYE), 2, alt=True)
+    film.hold(7)
+    film.click(alt=True)
+    film.go(film.edge(EAR), 10)
+    film.go(film.edge(EAR), 2, alt=True)
+    film.hold(6)
+    film.click(alt=True)
+    film.go(film.vertex(0.9, -0.4, -0.6), 8)
+    film.hold(12)
+    film.key("RET")
+    film.hold(16)
+    with (film.folder / "frames.raw").open("wb") as file:
+        for frame in film.frames:
+            file.write(np.ascontiguousarray(frame[:, :, :3]).tobytes())
+
+
+def guide(film: Film) -> None:
+    """Take what the guide shows, one picture after the other."""
+    film.filming = False
+    stage(film)
+    film.at = film.vertex(0.0, -0.6, 0.80)
+    start(film)
+    film.click()
+    film.go(film.vertex(0.80, -0.40, 0.40))
+    film.picture("wires")
+    film.click()
+    film.go(film.vertex(0.55, -0.40, -0.30))
+    film.click()
+    film.go(film.vertex(0.0, -0.75, -0.08))
+    film.click()
+    film.click("RIGHTMOUSE")
+    film.go(film.vertex(0.55, -0.40, -0.30))
+    film.ui.event("LEFTMOUSE", "PRESS", film.at)
+    film.go(film.vertex(0.50, -0.45, -0.10))
+    film.go(film.vertex(0.62, -0.40, -0.10))
+    film.ui.wait_until(lambda: all(wire is not None for wire in session().moved))
+    film.picture("drag")
+    film.ui.event("LEFTMOUSE", "RELEASE", film.at)
+    film.settle()
+    film.go(film.edge(EYE), alt=True)
+    film.picture("loop")
+    film.click(alt=True)
+    film.key("M")
+    film.go(film.edge(EAR), alt=True)
+    film.picture("mirror")
+    film.click(alt=True)
+    film.go(film.vertex(0.9, -0.4, -0.6))
+    film.picture("segments")
+    film.key("H")
+    film.picture("keys")
+    film.key("H")
+    film.key("ESC")
+    film.key("ESC")
+
+
+def run(what: Callable[[Film], None], folder: Path) -> None:
+    """Play it in turns with Blender's event loop."""
+    main = greenlet.getcurrent()
+    driver.prepare_blender(switch_to_blender=main.switch)
+    player = greenlet.greenlet(lambda: what(Film(folder)), parent=main)
+    waiting = [8]
+
+    def leave(code: int) -> None:
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(code)
+
+    def tick() -> float:
+        if waiting[0] > 0:  # the regions get their sizes a little after the window
+            waiting[0] -= 1
+            return 0.0
+        try:
+            player.switch()
+        except BaseException:
+            traceback.print_exc()
+            leave(3)
+        if player.dead:
+            errors = driver.take_errors()
+            sys.stderr.write("".join(errors))
+            leave(3 if errors else 0)
+        return 0.0
+
+    bpy.app.timers.register(tick, persistent=True)
+
+
+addon_utils.enable("seamwire", default_set=True)
+kind, target = sys.argv[sys.argv.index("--") + 1 :]
+run({"animation": play, "guide": guide}[kind], Path(target))
