@@ -173,8 +173,10 @@ class Board:
 
     def stepped(self) -> bool:
         """Whether there was a step since the last call that undo can take back."""
+        if self.session.dragging:
+            return False
         before, self._network = self._network, self.session.network
-        return self._network is not before and not self.session.dragging
+        return self._network is not before
 
     # Settings
 

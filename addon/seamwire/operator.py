@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from . import lazy, native
+from . import lazy
 from .drawing import Drawing, close_all, running
 from .tool import ALONG_ITEMS, METRIC_ITEMS, settings
 from .ui import count
 
 if TYPE_CHECKING:
-    from . import board, chains, edit_mesh, session
+    from . import board, chains, edit_mesh, native, session
     from .network import Edge, Pick
     from .session import Session
 else:
-    board, chains, edit_mesh, session = map(lazy.Part, ("board", "chains", "edit_mesh", "session"))
+    board, chains, edit_mesh, native, session = map(lazy.Part, ("board", "chains", "edit_mesh", "native", "session"))
 
 
 def _in_edit_mode(context: bpy.types.Context) -> bool:

@@ -6,7 +6,7 @@ import bpy
 import pytest
 from scene import ADDON, add_grid, edit, seams
 
-MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "VIEW3D_MT_edit_mesh_context_menu")
+MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "VIEW3D_MT_edit_mesh_context_menu", "IMAGE_MT_uvs")
 
 
 def entries() -> list[int]:

@@ -7,7 +7,7 @@ import pytest
 from desk import Desk
 
 EVENTS = 2000
-BATCH = 8
+BATCH = 24
 """Events between two turns of Blender's loop: many come at once where a machine is slow."""
 # Left out: what finishes, what opens a menu of Blender's own over the view (its buttons would be pressed next), and Esc, which gets a turn
 # of its own.

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The preferences and the tool's settings draw themselves where Blender shows them, without an error."""
+
+from collections.abc import Callable
+
+import bpy
+import pytest
+import ui as driver
+from desk import Desk
+from scene import ADDON
+from seamwire import preferences, tool
+
+
+def recorded(function: Callable, calls: list[str]) -> Callable:
+    """Return the function, noting where it was called to draw, and what it raised."""
+
+    def record(*arguments: object) -> None:
+        context = next(one for one in arguments if isinstance(one, bpy.types.Context))
+        try:
+            function(*arguments)
+            calls.append(context.region.type)
+        except Exception as error:
+            calls.append(repr(error))
+            raise
+
+    return record
+
+
+def test_the_preferences_show_the_keys(ui: driver.Ui, monkeypatch: pytest.MonkeyPatch) -> None:
+    calls: list[str] = []
+    monkeypatch.setattr(preferences, "draw_keys", recorded(preferences.draw_keys, calls))
+    area = next(area for area in ui.window.screen.areas if area.type == "PROPERTIES")
+    area.type = "PREFERENCES"
+    try:
+        bpy.context.preferences.active_section = "ADDONS"
+        bpy.context.window_manager.addon_search = "Seamwire"
+        ui.wait(4)
+        if not preferences_expanded():
+            with bpy.context.temp_override(window=ui.window, area=area):
+                bpy.ops.preferences.addon_expand(module=ADDON)
+        area.tag_redraw()
+        ui.wait_until(lambda: bool(calls))
+    finally:
+        area.type = "PROPERTIES"
+        bpy.context.window_manager.addon_search = ""
+        ui.wait(2)
+    assert set(calls) == {"WINDOW"}
+
+
+def preferences_expanded() -> bool:
+    """Whether Blender shows the add-on's preferences already."""
+    import addon_utils
+
+    module = next(module for module in addon_utils.modules() if module.__name__ == ADDON)
+    return bool(addon_utils.module_bl_info(module).get("show_expanded"))
+
+
+def test_the_tools_settings_are_shown_in_its_header_and_in_the_properties(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    calls: list[str] = []
+    monkeypatch.setattr(tool, "draw_settings", recorded(tool.draw_settings, calls))
+    ui = desk.ui
+    with ui.override():
+        bpy.ops.wm.tool_set_by_id(name="seamwire.draw")
+    area = next(area for area in ui.window.screen.areas if area.type == "PROPERTIES")
+    try:
+        area.spaces.active.context = "TOOL"
+        area.tag_redraw()
+        ui.wait(2, redraw=True)
+        ui.wait_until(lambda: {"TOOL_HEADER", "WINDOW"} <= set(calls))
+    finally:
+        area.spaces.active.context = "OBJECT"
+        with ui.override():
+            bpy.ops.wm.tool_set_by_id(name="builtin.select_box")
+    assert set(calls) <= {"TOOL_HEADER", "WINDOW", "HEADER", "UI"}
