@@ -25,9 +25,9 @@ namespace seamwire {
 namespace {
 
 // Steps between two looks at the task: well under a millisecond.
-constexpr std::size_t kPatience = 8192;
+constexpr std::size_t kPatience = 1024;
 // Steps between two times that a search tells others how far it is.
-constexpr std::size_t kPublish = 256;
+constexpr std::size_t kPublish = 128;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
