@@ -92,6 +92,19 @@ class Seed:
         """The vertex that stands for the seed where wires cannot begin on edges."""
         return self.pick[1] if isinstance(self.pick, tuple) else self.pick
 
+    def begins(self, along: Along) -> Pick:
+        """Return where the wires begin that run one way."""
+        return self.vertex if along == "SURFACE" else self.pick
+
+    def shown(self, along: Along) -> Pick:
+        """Return where the seed is shown while wires run one way."""
+        return self.vertex if along == "SURFACE" else self.place
+
+    def at(self, pick: Pick, along: Along) -> bool:
+        """Whether a wire to a pick would end where it begins."""
+        own = undirected(self.begins(along)), undirected(self.place)
+        return undirected(pick) in own or (self.forward and pick == self.vertex)
+
 
 @dataclass(frozen=True, eq=False)
 class Wire:
@@ -195,6 +208,36 @@ class Network:
             for end in ("start", "end")
             if undirected(getattr(wire, end)) == place
         ]
+
+    @property
+    def closing_point(self) -> Pick | None:
+        """Where the chain of the seed began, while a wire may lead back there."""
+        seed = self.seed
+        if seed is None or seed.first is None or undirected(seed.first) == undirected(seed.place):
+            return None
+        return seed.first if self.at(seed.first) else None
+
+    def closes(self, target: Snap) -> bool:
+        """Whether a wire from the seed to a target closes the chain."""
+        first = self.closing_point
+        return target.to == "SEED" and first is not None and undirected(first) == undirected(target.pick)
+
+    def joined(self, target: Snap, points: NDArray[np.float64]) -> Network:
+        """Return the network with a seed where a target meets a wire; at a wire's ends there is one."""
+        own = self.find(target.wire) if target.to == "WIRE" else None
+        if own is None or own.closed:
+            return self
+        return self.with_seed_in(own, target.pick, points) or self
+
+    def seed_at(self, target: Snap, along: Along) -> Seed:
+        """Return the seed of a chain that begins at a target; where one wire ends there, the chain goes on from it."""
+        pick = target.pick
+        wires = self.at(pick) if target.to == "SEED" else []
+        if len(wires) != 1 or along == "SURFACE" or wires[0][0].along == "SURFACE":
+            return Seed(pick)
+        wire, end = wires[0]
+        edge = wire.last_edge if end == "end" else (wire.vertices[1], wire.vertices[0])
+        return Seed(edge, forward=True, clicked=pick)
 
     def seeds(self) -> list[Pick]:
         """Return the seeds of the wires, each once, in the order they were placed."""

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The library's live wires for each way of running, and the metric that they share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .live import LiveWire, MetricName
+    from .network import Along
+
+STRENGTHS: Mapping[Along, float] = {"EDGES": 10.0, "SURFACE": 20.0}
+"""The metric's largest anisotropy to begin with: how strongly wires are drawn to features; docs/method.md says why."""
+CLAMP_PERCENTILE = 99.0
+STRENGTH_STEP = 1.25
+STRENGTH_RANGE = (1.0, 100.0)
+
+
+class Engines:
+    """Live wires, each made when it is first asked for.
+
+    Parameters
+    ----------
+    make
+        Makes those of one way, with that way's strength of `STRENGTHS`.
+    strengths
+        Largest anisotropy of the metric, where it is to be another one.
+    """
+
+    def __init__(self, make: Callable[[Along], LiveWire], strengths: Mapping[Along, float]) -> None:
+        self._make = make
+        self._lives: dict[Along, LiveWire] = {}
+        self.strengths: dict[Along, float] = {**STRENGTHS, **strengths}
+        self.metric: MetricName = "feature"
+
+    def get(self, along: Along) -> LiveWire:
+        """Return the live wires of one way."""
+        if along not in self._lives:
+            self._lives[along] = self._make(along)
+            if self.metric != "feature" or self.strengths[along] != STRENGTHS[along]:
+                self._tell_metric(along)
+        return self._lives[along]
+
+    def use(self, metric: MetricName, strengths: Mapping[Along, float]) -> None:
+        """Compute with another metric from here on; forks that were made before keep theirs."""
+        before = self.metric, self.strengths
+        self.metric, self.strengths = metric, dict(strengths)
+        for along in self._lives:
+            if metric != before[0] or strengths[along] != before[1][along]:
+                self._tell_metric(along)
+
+    def _tell_metric(self, along: Along) -> None:
+        self._lives[along].set_metric(
+            self.metric, max_anisotropy=self.strengths[along], clamp_percentile=CLAMP_PERCENTILE
+        )

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The live wires: both ways from the seed to what is under the cursor, until one of them is kept."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .network import Network, Snap, Wire, name
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .engines import Engines
+    from .live import Candidate
+    from .network import Along, Pick, Seed
+
+
+class Preview:
+    """What is under the cursor, and the wires that lead there.
+
+    Parameters
+    ----------
+    engines
+        Compute them.
+    points
+        (n, 3) vertices of the mesh.
+    """
+
+    def __init__(self, engines: Engines, points: NDArray[np.float64]) -> None:
+        self._engines = engines
+        self._points = points
+        self.target: Snap | None = None
+        self.wires: tuple[Wire | None, Wire | None] = (None, None)
+        self.finals = (True, True)
+        self.shorter = 0
+        self.chosen: int | None = None
+        """The one that toggle() brought forward."""
+
+    @property
+    def final(self) -> bool:
+        """Whether both wires are computed."""
+        return all(self.finals)
+
+    @property
+    def active_index(self) -> int:
+        """Which of the two a click would keep."""
+        index = self.shorter if self.chosen is None else self.chosen
+        # While one wire is computed and the other is not, show the one there is.
+        return index if self.wires[index] is not None or self.wires[1 - index] is None else 1 - index
+
+    @property
+    def active(self) -> Wire | None:
+        """The wire that a click would keep."""
+        return self.wires[self.active_index]
+
+    @property
+    def other(self) -> Wire | None:
+        """The other one; None where both run along the same edges."""
+        other, active = self.wires[1 - self.active_index], self.active
+        return None if other is None or (active is not None and active.like(other)) else other
+
+    @property
+    def active_final(self) -> bool:
+        """Whether the wire that a click would keep is computed."""
+        return self.active is not None and self.finals[self.active_index]
+
+    @property
+    def shown(self) -> tuple[object, ...]:
+        """What changes when something else is to be seen."""
+        return self.target, self.shorter, self.finals, *(id(wire) for wire in self.wires)
+
+    def clear(self) -> None:
+        """Show no wires, and what is under the cursor still."""
+        self.wires, self.finals = (None, None), (True, True)
+
+    def aim(self, target: Snap | None, network: Network, along: Along) -> str:
+        """Find both wires from a network's seed to a target; return why there is none, where that is so."""
+        self.target = target
+        self.clear()
+        seed = network.seed
+        if seed is None or target is None or seed.at(target.pick, along):
+            return ""
+        if along == "SURFACE" and isinstance(target.pick, tuple):
+            return only_vertices(target.pick)
+        goal, avoid = _goal(target, network, along)
+        try:
+            found = self._engines.get(along).wires(goal)
+        except ValueError as error:
+            return str(error)
+        self.finals = (found.wires[0].final, found.wires[1].final)
+        self.shorter = found.shorter
+        if along == "SURFACE":
+            self.wires = (
+                _across(found.wires[0], 0, seed, target.pick),
+                _across(found.wires[1], 1, seed, target.pick),
+            )
+        else:
+            self.wires = (
+                self._along_edges(found.wires[0], 0, seed, target.pick, avoid),
+                self._along_edges(found.wires[1], 1, seed, target.pick, avoid),
+            )
+        return f"No wire reaches {name(target.pick)}" if self.final and self.wires == (None, None) else ""
+
+    def _along_edges(
+        self, candidate: Candidate, follow: int, seed: Seed, target: Pick, avoid: int | None
+    ) -> Wire | None:
+        vertices = tuple(int(v) for v in candidate.vertices)
+        if seed.forward:
+            vertices = vertices[1:]  # the edge before the seed belongs to the wire before
+        if avoid in vertices:
+            vertices = vertices[: vertices.index(avoid) + 1]
+        if len(vertices) < 2:
+            return None
+        heading = seed.pick if seed.forward and isinstance(seed.pick, tuple) else None
+        points = self._points[list(vertices)]
+        return Wire("EDGES", vertices, points, seed.place, target, heading=heading, follow=follow)
+
+
+def _across(candidate: Candidate, follow: int, seed: Seed, target: Pick) -> Wire | None:
+    vertices = tuple(int(v) for v in candidate.vertices)
+    if len(vertices) < 2 or len(candidate.points) < 2:
+        return None
+    points = np.array(candidate.points, dtype=np.float64)
+    return Wire("SURFACE", vertices, points, seed.vertex, target, follow=follow)
+
+
+def _goal(target: Snap, network: Network, along: Along) -> tuple[Pick, int | None]:
+    """Return where the wires to a target lead, and a vertex where they may end before."""
+    if along == "EDGES" and isinstance(target.pick, tuple) and network.closes(target):
+        # The chain left its first edge over one end: the wire that closes it arrives at the other.
+        for wire, end in network.at(target.pick):
+            if end == "start" and wire.heading is None:
+                return wire.vertices[0], wire.vertices[1]
+    return target.pick, None
+
+
+def only_vertices(edge: Pick) -> str:
+    """Say that wires across the surface do not end at edges."""
+    return f"Across the surface wires begin and end at vertices, not at {name(edge)}"

@@ -1,0 +1,326 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a drawing session is made of, and what is to be seen of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from enum import Enum, auto
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from .engines import Engines
+from .history import History
+from .loops import LoopPreview
+from .mirror import Mirror
+from .network import Network, Snap, Wire, net_effect, undirected
+from .preview import Preview
+from .redraw import Redraws
+from .straight import Stops
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from .drag import Drag
+    from .live import LiveWire, MetricName
+    from .network import Along, Edge, Pick
+
+
+class Intent(Enum):
+    """What a click would do now."""
+
+    NOTHING = auto()
+    SEED = auto()
+    """Begin a chain on the mesh."""
+    CONTINUE = auto()
+    """Begin a chain at a seed of the network."""
+    BRANCH = auto()
+    """Begin a chain on a wire."""
+    KEEP = auto()
+    """Keep the active wire and go on from its end."""
+    JOIN = auto()
+    """Keep the active wire, which ends on another seed or wire or on a seam, and end the chain."""
+    CLOSE = auto()
+    """Keep the active wire, which leads to the chain's first seed, and end the chain."""
+    LOOP = auto()
+    """Keep the loop that is shown."""
+    RUN = auto()
+    """Keep the wire that runs to the end."""
+    WAIT = auto()
+    """Keep a wire as soon as it is computed."""
+    MOVE = auto()
+    """Leave the dragged seed here."""
+
+
+@dataclass(frozen=True)
+class Queued:
+    """A click that came before its wire was computed."""
+
+    kind: Literal["click", "loop", "run"]
+    snap: Snap
+
+
+@dataclass
+class EndPreview:
+    """The way to the end that is shown, while it is asked for."""
+
+    wanted: bool = False
+    wire: Wire | None = None
+
+
+class State:
+    """One drawing session on one mesh, to look at; `session.Session` is what draws.
+
+    Parameters
+    ----------
+    make_live
+        Makes the live wires for one way of running; called once for each way that is used.
+    points
+        (n, 3) coordinates of the mesh's vertices.
+    along
+        The way to begin with.
+    edges
+        (e, 2) the visible edges; None: whatever two vertices a mirrored edge would have, they have an edge.
+    seams
+        The edges, by their vertices, that are seams already: wires that run to the end stop there.
+    strength
+        Largest anisotropy of the metric for each way; `make_live` is to make its live wires with the ones of
+        `STRENGTHS`.
+    to_object
+        (3, 3) takes `points` to object coordinates, where mirroring happens; None: they are such.
+
+    Notes
+    -----
+    Methods that do something return whether it was done; where it was not, `message` says why, in words for the
+    artist. `revision` grows with every change of what is to be seen, `network_revision` with every change of the kept
+    wires.
+    """
+
+    def __init__(
+        self,
+        make_live: Callable[[Along], LiveWire],
+        points: NDArray[np.float64],
+        along: Along = "EDGES",
+        *,
+        edges: NDArray[np.int32] | None = None,
+        seams: ArrayLike = (),
+        strength: Mapping[Along, float] | None = None,
+        to_object: NDArray[np.float64] | None = None,
+    ) -> None:
+        self._points = points
+        self._mirror = Mirror(points, edges, to_object)
+        self._stops = Stops(seams, self._mirror)
+        self._engines = Engines(make_live, strength or {})
+        self._network = Network()
+        self._history = History()
+        self._live = Preview(self._engines, points)
+        self._loop = LoopPreview()
+        self._end = EndPreview()
+        self._drag: Drag | None = None
+        self._redraws = Redraws()
+        self._queue: list[Queued] = []
+        self._last_click: tuple[Pick, int] | None = None
+        # Made at once: what they compute first takes longest.
+        self._progress = self._engines.get(along).progress()
+        self._effect: tuple[Network, list[Edge], list[Edge]] | None = None
+        self.along: Along = along
+        self.marking = True
+        self.message = ""
+        self.revision = 0
+        self.network_revision = 0
+
+    # What is there to be seen
+
+    @property
+    def network(self) -> Network:
+        """The kept wires, the seed and the mirror, as they are shown; to be stored with the mesh."""
+        return self._network if self._drag is None else self._drag.network
+
+    @property
+    def wires(self) -> tuple[Wire, ...]:
+        """The kept wires, oldest first; those that follow a dragged seed as they run now."""
+        return self.network.wires
+
+    @property
+    def seed(self) -> Pick | None:
+        """Where the live wire begins; None between chains."""
+        seed = self._network.seed
+        return None if seed is None else seed.begins(self.along)
+
+    @property
+    def seed_place(self) -> Pick | None:
+        """Where that seed is shown, as `seeds` has it."""
+        seed = self._network.seed
+        return None if seed is None else undirected(seed.shown(self.along))
+
+    @property
+    def target(self) -> Snap | None:
+        """What is under the cursor, or what the oldest waiting click asked for."""
+        return self._live.target
+
+    @property
+    def active(self) -> Wire | None:
+        """The wire that a click would keep."""
+        return self._live.active
+
+    @property
+    def other(self) -> Wire | None:
+        """The wire that the wheel would bring forward; None where both run along the same edges."""
+        return self._live.other
+
+    @property
+    def preliminary(self) -> bool:
+        """Whether the active wire is still being computed: what is shown is not yet what a click would keep."""
+        return self.active is not None and not self._live.active_final
+
+    @property
+    def loop_preview(self) -> Wire | None:
+        """The loop through the edge under the cursor, while it is asked for."""
+        return self._loop.wire
+
+    @property
+    def end_preview(self) -> Wire | None:
+        """The live wire with its way on to the end, while it is asked for."""
+        return self._end.wire
+
+    @property
+    def dragging(self) -> bool:
+        """Whether a seed is being moved."""
+        return self._drag is not None
+
+    @property
+    def moved(self) -> tuple[Wire, ...]:
+        """The wires that follow the dragged seed, as they run now."""
+        return () if self._drag is None else self._drag.moved
+
+    @property
+    def dragged_seed(self) -> Pick | None:
+        """The seed that is being moved, where it is now."""
+        return None if self._drag is None else undirected(self._drag.place)
+
+    @property
+    def hovered_wire(self) -> Wire | None:
+        """The kept wire under the cursor."""
+        target = self._live.target
+        return None if target is None or target.to != "WIRE" else self.network.find(target.wire)
+
+    @property
+    def hovered_seed(self) -> Pick | None:
+        """The seed of the network under the cursor."""
+        target = self._live.target
+        return None if target is None or target.to != "SEED" else target.pick
+
+    @property
+    def closing_point(self) -> Pick | None:
+        """Where the chain began, while a wire may lead back there."""
+        return self._network.closing_point
+
+    @property
+    def computing(self) -> bool:
+        """Whether the library still works on what is shown."""
+        return self._progress < 1.0 or not self._loop.final
+
+    @property
+    def progress(self) -> float:
+        """Fraction of that work that is done."""
+        return self._progress
+
+    @property
+    def waiting_clicks(self) -> int:
+        """How many clicks and other deeds wait for their wires."""
+        ending = self._drag is not None and self._drag.ending
+        return len(self._queue) + len(self._redraws) + ending
+
+    @property
+    def can_undo(self) -> bool:
+        """Whether undo() has something to take back."""
+        return bool(self._queue or self._drag or self._redraws) or self._history.can_undo(self._network)
+
+    @property
+    def can_redo(self) -> bool:
+        """Whether redo() has something to bring back."""
+        return self._history.can_redo
+
+    @property
+    def strength(self) -> float:
+        """How strongly wires are drawn to features: the metric's largest anisotropy, for the way they run now."""
+        return self._engines.strengths[self.along]
+
+    def feature_strength(self) -> NDArray[np.float64] | None:
+        """Return how strong the feature is at each vertex; None while that is computed."""
+        return self._engines.get(self.along).feature_strength()
+
+    @property
+    def metric(self) -> MetricName:
+        """What draws wires to features."""
+        return self._engines.metric
+
+    @property
+    def mirror_axes(self) -> tuple[int, ...]:
+        """The axes, 0 to 2, over which wires are mirrored."""
+        return self.network.mirror
+
+    @property
+    def symmetric_axes(self) -> tuple[int, ...]:
+        """The axes over which the mesh is symmetric."""
+        return self._mirror.symmetric_axes
+
+    @property
+    def intent(self) -> Intent:
+        """What a click would do now."""
+        live, seed = self._live, self._network.seed
+        if self._drag is not None:
+            return Intent.MOVE
+        if self._end.wire is not None:
+            return Intent.RUN
+        if self._loop.wire is not None:
+            return Intent.LOOP
+        if live.target is None or (self.along == "SURFACE" and isinstance(live.target.pick, tuple)):
+            return Intent.NOTHING
+        if seed is None:
+            return {"SEED": Intent.CONTINUE, "WIRE": Intent.BRANCH}.get(live.target.to, Intent.SEED)
+        if live.active_final:
+            return self._ending(live.target) or Intent.KEEP
+        waits = self.computing and not seed.at(live.target.pick, self.along)
+        return Intent.WAIT if waits else Intent.NOTHING
+
+    def seeds(self) -> list[Pick]:
+        """Return every seed of the network, each once, in the order they were placed."""
+        seed = self.network.seed
+        ends = self.network.seeds()
+        if seed is not None:
+            ends.append(seed.shown(self.along))
+        return list({undirected(pick): None for pick in ends})
+
+    def edges_to_mark(self) -> list[Edge]:
+        """Return the edges that finishing will make seams, each once, sorted, smaller vertex first."""
+        return self._net_effect()[0]
+
+    def edges_to_clear(self) -> list[Edge]:
+        """Return the edges that finishing will make cease to be seams, each once, sorted, smaller vertex first."""
+        return self._net_effect()[1]
+
+    def mirrored(self, wire: Wire) -> list[Wire]:
+        """Return the images of a wire, kept or live, over the mirror's axes, as far as the mesh has their edges."""
+        return self._mirror.images(wire, self.mirror_axes)
+
+    # For the deeds
+
+    def _ending(self, target: Snap) -> Intent | None:
+        """Return how a wire to a target ends the chain; None: it does not."""
+        if self._network.closes(target):
+            return Intent.CLOSE
+        return Intent.JOIN if target.to in {"SEED", "WIRE", "SEAM"} else None
+
+    def _net_effect(self) -> tuple[list[Edge], list[Edge]]:
+        network = self.network
+        if self._effect is None or self._effect[0] is not network:
+            claims = (
+                (edge, wire.marks)
+                for wire in network.wires
+                for image in (wire, *self.mirrored(wire))
+                for edge in image.edges()
+            )
+            self._effect = (network, *net_effect(claims))
+        return self._effect[1:]

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Wires that run straight on along edges, and where they end."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .network import Wire
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from .live import LiveWire
+    from .mirror import Mirror
+    from .network import Edge, Network, Seed
+
+
+class Stops:
+    """The vertices where wires that run straight on end: those of seams and of wires, and those on the mirror's plane.
+
+    Parameters
+    ----------
+    seams
+        (k, 2) the edges that are seams already.
+    mirror
+        Knows the images of wires, and what lies on the plane.
+    """
+
+    def __init__(self, seams: ArrayLike, mirror: Mirror) -> None:
+        self._seam_vertices = frozenset(np.unique(np.asarray(seams, dtype=np.int64)).tolist())
+        self._mirror = mirror
+        self._last: tuple[Network, frozenset[int]] | None = None
+
+    def of(self, network: Network, live: Wire | None, begin: Iterable[int]) -> list[int]:
+        """Return the stops of a wire.
+
+        Parameters
+        ----------
+        network
+            The kept wires and the mirror.
+        live
+            A wire that is not kept yet; None: no such one.
+        begin
+            The vertices that the wire has before it runs on. Where all lie on the mirror's plane, it runs along that.
+        """
+        stops = set(self._kept(network))
+        if live is not None:
+            stops |= self._around(live, network)
+        plane = self._mirror.on_plane(network.mirror)
+        if not plane.issuperset(begin):
+            stops |= plane
+        return sorted(stops)
+
+    def _kept(self, network: Network) -> frozenset[int]:
+        if self._last is None or self._last[0] is not network:
+            around = (self._around(wire, network) for wire in network.wires)
+            self._last = (network, self._seam_vertices.union(*around))
+        return self._last[1]
+
+    def _around(self, wire: Wire, network: Network) -> set[int]:
+        images = self._mirror.images(wire, network.mirror)
+        return {vertex for one in (wire, *images) for vertex in one.vertices}
+
+
+def run_on(
+    live: LiveWire, seed: Seed, active: Wire | None, edge: Edge, stops: Iterable[int], points: NDArray[np.float64]
+) -> Wire | None:
+    """Return the way to the end from a directed edge; None: there is none.
+
+    Parameters
+    ----------
+    live
+        Of the way along edges.
+    seed
+        Where the wire begins.
+    active
+        The live wire, which `edge` is the last one of; None: the wire begins with the seed, which is that edge.
+    stops
+        The vertices where it ends; the edge's second one is none of them.
+    points
+        (n, 3) vertices of the mesh.
+
+    Raises
+    ------
+    ValueError
+        Where the edge is not part of the surface.
+    """
+    way = tuple(int(v) for v in live.run_on(edge, [vertex for vertex in stops if vertex != edge[1]]).vertices)
+    if len(way) < 2:
+        return None
+    vertices = way if active is None else active.vertices + way[1:]
+    heading = active.heading if active is not None else edge
+    return Wire("EDGES", vertices, points[list(vertices)], seed.place, vertices[-1], heading=heading)

@@ -1,0 +1,210 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How a drawing session goes from one network to the next, and how its live wires, loops and ends follow."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from .drag import Leg
+from .loops import find_loop
+from .network import Network, Seed, Snap, Wire, name
+from .redraw import Job, other_way, with_lost, with_other_way
+from .state import State
+from .straight import run_on
+
+if TYPE_CHECKING:
+    from .drag import Courses
+    from .live import LiveWire, MetricName
+    from .network import Along, Pick
+
+
+class Workings(State):
+    """What the deeds of a session are made of."""
+
+    # How it is done: the library
+
+    def _engine(self, along: Along | None = None) -> LiveWire:
+        live = self._engines.get(along or self.along)
+        self._read_progress()
+        return live
+
+    def _fork(self, along: Along) -> LiveWire:
+        return self._engine(along).fork()
+
+    def _working(self) -> list[LiveWire]:
+        legs = self._drag.legs if self._drag else ()
+        return [self._engines.get(self.along), *self._redraws.lives(), *(leg.live for leg in legs)]
+
+    def _read_progress(self) -> None:
+        # Before wires are asked for: what is not final after the work is done stays so.
+        self._progress = min(live.progress() for live in self._working())
+
+    def _use_metric(self, metric: MetricName, strengths: Mapping[Along, float]) -> bool:
+        if self._drag is not None:
+            return self._refuse("Leave the seed first, then change what draws the wires")
+        self._engines.use(metric, strengths)
+        self.message = ""
+        self._loop.wire = None
+        self._aim(self._live.target, again=True)
+        self._preview_loop()
+        self.revision += 1
+        return True
+
+    def _sow(self, seed: Seed) -> bool:
+        """Start the wires of a seed; on refusal the wires are those of the seed before."""
+        try:
+            forward = seed.forward and self.along == "EDGES"
+            self._engine().seed(seed.begins(self.along), forward=forward)
+        except ValueError as error:
+            if self._network.seed is not None and self._network.seed != seed:
+                self._sow(self._network.seed)
+            return self._refuse(str(error))
+        self._read_progress()
+        return True
+
+    # How it is done: steps
+
+    def _refuse(self, why: str) -> bool:
+        self.message = why
+        self.revision += 1
+        return False
+
+    def _set(self, network: Network) -> None:
+        before, self._network = self._network, network
+        self.revision += 1
+        self.network_revision += before.wires != network.wires or before.mirror != network.mirror
+
+    def _change(self, network: Network) -> bool:
+        """Go on to a new network, with a step for undo."""
+        seed = network.seed
+        if seed is not None and seed != self._network.seed and not self._sow(seed):
+            return False
+        self._history.step(self._network)
+        self._set(network)
+        self._settle()
+        return True
+
+    def _restore(self, network: Network) -> None:
+        if network.seed is not None and network.seed != self._network.seed:
+            self._sow(network.seed)
+        self._set(network)
+        self._last_click = None
+        self._settle()
+
+    def _settle(self) -> None:
+        self._live.chosen = None
+        self._loop.wire = self._end.wire = None
+        self._end.wanted = False
+        self.message = ""
+        self._aim(self._live.target, again=True)
+
+    # How it is done: the live wire
+
+    def _aim(self, target: Snap | None, again: bool = False) -> None:
+        """Find both wires to a target; `again`: also where it is the same as before."""
+        live = self._live
+        if target == live.target and not again and live.final and self._loop.final:
+            return
+        before = (live.shown, self.message)
+        self._read_progress()
+        # A seed that is dragged has no live wire.
+        network = self._network if self._drag is None else replace(self._network, seed=None)
+        self.message = live.aim(target, network, self.along)
+        # Asking again while nothing is ready shows nothing new, and must not cost a redraw each time.
+        self.revision += before != (live.shown, self.message)
+        self._preview_end()
+
+    # How it is done: loops and ends
+
+    def _find_loop(self, edge: Pick) -> Wire | None:
+        self._loop.final = True
+        if not isinstance(edge, tuple):
+            return None
+        try:
+            wire, self._loop.final = find_loop(self._engine(), edge, self._points)
+        except ValueError as error:
+            self.message = str(error)
+            return None
+        return wire and replace(wire, marks=self.marking, strength=self.strength)
+
+    def _preview_loop(self) -> None:
+        loop = self._loop
+        if not loop.wanted and not any(queued.kind == "loop" for queued in self._queue):
+            loop.final = True
+        if loop.wanted and loop.wire is None and self._live.target is not None:
+            loop.wire = self._find_loop(self._live.target.pick)
+            self.revision += loop.wire is not None
+
+    def _preview_end(self) -> None:
+        end = self._end
+        if not end.wanted:
+            return
+        before, end.wire = end.wire, self._find_end()
+        same = before is not None and end.wire is not None and before.like(end.wire)
+        self.revision += before is not end.wire and not same
+
+    def _find_end(self) -> Wire | None:
+        """Return the live wire with its way on; None where there is no way, or no direction yet."""
+        seed, active = self._network.seed, self.active
+        if seed is None:
+            return None
+        if active is not None:
+            edge = active.last_edge
+        elif seed.forward and isinstance(seed.pick, tuple):
+            edge = seed.pick
+        else:
+            self.message = "Point where the wire is to run"
+            return None
+        stops = self._stops.of(self._network, active, edge[1:])
+        try:
+            wire = run_on(self._engine(), seed, active, edge, stops, self._points)
+        except ValueError as error:
+            self.message = str(error)
+            return None
+        return wire and replace(wire, marks=self.marking, strength=self.strength)
+
+    # How it is done: kept wires that take another course
+
+    def _redraw(self, wire: Wire, lost: bool) -> bool:
+        """Draw a kept wire anew between its seeds, as soon as it is computed."""
+        try:
+            self._redraws.add(Job(Leg(self._fork(wire.along), self._network, wire, "end", self._points), lost))
+        except ValueError as error:
+            return self._refuse(str(error))
+        self._read_progress()
+        self._poll_redraws()
+        return not self.message
+
+    def _poll_redraws(self) -> None:
+        for job, courses in self._redraws.done():
+            if isinstance(courses, ValueError):
+                self._refuse(str(courses))
+            elif job.lost:
+                self._add_lost(job.wire, courses)
+            else:
+                self._toggle_computed(job.wire, courses)
+
+    def _toggle_computed(self, wire: Wire, courses: Courses) -> None:
+        own = self._network.find(wire)
+        if own is None:
+            return  # it was dropped in the meantime
+        other = other_way(own, courses)
+        if other is None:
+            self._refuse("Both wires run along the same edges here")
+        else:
+            self._take_other_way(own, other)
+
+    def _take_other_way(self, own: Wire, other: Wire) -> bool:
+        network = with_other_way(self._network, own, other)
+        return self._refuse("There is no other way to this seed") if network is None else self._change(network)
+
+    def _add_lost(self, wire: Wire, courses: Courses) -> None:
+        found = courses.following(courses.shorter)
+        # Part of what resume() did, and of all that was done since: no step of its own.
+        self._history.rewrite(lambda network: with_lost(network, wire, found))
+        self._set(with_lost(self._network, wire, found))
+        self._aim(self._live.target, again=True)
+        if found is None:
+            self._refuse(f"A stored wire could not be drawn again: none reaches {name(wire.end)}")
