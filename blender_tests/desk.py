@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 import ui as driver
 from bl_ui.space_statusbar import STATUSBAR_HT_header
+from bpy_extras.view3d_utils import location_3d_to_region_2d
 from numpy.typing import NDArray
 from scene import add_grid, add_layers, edit, snapshot
 from seamwire import drawing
@@ -51,10 +52,17 @@ class Desk:
 
     def at(self, *vertices: int) -> tuple[float, float]:
         """Return where a vertex is seen, or the middle of an edge."""
+        found = self.seen(*vertices)
+        assert found is not None, f"{vertices} are behind the viewer"
+        return found
+
+    def seen(self, *vertices: int) -> tuple[float, float] | None:
+        """Return the same, and None where that is behind the viewer."""
         bm = bmesh.from_edit_mesh(self.obj.data)
         bm.verts.ensure_lookup_table()
         points = np.array([self.obj.matrix_world @ bm.verts[v].co for v in vertices])
-        return self.ui.on_screen(tuple(points.mean(axis=0)))
+        at = location_3d_to_region_2d(self.ui.region, self.ui.view, points.mean(axis=0))
+        return None if at is None else (at.x, at.y)
 
     def left_clean(self) -> bool:
         """Whether the tool has ended, and the status bar and the handlers are as they were."""

@@ -43,8 +43,8 @@ class Monkey:
         width, height = self.ui.region.width, self.ui.region.height
         if self.dice.random() < 0.3:  # a little, as in a slow drag
             x, y = self.at[0] + self.dice.randint(-9, 9), self.at[1] + self.dice.randint(-9, 9)
-        elif self.dice.random() < 0.85:  # on the mesh, if nobody turned it
-            x, y = (round(value) for value in self.desk.at(self.dice.randrange(81)))
+        elif self.dice.random() < 0.85 and (at := self.desk.seen(self.dice.randrange(81))) is not None:
+            x, y = (round(value) for value in at)
         else:
             x, y = self.dice.randrange(width), self.dice.randrange(height)
         # Not over bars and the navigation gizmo, whose buttons are Blender's.
