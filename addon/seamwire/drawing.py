@@ -5,21 +5,22 @@ from __future__ import annotations
 
 import time
 from contextlib import ExitStack
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import bpy
 
 from . import keymap, lazy, preferences, ui
+from .holds import Hold, SeedHold
 from .keymap import Action
+from .places import Place, place_of
 
 if TYPE_CHECKING:
     from . import board as boards
-    from . import network, picking, tool
+    from . import network, tool
     from .board import Board
     from .session import Session
 else:
-    boards, network, picking, tool = map(lazy.Part, ("board", "network", "picking", "tool"))
+    boards, network, tool = map(lazy.Part, ("board", "network", "tool"))
 
 _TICK = 0.05
 """Seconds between two looks at running work: redraws stay below what the eye takes for a stop."""
@@ -28,28 +29,6 @@ _AXES = "XYZ"
 
 running: list[Drawing] = []
 """The drawings going on, so that unregistering the add-on can end them."""
-
-
-@dataclass(frozen=True)
-class Place:
-    """Where the mouse is: in which view, and at which of its pixels."""
-
-    area: bpy.types.Area
-    region: bpy.types.Region
-    view: picking.View
-    cursor: tuple[float, float]
-
-
-@dataclass
-class _Press:
-    """A button that went down on something that can be dragged, and is not up yet."""
-
-    button: str
-    board: Board
-    snap: network.Snap
-    x: int
-    y: int
-    dragging: bool = False
 
 
 class Drawing:
@@ -71,7 +50,7 @@ class Drawing:
         self._cursor = ""
         self._clicks = keymap.DoubleClicks()
         self._shown: tuple[object, ...] | None = None
-        self._press: _Press | None = None
+        self._hold: Hold | None = None
         self._history: list[Board] = []
         self._undone: list[Board] = []
         self._finishing = False
@@ -174,25 +153,27 @@ class Drawing:
         if event.type == "TIMER":
             return self._tick()
         inputs = context.preferences.inputs
-        place = self._place(event)
+        place = place_of(self._window, event)
         self._set_cursor("CROSSHAIR" if place else "")
         double = self._clicks.is_second(event, time.monotonic(), inputs)
         for board in self.boards.values():
             board.follow_mirror()
-        if self._press is not None and event.type == self._press.button and event.value == "RELEASE":
-            self._release()
+        if self._hold is not None and event.type == self._hold.button and event.value == "RELEASE":
+            hold, self._hold = self._hold, None
+            hold.release()
             return self._done()
         if place is None:
             if self.keys.is_blender_undo(event):
                 return {"RUNNING_MODAL"}
-            if event.type == "MOUSEMOVE" and self.session.target is not None and self._press is None:
+            if event.type == "MOUSEMOVE" and self.session.target is not None and self._hold is None:
                 self.session.hover(None)
                 self.refresh()
             return {"PASS_THROUGH"}
         if event.type in {"INBETWEEN_MOUSEMOVE", "WINDOW_DEACTIVATE"} or event.type.startswith("TIMER"):
             return {"PASS_THROUGH"}
-        if event.type == "MOUSEMOVE" and self._press is not None:
-            self._move(place, event, inputs)
+        if event.type == "MOUSEMOVE" and self._hold is not None:
+            if not self._hold.move(place, inputs.drag_threshold_mouse):
+                self._hold = None
             return self._done()
         if event.type == "MOUSEMOVE" or event.type.endswith(("_ALT", "_CTRL", "_SHIFT")):
             self._hover(place, event)
@@ -213,7 +194,7 @@ class Drawing:
         self._finishing = False
         self.message = ""
         if action is Action.FINISH:
-            self._cancel_press()
+            self._cancel_hold()
             self._finishing = any(board.session.waiting_clicks for board in self.boards.values())
             if not self._finishing:
                 return {"FINISHED"}
@@ -256,7 +237,7 @@ class Drawing:
 
     def _leave(self, again: bool) -> bool:
         """Let go of what is live, one after the other; return whether to leave."""
-        if self._cancel_press():
+        if self._cancel_hold():
             return False
         drawing = self.session
         if drawing.stop_preview():
@@ -275,7 +256,7 @@ class Drawing:
 
     def click_at(self, event: bpy.types.Event, first: str) -> None:
         """Do the click that started the tool."""
-        place = self._place(event)
+        place = place_of(self._window, event)
         if place is not None:
             self._click(Action.LOOP if first == "LOOP" else Action.CLICK, place, event)
             self._done()
@@ -297,41 +278,20 @@ class Drawing:
         elif drawing.seed is None and not drawing.waiting_clicks and snap.to in {"SEED", "WIRE"}:
             # Whether it is a click or the beginning of a drag is known when the button or the mouse has moved.
             drawing.hover(snap)
-            self._press = _Press(event.type, board, snap, event.mouse_x, event.mouse_y)
+            self._hold = SeedHold(event.type, board, snap, place)
         else:
             drawing.click(snap)
 
-    def _move(self, place: Place, event: bpy.types.Event, inputs: bpy.types.PreferencesInput) -> None:
-        press = self._press
-        assert press is not None
-        drawing = press.board.session
-        if not press.dragging:
-            away = max(abs(event.mouse_x - press.x), abs(event.mouse_y - press.y))
-            if away <= inputs.drag_threshold_mouse:
-                return
-            if not drawing.drag(press.snap):
-                self._press = None
-                return
-            press.dragging = True
-        drawing.drag_to(press.board.snap(place.view, place.cursor))
-
-    def _release(self) -> None:
-        press, self._press = self._press, None
-        assert press is not None
-        if press.dragging:
-            press.board.session.drag_end()
-        else:
-            press.board.session.click(press.snap)
-
-    def _cancel_press(self) -> bool:
-        press, self._press = self._press, None
-        cancelled = [board.session.drag_cancel() for board in self.boards.values()]
-        return press is not None or any(cancelled)
+    def _cancel_hold(self) -> bool:
+        hold, self._hold = self._hold, None
+        dragged = hold is not None and hold.cancel()
+        # What was released may wait still.
+        return any([board.session.drag_cancel() for board in self.boards.values()]) or dragged or hold is not None
 
     def _do(self, action: Action, place: Place) -> None:
         drawing = self.session
         if action is Action.END_CHAIN:
-            if not self._cancel_press():
+            if not self._cancel_hold():
                 drawing.end_chain()
         elif action is Action.TOGGLE:
             if drawing.seed is None and drawing.hovered_wire is not None:
@@ -401,7 +361,7 @@ class Drawing:
         self.message = board.resume()
 
     def _undo(self) -> None:
-        self._press = None
+        self._hold = None
         waiting = next((board for board in self.boards.values() if board.session.waiting_clicks), None)
         if waiting is not None:
             waiting.session.undo()
@@ -475,20 +435,6 @@ class Drawing:
         if len(self._objects) == 1 or obj.name in self.boards:
             return True
         return boards.in_bounds(obj, place.view, place.cursor)
-
-    def _place(self, event: bpy.types.Event) -> Place | None:
-        """Return the 3D view under the mouse, where no toolbar, sidebar or header lies over it."""
-        x, y = event.mouse_x, event.mouse_y
-        for area in self._window.screen.areas:
-            if area.type != "VIEW_3D" or not _contains(area, x, y):
-                continue
-            under = [region for region in area.regions if region.width > 1 and _contains(region, x, y)]
-            if any(region.type != "WINDOW" for region in under):
-                return None
-            for region in under:
-                view = picking.View.of(region, _region_3d(area, region))
-                return Place(area, region, view, (x - region.x + 0.5, y - region.y + 0.5))
-        return None
 
     # What is seen
 
@@ -569,17 +515,3 @@ def close_all() -> None:
     """End all drawings."""
     for drawing in tuple(running):
         drawing.close()
-
-
-def _contains(box: bpy.types.Area | bpy.types.Region, x: int, y: int) -> bool:
-    return box.x <= x < box.x + box.width and box.y <= y < box.y + box.height
-
-
-def _region_3d(area: bpy.types.Area, region: bpy.types.Region) -> bpy.types.RegionView3D:
-    """Return what a window region of a 3D view shows; a quad view has four."""
-    space = area.spaces.active
-    quads = space.region_quadviews
-    if not quads:
-        return space.region_3d
-    windows = [one for one in area.regions if one.type == "WINDOW"]
-    return quads[windows.index(region)]
