@@ -91,6 +91,12 @@ Along along_from(const std::string& name) {
   throw InvalidInput("along: expected 'surface' or 'edges', got '" + name + "'");
 }
 
+std::vector<std::int32_t> vertices_from(const py::iterable& stops, std::size_t vertex_count) {
+  std::vector<std::int32_t> vertices;
+  for (const py::handle stop : stops) vertices.push_back(vertex_from(stop, vertex_count, "stops"));
+  return vertices;
+}
+
 /// Waits in slices, so that Ctrl-C is heard.
 bool wait_for(const LiveWire& live, std::optional<double> seconds) {
   using Seconds = std::chrono::duration<double>;
@@ -183,6 +189,16 @@ void bind_live_wire(py::module_& module) {
       .def_readonly("final", &LiveLoop::final, "False: it is still being computed.")
       .def("__repr__", [](const LiveLoop& loop) {
         return "<LiveLoop: " + (loop.final ? std::to_string(loop.vertices.size()) + " vertices>" : "not yet>");
+      });
+
+  py::class_<EdgeStrip>(module, "EdgeStrip", "A run of edges straight through a mesh.")
+      .def_property_readonly(
+          "vertices", [](py::object self) { return view(self.cast<const EdgeStrip&>().vertices, self); },
+          "(k,) int32, in order; where it is closed, the first one is not given twice.")
+      .def_readonly("closed", &EdgeStrip::closed)
+      .def("__repr__", [](const EdgeStrip& strip) {
+        return "<EdgeStrip: " + std::to_string(strip.vertices.size()) + " vertices" +
+               (strip.closed ? ", closed>" : ">");
       });
 
   py::class_<LiveWireObject>(module, "LiveWire",
@@ -329,8 +345,7 @@ ValueError
           "run_on",
           [](const LiveWireObject& object, const py::object& edge, const py::iterable& stops) {
             const Edge from = edge_from(edge, object.vertex_count, "edge");
-            std::vector<std::int32_t> vertices;
-            for (const py::handle stop : stops) vertices.push_back(vertex_from(stop, object.vertex_count, "stops"));
+            const std::vector<std::int32_t> vertices = vertices_from(stops, object.vertex_count);
             return without_gil([&] { return std::make_unique<EdgeChain>(object.live->run_on(from, vertices)); });
           },
           py::arg("edge"), py::arg("stops") = py::tuple(),
@@ -351,6 +366,38 @@ Returns
 EdgeChain
     It begins with the edge's second vertex; only its last vertex may be an earlier one, or the edge's first. The length
     is that in the unit cube. Without vertices: it cannot be told yet.
+
+Raises
+------
+ValueError
+    Where the edge is not one of the surface's.
+)")
+      .def(
+          "strip",
+          [](const LiveWireObject& object, const py::object& edge, const py::iterable& stops) {
+            const Edge through = edge_from(edge, object.vertex_count, "edge");
+            const std::vector<std::int32_t> vertices = vertices_from(stops, object.vertex_count);
+            return without_gil([&] { return std::make_unique<EdgeStrip>(object.live->strip(through, vertices)); });
+          },
+          py::arg("edge"), py::arg("stops") = py::tuple(),
+          R"(The strip of edges through an edge, both ways, as modellers select an edge loop.
+
+It goes on over the opposite edge at a vertex of four edges whose faces are not all triangles, and of six whose faces
+all are; from an edge of the boundary along it. It ends at all other vertices, at a vertex of `stops` (an end of the
+edge itself too), and where it meets itself: closed where its ends are one vertex.
+
+Parameters
+----------
+edge : (int, int)
+    Its direction is that of the strip.
+stops : iterable of int
+    Vertices.
+
+Returns
+-------
+EdgeStrip
+    Where the strip crosses itself, its first or last vertex is also an inner one. Without vertices: it cannot be told
+    yet.
 
 Raises
 ------

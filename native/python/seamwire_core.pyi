@@ -126,6 +126,10 @@ class LiveLoop:
     length: float
     final: bool
 
+class EdgeStrip:
+    vertices: NDArray[np.int32]  # in order; where it is closed, the first one is not given twice
+    closed: bool
+
 class LiveWires:
     wires: tuple[LiveCandidate, LiveCandidate]
     shorter: int
@@ -162,6 +166,8 @@ class LiveWire:
         """In the background, the newest edge asked for; ask again until the answer is final. A seed goes first."""
     def run_on(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> EdgeChain:
         """Return the straightest way on, from the edge's second vertex; its length is that in the unit cube. No vertices: not ready."""
+    def strip(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> EdgeStrip:
+        """Return the edge loop through an edge, as modellers select it, up to poles, boundaries and stops. No vertices: not ready."""
     def feature_strength(self) -> NDArray[np.float64] | None:
         """Return s of eq. 5 per vertex, None while it is computed."""
     def progress(self) -> float:

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Chains of edges that are short in a metric and turn little. The turn at a vertex is the discrete geodesic curvature
-// of Polthier and Schmies, "Straightest Geodesics on Polyhedral Surfaces" (1998); the search is Dijkstra's over
+// Chains of edges that are short in a metric and turn little. The search is Dijkstra's over
 // directed edges, so that the cost of a step may depend on the step before (Caldwell, "On finding minimum routes in a
 // network with turn penalties", 1961). Loops are found by the A* search of Hart, Nilsson and Raphael (1968).
 #include "seamwire/edge_wire.hpp"
@@ -14,11 +13,11 @@
 #include <cstdlib>
 #include <functional>
 #include <new>
-#include <numbers>
 #include <string>
 #include <type_traits>
-#include <unordered_set>
 #include <utility>
+
+#include "edge_fans.hpp"
 
 namespace seamwire {
 
@@ -34,175 +33,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
-
-/// Flat rows: the directed edges that leave vertex v are numbered first[v] .. first[v + 1], by ascending head. A
-/// directed edge's number is also the number of the search's state "just arrived over this edge".
-class EdgeFans {
- public:
-  EdgeFans(const Surface& surface, const Task& task);
-
-  std::int32_t vertex_count() const { return static_cast<std::int32_t>(first_.size()) - 1; }
-  std::size_t directed_count() const { return head_.size(); }
-  std::int32_t begin(std::int32_t v) const { return first_[at(v)]; }
-  std::int32_t end(std::int32_t v) const { return first_[at(v) + 1]; }
-  std::int32_t head(std::int32_t e) const { return head_[at(e)]; }
-  std::int32_t twin(std::int32_t e) const { return twin_[at(e)]; }
-  std::int32_t tail(std::int32_t e) const { return head(twin(e)); }
-
-  /// The directed edge from a to b; -1 if there is none.
-  std::int32_t find(std::int32_t a, std::int32_t b) const;
-
-  /// 1 - cos kappa of a chain that arrives against `back` and leaves over `out`, both directed edges from one vertex.
-  double turn(std::int32_t back, std::int32_t out) const {
-    const Direction &p = directions_[at(back)], &r = directions_[at(out)];
-    return std::max(0.0, 1.0 + p.x * r.x + p.y * r.y + p.z * r.z);
-  }
-
-  /// Whether the faces at the vertex are one open fan; whether the directed edge is one of the two at its rim.
-  bool is_open(std::int32_t v) const { return is_open_[at(v)]; }
-  bool is_rim(std::int32_t e, std::int32_t v) const { return rims_[at(v)][0] == e || rims_[at(v)][1] == e; }
-
- private:
-  /// A vector for each directed edge such that the turn between two of a vertex is 1 plus their product:
-  /// - in a closed fan of total angle T, the edge at angle a is the unit vector at 2 pi a / T, since then
-  ///   -cos(2 pi (a - b) / T) = cos(pi |left - right| / T);
-  /// - in an open fan it is the unit vector at a itself: the turn is pi minus the angle between. The third components
-  ///   of the two boundary edges make their own turn zero and are invisible to the other edges, which have none;
-  /// - elsewhere it is the edge's direction in space.
-  struct Direction {
-    double x, y, z;
-  };
-
-  void set_fan(const Surface& surface, HalfEdgeMesh::VertexHandle fan);
-  void set_directions_in_space(const Surface& surface, std::int32_t v);
-
-  std::vector<std::int32_t> first_, head_, twin_;
-  std::vector<Direction> directions_;
-  std::vector<bool> is_open_;                      // per vertex
-  std::vector<std::array<std::int32_t, 2>> rims_;  // per vertex; -1: none, or no real edge
-};
-
-EdgeFans::EdgeFans(const Surface& surface, const Task& task) {
-  const std::vector<Edge>& edges = surface.edges();
-  first_.assign(surface.vertex_count() + 1, 0);
-  for (const auto& [a, b] : edges) {
-    ++first_[at(a) + 1];
-    ++first_[at(b) + 1];
-  }
-  for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
-  head_.resize(2 * edges.size());
-  twin_.resize(2 * edges.size());
-  directions_.resize(2 * edges.size());
-  rims_.assign(surface.vertex_count(), {-1, -1});
-  is_open_.assign(surface.vertex_count(), false);
-  std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
-  for (const auto& [a, b] : edges) {  // sorted, so each row is
-    const std::int32_t there = next[at(a)]++, back = next[at(b)]++;
-    head_[at(there)] = b;
-    head_[at(back)] = a;
-    twin_[at(there)] = back;
-    twin_[at(back)] = there;
-  }
-
-  const std::vector<std::int32_t>& vertex_of_fan = surface.vertex_of_fan();
-  std::vector<std::int32_t> fans(surface.vertex_count(), 0);
-  for (const std::int32_t v : vertex_of_fan) ++fans[at(v)];
-  const std::size_t total = surface.vertex_count() + vertex_of_fan.size();
-  std::size_t count = 0;
-  const auto look = [&] {
-    if (++count % kPatience == 0) task.check(static_cast<double>(count) / static_cast<double>(total));
-  };
-  for (std::int32_t v = 0; v < vertex_count(); ++v, look()) {
-    if (fans[at(v)] != 1) set_directions_in_space(surface, v);
-  }
-  for (const auto fan : surface.half_edges().vertices()) {
-    if (fans[at(vertex_of_fan[at(fan.idx())])] == 1) set_fan(surface, fan);
-    look();
-  }
-}
-
-void EdgeFans::set_fan(const Surface& surface, HalfEdgeMesh::VertexHandle fan) {
-  const HalfEdgeMesh& mesh = surface.half_edges();
-  const std::vector<std::int32_t>& vertex_of_fan = surface.vertex_of_fan();
-  const std::int32_t v = vertex_of_fan[at(fan.idx())];
-  const auto neighbor = [&](HalfEdgeMesh::HalfedgeHandle h) {
-    return vertex_of_fan[at(mesh.to_vertex_handle(h).idx())];
-  };
-  const auto spoke = [&](HalfEdgeMesh::HalfedgeHandle h) -> Vector {
-    return surface.scale() * (surface.points()[at(neighbor(h))] - surface.points()[at(v)]);
-  };
-
-  HalfEdgeMesh::HalfedgeHandle start = mesh.halfedge_handle(fan);
-  if (!start.is_valid()) return set_directions_in_space(surface, v);
-  bool open = false;
-  for (auto h = start; !open;) {  // backwards, to the fan's first edge if it has one
-    const auto opposite = mesh.opposite_halfedge_handle(h);
-    if (mesh.is_boundary(opposite)) {
-      open = true;
-      start = h;
-    } else if ((h = mesh.next_halfedge_handle(opposite)) == start) {
-      break;
-    }
-  }
-
-  struct Spoke {
-    std::int32_t edge;
-    double angle;
-  };
-  std::vector<Spoke> spokes;  // of real edges; diagonals of polygons only add their angles
-  std::int32_t first_edge = -1, last_edge = -1;
-  double total = 0.0;
-  for (auto h = start;;) {
-    last_edge = find(v, neighbor(h));
-    if (h == start) first_edge = last_edge;
-    if (last_edge >= 0) spokes.push_back({last_edge, total});
-    if (mesh.is_boundary(h)) break;
-    const auto before = mesh.next_halfedge_handle(mesh.next_halfedge_handle(h));
-    const auto following = mesh.opposite_halfedge_handle(before);
-    const Vector p = spoke(h), r = spoke(following);
-    total += std::atan2(p.cross(r).norm(), p.dot(r));
-    h = following;
-    if (h == start) break;
-  }
-
-  // A fan that holds one of the edges twice (it was cut open there) or not at all (a loose one) is broken as well.
-  std::vector<std::int32_t> distinct(spokes.size());
-  std::ranges::transform(spokes, distinct.begin(), &Spoke::edge);
-  std::ranges::sort(distinct);
-  const bool twice = std::ranges::adjacent_find(distinct) != distinct.end();
-  if (twice || distinct.size() != at(end(v) - begin(v)) || !(total > 0.0)) return set_directions_in_space(surface, v);
-
-  const double scale = open ? 1.0 : 2.0 * std::numbers::pi / total;
-  for (const auto& [edge, angle] : spokes) {
-    directions_[at(edge)] = {std::cos(scale * angle), std::sin(scale * angle), 0.0};
-  }
-  if (!open) return;
-  rims_[at(v)] = {first_edge, last_edge};
-  is_open_[at(v)] = true;
-  if (first_edge >= 0 && last_edge >= 0) {
-    directions_[at(first_edge)].z = std::sqrt(std::max(0.0, 1.0 + std::cos(total)));
-    directions_[at(last_edge)].z = -directions_[at(first_edge)].z;
-  }
-}
-
-void EdgeFans::set_directions_in_space(const Surface& surface, std::int32_t v) {
-  const Vector& from = surface.points()[at(v)];
-  for (std::int32_t e = begin(v); e < end(v); ++e) {
-    // Zero for an edge of length zero: it has no direction, and every turn there counts as a right angle.
-    const Vector direction = (surface.scale() * (surface.points()[at(head(e))] - from)).stableNormalized();
-    directions_[at(e)] = {direction.x(), direction.y(), direction.z()};
-  }
-}
-
-std::int32_t EdgeFans::find(std::int32_t a, std::int32_t b) const {
-  const auto row_begin = head_.begin() + begin(a), row_end = head_.begin() + end(a);
-  const auto it = std::lower_bound(row_begin, row_end, b);
-  return it != row_end && *it == b ? static_cast<std::int32_t>(it - head_.begin()) : -1;
-}
-
-std::shared_ptr<const EdgeFans> make_edge_fans(const Surface& surface, const Task& task) {
-  return std::make_shared<const EdgeFans>(surface, task);
-}
 
 /// EdgeFans and a length for each directed edge.
 class EdgeGraph {
@@ -250,40 +80,6 @@ EdgeGraph::EdgeGraph(const Surface& surface, const Metric& metric, std::shared_p
 std::shared_ptr<const EdgeGraph> make_edge_graph(const Surface& surface, const Metric& metric,
                                                  std::shared_ptr<const EdgeFans> fans, const Task& task) {
   return std::make_shared<const EdgeGraph>(surface, metric, std::move(fans), task);
-}
-
-std::vector<std::int32_t> run_on(const EdgeFans& fans, const Edge& edge, std::span<const std::int32_t> stops) {
-  // 1 - cos 60 degrees, a little less: a vertex of three equal angles offers two ways of 60 degrees and no way on.
-  constexpr double kMostTurn = 0.5 - 1e-9;
-  const auto is_vertex = [&](std::int32_t v) { return v >= 0 && v < fans.vertex_count(); };
-  std::int32_t e = is_vertex(edge[0]) && is_vertex(edge[1]) ? fans.find(edge[0], edge[1]) : -1;
-  if (e < 0) {
-    throw InvalidInput("there is no edge between the vertices " + std::to_string(edge[0]) + " and " +
-                       std::to_string(edge[1]));
-  }
-  const std::unordered_set<std::int32_t> stop_at(stops.begin(), stops.end());
-  std::unordered_set<std::int32_t> visited{edge[0], edge[1]};
-  std::vector<std::int32_t> chain{edge[1]};
-  for (std::int32_t v = edge[1];;) {
-    const std::int32_t back = fans.twin(e);
-    if (fans.is_open(v) && !fans.is_rim(back, v)) break;
-    std::int32_t best = -1;
-    double least = kMostTurn;
-    for (std::int32_t out = fans.begin(v); out < fans.end(v); ++out) {
-      if (out == back) continue;
-      const double turn = fans.turn(back, out);
-      if (turn < least) {
-        least = turn;
-        best = out;
-      }
-    }
-    if (best < 0) break;
-    e = best;
-    v = fans.head(e);
-    chain.push_back(v);
-    if (stop_at.contains(v) || !visited.insert(v).second) break;
-  }
-  return chain;
 }
 
 namespace {
@@ -609,19 +405,20 @@ struct EdgeWires::Run {
 EdgeWires::EdgeWires(std::shared_ptr<const EdgeGraph> graph, const Pick& seed, double turning, bool forward) {
   check_pick(*graph, seed, "seed");
   check_turning(turning);
-  run_ = std::make_shared<Run>(graph, seed, turning);
+  run_ = std::make_shared<Run>(std::move(graph), seed, turning);
+  const EdgeGraph& on = *run_->graph;
   Search& search = run_->search;
   if (!seed.is_edge()) {
     search.block(seed.a);
-    for (std::int32_t e = graph->begin(seed.a); e < graph->end(seed.a); ++e) search.start(e);
+    for (std::int32_t e = on.begin(seed.a); e < on.end(seed.a); ++e) search.start(e);
   } else {
-    const std::int32_t e = graph->find(seed.a, seed.b);
+    const std::int32_t e = on.find(seed.a, seed.b);
     search.block(seed.b);
     if (forward) {
       search.end_at(seed.a, -1);
     } else {
       search.block(seed.a);
-      search.start(graph->twin(e));
+      search.start(on.twin(e));
     }
     search.start(e);
   }

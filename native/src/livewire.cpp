@@ -213,7 +213,7 @@ struct LiveWire::Impl {
   std::shared_ptr<const Solved> find_chains(std::size_t which, const std::shared_ptr<const Prepared>& prepared,
                                             const Pick& from, bool is_forward, std::int64_t at, const Task& task);
   LiveCandidate candidate_of(std::size_t which, const Prepared& prepared, Wire wire) const;
-  LiveCandidate candidate(std::size_t which, const Solved& solved, const Pick& target) const;
+  LiveCandidate candidate(std::size_t which, const Solved& solved, const Pick& to) const;
   void change_metrics(std::shared_ptr<Metrics> to);
 
   /// With the lock.
@@ -582,6 +582,12 @@ EdgeChain LiveWire::run_on(const Edge& edge, std::span<const std::int32_t> stops
     way.length += impl_->surface().scale() * (point(way.vertices[i]) - point(way.vertices[i - 1])).norm();
   }
   return way;
+}
+
+EdgeStrip LiveWire::strip(const Edge& edge, std::span<const std::int32_t> stops) const {
+  check_edge(impl_->surface(), edge);
+  const auto fans = impl_->ground->fans.peek();
+  return fans ? edge_strip(**fans, edge, stops) : EdgeStrip{};
 }
 
 std::shared_ptr<const std::vector<double>> LiveWire::feature_strength() const {

@@ -44,6 +44,20 @@ std::shared_ptr<const EdgeFans> make_edge_fans(const Surface& surface, const Tas
 /// vertex may be an earlier one. Throws InvalidInput where that is no edge of the surface.
 std::vector<std::int32_t> run_on(const EdgeFans& fans, const Edge& edge, std::span<const std::int32_t> stops);
 
+/// A run of edges straight through a mesh.
+struct EdgeStrip {
+  std::vector<std::int32_t> vertices;  ///< in order; where it is closed, the first one is not given twice
+  bool closed = false;
+};
+
+/// The strip of edges through an edge, both ways, as modellers select an edge loop: on over the opposite edge at a
+/// vertex of four edges whose faces are not all triangles, and of six whose faces all are; from an edge of the boundary
+/// along it. It ends at other vertices (poles, boundaries, corners of a single face, where faces are no fan), at a
+/// vertex of `stops` (an end of the edge itself too), and where it meets itself: closed where its ends are one vertex,
+/// else, where it crosses itself, its first or last vertex is also an inner one. `edge` may be given either way round
+/// and has its direction in the strip. Throws InvalidInput where that is no edge of the surface.
+EdgeStrip edge_strip(const EdgeFans& fans, const Edge& edge, std::span<const std::int32_t> stops);
+
 /// EdgeFans with the lengths of the edges in a metric: cost of a chain = sum of metric lengths + q * (mean metric edge
 /// length) * sum over its inner vertices of (1 - cos kappa). Immutable, so searches may run on several threads.
 class EdgeGraph;

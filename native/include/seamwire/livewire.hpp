@@ -90,6 +90,8 @@ class LiveWire {
   LiveLoop loop(const Edge& edge);
   /// run_on(), with the way's length in the unit cube; no vertices where it cannot be told yet.
   EdgeChain run_on(const Edge& edge, std::span<const std::int32_t> stops) const;
+  /// edge_strip(); no vertices where it cannot be told yet.
+  EdgeStrip strip(const Edge& edge, std::span<const std::int32_t> stops) const;
   /// s of eq. 5 at each vertex; null while it is being computed.
   std::shared_ptr<const std::vector<double>> feature_strength() const;
 

@@ -157,6 +157,26 @@ def test_runs_on_straight(surface: sw.Surface) -> None:
         live.run_on((0, 1), [10**6])
 
 
+def test_strips_run_both_ways() -> None:
+    n = 6
+    points, triangles = meshes.torus(n, n)
+    quads = [(n * v + u, n * v + (u + 1) % n) for v in range(n) for u in range(n)]
+    quads += [(n * v + u, n * ((v + 1) % n) + u) for v in range(n) for u in range(n)]
+    live = sw.LiveWire(sw.Surface(points, triangles, quads), along="edges")
+    assert live.wait()
+    ring = live.strip((1, 2))
+    assert ring.closed
+    assert ring.vertices.dtype == np.int32
+    assert ring.vertices.tolist() == [1, 2, 3, 4, 5, 0]
+    part = live.strip((1, 2), iter([0, 4]))
+    assert not part.closed
+    assert part.vertices.tolist() == [0, 1, 2, 3, 4]
+    with pytest.raises(ValueError, match="no edge"):
+        live.strip((0, n + 1))
+    with pytest.raises(ValueError, match="stops"):
+        live.strip((0, 1), [-1])
+
+
 def test_tells_the_strength_of_features(surface: sw.Surface, curvature: sw.Curvature) -> None:
     live = sw.LiveWire(surface)
     assert live.wait()
