@@ -98,7 +98,7 @@ class Leg:
         if self.wire.along == "EDGES":
             points = self._points[list(vertices)]
         ends = {"start": self.wire.start, "end": self.wire.end, self.moving: place}
-        return replace(self.wire, vertices=vertices, points=points, follow=follow, alternative=None, **ends)
+        return self.wire.drawn(vertices=vertices, points=points, follow=follow, **ends)
 
 
 def _fixed_seed(network: Network, wire: Wire, moving: End) -> tuple[Pick, bool, int]:

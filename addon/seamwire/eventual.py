@@ -13,7 +13,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .live import Candidates, Chain, LiveWire, Loop, MetricName
+    from .live import Candidates, Chain, LiveWire, Loop, MetricName, Strip
     from .network import Edge, Pick
 
 T = TypeVar("T")
@@ -71,6 +71,7 @@ class _NoCandidate:
     points: NDArray[np.float64]
     vertices: NDArray[np.int32]
     length: float = float("inf")
+    closed: bool = False
     final: bool = False
 
 
@@ -159,6 +160,11 @@ class EventualLive:
         """Return the straight way on from a directed edge; no vertices as long as nothing is there."""
         live = self._made()
         return _NO_CANDIDATE if live is None else live.run_on(edge, stops)
+
+    def strip(self, edge: Edge, stops: Iterable[int]) -> Strip:
+        """Return the straight chain through an edge; no vertices as long as nothing is there."""
+        live = self._made()
+        return _NO_CANDIDATE if live is None else live.strip(edge, stops)
 
     def feature_strength(self) -> NDArray[np.float64] | None:
         """Return how strong the features are at the vertices; None as long as that is computed."""

@@ -45,6 +45,12 @@ class Loop(Chain, Protocol):
     final: bool
 
 
+class Strip(Chain, Protocol):
+    """A straight chain of edges; no vertices where it cannot be told yet."""
+
+    closed: bool
+
+
 class LiveWire(Protocol):
     """What a session asks of ``seamwire_core.LiveWire``."""
 
@@ -59,6 +65,9 @@ class LiveWire(Protocol):
 
     def run_on(self, edge: Edge, stops: Iterable[int]) -> Chain:
         """Return the straight way on from the end of a directed edge until a stop, a boundary or itself."""
+
+    def strip(self, edge: Edge, stops: Iterable[int]) -> Strip:
+        """Return the straight chain through an edge, both ways, until a stop, a pole, a boundary or itself."""
 
     def fork(self) -> LiveWire:
         """Return live wires with a seed of their own and the same metric."""

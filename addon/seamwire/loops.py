@@ -1,44 +1,117 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whole loops through the edge under the cursor."""
+"""What one click on an edge offers: the loop through it, the strip, the whole strip, the edge alone."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from .network import Wire
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import numpy as np
     from numpy.typing import NDArray
 
     from .live import LiveWire
-    from .network import Edge
+    from .network import Edge, LoopKind, Pick
 
 
 @dataclass
 class LoopPreview:
-    """The loop through the edge under the cursor, while it is asked for."""
+    """The offers for the edge under the cursor, while they are asked for.
+
+    Parameters
+    ----------
+    wanted
+        Whether they are asked for.
+    edge
+        The edge that they are for, smaller vertex first.
+    offers
+        No two alike, the default one first; empty: not computed.
+    choice
+        The one that is shown.
+    final
+        Whether nothing is computed for them any more.
+    """
 
     wanted: bool = False
-    wire: Wire | None = None
+    edge: Pick | None = None
+    offers: tuple[Wire, ...] = ()
+    choice: int = 0
     final: bool = True
 
-    def reset(self) -> None:
-        """Show none."""
-        self.wanted, self.wire, self.final = False, None, True
+    @property
+    def wire(self) -> Wire | None:
+        """The offer that is shown."""
+        return self.offers[self.choice] if self.offers else None
+
+    def clear(self) -> None:
+        """Show none, and forget what was chosen; what is asked for is asked for still."""
+        self.edge, self.offers, self.choice, self.final = None, (), 0, True
+
+    def next(self) -> None:
+        """Show the next offer. There must be one."""
+        self.choice = (self.choice + 1) % len(self.offers)
 
 
-def find_loop(live: LiveWire, edge: Edge, points: NDArray[np.float64]) -> tuple[Wire | None, bool]:
-    """Return the closed loop through an edge, and whether it, or that there is none, is computed.
+def taken(offers: tuple[Wire, ...], choice: int, marks: bool) -> Wire:
+    """Return an offer as a wire to be kept, with the others in their order, the next one first."""
+    return replace(offers[choice], marks=marks, offers=offers[choice + 1 :] + offers[:choice])
+
+
+def find_offers(
+    live: LiveWire, edge: Edge, stops: Sequence[int] | None, points: NDArray[np.float64], strength: float
+) -> tuple[tuple[Wire, ...], bool]:
+    """Return what one click on an edge may take, the default first, and whether that is computed; until then nothing.
+
+    Parameters
+    ----------
+    live
+        Of the way along edges.
+    edge
+        Strips run in its direction.
+    stops
+        The vertices where a strip ends, before the offer without stops; None: that alone is offered.
+    points
+        (n, 3) vertices of the mesh.
+    strength
+        The metric's largest anisotropy.
 
     Raises
     ------
     ValueError
         Where the edge is not part of the surface.
     """
-    found = live.loop(edge)
-    vertices = tuple(int(v) for v in found.vertices)
-    if not found.final or len(vertices) < 3:
-        return None, found.final
-    return Wire("EDGES", vertices, points[[*vertices, vertices[0]]], edge, edge, closed=True), True
+    loop = live.loop(edge)
+    if not loop.final:
+        return (), False
+    found = [_wire("CLOSED", loop.vertices, True, edge, points, strength)]
+    if stops is not None:
+        strip = live.strip(edge, stops)
+        found.append(_wire("STRIP", strip.vertices, strip.closed, edge, points))
+    whole = live.strip(edge, ())
+    found.append(_wire("WHOLE", whole.vertices, whole.closed, edge, points))
+    found.append(_wire("EDGE", edge, False, edge, points))
+    different = {frozenset(wire.edges()): wire for wire in reversed(found) if wire is not None}
+    return tuple(wire for wire in found if wire in different.values()), True
+
+
+def _wire(
+    kind: LoopKind,
+    chain: Sequence[int] | NDArray[np.int32],
+    closed: bool,
+    edge: Edge,
+    points: NDArray[np.float64],
+    strength: float = 0.0,
+) -> Wire | None:
+    vertices = tuple(int(vertex) for vertex in chain)
+    if len(vertices) < (3 if closed else 2):
+        return None
+    around = [*vertices, vertices[0]] if closed else list(vertices)
+    start, end = (edge, edge) if closed else (vertices[0], vertices[-1])
+    pair = (min(edge), max(edge))
+    return Wire(
+        "EDGES", vertices, points[around], start, end, closed=closed, strength=strength, kind=kind, through=pair
+    )

@@ -27,6 +27,10 @@ Edge = tuple[int, int]
 
 End = Literal["start", "end"]
 
+LoopKind = Literal["CLOSED", "STRIP", "WHOLE", "EDGE"]
+"""What a click on an edge takes: the closed loop of the metric, the straight strip up to what is there already, the whole
+strip, the edge alone."""
+
 _ids = itertools.count()
 
 
@@ -132,7 +136,13 @@ class Wire:
     alternative
         The other of the two, where it runs elsewhere; it has no alternative itself.
     strength
-        The metric's largest anisotropy when it was found; 0: not known.
+        The metric's largest anisotropy when it was found; 0: not known, or it needs none.
+    kind
+        What it is of what one click on an edge offers; None: it was drawn.
+    through
+        The edge of that click, smaller vertex first.
+    offers
+        What else that click offered, the next one first; they have no offers themselves.
     id
         Its own number, kept when its course changes.
     """
@@ -148,6 +158,9 @@ class Wire:
     follow: int = 0
     alternative: Wire | None = None
     strength: float = 0.0
+    kind: LoopKind | None = None
+    through: Edge | None = None
+    offers: tuple[Wire, ...] = ()
     id: int = field(default_factory=_ids.__next__)
 
     def edges(self) -> list[Edge]:
@@ -171,6 +184,20 @@ class Wire:
         assert self.alternative is not None
         back = replace(self, alternative=None)
         return replace(self.alternative, id=self.id, marks=self.marks, alternative=back)
+
+    def drawn(self, **course: object) -> Wire:
+        """Return it with another course, which is none that a click on an edge offered."""
+        return replace(self, **course, alternative=None, kind=None, through=None, offers=())
+
+    def all_offers(self) -> tuple[Wire, ...]:
+        """Return itself and what else the click on its edge offered, all without offers of their own."""
+        return replace(self, offers=()), *self.offers
+
+    def next_offer(self, steps: int = 1) -> Wire:
+        """Return what the click on its edge offered next, or some steps on, in its place."""
+        offers = self.all_offers()
+        offers = offers[steps:] + offers[:steps]
+        return replace(offers[0], id=self.id, marks=self.marks, offers=offers[1:])
 
 
 @dataclass(frozen=True)
@@ -246,10 +273,23 @@ class Network:
 
     def without(self, wire: Wire) -> Network:
         """Return the network without a wire. A chain that went on from the wire's end goes on from the place itself."""
+        return replace(self, wires=tuple(own for own in self.wires if own.id != wire.id), seed=self._seed_without(wire))
+
+    def _seed_without(self, wire: Wire) -> Seed | None:
         seed = self.seed
-        if seed is not None and seed.forward and _goes_on(wire, seed.place, seed.pick):
-            seed = replace(seed, pick=seed.place, forward=False, clicked=None)
-        return replace(self, wires=tuple(own for own in self.wires if own.id != wire.id), seed=seed)
+        if seed is None or not seed.forward or not _goes_on(wire, seed.place, seed.pick):
+            return seed
+        return replace(seed, pick=seed.place, forward=False, clicked=None)
+
+    def with_next_offer(self, wire: Wire, steps: int = 1) -> Network:
+        """Return the network with what a click on a wire's edge offered next. What went on from the wire stays."""
+
+        def follows(own: Wire) -> Wire:
+            if own.id == wire.id:
+                return own.next_offer(steps)
+            return replace(own, heading=None) if _goes_on(wire, own.start, own.heading) else own
+
+        return replace(self, wires=tuple(follows(own) for own in self.wires), seed=self._seed_without(wire))
 
     def before(self, wire: Wire) -> Wire | None:
         """Return the wire that a wire goes on from."""
@@ -352,7 +392,7 @@ def split(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[Wire, Wi
         return None
     seed: Pick = vertices[after] if before == after else (vertices[before], vertices[after])
     heading = (vertices[after - 1], vertices[after])
-    first = replace(wire, vertices=vertices[: after + 1], points=wire.points[: after + 1], end=seed, alternative=None)
+    first = wire.drawn(vertices=vertices[: after + 1], points=wire.points[: after + 1], end=seed)
     second = Wire(
         "EDGES",
         vertices[after:],
@@ -386,15 +426,13 @@ def _split_loop(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[Wi
     around = wire.vertices[begin:] + wire.vertices[: begin + 1]
     middle = count // 2
     seed: Pick = around[0] if ends[0] == ends[1] else (around[-2], around[-1])
-    first = replace(
-        wire,
+    first = wire.drawn(
         vertices=around[: middle + 1],
         points=points[list(around[: middle + 1])],
         start=seed,
         end=around[middle],
         closed=False,
         heading=(around[-2], around[-1]),
-        alternative=None,
     )
     second = Wire(
         wire.along,
@@ -421,12 +459,10 @@ def _split_curve(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[W
     part = np.einsum("ij,ij->i", place - starts, along) / np.where(square > 0.0, square, 1.0)
     gaps = np.linalg.norm(starts + np.clip(part, 0.0, 1.0)[:, None] * along - place, axis=1)
     nearest = int(np.argmin(gaps))
-    first = replace(
-        wire,
+    first = wire.drawn(
         vertices=wire.vertices[: at + 1],
         points=np.vstack([wire.points[: nearest + 1], place]),
         end=pick,
-        alternative=None,
     )
     second = Wire(
         "SURFACE",

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from .drag import Drag
 from .engines import CLAMP_PERCENTILE, STRENGTH_RANGE, STRENGTH_STEP, STRENGTHS
+from .loops import taken
 from .network import Network, Seed, Snap, Wire, name, undirected
 from .preview import only_vertices
 from .state import Intent, Queued
@@ -55,20 +56,24 @@ class Session(Workings):
         self._aim(target)
         shown = self._loop
         shown.wanted = loop and self.along == "EDGES" and target is not None and isinstance(target.pick, tuple)
-        if shown.wire is not None and not (shown.wanted and target is not None and shown.wire.start == target.pick):
-            shown.wire = None
-            self.revision += 1
+        if shown.edge is not None and not (
+            shown.wanted and target is not None and shown.edge == undirected(target.pick)
+        ):
+            self.revision += bool(shown.offers)
+            shown.clear()
         self._preview_loop()
 
     def click(self, snap: Snap | Pick) -> bool:
         """Place a seed; where a wire is live, keep it and go on from there.
 
         On the chain's first seed this closes the chain; on another seed, a wire or a seam it joins there and ends the
-        chain. While the way to the end is shown, that is kept. Before the wire is computed the click waits, see `poll`.
+        chain. While the way to the end or a loop is shown, that is kept. Before the wire is computed the click waits, see `poll`.
         """
         target = Snap.of(snap)
         if self._end.wanted and not self._queue:
             return self.run_to_end()
+        if self._loop.wire is not None and self._loop.edge == undirected(target.pick) and not self._queue:
+            return self.loop(target)
         self.drag_cancel()
         if self._network.seed is None and not self._queue:
             return self.start(target)
@@ -96,7 +101,7 @@ class Session(Workings):
         return True
 
     def loop(self, snap: Snap | Pick) -> bool:
-        """Keep the closed loop through an edge.
+        """Keep what is offered for an edge: the one that is shown, else the closed loop through it or, if none, the strip.
 
         A click on the same edge just before is taken back: a double click is a click first.
         """
@@ -105,26 +110,30 @@ class Session(Workings):
         if self.along != "EDGES" or not isinstance(edge, tuple):
             return self._refuse("Loops are taken along edges: double-click on an edge")
         self.drag_cancel()
-        if (
-            self._queue
-            and self._queue[-1].kind == "click"
-            and undirected(self._queue[-1].snap.pick) == undirected(edge)
-        ):
-            self._queue.pop()
-        elif self._last_click == (undirected(edge), self._history.steps):
-            self._restore(self._history.forget_step())
-        self._last_click = None
-        last = self.wires[-1] if self.wires else None
-        if last is not None and last.closed and undirected(edge) in last.edges():
-            return True  # the first click of the two took it already
-        wire = self._find_loop(edge)
-        if wire is None:
+        shown = self._loop
+        choice = shown.choice if shown.edge == undirected(edge) else 0
+        self._take_back_click(edge)
+        own = self._taken_through(edge)
+        if own is not None and own.marks == self.marking:
+            # Of a double click, the first press took it already.
+            return not choice or self._change(self._network.with_next_offer(own, choice))
+        offers = self._find_offers(edge)
+        if not offers:
             if self.computing:
                 self._queue.append(Queued("loop", target))
                 self.revision += 1
                 return True
-            return self._refuse(f"No closed loop of edges runs through {name(edge)}")
-        return self._change(replace(self._network, wires=(*self.wires, replace(wire, marks=self.marking))))
+            return self._refuse(self.message or f"No edges run on from {name(edge)}")
+        wire = taken(offers, min(choice, len(offers) - 1), self.marking)
+        return self._change(replace(self._network, wires=(*self.wires, wire)))
+
+    def _take_back_click(self, edge: Pick) -> None:
+        last = self._queue[-1] if self._queue else None
+        if last is not None and last.kind == "click" and undirected(last.snap.pick) == undirected(edge):
+            self._queue.pop()
+        elif self._last_click == (undirected(edge), self._history.steps):
+            self._restore(self._history.forget_step())
+        self._last_click = None
 
     def end_chain(self) -> None:
         """Let go of the live wire, or of a dragged seed; the kept wires stay."""
@@ -145,7 +154,9 @@ class Session(Workings):
         return self.click(Snap(first, "SEED"))
 
     def toggle(self) -> bool:
-        """Make the other of the two wires the active one, until it is kept."""
+        """Make the other of the two wires the active one, until it is kept; of what is offered for an edge, the next."""
+        if self._loop.wanted:
+            return self._next_offer()
         if self.other is None:
             same = self._live.final and self.active is not None
             return self._refuse("Both wires run along the same edges here" if same else "There is no other wire yet")
@@ -155,12 +166,24 @@ class Session(Workings):
         self.revision += 1
         return True
 
+    def _next_offer(self) -> bool:
+        if not self._loop.offers:
+            return self._refuse("There is no loop yet")
+        if len(self._loop.offers) == 1:
+            return self._refuse("Nothing else runs through this edge")
+        self._loop.next()
+        self.message = ""
+        self.revision += 1
+        return True
+
     def toggle_kept(self, wire: Wire) -> bool:
-        """Let a kept wire take its other way, that of the other metric."""
+        """Let a kept wire take its other way, that of the other metric; one from a click on an edge, what is next there."""
         self._calm()
         own = self._network.find(wire)
         if own is None:
             return self._refuse("This wire is not there any more")
+        if own.offers:
+            return self._change(self._network.with_next_offer(own))
         if own.closed:
             return self._refuse("A loop has no other way")
         if own.alternative is not None:
@@ -200,7 +223,8 @@ class Session(Workings):
             return self._refuse(str(error))
         self._read_progress()
         self._live.clear()
-        self._loop.wire = self._end.wire = None
+        self._loop.clear()
+        self._end.wire = None
         self._end.wanted = False
         self.message = ""
         self.revision += 1
@@ -294,7 +318,8 @@ class Session(Workings):
         self.along = along
         self._live.chosen = None
         self._live.clear()
-        self._loop.reset()
+        self._loop.wanted = False
+        self._loop.clear()
         if self._network.seed is not None and not self._sow(self._network.seed):
             self.along = before
             return False
@@ -457,7 +482,7 @@ class Session(Workings):
         """Do the oldest waiting click if its wire is there; returns whether it was done."""
         head = self._queue[0]
         self._aim(head.snap, again=True)
-        blocked = self._find_loop(head.snap.pick) is None if head.kind == "loop" else not self._live.active_final
+        blocked = not self._find_offers(head.snap.pick) if head.kind == "loop" else not self._live.active_final
         if blocked and self.computing:
             return False
         del self._queue[0]

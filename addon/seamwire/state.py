@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from .drag import Drag
     from .live import LiveWire, MetricName
-    from .network import Along, Edge, Pick
+    from .network import Along, Edge, LoopKind, Pick
 
 
 class Intent(Enum):
@@ -176,8 +176,18 @@ class State:
 
     @property
     def loop_preview(self) -> Wire | None:
-        """The loop through the edge under the cursor, while it is asked for."""
+        """What a click on the edge under the cursor takes as a whole, while that is asked for."""
         return self._loop.wire
+
+    @property
+    def loop_offers(self) -> tuple[LoopKind, ...]:
+        """What such a click may take, each once, the default first: `toggle` goes from one to the next."""
+        return tuple(offer.kind for offer in self._loop.offers if offer.kind is not None)
+
+    @property
+    def loop_choice(self) -> LoopKind | None:
+        """Which of them `loop_preview` is."""
+        return None if self._loop.wire is None else self._loop.wire.kind
 
     @property
     def end_preview(self) -> Wire | None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .network import Wire
+from .network import Wire, undirected
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -31,9 +31,11 @@ class Stops:
     """
 
     def __init__(self, seams: ArrayLike, mirror: Mirror) -> None:
-        self._seam_vertices = frozenset(np.unique(np.asarray(seams, dtype=np.int64)).tolist())
+        pairs = np.asarray(seams, dtype=np.int64).reshape(-1, 2)
+        self._seam_vertices = frozenset(np.unique(pairs).tolist())
+        self._seams = frozenset(map(tuple, np.sort(pairs, axis=1).tolist()))
         self._mirror = mirror
-        self._last: tuple[Network, frozenset[int]] | None = None
+        self._last: tuple[Network, list[Wire]] | None = None
 
     def of(self, network: Network, live: Wire | None, begin: Iterable[int]) -> list[int]:
         """Return the stops of a wire.
@@ -49,21 +51,28 @@ class Stops:
         """
         stops = set(self._kept(network))
         if live is not None:
-            stops |= self._around(live, network)
+            stops.update(*(one.vertices for one in self._with_images(live, network)))
         plane = self._mirror.on_plane(network.mirror)
         if not plane.issuperset(begin):
             stops |= plane
         return sorted(stops)
 
+    def taken(self, network: Network, edge: Edge) -> bool:
+        """Whether an edge belongs already to a seam, to a kept wire or to an image of one."""
+        pair = undirected(edge)
+        return pair in self._seams or any(pair in one.edges() for one in self._wires(network))
+
     def _kept(self, network: Network) -> frozenset[int]:
+        return self._seam_vertices.union(*(one.vertices for one in self._wires(network)))
+
+    def _wires(self, network: Network) -> list[Wire]:
+        """Return the kept wires and their images."""
         if self._last is None or self._last[0] is not network:
-            around = (self._around(wire, network) for wire in network.wires)
-            self._last = (network, self._seam_vertices.union(*around))
+            self._last = (network, [one for wire in network.wires for one in self._with_images(wire, network)])
         return self._last[1]
 
-    def _around(self, wire: Wire, network: Network) -> set[int]:
-        images = self._mirror.images(wire, network.mirror)
-        return {vertex for one in (wire, *images) for vertex in one.vertices}
+    def _with_images(self, wire: Wire, network: Network) -> list[Wire]:
+        return [wire, *self._mirror.images(wire, network.mirror)]
 
 
 def run_on(

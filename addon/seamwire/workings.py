@@ -8,8 +8,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from .drag import Leg
-from .loops import find_loop
-from .network import Network, Seed, Snap, Wire, name
+from .loops import find_offers
+from .network import Network, Seed, Snap, Wire, name, undirected
 from .redraw import Job, other_way, with_lost, with_other_way
 from .state import State
 from .straight import run_on
@@ -46,7 +46,7 @@ class Workings(State):
             return self._refuse("Leave the seed first, then change what draws the wires")
         self._engines.use(metric, strengths)
         self.message = ""
-        self._loop.wire = None
+        self._loop.clear()
         self._aim(self._live.target, again=True)
         self._preview_loop()
         self.revision += 1
@@ -95,7 +95,8 @@ class Workings(State):
 
     def _settle(self) -> None:
         self._live.chosen = None
-        self._loop.wire = self._end.wire = None
+        self._loop.clear()
+        self._end.wire = None
         self._end.wanted = False
         self.message = ""
         self._aim(self._live.target, again=True)
@@ -118,24 +119,36 @@ class Workings(State):
 
     # How it is done: loops and ends
 
-    def _find_loop(self, edge: Pick) -> Wire | None:
+    def _find_offers(self, pick: Pick) -> tuple[Wire, ...]:
+        """Return what a click on an edge may take; nothing, too, while it is computed."""
         self._loop.final = True
-        if not isinstance(edge, tuple):
-            return None
+        if not isinstance(pick, tuple):
+            return ()
+        network = self._network
+        own = self._taken_through(pick)
+        if own is not None:
+            return own.all_offers()
+        # An edge that is taken already stops itself: what remains to be offered there is more than that.
+        stops = None if self._stops.taken(network, pick) else self._stops.of(network, None, pick)
         try:
-            wire, self._loop.final = find_loop(self._engine(), edge, self._points)
+            offers, self._loop.final = find_offers(self._engine(), pick, stops, self._points, self.strength)
         except ValueError as error:
             self.message = str(error)
-            return None
-        return wire and replace(wire, marks=self.marking, strength=self.strength)
+            return ()
+        return offers
+
+    def _taken_through(self, edge: Pick) -> Wire | None:
+        """Return the kept wire that a click on an edge took."""
+        pair = undirected(edge)
+        return next((wire for wire in reversed(self._network.wires) if wire.through == pair), None)
 
     def _preview_loop(self) -> None:
-        loop = self._loop
+        loop, target = self._loop, self._live.target
         if not loop.wanted and not any(queued.kind == "loop" for queued in self._queue):
             loop.final = True
-        if loop.wanted and loop.wire is None and self._live.target is not None:
-            loop.wire = self._find_loop(self._live.target.pick)
-            self.revision += loop.wire is not None
+        if loop.wanted and not loop.offers and target is not None:
+            loop.edge, loop.offers = undirected(target.pick), self._find_offers(target.pick)
+            self.revision += bool(loop.offers)
 
     def _preview_end(self) -> None:
         end = self._end

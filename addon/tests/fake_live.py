@@ -34,6 +34,7 @@ class FakeChain:
 
     vertices: NDArray[np.int32]
     final: bool = True
+    closed: bool = False
 
 
 def grid_edges(size: int) -> NDArray[np.int32]:
@@ -120,6 +121,14 @@ class FakeLive:
                 break
             way.append(y * self.size + x)
         return FakeChain(np.array(way, dtype=np.int32))
+
+    def strip(self, edge: tuple[int, int], stops: list[int]) -> FakeChain:
+        if not any(self.ready):
+            return FakeChain(np.empty(0, dtype=np.int32))
+        ways = [
+            [end] if end in stops else self.run_on((start, end), stops).vertices for start, end in (edge, edge[::-1])
+        ]
+        return FakeChain(np.array([*ways[1][::-1], *ways[0]], dtype=np.int32))
 
     def fork(self) -> FakeLive:
         fork = FakeLive(self.size, self.along, self.fork_ready, self.shorter, self.islands)

@@ -4,9 +4,10 @@
 from __future__ import annotations
 
 import pytest
-from fake_live import FakeLive
+from fake_live import FakeLive, grid_edges
 from seamwire.network import Snap
 from seamwire.session import Intent, Session
+from seamwire.storage import dump, load
 from table import SIZE, Table, chain
 
 
@@ -292,9 +293,12 @@ def test_undo_takes_back_what_waits_for_a_wires_other_way() -> None:
     assert session.wires[0].vertices == (0, 1, 2, 3, 9)
 
 
-def test_a_loop_has_no_other_way() -> None:
+def test_a_stored_loop_has_no_other_way() -> None:
+    table = Table()
+    table.session.loop((14, 15))
+    network, _ = load(dump(table.session.network, table.points), table.points, grid_edges(SIZE))
     session = Table().session
-    session.loop((14, 15))
+    session.resume(network)
     assert not session.toggle_kept(session.wires[0])
     assert "loop" in session.message
 

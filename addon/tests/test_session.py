@@ -220,12 +220,6 @@ def test_the_same_loop_is_not_taken_twice_in_a_row() -> None:
     assert len(session.wires) == 1
 
 
-def test_where_no_loop_runs_the_session_says_so() -> None:
-    session = Table().session
-    assert not session.loop((14, 20))
-    assert "14-20" in session.message
-
-
 def test_the_loop_is_shown_only_while_asked_for() -> None:
     session = Table().session
     session.hover((14, 15), loop=True)

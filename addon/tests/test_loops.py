@@ -1,0 +1,273 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What one click on an edge offers: the closed loop, the strip, the whole strip, the edge alone."""
+
+from __future__ import annotations
+
+import pytest
+from fake_live import grid_edges
+from seamwire.network import Snap
+from seamwire.session import Intent, Session
+from seamwire.storage import dump, load
+from table import SIZE, Table, chain
+
+ROW = (12, 13, 14, 15, 16, 17)
+COLUMN = (2, 8, 14, 20, 26, 32)
+SQUARE = (14, 15, 21, 20)
+"""On the grid, edges along x have a closed loop, edges along y have none."""
+
+
+def shown(session: Session) -> tuple[int, ...]:
+    return session.loop_preview.vertices
+
+
+def test_the_closed_loop_comes_first_then_strip_and_edge() -> None:
+    session = Table().session
+    session.hover((14, 15), loop=True)
+    assert session.loop_offers == ("CLOSED", "STRIP", "EDGE"), "the strip without stops is the strip"
+    assert session.loop_choice == "CLOSED"
+    assert shown(session) == SQUARE
+    assert session.intent is Intent.LOOP
+
+
+def test_where_there_is_no_closed_loop_the_strip_is_taken() -> None:
+    session = Table().session
+    session.hover((14, 20), loop=True)
+    assert session.loop_offers == ("STRIP", "EDGE")
+    assert session.loop((14, 20))
+    (wire,) = session.wires
+    assert wire.vertices == COLUMN
+    assert not wire.closed
+    assert (wire.start, wire.end) == (2, 32)
+    assert session.edges_to_mark() == chain(*COLUMN)
+    assert session.seeds() == [2, 32]
+    assert session.message == ""
+
+
+def test_a_strip_ends_at_seams_and_the_whole_one_is_offered_next() -> None:
+    session = Table(seams=[(8, 9), (26, 25)]).session
+    session.hover((14, 20), loop=True)
+    assert session.loop_offers == ("STRIP", "WHOLE", "EDGE")
+    assert shown(session) == (8, 14, 20, 26)
+    assert session.toggle()
+    assert shown(session) == COLUMN
+
+
+def test_a_strip_ends_where_its_own_edge_meets_a_seam() -> None:
+    session = Table(seams=[(14, 15)]).session
+    session.loop((14, 20))
+    assert session.wires[0].vertices == (14, 20, 26, 32)
+
+
+def test_a_strip_ends_at_kept_wires_and_their_images() -> None:
+    session = Table(centred=True).session
+    session.set_mirror([1])  # what is drawn on row 1 is on row 4 as well
+    session.click(7)
+    session.click(10)
+    session.end_chain()
+    session.loop((14, 20))
+    assert session.wires[-1].vertices == (8, 14, 20, 26)
+
+
+def test_a_strip_ends_on_the_mirrors_plane_unless_it_runs_along_it() -> None:
+    table = Table()
+    table.points[:, 0] -= 2.0
+    session = Session(table.session._engines._make, table.points, edges=grid_edges(SIZE))
+    session.set_mirror([0])
+    session.hover((15, 16), loop=True)
+    session.toggle()
+    assert session.loop_choice == "STRIP"
+    assert shown(session) == (14, 15, 16, 17)
+    session.hover((14, 20), loop=True)
+    assert shown(session) == COLUMN
+
+
+def test_of_an_edge_that_is_a_seam_already_the_whole_strip_is_offered() -> None:
+    session = Table(seams=[(14, 20)]).session
+    session.hover((14, 20), loop=True)
+    assert session.loop_offers == ("WHOLE", "EDGE")
+
+
+def test_toggling_goes_around_and_stays_while_the_edge_is_the_same() -> None:
+    session = Table().session
+    session.hover((14, 15), loop=True)
+    kinds = []
+    for _ in range(4):
+        kinds.append(session.loop_choice)
+        before = session.revision
+        assert session.toggle()
+        assert session.revision > before
+        session.hover((15, 14), loop=True)
+    assert kinds == ["CLOSED", "STRIP", "EDGE", "CLOSED"]
+    assert session.loop_choice == "STRIP"
+    session.hover((15, 16), loop=True)
+    assert session.loop_choice == "CLOSED", "another edge begins with its default"
+
+
+@pytest.mark.parametrize("keep", ["click", "loop"])
+def test_what_is_chosen_is_kept(keep: str) -> None:
+    session = Table().session
+    session.hover((14, 15), loop=True)
+    session.toggle()
+    assert getattr(session, keep)((14, 15))
+    assert session.wires[0].vertices == ROW
+    assert session.wires[0].kind == "STRIP"
+
+
+def test_a_single_offer_has_no_next() -> None:
+    session = Table(seams=[(14, 15), (20, 21), (2, 3), (8, 9), (26, 27), (32, 33)]).session
+    session.hover((14, 20), loop=True)
+    assert session.loop_offers == ("STRIP", "WHOLE"), "the strip is the edge alone here"
+    lone = Table(islands=()).session
+    lone.hover((14, 20), loop=True)
+    lone.hover(None)
+    assert not lone.toggle()
+    assert lone.loop_offers == ()
+    assert lone.loop_choice is None
+
+
+def test_a_kept_loop_takes_its_next_offer_in_place() -> None:
+    session = Table().session
+    session.loop((14, 15))
+    number = session.wires[0].id
+    courses = []
+    for _ in range(3):
+        assert session.toggle_kept(session.wires[0])
+        courses.append(session.wires[0].vertices)
+        assert session.wires[0].id == number
+    assert courses == [ROW, (14, 15), SQUARE]
+    assert session.undo()
+    assert session.wires[0].vertices == (14, 15)
+    assert session.undo()
+    assert session.undo()
+    assert session.wires[0].vertices == SQUARE
+    assert session.undo()
+    assert session.wires == ()
+    assert session.redo()
+    assert session.toggle_kept(session.wires[0])
+    assert session.wires[0].vertices == ROW
+
+
+def test_over_a_kept_loops_edge_the_cursor_finds_its_offers_and_a_click_replaces_it() -> None:
+    session = Table().session
+    session.loop((14, 15))
+    session.hover((14, 15), loop=True)
+    assert shown(session) == SQUARE
+    assert session.loop((14, 15)), "the same again, as the second press of a double click"
+    assert len(session.wires) == 1
+    session.hover((14, 15), loop=True)
+    session.toggle()
+    session.loop((14, 15))
+    assert [wire.vertices for wire in session.wires] == [ROW]
+
+
+def test_clearing_takes_the_same_strip_away() -> None:
+    session = Table().session
+    session.loop((14, 20))
+    session.toggle_marking()
+    session.loop((14, 20))
+    assert session.edges_to_mark() == []
+    assert session.edges_to_clear() == chain(*COLUMN)
+
+
+def test_a_double_click_without_a_closed_loop_takes_the_strip() -> None:
+    session = Table().session
+    session.click(0)
+    session.click((14, 20))
+    assert session.loop((14, 20))
+    assert [wire.vertices for wire in session.wires] == [COLUMN]
+    assert session.seed == 0
+    assert session.undo()
+    assert session.wires == ()
+    assert session.seed == 0
+
+
+def test_a_double_click_waits_for_the_loop() -> None:
+    table = Table(ready=(False, False))
+    session = table.session
+    session.click((14, 20))
+    session.loop((14, 20))
+    assert session.seed is None
+    assert session.waiting_clicks == 1
+    assert session.computing
+    table.compute()
+    assert [wire.vertices for wire in session.wires] == [COLUMN]
+    assert not session.computing
+
+
+def test_while_the_loop_is_computed_nothing_is_offered_yet() -> None:
+    table = Table(ready=(False, False))
+    session = table.session
+    session.hover((14, 15), loop=True)
+    assert session.loop_preview is None
+    assert session.computing
+    assert not session.toggle()
+    assert "no loop yet" in session.message
+    table.compute()
+    assert shown(session) == SQUARE
+
+
+def test_a_strips_ends_are_seeds_that_can_be_moved_and_gone_on_from() -> None:
+    table = Table()
+    session = table.session
+    session.loop((14, 20))
+    session.drag(32)
+    session.drag_to(33)
+    assert session.drag_end()
+    (wire,) = session.wires
+    assert (wire.vertices[0], wire.vertices[-1]) == (2, 33)
+    assert wire.kind is None
+    assert wire.offers == ()
+    session.undo()
+    session.click(Snap(32, "SEED"))
+    assert table.lives["EDGES"].seeded == ((26, 32), True)
+
+
+def test_what_goes_on_from_a_strip_stays_when_that_takes_its_next_offer() -> None:
+    session = Table(seams=[(8, 9), (26, 25)]).session
+    session.loop((14, 20))
+    session.click(Snap(26, "SEED"))
+    session.click(28)
+    session.end_chain()
+    assert session.wires[1].heading == (20, 26)
+    session.toggle_kept(session.wires[0])
+    assert session.wires[0].vertices == COLUMN
+    assert session.wires[1].vertices == (26, 27, 28)
+    assert session.wires[1].heading is None
+
+
+def test_a_seed_in_a_strip_makes_two_ordinary_wires_of_it() -> None:
+    session = Table().session
+    session.loop((14, 20))
+    assert session.insert(session.wires[0], 14)
+    assert [wire.vertices for wire in session.wires] == [(2, 8, 14), (14, 20, 26, 32)]
+    assert [wire.offers for wire in session.wires] == [(), ()]
+
+
+def test_strips_are_stored_and_found_again() -> None:
+    table = Table()
+    table.session.loop((14, 20))
+    network, problems = load(dump(table.session.network, table.points), table.points, grid_edges(SIZE))
+    assert problems == []
+    again = Table().session
+    assert again.resume(network)
+    assert again.edges_to_mark() == chain(*COLUMN)
+    assert again.seeds() == [2, 32]
+    again.drag(2)
+    assert again.drag_to(3)
+
+
+def test_an_edge_that_is_none_is_refused_in_words() -> None:
+    class NoEdge:
+        def __getattr__(self, name: str) -> object:
+            return getattr(live, name)
+
+        def loop(self, edge: object) -> object:
+            raise ValueError("there is no edge between the vertices 0 and 20")
+
+    table = Table()
+    live = table.lives["EDGES"]
+    session = Session(lambda _: NoEdge(), table.points)
+    assert not session.loop((0, 20))
+    assert "no edge" in session.message
+    session.hover((0, 20), loop=True)
+    assert session.loop_preview is None
