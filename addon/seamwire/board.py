@@ -108,6 +108,7 @@ class Board:
             seams=arrays.seams,
             strength={"EDGES": settings.strength_edges, "SURFACE": settings.strength_surface},
             to_object=arrays.to_object,
+            triangles=arrays.triangles,
         )
         self.session.set_metric(settings.metric)
         self._mesh_mirror: tuple[int, ...] = ()
@@ -239,7 +240,8 @@ class Board:
             return "There are no wires of an earlier drawing on this mesh"
         network, problems = storage.load(text, self._points, self._edges)
         drawn = self.session.wires
-        self.session.resume(replace(network, wires=(*network.wires, *drawn)))
+        scribbles = (*network.scribbles, *self.session.scribbles)
+        self.session.resume(replace(network, wires=(*network.wires, *drawn), scribbles=scribbles))
         # What these wires marked, they are to clear where they are dropped now.
         self._resumed = frozenset(edge for wire in network.wires for edge in self._marked_by(wire))
         return "; ".join([f"Going on with {count(len(network.wires), 'wire')}", *problems])

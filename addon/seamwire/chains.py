@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -12,6 +13,7 @@ if TYPE_CHECKING:
     from .session import Session
 
 _TOKEN = re.compile(r"(\d+)(?:-(\d+))?")
+_VERTEX = re.compile(r"\d+")
 
 
 def parse_chains(text: str) -> list[list[Pick]]:
@@ -65,7 +67,7 @@ def parse_edges(text: str) -> list[Edge]:
 
 
 def draw_loops(session: Session, edges: Iterable[Edge]) -> list[str]:
-    """Take the loops through edges without a hand; return what could not be done, in words."""
+    """Take the loops or strips through edges without a hand; return what could not be done, in words."""
     problems = []
     for edge in edges:
         before = len(session.wires)
@@ -93,4 +95,48 @@ def draw_chains(session: Session, chains: Iterable[Sequence[Pick]]) -> list[str]
             if not done or session.message:
                 problems.append(f"Chain {number}: {session.message}")
     session.end_chain()
+    return problems
+
+
+@dataclass(frozen=True)
+class Stroke:
+    """A stroke through vertices, that wires follow where it `attracts`, else keep from."""
+
+    vertices: list[int]
+    attracts: bool = True
+
+
+def parse_scribbles(text: str) -> list[Stroke]:
+    """Read strokes, such as ``"0 5 9 12; ~3 4 8"``.
+
+    Parameters
+    ----------
+    text
+        Strokes separated by semicolons; in each, vertex numbers along it separated by spaces or commas. Wires keep from
+        a stroke that begins with a tilde. Vertices may be far apart.
+
+    Raises
+    ------
+    ValueError
+        Where something else is there than vertex numbers, or only one of them.
+    """
+    strokes = []
+    for number, part in enumerate((p for p in text.split(";") if p.strip()), start=1):
+        part = part.strip()
+        tokens = part.removeprefix("~").replace(",", " ").split()
+        wrong = next((token for token in tokens if not _VERTEX.fullmatch(token)), None)
+        if wrong is not None:
+            raise ValueError(f"Stroke {number}: '{wrong}' is not a vertex number")
+        if len(tokens) < 2:
+            raise ValueError(f"Stroke {number}: a stroke runs through at least two vertices, not only '{part}'")
+        strokes.append(Stroke([int(token) for token in tokens], attracts=not part.startswith("~")))
+    return strokes
+
+
+def draw_scribbles(session: Session, strokes: Iterable[Stroke]) -> list[str]:
+    """Draw strokes without a hand; return what could not be done, in words. Wires drawn after that heed them."""
+    problems = []
+    for number, stroke in enumerate(strokes, start=1):
+        if not session.scribble(vertices=stroke.vertices, attracts=stroke.attracts, acts_on="both"):
+            problems.append(f"Stroke {number}: {session.message}")
     return problems

@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from .live import LiveWire, MetricName
     from .network import Along
+    from .scribbles import Scribble
 
 STRENGTHS: Mapping[Along, float] = {"EDGES": 10.0, "SURFACE": 20.0}
 """The metric's largest anisotropy to begin with: how strongly wires are drawn to features; docs/method.md says why."""
@@ -26,13 +27,22 @@ class Engines:
         Makes those of one way, with that way's strength of `STRENGTHS`.
     strengths
         Largest anisotropy of the metric, where it is to be another one.
+    make_scribble
+        Makes of a stroke what the live wires take.
     """
 
-    def __init__(self, make: Callable[[Along], LiveWire], strengths: Mapping[Along, float]) -> None:
+    def __init__(
+        self,
+        make: Callable[[Along], LiveWire],
+        strengths: Mapping[Along, float],
+        make_scribble: Callable[[Scribble], object],
+    ) -> None:
         self._make = make
         self._lives: dict[Along, LiveWire] = {}
         self.strengths: dict[Along, float] = {**STRENGTHS, **strengths}
         self.metric: MetricName = "feature"
+        self._make_scribble = make_scribble
+        self._scribbles: list[object] = []
 
     def get(self, along: Along) -> LiveWire:
         """Return the live wires of one way."""
@@ -40,6 +50,8 @@ class Engines:
             self._lives[along] = self._make(along)
             if self.metric != "feature" or self.strengths[along] != STRENGTHS[along]:
                 self._tell_metric(along)
+            if self._scribbles:
+                self._lives[along].set_scribbles(self._scribbles)
         return self._lives[along]
 
     def use(self, metric: MetricName, strengths: Mapping[Along, float]) -> None:
@@ -49,6 +61,12 @@ class Engines:
         for along in self._lives:
             if metric != before[0] or strengths[along] != before[1][along]:
                 self._tell_metric(along)
+
+    def follow(self, scribbles: Sequence[Scribble]) -> None:
+        """Compute with other strokes from here on; forks that were made before keep theirs."""
+        self._scribbles = [self._make_scribble(scribble) for scribble in scribbles]
+        for live in self._lives.values():
+            live.set_scribbles(self._scribbles)
 
     def _tell_metric(self, along: Along) -> None:
         self._lives[along].set_metric(

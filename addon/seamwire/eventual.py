@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Generic, Protocol, TypeVar
 
@@ -105,6 +105,7 @@ class EventualLive:
         self._live: LiveWire | None = None
         self._seed: tuple[Pick, bool] | None = None
         self._metric: tuple[MetricName, float | None, float | None] | None = None
+        self._scribbles: Sequence[object] = ()
         self._refusal: ValueError | None = None
 
     def _made(self) -> LiveWire | None:
@@ -117,6 +118,8 @@ class EventualLive:
             if self._metric is not None:
                 metric, max_anisotropy, clamp_percentile = self._metric
                 live.set_metric(metric, max_anisotropy=max_anisotropy, clamp_percentile=clamp_percentile)
+            if self._scribbles:
+                live.set_scribbles(self._scribbles)
             if self._seed is not None:
                 try:
                     live.seed(self._seed[0], forward=self._seed[1])
@@ -143,6 +146,14 @@ class EventualLive:
             self._metric = (metric, max_anisotropy, clamp_percentile)
         else:
             live.set_metric(metric, max_anisotropy=max_anisotropy, clamp_percentile=clamp_percentile)
+
+    def set_scribbles(self, scribbles: Sequence[object]) -> None:
+        """Compute with these strokes from here on."""
+        live = self._made()
+        if live is None:
+            self._scribbles = scribbles
+        else:
+            live.set_scribbles(scribbles)
 
     def wires(self, target: Pick) -> Candidates:
         """Both wires to a target, as far as they are computed."""

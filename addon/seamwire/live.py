@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Literal, Protocol
 
 if TYPE_CHECKING:
@@ -76,6 +76,9 @@ class LiveWire(Protocol):
         self, metric: MetricName, *, max_anisotropy: float | None = None, clamp_percentile: float | None = None
     ) -> None:
         """Compute with another metric from here on; the seed stays, and so do the wires until there are new ones."""
+
+    def set_scribbles(self, scribbles: Sequence[object]) -> None:
+        """Compute with these strokes instead of those before; the rest as `set_metric`."""
 
     def feature_strength(self) -> NDArray[np.float64] | None:
         """Return how strong the features are at the vertices; None as long as that is computed."""

@@ -16,6 +16,8 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from .scribbles import Scribble
+
 Along = Literal["EDGES", "SURFACE"]
 """Where wires run: along the mesh's edges, or across its surface."""
 
@@ -214,12 +216,16 @@ class Network:
         The axes, 0 to 2, that it is mirrored over.
     lost
         Wires of a stored network whose edges are gone, and whose seeds are there: to be drawn anew between them.
+    scribbles
+        The strokes that live wires follow or keep from; where they cross, the later one counts. Kept wires stay as they
+        are.
     """
 
     wires: tuple[Wire, ...] = ()
     seed: Seed | None = None
     mirror: tuple[int, ...] = ()
     lost: tuple[Wire, ...] = ()
+    scribbles: tuple[Scribble, ...] = ()
 
     def find(self, wire: Wire | None) -> Wire | None:
         """Return the wire with another's number, as it runs in this network."""

@@ -16,12 +16,16 @@ from .engines import CLAMP_PERCENTILE, STRENGTH_RANGE, STRENGTH_STEP, STRENGTHS
 from .loops import taken
 from .network import Network, Seed, Snap, Wire, name, undirected
 from .preview import only_vertices
+from .scribbles import OffMeshError, Scribble, drawn, on_mesh, through_vertices
 from .state import Intent, Queued
 from .workings import Workings
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
     from .live import MetricName
     from .network import Along, Pick
+    from .scribbles import ActsOn
 
 __all__ = ["CLAMP_PERCENTILE", "STRENGTHS", "Intent", "Session"]
 
@@ -371,9 +375,70 @@ class Session(Workings):
         self._set(network)
         return True
 
+    def scribble(
+        self,
+        points: ArrayLike | None = None,
+        faces: ArrayLike | None = None,
+        *,
+        vertices: ArrayLike | None = None,
+        attracts: bool = True,
+        acts_on: ActsOn | None = None,
+        radius: float | None = None,
+    ) -> bool:
+        """Draw a stroke that live wires follow, or keep from; kept wires stay as they are.
+
+        Parameters
+        ----------
+        points
+            (n, 3) as a hand drew them on the surface, to be smoothed a little.
+        faces
+            (n,) the triangle of the surface that each lies in.
+        vertices
+            (n,) instead of both: the vertices that the stroke runs through.
+        attracts
+            Whether wires follow it; else crossing it is short, and following it long.
+        acts_on
+            Which of the two wires it is meant for; None: the active one while a wire is live, else both.
+        radius
+            How far it reaches, in the points' units; None: ten rings of vertices.
+        """
+        try:
+            if vertices is not None:
+                stroke = through_vertices(vertices, self._points)
+            elif points is None or faces is None or self._triangles is None:
+                raise ValueError("a stroke needs points and the triangles that they lie in, or vertices")
+            else:
+                stroke = drawn(points, faces, self._points, self._triangles)
+        except OffMeshError as error:
+            return self._refuse(str(error))
+        self._last_click = None
+        self.drag_cancel()
+        if acts_on is None:
+            acts_on = "both" if self._network.seed is None else ("min", "max")[self._live.active_index]
+        scribble = Scribble(*stroke, attracts=attracts, acts_on=acts_on, radius=radius)
+        return self._scribbled((*self._network.scribbles, scribble))
+
+    def erase(self, scribble: Scribble) -> bool:
+        """Remove a stroke."""
+        rest = tuple(own for own in self._network.scribbles if own.id != scribble.id)
+        if len(rest) == len(self._network.scribbles):
+            return self._refuse("This stroke is not there any more")
+        self._last_click = None
+        self.drag_cancel()
+        return self._scribbled(rest)
+
+    def _scribbled(self, scribbles: tuple[Scribble, ...]) -> bool:
+        # The wire that was brought forward is the one that the stroke is for.
+        chosen = self._live.chosen
+        self._change(replace(self._network, scribbles=scribbles))
+        self._live.chosen = chosen
+        return True
+
     def resume(self, network: Network) -> bool:
         """Go on with a stored network; its lost wires are drawn anew between their seeds, as far as they can be."""
         self._calm()
+        strokes = tuple(on_mesh(scribble, self._points, self._triangles) for scribble in network.scribbles)
+        network = replace(network, scribbles=strokes)
         return self._change(network) and all([self._redraw(wire, lost=True) for wire in network.lost])
 
     def undo(self) -> bool:

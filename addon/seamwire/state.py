@@ -17,6 +17,7 @@ from .mirror import Mirror
 from .network import Network, Snap, Wire, net_effect, undirected
 from .preview import Preview
 from .redraw import Redraws
+from .scribbles import for_library
 from .straight import Stops
 
 if TYPE_CHECKING:
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from .drag import Drag
     from .live import LiveWire, MetricName
     from .network import Along, Edge, LoopKind, Pick
+    from .scribbles import Scribble
 
 
 class Intent(Enum):
@@ -89,6 +91,10 @@ class State:
         `STRENGTHS`.
     to_object
         (3, 3) takes `points` to object coordinates, where mirroring happens; None: they are such.
+    triangles
+        (m, 3) those that the surface was made of; None: strokes run through vertices only.
+    make_scribble
+        Makes of a stroke what the live wires take.
 
     Notes
     -----
@@ -107,11 +113,14 @@ class State:
         seams: ArrayLike = (),
         strength: Mapping[Along, float] | None = None,
         to_object: NDArray[np.float64] | None = None,
+        triangles: NDArray[np.int32] | None = None,
+        make_scribble: Callable[[Scribble], object] = for_library,
     ) -> None:
         self._points = points
+        self._triangles = triangles
         self._mirror = Mirror(points, edges, to_object)
         self._stops = Stops(seams, self._mirror)
-        self._engines = Engines(make_live, strength or {})
+        self._engines = Engines(make_live, strength or {}, make_scribble)
         self._network = Network()
         self._history = History()
         self._live = Preview(self._engines, points)
@@ -265,6 +274,11 @@ class State:
     def metric(self) -> MetricName:
         """What draws wires to features."""
         return self._engines.metric
+
+    @property
+    def scribbles(self) -> tuple[Scribble, ...]:
+        """The strokes that live wires follow or keep from, oldest first."""
+        return self.network.scribbles
 
     @property
     def mirror_axes(self) -> tuple[int, ...]:

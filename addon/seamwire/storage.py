@@ -11,11 +11,13 @@ import numpy as np
 
 from .cells import Cells
 from .network import Network, Wire, vertices_of
+from .scribbles import Scribble
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from .network import Along, Pick
+    from .scribbles import ActsOn
 
 FORMAT = "seamwire network"
 VERSION = 1
@@ -24,7 +26,7 @@ _TOLERANCE = 1e-4
 
 
 def dump(network: Network, points: NDArray[np.float64]) -> str:
-    """Write the wires of a network; the live one's seed is left out.
+    """Write the wires and strokes of a network; the live wire's seed is left out.
 
     Parameters
     ----------
@@ -36,6 +38,8 @@ def dump(network: Network, points: NDArray[np.float64]) -> str:
     used = {vertex for wire in network.wires for vertex in wire.vertices}
     for wire in network.wires:
         used.update(vertices_of(wire.start), vertices_of(wire.end), wire.heading or ())
+    for scribble in network.scribbles:
+        used.update(scribble.corners.ravel().tolist())
     numbers = sorted(used)
     data = {
         "format": FORMAT,
@@ -45,6 +49,7 @@ def dump(network: Network, points: NDArray[np.float64]) -> str:
         "coordinates": points[numbers].tolist(),
         "mirror": list(network.mirror),
         "wires": [_wire_data(wire) for wire in network.wires],
+        "scribbles": [_scribble_data(scribble) for scribble in network.scribbles],
     }
     return json.dumps(data, separators=(",", ":"))
 
@@ -66,6 +71,18 @@ def _wire_data(wire: Wire) -> dict[str, Any]:
     return data
 
 
+def _scribble_data(scribble: Scribble) -> dict[str, Any]:
+    return {
+        "points": scribble.points.tolist(),
+        "corners": scribble.corners.tolist(),
+        "attracts": scribble.attracts,
+        "acts_on": scribble.acts_on,
+        "eta": scribble.eta,
+        "rings": scribble.rings,
+        "radius": scribble.radius,
+    }
+
+
 def load(text: str, points: NDArray[np.float64], edges: NDArray[np.int32]) -> tuple[Network, list[str]]:
     """Read a network, and find its vertices on the mesh as it is now.
 
@@ -84,7 +101,8 @@ def load(text: str, points: NDArray[np.float64], edges: NDArray[np.int32]) -> tu
     Returns
     -------
     network
-        With the wires whose edges are all there; those whose seeds alone are there are its `lost` ones.
+        With the wires whose edges are all there; those whose seeds alone are there are its `lost` ones. Of its strokes
+        only the corners say where they lie: see `scribbles.on_mesh`.
     problems
         In words, what could not be found; nothing is raised for a text that is not a network.
     """
@@ -127,7 +145,39 @@ def _found(data: dict[str, Any], points: NDArray[np.float64], edges: NDArray[np.
         )
     if gone:
         problems.append(f"{gone} of {total} stored wires are left out: what they ran on is gone or hidden")
-    return Network(tuple(wires), None, mirror, tuple(lost)), problems
+    scribbles, cut = [], 0
+    stored = data.get("scribbles", [])  # there were none at first
+    for item in stored:
+        scribble = _scribble(item, number_of)
+        cut += scribble is None or len(scribble.points) < len(item["points"])
+        if scribble is not None:
+            scribbles.append(scribble)
+    if cut:
+        problems.append(
+            f"{cut} of {len(stored)} stored strokes are cut short or left out: what they were drawn on is gone or hidden"
+        )
+    return Network(tuple(wires), None, mirror, tuple(lost), tuple(scribbles)), problems
+
+
+def _scribble(item: dict[str, Any], number_of: dict[int, int]) -> Scribble | None:
+    """Return a stroke, as much of it in one piece as is there; None where that is nothing."""
+    points = np.array(item["points"], dtype=np.float64).reshape(-1, 3)
+    stored = np.array(item["corners"], dtype=np.int64).reshape(len(points), 3)
+    acts_on: ActsOn = item["acts_on"]
+    eta, rings = float(item["eta"]), int(item["rings"])
+    radius = None if item["radius"] is None else float(item["radius"])
+    sound = np.isfinite(points).all() and 1.0 <= eta < np.inf and rings >= 1 and (radius is None or 0 < radius < np.inf)
+    if not sound or acts_on not in {"both", "min", "max"}:
+        raise ValueError
+    corners = np.array([[number_of[vertex] for vertex in triple] for triple in stored.tolist()], dtype=np.int32)
+    corners = corners.reshape(-1, 3)
+    there = (corners >= 0).all(axis=1)
+    borders = np.flatnonzero(np.diff(np.concatenate([[False], there, [False]]).astype(np.int8)))
+    begin, end = max(zip(borders[::2], borders[1::2], strict=True), key=lambda run: run[1] - run[0], default=(0, 0))
+    if end - begin < 2:
+        return None
+    faces = np.full(end - begin, -1, dtype=np.int32)
+    return Scribble(points[begin:end], corners[begin:end], faces, bool(item["attracts"]), acts_on, eta, rings, radius)
 
 
 def _matched(

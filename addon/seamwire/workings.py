@@ -73,6 +73,9 @@ class Workings(State):
 
     def _set(self, network: Network) -> None:
         before, self._network = self._network, network
+        if before.scribbles != network.scribbles:
+            self._engines.follow(network.scribbles)
+            self._read_progress()
         self.revision += 1
         self.network_revision += before.wires != network.wires or before.mirror != network.mirror
 

@@ -45,6 +45,13 @@ def grid_edges(size: int) -> NDArray[np.int32]:
     return np.concatenate([across, up]).astype(np.int32)
 
 
+def grid_triangles(size: int) -> NDArray[np.int32]:
+    """Return the triangles of that grid: those of square s, from below left, are 2 s and 2 s + 1."""
+    numbers = np.arange(size * size).reshape(size, size)
+    a, b, c, d = (part.ravel() for part in (numbers[:-1, :-1], numbers[:-1, 1:], numbers[1:, 1:], numbers[1:, :-1]))
+    return np.stack([a, b, c, a, c, d], axis=1).reshape(-1, 3).astype(np.int32)
+
+
 def grid_points(size: int) -> NDArray[np.float64]:
     """Return size x size points; vertex y * size + x lies at (x, y, 0)."""
     return np.array([[x, y, 0.0] for y in range(size) for x in range(size)], dtype=np.float64)
@@ -70,6 +77,7 @@ class FakeLive:
     stale: bool = False
     forks: list[FakeLive] = field(default_factory=list)
     metrics: list[tuple[str, float | None, float | None]] = field(default_factory=list)
+    scribbles: list[tuple[object, ...]] = field(default_factory=list)
 
     def seed(self, pick: object, forward: bool = False) -> None:
         for vertex in pick if isinstance(pick, tuple) else (pick,):
@@ -139,6 +147,11 @@ class FakeLive:
         self, metric: str, *, max_anisotropy: float | None = None, clamp_percentile: float | None = None
     ) -> None:
         self.metrics.append((metric, max_anisotropy, clamp_percentile))
+        self.stale = self.stale or all(self.ready)
+        self.ready = self.metric_ready
+
+    def set_scribbles(self, scribbles: list[object]) -> None:
+        self.scribbles.append(tuple(scribbles))
         self.stale = self.stale or all(self.ready)
         self.ready = self.metric_ready
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import itertools
 
-from fake_live import FakeLive, grid_edges, grid_points
+from fake_live import FakeLive, grid_edges, grid_points, grid_triangles
 from seamwire.network import Along
 from seamwire.session import Session
 
@@ -27,7 +27,15 @@ class Table:
         self.points = grid_points(SIZE)
         if centred:
             self.points[:, :2] -= (SIZE - 1) / 2
-        self.session = Session(make, self.points, along, edges=grid_edges(SIZE), seams=seams)
+        self.session = Session(
+            make,
+            self.points,
+            along,
+            edges=grid_edges(SIZE),
+            seams=seams,
+            triangles=grid_triangles(SIZE),
+            make_scribble=lambda one: one,
+        )
 
     def compute(self) -> None:
         """Let all live wires be ready, and take it in."""
