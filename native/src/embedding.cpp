@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <numeric>
 #include <queue>
-#include <ranges>
 #include <string>
 #include <utility>
 #include <vector>
@@ -749,7 +747,7 @@ Refinement::Refinement(const Surface& surface, const Metric& metric, const Embed
 std::vector<std::int32_t> Refinement::changed_faces(const Metric& former) const {
   std::vector<std::int32_t> faces;
   for (std::size_t v = 0; v < fans_; ++v) {
-    if (std::memcmp(former.tensors[v].data(), metric_.tensors[v].data(), sizeof(Eigen::Matrix3d)) == 0) continue;
+    if (former.tensors[v] == metric_.tensors[v]) continue;
     for (const FaceHandle f : surface_.half_edges().vf_range(VertexHandle(static_cast<int>(v)))) {
       faces.push_back(f.idx());
     }
@@ -792,8 +790,8 @@ void Refinement::reset(const std::vector<std::int32_t>& seeds) {
     is_reset[index(face)] = true;
   };
   for (const std::int32_t face : seeds) add(face);
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    const std::int32_t face = faces[i];
+  for (std::size_t next = 0; next < faces.size();) {
+    const std::int32_t face = faces[next++];
     const Given original = given(mesh, face);
     std::array<std::int32_t, 3> whole{-1, -1, -1};
     const auto look = [&](std::int32_t part) {
@@ -820,7 +818,7 @@ void Refinement::reset(const std::vector<std::int32_t>& seeds) {
   for (const std::int32_t face : faces) {
     const Given original = given(mesh, face);
     mesh_.corners[index(face)] = original.corners;
-    std::ranges::copy(original.twins, mesh_.twins.begin() + 3 * face);
+    std::ranges::copy(original.twins, &mesh_.twins[3 * index(face)]);
     branch_[index(face)] = 1;
     states_[index(face)] = State::kOriginal;
   }
@@ -854,7 +852,8 @@ void Refinement::reset(const std::vector<std::int32_t>& seeds) {
 
   // And the vertices that nothing else has. Bisecting leaves a face's first part at the face's own place.
   std::vector<std::int32_t> kept;
-  for (const std::int32_t face : origins_ | std::views::drop(faces_)) {
+  for (std::size_t f = faces_; f < to; ++f) {
+    const std::int32_t face = origins_[f];
     if (std::exchange(last_part[index(face)], -1) >= 0) kept.push_back(face);
   }
   for (std::size_t f = faces_; f < to; ++f) kept.push_back(static_cast<std::int32_t>(f));

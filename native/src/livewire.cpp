@@ -439,14 +439,14 @@ LiveCandidate LiveWire::Impl::candidate_of(std::size_t which, const Prepared& pr
   return candidate;
 }
 
-LiveCandidate LiveWire::Impl::candidate(std::size_t which, const Solved& solved, const Pick& to) const {
+LiveCandidate LiveWire::Impl::candidate(std::size_t which, const Solved& solved, const Pick& target) const {
   if (solved.field) {
     const Prepared& prepared = *solved.prepared;
-    return candidate_of(which, prepared, trace_wire(surface(), *prepared.embedding, *solved.field, to.a));
+    return candidate_of(which, prepared, trace_wire(surface(), *prepared.embedding, *solved.field, target.a));
   }
   LiveCandidate candidate;
   candidate.follow = kFollow[which];
-  EdgeChain chain = solved.wires->trace(to);
+  EdgeChain chain = solved.wires->trace(target);
   candidate.length = chain.length;
   candidate.vertices = std::move(chain.vertices);
   candidate.points.reserve(candidate.vertices.size());

@@ -171,8 +171,7 @@ class Polyline {
   /// From `half` before to `half` behind a point of the line: its direction there, without the hand's trembling.
   Vector chord(double at, double half) const {
     if (is_closed_) half = std::min(half, length() / 4);
-    const Vector chord = point(at + half) - point(at - half);
-    return chord;
+    return point(at + half) - point(at - half);
   }
 
  private:
