@@ -7,32 +7,27 @@ shows and what it marks is decided here and nowhere else.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from .drag import Drag
-from .engines import CLAMP_PERCENTILE, STRENGTH_RANGE, STRENGTH_STEP, STRENGTHS
+from .engines import CLAMP_PERCENTILE, STRENGTHS
+from .guidance import Guidance
 from .loops import taken
 from .network import Network, Seed, Snap, Wire, name, undirected
 from .preview import only_vertices
-from .scribbles import OffMeshError, Scribble, drawn, on_mesh, through_vertices
+from .scribbles import on_mesh
 from .state import Intent, Queued
-from .workings import Workings
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
-    from .live import MetricName
-    from .network import Along, Pick
-    from .scribbles import ActsOn
+    from .network import Pick
 
 __all__ = ["CLAMP_PERCENTILE", "STRENGTHS", "Intent", "Session"]
 
 _NOWHERE = "The wire cannot run on from here"
 
 
-class Session(Workings):
+class Session(Guidance):
     """One drawing session on one mesh: what can be done with it. See `State` for what it is made with, and shows.
 
     Notes
@@ -265,15 +260,6 @@ class Session(Workings):
             return self._refuse(why) if why else True
         return self._change(drag.network.joined(drag.target, self._points))
 
-    def drag_cancel(self) -> bool:
-        """Let the dragged seed go back to where it was."""
-        if self._drag is None:
-            return False
-        self._drag = None
-        self._aim(self._live.target, again=True)
-        self.revision += 1
-        return True
-
     def run_to_end(self, preview: bool = False) -> bool:
         """Let the live wire run straight on until it meets a seam, a wire, the boundary, the mirror or itself.
 
@@ -304,135 +290,6 @@ class Session(Workings):
             return self._refuse(self.message or _NOWHERE)
         self._end.wanted = False
         return self._change(replace(self._network, wires=(*self.wires, wire), seed=None))
-
-    def stop_preview(self) -> bool:
-        """Stop showing the way to the end."""
-        if not self._end.wanted:
-            return False
-        self._end.wanted, self._end.wire = False, None
-        self.revision += 1
-        return True
-
-    def switch(self, along: Along) -> bool:
-        """Run wires along edges or across the surface from here on; kept wires stay as they are."""
-        if along == self.along:
-            return True
-        self._calm()
-        before = self.along
-        self.along = along
-        self._live.chosen = None
-        self._live.clear()
-        self._loop.wanted = False
-        self._loop.clear()
-        if self._network.seed is not None and not self._sow(self._network.seed):
-            self.along = before
-            return False
-        self.message = ""
-        self._aim(self._live.target, again=True)
-        self.revision += 1
-        return True
-
-    def toggle_marking(self) -> bool:
-        """Let the wires that are kept from here on clear seams instead of marking them, or mark again."""
-        self.marking = not self.marking
-        self.message = ""
-        self.revision += 1
-        return True
-
-    def change_strength(self, steps: int) -> bool:
-        """Draw wires more or less strongly to features, a quarter a step; kept wires stay as they are."""
-        low, high = STRENGTH_RANGE
-        strength = min(max(self.strength * STRENGTH_STEP**steps, low), high)
-        if strength == self.strength:
-            return self._refuse(
-                f"The strength is {strength:g} already, the {'most' if steps > 0 else 'least'} there is"
-            )
-        return self._use_metric(self.metric, {**self._engines.strengths, self.along: strength})
-
-    def set_strength(self, along: Along, strength: float) -> bool:
-        """Draw wires that run one way so strongly to features; kept wires stay as they are."""
-        low, high = STRENGTH_RANGE
-        strength = min(max(strength, low), high)
-        # What comes from Blender's properties is of single precision.
-        if abs(strength - self._engines.strengths[along]) <= 1e-4 * strength:
-            return True
-        return self._use_metric(self.metric, {**self._engines.strengths, along: strength})
-
-    def set_metric(self, metric: MetricName) -> bool:
-        """Draw wires by another metric; kept wires stay as they are."""
-        return metric == self.metric or self._use_metric(metric, self._engines.strengths)
-
-    def set_mirror(self, axes: Iterable[int]) -> bool:
-        """Mirror all wires over axes, 0 to 2; none: not at all."""
-        mirror = tuple(sorted(set(axes)))
-        if mirror == self._network.mirror:
-            return True
-        self._calm()
-        network = replace(self._network, mirror=mirror)
-        if not self._history.empty:
-            return self._change(network)
-        # Nothing was drawn: this is how drawing begins, and no step of it.
-        self._set(network)
-        return True
-
-    def scribble(
-        self,
-        points: ArrayLike | None = None,
-        faces: ArrayLike | None = None,
-        *,
-        vertices: ArrayLike | None = None,
-        attracts: bool = True,
-        acts_on: ActsOn | None = None,
-        radius: float | None = None,
-    ) -> bool:
-        """Draw a stroke that live wires follow, or keep from; kept wires stay as they are.
-
-        Parameters
-        ----------
-        points
-            (n, 3) as a hand drew them on the surface, to be smoothed a little.
-        faces
-            (n,) the triangle of the surface that each lies in.
-        vertices
-            (n,) instead of both: the vertices that the stroke runs through.
-        attracts
-            Whether wires follow it; else crossing it is short, and following it long.
-        acts_on
-            Which of the two wires it is meant for; None: the active one while a wire is live, else both.
-        radius
-            How far it reaches, in the points' units; None: ten rings of vertices.
-        """
-        try:
-            if vertices is not None:
-                stroke = through_vertices(vertices, self._points)
-            elif points is None or faces is None or self._triangles is None:
-                raise ValueError("a stroke needs points and the triangles that they lie in, or vertices")
-            else:
-                stroke = drawn(points, faces, self._points, self._triangles)
-        except OffMeshError as error:
-            return self._refuse(str(error))
-        self._last_click = None
-        self.drag_cancel()
-        if acts_on is None:
-            acts_on = "both" if self._network.seed is None else ("min", "max")[self._live.active_index]
-        scribble = Scribble(*stroke, attracts=attracts, acts_on=acts_on, radius=radius)
-        return self._scribbled((*self._network.scribbles, scribble))
-
-    def erase(self, scribble: Scribble) -> bool:
-        """Remove a stroke."""
-        rest = tuple(own for own in self._network.scribbles if own.id != scribble.id)
-        if len(rest) == len(self._network.scribbles):
-            return self._refuse("This stroke is not there any more")
-        self._last_click = None
-        self.drag_cancel()
-        return self._scribbled(rest)
-
-    def _scribbled(self, scribbles: tuple[Scribble, ...]) -> bool:
-        # The wire that was brought forward is the one that the stroke is for.
-        chosen = self._live.chosen
-        self._change(replace(self._network, scribbles=scribbles))
-        self._live.chosen = chosen
-        return True
 
     def resume(self, network: Network) -> bool:
         """Go on with a stored network; its lost wires are drawn anew between their seeds, as far as they can be."""
@@ -502,13 +359,6 @@ class Session(Workings):
                 return
 
     # How it is done
-
-    def _calm(self) -> None:
-        """Let go of all that is under way but the live wire."""
-        self._queue.clear()
-        self._last_click = None
-        self.drag_cancel()
-        self.stop_preview()
 
     def _keep(self, target: Snap) -> bool:
         live = self._live

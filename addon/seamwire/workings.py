@@ -64,6 +64,32 @@ class Workings(State):
         self._read_progress()
         return True
 
+    # How it is let go
+
+    def drag_cancel(self) -> bool:
+        """Let the dragged seed go back to where it was."""
+        if self._drag is None:
+            return False
+        self._drag = None
+        self._aim(self._live.target, again=True)
+        self.revision += 1
+        return True
+
+    def stop_preview(self) -> bool:
+        """Stop showing the way to the end."""
+        if not self._end.wanted:
+            return False
+        self._end.wanted, self._end.wire = False, None
+        self.revision += 1
+        return True
+
+    def _calm(self) -> None:
+        """Let go of all that is under way but the live wire."""
+        self._queue.clear()
+        self._last_click = None
+        self.drag_cancel()
+        self.stop_preview()
+
     # How it is done: steps
 
     def _refuse(self, why: str) -> bool:
