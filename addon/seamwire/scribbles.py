@@ -188,7 +188,9 @@ def on_mesh(scribble: Scribble, mesh: NDArray[np.float64], triangles: NDArray[np
     at_vertex = corners[:, 0] == corners[:, 2]
     number_of: dict[tuple[int, ...], int] = {}
     if triangles is not None and not at_vertex.all():
-        rows = np.flatnonzero(np.isin(triangles, corners[~at_vertex]).all(axis=1))
+        touched = np.zeros(len(mesh), dtype=bool)
+        touched[corners[~at_vertex]] = True
+        rows = np.flatnonzero(touched[triangles].all(axis=1))
         number_of = dict(zip(map(tuple, np.sort(triangles[rows], axis=1).tolist()), rows.tolist(), strict=True))
     faces = np.array([number_of.get(tuple(triple), -1) for triple in corners.tolist()], dtype=np.int32)
     points = into_triangles(scribble.points, mesh[corners])

@@ -353,7 +353,10 @@ class Session(Guidance):
         """Wait until everything is computed and every waiting click is done."""
         while True:
             for live in self._working():
-                live.wait()
+                try:
+                    live.wait()
+                except ValueError as error:  # what it is to compute cannot be computed
+                    self._refuse(str(error))
             self.poll()
             if not self._queue and not self._redraws and not self.computing:
                 return

@@ -322,3 +322,26 @@ def test_any_stroke_on_the_mesh_leaves_wires_that_can_be_drawn(points: NDArray[n
     for along in ("EDGES", "SURFACE"):
         assert len(wire_between(session, along)) > 2
     assert session.message == ""
+
+
+@pytest.mark.parametrize("eventual", [False, True])
+def test_what_the_library_refuses_is_said_and_undone_without_a_loss(eventual: bool) -> None:
+    def off_mesh(scribble: object) -> object:
+        return core.Scribble(scribble.points + np.array([0.0, 0.0, 40.0]), faces=scribble.faces)
+
+    session = grid(eventual=eventual, make_scribble=off_mesh)
+    session.click(LEFT)
+    session.click(RIGHT)
+    session.wait()
+    session.hover(LEFT + 3 * SIZE)
+    session.scribble(gate(), faces_under(gate()))
+    session.wait()
+    assert "off the mesh" in session.message
+    assert not session.computing
+    assert not session.click(LEFT + 3 * SIZE)
+    assert len(session.wires) == 1
+    assert session.undo()
+    session.wait()
+    assert session.message == ""
+    assert session.active is not None
+    assert session.click(LEFT + 3 * SIZE)
