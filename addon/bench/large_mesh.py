@@ -1,0 +1,283 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The tool at work on a large mesh in Blender's window: ``scripts/bench-blender --window LEVELS`` runs this.
+
+Suzanne, subdivided so many times, with simulated events: from the click that starts the tool to its first wire, from a move of the mouse to
+the redraw, what of both is ours, how long our code held the interface, and what memory the tool takes.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+import traceback
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [os.environ["SEAMWIRE_BLENDER_PACKAGES"], str(ROOT / "blender_tests")]
+
+import addon_utils
+import bpy
+import greenlet
+import numpy as np
+import ui as driver
+from mathutils import Euler
+from numpy.typing import NDArray
+
+MOVES = 40
+SECONDS = 120.0
+HELD = 0.1
+"""Seconds from which on a stop of the interface is told of."""
+
+
+class Holds:
+    """How long our code held the interface, call by call."""
+
+    def __init__(self) -> None:
+        self.doing = "start"
+        self.calls: list[tuple[str, str, float]] = []
+        self._depth = 0
+
+    def watch(self, owner: type, name: str, what: str) -> None:
+        """Time every call of a method, from the outermost."""
+        method = getattr(owner, name)
+
+        def timed(*arguments: object, **options: object) -> object:
+            start = time.perf_counter()
+            self._depth += 1
+            try:
+                return method(*arguments, **options)
+            finally:
+                self._depth -= 1
+                if self._depth == 0:
+                    self.calls.append((self.doing, what, time.perf_counter() - start))
+
+        setattr(owner, name, timed)
+
+    def watch_events(self) -> None:
+        """Time what Blender calls: the operator's methods count their arguments, so the drawing is watched below them."""
+        from seamwire import drawing, overlay
+
+        self.watch(drawing.Drawing, "__init__", "start")
+        for name in ("handle", "trouble", "close"):
+            self.watch(drawing.Drawing, name, "event")
+        self.watch(overlay.Overlay, "_draw", "draw")
+
+    @contextmanager
+    def during(self, what: str) -> Iterator[None]:
+        """Say what is being done."""
+        before, self.doing = self.doing, what
+        try:
+            yield
+        finally:
+            self.doing = before
+
+    def longest(self) -> Iterator[tuple[str, str, float]]:
+        """Yield the longest stop of each kind, longest first."""
+        most: dict[tuple[str, str], float] = {}
+        for doing, what, took in self.calls:
+            most[doing, what] = max(took, most.get((doing, what), 0.0))
+        for (doing, what), took in sorted(most.items(), key=lambda item: -item[1]):
+            yield doing, what, took
+
+
+def memory() -> int:
+    """Return what of this process is in memory, in bytes."""
+    pages = int(Path("/proc/self/statm").read_text().split()[1])
+    return pages * os.sysconf("SC_PAGE_SIZE")
+
+
+def session() -> object | None:
+    """Return the session of the running drawing."""
+    from seamwire import drawing
+
+    return drawing.running[0].session if drawing.running else None
+
+
+def stage(ui: driver.Ui, levels: int) -> bpy.types.Object:
+    """Put Suzanne, subdivided, into the window, in edit mode."""
+    if bpy.context.mode != "OBJECT":
+        with ui.override():
+            bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.object.select_all(action="SELECT")
+    bpy.ops.object.delete()
+    bpy.ops.mesh.primitive_monkey_add()
+    obj = bpy.context.active_object
+    modifier = obj.modifiers.new("Subdivision", "SUBSURF")
+    modifier.levels = modifier.render_levels = levels
+    bpy.ops.object.modifier_apply(modifier=modifier.name)
+    with ui.override():
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_mode(type="EDGE")
+        bpy.ops.mesh.select_all(action="DESELECT")
+    ui.view.view_perspective = "PERSP"
+    ui.view.view_rotation = Euler((1.24, 0.0, 0.46)).to_quaternion()
+    ui.view.view_location = (0.08, 0.0, -0.02)
+    ui.view.view_distance = 3.75
+    ui.wait(4, redraw=True)
+    return obj
+
+
+def redraws(ui: driver.Ui, count: int) -> list[float]:
+    """Return how long Blender takes to draw the viewport."""
+    found = []
+    for _ in range(count):
+        start = time.perf_counter()
+        drawn(ui, lambda: ui.area.tag_redraw())
+        found.append(time.perf_counter() - start)
+    return found
+
+
+def drawn(ui: driver.Ui, do: Callable[[], object]) -> float:
+    """Do something and return the moment at which the next picture of the viewport was there."""
+    moments: list[float] = []
+    handle = bpy.types.SpaceView3D.draw_handler_add(lambda: moments.append(time.perf_counter()), (), "WINDOW", "POST_PIXEL")
+    try:
+        do()
+        ui.wait_until(lambda: bool(moments), SECONDS)
+    finally:
+        bpy.types.SpaceView3D.draw_handler_remove(handle, "WINDOW")
+    return moments[0]
+
+
+def move_and_redraw(ui: driver.Ui, place: tuple[float, float]) -> None:
+    """Move the mouse, and ask for a redraw in any case: where nothing changes the tool asks for none."""
+    ui.event("MOUSEMOVE", "NOTHING", place, ticks=0)
+    ui.area.tag_redraw()
+
+
+def path(ui: driver.Ui) -> NDArray[np.float64]:
+    """Return positions over the forehead and down to the chin: nowhere beside the mesh."""
+    turn = np.linspace(0.0, 2.0 * np.pi, MOVES)
+    places = np.stack([0.42 + 0.20 * np.sin(turn), -0.62 - 0.0 * turn, 0.35 + 0.30 * np.cos(turn)], axis=1)
+    return np.array([ui.on_screen(tuple(place)) for place in places])
+
+
+def measure(ui: driver.Ui, along: str, holds: Holds) -> dict[str, object]:
+    """Start the tool, draw, and leave; return what was measured, seconds and bytes."""
+    found: dict[str, object] = {"empty redraw": np.median(redraws(ui, 3))}
+    before = memory()
+    places = path(ui)
+    ui.move(tuple(places[0]))
+    start = time.perf_counter()
+    with holds.during("start"), ui.override():
+        assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", along=along) == {"RUNNING_MODAL"}
+    found["tool runs"] = time.perf_counter() - start
+    with holds.during("first seed and wire"):
+        ui.event("LEFTMOUSE", "PRESS", tuple(places[0]), ticks=1)
+        ui.event("LEFTMOUSE", "RELEASE", tuple(places[0]), ticks=1)
+        ui.wait_until(lambda: session().seed is not None, SECONDS)
+        ui.event("MOUSEMOVE", "NOTHING", tuple(places[MOVES // 2]), ticks=1)
+        ui.wait_until(lambda: session().active is not None, SECONDS)
+        found["first wire shown"] = time.perf_counter() - start
+        ui.wait_until(lambda: session().active is not None and not session().preliminary, SECONDS)
+        found["first wire final"] = time.perf_counter() - start
+        ui.wait_until(lambda: not session().computing, SECONDS)
+        found["both wires"] = time.perf_counter() - start
+    found["memory"] = memory() - before
+    with holds.during("second seed"):
+        ui.event("LEFTMOUSE", "PRESS", tuple(places[MOVES // 2]), ticks=1)
+        clicked = time.perf_counter()
+        ui.event("LEFTMOUSE", "RELEASE", tuple(places[MOVES // 2]), ticks=1)
+        ui.event("MOUSEMOVE", "NOTHING", tuple(places[MOVES // 4]), ticks=1)
+        ui.wait_until(lambda: session().active is not None, SECONDS)
+        found["next wire shown"] = time.perf_counter() - clicked
+        ui.wait_until(lambda: session().active is not None and not session().preliminary, SECONDS)
+        found["next wire final"] = time.perf_counter() - clicked
+        ui.wait_until(lambda: not session().computing and not overlay_busy(), SECONDS)
+        ui.wait(4, redraw=True)
+    took, ours = [], []
+    with holds.during("move"):
+        for place in places:
+            first = len(holds.calls)
+            seen = session().revision
+            start = time.perf_counter()
+            end = drawn(ui, lambda place=place: move_and_redraw(ui, tuple(place)))
+            if session().revision != seen:  # else the cursor is where it was, and nothing was to be done
+                took.append(end - start)
+                ours.append(sum(spent for _, _, spent in holds.calls[first:]))
+    found["move"], found["move, ours"] = np.array(took), np.array(ours)
+    found["memory at the end"] = memory() - before
+    with holds.during("keep"):
+        ui.click(tuple(places[-1]))
+        ui.wait_until(lambda: not session().computing and not overlay_busy(), SECONDS)
+    with holds.during("finish"):
+        start = time.perf_counter()
+        ui.key("RET")
+        ui.wait_until(lambda: session() is None, SECONDS)
+        found["finish"] = time.perf_counter() - start
+    return found
+
+
+def overlay_busy() -> bool:
+    """Whether segments are being computed."""
+    from seamwire import drawing
+
+    return bool(drawing.running) and any(board.busy for board in drawing.running[0].boards.values())
+
+
+def report(along: str, found: dict[str, object], holds: Holds) -> None:
+    """Print what was measured."""
+    for name, value in found.items():
+        if name.startswith("memory"):
+            print(f"{along:8} {name:22} {value / 1e6:8.0f} MB", flush=True)
+        elif isinstance(value, np.ndarray):
+            middle, high = np.percentile(1e3 * value, (50, 95))
+            print(f"{along:8} {name:22} {middle:8.1f} ms median, {high:.1f} ms 95 %, {1e3 * value.max():.1f} ms most", flush=True)
+        else:
+            print(f"{along:8} {name:22} {1e3 * value:8.1f} ms", flush=True)
+    for doing, what, took in holds.longest():
+        if took >= HELD or doing == "move":
+            print(f"{along:8} held during {doing:20} by our {what:6} {1e3 * took:8.1f} ms", flush=True)
+
+
+def main(levels: int) -> None:
+    """Measure both ways of running."""
+    ui = driver.Ui()
+    with ui.override():
+        bpy.ops.screen.screen_full_area(use_hide_panels=True)
+    ui.wait(8)
+    ui = driver.Ui()
+    holds = Holds()
+    holds.watch_events()
+    for along in ("EDGES", "SURFACE"):
+        obj = stage(ui, levels)
+        print(f"{obj.name}: {len(obj.data.polygons)} faces, {len(obj.data.vertices)} vertices", flush=True)
+        report(along, measure(ui, along, holds), holds)
+        holds.calls.clear()
+
+
+def run(levels: int) -> None:
+    """Measure in turns with Blender's event loop."""
+    main_loop = greenlet.getcurrent()
+    driver.prepare_blender(switch_to_blender=main_loop.switch)
+    player = greenlet.greenlet(lambda: main(levels), parent=main_loop)
+    waiting = [8]
+
+    def leave(code: int) -> None:
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(code)
+
+    def tick() -> float:
+        if waiting[0] > 0:  # the regions get their sizes a little after the window
+            waiting[0] -= 1
+            return 0.0
+        try:
+            player.switch()
+        except BaseException:
+            traceback.print_exc()
+            leave(3)
+        if player.dead:
+            errors = driver.take_errors()
+            sys.stderr.write("".join(errors))
+            leave(3 if errors else 0)
+        return 0.0
+
+    bpy.app.timers.register(tick, persistent=True)
+
+
+addon_utils.enable("seamwire", default_set=True)
+run(int(sys.argv[sys.argv.index("--") + 1]))
