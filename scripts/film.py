@@ -29,8 +29,10 @@ POINTER = np.array([(0, 0), (0, -17), (4, -13.5), (7, -20), (9.7, -18.8), (6.8, 
 """The outline of a mouse pointer: pixels to the right of its tip and above it."""
 PRESSED = (1.0, 0.8, 0.2)
 
-EYE, EAR, MUZZLE = (729, 1606), (317, 1146), (184, 798)
-"""Edges of Suzanne, subdivided once, with loops around an eye, an ear and the muzzle."""
+EYE, EAR = (729, 1606), (317, 1146)
+"""Edges of Suzanne, subdivided once, with loops around an eye and an ear; halves of them are in her subdivided twice."""
+BAND = (0.05, 0.05, 0.06, 0.78)
+WORDS = (1.0, 1.0, 1.0, 1.0)
 
 
 class Film:
@@ -44,6 +46,28 @@ class Film:
         self.pressed = False
         self.filming = True
         self.obj: bpy.types.Object | None = None
+        self.caption = ""
+        bpy.types.SpaceView3D.draw_handler_add(self._draw_caption, (), "WINDOW", "POST_PIXEL")
+
+    def _draw_caption(self) -> None:
+        """Write under the headers what is being done."""
+        if not self.caption:
+            return
+        from seamwire import overlay, paint
+
+        left, bottom, width, height = overlay.free_room(bpy.context.area, bpy.context.region)
+        size = paint.text_size(1.0, 1.9)
+        paint.set_text(size)
+        wide = paint.text_width(self.caption)
+        x, y = left + (width - wide) / 2.0, bottom + height - 2.6 * size
+        with paint.blended("NONE"):
+            paint.draw_rectangle((x - size, y - 0.65 * size), (x + wide + size, y + 1.25 * size), BAND, 0.5 * size)
+            paint.draw_text(self.caption, (x, y), WORDS, shadow=False)
+
+    def say(self, caption: str, frames: int = 0) -> None:
+        """Write something else, and let it be read."""
+        self.caption = caption
+        self.hold(frames)
 
     def shot(self) -> NDArray[np.uint8]:
         """Return the display as it is, with the pointer: (height, width, 3), top row first."""
@@ -56,7 +80,7 @@ class Film:
 
     def hold(self, frames: int) -> None:
         """Let the picture stand."""
-        if self.filming:
+        if self.filming and frames:
             self.frames += [self.shot()] * frames
 
     def go(self, to: tuple[float, float], frames: int = 10, **modifiers: bool) -> None:
@@ -102,9 +126,10 @@ class Film:
         return self.seen(min((v.co for v in self.obj.data.vertices), key=lambda co: (co - place).length))
 
     def edge(self, pair: tuple[int, int]) -> tuple[float, float]:
-        """Return where the middle of an edge is seen."""
+        """Return where one of the halves that subdivision makes of an edge is seen, at its middle."""
         one, two = (self.obj.data.vertices[v].co for v in pair)
-        return self.seen((one + two) / 2)
+        half = min((v.co for v in self.obj.data.vertices if v.index not in pair), key=lambda co: (co - (one + two) / 2).length)
+        return self.seen((one + half) / 2)
 
     def picture(self, name: str) -> None:
         """Keep what is seen as a picture of the guide."""
@@ -155,7 +180,7 @@ def write_png(path: Path, picture: NDArray[np.uint8]) -> None:
 
 
 def stage(film: Film) -> None:
-    """Put Suzanne, subdivided once, into the window, in edit mode with the tool in the toolbar."""
+    """Put Suzanne, subdivided twice, into the window, in edit mode with the tool in the toolbar."""
     # The display's own pointer stays where it is: out of sight.
     subprocess.run(["xdotool", "mousemove", "5000", "5000"], check=True)
     ui = film.ui
@@ -167,8 +192,9 @@ def stage(film: Film) -> None:
     bpy.ops.object.delete()
     bpy.ops.mesh.primitive_monkey_add()
     film.obj = obj = bpy.context.active_object
-    modifier = obj.modifiers.new("Subdivision", "SUBSURF")
-    bpy.ops.object.modifier_apply(modifier=modifier.name)
+    for _ in range(2):  # one after the other: so vertices keep their numbers
+        modifier = obj.modifiers.new("Subdivision", "SUBSURF")
+        bpy.ops.object.modifier_apply(modifier=modifier.name)
     bpy.ops.object.shade_smooth()
     space = ui.space
     space.overlay.show_floor = space.overlay.show_axis_x = space.overlay.show_axis_y = False
@@ -183,8 +209,8 @@ def stage(film: Film) -> None:
         bpy.ops.wm.tool_set_by_id(name="seamwire.draw")
     ui.view.view_perspective = "PERSP"
     ui.view.view_rotation = Euler((1.24, 0.0, 0.46)).to_quaternion()
-    ui.view.view_location = (0.08, 0.0, -0.02)
-    ui.view.view_distance = 3.75
+    ui.view.view_location = (0.1, 0.0, -0.06)
+    ui.view.view_distance = 2.85
     ui.wait(4, redraw=True)
 
 
@@ -201,41 +227,87 @@ def play(film: Film) -> None:
     stage(film)
     film.at = film.vertex(0.9, -0.4, -0.6)
     start(film)
-    film.hold(6)
-    film.go(film.vertex(0.0, -0.6, 0.80), 9)
+    film.say("Click: a seed", 4)
+    film.go(film.vertex(0.0, -0.6, 0.80), 8)
     film.click()
+    film.say("Two wires follow the cursor along the shape")
     film.go(film.vertex(0.45, -0.60, 0.72), 7)
     film.go(film.vertex(0.80, -0.40, 0.40), 9)
-    film.hold(2)
+    film.hold(4)
+    film.say("Wheel: the other one")
     film.ui.wheel(up=True)
-    film.hold(6)
+    film.hold(8)
     film.ui.wheel(up=True)
-    film.hold(5)
+    film.hold(7)
+    film.say("Click: keep it, and go on")
     film.click()
     film.go(film.vertex(0.55, -0.40, -0.30), 10)
     film.click()
-    film.go(film.vertex(0.25, -0.65, -0.25), 7)
-    film.go(film.vertex(0.0, -0.75, -0.08), 7)
+    film.go(film.vertex(0.25, -0.65, -0.25), 6)
+    film.go(film.vertex(0.0, -0.75, -0.08), 6)
     film.click()
     film.click("RIGHTMOUSE")
-    film.hold(4)
+    film.say("Drag a seed: its wires follow")
+    film.go(film.vertex(0.55, -0.40, -0.30), 7)
+    film.ui.event("LEFTMOUSE", "PRESS", film.at)
+    film.pressed = True
+    film.go(film.vertex(0.62, -0.40, -0.10), 6)
+    film.go(film.vertex(0.50, -0.45, -0.22), 6)
+    film.pressed = False
+    film.ui.event("LEFTMOUSE", "RELEASE", film.at)
+    film.settle()
+    film.hold(2)
+    film.say("M: mirrored")
     film.key("M")
-    film.hold(8)
-    film.go(film.edge(EYE), 11)
-    film.go(film.edge(EYE), 2, alt=True)
     film.hold(7)
-    film.click(alt=True)
-    film.go(film.edge(EAR), 10)
-    film.go(film.edge(EAR), 2, alt=True)
+    film.say("Alt: the whole loop, before the click")
+    film.go(film.edge(EYE), 9)
+    film.go(film.edge(EYE), 2, alt=True)
     film.hold(6)
     film.click(alt=True)
-    film.go(film.vertex(0.9, -0.4, -0.6), 8)
+    film.go(film.edge(EAR), 9)
+    film.go(film.edge(EAR), 2, alt=True)
+    film.hold(4)
+    film.click(alt=True)
+    film.say("The segments that the seams make are tinted")
+    film.go(film.vertex(0.9, -0.4, -0.6), 6)
     film.hold(12)
+    film.say("Enter: they are seams, and unwrapped")
     film.key("RET")
-    film.hold(16)
+    film.hold(6)
+    unwrap(film)
+    film.hold(24)
     with (film.folder / "frames.raw").open("wb") as file:
         for frame in film.frames:
             file.write(np.ascontiguousarray(frame[:, :, :3]).tobytes())
+
+
+def unwrap(film: Film) -> None:
+    """Unwrap along the seams, and look at it in Blender's workspace for that."""
+    before = film.ui.view
+    turn, centre, distance = before.view_rotation.copy(), before.view_location.copy(), before.view_distance
+    with film.ui.override():
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.uv.unwrap(method="ANGLE_BASED", margin=0.004)
+    window = film.ui.window
+    with film.ui.override():
+        bpy.ops.screen.back_to_previous()
+    film.ui.wait(6)
+    window.workspace = bpy.data.workspaces["UV Editing"]
+    film.ui.wait(8)
+    film.ui = ui = driver.Ui()
+    space = ui.space
+    space.overlay.show_floor = space.overlay.show_axis_x = space.overlay.show_axis_y = False
+    space.overlay.show_cursor = space.overlay.show_text = space.show_gizmo = False
+    ui.view.view_perspective = "PERSP"
+    ui.view.view_rotation, ui.view.view_location, ui.view.view_distance = turn, centre, 1.5 * distance
+    for area in window.screen.areas:
+        if area.type == "IMAGE_EDITOR":
+            region = next(region for region in area.regions if region.type == "WINDOW")
+            with bpy.context.temp_override(window=window, area=area, region=region):
+                bpy.ops.image.view_all(fit_view=True)
+    film.at = (ui.region.width - 60.0, 60.0)
+    ui.wait(6, redraw=True)
 
 
 def guide(film: Film) -> None:

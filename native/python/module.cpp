@@ -595,5 +595,6 @@ False cancels, and Cancelled is raised. Arrays that a result hands out are read-
   bind_edge_wires(module);
   bind_scribble(module);
   bind_live_wire(module);
+  bind_rays(module);
   bind_segments(module);
 }

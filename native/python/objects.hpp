@@ -119,5 +119,9 @@ void bind_scribble(py::module_& module);
 void bind_live_wire(py::module_& module);
 /// Adds face_segments.
 void bind_segments(py::module_& module);
+/// Adds RayTree.
+void bind_rays(py::module_& module);
+/// Rays, in rays.cpp.
+void bind_rays(py::module_& module);
 
 }  // namespace seamwire::python

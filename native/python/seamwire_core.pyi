@@ -225,5 +225,14 @@ def edge_wires(
     progress: Progress | None = None,
 ) -> EdgeWires: ...
 def edge_loop(surface: Surface, metric: Metric, edge: Sequence[int], turning: float = 20.0) -> EdgeChain: ...
+class RayTree:
+    """Finds the first triangle that a ray meets; the tree is built on a thread, with the same answers before it is there."""
+
+    def __init__(self, points: ArrayLike, triangles: ArrayLike) -> None: ...
+    def first_hit(self, origin: ArrayLike, direction: ArrayLike) -> tuple[int, float] | None:
+        """Return the triangle's number and how far away it is, in lengths of `direction`; None: there is none."""
+    ready: bool
+    def wait(self) -> None: ...
+
 def face_segments(surface: Surface, cut_edges: ArrayLike) -> NDArray[np.int32]:
     """Return a segment number per triangle, 0 the one of the most triangles."""
