@@ -128,7 +128,9 @@ class Film:
     def edge(self, pair: tuple[int, int]) -> tuple[float, float]:
         """Return where one of the halves that subdivision makes of an edge is seen, at its middle."""
         one, two = (self.obj.data.vertices[v].co for v in pair)
-        half = min((v.co for v in self.obj.data.vertices if v.index not in pair), key=lambda co: (co - (one + two) / 2).length)
+        half = min(
+            (v.co for v in self.obj.data.vertices if v.index not in pair), key=lambda co: (co - (one + two) / 2).length
+        )
         return self.seen((one + half) / 2)
 
     def picture(self, name: str) -> None:

@@ -133,7 +133,9 @@ def redraws(ui: driver.Ui, count: int) -> list[float]:
 def drawn(ui: driver.Ui, do: Callable[[], object]) -> float:
     """Do something and return the moment at which the next picture of the viewport was there."""
     moments: list[float] = []
-    handle = bpy.types.SpaceView3D.draw_handler_add(lambda: moments.append(time.perf_counter()), (), "WINDOW", "POST_PIXEL")
+    handle = bpy.types.SpaceView3D.draw_handler_add(
+        lambda: moments.append(time.perf_counter()), (), "WINDOW", "POST_PIXEL"
+    )
     try:
         do()
         ui.wait_until(lambda: bool(moments), SECONDS)
@@ -225,7 +227,10 @@ def report(along: str, found: dict[str, object], holds: Holds) -> None:
             print(f"{along:8} {name:22} {value / 1e6:8.0f} MB", flush=True)
         elif isinstance(value, np.ndarray):
             middle, high = np.percentile(1e3 * value, (50, 95))
-            print(f"{along:8} {name:22} {middle:8.1f} ms median, {high:.1f} ms 95 %, {1e3 * value.max():.1f} ms most", flush=True)
+            print(
+                f"{along:8} {name:22} {middle:8.1f} ms median, {high:.1f} ms 95 %, {1e3 * value.max():.1f} ms most",
+                flush=True,
+            )
         else:
             print(f"{along:8} {name:22} {1e3 * value:8.1f} ms", flush=True)
     for doing, what, took in holds.longest():

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from mathutils import Vector
-from mathutils.bvhtree import BVHTree
 
+from . import native
 from .network import Snap
 
 if TYPE_CHECKING:
@@ -40,7 +40,6 @@ FEATURE_REACH = 10.0
 """Pixels in which the strongest feature is looked for."""
 FEATURE_QUANTILE = 0.75
 """A vertex counts as a feature from this share of all vertices' strengths on: on a plain nothing is stronger than noise."""
-_MAX_HIDDEN_LAYERS = 256
 _MAX_NEAR = 400
 """Vertices that are looked at for a feature: what a far view has within a few pixels more than this, nobody can tell apart."""
 _MAX_OWNERS = 6
@@ -241,8 +240,7 @@ class Picker:
 
     Notes
     -----
-    Blender's tree of the faces is built at the first question: 0.3 to 1 s for a million triangles, during which Blender
-    stands still.
+    The library's tree of the faces is built on a thread; what is asked before it is there takes some milliseconds longer.
     """
 
     def __init__(self, bm: bmesh.types.BMesh, arrays: Arrays, seams: ArrayLike = ()) -> None:
@@ -250,17 +248,14 @@ class Picker:
         self._points = arrays.points
         self._to_object = arrays.to_object
         self._all_edges = arrays.edges
-        extent = np.ptp(arrays.points, axis=0).max() if len(arrays.points) else 1.0
-        self._step = max(1e-6 * float(extent), 1e-12)
+        self._triangles = arrays.triangles
+        self._to_points = np.linalg.inv(arrays.to_object)
+        self._rays = native.load().RayTree(arrays.points, arrays.triangles)
         self._seam_edges = np.asarray(seams, dtype=np.int64).reshape(-1, 2)
         self._drawn: _Drawn | None = None
         self._strength: tuple[object, float] = (None, 0.0)
         bm.verts.ensure_lookup_table()
         bm.faces.ensure_lookup_table()
-
-    @cached_property
-    def _tree(self) -> BVHTree:
-        return BVHTree.FromBMesh(self._bm)
 
     @cached_property
     def _seams(self) -> _Segments:
@@ -270,7 +265,9 @@ class Picker:
     @cached_property
     def _vertices(self) -> tuple[NDArray[np.int32], Projected]:
         """Return the vertices that are not hidden, and their coordinates."""
-        numbers = np.unique(self._all_edges)
+        used = np.zeros(len(self._points), dtype=np.bool_)
+        used[self._all_edges] = True
+        numbers = np.flatnonzero(used).astype(np.int32)
         return numbers, Projected(self._in_object(self._points[numbers]).astype(np.float32))
 
     def _in_object(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -331,6 +328,15 @@ class Picker:
         hit = self._cast(view, matrix, cursor)
         return None if hit is None else float(np.linalg.norm(np.array(matrix @ hit[1]) - view.ray(cursor)[0]))
 
+    def surface_at(
+        self, view: View, matrix: Matrix, cursor: tuple[float, float]
+    ) -> tuple[NDArray[np.float64], int] | None:
+        """Return the point of the surface under the cursor, as `Arrays.points` are given, and the triangle it lies in."""
+        if abs(matrix.determinant()) < 1e-30:
+            return None
+        hit = self._cast(view, matrix, cursor)
+        return None if hit is None else (self._to_points @ np.array(hit[1]), hit[0])
+
     # Seeds, wires, seams
 
     def _drawn_at(
@@ -339,7 +345,7 @@ class Picker:
         drawn = self._drawn_now(session)
 
         def free(place: NDArray[np.float64]) -> bool:
-            return xray or self._visible(view, matrix, place)
+            return xray or self.sees(view, matrix, place)
 
         rows = drawn.seeds.near(view, matrix, cursor, SEED_REACH * scale)
         x, y, _ = drawn.seeds.seen(view, matrix)
@@ -381,7 +387,7 @@ class Picker:
         )
         return self._drawn
 
-    def _visible(self, view: View, matrix: Matrix, place: NDArray[np.float64]) -> bool:
+    def sees(self, view: View, matrix: Matrix, place: NDArray[np.float64]) -> bool:
         """Whether nothing lies before a point, but for what is nearer by no more than a few pixels: it may lie in a crease."""
         world = np.array(matrix @ Vector(place))
         at = view.to_pixels(world[None])[0]
@@ -428,7 +434,7 @@ class Picker:
         for vertex in sorted(near, key=lambda v: -strength[v])[:4]:
             if strength[vertex] <= self._strength[1]:
                 return None
-            if xray or self._visible(view, matrix, np.array(self._bm.verts[vertex].co)):
+            if xray or self.sees(view, matrix, np.array(self._bm.verts[vertex].co)):
                 return vertex
         return None
 
@@ -515,7 +521,7 @@ class Picker:
         """Yield the face under the cursor; where there is none, those just beside it."""
         hit = self._cast(view, matrix, cursor)
         if hit is not None:
-            yield hit[0]
+            yield self._face_of(hit[0])
             return
         for radius in (0.5 * reach, reach):
             found = False
@@ -524,27 +530,24 @@ class Picker:
                 hit = self._cast(view, matrix, beside)
                 if hit is not None:
                     found = True
-                    yield hit[0]
+                    yield self._face_of(hit[0])
             if found:
                 return
 
-    def _cast(
-        self, view: View, matrix: Matrix, cursor: tuple[float, float]
-    ) -> tuple[bmesh.types.BMFace, Vector] | None:
-        """Return the first face that is not hidden along the line that a pixel shows, and where, in object coordinates."""
-        near, far = view.ray(cursor)
+    def _cast(self, view: View, matrix: Matrix, cursor: tuple[float, float]) -> tuple[int, Vector] | None:
+        """Return the first visible triangle along the line that a pixel shows, and where, in object coordinates."""
         inverse = matrix.inverted()
-        origin, end = inverse @ Vector(near), inverse @ Vector(far)
-        direction = (end - origin).normalized()
-        for _ in range(_MAX_HIDDEN_LAYERS):
-            location, _, index, _ = self._tree.ray_cast(origin, direction)
-            if location is None:
-                return None
-            face = self._bm.faces[index]
-            if not face.hide:
-                return face, location
-            origin = location + self._step * direction
-        return None
+        origin, end = (self._to_points @ np.array(inverse @ Vector(place)) for place in view.ray(cursor))
+        hit = self._rays.first_hit(origin, end - origin)
+        if hit is None or hit[1] > 1.0:  # behind the far plane
+            return None
+        return hit[0], Vector(self._to_object @ (origin + hit[1] * (end - origin)))
+
+    def _face_of(self, triangle: int) -> bmesh.types.BMFace:
+        """Return the polygon that a triangle is a part of."""
+        one, two, three = (set(self._bm.verts[int(v)].link_faces) for v in self._triangles[triangle])
+        found = [face for face in one & two & three if not face.hide]
+        return min(found, key=lambda face: face.index)
 
     @staticmethod
     def _surroundings(face: bmesh.types.BMFace, view: View, matrix: Matrix) -> Iterator[bmesh.types.BMEdge]:

@@ -103,6 +103,26 @@ def test_picks_follow_an_objects_rotation_and_its_uneven_scale(perspective: bool
     assert hits > 20
 
 
+def test_the_place_on_the_surface_is_given_as_the_mesh_has_it() -> None:
+    obj = add_grid(5)
+    obj.scale = (1.0, 3.0, 1.0)
+    obj.location = (0.1, 0.0, -1.0)
+    bpy.context.view_layer.update()
+    finder = picker(obj)
+    arrays = edit_mesh.read(obj)
+    view = from_above(half=4.0)
+    found = finder.surface_at(view, obj.matrix_world, pixel(view, (0.3, 1.2, -1.0)))
+    assert found is not None
+    point, triangle = found
+    np.testing.assert_allclose(arrays.to_object @ point, (0.2, 0.4, 0.0), atol=1e-6)
+    corners = arrays.points[arrays.triangles[triangle]]
+    weights = np.linalg.solve(np.column_stack([corners[:, :2], np.ones(3)]).T, (*point[:2], 1.0))
+    assert weights.min() > -1e-6, "it lies in the triangle named"
+    assert finder.surface_at(view, obj.matrix_world, pixel(view, (3.0, 0.0, -1.0))) is None
+    assert finder.sees(view, obj.matrix_world, np.array((0.2, 0.4, 0.0)))
+    assert not finder.sees(view, obj.matrix_world, np.array((0.2, 0.4, -0.5)))
+
+
 def test_hidden_faces_are_looked_through() -> None:
     obj = add_grid(5)
     edit()

@@ -225,6 +225,7 @@ def edge_wires(
     progress: Progress | None = None,
 ) -> EdgeWires: ...
 def edge_loop(surface: Surface, metric: Metric, edge: Sequence[int], turning: float = 20.0) -> EdgeChain: ...
+
 class RayTree:
     """Finds the first triangle that a ray meets; the tree is built on a thread, with the same answers before it is there."""
 
