@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from .engines import STRENGTH_RANGE, STRENGTH_STEP
+from .engines import CLAMP_RANGE, STRENGTH_RANGE, STRENGTH_STEP
 from .scribbles import OffMeshError, Scribble, drawn, through_vertices
 from .workings import Workings
 
@@ -70,6 +70,14 @@ class Guidance(Workings):
     def set_metric(self, metric: MetricName) -> bool:
         """Draw wires by another metric; kept wires stay as they are."""
         return metric == self.metric or self._use_metric(metric, self._engines.strengths)
+
+    def set_clamp(self, percentile: float) -> bool:
+        """Let another percentile of feature strengths count as the strongest; kept wires stay as they are."""
+        low, high = CLAMP_RANGE
+        percentile = min(max(percentile, low), high)
+        if abs(percentile - self.clamp) <= 1e-4:
+            return True
+        return self._use_metric(self.metric, self._engines.strengths, percentile)
 
     def set_mirror(self, axes: Iterable[int]) -> bool:
         """Mirror all wires over axes, 0 to 2; none: not at all."""

@@ -85,7 +85,7 @@ class State:
     edges
         (e, 2) the visible edges; None: whatever two vertices a mirrored edge would have, they have an edge.
     seams
-        The edges, by their vertices, that are seams already: wires that run to the end stop there.
+        The edges, by their vertices, that are seams already: wires that run straight on end there.
     strength
         Largest anisotropy of the metric for each way; `make_live` is to make its live wires with the ones of
         `STRENGTHS`.
@@ -269,6 +269,11 @@ class State:
     def feature_strength(self) -> NDArray[np.float64] | None:
         """Return how strong the feature is at each vertex; None while that is computed."""
         return self._engines.get(self.along).feature_strength()
+
+    @property
+    def clamp(self) -> float:
+        """The percentile of feature strengths that counts as the strongest: single noisy vertices are not to decide."""
+        return self._engines.clamp
 
     @property
     def metric(self) -> MetricName:

@@ -35,7 +35,7 @@ class Stops:
         self._seam_vertices = frozenset(np.unique(pairs).tolist())
         self._seams = frozenset(map(tuple, np.sort(pairs, axis=1).tolist()))
         self._mirror = mirror
-        self._last: tuple[Network, list[Wire]] | None = None
+        self._last: tuple[Network, frozenset[int], frozenset[Edge]] | None = None
 
     def of(self, network: Network, live: Wire | None, begin: Iterable[int]) -> list[int]:
         """Return the stops of a wire.
@@ -49,27 +49,25 @@ class Stops:
         begin
             The vertices that the wire has before it runs on. Where all lie on the mirror's plane, it runs along that.
         """
-        stops = set(self._kept(network))
+        stops = set(self._kept(network)[0])
         if live is not None:
             stops.update(*(one.vertices for one in self._with_images(live, network)))
         plane = self._mirror.on_plane(network.mirror)
         if not plane.issuperset(begin):
             stops |= plane
-        return sorted(stops)
+        return list(stops)
 
     def taken(self, network: Network, edge: Edge) -> bool:
         """Whether an edge belongs already to a seam, to a kept wire or to an image of one."""
-        pair = undirected(edge)
-        return pair in self._seams or any(pair in one.edges() for one in self._wires(network))
+        return undirected(edge) in self._kept(network)[1]
 
-    def _kept(self, network: Network) -> frozenset[int]:
-        return self._seam_vertices.union(*(one.vertices for one in self._wires(network)))
-
-    def _wires(self, network: Network) -> list[Wire]:
-        """Return the kept wires and their images."""
+    def _kept(self, network: Network) -> tuple[frozenset[int], frozenset[Edge]]:
+        """Return the vertices and edges of seams, kept wires and their images."""
         if self._last is None or self._last[0] is not network:
-            self._last = (network, [one for wire in network.wires for one in self._with_images(wire, network)])
-        return self._last[1]
+            wires = [one for wire in network.wires for one in self._with_images(wire, network)]
+            vertices = self._seam_vertices.union(*(one.vertices for one in wires))
+            self._last = (network, vertices, self._seams.union(*(one.edges() for one in wires)))
+        return self._last[1:]
 
     def _with_images(self, wire: Wire, network: Network) -> list[Wire]:
         return [wire, *self._mirror.images(wire, network.mirror)]

@@ -41,10 +41,10 @@ class Workings(State):
         # Before wires are asked for: what is not final after the work is done stays so.
         self._progress = min(live.progress() for live in self._working())
 
-    def _use_metric(self, metric: MetricName, strengths: Mapping[Along, float]) -> bool:
+    def _use_metric(self, metric: MetricName, strengths: Mapping[Along, float], clamp: float | None = None) -> bool:
         if self._drag is not None:
             return self._refuse("Leave the seed first, then change what draws the wires")
-        self._engines.use(metric, strengths)
+        self._engines.use(metric, strengths, self.clamp if clamp is None else clamp)
         self.message = ""
         self._loop.clear()
         self._aim(self._live.target, again=True)

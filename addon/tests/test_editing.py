@@ -629,6 +629,20 @@ def test_each_way_of_running_has_its_own_strength_and_both_the_metric() -> None:
     assert session.strength == 12.5
 
 
+def test_another_clamp_is_another_metric_for_both_ways() -> None:
+    table = Table()
+    session = table.session
+    assert session.set_clamp(99.0)
+    assert table.lives["EDGES"].metrics == []
+    session.set_clamp(95.0)
+    assert session.clamp == 95.0
+    assert table.lives["EDGES"].metrics == [("feature", 10.0, 95.0)]
+    session.switch("SURFACE")
+    assert table.lives["SURFACE"].metrics == [("feature", 20.0, 95.0)]
+    session.set_clamp(200.0)
+    assert session.clamp == 100.0
+
+
 def test_while_another_strength_is_computed_the_wires_stay_to_be_seen() -> None:
     table = Table(metric_ready=(False, False))
     session = table.session
