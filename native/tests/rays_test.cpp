@@ -120,7 +120,7 @@ TEST(Rays, of_an_empty_mesh_meet_nothing) {
   EXPECT_THROW(RayTree({{0, 0, 0}}, {{0, 0, 1}}), InvalidInput);
 }
 
-TEST(Rays, of_a_tree_that_is_dropped_at_once_end_its_thread) {
+TEST(Rays, of_a_tree_that_is_dropped_before_it_is_built) {
   const shapes::Mesh mesh = shapes::icosphere(6, 0.5);
   for (int i = 0; i < 5; ++i) {
     const RayTree tree(mesh.points, mesh.triangles);
