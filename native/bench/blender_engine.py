@@ -81,20 +81,20 @@ class BlenderEngine:
         strip, closed = self.strip(edge)
         return strip if closed else None
 
-    def strip(self, edge: Pair, stops: frozenset[int] = frozenset()) -> tuple[list[int], bool]:
+    def strip(self, edge: Pair) -> tuple[list[int], bool]:
         """Return the vertices of the edge loop through an edge, and whether it is closed."""
         begin = self.number[min(edge), max(edge)]
-        forth, closed = self._walk(begin, edge[1], stops)
+        forth, closed = self._walk(begin, edge[1])
         if closed:
             return forth[:-1], True
-        back, _ = self._walk(begin, edge[0], stops)
+        back, _ = self._walk(begin, edge[0])
         return back[::-1] + forth[2:], False
 
-    def _walk(self, begin: int, towards: int, stops: frozenset[int]) -> tuple[list[int], bool]:
+    def _walk(self, begin: int, towards: int) -> tuple[list[int], bool]:
         at, edge = towards, begin
         path = [int(self.edges[begin].sum()) - towards, towards]
         while True:
-            following = None if at in stops else self._straight_on(edge, at)
+            following = self._straight_on(edge, at)
             if following is None or (following != begin and at in path[:-1]):
                 return path, False
             if following == begin:

@@ -67,8 +67,6 @@ class Seamwire:
     def __init__(self, points: np.ndarray, offsets: np.ndarray, corners: np.ndarray) -> None:
         self.engine = SeamwireEngine()
         self.engine.prepare(points, offsets, corners)
-        self._straight = BlenderEngine()
-        self._straight.prepare(points, offsets, corners)
         self._loops: dict[Pair, list[int] | None] = {}
 
     def offers(self, edge: Pair, stops: frozenset[int]) -> Iterable[Edges]:
@@ -78,8 +76,8 @@ class Seamwire:
         loop = self._loops[edge]
         if loop is not None:
             yield edges_of(loop, True)
-        yield edges_of(*self._straight.strip(edge))
-        yield edges_of(*self._straight.strip(edge, stops))
+        yield edges_of(*self.engine.strip(edge))
+        yield edges_of(*self.engine.strip(edge, stops))
 
 
 def clicks(measure: Any, near: dict[int, set[int]], tool: Blender | Seamwire, seams: Edges) -> int:  # noqa: ANN401

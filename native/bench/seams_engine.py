@@ -4,6 +4,8 @@
 Wires along edges with both metrics, the shorter one first; the settings are the tool's defaults along edges.
 """
 
+from collections.abc import Iterable
+
 import numpy as np
 import seamwire_core as sw
 
@@ -29,7 +31,7 @@ def fan_triangles(offsets: np.ndarray, corners: np.ndarray) -> np.ndarray:
 
 
 class SeamwireEngine:
-    """Wires and loops along the edges of one mesh, with the settings of the tool unless told otherwise."""
+    """Wires, loops and strips along the edges of one mesh, with the settings of the tool unless told otherwise."""
 
     def __init__(self, **settings: float) -> None:
         self.anisotropy = settings.get("anisotropy", MAX_ANISOTROPY)
@@ -51,6 +53,8 @@ class SeamwireEngine:
             )
             for follow in ("min", "max")
         ]
+        self._live = sw.LiveWire(self.surface, along="edges", max_anisotropy=self.anisotropy)
+        self._live.wait()
 
     def wires(self, seed: tuple[int, int], targets: list[tuple[int, int]], forward: bool) -> list[list[list[int]]]:
         """Offer the wires from a seed edge to each target edge, the shorter first; a wire lists its vertices."""
@@ -66,3 +70,8 @@ class SeamwireEngine:
         chains = [sw.edge_loop(self.surface, m, edge, turning=self.loop_turning) for m in self.metrics]
         best = min((c for c in chains if c is not None), key=lambda chain: chain.length, default=None)
         return list(best.vertices) if best is not None and len(best.vertices) else None
+
+    def strip(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> tuple[list[int], bool]:
+        """Offer the straight strip through the edge up to stops: its vertices, and whether it is closed."""
+        found = self._live.strip(edge, np.fromiter(stops, dtype=np.int32))
+        return list(found.vertices), found.closed
