@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from .network import Edge, LoopKind, Pick
 
 
+_EDGES_OF_A_FACE = 4
+
+
 @dataclass
 class LoopPreview:
     """The offers for the edge under the cursor, while they are asked for.
@@ -87,15 +90,32 @@ def find_offers(
     loop = live.loop(edge)
     if not loop.final:
         return (), False
-    found = [_wire("CLOSED", loop.vertices, True, edge, points, strength)]
+    closed = _wire("CLOSED", loop.vertices, True, edge, points, strength)
+    found = []
     if stops is not None:
         strip = live.strip(edge, stops)
         found.append(_wire("STRIP", strip.vertices, strip.closed, edge, points))
-    whole = live.strip(edge, ())
-    found.append(_wire("WHOLE", whole.vertices, whole.closed, edge, points))
-    found.append(_wire("EDGE", edge, False, edge, points))
+    chain = live.strip(edge, ())
+    whole = _wire("WHOLE", chain.vertices, chain.closed, edge, points)
+    found += [whole, _wire("EDGE", edge, False, edge, points)]
+    if closed is not None:
+        aside = whole is not None and _is_around_a_face(closed, whole)
+        found.insert(len(found) if aside else 0, closed)
     different = {frozenset(wire.edges()): wire for wire in reversed(found) if wire is not None}
     return tuple(wire for wire in found if wire in different.values()), True
+
+
+def _is_around_a_face(loop: Wire, strip: Wire) -> bool:
+    """Whether a loop of few edges turns off at both ends of its edge, though straight ways go on there.
+
+    Where there is no ring, the shortest loop through an edge is the one around a face beside it. A ring of four edges
+    around a thin limb goes straight on, or there is no straight way.
+    """
+    if len(loop.vertices) > _EDGES_OF_A_FACE:
+        return False
+    ends = set(loop.through or ())
+    beside = {edge for edge in strip.edges() if edge != loop.through and not ends.isdisjoint(edge)}
+    return bool(beside) and beside.isdisjoint(loop.edges())
 
 
 def _wire(

@@ -117,8 +117,8 @@ class FakeLive:
         a, b = edge
         if not all(self.ready) or abs(a - b) != 1:
             return FakeChain(np.empty(0, dtype=np.int32), final=all(self.ready))
-        turn = self.size if max(a, b) + self.size < self.size**2 else -self.size
-        return FakeChain(np.array([a, b, b + turn, a + turn], dtype=np.int32))
+        up = self.size if max(a, b) + 2 * self.size < self.size**2 else -self.size
+        return FakeChain(np.array([a, b, b + up, b + 2 * up, a + 2 * up, a + up], dtype=np.int32))
 
     def run_on(self, edge: tuple[int, int], stops: list[int]) -> FakeChain:
         way = [edge[1]]

@@ -207,15 +207,15 @@ def test_a_seed_in_a_loop_cuts_it_opposite_as_well() -> None:
     session.loop((14, 15))
     assert session.insert(session.wires[0], 14)
     assert [wire.closed for wire in session.wires] == [False, False]
-    assert session.seeds() == [14, 21]
-    assert session.edges_to_mark() == chain(14, 15, 21, 20, 14)
+    assert session.seeds() == [14, 27]
+    assert session.edges_to_mark() == chain(14, 15, 21, 27, 26, 20, 14)
 
 
 def test_a_seed_in_a_loops_closing_edge_keeps_all_its_edges() -> None:
     session = Table().session
     session.loop((14, 15))
     assert session.insert(session.wires[0], (20, 14))
-    assert session.edges_to_mark() == chain(14, 15, 21, 20, 14)
+    assert session.edges_to_mark() == chain(14, 15, 21, 27, 26, 20, 14)
     assert session.wires[0].start == session.wires[1].end
 
 

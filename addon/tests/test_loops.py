@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import pytest
-from fake_live import grid_edges
+from fake_live import FakeLive, grid_edges, grid_points
 from seamwire.network import Snap
 from seamwire.session import Intent, Session
 from seamwire.storage import dump, load
@@ -12,7 +12,7 @@ from table import SIZE, Table, chain
 
 ROW = (12, 13, 14, 15, 16, 17)
 COLUMN = (2, 8, 14, 20, 26, 32)
-SQUARE = (14, 15, 21, 20)
+LOOP = (14, 15, 21, 27, 26, 20)
 """On the grid, edges along x have a closed loop, edges along y have none."""
 
 
@@ -25,7 +25,7 @@ def test_the_closed_loop_comes_first_then_strip_and_edge() -> None:
     session.hover((14, 15), loop=True)
     assert session.loop_offers == ("CLOSED", "STRIP", "EDGE"), "the strip without stops is the strip"
     assert session.loop_choice == "CLOSED"
-    assert shown(session) == SQUARE
+    assert shown(session) == LOOP
     assert session.intent is Intent.LOOP
 
 
@@ -114,15 +114,21 @@ def test_what_is_chosen_is_kept(keep: str) -> None:
 
 
 def test_a_single_offer_has_no_next() -> None:
-    session = Table(seams=[(14, 15), (20, 21), (2, 3), (8, 9), (26, 27), (32, 33)]).session
+    session = Session(lambda _: FakeLive(2), grid_points(2))
+    session.hover((0, 2), loop=True)
+    assert session.loop_offers == ("STRIP",), "which is the edge alone"
+    assert not session.toggle()
+    assert "Nothing else" in session.message
+    session.hover(None)
+    assert session.loop_offers == ()
+    assert session.loop_choice is None
+
+
+def test_between_two_seams_the_strip_is_the_edge_alone() -> None:
+    session = Table(seams=[(14, 15), (20, 21)]).session
     session.hover((14, 20), loop=True)
-    assert session.loop_offers == ("STRIP", "WHOLE"), "the strip is the edge alone here"
-    lone = Table(islands=()).session
-    lone.hover((14, 20), loop=True)
-    lone.hover(None)
-    assert not lone.toggle()
-    assert lone.loop_offers == ()
-    assert lone.loop_choice is None
+    assert session.loop_offers == ("STRIP", "WHOLE")
+    assert shown(session) == (14, 20)
 
 
 def test_a_kept_loop_takes_its_next_offer_in_place() -> None:
@@ -134,12 +140,12 @@ def test_a_kept_loop_takes_its_next_offer_in_place() -> None:
         assert session.toggle_kept(session.wires[0])
         courses.append(session.wires[0].vertices)
         assert session.wires[0].id == number
-    assert courses == [ROW, (14, 15), SQUARE]
+    assert courses == [ROW, (14, 15), LOOP]
     assert session.undo()
     assert session.wires[0].vertices == (14, 15)
     assert session.undo()
     assert session.undo()
-    assert session.wires[0].vertices == SQUARE
+    assert session.wires[0].vertices == LOOP
     assert session.undo()
     assert session.wires == ()
     assert session.redo()
@@ -151,7 +157,7 @@ def test_over_a_kept_loops_edge_the_cursor_finds_its_offers_and_a_click_replaces
     session = Table().session
     session.loop((14, 15))
     session.hover((14, 15), loop=True)
-    assert shown(session) == SQUARE
+    assert shown(session) == LOOP
     assert session.loop((14, 15)), "the same again, as the second press of a double click"
     assert len(session.wires) == 1
     session.hover((14, 15), loop=True)
@@ -203,7 +209,7 @@ def test_while_the_loop_is_computed_nothing_is_offered_yet() -> None:
     assert not session.toggle()
     assert "no loop yet" in session.message
     table.compute()
-    assert shown(session) == SQUARE
+    assert shown(session) == LOOP
 
 
 def test_a_strips_ends_are_seeds_that_can_be_moved_and_gone_on_from() -> None:

@@ -177,7 +177,7 @@ def test_a_loop_is_kept_beside_the_chain() -> None:
     session.click(0)
     assert session.loop((14, 15))
     assert session.wires[0].closed
-    assert session.wires[0].edges() == [(14, 15), (15, 21), (20, 21), (14, 20)]
+    assert session.wires[0].edges() == [(14, 15), (15, 21), (21, 27), (26, 27), (20, 26), (14, 20)]
     assert session.seed == 0
     assert session.seeds() == [0]
     assert (session.wires[0].points[0] == session.wires[0].points[-1]).all()
