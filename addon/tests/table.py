@@ -48,3 +48,15 @@ class Table:
 def chain(*vertices: int) -> list[tuple[int, int]]:
     """Return the edges along vertices, sorted, smaller vertex first."""
     return sorted((min(a, b), max(a, b)) for a, b in itertools.pairwise(vertices))
+
+
+def corner(**options: object) -> Table:
+    """A chain 0 - 3 - 21, from the left along the bottom and up."""
+    table = Table(**options)
+    for pick in (0, 3, 21):
+        table.session.click(pick)
+    return table
+
+
+def courses(session: Session) -> list[tuple[int, ...]]:
+    return [wire.vertices for wire in session.wires]
