@@ -21,6 +21,7 @@ import addon_utils
 import bpy
 import greenlet
 import numpy as np
+import show
 import ui as driver
 from mathutils import Euler, Vector
 from numpy.typing import NDArray
@@ -321,6 +322,14 @@ def guide(film: Film) -> None:
     film.click()
     film.go(film.vertex(0.80, -0.40, 0.40))
     film.picture("wires")
+    film.picture("stroke-before")
+    start_of, end_of = film.vertex(0.0, -0.6, 0.80), film.at
+    over = film.vertex(0.42, -0.25, 0.95)
+    draw_stroke(film, [bend(start_of, over, end_of, part) for part in np.linspace(0.06, 0.94, 24)])
+    film.go(end_of)
+    film.picture("stroke-after")
+    film.key("BACK_SPACE")
+    film.go(end_of)
     film.click()
     film.go(film.vertex(0.55, -0.40, -0.30))
     film.click()
@@ -347,6 +356,78 @@ def guide(film: Film) -> None:
     film.key("H")
     film.picture("keys")
     film.key("H")
+    film.key("RET")
+    unwrap(film)
+    film.picture("unwrapped")
+
+
+def bend(
+    one: tuple[float, float], over: tuple[float, float], two: tuple[float, float], part: float
+) -> tuple[float, float]:
+    """Return a place on an arc that is drawn towards a point between its ends."""
+    a, b, c = map(np.array, (one, over, two))
+    x, y = (1.0 - part) ** 2 * a + 2.0 * part * (1.0 - part) * b + part**2 * c
+    return float(x), float(y)
+
+
+def draw_stroke(film: Film, places: list[tuple[float, float]]) -> None:
+    """Draw a stroke that wires are to follow, and take its picture before the button is let go."""
+    film.go(places[0])
+    film.ui.event("LEFTMOUSE", "PRESS", film.at, shift=True)
+    for place in places[1:]:
+        film.go(place, 1, shift=True)
+    film.picture("stroke")
+    film.ui.event("LEFTMOUSE", "RELEASE", film.at, shift=True)
+    film.settle()
+
+
+def looks(film: Film) -> None:
+    """Take all that the overlay draws in Blender's themes, shadings and display scales, to be looked at."""
+    film.filming = False
+    stage(film)
+    film.at = film.vertex(0.0, -0.6, 0.80)
+    start(film)
+    for one, two, held in (
+        ((-0.05, -0.9, 0.05), (0.5, -0.7, 0.62), {"shift": True}),
+        ((0.1, -0.9, 0.15), (0.45, -0.6, 0.8), {"shift": True, "ctrl": True}),
+    ):
+        film.go(film.vertex(*one))
+        film.ui.event("LEFTMOUSE", "PRESS", film.at, **held)
+        film.go(film.vertex(*two), 10, **held)
+        film.ui.event("LEFTMOUSE", "RELEASE", film.at, **held)
+    film.go(film.vertex(0.0, -0.6, 0.80))
+    film.click()
+    film.go(film.vertex(0.80, -0.40, 0.40))
+    film.click()
+    film.go(film.vertex(0.55, -0.40, -0.30))
+    film.click()
+    film.click("RIGHTMOUSE")
+    film.key("M")
+    film.go(film.edge(EYE), alt=True)
+    film.click(alt=True)
+    film.key("X")
+    film.go(film.edge(EAR), alt=True)
+    film.click(alt=True)
+    film.key("X")
+    film.go(film.vertex(0.55, -0.40, -0.30))
+    film.click()
+    film.go(film.vertex(0.0, -0.75, -0.08))
+    for theme in ("DARK", "LIGHT"):
+        show.theme(theme)
+        for shading in show.SHADINGS:
+            show.shading(film.ui, shading)
+            film.ui.wait(4, redraw=True)
+            write_png(film.folder / f"looks-{theme}-{shading}.png".lower(), film.shot())
+        show.shading(film.ui, "SOLID")
+    show.theme("DARK")
+    bpy.context.preferences.view.ui_scale = 2.0
+    film.ui.wait(8, redraw=True)
+    write_png(film.folder / "looks-scale-2.png", film.shot())
+    bpy.context.preferences.view.ui_scale = 1.0
+    film.click("RIGHTMOUSE")
+    film.go(film.edge(EYE), alt=True)
+    write_png(film.folder / "looks-loop.png", film.shot())
+    film.key("ESC")
     film.key("ESC")
     film.key("ESC")
 
@@ -383,4 +464,4 @@ def run(what: Callable[[Film], None], folder: Path) -> None:
 
 addon_utils.enable("seamwire", default_set=True)
 kind, target = sys.argv[sys.argv.index("--") + 1 :]
-run({"animation": play, "guide": guide}[kind], Path(target))
+run({"animation": play, "guide": guide, "looks": looks}[kind], Path(target))

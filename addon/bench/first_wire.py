@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Time from the tool's start to its first wire, in Blender: ``scripts/bench-blender MESH...`` runs this.
 
+A mesh is a file, or ``suzanne+N``: Blender's monkey subdivided N times.
+
 One line a mesh and a way of running: what the tool does before its first wire, step by step, in milliseconds (medians), and their sum.
 The steps are those of the tool in the viewport, but for the overlay and Blender's own redraw.
 """
@@ -15,6 +17,8 @@ import bpy
 import numpy as np
 
 REPEATS = 5
+LARGE = 300_000
+"""Faces from which on two rounds have to do."""
 IMPORTERS = {
     ".obj": lambda path: bpy.ops.wm.obj_import(filepath=path),
     ".ply": lambda path: bpy.ops.import_mesh.ply(filepath=path),
@@ -60,18 +64,31 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, float]:
     return steps
 
 
+def load(name: str) -> bpy.types.Object:
+    """Add what is named to the scene."""
+    if not name.startswith("suzanne+"):
+        IMPORTERS[Path(name).suffix.lower()](name)
+        return bpy.context.selected_objects[0]
+    bpy.ops.mesh.primitive_monkey_add()
+    obj = bpy.context.active_object
+    modifier = obj.modifiers.new("Subdivision", "SUBSURF")
+    modifier.levels = modifier.render_levels = int(name.split("+")[1])
+    bpy.ops.object.modifier_apply(modifier=modifier.name)
+    return obj
+
+
 def main() -> None:
     """Measure every mesh named on the command line."""
     addon_utils.enable("seamwire", default_set=True)
     for name in sys.argv[sys.argv.index("--") + 1 :]:
         bpy.ops.wm.read_factory_settings(use_empty=True)
         addon_utils.enable("seamwire", default_set=True)
-        IMPORTERS[Path(name).suffix.lower()](name)
-        obj = bpy.context.selected_objects[0]
+        obj = load(name)
         bpy.context.view_layer.objects.active = obj
         bpy.ops.object.mode_set(mode="EDIT")
         for along in ("EDGES", "SURFACE"):
-            runs = [first_wire(obj, along) for _ in range(REPEATS)]
+            repeats = REPEATS if len(obj.data.polygons) < LARGE else 2
+            runs = [first_wire(obj, along) for _ in range(repeats)]
             steps = {step: statistics.median(run[step] for run in runs) for step in runs[0]}
             total = statistics.median(sum(run.values()) for run in runs)
             parts = "  ".join(f"{step} {took:.1f}" for step, took in steps.items())

@@ -19,6 +19,9 @@ _METRICS = {
 }
 
 
+_OFFERS = {"CLOSED": "Closed loop", "STRIP": "Strip up to seams", "WHOLE": "Whole strip", "EDGE": "This edge alone"}
+
+
 def lines(session: Session, segments: int | None, xray: bool = False, features: bool = False) -> list[str]:
     """Return what is to be read, top line first.
 
@@ -32,6 +35,10 @@ def lines(session: Session, segments: int | None, xray: bool = False, features: 
         Whether picking goes through the mesh, and whether seeds snap to features.
     """
     found = []
+    if session.loop_choice is not None:
+        offers = session.loop_offers
+        which = f" ({offers.index(session.loop_choice) + 1} of {len(offers)})" if len(offers) > 1 else ""
+        found.append(_OFFERS[session.loop_choice] + which)
     if segments is not None:
         found.append(f"{segments} segment" + ("s" if segments != 1 else ""))
     way = "Along edges" if session.along == "EDGES" else "Across the surface"

@@ -18,6 +18,8 @@ Colour = tuple[float, float, float, float]
 
 HALO: Colour = (0.02, 0.02, 0.03, 0.75)
 """The dark rim around lines and dots: what keeps them apart from bright meshes and from each other."""
+_BRIGHTNESS = 0.5
+"""Of the segments' colours."""
 HUES = 12
 """How many colours segments are told apart by."""
 
@@ -42,6 +44,8 @@ class Style:
         Length of a dash and of the gap after it; 0: a plain line.
     ring
         A ring of this width and colour around a dot, inside the rim.
+    soft
+        Drawn as a band that fades towards its sides.
     """
 
     colour: Colour
@@ -51,6 +55,7 @@ class Style:
     lift: float = 4.0
     dash: float = 0.0
     ring: tuple[float, Colour] | None = None
+    soft: bool = False
 
 
 @dataclass(frozen=True)
@@ -85,6 +90,10 @@ class Looks:
     dot_on_wire: Style
     dot_on_seam: Style
     dot_on_feature: Style
+    attracting: Style
+    """The band of a stroke that wires follow."""
+    repelling: Style
+    """The band of one that they keep from: in cross bars, not in its colour alone."""
     tint: float
     """Opacity of segments."""
     text: bool
@@ -113,14 +122,15 @@ class Looks:
         else:
             kept = wish("kept_colour", seam)
         active = wish("active_colour", (1.0, 0.72, 0.05, 1.0))
-        other = wish("other_colour", (0.5, 0.8, 1.0, 0.75))
+        other = wish("other_colour", (0.45, 0.8, 1.0, 0.9))
         loop = wish("loop_colour", (0.3, 1.0, 0.55, 1.0))
         clear = wish("clear_colour", (0.82, 0.86, 0.95, 1.0))
         white = wish("seed_colour", (1.0, 1.0, 1.0, 1.0))
+        attracts, repels = (0.15, 0.95, 0.75, 1.0), (1.0, 0.3, 0.75, 1.0)
         looks = cls(
             active=Style(active, 4.0, halo=2.5, lift=6.0),
             computing=Style(faint(active, 0.45), 4.0, halo=1.5, hidden=0.15, lift=6.0),
-            other=Style(other, 2.0, halo=1.5, hidden=0.15),
+            other=Style(other, 2.0, halo=2.0, hidden=0.15, lift=5.0),
             kept=Style(kept, 3.5, halo=2.0),
             marked=Style(faint(kept, 0.9), 2.5, halo=1.0, hidden=0.15, lift=3.0),
             will_mark=Style(faint(mixed(kept, active, 0.25), 0.9), 2.5, halo=1.0, hidden=0.15, lift=3.0),
@@ -139,6 +149,8 @@ class Looks:
             dot_on_wire=Style(white, 7.0, halo=3.0, lift=11.0, ring=(5.0, kept)),
             dot_on_seam=Style(white, 7.0, halo=3.0, lift=11.0, ring=(5.0, seam)),
             dot_on_feature=Style(white, 5.0, halo=3.0, lift=11.0, ring=(6.0, other)),
+            attracting=Style(faint(attracts, 0.4), 16.0, hidden=0.2, lift=8.0, soft=True),
+            repelling=Style(faint(repels, 0.5), 16.0, hidden=0.2, lift=8.0, dash=5.0, soft=True),
             tint=float(getattr(preferences, "tint", 0.22)),
             text=bool(getattr(preferences, "show_text", True)),
         )
@@ -183,4 +195,13 @@ def hue_colours(opacity: float) -> list[Colour]:
     """
     hues = np.linspace(0.24, 0.88, HUES)
     # 5 of 12 steps on: coprime, so each hue comes once.
-    return [(*colorsys.hsv_to_rgb(hues[(7 + 5 * i) % HUES], 0.8, 1.0), opacity) for i in range(HUES)]
+    return [(*_light(float(hues[(4 + 5 * i) % HUES])), opacity) for i in range(HUES)]
+
+
+def _light(hue: float) -> tuple[float, float, float]:
+    """Return a hue as bright as the others: blue in full would make a mesh dark, and its edges coloured."""
+    rgb = np.array(colorsys.hsv_to_rgb(hue, 0.85, 1.0))
+    brightness = float(rgb @ (0.2126, 0.7152, 0.0722))
+    white = max(0.0, (_BRIGHTNESS - brightness) / (1.0 - brightness))
+    red, green, blue = (rgb + white * (1.0 - rgb)) * min(1.0, _BRIGHTNESS / brightness)
+    return float(red), float(green), float(blue)

@@ -12,7 +12,7 @@ from mathutils import Matrix
 from . import help as keys
 from . import hud
 from .looks import Looks, Style, hue_colours
-from .paint import Eye, Faces, Lines, blended, draw_dots
+from .paint import Eye, Faces, Lines, blended, draw_dots, sees_through, unseen
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -90,6 +90,8 @@ class Overlay:
         Whether seeds snap to features: said in the text.
     front
         Whether this object is the one under the cursor: its session is the one that the text tells of.
+    stroke
+        The stroke that is being drawn: its points, (k, 3), as the session has them, and whether wires are to follow it.
     help_rows
         Keys and what they do, while the table of keys is to be seen.
     """
@@ -117,12 +119,14 @@ class Overlay:
         self._looks = self._current_looks()
         self._kept: tuple[object, _Sheet] = (None, _Sheet(points))
         self._live: tuple[object, _Sheet] = (None, _Sheet(points))
+        self._bands: tuple[object, _Sheet] = (None, _Sheet(points))
         self._faces: Faces | None = None
         self._tinted: object = None
         self._asked: object = None
         self.xray = False
         self.features = False
         self.front = True
+        self.stroke: tuple[NDArray[np.float64], bool] | None = None
         self.help_rows: Sequence[keys.Row] | None = None
         self.error: Exception | None = None
         add = bpy.types.SpaceView3D.draw_handler_add
@@ -182,17 +186,17 @@ class Overlay:
         looks = self._current_looks()
         if looks != self._looks:
             self._looks = looks
-            self._kept = self._live = (None, self._live[1])
-        kept, live = self._kept_sheet(), self._live_sheet()
+            self._kept = self._live = self._bands = (None, self._live[1])
+        sheets = self._bands_sheet(), self._kept_sheet(), self._live_sheet()
         eye = Eye(bpy.context.region_data, self._obj.matrix_world @ self._to_object)
         self._draw_tint(eye)
         passes = [("NONE", False)] if self.xray else [("GREATER", True), ("LESS_EQUAL", False)]
         for test, hidden in passes:
             with blended(test):
-                for sheet in (kept, live):
+                for sheet in sheets:
                     for lines in sheet.lines:
                         lines.draw(eye, lines.style.hidden if hidden else 1.0, rim=not hidden)
-                for sheet in (kept, live):
+                for sheet in sheets:
                     for style, places in sheet.dots:
                         draw_dots(style, places, eye, style.hidden if hidden else 1.0, rim=not hidden)
 
@@ -208,6 +212,10 @@ class Overlay:
             for hue, triangles in found.pieces if found.cut else ():
                 self._faces.add(hue, triangles)
             self._tinted = found.key
+        if sees_through(bpy.context.space_data):
+            # Else all layers of the mesh would be tinted, one over the other, and no wire would be seen to be hidden.
+            with unseen():
+                self._faces.draw(eye, hue_colours(1.0), 0.0)
         with blended("LESS_EQUAL"):
             self._faces.draw(eye, hue_colours(self._looks.tint), TINT_LIFT)
 
@@ -229,6 +237,22 @@ class Overlay:
                 keys.draw(self.help_rows, (left, bottom, width, height), scale)
 
     # What there is to draw
+
+    def _bands_sheet(self) -> _Sheet:
+        """Return the strokes, the one that is being drawn among them."""
+        strokes = [(stroke.points, stroke.attracts) for stroke in self._session.scribbles]
+        if self.stroke is not None:
+            strokes.append(self.stroke)
+        # The points themselves are held: their numbers alone could come again.
+        key = [(id(points), len(points), attracts) for points, attracts in strokes]
+        if self._bands[0] is not None and self._bands[0][0] == key:
+            return self._bands[1]
+        sheet = _Sheet(self._points)
+        for points, attracts in strokes:
+            sheet.curve(self._looks.attracting if attracts else self._looks.repelling, points)
+        sheet.finish()
+        self._bands = ((key, [points for points, _ in strokes]), sheet)
+        return sheet
 
     def _kept_sheet(self) -> _Sheet:
         """Return the kept wires: many, and seldom changed."""

@@ -20,8 +20,33 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+_SOFT = ((1.0, 0.3), (0.75, 0.35), (0.5, 0.45))
+"""Widths and opacities that together make a band fade towards its sides."""
 _DISC = np.linspace(0.0, 2.0 * np.pi, 25)
 _FONT = 0
+
+
+def sees_through(space: bpy.types.SpaceView3D) -> bool:
+    """Whether a 3D view shows what lies behind faces, so that Blender leaves no depth of them."""
+    shading = space.shading
+    if shading.type == "WIREFRAME":
+        return shading.show_xray_wireframe
+    return shading.type == "SOLID" and shading.show_xray
+
+
+@contextmanager
+def unseen() -> Iterator[None]:
+    """Draw nothing but depth."""
+    before = gpu.state.depth_test_get(), gpu.state.depth_mask_get()
+    gpu.state.depth_test_set("LESS_EQUAL")
+    gpu.state.depth_mask_set(True)
+    gpu.state.color_mask_set(False, False, False, False)
+    try:
+        yield
+    finally:
+        gpu.state.color_mask_set(True, True, True, True)
+        gpu.state.depth_mask_set(before[1])
+        gpu.state.depth_test_set(before[0])
 
 
 @contextmanager
@@ -104,6 +129,8 @@ class Lines:
         self._ends = ends
         self._shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
         self._seen_from = b""
+        # Light dashes are seen on a light surface by the dark gaps between them.
+        self._ground = self._make(ends) if style.dash and style.halo else None
         self._batch = None if style.dash else self._make(ends)
 
     def _make(self, ends: NDArray[np.float64]) -> gpu.types.GPUBatch:
@@ -119,6 +146,10 @@ class Lines:
             gpu.matrix.load_matrix(eye.lifted(style.lift))
             self._shader.bind()
             self._shader.uniform_float("viewportSize", eye.size)
+            if self._ground is not None and rim:
+                self._shader.uniform_float("lineWidth", (style.width + style.halo) * eye.scale)
+                self._shader.uniform_float("color", (*HALO[:3], HALO[3] * opacity))
+                self._ground.draw(self._shader)
             for colour, width in layers(style, opacity, rim):
                 self._shader.uniform_float("lineWidth", width * eye.scale)
                 self._shader.uniform_float("color", colour)
@@ -128,6 +159,8 @@ class Lines:
 def layers(style: Style, opacity: float, rim: bool) -> list[tuple[Colour, float]]:
     """Return colours and widths to draw one over the other: a dark rim, a ring, the line or the dot itself."""
     *rgb, alpha = style.colour
+    if style.soft:
+        return [((*rgb, alpha * opacity * share), style.width * part) for part, share in _SOFT]
     found = []
     outside = style.width + (2.0 * style.ring[0] if style.ring else 0.0)
     if rim and style.halo:

@@ -36,7 +36,7 @@ class SeamwirePreferences(bpy.types.AddonPreferences):
         name="Colours of the Theme", description="Draw kept wires in the theme's colour of seams", default=True
     )
     active_colour: _colour("Live Wire", "The wire that a click keeps", (1.0, 0.72, 0.05, 1.0))
-    other_colour: _colour("Other Wire", "The wire that toggling brings forward", (0.5, 0.8, 1.0, 0.75))
+    other_colour: _colour("Other Wire", "The wire that toggling brings forward", (0.45, 0.8, 1.0, 0.9))
     kept_colour: _colour("Kept Wires", "Wires whose edges become seams", (1.0, 0.2, 0.1, 1.0))
     clear_colour: _colour("Cleared Seams", "Wires whose edges cease to be seams", (0.82, 0.86, 0.95, 1.0))
     loop_colour: _colour("Loop", "The loop that a click takes", (0.3, 1.0, 0.55, 1.0))

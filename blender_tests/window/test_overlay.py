@@ -9,15 +9,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import pairwise
-from pathlib import Path
 
 import bmesh
 import bpy
 import numpy as np
 import pytest
+import show
 import ui as driver
 from numpy.typing import NDArray
-from scene import add_grid, edit
+from scene import add_grid, add_object, edit
 from seamwire import edit_mesh
 from seamwire.looks import Looks, Style
 from seamwire.network import Edge, Pick, Snap, Wire
@@ -26,6 +26,14 @@ from seamwire.segments import SegmentMaker
 
 SIDE = 9
 HUES = {"red": (0, 30), "orange": (35, 60), "green": (110, 170), "blue": (190, 225)}
+
+
+@dataclass
+class Drawn:
+    """A stroke as the session keeps it."""
+
+    points: NDArray[np.float64]
+    attracts: bool = True
 
 
 @dataclass
@@ -52,6 +60,9 @@ class Said:
     marking: bool = True
     preliminary: bool = False
     mirror_axes: tuple[int, ...] = ()
+    scribbles: tuple[Drawn, ...] = ()
+    loop_offers: tuple[str, ...] = ()
+    loop_choice: str | None = None
     revision: int = 0
     network_revision: int = 0
 
@@ -78,9 +89,9 @@ class Said:
 class Sight:
     """A grid seen from above with an overlay on it. Vertex y * 9 + x is column x of row y."""
 
-    def __init__(self, ui: driver.Ui) -> None:
+    def __init__(self, ui: driver.Ui, obj: bpy.types.Object | None = None) -> None:
         self.ui = ui
-        self.obj = add_grid(SIDE)
+        self.obj = add_grid(SIDE) if obj is None else obj
         ui.wait()
         with ui.override():
             edit()
@@ -161,38 +172,11 @@ def profile(pixels: NDArray[np.float32], one: tuple[float, float], two: tuple[fl
     return pixels[places[:, 1], places[:, 0], :3]
 
 
-def shading(ui: driver.Ui, name: str) -> None:
-    """Show the viewport in one of its ways."""
-    space = ui.space
-    space.overlay.show_face_orientation = name == "FACE_ORIENTATION"
-    space.shading.show_xray = name == "XRAY"
-    space.shading.type = {"WIREFRAME": "WIREFRAME", "MATERIAL": "MATERIAL"}.get(name, "SOLID")
-    if name == "MATCAP":
-        space.shading.light = "MATCAP"
-        space.shading.studio_light = "basic_1.exr"
-    elif space.shading.type == "SOLID":
-        space.shading.light = "STUDIO"
-    if space.shading.type == "SOLID":
-        space.shading.color_type = "SINGLE"
-        space.shading.single_color = (1.0, 1.0, 1.0) if name in {"WHITE", "MATCAP"} else (0.8, 0.8, 0.8)
-
-
-def theme(name: str) -> None:
-    bpy.ops.preferences.reset_default_theme()
-    if name == "LIGHT":
-        folders = map(Path, bpy.utils.preset_paths("interface_theme"))
-        found = [file for folder in folders for file in folder.glob("*ight.xml")]
-        bpy.ops.script.execute_preset(filepath=str(found[0]), menu_idname="USERPREF_MT_interface_theme_presets")
-
-
-SHADINGS = ("SOLID", "WHITE", "MATCAP", "FACE_ORIENTATION", "WIREFRAME", "XRAY", "MATERIAL")
-
-
 @pytest.mark.parametrize("colours", ["DARK", "LIGHT"])
-@pytest.mark.parametrize("name", SHADINGS)
+@pytest.mark.parametrize("name", show.SHADINGS)
 def test_the_active_wire_stands_out_from_the_other_and_from_the_mesh(sight: Sight, name: str, colours: str) -> None:
-    theme(colours)
-    shading(sight.ui, name)
+    show.theme(colours)
+    show.shading(sight.ui, name)
     try:
         empty = sight.pixels()
         seen = sight.pixels(active=sight.wire(*range(36, 45)), other=sight.wire(36, 45, 54, 63, 64, 65, 66))
@@ -207,8 +191,8 @@ def test_the_active_wire_stands_out_from_the_other_and_from_the_mesh(sight: Sigh
         thin = np.count_nonzero(np.abs(profile(seen - empty, *crossing(sight, 64, 65))).max(axis=1) > 0.1)
         assert wide >= thin + 2, "the active one is wider too, for those who see no colours"
     finally:
-        shading(sight.ui, "SOLID")
-        theme("DARK")
+        show.shading(sight.ui, "SOLID")
+        show.theme("DARK")
 
 
 def crossing(sight: Sight, one: int, two: int) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -406,6 +390,87 @@ def test_what_a_click_would_take_is_lit_in_its_own_way(sight: Sight) -> None:
     assert has(sight.pixels(target=Snap(40, "FEATURE")), at, "blue", chroma=0.25, radius=8)
     assert bright(sight.pixels(target=Snap((40, 41))), sight.at(40, 41), 4) > 8
     assert bright(sight.pixels(target=None), at, 7) == 0
+
+
+def stroke_over(sight: Sight) -> NDArray[np.float64]:
+    """Return a stroke along the row of vertices 36 to 44, a little above it."""
+    points = sight.arrays.points
+    return np.linspace(points[36], points[44], 60) + np.array((0.0, 0.0, 0.001))
+
+
+def test_strokes_are_soft_bands_and_those_that_repel_are_barred(sight: Sight) -> None:
+    line = stroke_over(sight)
+    ends = sight.at(37), sight.at(43)
+    empty = sight.pixels()
+
+    def changed(seen: NDArray[np.float32]) -> NDArray[np.bool_]:
+        return np.abs(profile(seen - empty, *ends)).max(axis=1) > 0.04
+
+    attracting = sight.pixels(scribbles=(Drawn(line),))
+    assert changed(attracting).mean() > 0.95, "one band"
+    across = np.abs(profile(attracting - empty, *crossing(sight, 39, 40))).max(axis=1)
+    assert np.count_nonzero(across > 0.04) >= 10, "wide"
+    middle, side = across[len(across) // 2], across[len(across) // 2 - 6]
+    assert 0.0 < side < 0.8 * middle, "fading towards its sides"
+    repelling = sight.pixels(scribbles=(Drawn(line, attracts=False),))
+    bars = changed(repelling)
+    assert np.count_nonzero(bars[:-1] & ~bars[1:]) >= 8, "told apart without colours"
+    (angle, _), (other, _) = (
+        hue_and_strength(profile(seen - empty + 0.3, *ends).max(axis=0)[None]) for seen in (attracting, repelling)
+    )
+    assert abs(float(angle[0]) - float(other[0])) > 60.0, "and by them"
+    gone = sight.pixels(scribbles=())
+    assert not changed(gone).any()
+
+
+def test_a_stroke_is_seen_while_it_is_drawn_and_lies_under_the_wires(sight: Sight) -> None:
+    at = sight.at(38, 39)
+    empty = sight.pixels()
+    sight.overlay.stroke = (stroke_over(sight), True)
+    drawn = sight.pixels()
+    assert np.abs(around(drawn, at, 1) - around(empty, at, 1)).max() > 0.08
+    sight.overlay.stroke = None
+    assert np.abs(around(sight.pixels(), at, 1) - around(empty, at, 1)).max() < 0.02
+    over = sight.pixels(scribbles=(Drawn(stroke_over(sight)),), active=sight.wire(*range(36, 45)))
+    assert has(over, at, "orange"), "the wire is on top"
+
+
+def test_the_text_names_what_a_click_on_the_edge_would_take(sight: Sight) -> None:
+    loop = sight.wire(30, 31, 32, 41, 50, 49, 48, 39)
+    offers = ("CLOSED", "STRIP", "EDGE")
+    seen = [
+        text_pixels(sight.pixels(loop_preview=loop, loop_offers=offers, loop_choice=choice))
+        for choice in (*offers, None)
+    ]
+    for one, two in pairwise(seen):
+        assert (one != two).sum() > 5
+
+
+@pytest.mark.parametrize("name", ["WIREFRAME", "XRAY"])
+def test_where_blender_shows_all_layers_the_nearest_is_tinted_and_hidden_wires_are_faint(
+    ui: driver.Ui, name: str
+) -> None:
+    lower = [(x / 4.0 - 1.0, y / 4.0 - 1.0, 0.0) for y in range(SIDE) for x in range(SIDE)]
+    quads = [(i, i + 1, i + SIDE + 1, i + SIDE) for i in range(SIDE * (SIDE - 1)) if i % SIDE < SIDE - 1]
+    upper = [(-1.2, 0.0, 0.5), (1.2, 0.0, 0.5), (1.2, 1.2, 0.5), (-1.2, 1.2, 0.5)]
+    count = len(lower)
+    sight = Sight(ui, add_object(lower + upper, [*quads, (count, count + 1, count + 2, count + 3)]))
+    sight.overlay.remove()
+    triangles = sight.arrays.triangles
+    maker = SegmentMaker(triangles, lambda cuts: (triangles >= count).any(axis=1).astype(np.int32))
+    sight.overlay = sight.make(triangles=triangles, segments=maker)
+    try:
+        show.shading(ui, name)
+        plain = sight.pixels()
+        seen = sight.pixels(wires=(sight.wire(*range(18, 27)), sight.wire(*range(54, 63))))
+        assert amount(seen, sight.at(58, 59), "red", 0.3, 2) < amount(seen, sight.at(22, 23), "red", 0.3, 2) / 2
+        beside = ui.on_screen((1.1, 0.6, 0.5))  # where the upper layer alone is
+        one, two = (around(seen - plain, at, 2).mean(axis=(0, 1)) for at in (beside, sight.at(64, 74)))
+        assert np.abs(one).max() > 0.03
+        assert np.abs(two - one).max() < 0.06, "one layer of tint where there are two faces"
+    finally:
+        show.shading(ui, "SOLID")
+        sight.remove()
 
 
 def halves(triangles: NDArray[np.int32], cuts: NDArray[np.int32]) -> NDArray[np.int32]:
