@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from . import edit_mesh, native, overlay, picking, preferences, segments, session, storage
+from . import edit_mesh, native, overlay, picking, preferences, segments, session, storage, strokes
 from .eventual import EventualLive, Eventually
 from .looks import HUES
 from .ui import count
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from .live import LiveWire
     from .network import Along, Edge, Snap, Wire
+    from .scribbles import Scribble
     from .tool import SeamwireSettings
 
 KEY = "seamwire"
@@ -95,6 +96,7 @@ class Board:
         self.obj = obj
         self.cage = edit_mesh.Cage(obj)
         arrays = edit_mesh.read(obj)
+        self._arrays = arrays
         self._points = arrays.points
         self._edges = arrays.edges
         self._settings = settings
@@ -111,6 +113,7 @@ class Board:
             triangles=arrays.triangles,
         )
         self.session.set_metric(settings.metric)
+        self.session.set_clamp(settings.clamp)
         self._mesh_mirror: tuple[int, ...] = ()
         self.follow_mirror()
         self._picker = picking.Picker(self.cage.bm, arrays, arrays.seams)
@@ -158,7 +161,7 @@ class Board:
     @property
     def changes(self) -> bool:
         """Whether finishing would change anything."""
-        return bool(self.session.wires) or bool(self._resumed)
+        return bool(self.session.wires or self.session.scribbles or self._resumed)
 
     def intact(self) -> bool:
         """Whether object and mesh are still there and being edited, with the same vertices, edges and faces."""
@@ -186,6 +189,7 @@ class Board:
         drawing = self.session
         drawing.switch(settings.along)
         drawing.set_metric(settings.metric)
+        drawing.set_clamp(settings.clamp)
         drawing.set_strength("EDGES", settings.strength_edges)
         drawing.set_strength("SURFACE", settings.strength_surface)
 
@@ -224,6 +228,28 @@ class Board:
         """Return how far from the viewer the object is under the cursor; None where it is not."""
         return self._picker.depth(view, self.obj.matrix_world, cursor)
 
+    def surface_at(self, view: picking.View, cursor: tuple[float, float]) -> tuple[NDArray[np.float64], int] | None:
+        """Return the place on the mesh that is seen at a pixel, in the session's coordinates, and its triangle."""
+        return self._picker.surface_at(view, self.obj.matrix_world, cursor)
+
+    @property
+    def stroke_radius(self) -> float | None:
+        """How far strokes reach; None: as many rings as the library takes."""
+        return self._settings.stroke_radius or None
+
+    def stroke_at(self, view: picking.View, cursor: tuple[float, float]) -> Scribble | None:
+        """Return the stroke under the cursor."""
+        matrix = self.obj.matrix_world
+        return strokes.stroke_at(
+            self.session.scribbles,
+            view,
+            matrix,
+            self._arrays.to_object,
+            cursor,
+            strokes.ERASE_REACH * bpy.context.preferences.system.ui_scale,
+            lambda place: self._settings.xray or self._picker.sees(view, matrix, place),
+        )
+
     def show(self, settings: SeamwireSettings, front: bool, help_rows: Sequence[tuple[str, str]] | None) -> None:
         """Let the overlay follow."""
         self.overlay.xray = settings.xray
@@ -255,7 +281,7 @@ class Board:
         """Keep the network for the next drawing on this mesh; return how many wires that are."""
         wires = self.session.wires
         try:
-            if wires:
+            if wires or self.session.scribbles:
                 _set_aside[self.cage.mesh.name] = storage.dump(replace(self.session.network, seed=None), self._points)
         except ReferenceError:  # the mesh is gone, and the wires with it
             return 0
@@ -278,7 +304,7 @@ class Board:
             seams = set(self.cage.seams())
             kept = [wire for wire in earlier.wires if seams.issuperset(wire.edges())]
             network = replace(network, wires=(*kept, *network.wires))
-        if network.wires:
+        if network.wires or network.scribbles:
             self.cage.mesh[KEY] = storage.dump(network, self._points)
         elif KEY in self.cage.mesh:
             del self.cage.mesh[KEY]

@@ -9,10 +9,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from .network import Edge, Pick
+    from .network import Edge, LoopKind, Pick
     from .session import Session
 
 _TOKEN = re.compile(r"(\d+)(?:-(\d+))?")
+_KINDS = {"CLOSED": "closed loop", "STRIP": "strip", "WHOLE": "whole strip", "EDGE": "single edge"}
 _VERTEX = re.compile(r"\d+")
 
 
@@ -66,16 +67,60 @@ def parse_edges(text: str) -> list[Edge]:
     return edges
 
 
-def draw_loops(session: Session, edges: Iterable[Edge]) -> list[str]:
-    """Take the loops or strips through edges without a hand; return what could not be done, in words."""
+def draw_loops(session: Session, edges: Iterable[Edge], kind: LoopKind | None = None) -> list[str]:
+    """Take the loops or strips through edges without a hand.
+
+    Parameters
+    ----------
+    session
+        That draws along edges.
+    edges
+        The edges, one after the other.
+    kind
+        What is taken; None: what a click offers first.
+
+    Returns
+    -------
+    list of str
+        What could not be done, in words.
+    """
     problems = []
     for edge in edges:
         before = len(session.wires)
+        if kind is not None and not _turn_to(session, edge, kind):
+            problems.append(f"No {_KINDS[kind]} runs through edge {edge[0]}-{edge[1]}")
+            continue
         done = session.loop(edge)
         session.wait()
         if not done or len(session.wires) == before:
             problems.append(session.message or f"The loop through edge {edge[0]}-{edge[1]} is there already")
     return problems
+
+
+def _turn_to(session: Session, edge: Edge, kind: LoopKind) -> bool:
+    """Let a click on an edge take what is asked for; returns whether there is such a thing.
+
+    No two offers are alike: what runs as one before it does is not offered by its own name.
+    """
+    session.hover(edge, loop=True)
+    session.wait()
+    edges: dict[LoopKind, set[Edge]] = {}
+    for _ in session.loop_offers:
+        if session.loop_preview is not None and session.loop_choice is not None:
+            edges[session.loop_choice] = set(session.loop_preview.edges())
+        session.toggle()
+    wanted: LoopKind | None = kind
+    if kind not in edges:
+        closed, strip = edges.get("CLOSED"), edges.get("STRIP")
+        if kind == "EDGE":
+            wanted = next((other for other, found in edges.items() if len(found) == 1), None)
+        elif kind == "CLOSED" or closed is None:
+            wanted = "STRIP" if kind == "WHOLE" and strip is not None else None
+        else:
+            wanted = "CLOSED" if strip is None or strip <= closed else "STRIP"
+    while wanted in edges and session.loop_choice != wanted:
+        session.toggle()
+    return wanted in edges
 
 
 def draw_chains(session: Session, chains: Iterable[Sequence[Pick]]) -> list[str]:

@@ -13,6 +13,7 @@ from . import keymap, lazy, preferences, ui
 from .holds import Hold, SeedHold
 from .keymap import Action
 from .places import Place, place_of
+from .strokes import StrokeHold
 
 if TYPE_CHECKING:
     from . import board as boards
@@ -25,6 +26,7 @@ else:
 _TICK = 0.05
 """Seconds between two looks at running work: redraws stay below what the eye takes for a stop."""
 _CLICKS = frozenset({Action.CLICK, Action.NEW_CHAIN, Action.LOOP})
+_STROKES = frozenset({Action.ATTRACT, Action.REPEL})
 _AXES = "XYZ"
 
 running: list[Drawing] = []
@@ -161,6 +163,10 @@ class Drawing:
         if self._hold is not None and event.type == self._hold.button and event.value == "RELEASE":
             hold, self._hold = self._hold, None
             hold.release()
+            if isinstance(hold, StrokeHold) and hold.missed:
+                self.message = "Drag over the mesh to draw a stroke"
+            if place is not None:
+                self._rehover(place)
             return self._done()
         if place is None:
             if self.keys.is_blender_undo(event):
@@ -169,22 +175,23 @@ class Drawing:
                 self.session.hover(None)
                 self.refresh()
             return {"PASS_THROUGH"}
-        if event.type in {"INBETWEEN_MOUSEMOVE", "WINDOW_DEACTIVATE"} or event.type.startswith("TIMER"):
-            return {"PASS_THROUGH"}
-        if event.type == "MOUSEMOVE" and self._hold is not None:
+        moves = {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"} if isinstance(self._hold, StrokeHold) else {"MOUSEMOVE"}
+        if self._hold is not None and event.type in moves:
             if not self._hold.move(place, inputs.drag_threshold_mouse):
                 self._hold = None
             return self._done()
+        if event.type in {"INBETWEEN_MOUSEMOVE", "WINDOW_DEACTIVATE"} or event.type.startswith("TIMER"):
+            return {"PASS_THROUGH"}
         if event.type == "MOUSEMOVE" or event.type.endswith(("_ALT", "_CTRL", "_SHIFT")):
             self._hover(place, event)
             return {"PASS_THROUGH" if event.type == "MOUSEMOVE" else "RUNNING_MODAL"}
         if keymap.emulates_middle_button(event, inputs):
             return {"PASS_THROUGH"}
         action = self.keys.action_of(event, double)
-        if action is Action.TOGGLE and event.type.startswith("WHEEL") and not self._wheel_toggles(place):
+        if action is Action.TOGGLE and event.type.startswith("WHEEL") and not self._wheel_toggles(place, event):
             action = None
         if action is None:
-            return {"PASS_THROUGH"} if keymap.is_navigation(event) else {"RUNNING_MODAL"}
+            return {"PASS_THROUGH"} if self._is_blenders(event) else {"RUNNING_MODAL"}
         if getattr(event, "is_repeat", False) and action not in {Action.UNDO, Action.REDO}:
             return {"RUNNING_MODAL"}
         return self._act(action, place, event)
@@ -204,6 +211,8 @@ class Drawing:
                 return {"CANCELLED"}
         elif action in _CLICKS:
             self._click(action, place, event)
+        elif action in _STROKES:
+            self._begin_stroke(action, place, event)
         else:
             self._do(action, place)
         return self._done()
@@ -226,8 +235,16 @@ class Drawing:
             return {"FINISHED"}
         return {"PASS_THROUGH"}
 
-    def _wheel_toggles(self, place: Place) -> bool:
-        """Whether the wheel toggles: over the mesh while a wire is live, unless it is always to zoom."""
+    def _is_blenders(self, event: bpy.types.Event) -> bool:
+        """Whether an event that means nothing here is to have the meaning that Blender gives it."""
+        # Alt and the wheel change the frame, but not because the cursor slipped off an edge between two offers.
+        wheel = event.alt and event.type.startswith("WHEEL")
+        return self.session.target is None if wheel else keymap.is_navigation(event)
+
+    def _wheel_toggles(self, place: Place, event: bpy.types.Event) -> bool:
+        """Whether the wheel toggles: over the mesh while a wire is live, unless it is always to zoom, and between loops."""
+        if self.keys.previews_loop(event):
+            return self.session.loop_preview is not None
         own = preferences.get()
         if own is not None and own.always_zoom:
             return False
@@ -258,7 +275,8 @@ class Drawing:
         """Do the click that started the tool."""
         place = place_of(self._window, event)
         if place is not None:
-            self._click(Action.LOOP if first == "LOOP" else Action.CLICK, place, event)
+            action = Action[first]
+            (self._begin_stroke if action in _STROKES else self._click)(action, place, event)
             self._done()
 
     def _click(self, action: Action, place: Place, event: bpy.types.Event) -> None:
@@ -282,6 +300,15 @@ class Drawing:
         else:
             drawing.click(snap)
 
+    def _begin_stroke(self, action: Action, place: Place, event: bpy.types.Event) -> None:
+        board, snap = self._find(place)
+        board = board or self.board
+        if self.session.seed is None and not self.session.waiting_clicks:
+            self._turn_to(board)
+        self._cancel_hold()
+        wire = snap.wire if snap is not None and snap.to == "WIRE" and action is Action.ATTRACT else None
+        self._hold = StrokeHold(event.type, board, place, action is Action.ATTRACT, wire)
+
     def _cancel_hold(self) -> bool:
         hold, self._hold = self._hold, None
         dragged = hold is not None and hold.cancel()
@@ -300,6 +327,8 @@ class Drawing:
                 drawing.toggle()
         elif action is Action.DROP:
             self._drop(place)
+        elif action is Action.ERASE:
+            self._erase(place)
         elif action in {Action.STRONGER, Action.WEAKER}:
             self._change_strength(1 if action is Action.STRONGER else -1)
         elif action in {Action.ZOOM_IN, Action.ZOOM_OUT}:
@@ -339,6 +368,15 @@ class Drawing:
         else:
             self._turn_to(board)
             board.session.drop(wire)
+            self._rehover(place)
+
+    def _erase(self, place: Place) -> None:
+        board = self._find(place)[0] or self.board
+        stroke = board.stroke_at(place.view, place.cursor)
+        if stroke is None:
+            self.message = "Point at a stroke to remove it"
+        else:
+            board.session.erase(stroke)
             self._rehover(place)
 
     def _change_strength(self, steps: int) -> None:

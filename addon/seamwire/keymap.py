@@ -27,8 +27,11 @@ class Action(Enum):
     NEW_CHAIN = "New chain"
     LOOP = "Take the loop"
     DROP = "Drop the wire under the cursor"
+    ATTRACT = "Drag: stroke to follow. On a wire: drop it"
+    REPEL = "Drag: stroke to keep off"
+    ERASE = "Remove the stroke under the cursor"
     END_CHAIN = "End the chain"
-    TOGGLE = "Other wire"
+    TOGGLE = "Other wire, or the next of what a loop click offers"
     STRONGER = "Follow the shape more"
     WEAKER = "Follow the shape less"
     ZOOM_IN = "Zoom in"
@@ -101,13 +104,18 @@ KEYS: tuple[tuple[Action, Key], ...] = (
     (Action.LOOP, Key("LEFTMOUSE", "DOUBLE_CLICK")),
     (Action.LOOP, Key("LEFTMOUSE", alt=1)),
     (Action.NEW_CHAIN, Key("LEFTMOUSE", ctrl=1)),
-    (Action.DROP, Key("LEFTMOUSE", shift=1)),
+    (Action.ATTRACT, Key("LEFTMOUSE", shift=1)),
+    (Action.REPEL, Key("LEFTMOUSE", ctrl=1, shift=1)),
+    (Action.ERASE, Key("D")),
     (Action.DROP, Key("DEL")),
     (Action.CLICK, Key("LEFTMOUSE")),
     (Action.END_CHAIN, Key("RIGHTMOUSE")),
     (Action.TOGGLE, Key("WHEELUPMOUSE")),
     (Action.TOGGLE, Key("WHEELDOWNMOUSE")),
+    (Action.TOGGLE, Key("WHEELUPMOUSE", alt=1)),
+    (Action.TOGGLE, Key("WHEELDOWNMOUSE", alt=1)),
     (Action.TOGGLE, Key("W")),
+    (Action.TOGGLE, Key("W", alt=1)),
     (Action.STRONGER, Key("WHEELUPMOUSE", shift=1)),
     (Action.WEAKER, Key("WHEELDOWNMOUSE", shift=1)),
     (Action.ZOOM_IN, Key("WHEELUPMOUSE", ctrl=1)),

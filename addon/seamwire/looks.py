@@ -117,7 +117,8 @@ class Looks:
 
         seam = (1.0, 0.2, 0.1, 1.0)
         if theme is not None and getattr(preferences, "theme_colours", True):
-            seam = vivid(tuple(theme.edge_seam))
+            # Blender 5 has shortened the name.
+            seam = vivid(tuple(theme.seam if hasattr(theme, "seam") else theme.edge_seam))
             kept = seam
         else:
             kept = wish("kept_colour", seam)

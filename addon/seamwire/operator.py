@@ -54,6 +54,23 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
         name="Loops",
         description="Edges, each as two vertex numbers with a hyphen: the closed loop through each of them is taken",
     )
+    take: bpy.props.EnumProperty(
+        name="Take",
+        description="What is taken through the edges given as loops",
+        items=(
+            ("FIRST", "First Offered", "The closed loop where there is one, else the strip"),
+            ("CLOSED", "Closed Loop", "The closed chain of edges that is shortest for its shape"),
+            ("STRIP", "Strip", "Straight on both ways, up to seams, other wires and the mirror"),
+            ("WHOLE", "Whole Strip", "Straight on both ways, across seams and wires"),
+            ("EDGE", "Edge", "The edge alone"),
+        ),
+        default="FIRST",
+    )
+    strokes: bpy.props.StringProperty(
+        name="Strokes",
+        description="Strokes that wires are to follow: vertex numbers along each; semicolons between strokes; a tilde"
+        " before one that they are to keep off",
+    )
     along: bpy.props.EnumProperty(name="Along", description="Where wires run", items=ALONG_ITEMS, default="EDGES")
     clear: bpy.props.BoolProperty(
         name="Clear", description="Let the edges cease to be seams instead of marking them", default=False
@@ -85,9 +102,14 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
         """Draw the chains and loops, and mark or clear what they run along."""
         try:
             cage = edit_mesh.Cage(context.active_object)
-            seeds, loops = self._read(cage)
+            seeds, loops, strokes = self._read(cage)
             drawing = self._session(context)
-            problems = [*chains.draw_chains(drawing, seeds), *chains.draw_loops(drawing, loops)]
+            take = None if self.take == "FIRST" else self.take
+            problems = [
+                *chains.draw_scribbles(drawing, strokes),
+                *chains.draw_chains(drawing, seeds),
+                *chains.draw_loops(drawing, loops, take),
+            ]
         except (ValueError, native.NativeError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -103,16 +125,18 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
         self.report({"INFO"}, _summary(len(drawing.wires), new, old, len(mark) + len(clear)))
         return {"FINISHED"}
 
-    def _read(self, cage: edit_mesh.Cage) -> tuple[list[list[Pick]], list[Edge]]:
-        """Return chains and loops; raises ValueError where they cannot be drawn."""
+    def _read(self, cage: edit_mesh.Cage) -> tuple[list[list[Pick]], list[Edge], list[chains.Stroke]]:
+        """Return chains, loops and strokes; raises ValueError where they cannot be drawn."""
         loops = chains.parse_edges(self.loops)
         seeds = [] if loops and not self.chains.strip() else chains.parse_chains(self.chains)
-        problem = cage.problem_with(pick for chain in (*seeds, loops) for pick in chain)
+        strokes = chains.parse_scribbles(self.strokes)
+        through = [stroke.vertices for stroke in strokes]
+        problem = cage.problem_with(pick for chain in (*seeds, loops, *through) for pick in chain)
         if problem:
             raise ValueError(problem)
         if self.along == "SURFACE" and (loops or any(isinstance(pick, tuple) for chain in seeds for pick in chain)):
             raise ValueError("Across the surface seeds are vertices: give vertex numbers, not edges")
-        return seeds, loops
+        return seeds, loops, strokes
 
     def _session(self, context: bpy.types.Context) -> Session:
         arrays = edit_mesh.read(context.active_object)
@@ -156,6 +180,8 @@ class MESH_OT_seamwire_draw(bpy.types.Operator):
             ("NONE", "Nothing", "The drawing begins with the next click"),
             ("CLICK", "Click", "The first seed is placed"),
             ("LOOP", "Loop", "The loop through the edge is taken"),
+            ("ATTRACT", "Stroke", "A stroke begins that wires are to follow"),
+            ("REPEL", "Stroke to Keep Off", "A stroke begins that wires are to keep off"),
         ),
         options={"SKIP_SAVE"},
     )

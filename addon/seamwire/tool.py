@@ -58,6 +58,25 @@ class SeamwireSettings(bpy.types.PropertyGroup):
     metric: bpy.props.EnumProperty(
         name="Metric", description="What draws wires to features", items=METRIC_ITEMS, update=_tell
     )
+    clamp: bpy.props.FloatProperty(
+        name="Clamp",
+        description="The percentile of the vertices' strengths from which on stronger ones count no more: single noisy"
+        " vertices then do not decide",
+        default=99.0,
+        min=50.0,
+        max=100.0,
+        precision=1,
+        update=_tell,
+    )
+    stroke_radius: bpy.props.FloatProperty(
+        name="Reach of Strokes",
+        description="How far strokes reach, in the object's units; 0: ten rings of vertices",
+        default=0.0,
+        min=0.0,
+        soft_max=1.0,
+        precision=3,
+        subtype="DISTANCE",
+    )
     snap: bpy.props.BoolProperty(
         name="Snap to Features",
         description="Take the strongest feature within a few pixels of the cursor",
@@ -91,6 +110,16 @@ class SeamwireTool(bpy.types.WorkSpaceTool):
         (keymap.OPERATOR, {"type": "LEFTMOUSE", "value": "PRESS"}, {"properties": [("first", "CLICK")]}),
         (keymap.OPERATOR, {"type": "LEFTMOUSE", "value": "PRESS", "ctrl": True}, {"properties": [("first", "CLICK")]}),
         (keymap.OPERATOR, {"type": "LEFTMOUSE", "value": "PRESS", "alt": True}, {"properties": [("first", "LOOP")]}),
+        (
+            keymap.OPERATOR,
+            {"type": "LEFTMOUSE", "value": "PRESS", "shift": True},
+            {"properties": [("first", "ATTRACT")]},
+        ),
+        (
+            keymap.OPERATOR,
+            {"type": "LEFTMOUSE", "value": "PRESS", "shift": True, "ctrl": True},
+            {"properties": [("first", "REPEL")]},
+        ),
     )
 
     @staticmethod
@@ -121,6 +150,10 @@ def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout) -> Non
     layout.prop(chosen, "along")
     layout.prop(chosen, strength)
     layout.prop(chosen, "metric")
+    sub = layout.column()
+    sub.active = chosen.metric != "euclidean"
+    sub.prop(chosen, "clamp", slider=True)
+    layout.prop(chosen, "stroke_radius")
     column = layout.column(heading="Snap")
     column.prop(chosen, "snap", text="Features")
     layout.prop(chosen, "xray")

@@ -21,6 +21,8 @@ MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "VIEW3D_MT_edit_mesh_c
 Hint = tuple[str, str]
 """An icon of Blender's, and what it stands for now."""
 
+_OFFERS = {"CLOSED": "Closed Loop", "STRIP": "Strip", "WHOLE": "Whole Strip", "EDGE": "Edge"}
+"""What a click may take with the key for loops held, by the session's names."""
 _CLICKS = {
     "SEED": "Seed",
     "CONTINUE": "Begin at This Seed, Drag: Move It",
@@ -28,7 +30,6 @@ _CLICKS = {
     "KEEP": "Keep Wire",
     "JOIN": "Join Here",
     "CLOSE": "Close the Loop",
-    "LOOP": "Take This Loop",
     "RUN": "Keep the Wire to the End",
     "WAIT": "Keep as Soon as Computed",
     "MOVE": "Leave the Seed Here",
@@ -94,10 +95,16 @@ def hints(status: Status) -> list[Hint]:
         add(Action.RESUME, "Go On with the Wires Kept Before")
     live = session.seed is not None
     click = _CLICKS.get(session.intent.name)
-    if click:
+    offers, offer = session.loop_offers, session.loop_choice
+    if offer is not None:
+        add(Action.LOOP, f"Take {_OFFERS[offer]}, {offers.index(offer) + 1} of {len(offers)}")
+        if len(offers) > 1:
+            following = offers[(offers.index(offer) + 1) % len(offers)]
+            add(Action.TOGGLE, f"{_OFFERS[following]} Instead")
+    elif click:
         add(Action.CLICK, click)
     if live:
-        if session.other is not None:
+        if session.other is not None and offer is None:
             add(Action.TOGGLE, "Other Wire")
         add(Action.END_CHAIN, "End Chain")
         if session.closing_point is not None:
@@ -108,8 +115,12 @@ def hints(status: Status) -> list[Hint]:
         if session.hovered_wire is not None:
             add(Action.DROP, "Drop Wire")
             add(Action.TOGGLE, "Its Other Way")
-        if session.along == "EDGES":
+        if session.along == "EDGES" and offer is None:
             add(Action.LOOP, "Loop")
+    add(Action.ATTRACT, "Stroke")
+    add(Action.REPEL, "Keep Off")
+    if session.scribbles:
+        add(Action.ERASE, "Remove Stroke")
     add(Action.MARKING, "Clear Instead" if session.marking else "Mark Instead")
     if session.mirror_axes:
         add(Action.MIRROR, f"Mirror {''.join('XYZ'[axis] for axis in session.mirror_axes)}")

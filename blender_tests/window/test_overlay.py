@@ -203,14 +203,15 @@ def crossing(sight: Sight, one: int, two: int) -> tuple[tuple[float, float], tup
 
 def test_a_kept_wire_has_the_seam_colour_of_the_theme(sight: Sight) -> None:
     view = bpy.context.preferences.themes[0].view_3d
-    before = tuple(view.edge_seam)
+    name = "seam" if hasattr(view, "seam") else "edge_seam"
+    before = tuple(getattr(view, name))
     wire = sight.wire(*range(36, 45))
     assert has(sight.pixels(wires=(wire,)), sight.at(38, 39), "red")
     try:
-        view.edge_seam = (0.0, 0.9, 0.35)
+        setattr(view, name, (0.0, 0.9, 0.35))
         assert has(sight.pixels(), sight.at(38, 39), "green")
     finally:
-        view.edge_seam = before
+        setattr(view, name, before)
 
 
 def test_colours_and_width_come_from_the_preferences(sight: Sight) -> None:

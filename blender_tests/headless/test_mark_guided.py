@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What ``mesh.seamwire_mark`` takes beside chains: strips, single edges, and strokes that lead its wires."""
+
+import bpy
+import pytest
+from scene import add_grid, add_object, chain, edit, ends, seams
+
+
+@pytest.fixture
+def grid() -> bpy.types.Object:
+    """A grid in edit mode; vertex y * 9 + x is column x of row y."""
+    obj = add_grid(9)
+    edit()
+    return obj
+
+
+def mark(**options: object) -> set[str]:
+    return bpy.ops.mesh.seamwire_mark(**options)
+
+
+def test_strips_and_single_edges_are_taken_too(grid: bpy.types.Object) -> None:
+    assert mark(loops="40-41", take="STRIP") == {"FINISHED"}
+    assert seams(grid) == chain(*range(36, 45))
+    assert mark(loops="4-13", take="EDGE") == {"FINISHED"}
+    assert seams(grid) == sorted([*chain(*range(36, 45)), (4, 13)])
+    assert mark(loops="13-22", take="STRIP") == {"FINISHED"}
+    assert seams(grid) == sorted(chain(*range(36, 45)) + chain(4, 13, 22, 31, 40)), "up to the seam"
+    assert mark(loops="13-22", take="WHOLE") == {"FINISHED"}
+    assert seams(grid) == sorted(chain(*range(36, 45)) + chain(*range(4, 81, 9))), "across the seam"
+
+
+def test_what_is_the_same_as_something_else_is_taken_all_the_same() -> None:
+    bpy.ops.mesh.primitive_cylinder_add(vertices=8, end_fill_type="NOTHING")
+    edit()
+    obj = bpy.context.active_object
+    ring = [(0, 2), (2, 4), (4, 6), (6, 8), (8, 10), (10, 12), (12, 14), (0, 14)]
+    for take in ("FIRST", "CLOSED", "STRIP", "WHOLE"):
+        assert mark(loops="0-2", take=take, clear=False) == {"FINISHED"}
+        assert seams(obj) == sorted(ring), take
+        mark(loops="0-2", take=take, clear=True)
+        assert seams(obj) == []
+
+
+def test_what_there_is_not_is_said() -> None:
+    obj = add_object([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [], [(0, 1), (1, 2)])
+    obj.data.edges[0].use_seam = True
+    edit()
+    with pytest.raises(RuntimeError, match="No closed loop runs through edge 0-1"):
+        mark(loops="0-1", take="CLOSED")
+    assert mark(loops="0-1", take="EDGE", clear=True) == {"FINISHED"}
+    assert seams(obj) == []
+
+
+def test_strokes_lead_wires() -> None:
+    # Up from the left seed, across, and down to the right one: row 15 to row 23 of a finer grid.
+    grid = add_grid(31)
+    edit()
+    left, right = 15 * 31 + 5, 15 * 31 + 25
+    gate = [*range(left, 23 * 31 + 5, 31), *range(23 * 31 + 5, 23 * 31 + 25), *range(23 * 31 + 25, right - 1, -31)]
+    assert mark(chains=f"{left} {right}", strokes=" ".join(map(str, gate))) == {"FINISHED"}
+    assert seams(grid) == chain(*gate), "it runs where the stroke does"
+    mark(chains=f"{left} {right}", strokes=" ".join(map(str, gate)), clear=True)
+    assert seams(grid) == []
+    assert mark(chains=f"{left} {right}") == {"FINISHED"}
+    assert seams(grid) == chain(*range(left, right + 1))
+
+
+def test_wires_keep_off_strokes_that_repel(grid: bpy.types.Object) -> None:
+    assert mark(chains="36 44", strokes="~37 43") == {"FINISHED"}
+    kept_off = seams(grid)
+    assert ends(kept_off) == [36, 44]
+    assert len(set(kept_off) & set(chain(*range(36, 45)))) < 4
+
+
+@pytest.mark.parametrize("strokes", ["4", "1 x", "0 99"])
+def test_strokes_that_make_no_sense_are_refused(grid: bpy.types.Object, strokes: str) -> None:
+    with pytest.raises(RuntimeError):
+        mark(chains="9 17", strokes=strokes)
+    assert seams(grid) == []

@@ -1,0 +1,232 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Strokes in the real window: drawn, undone, erased, kept, and which edges are marked for them."""
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+import bpy
+import pytest
+import ui as driver
+from desk import Desk, leave
+from scene import add_grid, chain, seams
+from seamwire import drawing
+from seamwire import ui as texts
+
+SIDE = 31
+LEFT, RIGHT = 15 * SIDE + 5, 15 * SIDE + 25
+GATE = [(5, 15), (5, 23), (25, 23), (25, 15)]
+"""Columns and rows of a stroke up from the left seed, across, and down to the right one."""
+STRAIGHT = chain(*range(LEFT, RIGHT + 1))
+ROUND = chain(
+    *range(LEFT, 23 * SIDE + 5, SIDE), *range(23 * SIDE + 5, 23 * SIDE + 25), *range(23 * SIDE + 25, RIGHT - 1, -SIDE)
+)
+
+
+@pytest.fixture
+def fine(ui: driver.Ui) -> Iterator[Desk]:
+    """A flat grid of 31 x 31 vertices; vertex y * 31 + x is column x of row y."""
+    desk = Desk(ui, add_grid(SIDE))
+    ui.look_from_top(distance=2.6)
+    yield desk
+    leave(ui)
+
+
+def at(desk: Desk, corner: tuple[float, float]) -> tuple[float, float]:
+    x, y = (2.0 * part / (SIDE - 1) - 1.0 for part in corner)
+    return desk.ui.on_screen((x, y, 0.0))
+
+
+def draw(desk: Desk, corners: list[tuple[float, float]], **more: bool) -> None:
+    """Draw a stroke along straight lines with Shift held."""
+    ui = desk.ui
+    held = {"shift": True, **more}
+    ui.move(at(desk, corners[0]), **held)
+    ui.event("LEFTMOUSE", "PRESS", **held)
+    for (x, y), (to_x, to_y) in pairwise(corners):
+        for step in range(1, 6):
+            ui.move(at(desk, (x + step / 5 * (to_x - x), y + step / 5 * (to_y - y))), **held)
+    ui.event("LEFTMOUSE", "RELEASE", **held)
+
+
+def computed(desk: Desk) -> None:
+    desk.ui.wait_until(lambda: not desk.session.computing)
+    desk.ui.wait(2)
+
+
+def said() -> str:
+    return "; ".join(text for _, text in texts.hints(drawing.running[0].status()))
+
+
+def wire(desk: Desk) -> list[tuple[int, int]]:
+    """Return the edges of the live wire from the left seed to the right one."""
+    desk.ui.click(desk.at(LEFT), ctrl=True)
+    desk.ui.move(desk.at(RIGHT))
+    session = desk.session
+    desk.ui.wait_until(lambda: session.active is not None and not session.preliminary)
+    return sorted(session.active.edges())
+
+
+def test_a_stroke_leads_the_live_wire_and_undo_takes_it_back(fine: Desk) -> None:
+    session, ui = fine.start(), fine.ui
+    assert wire(fine) == STRAIGHT
+    draw(fine, GATE)
+    assert len(session.scribbles) == 1
+    assert session.scribbles[0].attracts
+    assert session.scribbles[0].acts_on != "both", "it is for the active wire"
+    computed(fine)
+    ui.move(fine.at(RIGHT))
+    ui.wait_until(lambda: session.active is not None and sorted(session.active.edges()) == sorted(ROUND))
+    ui.key("Z", ctrl=True)
+    assert session.scribbles == ()
+    assert session.seed is not None, "the wire is live still"
+    ui.wait_until(lambda: session.active is not None and sorted(session.active.edges()) == STRAIGHT)
+    ui.key("Z", ctrl=True, shift=True)
+    assert len(session.scribbles) == 1
+    computed(fine)
+    if sorted(session.active.edges()) != sorted(ROUND):
+        ui.key("W")  # the stroke was for one of the two wires, and the other may be shorter now
+    assert sorted(session.active.edges()) == sorted(ROUND)
+    assert fine.unchanged()
+    ui.click(fine.at(RIGHT))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.key("RET")
+    assert seams(fine.obj) == sorted(ROUND)
+
+
+def test_an_erased_stroke_leads_no_more(fine: Desk) -> None:
+    session, ui = fine.start(), fine.ui
+    computed(fine)
+    draw(fine, GATE)
+    assert session.scribbles[0].acts_on == "both", "no wire is live"
+    ui.move(at(fine, (15.0, 19.0)))
+    ui.key("D")
+    assert len(session.scribbles) == 1, "not under the cursor"
+    assert "Point at a stroke" in said()
+    ui.move(at(fine, (15.0, 23.2)))
+    ui.key("D")
+    assert session.scribbles == ()
+    computed(fine)
+    assert wire(fine) == STRAIGHT
+    ui.click(fine.at(RIGHT))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.key("RET")
+    assert seams(fine.obj) == STRAIGHT
+
+
+def test_wires_keep_off_a_stroke_that_repels(fine: Desk) -> None:
+    session, ui = fine.start(), fine.ui
+    computed(fine)
+    draw(fine, [(6.0, 15.0), (24.0, 15.0)], ctrl=True)
+    assert not session.scribbles[0].attracts
+    computed(fine)
+    off = wire(fine)
+    assert len(set(off) & set(STRAIGHT)) < 8
+    ui.click(fine.at(RIGHT))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.key("RET")
+    assert seams(fine.obj) == off
+
+
+def test_a_stroke_ends_where_it_leaves_the_model(fine: Desk) -> None:
+    session = fine.start()
+    computed(fine)
+    draw(fine, [(20.0, 15.0), (40.0, 15.0), (40.0, 25.0), (20.0, 25.0)])
+    points = session.scribbles[0].points
+    assert points[:, 0].max() <= 1.0 + 1e-6
+    assert abs(points[:, 1]).max() < 0.1, "what came after it left is not part of it"
+    assert fine.unchanged()
+
+
+def test_a_stroke_that_comes_back_to_its_beginning_is_closed(fine: Desk) -> None:
+    session = fine.start()
+    computed(fine)
+    draw(fine, [(8.0, 8.0), (22.0, 8.0), (22.0, 22.0), (8.0, 22.0), (8.0, 8.3)])
+    points = session.scribbles[0].points
+    assert (points[0] == points[-1]).all()
+
+
+def test_while_it_is_drawn_a_stroke_is_shown_and_escape_drops_it(fine: Desk) -> None:
+    session, ui = fine.start(), fine.ui
+    computed(fine)
+    overlay = drawing.running[0].board.overlay
+    ui.move(at(fine, (5.0, 15.0)), shift=True)
+    ui.event("LEFTMOUSE", "PRESS", shift=True)
+    for x in (10.0, 15.0, 20.0):
+        ui.move(at(fine, (x, 15.0)), shift=True)
+    points, attracts = overlay.stroke
+    assert attracts
+    assert len(points) > 10, "the hand moved less often than that"
+    ui.key("ESC")
+    assert overlay.stroke is None
+    ui.event("LEFTMOUSE", "RELEASE", shift=True)
+    assert session.scribbles == ()
+    assert fine.running
+
+
+def test_a_click_with_shift_draws_nothing_and_drops_a_wire(fine: Desk) -> None:
+    session, ui = fine.start(), fine.ui
+    wire(fine)
+    ui.click(fine.at(RIGHT))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.click(fine.at(RIGHT), button="RIGHTMOUSE")
+    ui.click(at(fine, (15.0, 22.0)), shift=True)
+    assert len(session.wires) == 1
+    assert session.scribbles == ()
+    assert "Drag over the mesh" in said()
+    ui.click(fine.at(LEFT + 10), shift=True)
+    assert session.wires == ()
+    assert session.scribbles == ()
+
+
+def test_strokes_are_kept_with_the_network(fine: Desk) -> None:
+    session, ui = fine.start(), fine.ui
+    computed(fine)
+    draw(fine, GATE)
+    computed(fine)
+    wire(fine)
+    ui.click(fine.at(RIGHT))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.key("RET")
+    assert seams(fine.obj) == sorted(ROUND)
+    session = fine.start()
+    assert session.scribbles == ()
+    ui.move(fine.at(SIDE))
+    ui.key("R")
+    assert len(session.scribbles) == 1
+    assert len(session.wires) == 1
+
+
+def test_strokes_alone_are_kept_too(fine: Desk) -> None:
+    ui = fine.ui
+    fine.start()
+    computed(fine)
+    draw(fine, GATE)
+    ui.key("RET")
+    assert not fine.running
+    assert seams(fine.obj) == []
+    session = fine.start()
+    ui.move(fine.at(SIDE))
+    ui.key("R")
+    assert len(session.scribbles) == 1
+
+
+def test_the_tools_reach_of_strokes_is_taken(fine: Desk) -> None:
+    session = fine.start()
+    computed(fine)
+    bpy.context.window_manager.seamwire.stroke_radius = 0.2
+    draw(fine, GATE)
+    assert session.scribbles[0].radius == pytest.approx(0.2)
+
+
+def test_the_first_drag_with_the_tool_is_a_stroke(fine: Desk) -> None:
+    ui = fine.ui
+    with ui.override():
+        bpy.ops.wm.tool_set_by_id(name="seamwire.draw")
+    try:
+        ui.wait(redraw=True)
+        draw(fine, GATE)
+        ui.wait_until(lambda: fine.running and len(fine.session.scribbles) == 1)
+        assert fine.session.seed is None
+    finally:
+        with ui.override():
+            bpy.ops.wm.tool_set_by_id(name="builtin.select_box")
