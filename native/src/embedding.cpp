@@ -11,12 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "mending.hpp"
+
 namespace seamwire {
 namespace {
 
 using VertexHandle = OpenMesh::VertexHandle;
 using HalfedgeHandle = OpenMesh::HalfedgeHandle;
-using EdgeHandle = OpenMesh::EdgeHandle;
 using FaceHandle = OpenMesh::FaceHandle;
 
 // A triangle is valid where its longest edge is shorter than the others together by this fraction: exact geodesics
@@ -25,15 +26,19 @@ constexpr double kSlack = 1e-10;
 // Lengths that differ by less than this fraction are equal, so that rounding, which depends on the scale of the input,
 // does not choose which edge to bisect.
 constexpr double kEqual = 1e-9;
-// A face lower than this fraction of its longest edge has no area. Bisecting it never ends: its parts have none either.
-constexpr double kFlat = 1e-9;
-// Times that all faces without an area are looked at, each time because some could be taken away the time before.
-constexpr int kMendingPasses = 64;
 // The paper's scheme may add this many triangles for each of the surface's, and this many in any case. Where it ends,
 // it mostly ends below one for each.
 constexpr std::size_t kBudget = 4, kLeastBudget = 20'000;
+// And propagation and newest-vertex bisection this many. Nearly all that end at all end far below.
+constexpr std::size_t kLaterBudget = 16, kLeastLaterBudget = 200'000;
+// Of the room that the triangle inequality leaves for the length of a fitted edge, the part kept free on either side.
+constexpr double kRoom = 1.0 / 16;
+// A triangle whose shortest edge is shorter than this fraction of its longest one leaves no room in double precision.
+constexpr double kNeedle = 1e-8;
 // Bisections of an original face, one of a part of a part, until newest-vertex bisection begins.
 constexpr std::uint8_t kNewestDepth = 40;
+// Bisections of an original face where the rest is left to fitting: few enough that no edge gets too short for that.
+constexpr std::uint8_t kShallowDepth = 8;
 // Splits between two reports of progress: about a millisecond.
 constexpr std::size_t kReportEvery = 1024;
 
@@ -57,10 +62,16 @@ void check_metric(const Surface& surface, const Metric& metric) {
 }
 
 std::size_t budget(const Surface& surface) { return std::max(kLeastBudget, kBudget * surface.face_count()); }
+// Leaves room for fitting below the cap.
+std::size_t later_budget(const Surface& surface, std::size_t cap) {
+  return std::min(std::max(kLeastLaterBudget, kLaterBudget * surface.face_count()), cap / 4);
+}
 
 enum class Scheme {
   kPaper,      ///< an invalid triangle and the neighbour behind its longest edge are bisected, whatever the neighbour
   kPropagate,  ///< the neighbour is first bisected until the common edge is the right one for it too
+  kShallow,    ///< the same, but no part deeper than kShallowDepth is bisected for its own sake
+  kFitAlone,   ///< nothing is bisected for its own sake before fit()
 };
 
 // Where the quadratic form of the ambient norm (metric.hpp) is one matrix: M + sqrt(l1 l2) n n^T.
@@ -117,147 +128,6 @@ FlatMesh flattened(const HalfEdgeMesh& mesh) {
   return flat;
 }
 
-/// Takes away faces without an area, across which no path could go, on a copy of the surface's half-edge mesh and
-/// without a change to the surface.
-class Mending {
- public:
-  Mending(const Surface& surface, const Metric& metric);
-
-  bool found_any() const { return found_any_; }
-  const HalfEdgeMesh& mesh() const { return mesh_; }
-  std::vector<std::int32_t> origins() const;
-  const std::vector<LooseEdge>& merged() const { return merged_; }
-  std::size_t taken_away() const { return taken_away_; }
-
- private:
-  std::array<HalfedgeHandle, 3> sides(FaceHandle f) const;
-  Vector vector(HalfedgeHandle h) const;
-  bool is_flat(FaceHandle f) const;
-  bool is_gone(FaceHandle f) const { return has_merged_ && mesh_.status(f).deleted(); }
-  bool merge_ends(FaceHandle f);
-  FaceHandle flip_longest(FaceHandle f);
-
-  const Surface& surface_;
-  const Metric& metric_;
-  HalfEdgeMesh mesh_;
-  bool found_any_ = false;
-  std::vector<std::int32_t> origins_;
-  std::vector<LooseEdge> merged_;  // between vertices at the same place, of which only the second has faces now
-  bool has_merged_ = false;
-  std::size_t taken_away_ = 0;
-};
-
-bool lacks_area(const Vector& a, const Vector& b, const Vector& c) {
-  return !(a.cross(b).norm() > kFlat * std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm()}));
-}
-
-Mending::Mending(const Surface& surface, const Metric& metric) : surface_(surface), metric_(metric) {
-  const HalfEdgeMesh& given = surface.half_edges();
-  const double scale = surface.scale();
-  std::vector<FaceHandle> flat;
-  for (const FaceHandle f : given.faces()) {
-    const HalfedgeHandle h = given.halfedge_handle(f);
-    const Vector &p = given.point(given.from_vertex_handle(h)), &q = given.point(given.to_vertex_handle(h)),
-                 &r = given.point(given.to_vertex_handle(given.next_halfedge_handle(h)));
-    if (lacks_area((q - p) * scale, (r - q) * scale, (p - r) * scale)) flat.push_back(f);
-  }
-  found_any_ = !flat.empty();
-  if (!found_any_) return;
-  mesh_ = given;
-  origins_.resize(mesh_.n_faces());
-  std::iota(origins_.begin(), origins_.end(), 0);
-  const auto mended = [&](FaceHandle f) { return is_gone(f) || !is_flat(f); };
-  const std::size_t before = flat.size();
-  bool progress = before > 0;
-  for (int pass = 0; progress && pass < kMendingPasses; ++pass) {
-    progress = false;
-    for (std::size_t i = 0, count = flat.size(); i < count; ++i) {
-      if (mended(flat[i])) continue;
-      if (merge_ends(flat[i])) {
-        progress = true;
-      } else if (const FaceHandle beyond = flip_longest(flat[i]); beyond.is_valid()) {
-        progress = true;
-        flat.push_back(beyond);
-      }
-    }
-    std::erase_if(flat, mended);
-    std::sort(flat.begin(), flat.end());
-    flat.erase(std::unique(flat.begin(), flat.end()), flat.end());
-  }
-  taken_away_ = before - std::min(before, flat.size());
-}
-
-// Of the faces that are left, in their order.
-std::vector<std::int32_t> Mending::origins() const {
-  std::vector<std::int32_t> left;
-  for (const FaceHandle f : mesh_.faces()) left.push_back(origins_[index(f.idx())]);
-  return left;
-}
-
-// From the face's first corner on, as OpenMesh lists its vertices.
-std::array<HalfedgeHandle, 3> Mending::sides(FaceHandle f) const {
-  const HalfedgeHandle a = mesh_.halfedge_handle(f), b = mesh_.next_halfedge_handle(a);
-  return {b, mesh_.next_halfedge_handle(b), a};
-}
-
-// A half-edge in the unit cube.
-Vector Mending::vector(HalfedgeHandle h) const {
-  return (mesh_.point(mesh_.to_vertex_handle(h)) - mesh_.point(mesh_.from_vertex_handle(h))) * surface_.scale();
-}
-
-bool Mending::is_flat(FaceHandle f) const {
-  const auto [a, b, c] = sides(f);
-  return lacks_area(vector(a), vector(b), vector(c));
-}
-
-// Merges the ends of the shortest edge if it is the reason why the face has no area.
-bool Mending::merge_ends(FaceHandle f) {
-  const auto by_length = [&](HalfedgeHandle a, HalfedgeHandle b) {
-    return vector(a).squaredNorm() < vector(b).squaredNorm();
-  };
-  const auto all = sides(f);
-  const auto [shortest, longest] = std::minmax_element(all.begin(), all.end(), by_length);
-  if (vector(*shortest).norm() > kFlat * vector(*longest).norm()) return false;
-  if (!has_merged_) {
-    mesh_.request_vertex_status();
-    mesh_.request_halfedge_status();
-    mesh_.request_edge_status();
-    mesh_.request_face_status();
-    has_merged_ = true;
-  }
-  for (const HalfedgeHandle h : {*shortest, mesh_.opposite_halfedge_handle(*shortest)}) {
-    const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
-    // A second edge between the two would become a loop.
-    if (std::ranges::count(mesh_.vv_range(from), to) != 1 || !mesh_.is_collapse_ok(h)) continue;
-    const std::int32_t a = surface_.vertex_of_fan()[index(from.idx())], b = surface_.vertex_of_fan()[index(to.idx())];
-    merged_.push_back({a, b, edge_length(surface_, metric_, a, b)});
-    mesh_.collapse(h);
-    return true;
-  }
-  return false;
-}
-
-// Flips the longest edge if that leaves fewer faces without an area, or shorter edges; then, and only then, returns the
-// face that was beyond it.
-FaceHandle Mending::flip_longest(FaceHandle f) {
-  HalfedgeHandle h = sides(f)[0];
-  for (const HalfedgeHandle side : sides(f)) {
-    if (vector(side).squaredNorm() > vector(h).squaredNorm()) h = side;
-  }
-  const HalfedgeHandle opposite = mesh_.opposite_halfedge_handle(h);
-  const EdgeHandle e = mesh_.edge_handle(h);
-  if (mesh_.is_boundary(opposite) || !mesh_.is_flip_ok(e)) return FaceHandle();
-  const FaceHandle beyond = mesh_.face_handle(opposite);
-  const auto apex = [&](HalfedgeHandle side) {
-    return mesh_.point(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(side)));
-  };
-  const double flipped = (apex(opposite) - apex(h)).norm() * surface_.scale();
-  if (is_flat(beyond) && !(flipped < vector(h).norm() * (1 - kEqual))) return FaceHandle();
-  mesh_.flip(e);
-  origins_[index(f.idx())] = origins_[index(beyond.idx())];
-  return beyond;
-}
-
 // Whether all vertices and faces of the half-edge mesh have the caller's numbers.
 bool keeps_numbers(const Surface& surface) {
   const auto& vertex_of_fan = surface.vertex_of_fan();
@@ -274,8 +144,16 @@ class Refinement {
 
   /// False where more than `most` triangles would have to be added. Progress goes on from `progress`.
   bool run(const Task& task, std::size_t most, double& progress);
+  /// Goes on where run() has returned false.
+  bool work_off(const Task& task, std::size_t most, double& progress);
   /// The same for the triangles at vertices where the metric has changed from `former`, and what they lead to.
   bool run_changes(const Metric& former, const Task& task, std::size_t most);
+  /// Bisects each triangle that is still invalid once more, with lengths that make its parts valid; false where some
+  /// are left, because of the cap or rounding.
+  bool fit(const Task& task, double progress);
+  /// Whether an invalid part of a face with an area has become so flat that it cannot be bisected on.
+  bool has_decayed() const { return has_decayed_; }
+  std::size_t faces_added() const { return faces_added_; }
   Embedding result() &&;
 
  private:
@@ -318,9 +196,12 @@ class Refinement {
   void begin_newest_vertex_bisection();
   bool refine(std::int32_t f, std::size_t most);
   void bisect(std::int32_t h);
+  std::int32_t fitting_edge(std::int32_t f) const;
+  bool is_unfit(std::int32_t f) const;
+  bool can_be_fitted(std::int32_t f) const;
+  double fitted(std::int32_t h, double half, double next_side, double last_side) const;
   void halve(std::int32_t h, std::int32_t middle);
   void set_length(std::int32_t h, double length);
-  bool work_off(const Task& task, std::size_t most, double& progress);
   std::vector<std::int32_t> changed_faces(const Metric& former) const;
   void reset(const std::vector<std::int32_t>& seeds);
   bool enter(std::int32_t face);
@@ -353,7 +234,8 @@ class Refinement {
   std::vector<std::int32_t> conflicts_;  // faces that were kept and should not have been
   std::vector<std::int32_t> running_;    // faces with State::kRunning
   std::vector<Vector> points_;           // in the caller's coordinates, the caller's first
-  bool has_mended_ = false;
+  bool has_mended_ = false, has_decayed_ = false;
+  std::vector<bool> is_flat_origin_;  // per face of the surface's half-edge mesh: it has no area; empty: none is
   std::size_t invalid_before_ = 0;
   std::size_t faces_added_ = 0;
   bool hit_cap_ = false;
@@ -377,6 +259,7 @@ Refinement::Refinement(const Surface& surface, const Metric& metric, const Embed
     origins_ = mending.origins();
     merged_ = mending.merged();
     invalid_before_ = mending.taken_away();
+    is_flat_origin_.assign(surface.half_edges().n_faces(), false);
   } else {
     origins_.resize(faces_);
     std::iota(origins_.begin(), origins_.end(), 0);
@@ -385,6 +268,11 @@ Refinement::Refinement(const Surface& surface, const Metric& metric, const Embed
   depth_.assign(faces_, 0);
   nodes_ = std::make_unique_for_overwrite<Node[]>(fans_);
   for (std::int32_t fan = 0; index(fan) < fans_; ++fan) set_node(fan);
+  if (has_mended_) {
+    for (std::int32_t f = 0; index(f) < faces_; ++f) {
+      if (is_flat(f)) is_flat_origin_[index(origins_[index(f)])] = true;
+    }
+  }
   measure_all();
 }
 
@@ -466,9 +354,14 @@ std::int32_t Refinement::longest(std::int32_t f) const {
 }
 
 void Refinement::consider(std::int32_t f) {
-  if (is_valid(f) || is_flat(f)) return;
+  if (is_valid(f)) return;
+  if (is_flat(f)) {
+    has_decayed_ = has_decayed_ || is_flat_origin_.empty() || !is_flat_origin_[index(origins_[index(f)])];
+    return;
+  }
   const double p = perimeter(f);
   if (p < options_.sigma) return;
+  if (scheme_ == Scheme::kFitAlone || (scheme_ == Scheme::kShallow && depth_[index(f)] >= kShallowDepth)) return;
   if (scheme_ == Scheme::kPropagate && first_newest_ == 0 && depth_[index(f)] >= kNewestDepth) {
     deferred_.push_back(f);
   } else {
@@ -513,7 +406,7 @@ bool Refinement::refine(std::int32_t f, std::size_t most) {
   chain_.assign(1, f);
   while (!chain_.empty()) {
     const std::int32_t h = refinement_edge(chain_.back()), beyond = mesh_.twins[index(h)];
-    if (scheme_ == Scheme::kPropagate && beyond >= 0 && refinement_edge(beyond / 3) != beyond) {
+    if (scheme_ != Scheme::kPaper && beyond >= 0 && refinement_edge(beyond / 3) != beyond) {
       chain_.push_back(beyond / 3);
       continue;
     }
@@ -599,7 +492,8 @@ bool Refinement::work_off(const Task& task, std::size_t most, double& progress) 
     // A face changes when a neighbour is bisected, and is queued again if it is still invalid.
     if (static_cast<float>(perimeter(next.face)) != next.perimeter || is_valid(next.face)) continue;
     if (!refine(next.face, most)) {
-      hit_cap_ = true;
+      queue_.push(next);
+      hit_cap_ = most == options_.max_faces_added;
       return false;
     }
     if (++steps % kReportEvery == 0) {
@@ -609,6 +503,78 @@ bool Refinement::work_off(const Task& task, std::size_t most, double& progress) 
       task.check(progress);
     }
   }
+}
+
+// Edges are in one strict order, that of their lengths and then of their numbers.
+std::int32_t Refinement::fitting_edge(std::int32_t f) const {
+  const auto key = [&](std::int32_t h) {
+    const std::int32_t twin = mesh_.twins[index(h)];
+    return std::pair(lengths_[index(h)], twin < 0 ? h : std::min(h, twin));
+  };
+  return std::ranges::max(std::array{3 * f, 3 * f + 1, 3 * f + 2}, {}, key);
+}
+
+// Invalid, and neither left out for sigma nor a part of a face without an area.
+bool Refinement::is_unfit(std::int32_t f) const {
+  if (is_valid(f) || perimeter(f) < options_.sigma) return false;
+  return is_flat_origin_.empty() || !is_flat_origin_[index(origins_[index(f)])];
+}
+
+bool Refinement::can_be_fitted(std::int32_t f) const {
+  const double *l = &lengths_[3 * index(f)], least = std::min({l[0], l[1], l[2]});
+  return is_unfit(f) && least > kNeedle * std::max({l[0], l[1], l[2]});
+}
+
+// The length of the edge h from the middle of an edge to the apex: as measured, but within what the triangle inequality
+// leaves between the edge's halves and the other two sides.
+double Refinement::fitted(std::int32_t h, double half, double next_side, double last_side) const {
+  const double low = std::max(std::abs(half - next_side), std::abs(half - last_side));
+  const double high = half + std::min(next_side, last_side), room = kRoom * (high - low), length = measure(h);
+  return room > 0 ? std::clamp(length, low + room, high - room) : length;
+}
+
+bool Refinement::fit(const Task& task, double progress) {
+  std::vector<std::int32_t> todo;
+  for (std::int32_t f = 0; index(f) < mesh_.corners.size(); ++f) {
+    if (can_be_fitted(f)) todo.push_back(f);
+  }
+  for (std::size_t i = 0; i < todo.size(); ++i) {
+    if ((i + 1) % kReportEvery == 0) task.check(progress);
+    if (!can_be_fitted(todo[i])) continue;
+    chain_.assign(1, todo[i]);
+    while (!chain_.empty()) {
+      const std::int32_t h = fitting_edge(chain_.back()), o = mesh_.twins[index(h)];
+      // An invalid neighbour can be fitted at its longest edge only, which is longer than this one.
+      if (o >= 0 && can_be_fitted(o / 3) && fitting_edge(o / 3) != o) {
+        chain_.push_back(o / 3);
+        continue;
+      }
+      if (faces_added_ + 2 > options_.max_faces_added) {
+        hit_cap_ = true;
+        return false;
+      }
+      const auto side = [&](std::int32_t from, int steps) {
+        for (; steps > 0; --steps) from = next(from);
+        return lengths_[index(from)];
+      };
+      const double half = lengths_[index(h)] / 2, b = side(h, 1), c = side(h, 2);
+      const double d = o < 0 ? 0.0 : side(o, 1), e = o < 0 ? 0.0 : side(o, 2);
+      const auto count = static_cast<std::int32_t>(mesh_.corners.size());
+      bisect(h);
+      set_length(h, half);
+      set_length(3 * count, half);
+      set_length(3 * count + 2, fitted(3 * count + 2, half, b, c));
+      if (o >= 0) set_length(3 * count + 5, fitted(3 * count + 5, half, d, e));
+      // Rounding may leave one of them invalid.
+      for (const std::int32_t part : {h / 3, count, o < 0 ? count : o / 3, o < 0 ? count : count + 1}) {
+        if (can_be_fitted(part)) todo.push_back(part);
+      }
+      chain_.pop_back();
+    }
+  }
+  std::int32_t f = 0;
+  while (index(f) < mesh_.corners.size() && !is_unfit(f)) ++f;
+  return index(f) == mesh_.corners.size();
 }
 
 Embedding Refinement::result() && {
@@ -790,8 +756,8 @@ void Refinement::reset(const std::vector<std::int32_t>& seeds) {
     is_reset[index(face)] = true;
   };
   for (const std::int32_t face : seeds) add(face);
-  for (std::size_t next = 0; next < faces.size();) {
-    const std::int32_t face = faces[next++];
+  for (std::size_t done = 0; done < faces.size();) {  // add() makes it grow
+    const std::int32_t face = faces[done++];
     const Given original = given(mesh, face);
     std::array<std::int32_t, 3> whole{-1, -1, -1};
     const auto look = [&](std::int32_t part) {
@@ -818,7 +784,7 @@ void Refinement::reset(const std::vector<std::int32_t>& seeds) {
   for (const std::int32_t face : faces) {
     const Given original = given(mesh, face);
     mesh_.corners[index(face)] = original.corners;
-    std::ranges::copy(original.twins, &mesh_.twins[3 * index(face)]);
+    std::ranges::copy(original.twins, mesh_.twins.begin() + std::ptrdiff_t{3} * face);
     branch_[index(face)] = 1;
     states_[index(face)] = State::kOriginal;
   }
@@ -852,7 +818,7 @@ void Refinement::reset(const std::vector<std::int32_t>& seeds) {
 
   // And the vertices that nothing else has. Bisecting leaves a face's first part at the face's own place.
   std::vector<std::int32_t> kept;
-  for (std::size_t f = faces_; f < to; ++f) {
+  for (std::size_t f = faces_; f < origins_.size(); ++f) {
     const std::int32_t face = origins_[f];
     if (std::exchange(last_part[index(face)], -1) >= 0) kept.push_back(face);
   }
@@ -927,14 +893,26 @@ Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions
     task.check(1);
     return out;
   };
-  {
-    Refinement paper(surface, metric, options, Scheme::kPaper);
-    const std::size_t most = std::min(budget(surface), options.max_faces_added);
-    if (paper.run(task, most, progress) || most == options.max_faces_added) return done(std::move(paper));
+  Refinement paper(surface, metric, options, Scheme::kPaper);
+  const std::size_t first_most = std::min(budget(surface), options.max_faces_added);
+  const bool ends = paper.run(task, first_most, progress);
+  if (ends ? !paper.has_decayed() : first_most == options.max_faces_added) return done(std::move(paper));
+
+  const std::size_t most = later_budget(surface, options.max_faces_added);
+  for (const Scheme scheme : {Scheme::kPropagate, Scheme::kShallow}) {
+    Refinement refinement(surface, metric, options, scheme);
+    if (!refinement.run(task, most, progress) || !refinement.fit(task, progress)) continue;
+    // It may take half as many triangles again as the paper's scheme, which, had it been let, might have ended by now.
+    const std::size_t papers_share = refinement.faces_added() * 2 / 3;
+    if (!ends && papers_share > first_most && paper.work_off(task, papers_share, progress) && !paper.has_decayed()) {
+      return done(std::move(paper));
+    }
+    return done(std::move(refinement));
   }
-  Refinement propagating(surface, metric, options, Scheme::kPropagate);
-  propagating.run(task, options.max_faces_added, progress);
-  return done(std::move(propagating));
+  Refinement fitting(surface, metric, options, Scheme::kFitAlone);
+  fitting.run(task, most, progress);
+  fitting.fit(task, progress);
+  return done(std::move(fitting));
 }
 
 Embedding re_embed(const Surface& surface, const Metric& former, const Metric& metric, Embedding old,
@@ -950,7 +928,8 @@ Embedding re_embed(const Surface& surface, const Metric& former, const Metric& m
   task.check(0);
   {
     Refinement changes(surface, metric, options, std::move(old));
-    if (changes.run_changes(former, task, std::min(budget(surface), options.max_faces_added))) {
+    if (changes.run_changes(former, task, std::min(budget(surface), options.max_faces_added)) &&
+        !changes.has_decayed()) {
       Embedding out = std::move(changes).result();
       task.check(1);
       return out;

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "embeddings.hpp"
 #include "intrinsic.hpp"
 #include "reference_geodesics.hpp"
 #include "seamwire/geodesics.hpp"
@@ -25,6 +26,7 @@
 namespace seamwire {
 namespace {
 
+using embeddings::expect_sound;
 using shapes::Mesh;
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
@@ -54,57 +56,6 @@ Metric random_metric(const Surface& surface, double a, unsigned seed) {
     tensor = a * e1 * e1.transpose() + 1 / a * e2 * e2.transpose();
   }
   return metric;
-}
-
-double area(const Vector& a, const Vector& b, const Vector& c) { return (b - a).cross(c - a).norm() / 2; }
-
-// What every embedding must be. `left` is the area of its holes, if it may have any.
-void expect_sound(const Surface& surface, const Embedding& embedding) {
-  const IntrinsicMesh& mesh = embedding.mesh;
-  const std::size_t n = mesh.face_count();
-  ASSERT_EQ(mesh.lengths.size(), 3 * n);
-  ASSERT_EQ(mesh.twins.size(), 3 * n);
-  ASSERT_EQ(embedding.source_face.size(), n);
-  ASSERT_EQ(embedding.points.size(), at(mesh.vertex_count));
-  ASSERT_TRUE(std::equal(surface.points().begin(), surface.points().end(), embedding.points.begin()));
-  for (std::size_t f = 0; f < n; ++f) {
-    double sum = 0, longest = 0;
-    for (std::size_t h = 3 * f; h < 3 * f + 3; ++h) {
-      ASSERT_GT(mesh.lengths[h], 0);
-      ASSERT_TRUE(std::isfinite(mesh.lengths[h]));
-      sum += mesh.lengths[h];
-      longest = std::max(longest, mesh.lengths[h]);
-      const std::int32_t i = static_cast<std::int32_t>(h), twin = mesh.twins[h];
-      if (twin < 0) continue;
-      ASSERT_EQ(mesh.twins[at(twin)], i);
-      ASSERT_EQ(mesh.lengths[at(twin)], mesh.lengths[h]);
-      ASSERT_EQ(mesh.tail(twin), mesh.tip(i));
-      ASSERT_EQ(mesh.tip(twin), mesh.tail(i));
-    }
-    ASSERT_LT(longest, (sum - longest) * (1 - 1e-10));
-  }
-
-  // Each refined face lies in its source face: its corners have barycentric coordinates there that are not negative.
-  std::vector<double> covered(surface.face_count(), 0.0);
-  for (std::size_t f = 0; f < n; ++f) {
-    const Triangle& source = surface.triangles()[at(embedding.source_face[f])];
-    const Vector &a = surface.points()[at(source[0])], &b = surface.points()[at(source[1])],
-                 &c = surface.points()[at(source[2])];
-    const double whole = area(a, b, c);
-    for (const std::int32_t v : mesh.triangles[f]) {
-      const Vector& p = embedding.points[at(v)];
-      ASSERT_NEAR(area(p, b, c) + area(a, p, c) + area(a, b, p), whole, 1e-8 * whole) << "refined face " << f;
-    }
-    const Triangle& t = mesh.triangles[f];
-    covered[at(embedding.source_face[f])] +=
-        area(embedding.points[at(t[0])], embedding.points[at(t[1])], embedding.points[at(t[2])]);
-  }
-  if (embedding.invalid_left > 0 || !surface.report().duplicate_faces.empty()) return;
-  for (std::size_t f = 0; f < surface.face_count(); ++f) {
-    const auto& [a, b, c] = surface.triangles()[f];
-    const double whole = area(surface.points()[at(a)], surface.points()[at(b)], surface.points()[at(c)]);
-    EXPECT_NEAR(covered[f], whole, 1e-12 + 1e-9 * whole) << "face " << f;
-  }
 }
 
 // Which vertices triangles and loose edges connect to the first.
@@ -334,7 +285,7 @@ void expect_same(const Surface& surface, const Embedding& a, const Embedding& b)
 // A stroke along a random walk over the vertices.
 Scribble random_scribble(const Surface& surface, std::mt19937& random) {
   Scribble scribble;
-  std::int32_t v = static_cast<std::int32_t>(random() % surface.vertex_count());
+  auto v = static_cast<std::int32_t>(random() % surface.vertex_count());
   const HalfEdgeMesh& mesh = surface.half_edges();
   for (int steps = 2 + static_cast<int>(random() % 30); steps > 0; --steps) {
     scribble.vertices.push_back(v);
@@ -441,43 +392,6 @@ TEST(Embed, SplitsLargestPerimeterFirst) {
   };
   EXPECT_LE(longest_loose(few), longest_loose(none));
   EXPECT_EQ(few.faces_added, 2U);
-}
-
-// Under M_max the paper's scheme alone adds over four million triangles here.
-TEST(Embed, EndsWhereThePapersSchemeDoesNot) {
-  const Surface surface = shapes::torus(24, 40).surface();
-  const Curvature curvature = principal_curvatures(surface);
-  for (const double a : {15.0, 20.0, 30.0, 100.0, 1000.0}) {
-    for (const Follow follow : {Follow::kMin, Follow::kMax}) {
-      const Embedding embedding = embed(surface, feature_metric(surface, curvature, follow, {.max_anisotropy = a}));
-      EXPECT_FALSE(embedding.hit_cap) << a;
-      EXPECT_EQ(embedding.invalid_left, 0U) << a;
-      EXPECT_LT(embedding.faces_added, 200'000U) << a;
-      expect_sound(surface, embedding);
-    }
-  }
-}
-
-TEST(Embed, AddsWhatThePapersSchemeDoesWhereThatEnds) {
-  // 9312 is what the paper's scheme adds with no other to fall back on.
-  const Surface surface = shapes::torus(24, 40).surface();
-  const Metric metric = feature_metric(surface, principal_curvatures(surface), Follow::kMax, {.max_anisotropy = 10});
-  EXPECT_LE(embed(surface, metric).faces_added, 9312U * 3 / 2);
-}
-
-TEST(Embed, EndsOnBumpyShapesAtAnyAnisotropy) {
-  for (const Mesh& mesh : {shapes::bumpy(shapes::icosphere(3), 0.05), shapes::bumpy(shapes::torus(40, 20), 0.05)}) {
-    const Surface surface = mesh.surface();
-    const Curvature curvature = principal_curvatures(surface);
-    for (const double a : {100.0, 1000.0}) {
-      for (const Follow follow : {Follow::kMin, Follow::kMax}) {
-        const Embedding embedding = embed(surface, feature_metric(surface, curvature, follow, {.max_anisotropy = a}));
-        EXPECT_FALSE(embedding.hit_cap) << a;
-        EXPECT_EQ(embedding.invalid_left, 0U) << a;
-        expect_sound(surface, embedding);
-      }
-    }
-  }
 }
 
 // Neighbours agree on their edges, and no vertex lies within an edge, also where a chain of neighbours was bisected.

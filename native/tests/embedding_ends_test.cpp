@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The subdivision ends, with nothing left and below the cap, on slivers and at any strength; and costs little where the
+// paper's own scheme ends.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <numbers>
+#include <optional>
+#include <queue>
+#include <random>
+#include <string>
+
+#include "embeddings.hpp"
+#include "intrinsic.hpp"
+#include "seamwire/curvature.hpp"
+#include "seamwire/geodesics.hpp"
+
+namespace seamwire {
+namespace {
+
+using embeddings::at;
+using embeddings::expect_sound;
+using shapes::Mesh;
+
+Mesh squeezed(Mesh mesh, double factor, int axis) {
+  for (Vector& p : mesh.points) p[axis] *= factor;
+  return mesh;
+}
+
+Mesh wave() {
+  Mesh mesh = shapes::grid(12, 0.2);
+  for (Vector& p : mesh.points) p.z() = 0.05 * std::sin(9 * p.x() + 5 * p.y());
+  return mesh;
+}
+
+/// Shapes whose triangles are `aspect` times as long as they are high.
+std::vector<shapes::Named> slivers(double aspect) {
+  const int around = static_cast<int>(std::min(aspect, 300.0));
+  return {{"jittered grid", squeezed(shapes::grid(8, 0.3), 1 / aspect, 1)},
+          {"wave", squeezed(wave(), 1 / aspect, 1)},
+          {"disc", squeezed(shapes::icosphere(2), 1 / aspect, 2)},
+          {"cigar", squeezed(shapes::bumpy(shapes::icosphere(2), 0.05), aspect, 0)},
+          {"staves", shapes::cylinder(around, 2)},
+          {"hoops", shapes::cylinder(8, 2 * around, 0.4, 4 / aspect)},
+          {"flat torus", shapes::bumpy(squeezed(shapes::torus(24, 12), 1 / aspect, 2), 0.002)}};
+}
+
+/// At each vertex a direction of its own, at anisotropy `a`.
+Metric random_metric(const Surface& surface, const Curvature& curvature, double a) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> angle(0, std::numbers::pi);
+  Metric metric{curvature.normals, {}};
+  for (std::size_t v = 0; v < surface.vertex_count(); ++v) {
+    const Vector& n = curvature.normals[v];
+    const Vector e = n.unitOrthogonal(), f = n.cross(e);
+    const double t = angle(random);
+    const Vector e1 = std::cos(t) * e + std::sin(t) * f, e2 = std::cos(t) * f - std::sin(t) * e;
+    metric.tensors.emplace_back(a * e1 * e1.transpose() + 1 / a * e2 * e2.transpose());
+  }
+  return metric;
+}
+
+/// Section 4.1 of the paper and nothing more: the triangles it adds, or nullopt where they are more than `most`.
+std::optional<std::size_t> added_by_papers_scheme(const Surface& surface, const Metric& metric, std::size_t most) {
+  std::vector<Vector> points;
+  std::vector<TensorAt> tensors;
+  for (std::size_t v = 0; v < surface.vertex_count(); ++v) {
+    points.emplace_back(surface.points()[v] * surface.scale());
+    tensors.push_back({metric.normals[v], metric.tensors[v]});
+  }
+  std::vector<Triangle> faces = surface.triangles();
+  std::map<Edge, std::vector<std::size_t>> faces_at;
+  const auto sides = [&](std::size_t f) {
+    const auto& [a, b, c] = faces[f];
+    return std::array{Edge{std::min(a, b), std::max(a, b)}, Edge{std::min(b, c), std::max(b, c)},
+                      Edge{std::min(c, a), std::max(c, a)}};
+  };
+  const auto length = [&](const Edge& edge) {
+    const Vector e = points[at(edge[1])] - points[at(edge[0])];
+    return integrated_length(ambient_norm(tensors[at(edge[0])], e), ambient_norm(tensors[at(edge[1])], e));
+  };
+  std::priority_queue<std::pair<double, std::size_t>> queue;
+  const auto perimeter = [&](std::size_t f) {
+    const auto [a, b, c] = sides(f);
+    return length(a) + length(b) + length(c);
+  };
+  const auto longest = [&](std::size_t f) {
+    const auto all = sides(f);
+    return *std::ranges::max_element(all, {}, length);
+  };
+  const auto consider = [&](std::size_t f) {
+    const double whole = perimeter(f), most_of_it = length(longest(f));
+    if (most_of_it >= (whole - most_of_it) * (1 - 1e-10)) queue.emplace(whole, f);
+  };
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (const Edge& side : sides(f)) faces_at[side].push_back(f);
+    consider(f);
+  }
+  std::size_t added = 0;
+  while (!queue.empty()) {
+    const auto [key, face] = queue.top();
+    queue.pop();
+    if (key != perimeter(face)) continue;
+    if (added >= most) return std::nullopt;
+    const Edge edge = longest(face);
+    const auto middle = static_cast<std::int32_t>(points.size());
+    points.emplace_back((points[at(edge[0])] + points[at(edge[1])]) / 2);
+    tensors.push_back(midpoint_tensor(tensors[at(edge[0])], tensors[at(edge[1])]));
+    for (const std::size_t f : std::vector<std::size_t>(faces_at[edge])) {
+      const std::size_t g = faces.size();
+      for (const Edge& side : sides(f)) std::erase(faces_at[side], f);
+      faces.push_back(faces[f]);
+      std::ranges::replace(faces[f], edge[1], middle);
+      std::ranges::replace(faces[g], edge[0], middle);
+      for (const std::size_t part : {f, g}) {
+        for (const Edge& side : sides(part)) faces_at[side].push_back(part);
+        consider(part);
+      }
+      ++added;
+    }
+  }
+  return added;
+}
+
+// Under M_max the paper's scheme alone adds over four million triangles here.
+TEST(EmbeddingEnds, WhereThePapersSchemeDoesNot) {
+  const Surface surface = shapes::torus(24, 40).surface();
+  const Curvature curvature = principal_curvatures(surface);
+  for (const double a : {15.0, 20.0, 30.0, 100.0, 1000.0}) {
+    for (const Follow follow : {Follow::kMin, Follow::kMax}) {
+      const Embedding embedding = embed(surface, feature_metric(surface, curvature, follow, {.max_anisotropy = a}));
+      EXPECT_FALSE(embedding.hit_cap) << a;
+      EXPECT_EQ(embedding.invalid_left, 0U) << a;
+      EXPECT_LT(embedding.faces_added, 200'000U) << a;
+      expect_sound(surface, embedding);
+    }
+  }
+}
+
+TEST(EmbeddingEnds, OnBumpyShapesAtAnyAnisotropy) {
+  for (const Mesh& mesh : {shapes::bumpy(shapes::icosphere(3), 0.05), shapes::bumpy(shapes::torus(40, 20), 0.05)}) {
+    const Surface surface = mesh.surface();
+    const Curvature curvature = principal_curvatures(surface);
+    for (const double a : {100.0, 1000.0}) {
+      for (const Follow follow : {Follow::kMin, Follow::kMax}) {
+        const Embedding embedding = embed(surface, feature_metric(surface, curvature, follow, {.max_anisotropy = a}));
+        EXPECT_FALSE(embedding.hit_cap) << a;
+        EXPECT_EQ(embedding.invalid_left, 0U) << a;
+        expect_sound(surface, embedding);
+      }
+    }
+  }
+}
+
+class EmbeddingEndsOn : public testing::TestWithParam<int> {};
+
+TEST_P(EmbeddingEndsOn, SliversAtAnyStrength) {
+  const double aspect = GetParam();
+  for (const auto& [name, mesh] : slivers(aspect)) {
+    const Surface surface = mesh.surface();
+    const Curvature curvature = principal_curvatures(surface);
+    for (const double a : {10.0, 100.0, 1000.0}) {
+      for (const auto& [kind, metric] :
+           {std::pair("M_min", feature_metric(surface, curvature, Follow::kMin, {.max_anisotropy = a})),
+            std::pair("M_max", feature_metric(surface, curvature, Follow::kMax, {.max_anisotropy = a})),
+            std::pair("random", random_metric(surface, curvature, a))}) {
+        SCOPED_TRACE(name + ", " + kind + ", A = " + std::to_string(a));
+        const Embedding embedding = embed(surface, metric);
+        EXPECT_FALSE(embedding.hit_cap);
+        EXPECT_EQ(embedding.invalid_left, 0U);
+        EXPECT_TRUE(embedding.unreachable.empty());
+        EXPECT_LT(embedding.faces_added, 600'000U);
+        if (embedding.faces_added < 20'000) expect_sound(surface, embedding);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Aspects, EmbeddingEndsOn, testing::Values(10, 100, 1000));
+
+TEST(EmbeddingEnds, WithDistancesThatPathsHave) {
+  // Where lengths had to be fitted, geodesics are those of the fitted lengths all the same.
+  const Surface surface = slivers(10)[3].mesh.surface();
+  const Curvature curvature = principal_curvatures(surface);
+  const Embedding embedding =
+      embed(surface, feature_metric(surface, curvature, Follow::kMin, {.max_anisotropy = 1000}));
+  ASSERT_GT(embedding.faces_added, 0U);
+  expect_sound(surface, embedding);
+  const DistanceField field = ExactGeodesics(embedding.mesh).solve(0);
+  for (std::int32_t v = 0; v < embedding.mesh.vertex_count; ++v) {
+    const double distance = field.distances()[at(v)];
+    ASSERT_TRUE(std::isfinite(distance));
+    EXPECT_NEAR(field.trace(v).length, distance, 1e-9 * distance);
+  }
+}
+
+TEST(EmbeddingEnds, WithAtMostHalfAsManyTrianglesAgainWhereThePapersSchemeEnds) {
+  std::vector<shapes::Named> meshes = slivers(3);
+  for (auto& mesh : slivers(30)) meshes.push_back(std::move(mesh));
+  meshes.push_back({"torus", shapes::torus(24, 40)});
+  meshes.push_back({"bumpy torus", shapes::bumpy(shapes::torus(30, 16), 0.05)});
+  int ended = 0, did_not = 0;
+  for (const auto& [name, mesh] : meshes) {
+    const Surface surface = mesh.surface();
+    const Curvature curvature = principal_curvatures(surface);
+    for (const double a : {10.0, 30.0, 100.0}) {
+      for (const Follow follow : {Follow::kMin, Follow::kMax}) {
+        const Metric metric = feature_metric(surface, curvature, follow, {.max_anisotropy = a});
+        const auto papers = added_by_papers_scheme(surface, metric, 40'000);
+        ++(papers ? ended : did_not);
+        if (papers) {
+          EXPECT_LE(static_cast<double>(embed(surface, metric).faces_added), 1.5 * static_cast<double>(*papers))
+              << name << ", A = " << a;
+        }
+      }
+    }
+  }
+  EXPECT_GT(ended, 40);
+  EXPECT_GT(did_not, 5);
+}
+
+}  // namespace
+}  // namespace seamwire

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "seamwire/embedding.hpp"
+
+/// What tests of embeddings share.
+namespace seamwire::embeddings {
+
+inline std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+inline double area(const Vector& a, const Vector& b, const Vector& c) { return (b - a).cross(c - a).norm() / 2; }
+
+/// What every embedding must be. `left` is the area of its holes, if it may have any.
+inline void expect_sound(const Surface& surface, const Embedding& embedding) {
+  const IntrinsicMesh& mesh = embedding.mesh;
+  const std::size_t n = mesh.face_count();
+  ASSERT_EQ(mesh.lengths.size(), 3 * n);
+  ASSERT_EQ(mesh.twins.size(), 3 * n);
+  ASSERT_EQ(embedding.source_face.size(), n);
+  ASSERT_EQ(embedding.points.size(), at(mesh.vertex_count));
+  ASSERT_TRUE(std::equal(surface.points().begin(), surface.points().end(), embedding.points.begin()));
+  for (std::size_t f = 0; f < n; ++f) {
+    double sum = 0, longest = 0;
+    for (std::size_t h = 3 * f; h < 3 * f + 3; ++h) {
+      ASSERT_GT(mesh.lengths[h], 0);
+      ASSERT_TRUE(std::isfinite(mesh.lengths[h]));
+      sum += mesh.lengths[h];
+      longest = std::max(longest, mesh.lengths[h]);
+      const std::int32_t i = static_cast<std::int32_t>(h), twin = mesh.twins[h];
+      if (twin < 0) continue;
+      ASSERT_EQ(mesh.twins[at(twin)], i);
+      ASSERT_EQ(mesh.lengths[at(twin)], mesh.lengths[h]);
+      ASSERT_EQ(mesh.tail(twin), mesh.tip(i));
+      ASSERT_EQ(mesh.tip(twin), mesh.tail(i));
+    }
+    ASSERT_LT(longest, (sum - longest) * (1 - 1e-10));
+  }
+
+  // Each refined face lies in its source face: its corners have barycentric coordinates there that are not negative.
+  std::vector<double> covered(surface.face_count(), 0.0);
+  for (std::size_t f = 0; f < n; ++f) {
+    const Triangle& source = surface.triangles()[at(embedding.source_face[f])];
+    const Vector &a = surface.points()[at(source[0])], &b = surface.points()[at(source[1])],
+                 &c = surface.points()[at(source[2])];
+    const double whole = area(a, b, c);
+    for (const std::int32_t v : mesh.triangles[f]) {
+      const Vector& p = embedding.points[at(v)];
+      ASSERT_NEAR(area(p, b, c) + area(a, p, c) + area(a, b, p), whole, 1e-8 * whole) << "refined face " << f;
+    }
+    const Triangle& t = mesh.triangles[f];
+    covered[at(embedding.source_face[f])] +=
+        area(embedding.points[at(t[0])], embedding.points[at(t[1])], embedding.points[at(t[2])]);
+  }
+  if (embedding.invalid_left > 0 || !surface.report().duplicate_faces.empty()) return;
+  for (std::size_t f = 0; f < surface.face_count(); ++f) {
+    const auto& [a, b, c] = surface.triangles()[f];
+    const double whole = area(surface.points()[at(a)], surface.points()[at(b)], surface.points()[at(c)]);
+    EXPECT_NEAR(covered[f], whole, 1e-12 + 1e-9 * whole) << "face " << f;
+  }
+}
+
+}  // namespace seamwire::embeddings
