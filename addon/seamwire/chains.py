@@ -13,7 +13,13 @@ if TYPE_CHECKING:
     from .session import Session
 
 _TOKEN = re.compile(r"(\d+)(?:-(\d+))?")
-_KINDS = {"CLOSED": "closed loop", "STRIP": "strip", "WHOLE": "whole strip", "EDGE": "single edge"}
+_KINDS = {
+    "CLOSED": "closed loop",
+    "STRIP": "strip",
+    "PAST": "way past poles",
+    "WHOLE": "whole strip",
+    "EDGE": "single edge",
+}
 _VERTEX = re.compile(r"\d+")
 
 
@@ -115,7 +121,7 @@ def _turn_to(session: Session, edge: Edge, kind: LoopKind) -> bool:
         if kind == "EDGE":
             wanted = next((other for other, found in edges.items() if len(found) == 1), None)
         elif kind == "CLOSED" or closed is None:
-            wanted = "STRIP" if kind == "WHOLE" and strip is not None else None
+            wanted = "STRIP" if kind in {"PAST", "WHOLE"} and strip is not None else None
         else:
             wanted = "CLOSED" if strip is None or strip <= closed else "STRIP"
     while wanted in edges and session.loop_choice != wanted:

@@ -19,7 +19,13 @@ _METRICS = {
 }
 
 
-_OFFERS = {"CLOSED": "Closed loop", "STRIP": "Strip up to seams", "WHOLE": "Whole strip", "EDGE": "This edge alone"}
+_OFFERS = {
+    "CLOSED": "Closed loop",
+    "STRIP": "Strip up to seams",
+    "PAST": "Past poles, up to seams",
+    "WHOLE": "Whole strip",
+    "EDGE": "This edge alone",
+}
 
 
 def lines(session: Session, segments: int | None, xray: bool = False, features: bool = False) -> list[str]:

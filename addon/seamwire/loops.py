@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What one click on an edge offers: the loop through it, the strip, the whole strip, the edge alone."""
+"""What one click on an edge offers: the loop through it, the strip, the way past poles, the whole strip, the edge alone."""
 
 from __future__ import annotations
 
@@ -76,7 +76,8 @@ def find_offers(
     edge
         Strips run in its direction.
     stops
-        The vertices where a strip ends, before the offer without stops; None: that alone is offered.
+        The vertices where a strip and the way past poles end, before the offer without stops; None: that alone is
+        offered.
     points
         (n, 3) vertices of the mesh.
     strength
@@ -95,6 +96,7 @@ def find_offers(
     if stops is not None:
         strip = live.strip(edge, stops)
         found.append(_wire("STRIP", strip.vertices, strip.closed, edge, points))
+        found.append(_wire("PAST", *past_poles(live, edge, stops), edge, points))
     chain = live.strip(edge, ())
     whole = _wire("WHOLE", chain.vertices, chain.closed, edge, points)
     found += [whole, _wire("EDGE", edge, False, edge, points)]
@@ -103,6 +105,22 @@ def find_offers(
         found.insert(len(found) if aside else 0, closed)
     different = {frozenset(wire.edges()): wire for wire in reversed(found) if wire is not None}
     return tuple(wire for wire in found if wire in different.values()), True
+
+
+def past_poles(live: LiveWire, edge: Edge, stops: Sequence[int]) -> tuple[tuple[int, ...], bool]:
+    """Return the way that runs on from both ends of an edge, and whether it is closed; no vertices: it meets itself."""
+
+    def way(first: int, second: int) -> tuple[int, ...]:
+        if second in stops:
+            return (second,)
+        return tuple(int(vertex) for vertex in live.run_on((first, second), stops).vertices)
+
+    forth = way(*edge)
+    if len(forth) > 2 and forth[-1] == edge[0]:
+        return (edge[0], *forth[:-1]), True
+    back = way(edge[1], edge[0])
+    chain = (*back[::-1], *forth)
+    return (chain if len(set(chain)) == len(chain) else ()), False
 
 
 def _is_around_a_face(loop: Wire, strip: Wire) -> bool:

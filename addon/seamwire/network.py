@@ -29,7 +29,7 @@ Edge = tuple[int, int]
 
 End = Literal["start", "end"]
 
-LoopKind = Literal["CLOSED", "STRIP", "WHOLE", "EDGE"]
+LoopKind = Literal["CLOSED", "STRIP", "PAST", "WHOLE", "EDGE"]
 """What a click on an edge takes: the closed loop of the metric, the straight strip up to what is there already, the whole
 strip, the edge alone."""
 

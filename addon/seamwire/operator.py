@@ -61,6 +61,11 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
             ("FIRST", "First Offered", "The closed loop where there is one, else the strip"),
             ("CLOSED", "Closed Loop", "The closed chain of edges that is shortest for its shape"),
             ("STRIP", "Strip", "Straight on both ways, up to seams, other wires and the mirror"),
+            (
+                "PAST",
+                "Past Poles",
+                "Straight on as well where other than four edges meet, up to seams, other wires and the mirror",
+            ),
             ("WHOLE", "Whole Strip", "Straight on both ways, across seams and wires"),
             ("EDGE", "Edge", "The edge alone"),
         ),

@@ -21,7 +21,7 @@ MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "VIEW3D_MT_edit_mesh_c
 Hint = tuple[str, str]
 """An icon of Blender's, and what it stands for now."""
 
-_OFFERS = {"CLOSED": "Closed Loop", "STRIP": "Strip", "WHOLE": "Whole Strip", "EDGE": "Edge"}
+_OFFERS = {"CLOSED": "Closed Loop", "STRIP": "Strip", "PAST": "Past Poles", "WHOLE": "Whole Strip", "EDGE": "Edge"}
 """What a click may take with the key for loops held, by the session's names."""
 _CLICKS = {
     "SEED": "Seed",

@@ -146,6 +146,24 @@ def test_strips_end_at_seams_of_the_mesh() -> None:
     assert offers["WHOLE"] == sorted([*meridian(0), AROUND * RINGS, AROUND * RINGS + 1])
 
 
+def test_a_way_past_poles_goes_straight_on_there_up_to_seams() -> None:
+    ring = [(4 * AROUND + i, 4 * AROUND + (i + 1) % AROUND) for i in range(AROUND)]
+    offers = dict(hovered(ball(seams=ring), (2 * AROUND, 3 * AROUND)))
+    assert offers["PAST"] == sorted([*meridian(0)[:5], AROUND * RINGS, *meridian(AROUND // 2)[:5]])
+
+
+def test_a_way_past_poles_that_meets_no_seam_closes_around_the_ball() -> None:
+    session = ball()
+    session.hover((2 * AROUND, 3 * AROUND), loop=True)
+    session.wait()
+    great_circle = {*meridian(0), *meridian(AROUND // 2), AROUND * RINGS, AROUND * RINGS + 1}
+    shown = []
+    for _ in session.loop_offers:
+        shown.append((session.loop_preview.closed, set(session.loop_preview.vertices)))
+        session.toggle()
+    assert (True, great_circle) in shown
+
+
 def test_a_kept_ring_ends_the_next_strip() -> None:
     session = ball()
     session.loop((4 * AROUND, 4 * AROUND + 1))

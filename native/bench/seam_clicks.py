@@ -8,8 +8,8 @@ Needs SciPy. Presses of a mouse button are counted:
 
 - Blender, edge mode: a click for the first edge of a chain, one for each shortest path from there on, and one for an edge loop, wherever
   one lies in the seams as a whole. A path may begin where an edge loop was clicked.
-- Seamwire: a click for a chain's seed, one for each wire, and one for each offer of the loop gesture: a closed loop, a straight strip up to
-  seams drawn before or whole, wherever one lies in the seams as a whole, and a single edge.
+- Seamwire: a click for a chain's seed, one for each wire, and one for each offer of the loop gesture: a closed loop, a strip or a way
+  past poles up to seams drawn before, a whole strip, wherever one lies in the seams as a whole, and a single edge.
 - The same, mirrored: where the mesh is symmetric, edges whose images are seams too are drawn once, if that takes fewer clicks. Blender's
   Select Mirror is counted as if it did the same.
 """
@@ -28,7 +28,8 @@ from blender_engine import BlenderEngine
 from seams_engine import SeamwireEngine
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
-from seamwire.mirror import Mirror  # it knows no Blender
+from seamwire.loops import past_poles  # these know no Blender
+from seamwire.mirror import Mirror
 
 Pair = tuple[int, int]
 Edges = frozenset[Pair]
@@ -78,6 +79,8 @@ class Seamwire:
             yield edges_of(loop, True)
         yield edges_of(*self.engine.strip(edge))
         yield edges_of(*self.engine.strip(edge, stops))
+        chain, closed = past_poles(self.engine.live, edge, list(stops))
+        yield edges_of(list(chain), closed)
 
 
 def clicks(measure: Any, near: dict[int, set[int]], tool: Blender | Seamwire, seams: Edges) -> int:  # noqa: ANN401

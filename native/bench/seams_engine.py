@@ -53,8 +53,8 @@ class SeamwireEngine:
             )
             for follow in ("min", "max")
         ]
-        self._live = sw.LiveWire(self.surface, along="edges", max_anisotropy=self.anisotropy)
-        self._live.wait()
+        self.live = sw.LiveWire(self.surface, along="edges", max_anisotropy=self.anisotropy)
+        self.live.wait()
 
     def wires(self, seed: tuple[int, int], targets: list[tuple[int, int]], forward: bool) -> list[list[list[int]]]:
         """Offer the wires from a seed edge to each target edge, the shorter first; a wire lists its vertices."""
@@ -73,5 +73,5 @@ class SeamwireEngine:
 
     def strip(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> tuple[list[int], bool]:
         """Offer the straight strip through the edge up to stops: its vertices, and whether it is closed."""
-        found = self._live.strip(edge, np.fromiter(stops, dtype=np.int32))
+        found = self.live.strip(edge, np.fromiter(stops, dtype=np.int32))
         return list(found.vertices), found.closed
