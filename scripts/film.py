@@ -134,6 +134,13 @@ class Film:
         )
         return self.seen((one + half) / 2)
 
+    def middle_edge(self, *near: float) -> tuple[float, float]:
+        """Return where the edge on the plane of symmetry that is nearest to a place is seen."""
+        vertices = self.obj.data.vertices
+        edges = [[vertices[v].co for v in edge.vertices] for edge in self.obj.data.edges]
+        middles = [(one + two) / 2 for one, two in edges if abs(one.x) + abs(two.x) < 1e-4]
+        return self.seen(min(middles, key=lambda co: (co - Vector(near)).length))
+
     def picture(self, name: str) -> None:
         """Keep what is seen as a picture of the guide."""
         write_png(self.folder / f"guide-{name}.png", self.shot())
@@ -272,6 +279,14 @@ def play(film: Film) -> None:
     film.go(film.edge(EAR), 2, alt=True)
     film.hold(4)
     film.click(alt=True)
+    film.say("Alt and the wheel: the strip up to the seams, the whole strip, the edge")
+    film.go(film.middle_edge(0.0, -0.45, 0.9), 10)
+    film.go(film.middle_edge(0.0, -0.45, 0.9), 2, alt=True)
+    film.hold(8)
+    film.ui.wheel(up=True, alt=True)
+    film.settle()
+    film.hold(8)
+    film.click(alt=True)
     film.say("The segments that the seams make are tinted")
     film.go(film.vertex(0.9, -0.4, -0.6), 6)
     film.hold(12)
@@ -291,7 +306,9 @@ def unwrap(film: Film) -> None:
     turn, centre, distance = before.view_rotation.copy(), before.view_location.copy(), before.view_distance
     with film.ui.override():
         bpy.ops.mesh.select_all(action="SELECT")
-        bpy.ops.uv.unwrap(method="ANGLE_BASED", margin=0.004)
+        bpy.ops.uv.unwrap(method="ANGLE_BASED", margin=0.01)
+        bpy.ops.mesh.select_all(action="DESELECT")
+    bpy.context.scene.tool_settings.use_uv_select_sync = True  # all of it is seen, selected or not
     window = film.ui.window
     with film.ui.override():
         bpy.ops.screen.back_to_previous()
@@ -302,10 +319,12 @@ def unwrap(film: Film) -> None:
     space = ui.space
     space.overlay.show_floor = space.overlay.show_axis_x = space.overlay.show_axis_y = False
     space.overlay.show_cursor = space.overlay.show_text = space.show_gizmo = False
+    space.show_region_toolbar = False
     ui.view.view_perspective = "PERSP"
-    ui.view.view_rotation, ui.view.view_location, ui.view.view_distance = turn, centre, 1.5 * distance
+    ui.view.view_rotation, ui.view.view_location, ui.view.view_distance = turn, centre, 1.2 * distance
     for area in window.screen.areas:
         if area.type == "IMAGE_EDITOR":
+            area.spaces.active.show_region_toolbar = False
             region = next(region for region in area.regions if region.type == "WINDOW")
             with bpy.context.temp_override(window=window, area=area, region=region):
                 bpy.ops.image.view_all(fit_view=True)
@@ -322,13 +341,16 @@ def guide(film: Film) -> None:
     film.click()
     film.go(film.vertex(0.80, -0.40, 0.40))
     film.picture("wires")
-    film.picture("stroke-before")
+    film.key("E")
     start_of, end_of = film.vertex(0.0, -0.6, 0.80), film.at
-    over = film.vertex(0.42, -0.25, 0.95)
-    draw_stroke(film, [bend(start_of, over, end_of, part) for part in np.linspace(0.06, 0.94, 24)])
+    film.go(end_of)
+    film.picture("stroke-before")
+    over = film.vertex(0.40, -0.10, 1.0)
+    draw_stroke(film, [bend(start_of, over, end_of, part) for part in np.linspace(0.05, 0.95, 30)])
     film.go(end_of)
     film.picture("stroke-after")
     film.key("BACK_SPACE")
+    film.key("E")
     film.go(end_of)
     film.click()
     film.go(film.vertex(0.55, -0.40, -0.30))
@@ -350,6 +372,11 @@ def guide(film: Film) -> None:
     film.key("M")
     film.go(film.edge(EAR), alt=True)
     film.picture("mirror")
+    film.click(alt=True)
+    film.go(film.middle_edge(0.0, -0.45, 0.9), alt=True)
+    film.ui.wheel(up=True, alt=True)
+    film.settle()
+    film.picture("strip")
     film.click(alt=True)
     film.go(film.vertex(0.9, -0.4, -0.6))
     film.picture("segments")

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 Row = tuple[str, str]
 """The keys as they are bound, and what they do. Without keys it is a heading."""
 
-BACKGROUND: Colour = (0.07, 0.07, 0.08, 0.92)
+BACKGROUND: Colour = (0.07, 0.07, 0.08, 0.98)
 _KEY: Colour = (1.0, 0.83, 0.35, 1.0)
 _WHAT: Colour = (0.93, 0.93, 0.93, 1.0)
 _HEADING: Colour = (1.0, 1.0, 1.0, 1.0)

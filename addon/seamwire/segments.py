@@ -171,7 +171,7 @@ def neighbours(triangles: NDArray[np.int32], labels: NDArray[np.int32], cuts: ND
 
 
 def coloured(count: int, pairs: NDArray[np.int32], wishes: NDArray[np.int64], hues: int) -> NDArray[np.uint8]:
-    """Choose a hue for each segment, unlike those of its neighbours.
+    """Choose a hue for each segment, unlike those of its neighbours; where there are hues enough, unlike all others.
 
     Parameters
     ----------
@@ -193,7 +193,8 @@ def coloured(count: int, pairs: NDArray[np.int32], wishes: NDArray[np.int64], hu
         around[two].append(one)
     used = np.zeros(hues, dtype=np.int64)
     for segment in range(count):
-        taken = {int(chosen[other]) for other in around[segment] if other < segment}
+        others = range(segment) if count <= hues else (other for other in around[segment] if other < segment)
+        taken = {int(chosen[other]) for other in others}
         hue = int(chosen[segment])
         if hue in taken:
             free = [one for one in range(hues) if one not in taken] or list(range(hues))

@@ -82,6 +82,11 @@ def test_more_neighbours_than_hues_are_no_error() -> None:
     assert coloured(20, pairs, np.zeros(20, dtype=np.int64), 12).max() < 12
 
 
+def test_few_segments_have_each_a_hue_of_their_own() -> None:
+    none = np.empty((0, 2), dtype=np.int32)
+    assert len(set(coloured(12, none, np.zeros(12, dtype=np.int64), 12).tolist())) == 12
+
+
 def test_a_new_cut_recolours_only_what_it_cuts_off() -> None:
     maker = SegmentMaker(strip(30), labelled(30))
     maker.want(1, cut_at(30, 10))
