@@ -288,6 +288,15 @@ def test_along_edges_a_wire_follows_a_stroke_that_edges_can_follow(eventual: boo
     assert set(map(tuple, wire_between(session, "EDGES")[:, :2])) == GATE
 
 
+def test_along_edges_a_wire_follows_a_stroke_that_runs_askew_to_them() -> None:
+    session = grid()
+    session.scribble(bow(), faces_under(bow()))
+    wire = wire_between(session, "EDGES")
+    gaps = np.linalg.norm(wire[:, None] - bow()[None], axis=2)
+    assert gaps.min(axis=1).max() < 1.0, "there is a vertex within .71 of an edge everywhere"
+    assert gaps.min(axis=0).max() < 1.0, "from end to end"
+
+
 def test_a_repelled_line_is_not_followed() -> None:
     session = grid()
     straight = np.column_stack([np.linspace(3.0, 27.0, 60), np.full(60, 15.2), np.zeros(60)])

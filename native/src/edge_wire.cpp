@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "edge_fans.hpp"
+#include "stroke_chain.hpp"
 
 namespace seamwire {
 
@@ -47,13 +48,18 @@ class EdgeGraph {
   std::int32_t twin(std::int32_t e) const { return fans_->twin(e); }
   std::int32_t tail(std::int32_t e) const { return fans_->tail(e); }
   std::int32_t find(std::int32_t a, std::int32_t b) const { return fans_->find(a, b); }
-  double turn(std::int32_t back, std::int32_t out) const { return fans_->turn(back, out); }
+  double turn(std::int32_t back, std::int32_t out) const {
+    return !drawn_.empty() && drawn_[at(back)] && drawn_[at(out)] ? 0.0 : fans_->turn(back, out);
+  }
   double length(std::int32_t e) const { return lengths_[at(e)]; }
   double mean_length() const { return mean_length_; }
+
+  void follow(const Surface& surface, const Metric& metric, const Scribble& scribble);
 
  private:
   std::shared_ptr<const EdgeFans> fans_;
   std::vector<double> lengths_;
+  std::vector<bool> drawn_;  // whether a stroke runs along a directed edge; empty: there is none
   double mean_length_ = 0.0;
 };
 
@@ -77,9 +83,28 @@ EdgeGraph::EdgeGraph(const Surface& surface, const Metric& metric, std::shared_p
   }
 }
 
+void EdgeGraph::follow(const Surface& surface, const Metric& metric, const Scribble& scribble) {
+  if (drawn_.empty()) drawn_.assign(directed_count(), false);
+  for (const std::vector<std::int32_t>& chain : stroke_chains(surface, *fans_, scribble)) {
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+      const std::int32_t a = chain[i], b = chain[i + 1], e = find(a, b);
+      const double straight = surface.scale() * (surface.points()[at(b)] - surface.points()[at(a)]).norm();
+      const double length = scribble.attracts ? straight / std::sqrt(scribble.eta) : edge_length(surface, metric, a, b);
+      lengths_[at(e)] = lengths_[at(twin(e))] = length;
+      drawn_[at(e)] = drawn_[at(twin(e))] = scribble.attracts;
+    }
+  }
+}
+
 std::shared_ptr<const EdgeGraph> make_edge_graph(const Surface& surface, const Metric& metric,
-                                                 std::shared_ptr<const EdgeFans> fans, const Task& task) {
-  return std::make_shared<const EdgeGraph>(surface, metric, std::move(fans), task);
+                                                 std::shared_ptr<const EdgeFans> fans, const Task& task,
+                                                 std::span<const Scribble> scribbles, std::optional<Follow> follow) {
+  auto graph = std::make_shared<EdgeGraph>(surface, metric, std::move(fans), task);
+  for (const Scribble& scribble : scribbles) {
+    task.check(1.0);
+    if (!follow || scribble.acts_on(*follow)) graph->follow(surface, metric, scribble);
+  }
+  return graph;
 }
 
 namespace {

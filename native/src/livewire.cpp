@@ -142,7 +142,7 @@ Prepared prepare(Ground& ground, Metrics& metrics, std::size_t which, const std:
     prepared.embedding = embed(*ground.surface, metric, {.max_faces_added = most}, task);
     prepared.geodesics.emplace(prepared.embedding->mesh);
   } else {
-    prepared.graph = make_edge_graph(*ground.surface, metric, std::move(fans), task);
+    prepared.graph = make_edge_graph(*ground.surface, metric, std::move(fans), task, metrics.scribbles, kFollow[which]);
   }
   return prepared;
 }

@@ -342,7 +342,8 @@ TEST(LiveWire, ScribblesChangeTheMetricsTheyAreMeantForAndGoWithoutATrace) {
     const Metric metric = apply_scribbles(*surface, metric_of(*surface, Follow::kMin, options.strength),
                                           std::vector{scribble}, Follow::kMin);
     if (options.along == Along::kEdges) {
-      EXPECT_EQ(after.wires[0].vertices, edge_wires(make_edge_graph(*surface, metric), from).trace(to).vertices);
+      const auto graph = make_edge_graph(*surface, metric, nullptr, {}, std::vector{scribble}, Follow::kMin);
+      EXPECT_EQ(after.wires[0].vertices, edge_wires(graph, from).trace(to).vertices);
     } else {
       const Embedding embedding = embed(*surface, metric);
       const DistanceField field = ExactGeodesics(embedding.mesh).solve(from.a);

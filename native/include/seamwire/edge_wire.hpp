@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "seamwire/metric.hpp"
+#include "seamwire/scribble.hpp"
 #include "seamwire/surface.hpp"
 #include "seamwire/task.hpp"
 
@@ -63,8 +65,16 @@ EdgeStrip edge_strip(const EdgeFans& fans, const Edge& edge, std::span<const std
 class EdgeGraph;
 
 /// `fans`: those of the surface, where they are there already. Throws Cancelled.
+///
+/// `scribbles`: those that `metric` has been through, `follow`: as apply_scribbles() has it. Tensors alone lead no
+/// chain along a stroke that runs askew to the edges: each of them is neither along it nor across, and dear. So the
+/// edges that stay nearest to a stroke that attracts have their Euclidean length / sqrt(eta), as the line itself has
+/// it, and turning from one of them to the next costs nothing. A later stroke that repels takes that from the edges it
+/// runs along.
 std::shared_ptr<const EdgeGraph> make_edge_graph(const Surface& surface, const Metric& metric,
-                                                 std::shared_ptr<const EdgeFans> fans = nullptr, const Task& task = {});
+                                                 std::shared_ptr<const EdgeFans> fans = nullptr, const Task& task = {},
+                                                 std::span<const Scribble> scribbles = {},
+                                                 std::optional<Follow> follow = std::nullopt);
 
 /// The cheapest chains from one pick to every edge and vertex. While run() is at work on one thread, another may ask
 /// for those found so far. Copies share the search.
