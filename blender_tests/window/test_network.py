@@ -289,7 +289,8 @@ def test_v_and_g_switch_settings_that_the_header_shows(desk: Desk) -> None:
 
 
 def test_keys_can_be_bound_anew(ui: driver.Ui, desk: Desk) -> None:
-    from seamwire import keymap
+    from seamwire import drawing, keymap
+    from seamwire import ui as texts
 
     keys = keymap.user_keymap(bpy.context.window_manager)
     item = next(item for item in keys.keymap_items if item.properties.action == "CLOSE")
@@ -299,6 +300,10 @@ def test_keys_can_be_bound_anew(ui: driver.Ui, desk: Desk) -> None:
         for vertex in (10, 16, 70):
             ui.click(desk.at(vertex), ctrl=vertex == 10)
         ui.wait_until(lambda: len(session.wires) == 2)
+        shown = texts.hints(drawing.running[0].status())
+        assert ("EVENT_J", "Close") in shown
+        assert not any(icon == "EVENT_C" for icon, _ in shown)
+        assert ("J", "Close the loop") in drawing.running[0].keys.rows(), "in the help too"
         ui.key("C")
         assert len(session.wires) == 2
         ui.key("J")

@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What clicks take beside what lies plainly under the cursor: through the mesh, features, seams; and meshes that changed."""
+
+from collections.abc import Iterator
+
+import bmesh
+import bpy
+import pytest
+import ui as driver
+from desk import ORANGE, Desk, leave, shows
+from scene import add_grid, add_object, chain, edit, seams
+from seamwire import drawing
+from seamwire import ui as texts
+
+
+def said() -> str:
+    return "; ".join(text for _, text in texts.hints(drawing.running[0].status()))
+
+
+@pytest.fixture
+def layers(ui: driver.Ui) -> Iterator[Desk]:
+    """Two sheets, one of 81 vertices and below it one of 16, whose rows lie under the middles of the upper one's faces."""
+    top = [(0.25 * x - 1.0, 0.25 * y - 1.0, 0.0) for y in range(9) for x in range(9)]
+    low = [(0.5 * x - 0.875, 0.5 * y - 0.875, -1.0) for y in range(4) for x in range(4)]
+    faces = [(y * 9 + x, y * 9 + x + 1, y * 9 + x + 10, y * 9 + x + 9) for y in range(8) for x in range(8)]
+    faces += [(81 + y * 4 + x, 82 + y * 4 + x, 86 + y * 4 + x, 85 + y * 4 + x) for y in range(3) for x in range(3)]
+    desk = Desk(ui, add_object(top + low, faces))
+    yield desk
+    leave(ui)
+
+
+def test_v_lets_wires_be_drawn_on_the_far_side(layers: Desk) -> None:
+    session, ui = layers.start(), layers.ui
+    ui.move(layers.at(81))
+    assert max(session.target.pick if isinstance(session.target.pick, tuple) else [session.target.pick]) < 81
+    ui.key("V")
+    ui.move(layers.at(82))
+    ui.move(layers.at(81))
+    assert session.target.pick == 81
+    ui.click(layers.at(81))
+    ui.move(layers.at(84))
+    ui.wait_until(lambda: session.active is not None)
+    assert shows(ui.pixels(), layers.at(82, 83), ORANGE), "seen through the upper sheet"
+    ui.click(layers.at(84))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.key("RET")
+    assert seams(layers.obj) == chain(81, 82, 83, 84)
+
+
+@pytest.fixture
+def roof(ui: driver.Ui) -> Iterator[Desk]:
+    """A grid with a ridge along its middle column."""
+    obj = add_grid(9)
+    for v in obj.data.vertices:
+        v.co.z = -abs(v.co.x)
+    desk = Desk(ui, obj)
+    ui.look_from_top(distance=9.0)
+    yield desk
+    leave(ui)
+
+
+def test_g_takes_the_feature_near_the_cursor(roof: Desk) -> None:
+    session, ui = roof.start(), roof.ui
+    ui.wait_until(lambda: session.feature_strength() is not None)
+    x, y = roof.at(40)
+    beside, above = (x + 7.0, y + 1.0), (roof.at(67)[0] + 7.0, roof.at(67)[1] + 1.0)
+    ui.move(beside)
+    assert session.target.pick != 40
+    ui.key("G")
+    ui.move((beside[0] + 1.0, beside[1]))
+    assert (session.target.pick, session.target.to) == (40, "FEATURE")
+    ui.click(beside)
+    ui.click(above)
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.key("RET")
+    assert seams(roof.obj) == chain(40, 49, 58, 67)
+
+
+def test_wires_end_on_seams_that_are_there(desk: Desk) -> None:
+    bm = bmesh.from_edit_mesh(desk.obj.data)
+    bm.verts.ensure_lookup_table()
+    for one, two in chain(*range(36, 45)):
+        bm.edges.get((bm.verts[one], bm.verts[two])).seam = True
+    bmesh.update_edit_mesh(desk.obj.data)
+    session, ui = desk.start(), desk.ui
+    ui.click(desk.at(4))
+    ui.move(desk.at(40))
+    assert session.target.to == "SEAM"
+    ui.wait_until(lambda: session.active is not None and not session.preliminary)
+    assert "Join" in said()
+    ui.click(desk.at(40))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    assert session.seed is None, "the chain has ended there"
+    ui.key("RET")
+    assert seams(desk.obj) == sorted(chain(*range(36, 45)) + chain(4, 13, 22, 31, 40))
+
+
+def test_mirrored_wires_are_drawn_live(desk: Desk) -> None:
+    desk.obj.data.use_mirror_x = True
+    session, ui = desk.start(), desk.ui
+    assert session.mirror_axes == (0,)
+    ui.click(desk.at(9))
+    ui.move(desk.at(12))
+    ui.wait_until(lambda: session.active is not None)
+    pixels, there = ui.pixels(), desk.at(15, 16)
+    assert not shows(pixels, desk.at(24, 25), ORANGE)
+    around = pixels[round(there[1]) - 3 : round(there[1]) + 4, round(there[0]), :3]
+    assert (around[:, 0] - around[:, 2]).max() > 0.2, "its image, in the live wire's colour"
+    ui.click(desk.at(12))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.key("RET")
+    assert seams(desk.obj) == sorted(chain(9, 10, 11, 12) + chain(14, 15, 16, 17))
+
+
+def test_a_network_is_found_again_on_a_mesh_that_has_changed(desk: Desk) -> None:
+    session, ui = desk.start(), desk.ui
+    for first, last in ((36, 44), (0, 8)):
+        ui.click(desk.at(first), ctrl=True)
+        ui.click(desk.at(last))
+        ui.wait_until(lambda last=last: any(wire.end == last for wire in session.wires))
+        ui.click(desk.at(last), button="RIGHTMOUSE")
+    ui.key("RET")
+    bm = bmesh.from_edit_mesh(desk.obj.data)
+    bm.verts.ensure_lookup_table()
+    # The first row goes, and with it a wire and the numbers of all vertices.
+    bmesh.ops.delete(bm, geom=[bm.verts[v] for v in range(9)], context="VERTS")
+    bmesh.update_edit_mesh(desk.obj.data)
+    assert seams(desk.obj) == chain(*range(27, 36))
+    session = desk.start()
+    ui.move(desk.at(60))
+    ui.key("R")
+    assert [sorted(wire.edges()) for wire in session.wires] == [chain(*range(27, 36))]
+    assert "1 wire" in said(), "what is lost is said"
+    ui.click(desk.at(31), shift=True)
+    ui.key("RET")
+    assert seams(desk.obj) == []
+
+
+def test_escape_ends_work_that_takes_long(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    session, ui = desk.start(), desk.ui
+    ui.click(desk.at(36))
+    ui.wait_until(lambda: not session.computing)
+    engine = session._engine()
+    nothing = type("Nothing", (), {"points": [], "vertices": [], "length": 0.0, "final": False})()
+    answer = type("Wires", (), {"wires": (nothing, nothing), "shorter": 0, "final": False})()
+
+    class Endless:
+        """Live wires that are never ready."""
+
+        def __getattr__(self, name: str) -> object:
+            return getattr(engine, name)
+
+        def progress(self) -> float:
+            return 0.25
+
+        def wires(self, _target: object) -> object:
+            return answer
+
+    endless = Endless()
+    monkeypatch.setitem(session._engines._lives, "EDGES", endless)
+    ui.click(desk.at(44))
+    assert session.waiting_clicks == 1
+    assert "Computing 25 %, 1 click waiting" in said()
+    ui.key("ESC")
+    assert session.waiting_clicks == 0, "the click that waited is forgotten"
+    assert session.seed is None
+    assert desk.running
+    ui.key("ESC")
+    assert desk.left_clean()
+    assert desk.unchanged()
+
+
+def test_reaching_over_to_another_tool_in_edit_mode_leaves_nothing_behind(desk: Desk) -> None:
+    desk.start()
+    with desk.ui.override():
+        bpy.ops.wm.tool_set_by_id(name="builtin.select_box")
+    desk.ui.move(desk.at(40))
+    desk.ui.key("ESC")
+    assert desk.left_clean()
+    assert desk.unchanged()
+    with desk.ui.override():
+        edit()
