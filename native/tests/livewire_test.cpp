@@ -334,7 +334,9 @@ TEST(LiveWire, ScribblesChangeTheMetricsTheyAreMeantForAndGoWithoutATrace) {
     const LiveWires before = live.wires(to);
     live.set_scribbles({scribble});
     const LiveWires meanwhile = live.wires(to);
-    if (!meanwhile.final()) EXPECT_EQ(meanwhile.wires[0].points, before.wires[0].points);
+    if (!meanwhile.final()) {
+      EXPECT_EQ(meanwhile.wires[0].points, before.wires[0].points);
+    }
     ASSERT_TRUE(live.wait());
     const LiveWires after = live.wires(to);
     ASSERT_TRUE(after.final());
