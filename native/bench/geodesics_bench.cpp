@@ -1,86 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Exact geodesics from one seed to all vertices, one line a mesh:
-//   geodesics_bench [--loop LEVELS] [--metric euclidean|min|max] [--gamma G] [--seed VERTEX] [--repeats N] MESH...
-// Times are medians. The sum of the distances tells whether two builds agree.
-
-// OpenMesh wants its IO before any mesh type.
-#include <OpenMesh/Core/IO/MeshIO.hh>
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-#include <OpenMesh/Tools/Subdivider/Uniform/LoopT.hh>
-
-#include <algorithm>
-#include <chrono>
+// Exact geodesics from a seed to all vertices, one line a mesh:
+//   geodesics_bench [--loop LEVELS] [--metric euclidean|min|max] [--anisotropy A] [--seeds N] [--repeats N] MESH...
+// From vertex 0 and N - 1 others (5 unless told); medians of processor time, so that other programs count only where
+// they take caches and memory. Lists, windows and the sum of the distances are of vertex 0: the sum tells whether two
+// builds agree.
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <fstream>
-#include <functional>
-#include <string>
-#include <vector>
+#include <memory>
+#include <random>
 
-#include "seamwire/curvature.hpp"
-#include "seamwire/embedding.hpp"
+#include "mesh_input.hpp"
 #include "seamwire/geodesics.hpp"
-#include "seamwire/metric.hpp"
 
 namespace {
 
-using seamwire::Surface;
+using namespace seamwire;
+using namespace seamwire::bench;
 
 struct Options {
-  int loop = 0, repeats = 5;
-  std::int32_t seed = 0;
+  int loop = 0, repeats = 1, seeds = 5;
   std::string metric = "euclidean";
-  double gamma = 0.1;
+  double anisotropy = 20.0;
   std::vector<std::string> meshes;
 };
-
-struct DoubleTraits : OpenMesh::DefaultTraits {
-  using Point = OpenMesh::Vec3d;
-  using Normal = OpenMesh::Vec3d;
-};
-using FileMesh = OpenMesh::TriMesh_ArrayKernelT<DoubleTraits>;
-
-Surface read(const std::string& file, int loop) {
-  FileMesh mesh;
-  if (!OpenMesh::IO::read_mesh(mesh, file)) throw std::runtime_error("cannot read " + file);
-  if (loop > 0) {
-    OpenMesh::Subdivider::Uniform::LoopT<FileMesh, double> subdivider;
-    subdivider.attach(mesh);
-    subdivider(static_cast<std::size_t>(loop));
-    subdivider.detach();
-    mesh.garbage_collection();
-  }
-  std::vector<seamwire::Vector> points;
-  std::vector<seamwire::Triangle> triangles;
-  for (const auto v : mesh.vertices()) {
-    const OpenMesh::Vec3d& p = mesh.point(v);
-    points.emplace_back(p[0], p[1], p[2]);
-  }
-  for (const auto f : mesh.faces()) {
-    seamwire::Triangle& triangle = triangles.emplace_back();
-    std::transform(mesh.cfv_begin(f), mesh.cfv_end(f), triangle.begin(), [](auto v) { return v.idx(); });
-  }
-  return {std::move(points), std::move(triangles)};
-}
-
-seamwire::Embedding embed(const Surface& surface, const Options& options) {
-  const seamwire::Curvature curvature = seamwire::principal_curvatures(surface);
-  if (options.metric == "euclidean") return seamwire::embed(surface, seamwire::euclidean_metric(surface, curvature));
-  const auto follow = options.metric == "min" ? seamwire::Follow::kMin : seamwire::Follow::kMax;
-  return seamwire::embed(surface, seamwire::feature_metric(surface, curvature, follow, {.parameter = options.gamma}));
-}
-
-double seconds(const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 /// Memory of this process in MB: the most since the last forget_peak() (field VmHWM) or now (VmRSS). Linux.
 double memory(const std::string& field) {
@@ -93,37 +38,40 @@ double memory(const std::string& field) {
 void forget_peak() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
 void measure(const std::string& file, const Options& options) {
-  const Surface surface = read(file, options.loop);
-  const seamwire::Embedding embedding = embed(surface, options);
-  std::vector<double> building, solving, tracing;
-  seamwire::GeodesicCounters counters;
+  const Surface surface = read_surface(file, options.loop);
+  const Embedding embedding = embed_by_name(surface, options.metric, {.max_anisotropy = options.anisotropy});
+  std::unique_ptr<ExactGeodesics> geodesics;
+  const double building = seconds([&] { geodesics = std::make_unique<ExactGeodesics>(embedding.mesh); });
+  std::mt19937 random(1);
+  std::uniform_int_distribution<std::int32_t> any(0, static_cast<std::int32_t>(surface.vertex_count()) - 1);
+  std::vector<double> solving, tracing;
+  GeodesicCounters first;
   double checksum = 0.0, peak = 0.0;
-  std::size_t crossings = 0;
-  for (int i = 0; i < options.repeats; ++i) {
-    std::unique_ptr<seamwire::ExactGeodesics> geodesics;
-    building.push_back(seconds([&] { geodesics = std::make_unique<seamwire::ExactGeodesics>(embedding.mesh); }));
-    std::unique_ptr<seamwire::DistanceField> field;
-    forget_peak();
-    const double before = memory("VmRSS");
-    solving.push_back(seconds(
-        [&] { field = std::make_unique<seamwire::DistanceField>(geodesics->solve(options.seed, {}, &counters)); }));
-    peak = memory("VmHWM") - before;
-    checksum = 0.0;
-    for (const double d : field->distances()) checksum += std::isinf(d) ? 0.0 : d;
-    const std::int32_t step = std::max(1, embedding.mesh.vertex_count / 1000);
-    crossings = 0;
-    const double traces = seconds([&] {
-      for (std::int32_t v = 0; v < embedding.mesh.vertex_count; v += step) crossings += field->trace(v).points.size();
-    });
-    tracing.push_back(traces * step / embedding.mesh.vertex_count);
+  for (int s = 0; s < options.seeds; ++s) {
+    const std::int32_t seed = s == 0 ? 0 : any(random);
+    for (int i = 0; i < options.repeats; ++i) {
+      GeodesicCounters counters;
+      std::unique_ptr<DistanceField> field;
+      forget_peak();
+      const double before = memory("VmRSS");
+      solving.push_back(
+          seconds([&] { field = std::make_unique<DistanceField>(geodesics->solve(seed, {}, &counters)); }));
+      peak = std::max(peak, memory("VmHWM") - before);
+      const std::int32_t step = std::max(1, embedding.mesh.vertex_count / 1000);
+      for (std::int32_t v = 0; v < embedding.mesh.vertex_count; v += step) {
+        tracing.push_back(seconds([&] { field->trace(v); }));
+      }
+      if (s > 0 || i > 0) continue;
+      first = counters;
+      for (const double d : field->distances()) checksum += std::isinf(d) ? 0.0 : d;
+    }
   }
-  const double time = median(solving);
   std::printf(
-      "%-28s %8zu faces %8.4f s  %9zu lists %10zu windows %6.1f ns/window  built %.4f s  %5.1f us/path  %6.1f MB  sum "
-      "%.12g\n",
-      (file.substr(file.rfind('/') + 1) + (options.loop > 0 ? " loop" + std::to_string(options.loop) : "")).c_str(),
-      embedding.mesh.face_count(), time, counters.lists, counters.windows,
-      1e9 * time / static_cast<double>(counters.windows), median(building), 1e6 * median(tracing), peak, checksum);
+      "%-24s %8zu faces %8.4f s  %9zu lists %10zu windows %6.1f ns/window  built %.4f s  path: median %5.1f us, 95%% "
+      "%5.1f  %6.1f MB  sum %.12g\n",
+      mesh_name(file, options.loop).c_str(), embedding.mesh.face_count(), median(solving), first.lists, first.windows,
+      1e9 * solving.front() / static_cast<double>(first.windows), building, 1e6 * median(tracing),
+      1e6 * quantile(tracing, 0.95), peak, checksum);
   std::fflush(stdout);
 }
 
@@ -139,15 +87,13 @@ Options parse(int argc, char** argv) {
       options.loop = std::stoi(value());
     } else if (argument == "--repeats") {
       options.repeats = std::max(1, std::stoi(value()));
-    } else if (argument == "--seed") {
-      options.seed = std::stoi(value());
-    } else if (argument == "--gamma") {
-      options.gamma = std::stod(value());
+    } else if (argument == "--seeds") {
+      options.seeds = std::max(1, std::stoi(value()));
+    } else if (argument == "--anisotropy") {
+      options.anisotropy = std::stod(value());
     } else if (argument == "--metric") {
       options.metric = value();
-      if (options.metric != "euclidean" && options.metric != "min" && options.metric != "max") {
-        throw std::runtime_error("--metric is euclidean, min or max");
-      }
+      check_metric_name(options.metric);
     } else if (argument.starts_with("--")) {
       throw std::runtime_error("no such option: " + argument);
     } else {

@@ -1,16 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Exact geodesics of Seamwire beside those of other libraries, in one run on one machine.
 
-    python native/bench/peers.py MESH... [--loop LEVELS] [--repeats N] [--seeds N] [--skip NAME]
+    python native/bench/peers.py MESH... [--loop LEVELS]... [--repeats N] [--seeds N] [--skip NAME] [--most-faces N]
+        [--cgal build/bench/native/bench/cgal_bench] [--plot GROWTH.svg]
 
-Needs numpy, pygeodesic and potpourri3d, and seamwire_core on the path. All get the same triangles and the same seeds, one thread.
-Prints the median time of a solve, how many times as long the others take, and how far their distances are from ours. Peers run in a
-process of their own: some of them abort on meshes that are not manifold.
+Needs numpy, pygeodesic and potpourri3d, and seamwire_core on the path; CGAL's solver is a program of its own. All get the same triangles
+and the same seeds, one thread. Prints the median processor time of a solve, how many times as long the others take, how far their distances
+are from ours, and the exponent with which each one's time grows with the faces; --plot draws that. Exact peers are left out above
+--most-faces. Peers run in a process of their own: some of them abort on meshes that are not manifold.
 """
 
 import argparse
 import multiprocessing
 import statistics
+import subprocess
+import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -88,9 +92,9 @@ def run(name: str, points: Array, triangles: NDArray[np.int32], seeds: list[int]
     times, fields = [], []
     for seed in seeds:
         for _ in range(repeats):
-            start = time.perf_counter()
+            start = time.process_time()
             field = solve(seed)
-            times.append(time.perf_counter() - start)
+            times.append(time.process_time() - start)
         fields.append(np.array(field))
     pipe.send((statistics.median(times), fields))
 
@@ -109,53 +113,131 @@ def run_apart(name: str, *arguments: object) -> tuple[float, list[Array]] | None
     return result
 
 
-def compare(file: Path, options: argparse.Namespace) -> None:
-    """Print what each solver takes on a mesh, and how far it is from ours."""
+def run_cgal(program: Path, points: Array, triangles: NDArray[np.int32], seeds: list[int]) -> float | None:
+    """Return the median time of CGAL's solver, or None where it fails."""
+    with tempfile.NamedTemporaryFile("w", suffix=".off") as file:
+        file.write(f"OFF\n{len(points)} {len(triangles)} 0\n")
+        np.savetxt(file, points, fmt="%.17g")
+        np.savetxt(file, np.insert(triangles, 0, 3, axis=1), fmt="%d")
+        file.flush()
+        result = subprocess.run([program, file.name, *map(str, seeds)], capture_output=True, text=True, check=False)
+    times = [float(line.split()[0]) for line in result.stdout.splitlines()]
+    return statistics.median(times) if len(times) == len(seeds) else None
+
+
+def compare(file: Path, loop: int, options: argparse.Namespace) -> tuple[int, dict[str, float]]:
+    """Print what each solver takes on a mesh, and how far it is from ours; return the faces and the times."""
     import potpourri3d
 
     points, triangles = potpourri3d.read_mesh(str(file))
     points, triangles = np.ascontiguousarray(points, dtype=np.float64), np.ascontiguousarray(triangles, dtype=np.int32)
-    for _ in range(options.loop):
+    for _ in range(loop):
         points, triangles = loop_subdivided(points, triangles)
     random = np.random.default_rng(0)
     seeds = [0, *(int(v) for v in random.choice(np.unique(triangles), options.seeds - 1))]
+    print(f"{file.name}{' loop' + str(loop) if loop else ''}: {len(triangles)} triangles, {len(seeds)} seeds")
+    times: dict[str, float] = {}
     ours = run_apart("seamwire", points, triangles, seeds, options.repeats)
-    print(
-        f"{file.name}{' loop' + str(options.loop) if options.loop else ''}: {len(triangles)} triangles, {len(seeds)} seeds"
-    )
     if ours is None:
-        print("  seamwire         failed")
-        return
-    print(f"  seamwire         {ours[0]:9.4f} s")
+        print("  seamwire         failed", flush=True)
+        return len(triangles), times
+    times["seamwire"] = ours[0]
+    print(f"  seamwire         {ours[0]:9.4f} s", flush=True)
     for name in SOLVERS:
-        if name == "seamwire" or name in options.skip:
+        too_many = name == "pygeodesic" and len(triangles) > options.most_faces
+        if name == "seamwire" or name in options.skip or too_many:
             continue
-        theirs = run_apart(name, points, triangles, seeds, options.repeats)
+        theirs = run_apart(name, points, triangles, seeds, 1 if name == "pygeodesic" else options.repeats)
         if theirs is None:
-            print(f"  {name:16} failed")
+            print(f"  {name:16} failed", flush=True)
             continue
         errors = []
         for mine, other in zip(ours[1], theirs[1], strict=True):
             both = np.isfinite(mine) & (mine > 0) & (other < 1e50)
             errors.append(np.abs(other[both] - mine[both]) / mine[both])
         error = np.concatenate(errors)
+        times[name] = theirs[0]
         print(
             f"  {name:16} {theirs[0]:9.4f} s  {theirs[0] / ours[0]:6.1f} times as long  differs by {error.max():.1e} at most, "
-            f"{error.mean():.1e} on average"
+            f"{error.mean():.1e} on average, {np.median(error):.1e} in the median",
+            flush=True,
         )
+    if options.cgal and len(triangles) <= options.most_faces:
+        theirs = run_cgal(options.cgal, points, triangles, seeds)
+        if theirs is None:
+            print("  CGAL             failed", flush=True)
+        else:
+            times["CGAL"] = theirs
+            print(f"  CGAL             {theirs:9.4f} s  {theirs / ours[0]:6.1f} times as long", flush=True)
+    return len(triangles), times
+
+
+def exponent(faces: list[int], times: list[float]) -> float:
+    """Return the slope of log time over log faces, by least squares."""
+    return float(np.polyfit(np.log(faces), np.log(times), 1)[0])
+
+
+def plot(curves: dict[str, list[tuple[int, float]]], file: Path) -> None:
+    """Draw times over faces, both on logarithmic scales, as an SVG."""
+    width, height, left, top, right, bottom = 640, 400, 60, 20, 160, 45
+    every = [point for curve in curves.values() for point in curve]
+    low = [np.floor(np.log10(min(p[i] for p in every))) for i in (0, 1)]
+    high = [np.ceil(np.log10(max(p[i] for p in every))) for i in (0, 1)]
+
+    def place(faces: float, seconds: float) -> tuple[float, float]:
+        x = (np.log10(faces) - low[0]) / (high[0] - low[0])
+        y = (np.log10(seconds) - low[1]) / (high[1] - low[1])
+        return left + x * (width - left - right), height - bottom - y * (height - top - bottom)
+
+    lines = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="12">',
+        f'<rect width="{width}" height="{height}" fill="white"/>',
+    ]
+    for power in range(int(low[0]), int(high[0]) + 1):
+        x = place(10.0**power, 1)[0]
+        lines.append(f'<path d="M{x:.1f} {top}V{height - bottom}" stroke="#ddd"/>')
+        lines.append(f'<text x="{x:.1f}" y="{height - bottom + 16}" text-anchor="middle">{10**power:,}</text>')
+    for power in range(int(low[1]), int(high[1]) + 1):
+        y = place(1, 10.0**power)[1]
+        lines.append(f'<path d="M{left} {y:.1f}H{width - right}" stroke="#ddd"/>')
+        lines.append(f'<text x="{left - 6}" y="{y + 4:.1f}" text-anchor="end">{10.0**power:g} s</text>')
+    lines.append(f'<text x="{(left + width - right) / 2}" y="{height - 8}" text-anchor="middle">faces</text>')
+    for color, (name, curve) in zip(("#d62728", "#1f77b4", "#2ca02c", "#9467bd"), curves.items(), strict=False):
+        places = [place(*point) for point in curve]
+        path = "L".join(f"{x:.1f} {y:.1f}" for x, y in places)
+        lines.append(f'<path d="M{path}" fill="none" stroke="{color}" stroke-width="2"/>')
+        lines += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3" fill="{color}"/>' for x, y in places]
+        x, y = places[-1]
+        lines.append(f'<text x="{x + 8:.1f}" y="{y + 4:.1f}" fill="{color}">{name}</text>')
+    file.write_text("\n".join([*lines, "</svg>"]) + "\n")
 
 
 def main() -> None:
     """Compare the solvers on the meshes named on the command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("meshes", nargs="+", type=Path)
-    parser.add_argument("--loop", type=int, default=0, help="levels of Loop subdivision")
+    parser.add_argument(
+        "--loop", type=int, action="append", help="levels of Loop subdivision; may be given several times"
+    )
     parser.add_argument("--repeats", type=int, default=3)
-    parser.add_argument("--seeds", type=int, default=3)
+    parser.add_argument("--seeds", type=int, default=5)
     parser.add_argument("--skip", action="append", default=[], choices=[n for n in SOLVERS if n != "seamwire"])
+    parser.add_argument("--most-faces", type=int, default=200_000, help="leave the exact peers out above")
+    parser.add_argument("--cgal", type=Path, help="the program cgal_bench")
+    parser.add_argument("--plot", type=Path, help="an SVG of the times over the faces")
     options = parser.parse_args()
+    curves: dict[str, list[tuple[int, float]]] = {}
     for mesh in options.meshes:
-        compare(mesh, options)
+        for loop in options.loop or [0]:
+            faces, times = compare(mesh, loop, options)
+            for name, seconds in times.items():
+                curves.setdefault(name, []).append((faces, seconds))
+    for name, curve in curves.items():
+        curve.sort()
+        if len({faces for faces, _ in curve}) > 1:
+            print(f"{name}: time grows with faces to the {exponent(*map(list, zip(*curve, strict=True))):.2f}")
+    if options.plot:
+        plot(curves, options.plot)
 
 
 if __name__ == "__main__":

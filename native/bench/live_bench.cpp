@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What an artist waits for besides seeding, some lines a mesh:
+//   live_bench [--loop LEVELS] [--anisotropy A] [--repeats N] MESH...
+// - cancel: from the request to stop until the work has ended, at random moments; processor time of the working thread,
+//   and time on the clock, which other programs lengthen; for geodesics, wires along edges, embedding and quick paths
+// - two metrics: seeding both on two threads, to the slower one alone
+// - a wire: tracing one path; tracing both, mapping them to the surface and snapping them to edges
+// - embedding, and doing it again after a stroke of 1, 4, 16 and 64 edges
+#include <pthread.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <random>
+#include <thread>
+
+#include "mesh_input.hpp"
+#include "seamwire/edge_wire.hpp"
+#include "seamwire/geodesics.hpp"
+#include "seamwire/livewire.hpp"
+#include "seamwire/quick_paths.hpp"
+#include "seamwire/scribble.hpp"
+#include "seamwire/wire.hpp"
+
+namespace {
+
+using namespace seamwire;
+using namespace seamwire::bench;
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+  int loop = 0, repeats = 100;
+  double anisotropy = 20.0;
+  std::vector<std::string> meshes;
+};
+
+double processor_seconds(clockid_t clock) {
+  timespec time{};
+  clock_gettime(clock, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+// Of strokes.
+const Vector kDirection(0.3, 0.9, 0.3);
+
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// `work(task)` takes about `duration` of processor time; it is stopped somewhere in it, again and again.
+void measure_cancelling(const char* name, double duration, const Options& options,
+                        const std::function<void(const Task&)>& work) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> moment(0.05, 0.9);
+  std::vector<double> processor, clock;
+  for (int i = 0; i < options.repeats; ++i) {
+    std::atomic<bool> stopped = false, ready = false, finished = false;
+    std::atomic<clockid_t> worker_clock{};
+    double used = 0.0;
+    Clock::time_point end;
+    std::stop_source stop;
+    std::jthread worker([&] {
+      clockid_t mine{};
+      pthread_getcpuclockid(pthread_self(), &mine);
+      worker_clock = mine;
+      ready = true;
+      try {
+        work({.stop = stop.get_token(), .progress = {}});
+      } catch (const Cancelled&) {
+        stopped = true;
+      }
+      used = processor_seconds(mine);
+      end = Clock::now();
+      finished = true;
+    });
+    while (!ready) std::this_thread::yield();
+    const double until = moment(random) * duration;
+    while (!finished && processor_seconds(worker_clock) < until)
+      std::this_thread::sleep_for(std::chrono::microseconds(50));
+    const double before = processor_seconds(worker_clock);
+    const Clock::time_point asked = Clock::now();
+    stop.request_stop();
+    // The clock of a thread goes with the thread, so nothing of it is asked for any more.
+    worker.join();
+    if (!stopped) continue;
+    processor.push_back(used - before);
+    clock.push_back(std::chrono::duration<double>(end - asked).count());
+  }
+  if (processor.empty()) return;
+  std::printf("  cancel %-12s processor: median %6.3f ms, 95%% %6.3f   clock: median %6.3f ms, 95%% %6.3f   (%zu)\n",
+              name, 1e3 * median(processor), 1e3 * quantile(processor, 0.95), 1e3 * median(clock),
+              1e3 * quantile(clock, 0.95), processor.size());
+  std::fflush(stdout);
+}
+
+void measure_two_metrics(const ExactGeodesics& first, const ExactGeodesics& second) {
+  std::vector<double> ratios, of_processor;
+  for (int i = 0; i < 5; ++i) {
+    const auto timed = [](const ExactGeodesics& solver, double& clock, double& processor) {
+      const Clock::time_point start = Clock::now();
+      processor = seconds([&] { solver.solve(0); });
+      clock = since(start);
+    };
+    double alone[2], together[2], alone_processor[2], together_processor[2];
+    timed(first, alone[0], alone_processor[0]);
+    timed(second, alone[1], alone_processor[1]);
+    const Clock::time_point start = Clock::now();
+    {
+      const std::jthread other([&] { timed(first, together[0], together_processor[0]); });
+      timed(second, together[1], together_processor[1]);
+    }
+    ratios.push_back(since(start) / std::max(alone[0], alone[1]));
+    of_processor.push_back(std::max(together_processor[0], together_processor[1]) /
+                           std::max(alone_processor[0], alone_processor[1]));
+  }
+  std::printf("  two metrics on two threads: %.2f times the slower one (processor time of the slower: %.2f times)\n",
+              median(ratios), median(of_processor));
+  std::fflush(stdout);
+}
+
+void measure(const std::string& file, const Options& options) {
+  const auto surface = std::make_shared<const Surface>(read_surface(file, options.loop));
+  std::vector<double> norms;
+  Curvature curvature;
+  std::vector<Metric> metrics;
+  for (int i = 0; i < 3; ++i) {
+    metrics.clear();
+    norms.push_back(seconds([&] {
+      curvature = principal_curvatures(*surface);
+      metrics.push_back(feature_metric(*surface, curvature, Follow::kMin, {.max_anisotropy = options.anisotropy}));
+    }));
+  }
+  metrics.push_back(feature_metric(*surface, curvature, Follow::kMax, {.max_anisotropy = options.anisotropy}));
+  std::printf("%s  %zu faces\n  normals, curvature and tensors of a metric: %.1f ms\n",
+              mesh_name(file, options.loop).c_str(), surface->face_count(), 1e3 * median(norms));
+
+  std::vector<Embedding> embeddings(2);
+  for (std::size_t which = 0; which < 2; ++which) {
+    std::vector<double> times;
+    for (int i = 0; i < 3; ++i) times.push_back(seconds([&] { embeddings[which] = embed(*surface, metrics[which]); }));
+    std::printf("  embedding %s, A = %g: %.1f ms, %zu invalid, %zu added, %zu left\n", which == 0 ? "M_min" : "M_max",
+                options.anisotropy, 1e3 * median(times), embeddings[which].invalid_before,
+                embeddings[which].faces_added, embeddings[which].invalid_left);
+  }
+  std::mt19937 random(1);
+  std::uniform_int_distribution<std::int32_t> any(0, static_cast<std::int32_t>(surface->vertex_count()) - 1);
+  const HalfEdgeMesh& mesh = surface->half_edges();
+  for (const int edges : {1, 4, 16, 64}) {
+    std::vector<double> again;
+    std::size_t touched = 0;
+    for (int i = 0; i < 7; ++i) {
+      Scribble scribble;
+      std::int32_t v = any(random);
+      for (int k = 0; k <= edges; ++k) {
+        scribble.points.push_back(surface->points()[static_cast<std::size_t>(v)]);
+        scribble.vertices.push_back(v);
+        // On to the neighbour that lies furthest along, in one direction.
+        std::int32_t best = v;
+        for (const auto u : mesh.vv_range(HalfEdgeMesh::VertexHandle(v))) {
+          const Vector& p = surface->points()[static_cast<std::size_t>(u.idx())];
+          if (p.dot(kDirection) > surface->points()[static_cast<std::size_t>(best)].dot(kDirection)) best = u.idx();
+        }
+        v = best;
+      }
+      scribble.rings = 3;
+      const Metric changed = apply_scribbles(*surface, metrics[0], std::vector{scribble});
+      touched = 0;
+      for (std::size_t u = 0; u < changed.size(); ++u) touched += changed.tensors[u] != metrics[0].tensors[u];
+      Embedding old = embeddings[0];
+      again.push_back(seconds([&] { old = re_embed(*surface, metrics[0], changed, std::move(old)); }));
+    }
+    std::printf("  embedding again after a stroke of %2d edges, about %zu vertices: %.2f ms\n", edges, touched,
+                1e3 * median(again));
+  }
+  std::fflush(stdout);
+
+  const ExactGeodesics first(embeddings[0].mesh), second(embeddings[1].mesh);
+  std::vector<DistanceField> fields;
+  fields.push_back(first.solve(0));
+  const double duration = seconds([&] { fields.push_back(second.solve(0)); });
+  const SnapGraph graph(*surface);
+  std::vector<double> traced, both;
+  for (int i = 0; i < 500; ++i) {
+    const std::int32_t to = any(random);
+    traced.push_back(seconds([&] { fields[0].trace(to); }));
+    both.push_back(seconds([&] {
+      for (std::size_t which = 0; which < 2; ++which) {
+        const Wire wire = trace_wire(*surface, embeddings[which], fields[which], to);
+        if (!wire.points.empty()) snap_to_edges(*surface, graph, wire);
+      }
+    }));
+  }
+  std::printf("  tracing: median %.1f us, 95%% %.1f; both wires, mapped and snapped: median %.0f us, 95%% %.0f\n",
+              1e6 * median(traced), 1e6 * quantile(traced, 0.95), 1e6 * median(both), 1e6 * quantile(both, 0.95));
+  measure_two_metrics(first, second);
+
+  measure_cancelling("geodesics", duration, options, [&](const Task& task) { second.solve(0, task); });
+  const auto edges = make_edge_graph(*surface, metrics[0]);
+  const double search = seconds([&] { edge_wires(edges, {0}); });
+  measure_cancelling("edges", search, options, [&](const Task& task) { edge_wires(edges, {0}, 3.0, false, task); });
+  const double embedding = seconds([&] { embed(*surface, metrics[1]); });
+  measure_cancelling("embedding", embedding, options, [&](const Task& task) { embed(*surface, metrics[1], {}, task); });
+}
+
+Options parse(int argc, char** argv) {
+  Options options;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const auto value = [&]() -> std::string {
+      if (i + 1 == argc) throw std::runtime_error(argument + " needs a value");
+      return argv[++i];
+    };
+    if (argument == "--loop") {
+      options.loop = std::stoi(value());
+    } else if (argument == "--repeats") {
+      options.repeats = std::max(1, std::stoi(value()));
+    } else if (argument == "--anisotropy") {
+      options.anisotropy = std::stod(value());
+    } else if (argument.starts_with("--")) {
+      throw std::runtime_error("no such option: " + argument);
+    } else {
+      options.meshes.push_back(argument);
+    }
+  }
+  if (options.meshes.empty()) throw std::runtime_error("no mesh given");
+  return options;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const Options options = parse(argc, argv);
+    for (const std::string& mesh : options.meshes) measure(mesh, options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "live_bench: %s\n", error.what());
+    return 1;
+  }
+}
