@@ -3,10 +3,12 @@
 
 A mesh is a file, or ``suzanne+N``: Blender's monkey subdivided N times.
 
-One line a mesh and a way of running: what the tool does before its first wire, step by step, in milliseconds (medians), and their sum.
+One line a mesh and a way of running: what the tool does before its first wire, step by step, in milliseconds (medians), and their sum;
+then what of each step is processor time of Blender's own thread, during which the interface stands, and what memory was taken in all.
 The steps are those of the tool in the viewport, but for the overlay and Blender's own redraw.
 """
 
+import os
 import statistics
 import sys
 import time
@@ -18,7 +20,7 @@ import numpy as np
 
 REPEATS = 5
 LARGE = 300_000
-"""Faces from which on two rounds have to do."""
+"""Faces from which on one round has to do."""
 IMPORTERS = {
     ".obj": lambda path: bpy.ops.wm.obj_import(filepath=path),
     ".ply": lambda path: bpy.ops.import_mesh.ply(filepath=path),
@@ -27,20 +29,29 @@ IMPORTERS = {
 
 
 class Watch:
-    """Milliseconds between one call and the next."""
+    """Milliseconds between one call and the next: as time passes, and of this thread's work."""
 
     def __init__(self) -> None:
-        self._last = time.perf_counter()
+        self._last = time.perf_counter(), time.thread_time()
 
-    def lap(self) -> float:
+    def lap(self) -> tuple[float, float]:
         """Return the time since the last call."""
-        now = time.perf_counter()
-        took, self._last = now - self._last, now
-        return 1e3 * took
+        now = time.perf_counter(), time.thread_time()
+        took, self._last = (now[0] - self._last[0], now[1] - self._last[1]), now
+        return 1e3 * took[0], 1e3 * took[1]
 
 
-def first_wire(obj: bpy.types.Object, along: str) -> dict[str, float]:
-    """Do what the tool does from its start to the first wire; return the milliseconds of each step."""
+def memory() -> float:
+    """Return what of this process is in memory, in megabytes."""
+    return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
+
+
+def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, float]]:
+    """Do what the tool does from its start to the first wire; return the milliseconds of each step.
+
+    Reading the mesh; beginning all that is computed beside; that it is ready for a seed; from the click to the first wire that is
+    shown; to both final ones; and from a move of the cursor to the next wire.
+    """
     from seamwire import board, edit_mesh, picking, session
 
     steps = {}
@@ -48,19 +59,26 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, float]:
     cage = edit_mesh.Cage(obj)
     arrays = edit_mesh.read(obj)
     steps["read"] = watch.lap()
-    wires = session.Session(board.live_maker(arrays), arrays.points, along)
-    steps["surface"] = watch.lap()
+    wires = session.Session(board.maker_on(board.eventual_surface(arrays)), arrays.points, along)
     picking.Picker(cage.bm, arrays).depth(picking.View(1.0, 1.0, np.eye(4)), obj.matrix_world, (0.5, 0.5))
-    steps["picker"] = watch.lap()
+    steps["begun"] = watch.lap()
     wires.wait()
-    steps["metrics"] = watch.lap()
-    wires.start(0)
+    steps["ready"] = watch.lap()
+    top, bottom = (int(at(arrays.points[:, 2])) for at in (np.argmax, np.argmin))
+    beside = next(int(v) for v in arrays.triangles[(arrays.triangles == bottom).any(axis=1)][0] if v != bottom)
+    watch.lap()
+    wires.start(top)
+    wires.hover(bottom)
+    while wires.active is None and wires.computing:
+        time.sleep(0.001)
+        wires.poll()
+    steps["shown"] = watch.lap()
     wires.wait()
-    steps["seed"] = watch.lap()
-    wires.hover(len(arrays.points) // 2)
-    steps["wire"] = watch.lap()
+    steps["final"] = watch.lap()
+    wires.hover(beside)
+    steps["next"] = watch.lap()
     if wires.active is None:
-        sys.exit(f"No wire leads from vertex 0 to vertex {len(arrays.points) // 2} of {obj.name}")
+        sys.exit(f"No wire leads from the top of {obj.name} to its bottom")
     return steps
 
 
@@ -86,14 +104,17 @@ def main() -> None:
         obj = load(name)
         bpy.context.view_layer.objects.active = obj
         bpy.ops.object.mode_set(mode="EDIT")
+        before = memory()
         for along in ("EDGES", "SURFACE"):
-            repeats = REPEATS if len(obj.data.polygons) < LARGE else 2
+            repeats = REPEATS if len(obj.data.polygons) < LARGE else 1
             runs = [first_wire(obj, along) for _ in range(repeats)]
-            steps = {step: statistics.median(run[step] for run in runs) for step in runs[0]}
-            total = statistics.median(sum(run.values()) for run in runs)
-            parts = "  ".join(f"{step} {took:.1f}" for step, took in steps.items())
+            steps = {step: [statistics.median(run[step][i] for run in runs) for i in (0, 1)] for step in runs[0]}
+            total = statistics.median(sum(took for took, _ in run.values()) for run in runs)
+            parts = "  ".join(f"{step} {took:.1f}" for step, (took, _) in steps.items())
+            held = "  ".join(f"{step} {own:.1f}" for step, (_, own) in steps.items())
             print(
-                f"{Path(name).stem:24} {len(obj.data.polygons):8} faces  {along:8} {total:9.1f} ms:  {parts}",
+                f"{Path(name).stem:16} {len(obj.data.polygons):8} faces  {along:8} {total:9.1f} ms:  {parts}\n"
+                f"{'':38}Blender's thread:  {held}  memory {memory() - before:.0f} MB",
                 flush=True,
             )
 
