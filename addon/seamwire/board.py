@@ -287,6 +287,11 @@ class Board:
             return 0
         return len(wires)
 
+    @property
+    def stored(self) -> str | None:
+        """What is stored with the mesh."""
+        return self.cage.mesh.get(KEY)
+
     def write(self) -> tuple[int, int]:
         """Mark and clear what was drawn, and store the network with the mesh.
 

@@ -242,17 +242,22 @@ class MESH_OT_seamwire_draw(bpy.types.Operator):
         if drawing.empty:
             self.report({"INFO"}, "No wire was kept, and nothing marked")
             return {"CANCELLED"}
-        wires = marked = cleared = touched = 0
+        wires = strokes = marked = cleared = touched = 0
+        stored = False
         for one in drawing.boards.values():
             wires += len(one.session.wires)
+            strokes += len(one.session.scribbles)
             touched += len(one.session.edges_to_mark()) + len(one.session.edges_to_clear())
+            before = one.stored
             new, old = one.write()
             marked, cleared = marked + new, cleared + old
+            stored = stored or one.stored != before
         if marked or cleared:
             edit_mesh.live_unwrap(context)
-        self.report({"INFO"}, _summary(wires, marked, cleared, touched))
+        kept = f", {count(strokes, 'stroke')} kept" if strokes else ""
+        self.report({"INFO"}, _summary(wires, marked, cleared, touched) + kept)
         # Without a change there is to be no step of undo either.
-        return {"FINISHED"} if marked or cleared else {"CANCELLED"}
+        return {"FINISHED"} if marked or cleared or stored else {"CANCELLED"}
 
     def cancel(self, _context: bpy.types.Context) -> None:
         """End drawing when Blender takes the operator away."""

@@ -3,6 +3,7 @@
 
 from collections.abc import Iterator
 
+import bmesh
 import bpy
 import pytest
 import ui as driver
@@ -210,6 +211,32 @@ def test_what_an_interruption_ended_can_be_gone_on_with(desk: Desk) -> None:
     assert len(session.wires) == 2
     desk.ui.key("RET")
     assert seams(desk.obj) == sorted(chain(*range(9)) + chain(*range(36, 45)))
+
+
+@pytest.mark.parametrize("keep", [False, True])
+def test_a_drawing_that_changes_nothing_adds_no_step_of_undo(desk: Desk, keep: bool) -> None:
+    name, bm = desk.obj.name, bmesh.from_edit_mesh(desk.obj.data)
+    bm.verts.ensure_lookup_table()
+    bpy.ops.ed.undo_push(message="One")
+    bm.verts[80].co.z = 0.25
+    bmesh.update_edit_mesh(desk.obj.data)
+    bpy.ops.ed.undo_push(message="Two")
+    session, ui = desk.start(), desk.ui
+    ui.click(desk.at(36))
+    if not keep:
+        ui.click(desk.at(44))
+        ui.wait_until(lambda: len(session.wires) == 1)
+    ui.key("Z", ctrl=True)
+    if keep:
+        ui.key("RET")
+    for _ in range(3):
+        if desk.running:
+            ui.key("ESC")
+    assert desk.left_clean()
+    bpy.ops.ed.undo()
+    bm = bmesh.from_edit_mesh(bpy.data.objects[name].data)
+    bm.verts.ensure_lookup_table()
+    assert bm.verts[80].co.z == 0.0, "one step back is the one before the drawing"
 
 
 def test_blenders_undo_under_the_tool_ends_it(desk: Desk) -> None:
