@@ -78,6 +78,9 @@ class Mirror:
             partners = self._cells.nearest(self._flipped(aside, (axis,)))
             if len(aside) and (partners >= 0).mean() >= SYMMETRIC:
                 found.append(axis)
+        if found:
+            # Sorted here, on the thread that asks for symmetry, rather than when the first image is drawn.
+            _ = self._edge_keys
         return tuple(found)
 
     @staticmethod
@@ -91,6 +94,12 @@ class Mirror:
         if axes not in self._partners:
             self._partners[axes] = self._cells.nearest(self._flipped(self._places, axes))
         return self._partners[axes]
+
+    def _partners_of(self, vertices: NDArray[np.int64], axes: tuple[int, ...]) -> NDArray[np.int64]:
+        """Return what a few vertices are mirrored to; of a large mesh not all are looked for because of them."""
+        if axes in self._partners or len(self._places) <= _SAMPLE:
+            return self.partners(axes)[vertices]
+        return self._cells.nearest(self._flipped(self._places[vertices], axes))
 
     def on_plane(self, axes: tuple[int, ...]) -> frozenset[int]:
         """Return the vertices that are their own images over one of the axes."""
@@ -115,9 +124,8 @@ class Mirror:
         return images
 
     def _image(self, wire: Wire, axes: tuple[int, ...]) -> list[Wire]:
-        partners = self.partners(axes)
         around = np.array(wire.vertices + wire.vertices[:1] if wire.closed else wire.vertices, dtype=np.int64)
-        mapped = partners[around]
+        mapped = self._partners_of(around, axes)
         pairs = np.stack([mapped[:-1], mapped[1:]], axis=1)
         there = (pairs >= 0).all(axis=1) & (pairs[:, 0] != pairs[:, 1])
         keys = self._edge_keys

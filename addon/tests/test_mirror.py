@@ -86,6 +86,16 @@ def test_two_axes_make_three_images() -> None:
     assert [image.vertices for image in images] == [(5, 4), (30, 31), (35, 34)]
 
 
+def test_on_a_large_mesh_images_are_the_same_and_only_the_wires_vertices_are_looked_for(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    small, large = (Mirror(centred(), grid_edges(SIZE)) for _ in range(2))
+    expected = [image.vertices for image in small.images(wire(0, 1, 7), (0, 1))]
+    monkeypatch.setattr("seamwire.mirror._SAMPLE", 0)
+    monkeypatch.setattr(Mirror, "partners", lambda *_: pytest.fail("all vertices were looked for"))
+    assert [image.vertices for image in large.images(wire(0, 1, 7), (0, 1))] == expected
+
+
 def test_what_is_its_own_image_is_not_doubled() -> None:
     mirror = Mirror(centred(5), grid_edges(5))
     on_plane = wire(2, 7, 12, points=centred(5))
