@@ -6,7 +6,9 @@
 //   and time on the clock, which other programs lengthen; for geodesics, wires along edges, embedding and quick paths
 // - two metrics: seeding both on two threads, to the slower one alone
 // - a wire: tracing one path; tracing both, mapping them to the surface and snapping them to edges
-// - embedding, and doing it again after a stroke of 1, 4, 16 and 64 edges
+// - embedding, and doing it again after a stroke of 1, 4, 16 and 64 edges; and all that lies between the end of a
+// stroke
+//   and the first wire
 #include <pthread.h>
 
 #include <atomic>
@@ -148,7 +150,7 @@ void measure(const std::string& file, const Options& options) {
   std::uniform_int_distribution<std::int32_t> any(0, static_cast<std::int32_t>(surface->vertex_count()) - 1);
   const HalfEdgeMesh& mesh = surface->half_edges();
   for (const int edges : {1, 4, 16, 64}) {
-    std::vector<double> again;
+    std::vector<double> again, until_wire;
     std::size_t touched = 0;
     for (int i = 0; i < 7; ++i) {
       Scribble scribble;
@@ -170,9 +172,20 @@ void measure(const std::string& file, const Options& options) {
       for (std::size_t u = 0; u < changed.size(); ++u) touched += changed.tensors[u] != metrics[0].tensors[u];
       Embedding old = embeddings[0];
       again.push_back(seconds([&] { old = re_embed(*surface, metrics[0], changed, std::move(old)); }));
+      scribble.rings = 10;
+      old = embeddings[0];
+      const std::int32_t from = any(random), to = any(random);
+      until_wire.push_back(seconds([&] {
+        const Metric drawn = apply_scribbles(*surface, metrics[0], std::vector{scribble});
+        const Embedding embedding = re_embed(*surface, metrics[0], drawn, std::move(old));
+        const ExactGeodesics geodesics(embedding.mesh);
+        QuickPaths(geodesics, from, {}).path(to);
+      }));
     }
-    std::printf("  embedding again after a stroke of %2d edges, about %zu vertices: %.2f ms\n", edges, touched,
-                1e3 * median(again));
+    std::printf(
+        "  embedding again after a stroke of %2d edges, about %zu vertices: %.2f ms; from a stroke ten rings wide to "
+        "the first wire: %.1f ms\n",
+        edges, touched, 1e3 * median(again), 1e3 * median(until_wire));
   }
   std::fflush(stdout);
 
