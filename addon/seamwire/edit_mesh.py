@@ -57,7 +57,6 @@ class Cage:
     """
 
     def __init__(self, obj: bpy.types.Object) -> None:
-        self.name = obj.name
         self.mesh = obj.data
         self.bm = bmesh.from_edit_mesh(obj.data)
         self._lookup()

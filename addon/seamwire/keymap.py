@@ -324,21 +324,19 @@ class DoubleClicks:
         return soon and away <= inputs.drag_threshold_mouse
 
 
-def is_navigation(event: bpy.types.Event, inputs: bpy.types.PreferencesInput | None = None) -> bool:
+def is_navigation(event: bpy.types.Event) -> bool:
     """Whether an event moves the view or changes how it is shown, and nothing else."""
     if event.type.startswith("NDOF_") or (event.type.startswith("NUMPAD_") and event.type != "NUMPAD_ENTER"):
         return True
     if event.type in _SHADING_AND_SIDEBARS:
         return not event.ctrl and not event.oskey
-    if emulates_middle_button(event, inputs):
-        return True
     # Alt and the wheel change the frame.
     return event.type in _NAVIGATION and not (event.alt and event.type.startswith("WHEEL"))
 
 
-def emulates_middle_button(event: bpy.types.Event, inputs: bpy.types.PreferencesInput | None) -> bool:
+def emulates_middle_button(event: bpy.types.Event, inputs: bpy.types.PreferencesInput) -> bool:
     """Whether an event is one of the middle button that the left one plays."""
-    if inputs is None or not inputs.use_mouse_emulate_3_button or event.type != "LEFTMOUSE":
+    if not inputs.use_mouse_emulate_3_button or event.type != "LEFTMOUSE":
         return False
     return event.oskey if getattr(inputs, "mouse_emulate_3_button_modifier", "ALT") == "OSKEY" else event.alt
 

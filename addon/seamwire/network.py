@@ -30,8 +30,8 @@ Edge = tuple[int, int]
 End = Literal["start", "end"]
 
 LoopKind = Literal["CLOSED", "STRIP", "PAST", "WHOLE", "EDGE"]
-"""What a click on an edge takes: the closed loop of the metric, the straight strip up to what is there already, the whole
-strip, the edge alone."""
+"""What a click on an edge takes: the closed loop of the metric, the straight strip up to what is there already, the same past
+poles, the whole strip, the edge alone."""
 
 _ids = itertools.count()
 
