@@ -8,18 +8,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from .network import LOOP_NAMES
+
 if TYPE_CHECKING:
     from .network import Edge, LoopKind, Pick
     from .session import Session
 
 _TOKEN = re.compile(r"(\d+)(?:-(\d+))?")
-_KINDS = {
-    "CLOSED": "closed loop",
-    "STRIP": "strip",
-    "PAST": "way past poles",
-    "WHOLE": "whole strip",
-    "EDGE": "single edge",
-}
 _VERTEX = re.compile(r"\d+")
 
 
@@ -94,7 +89,7 @@ def draw_loops(session: Session, edges: Iterable[Edge], kind: LoopKind | None = 
     for edge in edges:
         before = len(session.wires)
         if kind is not None and not _turn_to(session, edge, kind):
-            problems.append(f"No {_KINDS[kind]} runs through edge {edge[0]}-{edge[1]}")
+            problems.append(f"No {LOOP_NAMES[kind]} runs through edge {edge[0]}-{edge[1]}")
             continue
         done = session.loop(edge)
         session.wait()

@@ -154,10 +154,9 @@ class Drawing:
         """
         if event.type == "TIMER":
             return self._tick()
-        inputs = context.preferences.inputs
         place = place_of(self._window, event)
         self._set_cursor("CROSSHAIR" if place else "")
-        double = self._clicks.is_second(event, time.monotonic(), inputs)
+        double = self._clicks.is_second(event, time.monotonic(), context.preferences)
         for board in self.boards.values():
             board.follow_mirror()
         if self._hold is not None and event.type == self._hold.button and event.value == "RELEASE":
@@ -177,7 +176,7 @@ class Drawing:
             return {"PASS_THROUGH"}
         moves = {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"} if isinstance(self._hold, StrokeHold) else {"MOUSEMOVE"}
         if self._hold is not None and event.type in moves:
-            if not self._hold.move(place, inputs.drag_threshold_mouse):
+            if not self._hold.move(place, keymap.drag_threshold(event, context.preferences)):
                 self._hold = None
             return self._done()
         if event.type in {"INBETWEEN_MOUSEMOVE", "WINDOW_DEACTIVATE"} or event.type.startswith("TIMER"):
@@ -185,7 +184,7 @@ class Drawing:
         if event.type == "MOUSEMOVE" or event.type.endswith(("_ALT", "_CTRL", "_SHIFT")):
             self._hover(place, event)
             return {"PASS_THROUGH" if event.type == "MOUSEMOVE" else "RUNNING_MODAL"}
-        if keymap.emulates_middle_button(event, inputs):
+        if keymap.emulates_middle_button(event, context.preferences.inputs):
             return {"PASS_THROUGH"}
         action = self.keys.action_of(event, double)
         if action is Action.TOGGLE and event.type.startswith("WHEEL") and not self._wheel_toggles(place, event):
@@ -307,7 +306,8 @@ class Drawing:
             self._turn_to(board)
         self._cancel_hold()
         wire = snap.wire if snap is not None and snap.to == "WIRE" and action is Action.ATTRACT else None
-        self._hold = StrokeHold(event.type, board, place, action is Action.ATTRACT, wire)
+        scale = bpy.context.preferences.system.ui_scale
+        self._hold = StrokeHold(event.type, board, place, action is Action.ATTRACT, wire, scale)
 
     def _cancel_hold(self) -> bool:
         hold, self._hold = self._hold, None

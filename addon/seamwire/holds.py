@@ -16,7 +16,7 @@ class Hold(Protocol):
 
     button: str
 
-    def move(self, place: Place, threshold: int) -> bool:
+    def move(self, place: Place, threshold: float) -> bool:
         """Follow the mouse; a drag begins beyond the threshold, in pixels. Returns whether it is still held."""
 
     def release(self) -> None:
@@ -48,7 +48,7 @@ class SeedHold:
         self._place = place
         self._dragging = False
 
-    def move(self, place: Place, threshold: int) -> bool:
+    def move(self, place: Place, threshold: float) -> bool:
         """Let the seed follow."""
         session = self._board.session
         if not self._dragging:

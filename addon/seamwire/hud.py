@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from . import paint
+from .network import LOOP_NAMES
 
 if TYPE_CHECKING:
     from .session import Session
@@ -16,15 +17,6 @@ _METRICS = {
     "campen": "Campen's metric",
     "pottmann_kovacs": "Pottmann and Kovacs' metric",
     "euclidean": "shortest ways",
-}
-
-
-_OFFERS = {
-    "CLOSED": "Closed loop",
-    "STRIP": "Strip up to seams",
-    "PAST": "Past poles, up to seams",
-    "WHOLE": "Whole strip",
-    "EDGE": "This edge alone",
 }
 
 
@@ -44,7 +36,7 @@ def lines(session: Session, segments: int | None, xray: bool = False, features: 
     if session.loop_choice is not None:
         offers = session.loop_offers
         which = f" ({offers.index(session.loop_choice) + 1} of {len(offers)})" if len(offers) > 1 else ""
-        found.append(_OFFERS[session.loop_choice] + which)
+        found.append(LOOP_NAMES[session.loop_choice].capitalize() + which)
     if segments is not None:
         found.append(f"{segments} segment" + ("s" if segments != 1 else ""))
     way = "Along edges" if session.along == "EDGES" else "Across the surface"

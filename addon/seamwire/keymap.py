@@ -98,7 +98,7 @@ class Key:
         return f"EVENT_{self.type}" if letter or function else ""
 
 
-_ANY = {"ctrl": -1, "shift": -1, "alt": -1}
+_ANY = {"ctrl": -1, "shift": -1, "alt": -1, "oskey": -1}
 
 KEYS: tuple[tuple[Action, Key], ...] = (
     (Action.LOOP, Key("LEFTMOUSE", "DOUBLE_CLICK")),
@@ -219,8 +219,8 @@ class Bindings:
             return cls()
         keys = [
             (Action[item.properties.action], _key(item))
-            for item in keymap.keymap_items
-            if item.active and item.idname == ACTION_OPERATOR and item.key_modifier == "NONE"
+            for item in items_of(keymap, ACTION_OPERATOR)
+            if item.active and item.key_modifier == "NONE"
         ]
         screen = manager.keyconfigs.user.keymaps.get("Screen")
         undo = [
@@ -299,7 +299,7 @@ class DoubleClicks:
     def __init__(self) -> None:
         self._released: tuple[str, float, int, int] | None = None
 
-    def is_second(self, event: bpy.types.Event, now: float, inputs: bpy.types.PreferencesInput) -> bool:
+    def is_second(self, event: bpy.types.Event, now: float, preferences: bpy.types.Preferences) -> bool:
         """Whether an event is the second press of a double click. To be asked of every event of the mouse's buttons.
 
         Parameters
@@ -308,8 +308,8 @@ class DoubleClicks:
             Any; only the buttons of the mouse count.
         now
             Seconds, from any beginning.
-        inputs
-            The preferences, for what counts as a double click and as the same place.
+        preferences
+            For what counts as a double click and as the same place.
         """
         if not event.type.endswith("MOUSE") or event.type.startswith("WHEEL"):
             return False
@@ -319,9 +319,16 @@ class DoubleClicks:
         released, self._released = self._released, None
         if released is None or event.value != "PRESS" or released[0] != event.type:
             return False
-        soon = (now - released[1]) * 1000.0 < inputs.mouse_double_click_time
+        soon = (now - released[1]) * 1000.0 < preferences.inputs.mouse_double_click_time
         away = max(abs(event.mouse_x - released[2]), abs(event.mouse_y - released[3]))
-        return soon and away <= inputs.drag_threshold_mouse
+        return soon and away <= drag_threshold(event, preferences)
+
+
+def drag_threshold(event: bpy.types.Event, preferences: bpy.types.Preferences) -> float:
+    """Return how many pixels a button must be moved to drag: as Blender counts, more on a display of larger scale."""
+    inputs = preferences.inputs
+    threshold = inputs.drag_threshold_tablet if event.is_tablet else inputs.drag_threshold_mouse
+    return threshold * preferences.system.ui_scale
 
 
 def is_navigation(event: bpy.types.Event) -> bool:
@@ -345,6 +352,25 @@ def user_keymap(manager: bpy.types.WindowManager) -> bpy.types.KeyMap | None:
     """Return the keymap of the tool's keys with the user's changes; None where there are no keymaps."""
     configuration = manager.keyconfigs.user
     return configuration.keymaps.get(NAME) if configuration is not None else None
+
+
+def items_of(keymap: bpy.types.KeyMap, idname: str) -> list[bpy.types.KeyMapItem]:
+    """Return a keymap's items of one operator, as the add-on has them: the running tool's in the order of `KEYS`.
+
+    Blender hands the items that add-ons added to the user's keymap on newest first. An action's keys that the user has
+    changed come before its others.
+    """
+    items = [item for item in reversed(keymap.keymap_items) if item.idname == idname]
+    if idname != ACTION_OPERATOR:
+        return items
+    actions = [action.name for action, _ in KEYS]
+    own = {(action.name, key): i for i, (action, key) in enumerate(KEYS)}
+
+    def place(item: bpy.types.KeyMapItem) -> tuple[int, int]:
+        action = item.properties.action
+        return actions.index(action), own.get((action, _key(item)), -1)
+
+    return sorted(items, key=place)
 
 
 class MESH_OT_seamwire_key(bpy.types.Operator):

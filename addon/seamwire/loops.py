@@ -64,6 +64,13 @@ def taken(offers: tuple[Wire, ...], choice: int, marks: bool) -> Wire:
     return replace(offers[choice], marks=marks, offers=offers[choice + 1 :] + offers[:choice])
 
 
+def others(kept: Wire, offers: tuple[Wire, ...]) -> tuple[Wire, ...]:
+    """Return what else is offered where a wire is kept, in order: what comes after its kind first."""
+    at = next((i for i, offer in enumerate(offers) if offer.kind == kept.kind), -1)
+    edges = set(kept.edges())
+    return tuple(offer for offer in offers[at + 1 :] + offers[: max(at, 0)] if set(offer.edges()) != edges)
+
+
 def find_offers(
     live: LiveWire, edge: Edge, stops: Sequence[int] | None, points: NDArray[np.float64], strength: float
 ) -> tuple[tuple[Wire, ...], bool]:

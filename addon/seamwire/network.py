@@ -33,6 +33,15 @@ LoopKind = Literal["CLOSED", "STRIP", "PAST", "WHOLE", "EDGE"]
 """What a click on an edge takes: the closed loop of the metric, the straight strip up to what is there already, the same past
 poles, the whole strip, the edge alone."""
 
+LOOP_NAMES: Mapping[LoopKind, str] = {
+    "CLOSED": "closed loop",
+    "STRIP": "strip",
+    "PAST": "strip past poles",
+    "WHOLE": "whole strip",
+    "EDGE": "single edge",
+}
+"""What the artist reads of them."""
+
 _ids = itertools.count()
 
 
@@ -286,6 +295,10 @@ class Network:
         if seed is None or not seed.forward or not _goes_on(wire, seed.place, seed.pick):
             return seed
         return replace(seed, pick=seed.place, forward=False, clicked=None)
+
+    def with_wire(self, wire: Wire) -> Network:
+        """Return the network with a wire in place of the one with its number."""
+        return replace(self, wires=tuple(wire if own.id == wire.id else own for own in self.wires))
 
     def with_next_offer(self, wire: Wire, steps: int = 1) -> Network:
         """Return the network with what a click on a wire's edge offered next. What went on from the wire stays."""

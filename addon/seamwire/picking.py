@@ -187,7 +187,7 @@ class _Drawn:
 
 
 def nearest_edge(
-    cursor: tuple[float, float], starts: NDArray[np.float64], ends: NDArray[np.float64]
+    cursor: tuple[float, float], starts: NDArray[np.float64], ends: NDArray[np.float64], scale: float = 1.0
 ) -> tuple[int, int | None]:
     """Find the segment nearest to a point, and whether one of its ends is meant.
 
@@ -197,6 +197,8 @@ def nearest_edge(
         Pixels.
     starts, ends
         (k, 2) pixels; NaN where an end is not in front of the viewer.
+    scale
+        Of the display.
 
     Returns
     -------
@@ -215,7 +217,7 @@ def nearest_edge(
     index = int(np.nanargmin(gaps))
     to_ends = np.linalg.norm(np.stack([starts[index], ends[index]]) - point, axis=1)
     end = int(np.argmin(to_ends))
-    radius = min(VERTEX_RADIUS, VERTEX_SHARE * float(np.sqrt(square[index])))
+    radius = min(VERTEX_RADIUS * scale, VERTEX_SHARE * float(np.sqrt(square[index])))
     return index, end if to_ends[end] <= radius else None
 
 
@@ -315,7 +317,7 @@ class Picker:
         if xray:
             pick = self._pick_through(view, matrix, cursor, vertices_only, scale)
         else:
-            pick = self.pick(view, matrix, cursor, vertices_only, REACH * scale)
+            pick = self.pick(view, matrix, cursor, vertices_only, scale)
         if pick is None or strength is None:
             return None if pick is None else Snap(pick)
         feature = self._feature_at(view, matrix, cursor, pick, strength, xray, scale)
@@ -466,14 +468,14 @@ class Picker:
         at = np.searchsorted(numbers, pairs)
         screen = np.stack([x, y], axis=1)
         starts, ends = screen[at[:, 0]], screen[at[:, 1]]
-        index, end = nearest_edge(cursor, starts, ends)
+        index, end = nearest_edge(cursor, starts, ends, scale)
         if index < 0 or _gap(cursor, starts[index], ends[index]) > 5.0 * REACH * scale:
             return None
         pair = (int(pairs[index, 0]), int(pairs[index, 1]))
         return pair if end is None else pair[end]
 
     def pick(
-        self, view: View, matrix: Matrix, cursor: tuple[float, float], vertices_only: bool, reach: float = REACH
+        self, view: View, matrix: Matrix, cursor: tuple[float, float], vertices_only: bool, scale: float = 1.0
     ) -> Pick | None:
         """Return the edge or the vertex under the cursor.
 
@@ -487,8 +489,8 @@ class Picker:
             Pixels from the region's bottom left.
         vertices_only
             Find vertices alone.
-        reach
-            How far beside the mesh the cursor may be, in pixels.
+        scale
+            Of the display.
 
         Returns
         -------
@@ -497,7 +499,7 @@ class Picker:
         """
         if abs(matrix.determinant()) < 1e-30:
             return None
-        faces = list(self._faces_at(view, matrix, cursor, reach))
+        faces = list(self._faces_at(view, matrix, cursor, REACH * scale))
         edges = {edge for face in faces for edge in self._surroundings(face, view, matrix) if not edge.hide}
         if not edges:
             return None
@@ -510,7 +512,7 @@ class Picker:
             return None if np.isnan(gaps).all() else numbers[int(np.nanargmin(gaps))]
         row = {vertex: i for i, vertex in enumerate(numbers)}
         ends = np.array([[row[a], row[b]] for a, b in pairs])
-        index, end = nearest_edge(cursor, pixels[ends[:, 0]], pixels[ends[:, 1]])
+        index, end = nearest_edge(cursor, pixels[ends[:, 0]], pixels[ends[:, 1]], scale)
         if index < 0:
             return None
         return pairs[index] if end is None else pairs[index][end]

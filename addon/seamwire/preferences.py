@@ -98,17 +98,15 @@ def draw_keys(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     box.label(text="Keys", icon="MOUSE_LMB")
     for map_name, idname in (("Mesh", keymap.OPERATOR), (tool.KEYMAP, keymap.OPERATOR)):
         keys = configuration.keymaps.get(map_name) if configuration is not None else None
-        for item in reversed(keys.keymap_items) if keys is not None else ():
-            if item.idname == idname:
-                _draw_key(box, keys, item, "Start" if map_name == "Mesh" else "Start with the toolbar's tool")
+        for item in keymap.items_of(keys, idname) if keys is not None else ():
+            _draw_key(box, keys, item, "Start" if map_name == "Mesh" else "Start with the toolbar's tool")
     keys = keymap.user_keymap(context.window_manager)
     if keys is None:
         box.label(text="There are no keymaps here")
         return
     last: Action | None = None
     order = list(keymap.Action)
-    # Blender hands the newest item on first.
-    items = [item for item in reversed(keys.keymap_items) if item.idname == keymap.ACTION_OPERATOR]
+    items = keymap.items_of(keys, keymap.ACTION_OPERATOR)
     for item in sorted(items, key=lambda item: order.index(keymap.Action[item.properties.action])):
         action = keymap.Action[item.properties.action]
         _draw_key(box, keys, item, action.value if action is not last else "")

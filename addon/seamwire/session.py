@@ -115,7 +115,7 @@ class Session(Guidance):
         own = self._taken_through(edge)
         if own is not None and own.marks == self.marking:
             # Of a double click, the first press took it already.
-            return not choice or self._change(self._network.with_next_offer(own, choice))
+            return not choice or self._next_kept(own, choice)
         offers = self._find_offers(edge)
         if not offers:
             if self.computing:
@@ -181,8 +181,8 @@ class Session(Guidance):
         own = self._network.find(wire)
         if own is None:
             return self._refuse("This wire is not there any more")
-        if own.offers:
-            return self._change(self._network.with_next_offer(own))
+        if own.through is not None:
+            return self._next_kept(own)
         if own.closed:
             return self._refuse("A loop has no other way")
         if own.alternative is not None:
@@ -400,7 +400,9 @@ class Session(Guidance):
         """Do the oldest waiting click if its wire is there; returns whether it was done."""
         head = self._queue[0]
         self._aim(head.snap, again=True)
-        blocked = not self._find_offers(head.snap.pick) if head.kind == "loop" else not self._live.active_final
+        blocked = (
+            not self._find_offers(head.snap.pick) if head.kind in {"loop", "offer"} else not self._live.active_final
+        )
         if blocked and self.computing:
             return False
         del self._queue[0]
@@ -409,6 +411,8 @@ class Session(Guidance):
             self.run_to_end()
         elif head.kind == "loop":
             self.loop(head.snap)
+        elif head.kind == "offer" and head.snap.wire is not None:
+            self.toggle_kept(head.snap.wire)
         else:
             self.click(head.snap)
         self._queue += rest

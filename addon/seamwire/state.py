@@ -59,7 +59,7 @@ class Intent(Enum):
 class Queued:
     """A click that came before its wire was computed."""
 
-    kind: Literal["click", "loop", "run"]
+    kind: Literal["click", "loop", "run", "offer"]
     snap: Snap
 
 

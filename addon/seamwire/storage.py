@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .cells import Cells
-from .network import Network, Wire, vertices_of
+from .network import LOOP_NAMES, Network, Wire, undirected, vertices_of
 from .scribbles import Scribble
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .network import Along, Pick
+    from .network import Along, Edge, LoopKind, Pick
     from .scribbles import ActsOn
 
 FORMAT = "seamwire network"
@@ -37,7 +37,7 @@ def dump(network: Network, points: NDArray[np.float64]) -> str:
     """
     used = {vertex for wire in network.wires for vertex in wire.vertices}
     for wire in network.wires:
-        used.update(vertices_of(wire.start), vertices_of(wire.end), wire.heading or ())
+        used.update(vertices_of(wire.start), vertices_of(wire.end), wire.heading or (), wire.through or ())
     for scribble in network.scribbles:
         used.update(scribble.corners.ravel().tolist())
     numbers = sorted(used)
@@ -66,6 +66,8 @@ def _wire_data(wire: Wire) -> dict[str, Any]:
         "follow": wire.follow,
         "strength": wire.strength,
     }
+    if wire.kind is not None:
+        data["kind"], data["through"] = wire.kind, wire.through
     if wire.along == "SURFACE":
         data["curve"] = wire.points.tolist()
     return data
@@ -241,6 +243,7 @@ class _Reader:
             points = np.array(item["curve"], dtype=np.float64).reshape(-1, 3)
             if len(points) < 2 or not np.isfinite(points).all():
                 raise ValueError
+        kind, through = self._clicked(item) if whole else (None, None)
         heading = None if item["heading"] is None else self._pick(item["heading"])
         return Wire(
             along,
@@ -253,7 +256,19 @@ class _Reader:
             heading=heading if isinstance(heading, tuple) else None,
             follow=1 if item["follow"] else 0,
             strength=float(item["strength"]),
+            kind=kind,
+            through=through,
         )
+
+    def _clicked(self, item: dict[str, Any]) -> tuple[LoopKind | None, Edge | None]:
+        """Return what a wire is of what a click offered, and that click's edge; neither where it was drawn."""
+        kind, stored = item.get("kind"), item.get("through")  # there were none at first
+        if kind is None:
+            return None, None
+        if kind not in LOOP_NAMES or not isinstance(stored, list):
+            raise ValueError
+        through = undirected(self._pick(stored))
+        return (kind, through) if isinstance(through, tuple) else (None, None)
 
     def _is_edge(self, a: int, b: int) -> bool:
         return (min(a, b), max(a, b)) in self._edges

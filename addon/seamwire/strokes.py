@@ -45,14 +45,25 @@ class StrokeHold:
         Whether wires are to follow the stroke, rather than keep off it.
     wire
         What a click drops; None: nothing.
+    scale
+        Of the display.
     """
 
-    def __init__(self, button: str, board: Board, place: Place, attracts: bool, wire: Wire | None = None) -> None:
+    def __init__(
+        self,
+        button: str,
+        board: Board,
+        place: Place,
+        attracts: bool,
+        wire: Wire | None = None,
+        scale: float = 1.0,
+    ) -> None:
         self.button = button
         self._board = board
         self._last = place
         self._attracts = attracts
         self._wire = wire
+        self._reach = CLOSE_REACH * scale
         self._first = place
         self._dragging = False
         self._ended = False
@@ -60,7 +71,7 @@ class StrokeHold:
         self._points: list[NDArray[np.float64]] = []
         self._triangles: list[int] = []
 
-    def move(self, place: Place, threshold: int) -> bool:
+    def move(self, place: Place, threshold: float) -> bool:
         """Draw on to where the mouse is now."""
         if not self._dragging:
             if place.away(self._first) <= threshold:
@@ -88,8 +99,8 @@ class StrokeHold:
             if self._wire is not None:
                 session.drop(self._wire)
             return
-        near = math.dist(self._first.cursor, self._last.cursor) <= CLOSE_REACH
-        if near and not self._ended and self._farthest > CLOSE_LENGTH * CLOSE_REACH and len(self._points) > 2:
+        near = math.dist(self._first.cursor, self._last.cursor) <= self._reach
+        if near and not self._ended and self._farthest > CLOSE_LENGTH * self._reach and len(self._points) > 2:
             self._points.append(self._points[0])
             self._triangles.append(self._triangles[0])
         if len(self._points) > 1:

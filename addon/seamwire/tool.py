@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from . import keymap, lazy
+from .engines import CLAMP_PERCENTILE, CLAMP_RANGE, STRENGTH_RANGE, STRENGTHS
 
 if TYPE_CHECKING:
     from . import drawing
@@ -25,9 +26,6 @@ METRIC_ITEMS = (
     ("pottmann_kovacs", "Normals", "The metric of Pottmann and Kovacs: turning normals make ways long"),
     ("euclidean", "Shortest", "Wires are as short as they can be, whatever the shape"),
 )
-STRENGTH = {"EDGES": 10.0, "SURFACE": 20.0}
-"""How strongly wires are drawn to features at first; docs/method.md says why."""
-
 KEYMAP = f"3D View Tool: Edit Mesh, {keymap.NAME}"
 """What Blender calls the keymap of the tool."""
 _ICON = Path(__file__).parent / "icons" / "seamwire.draw"
@@ -38,9 +36,9 @@ def strength_property(along: str) -> object:
     return bpy.props.FloatProperty(
         name="Strength",
         description="How much longer than straight a way may be for following the shape; 1: not at all",
-        default=STRENGTH[along],
-        min=1.0,
-        max=100.0,
+        default=STRENGTHS[along],
+        min=STRENGTH_RANGE[0],
+        max=STRENGTH_RANGE[1],
         update=_tell,
     )
 
@@ -62,9 +60,9 @@ class SeamwireSettings(bpy.types.PropertyGroup):
         name="Clamp",
         description="The percentile of the vertices' strengths from which on stronger ones count no more: single noisy"
         " vertices then do not decide",
-        default=99.0,
-        min=50.0,
-        max=100.0,
+        default=CLAMP_PERCENTILE,
+        min=CLAMP_RANGE[0],
+        max=CLAMP_RANGE[1],
         precision=1,
         update=_tell,
     )

@@ -8,21 +8,25 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from . import keymap
+from . import keymap, lazy
 from .keymap import Action
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
+    from . import network
+    from .network import LoopKind
     from .session import Session
+else:
+    network = lazy.Part("network")
 
 MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "VIEW3D_MT_edit_mesh_context_menu", "IMAGE_MT_uvs")
 
 Hint = tuple[str, str]
 """An icon of Blender's, and what it stands for now."""
+Deed = tuple[Action, str]
+"""What can be asked for, and what it would do now."""
 
-_OFFERS = {"CLOSED": "Closed Loop", "STRIP": "Strip", "PAST": "Past Poles", "WHOLE": "Whole Strip", "EDGE": "Edge"}
-"""What a click may take with the key for loops held, by the session's names."""
 _CLICKS = {
     "SEED": "Seed",
     "CONTINUE": "Begin at This Seed, Drag: Move It",
@@ -75,15 +79,13 @@ def count(number: int, what: str) -> str:
 
 
 def hints(status: Status) -> list[Hint]:
-    """Return what each button and key would do now, after what there is to say."""
+    """Return what each button and key would do now, after what there is to say.
+
+    Where the status bar is narrow its end is cut off: what a click does comes first, then how to get out and where all
+    keys are told, then the rest, what is needed oftenest first.
+    """
     session, keys = status.session, status.keys
     found: list[Hint] = []
-
-    def add(action: Action, text: str) -> None:
-        icon, before = keys.icon(action)
-        if icon or before:
-            found.append((icon or "NONE", f"{before}: {text}" if before else text))
-
     if session.computing:
         waiting = f", {count(session.waiting_clicks, 'click')} waiting" if session.waiting_clicks else ""
         found.append(("SORTTIME", f"Computing {100.0 * session.progress:.0f} %{waiting}"))
@@ -91,49 +93,80 @@ def hints(status: Status) -> list[Hint]:
         found.append(("INFO", status.message))
     if session.message:
         found.append(("ERROR", session.message))
-    if status.resume_offer:
-        add(Action.RESUME, "Go On with the Wires Kept Before")
-    live = session.seed is not None
-    click = _CLICKS.get(session.intent.name)
+    deeds = [
+        *_click(session),
+        (Action.FINISH, _finish(status)),
+        (Action.LEAVE, "Leave" if session.seed is None else "Drop Wire"),
+        (Action.HELP, "Keys"),
+        *([(Action.RESUME, "Go On with the Wires Kept Before")] if status.resume_offer else []),
+        *_wires(session),
+        *_guides(status),
+    ]
+    for action, text in deeds:
+        icon, before = keys.icon(action)
+        if icon or before:
+            found.append((icon or "NONE", f"{before}: {text}" if before else text))
+    return found + [("INFO", note) for note in status.notes]
+
+
+def _click(session: Session) -> Iterator[Deed]:
+    """Yield what a click does, and what it would do after toggling."""
     offers, offer = session.loop_offers, session.loop_choice
     if offer is not None:
-        add(Action.LOOP, f"Take {_OFFERS[offer]}, {offers.index(offer) + 1} of {len(offers)}")
-        if len(offers) > 1:
-            following = offers[(offers.index(offer) + 1) % len(offers)]
-            add(Action.TOGGLE, f"{_OFFERS[following]} Instead")
-    elif click:
-        add(Action.CLICK, click)
-    if live:
-        if session.other is not None and offer is None:
-            add(Action.TOGGLE, "Other Wire")
-        add(Action.END_CHAIN, "End Chain")
+        number = offers.index(offer)
+        which = f", {number + 1} of {len(offers)}" if len(offers) > 1 else ""
+        yield Action.LOOP, f"Take {_offer(offer)}{which}"
+        if which:
+            yield Action.TOGGLE, f"{_offer(offers[(number + 1) % len(offers)])} Instead"
+        return
+    click = _CLICKS.get(session.intent.name)
+    if click:
+        yield Action.CLICK, click
+    if session.seed is not None and session.other is not None:
+        yield Action.TOGGLE, "Other Wire"
+
+
+def _offer(kind: LoopKind) -> str:
+    return network.LOOP_NAMES[kind].title()
+
+
+def _wires(session: Session) -> Iterator[Deed]:
+    """Yield what else can be done about wires."""
+    if session.seed is not None:
+        yield Action.END_CHAIN, "End Chain"
         if session.closing_point is not None:
-            add(Action.CLOSE, "Close")
+            yield Action.CLOSE, "Close"
         if session.along == "EDGES":
-            add(Action.RUN, "Run to the End" if session.end_preview is None else "Keep It")
+            yield Action.RUN, "Run to the End" if session.end_preview is None else "Keep It"
     else:
-        if session.hovered_wire is not None:
-            add(Action.DROP, "Drop Wire")
-            add(Action.TOGGLE, "Its Other Way")
-        if session.along == "EDGES" and offer is None:
-            add(Action.LOOP, "Loop")
-    add(Action.ATTRACT, "Stroke")
-    add(Action.REPEL, "Keep Off")
-    if session.scribbles:
-        add(Action.ERASE, "Remove Stroke")
-    add(Action.MARKING, "Clear Instead" if session.marking else "Mark Instead")
-    if session.mirror_axes:
-        add(Action.MIRROR, f"Mirror {''.join('XYZ'[axis] for axis in session.mirror_axes)}")
-    elif status.mirror_offer:
-        add(Action.MIRROR, f"Mirror? Symmetric over {status.mirror_offer}")
-    add(Action.SWITCH, "Across Surface" if session.along == "EDGES" else "Along Edges")
-    add(Action.STRONGER, f"Strength {session.strength:.3g}")
+        wire = session.hovered_wire
+        if wire is not None:
+            yield Action.DROP, "Drop Wire"
+            if wire.kind is not None or not wire.closed:
+                yield Action.TOGGLE, "Its Other Way"
+        on_edge = session.target is not None and isinstance(session.target.pick, tuple)
+        if session.along == "EDGES" and session.loop_choice is None and on_edge:
+            yield Action.LOOP, "Loop"
     if session.can_undo:
-        add(Action.UNDO, "Undo")
-    add(Action.FINISH, _finish(status))
-    add(Action.LEAVE, "Drop Wire" if live else "Leave")
-    add(Action.HELP, "Keys")
-    return found + [("INFO", note) for note in status.notes]
+        yield Action.UNDO, "Undo"
+
+
+def _guides(status: Status) -> Iterator[Deed]:
+    """Yield what wires can be led by."""
+    session = status.session
+    if session.metric != "euclidean":
+        yield Action.STRONGER, f"Strength {session.strength:.3g}"
+    yield Action.MARKING, "Clear Instead" if session.marking else "Mark Instead"
+    if session.target is not None:
+        yield Action.ATTRACT, "Stroke"
+        yield Action.REPEL, "Keep Off"
+    if session.scribbles:
+        yield Action.ERASE, "Remove Stroke"
+    yield Action.SWITCH, "Across Surface" if session.along == "EDGES" else "Along Edges"
+    if session.mirror_axes:
+        yield Action.MIRROR, f"Mirror {''.join('XYZ'[axis] for axis in session.mirror_axes)}"
+    elif status.mirror_offer:
+        yield Action.MIRROR, f"Mirror? Symmetric over {status.mirror_offer}"
 
 
 def _finish(status: Status) -> str:

@@ -8,10 +8,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from .drag import Leg
-from .loops import find_offers
+from .loops import find_offers, others
 from .network import Network, Seed, Snap, Wire, name, undirected
 from .redraw import Job, other_way, with_lost, with_other_way
-from .state import State
+from .state import Queued, State
 from .straight import run_on
 
 if TYPE_CHECKING:
@@ -148,23 +148,40 @@ class Workings(State):
 
     # How it is done: loops and ends
 
-    def _find_offers(self, pick: Pick) -> tuple[Wire, ...]:
-        """Return what a click on an edge may take; nothing, too, while it is computed."""
+    def _find_offers(self, pick: Pick, kept: Wire | None = None) -> tuple[Wire, ...]:
+        """Return what a click on an edge may take, first what one has `kept`; nothing, too, while it is computed."""
         self._loop.final = True
         if not isinstance(pick, tuple):
             return ()
-        network = self._network
-        own = self._taken_through(pick)
-        if own is not None:
+        own = kept or self._taken_through(pick)
+        if own is not None and own.offers:
             return own.all_offers()
+        # Wires that were stored have lost their offers: they are those of a click made without them.
+        network = self._network if own is None else self._network.without(own)
         # An edge that is taken already stops itself: what remains to be offered there is more than that.
         stops = None if self._stops.taken(network, pick) else self._stops.of(network, None, pick)
         try:
-            offers, self._loop.final = find_offers(self._engine(), pick, stops, self._points, self.strength)
+            offers, self._loop.final = find_offers(
+                self._engine("EDGES"), pick, stops, self._points, self._engines.strengths["EDGES"]
+            )
         except ValueError as error:
             self.message = str(error)
             return ()
-        return offers
+        return offers if own is None or not self._loop.final else (replace(own, offers=()), *others(own, offers))
+
+    def _next_kept(self, own: Wire, steps: int = 1) -> bool:
+        """Let a wire that a click on an edge took be what that offers next, or some steps on."""
+        assert own.through is not None
+        if not own.offers:
+            offers = self._find_offers(own.through, own)[1:]
+            if not self._loop.final:
+                self._queue.append(Queued("offer", Snap(own.through, "WIRE", own)))
+                self.revision += 1
+                return True
+            if not offers:
+                return self._refuse(self.message or "Nothing else runs through this edge")
+            own = replace(own, offers=offers)
+        return self._change(self._network.with_wire(own).with_next_offer(own, steps))
 
     def _taken_through(self, edge: Pick) -> Wire | None:
         """Return the kept wire that a click on an edge took."""
@@ -173,7 +190,7 @@ class Workings(State):
 
     def _preview_loop(self) -> None:
         loop, target = self._loop, self._live.target
-        if not loop.wanted and not any(queued.kind == "loop" for queued in self._queue):
+        if not loop.wanted and not any(queued.kind in {"loop", "offer"} for queued in self._queue):
             loop.final = True
         if loop.wanted and not loop.offers and target is not None:
             loop.edge, loop.offers = undirected(target.pick), self._find_offers(target.pick)

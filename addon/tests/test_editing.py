@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import json
+
 import pytest
 from fake_live import FakeLive, grid_edges
 from seamwire.network import Snap
@@ -280,10 +282,13 @@ def test_undo_takes_back_what_waits_for_a_wires_other_way() -> None:
     assert session.wires[0].vertices == (0, 1, 2, 3, 9)
 
 
-def test_a_stored_loop_has_no_other_way() -> None:
+def test_a_loop_stored_without_the_click_that_took_it_has_no_other_way() -> None:
     table = Table()
     table.session.loop((14, 15))
-    network, _ = load(dump(table.session.network, table.points), table.points, grid_edges(SIZE))
+    data = json.loads(dump(table.session.network, table.points))
+    del data["wires"][0]["kind"], data["wires"][0]["through"]
+    network, problems = load(json.dumps(data), table.points, grid_edges(SIZE))
+    assert problems == []
     session = Table().session
     session.resume(network)
     assert not session.toggle_kept(session.wires[0])

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from fake_live import FakeLive, grid_edges, grid_points
 from seamwire.network import Snap
@@ -277,3 +278,62 @@ def test_an_edge_that_is_none_is_refused_in_words() -> None:
     assert "no edge" in session.message
     session.hover((0, 20), loop=True)
     assert session.loop_preview is None
+
+
+@pytest.mark.parametrize("order", [range(SIZE**2), range(SIZE**2)[::-1]])
+@pytest.mark.parametrize("steps", [0, 1, 2])
+def test_a_stored_loop_or_strip_goes_through_the_same_offers_again(order: range, steps: int) -> None:
+    table = Table()
+    table.session.loop((14, 15))
+    for _ in range(steps):
+        table.session.toggle_kept(table.session.wires[0])
+    numbers = np.array(order)
+    where = np.argsort(numbers)
+    text = dump(table.session.network, table.points)
+    network, problems = load(text, table.points[numbers], where[grid_edges(SIZE)])
+    assert problems == []
+    assert network.wires[0].through == tuple(sorted(where[[14, 15]].tolist()))
+    network, _ = load(text, table.points, grid_edges(SIZE))
+    again = Table().session
+    again.resume(network)
+    number = again.wires[0].id
+    for _ in range(3):
+        assert table.session.toggle_kept(table.session.wires[0])
+        assert again.toggle_kept(again.wires[0])
+        assert again.wires[0].vertices == table.session.wires[0].vertices
+        assert again.wires[0].kind == table.session.wires[0].kind
+        assert again.wires[0].id == number
+    for _ in range(3):
+        assert again.undo()
+    assert again.wires[0].vertices == network.wires[0].vertices
+
+
+def test_a_stored_loop_is_previewed_with_its_offers() -> None:
+    table = Table()
+    table.session.loop((14, 15))
+    network, _ = load(dump(table.session.network, table.points), table.points, grid_edges(SIZE))
+    session = Table().session
+    session.resume(network)
+    session.hover((15, 14), loop=True)
+    assert session.loop_offers == ("CLOSED", "STRIP", "EDGE")
+    assert session.toggle()
+    assert session.loop((15, 14))
+    assert [wire.vertices for wire in session.wires] == [ROW], "in place, not beside it"
+
+
+def test_a_stored_loops_offers_wait_until_they_are_computed() -> None:
+    table = Table()
+    table.session.loop((14, 15))
+    network, _ = load(dump(table.session.network, table.points), table.points, grid_edges(SIZE))
+    again = Table("SURFACE", ready=(False, False))
+    session = again.session
+    session.resume(network)
+    assert session.toggle_kept(session.wires[0])
+    assert session.waiting_clicks == 1
+    assert session.computing
+    again.compute()
+    assert session.waiting_clicks == 0
+    assert not session.computing
+    assert session.wires[0].vertices == ROW
+    assert session.undo()
+    assert session.wires[0].vertices == LOOP

@@ -34,7 +34,7 @@ def test_a_network_comes_back_as_it_was() -> None:
     for wire, was in zip(network.wires, table.session.wires, strict=True):
         assert wire.vertices == was.vertices
         assert wire.points.tolist() == was.points.tolist()
-        for name in ("along", "start", "end", "closed", "marks", "heading", "follow", "strength"):
+        for name in ("along", "start", "end", "closed", "marks", "heading", "follow", "strength", "kind", "through"):
             assert getattr(wire, name) == getattr(was, name), name
     assert network.mirror == (1,)
     assert network.seed is None
@@ -169,6 +169,11 @@ def test_edge_seeds_come_back_if_their_edge_is_there() -> None:
         lambda text: text.replace('"wires":[', '"wires":[3,'),
         lambda text: text.replace('"mirror":[1]', '"mirror":1'),
         lambda text: text.replace('"strength":10.0', '"strength":"much"'),
+        lambda text: text.replace('"kind":"CLOSED"', '"kind":"OPEN"'),
+        lambda text: text.replace('"kind":"CLOSED"', '"kind":["CLOSED"]'),
+        lambda text: text.replace('"through":[27,28]', '"through":27'),
+        lambda text: text.replace('"through":[27,28]', '"through":[27,77]'),
+        lambda text: text.replace('"through":[27,28]', '"through":[27]'),
         lambda text: text.replace('"vertices":[0,1,2,3],"start"', '"vertices":[0],"start"'),
     ],
 )

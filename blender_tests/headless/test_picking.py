@@ -171,6 +171,7 @@ def test_the_nearest_segment_is_found_and_its_end_near_the_end() -> None:
     assert nearest_edge((5.0, 2.0), starts, ends) == (0, 0)
     assert nearest_edge((95.0, 9.0), starts, ends) == (1, 1)
     assert nearest_edge((14.0, 2.0), starts, ends) == (0, None), "a vertex is a dozen pixels wide"
+    assert nearest_edge((14.0, 2.0), starts, ends, scale=2.0) == (0, 0), "of the display's pixels"
 
 
 def test_a_segment_that_is_partly_behind_the_viewer_is_not_found() -> None:

@@ -59,6 +59,8 @@ def test_the_hints_follow_what_is_going_on(session: Session) -> None:
     session.hover(76)
     assert "Close" in said(session)
     session.end_chain()
+    assert "Loop" not in said(session), "a vertex is under the cursor"
+    session.hover((76, 77))
     assert "Loop" in said(session)
     session.hover(Snap(36, "SEED"))
     assert "Begin at This Seed" in said(session)
@@ -80,3 +82,38 @@ def test_the_hints_name_the_keys_as_they_are_bound(session: Session) -> None:
     shown = ui.hints(ui.Status(session, keys))
     assert ("EVENT_J", "Shift: Clear Instead") in shown
     assert not any("Keys" in text for _, text in shown), "what has no key is not offered"
+
+
+def first(session: Session, number: int, **more: object) -> list[str]:
+    return [text for _, text in ui.hints(ui.Status(session, keymap.Bindings(), **more))][:number]
+
+
+def test_what_a_click_does_comes_first_then_the_ways_out_and_the_keys(session: Session) -> None:
+    session.hover((36, 37))
+    assert first(session, 4) == ["Seed", "Finish", "Leave", "Keys"]
+    assert first(session, 5, resume_offer=True)[4] == "Go On with the Wires Kept Before"
+    session.click(36)
+    session.wait()
+    session.hover(44)
+    assert first(session, 4) == ["Keep Wire", "Finish", "Drop Wire", "Keys"]
+    assert first(session, 5, message="Something was done")[:2] == ["Something was done", "Keep Wire"]
+    session.end_chain()
+    session.hover((40, 49), loop=True)
+    session.wait()
+    assert len(session.loop_offers) > 1
+    said_first = first(session, 5)
+    assert said_first[0].startswith("Alt: Take ")
+    assert said_first[0].endswith(f", 1 of {len(session.loop_offers)}")
+    assert said_first[1].endswith(" Instead")
+    assert said_first[2:] == ["Finish", "Leave", "Keys"]
+
+
+def test_what_does_not_apply_is_not_hinted_at(session: Session) -> None:
+    shown = said(session)
+    for text in ("Stroke", "Keep Off", "Undo", "Loop", "Mirror", "Other", "End Chain", "Close", "Drop Wire", "Go On"):
+        assert text not in shown, text
+    assert "Strength" in shown
+    session.hover(36)
+    assert "Stroke" in said(session)
+    session.set_metric("euclidean")
+    assert "Strength" not in said(session), "straight ways have none"
