@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
@@ -54,6 +55,33 @@ def add_suzanne(levels: int = 0) -> bpy.types.Object:
         modifier = obj.modifiers.new("Subdivision", "SUBSURF")
         modifier.levels = levels
         bpy.ops.object.modifier_apply(modifier=modifier.name)
+    return obj
+
+
+GATE_SIDE = 17
+GATE_SEEDS = (8 * GATE_SIDE + 4, 8 * GATE_SIDE + 12)
+"""The feet of the gate's ridge."""
+GATE_STRAIGHT = list(range(GATE_SEEDS[0], GATE_SEEDS[1] + 1))
+GATE_RIDGE = [
+    *range(GATE_SEEDS[0], 12 * GATE_SIDE + 4, GATE_SIDE),
+    *range(12 * GATE_SIDE + 4, 12 * GATE_SIDE + 12),
+    *range(12 * GATE_SIDE + 12, GATE_SEEDS[1] - 1, -GATE_SIDE),
+]
+
+
+def add_gate() -> bpy.types.Object:
+    """Make a grid of 17 x 17 vertices with a ridge up, across and down again, and one spike far from it.
+
+    From foot to foot of the ridge wires follow it, a way twice as long as straight; with a low strength, in the shortest
+    ways' metric, and where the clamp lets the weakest features count as the ridge does, they run straight.
+    """
+    obj = add_grid(GATE_SIDE)
+    for v in obj.data.vertices:
+        x, y = v.co.x, v.co.y
+        feet = math.hypot(abs(x) - 0.5, y - min(max(y, 0.0), 0.5))
+        top = math.hypot(x - min(max(x, -0.5), 0.5), y - 0.5)
+        v.co.z = 0.4 * math.exp(-((min(feet, top) / 0.15) ** 2))
+    obj.data.vertices[2 * GATE_SIDE + 2].co.z += 3.0
     return obj
 
 

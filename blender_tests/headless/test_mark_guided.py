@@ -3,7 +3,18 @@
 
 import bpy
 import pytest
-from scene import add_grid, add_object, chain, edit, ends, seams
+from scene import (
+    GATE_RIDGE,
+    GATE_SEEDS,
+    GATE_STRAIGHT,
+    add_gate,
+    add_grid,
+    add_object,
+    chain,
+    edit,
+    ends,
+    seams,
+)
 
 
 @pytest.fixture
@@ -77,3 +88,21 @@ def test_strokes_that_make_no_sense_are_refused(grid: bpy.types.Object, strokes:
     with pytest.raises(RuntimeError):
         mark(chains="9 17", strokes=strokes)
     assert seams(grid) == []
+
+
+@pytest.mark.parametrize(
+    ("options", "course"),
+    [
+        ({}, GATE_RIDGE),
+        ({"strength": 100.0}, GATE_RIDGE),
+        ({"strength": 1.0}, GATE_STRAIGHT),
+        ({"metric": "feature"}, GATE_RIDGE),
+        ({"metric": "euclidean"}, GATE_STRAIGHT),
+        ({"metric": "euclidean", "strength": 100.0}, GATE_STRAIGHT),
+    ],
+)
+def test_metric_and_strength_lead_wires(options: dict[str, object], course: list[int]) -> None:
+    obj = add_gate()
+    edit()
+    assert mark(chains="{} {}".format(*GATE_SEEDS), **options) == {"FINISHED"}
+    assert seams(obj) == chain(*course)

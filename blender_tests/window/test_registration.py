@@ -5,7 +5,7 @@ import bpy
 import traces
 import ui as driver
 from scene import add_grid, edit
-from seamwire import drawing
+from seamwire import drawing, keymap
 
 TIMES = 20
 
@@ -49,3 +49,29 @@ def test_disabled_while_drawing_it_ends_and_leaves_nothing_behind(ui: driver.Ui)
         traces.enable()
     ui.wait()  # the user's keymaps follow at the next turn of the event loop
     assert traces.difference(before, traces.traces()) == {}
+
+
+def test_the_users_keys_are_the_add_ons_in_the_same_order(ui: driver.Ui) -> None:
+    ui.wait()
+    of_user, defaults = keymap.Bindings.of_user(bpy.context.window_manager), keymap.Bindings()
+    assert of_user.rows() == defaults.rows()
+    for action in keymap.Action:
+        assert of_user.keys_of(action) == defaults.keys_of(action), action
+        assert of_user.icon(action) == defaults.icon(action), action
+
+
+def test_a_changed_key_is_the_actions_first(ui: driver.Ui) -> None:
+    ui.wait()
+    manager = bpy.context.window_manager
+    keys = keymap.user_keymap(manager)
+    item = next(item for item in keymap.items_of(keys, keymap.ACTION_OPERATOR) if item.type == "NUMPAD_ENTER")
+    try:
+        item.type = "P"
+        assert [key.type for key in keymap.Bindings.of_user(manager).keys_of(keymap.Action.FINISH)] == [
+            "P",
+            "RET",
+            "SPACE",
+        ]
+    finally:
+        item.type = "NUMPAD_ENTER"
+    assert keymap.Bindings.of_user(manager).rows() == keymap.Bindings().rows()
