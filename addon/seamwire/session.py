@@ -33,8 +33,7 @@ class Session(Guidance):
     Notes
     -----
     Methods that do something return whether it was done; where it was not, `message` says why, in words for the
-    artist. `revision` grows with every change of what is to be seen, `network_revision` with every change of the kept
-    wires.
+    artist.
     """
 
     # What can be done

@@ -98,9 +98,7 @@ class State:
 
     Notes
     -----
-    Methods that do something return whether it was done; where it was not, `message` says why, in words for the
-    artist. `revision` grows with every change of what is to be seen, `network_revision` with every change of the kept
-    wires.
+    `revision` grows with every change of what is to be seen, `network_revision` with every change of the kept wires.
     """
 
     def __init__(

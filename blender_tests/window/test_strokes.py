@@ -230,3 +230,35 @@ def test_the_first_drag_with_the_tool_is_a_stroke(fine: Desk) -> None:
     finally:
         with ui.override():
             bpy.ops.wm.tool_set_by_id(name="builtin.select_box")
+
+
+@pytest.fixture(params=[1.0, 2.0])
+def display_scale(request: pytest.FixtureRequest, fine: Desk) -> Iterator[float]:
+    """Blender's display scale, set."""
+    view = bpy.context.preferences.view
+    view.ui_scale = request.param
+    fine.ui.wait(4, redraw=True)
+    yield request.param
+    view.ui_scale = 1.0
+    fine.ui.wait(4, redraw=True)
+
+
+def stroke_by(desk: Desk, *ways: tuple[float, float]) -> None:
+    """Draw a stroke from the left seed over places so many pixels from it."""
+    x, y = desk.at(LEFT)
+    desk.ui.move((x, y), shift=True)
+    desk.ui.event("LEFTMOUSE", "PRESS", shift=True)
+    for right, up in ways:
+        desk.ui.move((x + right, y + up), shift=True)
+    desk.ui.event("LEFTMOUSE", "RELEASE", shift=True)
+
+
+def test_a_hand_may_be_as_unsteady_on_a_display_of_twice_the_scale(fine: Desk, display_scale: float) -> None:
+    session = fine.start()
+    computed(fine)
+    stroke_by(fine, (5.0, 0.0))
+    assert len(session.scribbles) == (1 if display_scale == 1.0 else 0), "five pixels are a drag, or a click"
+    stroke_by(fine, (200.0, 0.0), (200.0, 100.0), (0.0, 100.0), (0.0, 15.0))
+    points = session.scribbles[-1].points
+    closed = bool((points[0] == points[-1]).all())
+    assert closed is (display_scale == 2.0), "fifteen pixels from its beginning"
