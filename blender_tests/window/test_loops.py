@@ -69,7 +69,7 @@ def test_the_status_bar_says_which_offer_it_is_and_of_how_many(desk: Desk) -> No
     turn_to(desk, "STRIP")
     assert f"Take Strip, {session.loop_offers.index('STRIP') + 1} of {count}" in said()
     turn_to(desk, "EDGE")
-    assert f"Take Edge, {count} of {count}" in said()
+    assert f"Take Single Edge, {count} of {count}" in said()
     desk.ui.move(desk.at(40, 41))
     assert "Take" not in said()
 
