@@ -13,15 +13,14 @@ from . import keymap, lazy, preferences, ui
 from .holds import Hold, SeedHold
 from .keymap import Action
 from .places import Place, place_of
-from .strokes import StrokeHold
 
 if TYPE_CHECKING:
     from . import board as boards
-    from . import network, tool
+    from . import network, strokes, tool
     from .board import Board
     from .session import Session
 else:
-    boards, network, tool = map(lazy.Part, ("board", "network", "tool"))
+    boards, network, strokes, tool = map(lazy.Part, ("board", "network", "strokes", "tool"))
 
 _TICK = 0.05
 """Seconds between two looks at running work: redraws stay below what the eye takes for a stop."""
@@ -162,7 +161,7 @@ class Drawing:
         if self._hold is not None and event.type == self._hold.button and event.value == "RELEASE":
             hold, self._hold = self._hold, None
             hold.release()
-            if isinstance(hold, StrokeHold) and hold.missed:
+            if isinstance(hold, strokes.StrokeHold) and hold.missed:
                 self.message = "Drag over the mesh to draw a stroke"
             if place is not None:
                 self._rehover(place)
@@ -174,7 +173,7 @@ class Drawing:
                 self.session.hover(None)
                 self.refresh()
             return {"PASS_THROUGH"}
-        moves = {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"} if isinstance(self._hold, StrokeHold) else {"MOUSEMOVE"}
+        moves = {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"} if isinstance(self._hold, strokes.StrokeHold) else {"MOUSEMOVE"}
         if self._hold is not None and event.type in moves:
             if not self._hold.move(place, keymap.drag_threshold(event, context.preferences)):
                 self._hold = None
@@ -307,7 +306,7 @@ class Drawing:
         self._cancel_hold()
         wire = snap.wire if snap is not None and snap.to == "WIRE" and action is Action.ATTRACT else None
         scale = bpy.context.preferences.system.ui_scale
-        self._hold = StrokeHold(event.type, board, place, action is Action.ATTRACT, wire, scale)
+        self._hold = strokes.StrokeHold(event.type, board, place, action is Action.ATTRACT, wire, scale)
 
     def _cancel_hold(self) -> bool:
         hold, self._hold = self._hold, None

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Enabling and disabling the add-on, and what it says without its compiled part."""
 
+import subprocess
+
 import addon_utils
 import bpy
 import pytest
@@ -40,3 +42,27 @@ def test_without_the_compiled_part_the_operator_says_so(monkeypatch: pytest.Monk
     with pytest.raises(RuntimeError, match="install the package"):
         bpy.ops.mesh.seamwire_mark(chains="0 2")
     assert seams(obj) == []
+
+
+def test_enabling_reads_neither_numpy_nor_the_compiled_part() -> None:
+    if not bpy.app.binary_path:
+        pytest.skip("Blender as a Python module cannot be started again")
+    code = f"""
+import sys, addon_utils
+before = set(sys.modules)
+assert addon_utils.enable({ADDON!r}) is not None
+print("Read:", sorted(dict.fromkeys(name.split(".")[0] for name in set(sys.modules) - before)))
+"""
+    command = [
+        bpy.app.binary_path,
+        "--background",
+        "--factory-startup",
+        "--python-exit-code",
+        "3",
+        "--python-expr",
+        code,
+    ]
+    output = subprocess.run(command, check=True, capture_output=True, text=True, timeout=120).stdout
+    read = next(line for line in output.splitlines() if line.startswith("Read:"))
+    assert "numpy" not in read, "it takes longer than all else, and Blender's start would wait"
+    assert "seamwire_core" not in read
