@@ -61,6 +61,11 @@ class Stops:
         """Whether an edge belongs already to a seam, to a kept wire or to an image of one."""
         return undirected(edge) in self._kept(network)[1]
 
+    def without(self, wire: Wire, network: Network) -> Stops:
+        """Return the stops there would be without a wire's own edges, which are seams where it was finished before."""
+        own = {edge for one in self._with_images(wire, network) for edge in one.edges()}
+        return Stops(sorted(self._seams - own), self._mirror)
+
     def _kept(self, network: Network) -> tuple[frozenset[int], frozenset[Edge]]:
         """Return the vertices and edges of seams, kept wires and their images."""
         if self._last is None or self._last[0] is not network:

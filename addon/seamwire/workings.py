@@ -157,9 +157,11 @@ class Workings(State):
         if own is not None and own.offers:
             return own.all_offers()
         # Wires that were stored have lost their offers: they are those of a click made without them.
-        network = self._network if own is None else self._network.without(own)
+        network, known = self._network, self._stops
+        if own is not None:
+            network, known = network.without(own), known.without(own, network)
         # An edge that is taken already stops itself: what remains to be offered there is more than that.
-        stops = None if self._stops.taken(network, pick) else self._stops.of(network, None, pick)
+        stops = None if known.taken(network, pick) else known.of(network, None, pick)
         try:
             offers, self._loop.final = find_offers(
                 self._engine("EDGES"), pick, stops, self._points, self._engines.strengths["EDGES"]

@@ -294,7 +294,7 @@ def test_a_stored_loop_or_strip_goes_through_the_same_offers_again(order: range,
     assert problems == []
     assert network.wires[0].through == tuple(sorted(where[[14, 15]].tolist()))
     network, _ = load(text, table.points, grid_edges(SIZE))
-    again = Table().session
+    again = Table(seams=network.wires[0].edges()).session  # what finishing made of it
     again.resume(network)
     number = again.wires[0].id
     for _ in range(3):
@@ -312,7 +312,7 @@ def test_a_stored_loop_is_previewed_with_its_offers() -> None:
     table = Table()
     table.session.loop((14, 15))
     network, _ = load(dump(table.session.network, table.points), table.points, grid_edges(SIZE))
-    session = Table().session
+    session = Table(seams=network.wires[0].edges()).session
     session.resume(network)
     session.hover((15, 14), loop=True)
     assert session.loop_offers == ("CLOSED", "STRIP", "EDGE")
