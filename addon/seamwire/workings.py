@@ -35,7 +35,9 @@ class Workings(State):
 
     def _working(self) -> list[LiveWire]:
         legs = self._drag.legs if self._drag else ()
-        return [self._engines.get(self.along), *self._redraws.lives(), *(leg.live for leg in legs)]
+        # What a click on an edge offers is found along edges, however wires run now.
+        offers = [self._engines.get("EDGES")] if any(queued.kind == "offer" for queued in self._queue) else []
+        return [self._engines.get(self.along), *offers, *self._redraws.lives(), *(leg.live for leg in legs)]
 
     def _read_progress(self) -> None:
         # Before wires are asked for: what is not final after the work is done stays so.
@@ -192,7 +194,7 @@ class Workings(State):
 
     def _preview_loop(self) -> None:
         loop, target = self._loop, self._live.target
-        if not loop.wanted and not any(queued.kind in {"loop", "offer"} for queued in self._queue):
+        if (loop.offers or not loop.wanted) and not any(queued.kind in {"loop", "offer"} for queued in self._queue):
             loop.final = True
         if loop.wanted and not loop.offers and target is not None:
             loop.edge, loop.offers = undirected(target.pick), self._find_offers(target.pick)

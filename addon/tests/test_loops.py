@@ -337,3 +337,14 @@ def test_a_stored_loops_offers_wait_until_they_are_computed() -> None:
     assert session.wires[0].vertices == ROW
     assert session.undo()
     assert session.wires[0].vertices == LOOP
+
+
+def test_a_stored_loops_offers_are_waited_for_across_the_surface_too() -> None:
+    table = Table()
+    table.session.loop((14, 15))
+    network, _ = load(dump(table.session.network, table.points), table.points, grid_edges(SIZE))
+    session = Table("SURFACE", ready=(False, False)).session
+    session.resume(network)
+    session.toggle_kept(session.wires[0])
+    session.wait()
+    assert session.wires[0].vertices == ROW
