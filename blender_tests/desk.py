@@ -67,7 +67,7 @@ class Desk:
     def left_clean(self) -> bool:
         """Whether the tool has ended, and the status bar and the handlers are as they were."""
         status = getattr(STATUSBAR_HT_header, "_draw_orig", STATUSBAR_HT_header.draw)
-        handlers = [handler for handler in bpy.app.handlers.load_pre if "seamwire" in str(handler)]
+        handlers = [handler for handler in bpy.app.handlers.depsgraph_update_post if "Drawing" in str(handler)]
         return not self.running and STATUSBAR_HT_header.draw is status and not handlers
 
     def unchanged(self) -> bool:

@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 KEY = "seamwire"
 """The mesh's custom property that holds the network."""
 
-_set_aside: dict[str, str] = {}
-"""Networks, by the mesh's name, of drawings that were interrupted."""
+_MOMENT = 0.1
+"""Seconds for which the interface may wait."""
 
 
 def live_maker(arrays: edit_mesh.Arrays) -> Callable[[Along], LiveWire]:
@@ -90,9 +90,11 @@ class Board:
         A mesh object in edit mode.
     settings
         How wires are drawn at first.
+    interrupted
+        The network of a drawing on this mesh that did not come to its end; None: there was none.
     """
 
-    def __init__(self, obj: bpy.types.Object, settings: SeamwireSettings) -> None:
+    def __init__(self, obj: bpy.types.Object, settings: SeamwireSettings, interrupted: str | None = None) -> None:
         self.obj = obj
         self.cage = edit_mesh.Cage(obj)
         arrays = edit_mesh.read(obj)
@@ -118,11 +120,11 @@ class Board:
         self.follow_mirror()
         self._picker = picking.Picker(self.cage.bm, arrays, arrays.seams)
         self._network = self.session.network
-        self._resumed: frozenset[Edge] = frozenset()
         self.symmetric: tuple[int, ...] | None = None
         self._looking = threading.Thread(target=self._look_for_symmetry, daemon=True)
         self._looking.start()
-        self.offered = _set_aside.pop(self.cage.mesh.name, None) or self.cage.mesh.get(KEY)
+        self._interrupted = interrupted
+        self._earlier = interrupted or self.stored
         core = native.load()
         self._segments = segments.SegmentMaker(
             arrays.triangles, lambda cuts: core.face_segments(surface.get(), cuts), HUES
@@ -146,6 +148,16 @@ class Board:
     def _look_for_symmetry(self) -> None:
         self.symmetric = self.session.symmetric_axes
 
+    def symmetric_soon(self) -> tuple[int, ...] | None:
+        """Return the axes over which the mesh is symmetric; None where that takes longer than a moment to find out."""
+        self._looking.join(_MOMENT)
+        return self.symmetric
+
+    @property
+    def offered(self) -> str | None:
+        """The network of an earlier drawing, while it is not taken up."""
+        return self._earlier if self.session.network.earlier is None else None
+
     @property
     def offer(self) -> bool:
         """Whether wires of an earlier drawing are to be offered."""
@@ -161,14 +173,26 @@ class Board:
     @property
     def changes(self) -> bool:
         """Whether finishing would change anything."""
-        return bool(self.session.wires or self.session.scribbles or self._resumed)
+        network = self.session.network
+        return bool(network.wires or network.scribbles) or network.earlier is not None
 
-    def intact(self) -> bool:
-        """Whether object and mesh are still there and being edited, with the same vertices, edges and faces."""
+    def intact(self, thoroughly: bool) -> bool:
+        """Whether object and mesh are still there and being edited, with the same vertices, edges and faces.
+
+        Parameters
+        ----------
+        thoroughly
+            Look at every one of them, not at their number alone.
+        """
         try:
-            return self.obj.mode == "EDIT" and self.obj.data == self.cage.mesh and self.cage.intact()
+            there = self.obj.mode == "EDIT" and self.obj.data == self.cage.mesh and self.cage.intact()
         except ReferenceError:
             return False
+        return there and (not thoroughly or self.cage.is_as(self._arrays))
+
+    def shows(self, update: bpy.types.DepsgraphUpdate) -> bool:
+        """Whether an update of Blender's tells of a change of the mesh, whichever it is."""
+        return update.is_updated_geometry and update.id.original in (self.obj, self.cage.mesh)
 
     def poll(self) -> bool:
         """Take in what was computed; return whether there are new segments to be seen."""
@@ -203,6 +227,9 @@ class Board:
     def tell(self, settings: SeamwireSettings) -> None:
         """Write back what keys changed."""
         drawing = self.session
+        for setting in ("along", "metric"):
+            if getattr(settings, setting) != getattr(drawing, setting):
+                setattr(settings, setting, getattr(drawing, setting))
         name = "strength_edges" if drawing.along == "EDGES" else "strength_surface"
         if abs(getattr(settings, name) - drawing.strength) > 1e-4 * drawing.strength:
             setattr(settings, name, drawing.strength)
@@ -261,36 +288,51 @@ class Board:
 
     def resume(self) -> str:
         """Go on with the wires of an earlier drawing; return what there is to say."""
-        text, self.offered = self.offered, None
+        text = self.offered
         if text is None:
             return "There are no wires of an earlier drawing on this mesh"
         network, problems = storage.load(text, self._points, self._edges)
-        drawn = self.session.wires
-        scribbles = (*network.scribbles, *self.session.scribbles)
-        self.session.resume(replace(network, wires=(*network.wires, *drawn), scribbles=scribbles))
-        # What these wires marked, they are to clear where they are dropped now.
-        self._resumed = frozenset(edge for wire in network.wires for edge in self._marked_by(wire))
+        now = self.session.network
+        self.session.resume(
+            replace(
+                network,
+                wires=(*network.wires, *now.wires),
+                scribbles=(*network.scribbles, *now.scribbles),
+                mirror=tuple(sorted({*network.mirror, *now.mirror})),
+                # What these wires marked, they are to clear where they are dropped now.
+                earlier=frozenset(edge for wire in network.wires for edge in self._marked_by(wire, network.mirror)),
+            )
+        )
         return "; ".join([f"Going on with {count(len(network.wires), 'wire')}", *problems])
 
-    def _marked_by(self, wire: Wire) -> Iterator[Edge]:
+    def _marked_by(self, wire: Wire, mirror: tuple[int, ...]) -> Iterator[Edge]:
         if wire.marks:
-            for image in (wire, *self.session.mirrored(wire)):
+            for image in (wire, *self.session.mirrored(wire, mirror)):
                 yield from image.edges()
 
-    def set_aside(self) -> int:
-        """Keep the network for the next drawing on this mesh; return how many wires that are."""
-        wires = self.session.wires
+    def to_set_aside(self) -> tuple[str, str] | None:
+        """Return the mesh's name and the network, for the next drawing on it; None where there is nothing to keep."""
+        network = replace(self.session.network, seed=None)
+        if not network.wires and not network.scribbles:
+            return None
         try:
-            if wires or self.session.scribbles:
-                _set_aside[self.cage.mesh.name] = storage.dump(replace(self.session.network, seed=None), self._points)
+            return self.cage.mesh.name, storage.dump(network, self._points)
         except ReferenceError:  # the mesh is gone, and the wires with it
-            return 0
-        return len(wires)
+            return None
 
     @property
     def stored(self) -> str | None:
         """What is stored with the mesh."""
         return self.cage.mesh.get(KEY)
+
+    def _effect(self) -> tuple[list[Edge], list[Edge]]:
+        mark, clear = self.session.edges_to_mark(), self.session.edges_to_clear()
+        dropped = (self.session.network.earlier or frozenset()) - set(mark) - set(clear)
+        return mark, [*clear, *dropped]
+
+    def check(self) -> None:
+        """Raise ValueError where `write` would, so that of several objects either all are written or none."""
+        self.cage.check_edges(*self._effect())
 
     def write(self) -> tuple[int, int]:
         """Mark and clear what was drawn, and store the network with the mesh.
@@ -300,15 +342,18 @@ class Board:
         tuple of int
             How many edges became seams, and how many ceased to be.
         """
-        mark, clear = self.session.edges_to_mark(), self.session.edges_to_clear()
-        written = self.cage.write_seams(mark, [*clear, *(self._resumed - set(mark) - set(clear))])
+        written = self.cage.write_seams(*self._effect())
         network = replace(self.session.network, seed=None)
-        if self.offered is not None:
+        if self.stored is not None and (self.offered is not None or self._interrupted is not None):
             # Wires that were not taken up stay with the mesh, as far as they still are what they were.
-            earlier, _ = storage.load(self.offered, self._points, self._edges)
+            earlier, _ = storage.load(self.stored, self._points, self._edges)
             seams = set(self.cage.seams())
-            kept = [wire for wire in earlier.wires if seams.issuperset(wire.edges())]
-            network = replace(network, wires=(*kept, *network.wires))
+            drawn = {edge for wire in network.wires for edge in wire.edges()}
+            kept = [
+                wire for wire in earlier.wires if seams.issuperset(wire.edges()) and not drawn.issuperset(wire.edges())
+            ]
+            strokes = earlier.scribbles if network.earlier is None else ()
+            network = replace(network, wires=(*kept, *network.wires), scribbles=(*strokes, *network.scribbles))
         if network.wires or network.scribbles:
             self.cage.mesh[KEY] = storage.dump(network, self._points)
         elif KEY in self.cage.mesh:

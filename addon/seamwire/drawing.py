@@ -15,6 +15,8 @@ from .keymap import Action
 from .places import Place, place_of
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from . import board as boards
     from . import network, strokes, tool
     from .board import Board
@@ -30,6 +32,8 @@ _AXES = "XYZ"
 
 running: list[Drawing] = []
 """The drawings going on, so that unregistering the add-on can end them."""
+_interrupted: dict[str, str] = {}
+"""The networks, by the mesh's name, of drawings in this file that did not come to their end."""
 
 
 class Drawing:
@@ -46,7 +50,10 @@ class Drawing:
         self._workspace = context.workspace
         self._manager = context.window_manager
         self._settings = tool.settings(context)
-        self._objects = [obj for obj in context.objects_in_mode_unique_data if obj.type == "MESH"]
+        active = context.active_object
+        others = [obj for obj in context.objects_in_mode_unique_data if obj.type == "MESH" and obj.data != active.data]
+        # By the names they have now: an object that is renamed meanwhile stays the same one.
+        self._objects = {obj.name: obj for obj in (active, *others)}
         self._timer: bpy.types.Timer | None = None
         self._cursor = ""
         self._clicks = keymap.DoubleClicks()
@@ -57,6 +64,7 @@ class Drawing:
         self._finishing = False
         self._leaving = False
         self._help = False
+        self._touched = False
         self.message = ""
         self.keys = keymap.Bindings.of_user(self._manager)
         self.boards: dict[str, Board] = {}
@@ -64,13 +72,13 @@ class Drawing:
         try:
             self._ending.callback(self._redraw)
             self._ending.callback(self._remove_overlays)
-            self.board = self._board_of(context.active_object)
-            self.notes = ("Works on the mesh without its modifiers",) if context.active_object.modifiers else ()
+            self.board = self._board_of(active.name)
+            self.notes = ("Works on the mesh without its modifiers",) if active.modifiers else ()
             self._ending.callback(self._set_timer, False)
             self._ending.callback(self._set_cursor, "")
             self._ending.callback(self._workspace.status_text_set, None)
-            bpy.app.handlers.load_pre.append(self._on_load)
-            self._ending.callback(self._forget_load)
+            bpy.app.handlers.depsgraph_update_post.append(self._on_update)
+            self._ending.callback(bpy.app.handlers.depsgraph_update_post.remove, self._on_update)
             running.append(self)
             self._ending.callback(running.remove, self)
             self.refresh()
@@ -101,31 +109,33 @@ class Drawing:
         for board in self.boards.values():
             board.remove()
 
-    def _on_load(self, *_: object) -> None:
-        self.close()
+    def _on_update(self, _scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+        if not self._touched:
+            self._touched = any(board.shows(update) for update in depsgraph.updates for board in self.boards.values())
 
-    def _forget_load(self) -> None:
-        bpy.app.handlers.load_pre.remove(self._on_load)
-
-    def _board_of(self, obj: bpy.types.Object) -> Board:
-        if obj.name not in self.boards:
-            board = boards.Board(obj, self._settings)
-            self.boards[obj.name] = board
+    def _board_of(self, name: str) -> Board:
+        if name not in self.boards:
+            obj = self._objects[name]
+            board = boards.Board(obj, self._settings, _interrupted.get(obj.data.name))
+            self.boards[name] = board
             own = preferences.get()
             if board.offered is not None and own is not None and own.resume == "ALWAYS":
                 self._resume(board)
-        return self.boards[obj.name]
+        return self.boards[name]
 
     # What can happen from outside
 
-    def trouble(self, context: bpy.types.Context) -> str:
+    def trouble(self, context: bpy.types.Context, event: bpy.types.Event) -> str:
         """Say why drawing cannot go on; an empty string where it can. Raises what an overlay could not draw."""
         if context.mode != "EDIT_MESH":
             return "Edit mode was left"
         if context.workspace != self._workspace:
             return "Another workspace was opened"
+        # Looking at the whole mesh takes its time: while another editor is at work on it, that can wait.
+        thoroughly = self._touched and place_of(self._window, event) is not None
+        self._touched = self._touched and not thoroughly
         for board in self.boards.values():
-            if not board.intact():
+            if not board.intact(thoroughly):
                 return "The mesh was changed"
             if board.overlay.error is not None:
                 raise board.overlay.error
@@ -133,7 +143,28 @@ class Drawing:
 
     def set_aside(self) -> int:
         """Keep what was drawn for when the tool is started again; return how many wires that are."""
-        return sum(board.set_aside() for board in self.boards.values())
+        wires = 0
+        for board in self.boards.values():
+            kept = board.to_set_aside()
+            if kept is not None:
+                _interrupted.update([kept])
+                wires += len(board.session.wires)
+        return wires
+
+    def write(self) -> Iterator[tuple[Board, int, int]]:
+        """Mark and clear what was drawn: on all objects or, where an edge is not there any more, on none.
+
+        Yields
+        ------
+        tuple
+            Each board, how many edges became seams, and how many ceased to be.
+        """
+        for board in self.boards.values():
+            board.check()
+        for board in self.boards.values():
+            yield board, *board.write()
+            if board.offered is None:
+                _interrupted.pop(board.cage.mesh.name, None)
 
     def follow(self, settings: tool.SeamwireSettings) -> None:
         """Take over settings that were changed in the tool's header."""
@@ -284,7 +315,7 @@ class Drawing:
         if board is not self.board:
             self.session.end_chain()
             self.session.hover(None)
-            self._turn_to(board)
+            self.board = board
         drawing = board.session
         if action is Action.NEW_CHAIN:
             drawing.start(snap)
@@ -302,7 +333,7 @@ class Drawing:
         board, snap = self._find(place)
         board = board or self.board
         if self.session.seed is None and not self.session.waiting_clicks:
-            self._turn_to(board)
+            self.board = board
         self._cancel_hold()
         wire = snap.wire if snap is not None and snap.to == "WIRE" and action is Action.ATTRACT else None
         scale = bpy.context.preferences.system.ui_scale
@@ -365,7 +396,7 @@ class Drawing:
         if board is None or wire is None:
             self.message = "Point at a wire to drop it"
         else:
-            self._turn_to(board)
+            self.board = board
             board.session.drop(wire)
             self._rehover(place)
 
@@ -384,7 +415,10 @@ class Drawing:
 
     def _cycle_mirror(self) -> None:
         drawing = self.session
-        symmetric = drawing.symmetric_axes
+        symmetric = self.board.symmetric_soon()
+        if symmetric is None:
+            self.message = "Whether the mesh is symmetric is still being found out"
+            return
         ways = [(), *((axis,) for axis in symmetric), *([symmetric] if len(symmetric) > 1 else ())]
         if len(ways) == 1 and not drawing.mirror_axes:
             self.message = "The mesh is symmetric over none of its axes"
@@ -408,7 +442,7 @@ class Drawing:
             if board.session.undo():
                 board.stepped()
                 self._undone.append(board)
-                self._turn_to(board)
+                self.board = board
                 return
         self.session.undo()
         self.board.stepped()
@@ -419,7 +453,7 @@ class Drawing:
             if board.session.redo():
                 board.stepped()
                 self._history.append(board)
-                self._turn_to(board)
+                self.board = board
                 return
         self.session.redo()
         self.board.stepped()
@@ -437,7 +471,7 @@ class Drawing:
             self.session.hover(None)
             # A live wire stays with its object until there is a click on another.
             if self.session.seed is None and not self.session.waiting_clicks:
-                self._turn_to(board)
+                self.board = board
             else:
                 snap = None
         self.session.hover(snap, loop=loop and snap is not None)
@@ -447,13 +481,9 @@ class Drawing:
         board, snap = self._find(place)
         self.session.hover(snap if board is self.board else None)
 
-    def _turn_to(self, board: Board) -> None:
-        self.board = board
-
     def _find(self, place: Place, plain: bool = False) -> tuple[Board | None, network.Snap | None]:
         """Return which object is under the mouse, and what of it; `plain`: of the mesh alone, as loops need it."""
-        near = [obj for obj in self._objects if self._may_be_at(obj, place)]
-        found = [self._board_of(obj) for obj in near]
+        found = [self._board_of(name) for name in tuple(self._objects) if self._may_be_at(name, place)]
         if len(found) > 1:
             depths = [(board.depth(place.view, place.cursor), board) for board in found]
             hit = [pair for pair in depths if pair[0] is not None]
@@ -467,11 +497,20 @@ class Drawing:
                 return board, snap
         return (found[0], None) if found else (None, None)
 
-    def _may_be_at(self, obj: bpy.types.Object, place: Place) -> bool:
-        """Whether an object may be under the mouse: the one there is, and those that were touched, always."""
-        if len(self._objects) == 1 or obj.name in self.boards:
+    def _may_be_at(self, name: str, place: Place) -> bool:
+        """Whether an object may be under the mouse: those that were touched always, others where there is room."""
+        if name in self.boards:
             return True
-        return boards.in_bounds(obj, place.view, place.cursor)
+        try:
+            if self._objects[name].mode != "EDIT" or not boards.in_bounds(
+                self._objects[name], place.view, place.cursor
+            ):
+                return False
+            self._board_of(name)
+        except (ReferenceError, ValueError):  # it was deleted, or has nothing to draw on
+            del self._objects[name]
+            return False
+        return True
 
     # What is seen
 
@@ -549,6 +588,13 @@ def settings_changed(settings: tool.SeamwireSettings) -> None:
 
 
 def close_all() -> None:
-    """End all drawings."""
+    """End all drawings, and forget those that did not come to their end."""
     for drawing in tuple(running):
         drawing.close()
+    _interrupted.clear()
+
+
+@bpy.app.handlers.persistent
+def on_load(*_: object) -> None:
+    """End all drawings before another file is loaded."""
+    close_all()

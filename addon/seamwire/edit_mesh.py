@@ -123,6 +123,27 @@ class Cage:
             bmesh.update_edit_mesh(self.mesh, loop_triangles=False, destructive=False)
         return len(new), len(old)
 
+    def check_edges(self, *groups: Iterable[tuple[int, int]]) -> None:
+        """Raise ValueError where one of these pairs of vertices has no edge between them."""
+        self._lookup()
+        for pairs in groups:
+            self._found(pairs)
+
+    def is_as(self, arrays: Arrays) -> bool:
+        """Whether vertices, visible edges and visible faces are what they were when the arrays were read."""
+        bm = self.bm
+        bm.verts.index_update()
+        places = np.fromiter((x for vertex in bm.verts for x in vertex.co), dtype=np.float64).reshape(-1, 3)
+        before = arrays.points @ arrays.to_object.T
+        if places.shape != before.shape or not np.allclose(places, before, rtol=0.0, atol=1e-6 * np.abs(before).max()):
+            return False
+        ends = np.fromiter((v.index for edge in bm.edges if not edge.hide for v in edge.verts), dtype=np.int64)
+        edges = np.sort(ends.reshape(-1, 2), axis=1)
+        if not np.array_equal(edges, np.sort(arrays.edges, axis=1)):
+            return False
+        triangles = sum(len(face.verts) - 2 for face in bm.faces if not face.hide)
+        return triangles == len(arrays.triangles)
+
     def _found(self, pairs: Iterable[tuple[int, int]]) -> list[bmesh.types.BMEdge]:
         found = []
         for pair in pairs:

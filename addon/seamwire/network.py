@@ -228,6 +228,8 @@ class Network:
     scribbles
         The strokes that live wires follow or keep from; where they cross, the later one counts. Kept wires stay as they
         are.
+    earlier
+        The edges that an earlier drawing marked, whose wires were taken up; None: none was taken up. Not stored.
     """
 
     wires: tuple[Wire, ...] = ()
@@ -235,6 +237,7 @@ class Network:
     mirror: tuple[int, ...] = ()
     lost: tuple[Wire, ...] = ()
     scribbles: tuple[Scribble, ...] = ()
+    earlier: frozenset[Edge] | None = None
 
     def find(self, wire: Wire | None) -> Wire | None:
         """Return the wire with another's number, as it runs in this network."""

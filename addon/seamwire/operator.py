@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from . import lazy
-from .drawing import Drawing, close_all, running
+from .drawing import Drawing, close_all, on_load, running
 from .tool import ALONG_ITEMS, METRIC_ITEMS, settings
 from .ui import count
 
@@ -221,7 +221,7 @@ class MESH_OT_seamwire_draw(bpy.types.Operator):
         if not drawing.open:
             return {"CANCELLED"}
         try:
-            trouble = drawing.trouble(context)
+            trouble = drawing.trouble(context, event)
             if trouble:
                 kept = drawing.set_aside()
                 drawing.close()
@@ -233,25 +233,34 @@ class MESH_OT_seamwire_draw(bpy.types.Operator):
                 drawing.close()
             return self._finish(context, drawing) if "FINISHED" in result else result
         except Exception as error:
-            drawing.close()
             traceback.print_exc()
-            self.report({"ERROR"}, f"Drawing seams ended on an error, and nothing was marked: {error}")
+            kept = self._save(drawing)
+            drawing.close()
+            later = f". Start the tool again to go on with {count(kept, 'wire')}" if kept else ""
+            self.report({"ERROR"}, f"Drawing seams ended on an error, and nothing was marked: {error}{later}")
             return {"CANCELLED"}
+
+    @staticmethod
+    def _save(drawing: Drawing) -> int:
+        """Keep the wires for the next drawing, whatever state this one is in; return how many."""
+        try:
+            return drawing.set_aside()
+        except Exception:
+            traceback.print_exc()
+            return 0
 
     def _finish(self, context: bpy.types.Context, drawing: Drawing) -> set[str]:
         if drawing.empty:
             self.report({"INFO"}, "No wire was kept, and nothing marked")
             return {"CANCELLED"}
         wires = strokes = marked = cleared = touched = 0
-        stored = False
-        for one in drawing.boards.values():
+        before = [one.stored for one in drawing.boards.values()]
+        for one, new, old in drawing.write():
             wires += len(one.session.wires)
             strokes += len(one.session.scribbles)
             touched += len(one.session.edges_to_mark()) + len(one.session.edges_to_clear())
-            before = one.stored
-            new, old = one.write()
             marked, cleared = marked + new, cleared + old
-            stored = stored or one.stored != before
+        stored = before != [one.stored for one in drawing.boards.values()]
         if marked or cleared:
             edit_mesh.live_unwrap(context)
         kept = f", {count(strokes, 'stroke')} kept" if strokes else ""
@@ -271,10 +280,12 @@ def register() -> None:
     """Add the operators."""
     for cls in _CLASSES:
         bpy.utils.register_class(cls)
+    bpy.app.handlers.load_pre.append(on_load)
 
 
 def unregister() -> None:
     """End what is being drawn, and remove the operators."""
+    bpy.app.handlers.load_pre.remove(on_load)
     close_all()
     for cls in reversed(_CLASSES):
         bpy.utils.unregister_class(cls)

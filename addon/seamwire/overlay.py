@@ -129,12 +129,12 @@ class Overlay:
         self.stroke: tuple[NDArray[np.float64], bool] | None = None
         self.help_rows: Sequence[keys.Row] | None = None
         self.error: Exception | None = None
+        self.poll()
         add = bpy.types.SpaceView3D.draw_handler_add
         self._handles = [
             add(self._draw, (self._draw_in_scene,), "WINDOW", "POST_VIEW"),
             add(self._draw, (self._draw_on_screen,), "WINDOW", "POST_PIXEL"),
         ]
-        self.poll()
 
     def remove(self) -> None:
         """Stop drawing."""

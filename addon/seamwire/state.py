@@ -328,9 +328,9 @@ class State:
         """Return the edges that finishing will make cease to be seams, each once, sorted, smaller vertex first."""
         return self._net_effect()[1]
 
-    def mirrored(self, wire: Wire) -> list[Wire]:
-        """Return the images of a wire, kept or live, over the mirror's axes, as far as the mesh has their edges."""
-        return self._mirror.images(wire, self.mirror_axes)
+    def mirrored(self, wire: Wire, axes: tuple[int, ...] | None = None) -> list[Wire]:
+        """Return the images of a wire over the mirror's axes, or others, as far as the mesh has their edges."""
+        return self._mirror.images(wire, self.mirror_axes if axes is None else axes)
 
     # For the deeds
 

@@ -10,7 +10,7 @@ import ui as driver
 from desk import GREEN, ORANGE, RED, WHITE, Desk, near, shows
 from mathutils import Euler
 from scene import ADDON, add_grid, chain, seams, snapshot
-from seamwire import board
+from seamwire import board, edit_mesh
 
 
 def test_wires_are_drawn_kept_and_marked(desk: Desk) -> None:
@@ -318,6 +318,50 @@ def test_changing_the_mesh_ends_the_tool(desk: Desk) -> None:
     assert seams(desk.obj) == []
 
 
+def change_of(what: str, bm: bmesh.types.BMesh) -> None:
+    if what == "a place":
+        bm.verts[80].co.z += 0.1
+    elif what == "an edge":
+        bmesh.ops.rotate_edges(bm, edges=[bm.edges.get((bm.verts[40], bm.verts[41]))])
+    elif what == "the order":
+        for vertex in bm.verts:
+            vertex.index = 80 - vertex.index
+        bm.verts.sort()
+    else:
+        bm.faces.ensure_lookup_table()
+        bm.faces[0].hide_set(True)
+
+
+@pytest.mark.parametrize("what", ["a place", "an edge", "the order", "what is hidden"])
+def test_changing_the_mesh_ends_the_tool_also_where_all_counts_stay(desk: Desk, what: str) -> None:
+    session, ui = desk.start(), desk.ui
+    ui.click(desk.at(36), ctrl=True)
+    ui.click(desk.at(44))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    bm = bmesh.from_edit_mesh(desk.obj.data)
+    bm.verts.ensure_lookup_table()
+    change_of(what, bm)
+    bmesh.update_edit_mesh(desk.obj.data)
+    ui.wait()
+    ui.move((300.0, 300.0))
+    assert desk.left_clean()
+    assert seams(desk.obj) == []
+
+
+def test_while_nothing_else_changes_the_mesh_it_is_not_looked_through(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    session, ui = desk.start(), desk.ui
+    looked = []
+    monkeypatch.setattr(edit_mesh.Cage, "is_as", lambda *_: looked.append(1) or True)
+    for at in (36, 44, 53):
+        ui.click(desk.at(at))
+    ui.wait_until(lambda: len(session.wires) == 2)
+    ui.key("Z", ctrl=True)
+    ui.wait(2, redraw=True)
+    assert not looked
+
+
 def test_removing_the_object_ends_the_tool(desk: Desk) -> None:
     desk.start()
     desk.ui.click(desk.at(36), ctrl=True)
@@ -341,8 +385,11 @@ def test_an_error_ends_the_tool_and_leaves_the_mesh(desk: Desk, monkeypatch: pyt
     assert desk.left_clean()
     assert desk.unchanged()
     monkeypatch.undo()
-    desk.start()
+    session = desk.start()
     assert desk.running, "the tool can be started again"
+    ui.move(desk.at(40))
+    ui.key("R")
+    assert len(session.wires) == 1, "and what was drawn is not lost"
 
 
 def test_an_error_while_drawing_the_overlay_ends_the_tool(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:

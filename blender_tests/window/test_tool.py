@@ -115,6 +115,37 @@ def test_the_object_under_the_cursor_is_drawn_on_and_all_are_marked_in_one_step(
     assert [seams(bpy.data.objects[name]) for name in names] == [[], []]
 
 
+def test_other_objects_may_have_nothing_to_draw_on(two: Two) -> None:
+    ui = two.ui
+    bm = bmesh.from_edit_mesh(two.right.data)
+    for face in bm.faces:
+        face.hide_set(True)
+    bmesh.update_edit_mesh(two.right.data)
+    with ui.override():
+        bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT")
+    running = drawing.running[0]
+    ui.click(two.at(two.left, 10))
+    ui.move(two.at(two.right, 12))
+    ui.click(two.at(two.left, 14))
+    ui.wait_until(lambda: len(running.session.wires) == 1)
+    assert list(running.boards) == ["Left"]
+
+
+def test_other_objects_may_leave_edit_mode_and_go(two: Two) -> None:
+    ui = two.ui
+    at = two.at(two.right, 12)
+    with ui.override():
+        bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT")
+    running = drawing.running[0]
+    ui.click(two.at(two.left, 10))
+    bpy.data.objects.remove(two.right)
+    ui.move(at)
+    ui.click(two.at(two.left, 14))
+    ui.wait_until(lambda: len(running.session.wires) == 1)
+    ui.key("RET")
+    assert seams(two.left) == chain(*range(10, 15))
+
+
 def draw_two(desk: Desk) -> None:
     session, ui = desk.session, desk.ui
     for first, last in ((36, 44), (0, 8)):
@@ -164,6 +195,44 @@ def test_wires_that_are_not_taken_up_stay_with_the_mesh(desk: Desk) -> None:
     ui.move(desk.at(40))
     ui.key("R")
     assert len(session.wires) == 3
+
+
+def test_wires_whose_taking_up_was_undone_stay_with_the_mesh(desk: Desk) -> None:
+    desk.start()
+    draw_two(desk)
+    desk.ui.key("RET")
+    session, ui = desk.start(), desk.ui
+    ui.move(desk.at(40))
+    ui.key("R")
+    ui.key("Z", ctrl=True)
+    assert session.wires == ()
+    assert "Go On" in said()
+    ui.click(desk.at(72))
+    ui.click(desk.at(80))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.key("RET")
+    assert seams(desk.obj) == sorted(chain(*range(9)) + chain(*range(36, 45)) + chain(*range(72, 81)))
+    session = desk.start()
+    ui.move(desk.at(40))
+    ui.key("R")
+    assert len(session.wires) == 3
+
+
+def test_escape_loses_nothing_that_was_interrupted_before(desk: Desk) -> None:
+    desk.start()
+    draw_two(desk)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    desk.ui.move(desk.ui.on_screen((0.1, 0.1, 0.0)))
+    with desk.ui.override():
+        edit()
+    desk.start()
+    desk.ui.move(desk.at(40))
+    desk.ui.key("ESC")
+    assert not desk.running
+    session = desk.start()
+    desk.ui.move(desk.at(40))
+    desk.ui.key("R")
+    assert len(session.wires) == 2
 
 
 def test_escape_stores_nothing(desk: Desk) -> None:
