@@ -213,7 +213,7 @@ struct LiveWire::Impl {
   std::shared_ptr<const Solved> find_chains(std::size_t which, const std::shared_ptr<const Prepared>& prepared,
                                             const Pick& from, bool is_forward, std::int64_t at, const Task& task);
   LiveCandidate candidate_of(std::size_t which, const Prepared& prepared, Wire wire) const;
-  LiveCandidate candidate(std::size_t which, const Solved& solved, const Pick& to) const;
+  LiveCandidate candidate(std::size_t which, const Solved& solved, const Pick& target) const;
   void change_metrics(std::shared_ptr<Metrics> to);
 
   /// With the lock.
