@@ -192,7 +192,10 @@ _NAVIGATION = frozenset(
         "ACCENT_GRAVE",
     }
 )
-_SHADING_AND_SIDEBARS = frozenset({"Z", "N", "T"})
+_OTHERWISE_WITH_CTRL = frozenset({"NUMPAD_PLUS", "NUMPAD_MINUS", "NUMPAD_0"})
+"""With Ctrl they change the selection or the camera."""
+_SIDEBARS = frozenset({"N", "T"})
+"""With Shift, Ctrl or Alt they change the mesh or open menus that do."""
 
 
 class Bindings:
@@ -333,9 +336,13 @@ def drag_threshold(event: bpy.types.Event, preferences: bpy.types.Preferences) -
 
 def is_navigation(event: bpy.types.Event) -> bool:
     """Whether an event moves the view or changes how it is shown, and nothing else."""
+    if event.type in _OTHERWISE_WITH_CTRL and event.ctrl:
+        return False
     if event.type.startswith("NDOF_") or (event.type.startswith("NUMPAD_") and event.type != "NUMPAD_ENTER"):
         return True
-    if event.type in _SHADING_AND_SIDEBARS:
+    if event.type in _SIDEBARS:
+        return not (event.ctrl or event.oskey or event.shift or event.alt)
+    if event.type == "Z":
         return not event.ctrl and not event.oskey
     # Alt and the wheel change the frame.
     return event.type in _NAVIGATION and not (event.alt and event.type.startswith("WHEEL"))

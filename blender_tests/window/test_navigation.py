@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """While seams are drawn, Blender goes on: the view is moved in every way, and other editors take their events."""
 
+from types import SimpleNamespace
+
 import bpy
 import pytest
 import ui as driver
@@ -78,24 +80,46 @@ def test_the_number_pad_changes_the_projection(desk: Desk) -> None:
     finish(desk)
 
 
+def event(desk: Desk, kind: str, **held: bool) -> SimpleNamespace:
+    """Return an event over the mesh as the drawing sees it."""
+    x, y = desk.at(40)
+    at = {"mouse_x": desk.ui.region.x + round(x), "mouse_y": desk.ui.region.y + round(y)}
+    modifiers = dict.fromkeys(("ctrl", "shift", "alt", "oskey"), False)
+    return SimpleNamespace(type=kind, value="NOTHING", is_repeat=False, **at, **{**modifiers, **held})
+
+
 @pytest.mark.parametrize(
     "kind", ["NDOF_MOTION", "NDOF_BUTTON_FIT", "TRACKPADZOOM", "MOUSEROTATE", "MOUSESMARTZOOM", "HOME"]
 )
 def test_what_cannot_be_simulated_is_let_through(desk: Desk, kind: str) -> None:
     """Blender simulates no spaceball, and crashes on one that says nothing: the event is handed to the drawing itself."""
     begin(desk)
-    x, y = desk.at(40)
-
-    class Event:
-        type, value = kind, "NOTHING"
-        mouse_x, mouse_y = desk.ui.region.x + round(x), desk.ui.region.y + round(y)
-        ctrl = shift = alt = oskey = is_repeat = False
-
+    handed = event(desk, kind)
     before = desk.session.revision
     with desk.ui.override():
-        assert drawing.running[0].handle(bpy.context, Event()) == {"PASS_THROUGH"}
+        assert drawing.running[0].handle(bpy.context, handed) == {"PASS_THROUGH"}
     assert desk.session.revision == before
-    assert keymap.is_navigation(Event())
+    assert keymap.is_navigation(handed)
+    finish(desk)
+
+
+@pytest.mark.parametrize(
+    ("kind", "held"),
+    [
+        ("N", "shift"),
+        ("N", "alt"),
+        ("T", "alt"),
+        ("NUMPAD_PLUS", "ctrl"),
+        ("NUMPAD_MINUS", "ctrl"),
+        ("NUMPAD_0", "ctrl"),
+    ],
+)
+def test_keys_that_change_the_mesh_with_others_held_are_kept_away(desk: Desk, kind: str, held: str) -> None:
+    begin(desk)
+    handed = event(desk, kind, **{held: True})
+    handed.value = "PRESS"
+    with desk.ui.override():
+        assert drawing.running[0].handle(bpy.context, handed) == {"RUNNING_MODAL"}
     finish(desk)
 
 
