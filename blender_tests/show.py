@@ -23,7 +23,7 @@ def shading(ui: driver.Ui, name: str) -> None:
     space.shading.type = {"WIREFRAME": "WIREFRAME", "MATERIAL": "MATERIAL"}.get(name, "SOLID")
     if name == "MATCAP":
         space.shading.light = "MATCAP"
-        space.shading.studio_light = "basic_1.exr"
+        space.shading.studio_light = "basic_1.exr" if bpy.app.version < (5, 0, 0) else "basic_grey.exr"
     elif space.shading.type == "SOLID":
         space.shading.light = "FLAT" if name == "FLAT" else "STUDIO"
     if space.shading.type == "SOLID":
