@@ -36,10 +36,10 @@ def test_over_toolbars_the_tool_lets_go_of_the_mouse(ui: driver.Ui) -> None:
 
 def test_loading_a_file_ends_the_tool(ui: driver.Ui) -> None:
     start(ui)
-    handlers = len(bpy.app.handlers.load_pre)
+    handlers = len(bpy.app.handlers.depsgraph_update_post)
     bpy.ops.wm.read_homefile(use_factory_startup=True)
     assert not drawing.running
-    assert len(bpy.app.handlers.load_pre) == handlers - 1
+    assert len(bpy.app.handlers.depsgraph_update_post) == handlers - 1
     ui.wait(4)
     fresh = driver.Ui()
     fresh.move((200.0, 200.0))
