@@ -129,8 +129,8 @@ class Looks:
         white = wish("seed_colour", (1.0, 1.0, 1.0, 1.0))
         attracts, repels = (0.15, 0.95, 0.75, 1.0), (1.0, 0.3, 0.75, 1.0)
         looks = cls(
-            active=Style(active, 4.0, halo=2.5, lift=6.0),
-            computing=Style(faint(active, 0.45), 4.0, halo=1.5, hidden=0.15, lift=6.0),
+            active=Style(active, 5.0, halo=2.5, lift=6.0),
+            computing=Style(faint(active, 0.45), 5.0, halo=1.5, hidden=0.15, lift=6.0),
             other=Style(other, 2.0, halo=2.0, hidden=0.15, lift=5.0),
             kept=Style(kept, 3.5, halo=2.0),
             marked=Style(faint(kept, 0.9), 2.5, halo=1.0, hidden=0.15, lift=3.0),
@@ -138,7 +138,7 @@ class Looks:
             clear=Style(clear, 3.5, halo=2.0, dash=7.0, lift=5.0),
             mirrored=Style(faint(kept, 0.6), 2.0, halo=1.0, hidden=0.15, lift=3.0),
             mirrored_live=Style(faint(active, 0.6), 2.0, halo=1.0, hidden=0.15, lift=3.0),
-            hovered=Style(white, 8.0, halo=2.0, hidden=0.15, lift=3.0),
+            hovered=Style(white, 9.5, halo=2.0, hidden=0.15, lift=3.0),
             loop=Style(loop, 3.5, halo=2.5, lift=6.0),
             end=Style(faint(active, 0.9), 3.0, halo=2.0, dash=9.0, lift=6.0),
             target=Style(white, 3.0, halo=2.0, lift=7.0),
