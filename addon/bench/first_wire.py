@@ -52,7 +52,7 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     Reading the mesh; beginning all that is computed beside; that it is ready for a seed; from the click to the first wire that is
     shown; to both final ones; and from a move of the cursor to the next wire.
     """
-    from seamwire import board, edit_mesh, picking, session
+    from seamwire import board, edit_mesh, picking, session, view
 
     steps = {}
     watch = Watch()
@@ -60,7 +60,7 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     arrays = edit_mesh.read(obj)
     steps["read"] = watch.lap()
     wires = session.Session(board.maker_on(board.eventual_surface(arrays)), arrays.points, along)
-    picking.Picker(cage.bm, arrays).depth(picking.View(1.0, 1.0, np.eye(4)), obj.matrix_world, (0.5, 0.5))
+    picking.Picker(cage.bm, arrays).depth(view.View(1.0, 1.0, np.eye(4)), obj.matrix_world, (0.5, 0.5))
     steps["begun"] = watch.lap()
     wires.wait()
     steps["ready"] = watch.lap()

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from .network import Along, Edge, Snap, Wire
     from .scribbles import Scribble
     from .tool import SeamwireSettings
+    from .view import View
 
 KEY = "seamwire"
 """The mesh's custom property that holds the network."""
@@ -70,7 +71,7 @@ def mirror_axes(mesh: bpy.types.Mesh) -> tuple[int, ...]:
     return tuple(axis for axis, name in enumerate("xyz") if getattr(mesh, f"use_mirror_{name}"))
 
 
-def in_bounds(obj: bpy.types.Object, view: picking.View, cursor: tuple[float, float]) -> bool:
+def in_bounds(obj: bpy.types.Object, view: View, cursor: tuple[float, float]) -> bool:
     """Whether a pixel lies within the bounds of an object, or within reach of them."""
     corners = np.array([(*corner, 1.0) for corner in obj.bound_box]) @ np.array(obj.matrix_world).T
     pixels = view.to_pixels(corners[:, :3])
@@ -236,7 +237,7 @@ class Board:
 
     # What is under the cursor, and what is seen
 
-    def snap(self, view: picking.View, cursor: tuple[float, float], plain: bool = False) -> Snap | None:
+    def snap(self, view: View, cursor: tuple[float, float], plain: bool = False) -> Snap | None:
         """Return what is under the cursor; `plain`: of the mesh alone, whatever was drawn on it."""
         if self._settings.snap and self._strength is None:
             self._strength = self.session.feature_strength()
@@ -251,11 +252,11 @@ class Board:
             scale=bpy.context.preferences.system.ui_scale,
         )
 
-    def depth(self, view: picking.View, cursor: tuple[float, float]) -> float | None:
+    def depth(self, view: View, cursor: tuple[float, float]) -> float | None:
         """Return how far from the viewer the object is under the cursor; None where it is not."""
         return self._picker.depth(view, self.obj.matrix_world, cursor)
 
-    def surface_at(self, view: picking.View, cursor: tuple[float, float]) -> tuple[NDArray[np.float64], int] | None:
+    def surface_at(self, view: View, cursor: tuple[float, float]) -> tuple[NDArray[np.float64], int] | None:
         """Return the place on the mesh that is seen at a pixel, in the session's coordinates, and its triangle."""
         return self._picker.surface_at(view, self.obj.matrix_world, cursor)
 
@@ -264,7 +265,7 @@ class Board:
         """How far strokes reach; None: as many rings as the library takes."""
         return self._settings.stroke_radius or None
 
-    def stroke_at(self, view: picking.View, cursor: tuple[float, float]) -> Scribble | None:
+    def stroke_at(self, view: View, cursor: tuple[float, float]) -> Scribble | None:
         """Return the stroke under the cursor."""
         matrix = self.obj.matrix_world
         return strokes.stroke_at(

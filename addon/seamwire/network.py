@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from .polylines import nearest_on_segments
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -476,10 +478,7 @@ def _split_curve(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[W
     at = wire.vertices.index(pick)
     place = points[pick]
     # The curve passes near the vertex, not through it: it is led there from the nearest of its segments.
-    starts, along = wire.points[:-1], np.diff(wire.points, axis=0)
-    square = np.einsum("ij,ij->i", along, along)
-    part = np.einsum("ij,ij->i", place - starts, along) / np.where(square > 0.0, square, 1.0)
-    gaps = np.linalg.norm(starts + np.clip(part, 0.0, 1.0)[:, None] * along - place, axis=1)
+    _, gaps = nearest_on_segments(place, wire.points[:-1], wire.points[1:])
     nearest = int(np.argmin(gaps))
     first = wire.drawn(
         vertices=wire.vertices[: at + 1],

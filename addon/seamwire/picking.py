@@ -13,16 +13,18 @@ from mathutils import Vector
 
 from . import native
 from .network import Snap
+from .polylines import nearest_on_segments
+from .view import Projected
 
 if TYPE_CHECKING:
     import bmesh
-    import bpy
     from mathutils import Matrix
     from numpy.typing import ArrayLike, NDArray
 
     from .edit_mesh import Arrays
     from .network import Pick, Wire
     from .session import Session
+    from .view import View
 
 VERTEX_RADIUS = 12.0
 """Pixels around a vertex in which it is picked rather than its edge..."""
@@ -48,94 +50,6 @@ _FEW_EDGES = 50_000
 """So many are projected all; of more, those at the vertices that are near."""
 
 
-@dataclass(frozen=True)
-class View:
-    """How a region sees the world.
-
-    Parameters
-    ----------
-    width, height
-        Size in pixels.
-    perspective
-        (4, 4), takes world coordinates to clip space.
-    """
-
-    width: float
-    height: float
-    perspective: NDArray[np.float64]
-
-    @classmethod
-    def of(cls, region: bpy.types.Region, region_3d: bpy.types.RegionView3D) -> View:
-        """Return the view of a 3D region."""
-        return cls(region.width, region.height, np.array(region_3d.perspective_matrix, dtype=np.float64))
-
-    @cached_property
-    def inverse(self) -> NDArray[np.float64]:
-        """(4, 4), takes clip space to world coordinates."""
-        return np.linalg.inv(self.perspective)
-
-    def to_pixels(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Project (n, 3) world points to (n, 2) pixels from the bottom left; NaN behind the viewer."""
-        clip = points @ self.perspective[:, :3].T + self.perspective[:, 3]
-        w = np.where(clip[:, 3] > 1e-9, clip[:, 3], np.nan)[:, None]
-        return (clip[:, :2] / w * 0.5 + 0.5) * (self.width, self.height)
-
-    def ray(self, cursor: tuple[float, float]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return two world points on the line that a pixel shows, on the near and on the far plane."""
-        x, y = 2.0 * cursor[0] / self.width - 1.0, 2.0 * cursor[1] / self.height - 1.0
-        ends = np.array([[x, y, -1.0, 1.0], [x, y, 1.0, 1.0]]) @ self.inverse.T
-        ends = ends[:, :3] / ends[:, 3:]
-        return ends[0], ends[1]
-
-    def pixel_size(self, point: NDArray[np.float64]) -> float:
-        """Return how far apart two world points are that are seen a pixel apart, as far away as a point."""
-        clip = self.perspective @ (*point, 1.0)
-        beside = self.inverse @ np.add(clip, (2.0 / self.width * clip[3], 0.0, 0.0, 0.0))
-        return float(np.linalg.norm(beside[:3] / beside[3] - point))
-
-
-class Projected:
-    """Points and where they are seen, computed anew only when the view or the object has moved.
-
-    Parameters
-    ----------
-    points
-        (n, 3) in object coordinates.
-    """
-
-    def __init__(self, points: NDArray[np.float64]) -> None:
-        self.points = points
-        self._key: tuple[object, ...] = ()
-        self._found: tuple[NDArray, ...] = ()
-
-    def seen(self, view: View, matrix: Matrix) -> tuple[NDArray, NDArray, NDArray]:
-        """Return x and y in pixels and the depth, larger farther away; NaN behind the viewer."""
-        world = np.array(matrix, dtype=np.float64)
-        key = (view.width, view.height, view.perspective.tobytes(), world.tobytes())
-        if key != self._key:
-            to_clip = (view.perspective @ world).astype(self.points.dtype)
-            clip = self.points @ to_clip[:, :3].T
-            clip += to_clip[:, 3]
-            with np.errstate(divide="ignore", invalid="ignore"):
-                w = np.where(clip[:, 3] > 1e-9, clip[:, 3], np.nan)
-                self._found = tuple(
-                    np.ascontiguousarray(part)
-                    for part in (
-                        (clip[:, 0] / w + 1.0) * (0.5 * view.width),
-                        (clip[:, 1] / w + 1.0) * (0.5 * view.height),
-                        clip[:, 2] / w,
-                    )
-                )
-            self._key = key
-        return self._found
-
-    def near(self, view: View, matrix: Matrix, cursor: tuple[float, float], radius: float) -> NDArray[np.int64]:
-        """Return the rows of the points that are seen in a square around the cursor."""
-        x, y, _ = self.seen(view, matrix)
-        rows = np.flatnonzero(np.abs(x - cursor[0]) <= radius)
-        return rows[np.abs(y[rows] - cursor[1]) <= radius]
-
-
 class _Segments:
     """Straight pieces of curves, each with the number of its owner.
 
@@ -157,13 +71,9 @@ class _Segments:
         """Yield owners and their points under the cursor, nearest first, each owner once."""
         if not len(self.owners):
             return
-        point = np.array(cursor)
         starts = np.stack(self.starts.seen(view, matrix)[:2], axis=1)
-        along = np.stack(self.ends.seen(view, matrix)[:2], axis=1) - starts
-        square = np.einsum("ij,ij->i", along, along)
-        part = np.einsum("ij,ij->i", point - starts, along) / np.where(square > 0.0, square, 1.0)
-        part = np.clip(part, 0.0, 1.0)[:, None]
-        gaps = np.linalg.norm(starts + part * along - point, axis=1)
+        ends = np.stack(self.ends.seen(view, matrix)[:2], axis=1)
+        part, gaps = nearest_on_segments(cursor, starts, ends)
         rows = np.flatnonzero(gaps <= radius)
         done: set[int] = set()
         for row in rows[np.argsort(gaps[rows], kind="stable")].tolist():
@@ -207,25 +117,15 @@ def nearest_edge(
     end
         0 or 1 where the cursor is so near to that end that it is meant, else None.
     """
-    point = np.asarray(cursor)
-    along = ends - starts
-    square = np.einsum("ij,ij->i", along, along)
-    part = np.einsum("ij,ij->i", point - starts, along) / np.where(square > 0.0, square, 1.0)
-    gaps = np.linalg.norm(starts + np.clip(part, 0.0, 1.0)[:, None] * along - point, axis=1)
+    _, gaps = nearest_on_segments(cursor, starts, ends)
     if not len(gaps) or np.isnan(gaps).all():
         return -1, None
     index = int(np.nanargmin(gaps))
-    to_ends = np.linalg.norm(np.stack([starts[index], ends[index]]) - point, axis=1)
+    to_ends = np.linalg.norm(np.stack([starts[index], ends[index]]) - np.asarray(cursor), axis=1)
     end = int(np.argmin(to_ends))
-    radius = min(VERTEX_RADIUS * scale, VERTEX_SHARE * float(np.sqrt(square[index])))
+    length = float(np.linalg.norm(ends[index] - starts[index]))
+    radius = min(VERTEX_RADIUS * scale, VERTEX_SHARE * length)
     return index, end if to_ends[end] <= radius else None
-
-
-def _gap(point: tuple[float, float], start: NDArray[np.float64], end: NDArray[np.float64]) -> float:
-    """Return how far a point is from a segment."""
-    along = end - start
-    part = np.clip(np.dot(np.asarray(point) - start, along) / max(float(np.dot(along, along)), 1e-12), 0.0, 1.0)
-    return float(np.linalg.norm(start + part * along - point))
 
 
 class Picker:
@@ -469,7 +369,7 @@ class Picker:
         screen = np.stack([x, y], axis=1)
         starts, ends = screen[at[:, 0]], screen[at[:, 1]]
         index, end = nearest_edge(cursor, starts, ends, scale)
-        if index < 0 or _gap(cursor, starts[index], ends[index]) > 5.0 * REACH * scale:
+        if index < 0 or nearest_on_segments(cursor, starts[[index]], ends[[index]])[1][0] > 5.0 * REACH * scale:
             return None
         pair = (int(pairs[index, 0]), int(pairs[index, 1]))
         return pair if end is None else pair[end]

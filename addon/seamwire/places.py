@@ -11,9 +11,9 @@ from . import lazy
 if TYPE_CHECKING:
     import bpy
 
-    from . import picking
+    from . import view as views
 else:
-    picking = lazy.Part("picking")
+    views = lazy.Part("view")
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Place:
 
     area: bpy.types.Area
     region: bpy.types.Region
-    view: picking.View
+    view: views.View
     cursor: tuple[float, float]
     x: int
     y: int
@@ -54,7 +54,7 @@ def place_of(window: bpy.types.Window, event: bpy.types.Event) -> Place | None:
         if any(region.type != "WINDOW" for region in under):
             return None
         for region in under:
-            view = picking.View.of(region, _region_3d(area, region))
+            view = views.View.of(region, _region_3d(area, region))
             return Place(area, region, view, (x - region.x + 0.5, y - region.y + 0.5), x, y)
     return None
 

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .polylines import nearest_on_segments
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
@@ -16,9 +18,9 @@ if TYPE_CHECKING:
 
     from .board import Board
     from .network import Wire
-    from .picking import View
     from .places import Place
     from .scribbles import Scribble
+    from .view import View
 
 STEP = 3.0
 """Pixels between two looks at the surface under a stroke: a hand moves the mouse farther from one event to the next."""
@@ -165,11 +167,7 @@ def stroke_at(
     for stroke in strokes:
         places = np.asarray(stroke.points) @ to_object.T
         pixels = view.to_pixels(places @ world[:3, :3].T + world[:3, 3])
-        starts, along = pixels[:-1], np.diff(pixels, axis=0)
-        square = np.einsum("ij,ij->i", along, along)
-        part = np.einsum("ij,ij->i", cursor - starts, along) / np.where(square > 0.0, square, 1.0)
-        part = np.clip(part, 0.0, 1.0)[:, None]
-        gaps = np.linalg.norm(starts + part * along - cursor, axis=1)
+        part, gaps = nearest_on_segments(cursor, pixels[:-1], pixels[1:])
         gaps = np.where(np.isnan(gaps), np.inf, gaps)
         for row in np.argsort(gaps, kind="stable").tolist():
             if gaps[row] > best[0]:

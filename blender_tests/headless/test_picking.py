@@ -15,7 +15,8 @@ from mathutils.bvhtree import BVHTree
 from scene import add_grid, add_object, add_suzanne, edit
 from seamwire import edit_mesh
 from seamwire.network import Edge, Pick, Snap, Wire
-from seamwire.picking import Picker, View, nearest_edge
+from seamwire.picking import Picker, nearest_edge
+from seamwire.view import View
 
 SIZE = 400.0
 
