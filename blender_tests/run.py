@@ -5,9 +5,7 @@ Expects the environment that ``scripts/blender-test`` sets: SEAMWIRE_BLENDER_PAC
 BLENDER_USER_SCRIPTS, the folder that holds the add-on. SEAMWIRE_ADDON is the add-on's name where Blender gave it another one than
 ``seamwire``, as it does to extensions; the tests import it as ``seamwire`` all the same.
 
-In the background pytest simply runs. With a window it must not hold Blender's event loop, or no event would ever reach the tool: it
-runs in a greenlet of its own that a timer resumes, and every wait of the test (``ui.wait()``, see ``ui.py``) switches back to Blender.
-Tests are therefore plain functions in both cases.
+In the background pytest simply runs; with a window in turns with Blender (see ``turns.py``). Tests are plain functions in both cases.
 """
 
 import faulthandler
@@ -24,15 +22,9 @@ sys.path.insert(0, str(Path(__file__).parent))
 import addon_utils
 import bpy
 import pytest
+from turns import leave, play
 
 ADDON = os.environ.get("SEAMWIRE_ADDON", "seamwire")
-
-
-def leave(code: int) -> None:
-    """End the process at once: Blender's own way out asks questions, and does not always hand on the exit code."""
-    sys.stdout.flush()
-    sys.stderr.flush()
-    os._exit(code)
 
 
 def enable_addon() -> None:
@@ -54,36 +46,8 @@ def run_pytest() -> int:
     return int(pytest.main(["-p", "no:cacheprovider", *arguments]))
 
 
-def run_with_window() -> None:
-    """Start pytest as soon as Blender's window stands, in turns with Blender's event loop."""
-    import greenlet
-    import ui
-
-    # Blender's start-up makes its window and the first redraws before a timer fires, but the regions get their sizes a little later.
-    ticks_before_start = 5
-    main = greenlet.getcurrent()
-    tests = greenlet.greenlet(run_pytest, parent=main)
-
-    def tick() -> float:
-        nonlocal ticks_before_start
-        if ticks_before_start > 0:
-            ticks_before_start -= 1
-            return 0.0
-        try:
-            code = tests.switch()
-        except BaseException:  # whatever it is, the process must end with a failure and not wait for its time limit
-            traceback.print_exc()
-            leave(3)
-        if tests.dead:
-            leave(code)
-        return 0.0
-
-    ui.prepare_blender(switch_to_blender=main.switch)
-    bpy.app.timers.register(tick, persistent=True)
-
-
 faulthandler.enable()
 enable_addon()
 if bpy.app.background:
     leave(run_pytest())
-run_with_window()
+play(run_pytest)

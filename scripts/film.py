@@ -9,9 +9,7 @@ import os
 import struct
 import subprocess
 import sys
-import traceback
 import zlib
-from collections.abc import Callable
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -19,12 +17,12 @@ sys.path[:0] = [os.environ["SEAMWIRE_BLENDER_PACKAGES"], str(ROOT / "blender_tes
 
 import addon_utils
 import bpy
-import greenlet
 import numpy as np
 import show
 import ui as driver
 from mathutils import Euler, Vector
 from numpy.typing import NDArray
+from turns import play_strictly
 
 POINTER = np.array([(0, 0), (0, -17), (4, -13.5), (7, -20), (9.7, -18.8), (6.8, -12.6), (12, -12.3)])
 """The outline of a mouse pointer: pixels to the right of its tip and above it."""
@@ -232,7 +230,7 @@ def start(film: Film) -> None:
     film.settle()
 
 
-def play(film: Film) -> None:
+def animation(film: Film) -> None:
     """Play what the README shows."""
     stage(film)
     film.at = film.vertex(0.9, -0.4, -0.6)
@@ -458,36 +456,7 @@ def looks(film: Film) -> None:
     film.key("ESC")
 
 
-def run(what: Callable[[Film], None], folder: Path) -> None:
-    """Play it in turns with Blender's event loop."""
-    main = greenlet.getcurrent()
-    driver.prepare_blender(switch_to_blender=main.switch)
-    player = greenlet.greenlet(lambda: what(Film(folder)), parent=main)
-    waiting = [8]
-
-    def leave(code: int) -> None:
-        sys.stdout.flush()
-        sys.stderr.flush()
-        os._exit(code)
-
-    def tick() -> float:
-        if waiting[0] > 0:  # the regions get their sizes a little after the window
-            waiting[0] -= 1
-            return 0.0
-        try:
-            player.switch()
-        except BaseException:
-            traceback.print_exc()
-            leave(3)
-        if player.dead:
-            errors = driver.take_errors()
-            sys.stderr.write("".join(errors))
-            leave(3 if errors else 0)
-        return 0.0
-
-    bpy.app.timers.register(tick, persistent=True)
-
-
 addon_utils.enable("seamwire", default_set=True)
 kind, target = sys.argv[sys.argv.index("--") + 1 :]
-run({"animation": play, "guide": guide, "looks": looks}[kind], Path(target))
+part = {"animation": animation, "guide": guide, "looks": looks}[kind]
+play_strictly(lambda: part(Film(Path(target))))

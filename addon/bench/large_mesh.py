@@ -11,7 +11,6 @@ from __future__ import annotations
 import os
 import sys
 import time
-import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -21,11 +20,11 @@ sys.path[:0] = [os.environ["SEAMWIRE_BLENDER_PACKAGES"], str(ROOT / "blender_tes
 
 import addon_utils
 import bpy
-import greenlet
 import numpy as np
 import ui as driver
 from mathutils import Euler
 from numpy.typing import NDArray
+from turns import play_strictly
 
 MOVES = 24
 SECONDS = 120.0
@@ -269,35 +268,6 @@ def main(levels: int) -> None:
         holds.calls.clear()
 
 
-def run(levels: int) -> None:
-    """Measure in turns with Blender's event loop."""
-    main_loop = greenlet.getcurrent()
-    driver.prepare_blender(switch_to_blender=main_loop.switch)
-    player = greenlet.greenlet(lambda: main(levels), parent=main_loop)
-    waiting = [8]
-
-    def leave(code: int) -> None:
-        sys.stdout.flush()
-        sys.stderr.flush()
-        os._exit(code)
-
-    def tick() -> float:
-        if waiting[0] > 0:  # the regions get their sizes a little after the window
-            waiting[0] -= 1
-            return 0.0
-        try:
-            player.switch()
-        except BaseException:
-            traceback.print_exc()
-            leave(3)
-        if player.dead:
-            errors = driver.take_errors()
-            sys.stderr.write("".join(errors))
-            leave(3 if errors else 0)
-        return 0.0
-
-    bpy.app.timers.register(tick, persistent=True)
-
-
 addon_utils.enable("seamwire", default_set=True)
-run(int(sys.argv[sys.argv.index("--") + 1]))
+levels = int(sys.argv[sys.argv.index("--") + 1])
+play_strictly(lambda: main(levels))
