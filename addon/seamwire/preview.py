@@ -67,6 +67,11 @@ class Preview:
         return self.active is not None and self.finals[self.active_index]
 
     @property
+    def decided(self) -> bool:
+        """Whether the wire that a click would keep is computed, and will not be another one when the rest is."""
+        return self.active_final and (self.final or self.active_index == self.chosen)
+
+    @property
     def shown(self) -> tuple[object, ...]:
         """What changes when something else is to be seen."""
         return self.target, self.shorter, self.finals, *(id(wire) for wire in self.wires)

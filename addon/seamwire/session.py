@@ -79,8 +79,10 @@ class Session(Guidance):
         if self._queue:
             self._queue.append(Queued("click", target))
             return True
+        seen = self._live.active_final and target == self._live.target
         self._aim(target)
-        if not self._live.active_final and self.computing:
+        # What is seen is kept; where nothing is seen yet, the one that is there first must not win for that.
+        if not (self._live.decided or (seen and self._live.active_final)) and self.computing:
             self._queue.append(Queued("click", target))
             self.revision += 1
             return True
@@ -399,9 +401,7 @@ class Session(Guidance):
         """Do the oldest waiting click if its wire is there; returns whether it was done."""
         head = self._queue[0]
         self._aim(head.snap, again=True)
-        blocked = (
-            not self._find_offers(head.snap.pick) if head.kind in {"loop", "offer"} else not self._live.active_final
-        )
+        blocked = not self._find_offers(head.snap.pick) if head.kind in {"loop", "offer"} else not self._live.decided
         if blocked and self.computing:
             return False
         del self._queue[0]

@@ -319,6 +319,28 @@ def test_clicks_wait_for_their_wires_in_order() -> None:
     assert session.waiting_clicks == 0
 
 
+def test_a_click_before_anything_is_seen_waits_until_it_is_known_which_wire_is_shorter() -> None:
+    table = Table(ready=(False, False))
+    session = table.session
+    session.click(0)
+    session.click(7)
+    table.lives["EDGES"].ready = (False, True)
+    session.poll()
+    assert session.wires == ()
+    table.lives["EDGES"].ready = (True, True)
+    session.poll()
+    assert [wire.vertices for wire in session.wires] == [(0, 1, 7)]
+
+
+def test_a_click_keeps_the_wire_that_is_seen_though_the_other_one_is_not_computed() -> None:
+    table = Table(ready=(False, True))
+    session = table.session
+    session.click(0)
+    session.hover(7)
+    session.click(7)
+    assert [wire.vertices for wire in session.wires] == [(0, 6, 7)]
+
+
 def test_undo_takes_back_waiting_clicks_first() -> None:
     table = Table(ready=(False, False))
     session = table.session
