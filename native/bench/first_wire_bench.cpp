@@ -2,23 +2,20 @@
 //
 // How long the first path after a click takes, and how much longer than the geodesic it is; a line a mesh:
 //   first_wire_bench [--loop LEVELS] [--metric euclidean|min|max] [--anisotropy A] [--targets N] [--seeds N]
-//   [--corridor VERTICES] MESH...
+//   [--corridor VERTICES] [--windows N] MESH...
 // From vertex 0 and others (5 seeds unless told) to N targets each, the farthest among them. `first` are paths right
 // after the click, each by an object of its own; `next` those of one object that is asked for one target after the
 // other.
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <random>
 
 #include "mesh_input.hpp"
 #include "seamwire/geodesics.hpp"
 #include "seamwire/quick_paths.hpp"
 
+namespace seamwire::bench {
 namespace {
-
-using namespace seamwire;
-using namespace seamwire::bench;
 
 struct Options {
   int loop = 0, targets = 40, seeds = 5;
@@ -26,7 +23,6 @@ struct Options {
   std::uint32_t windows = QuickPathOptions{}.windows;
   std::string metric = "euclidean";
   double anisotropy = 20.0;
-  std::vector<std::string> meshes;
 };
 
 void measure(const std::string& file, const Options& options) {
@@ -70,47 +66,21 @@ void measure(const std::string& file, const Options& options) {
   std::fflush(stdout);
 }
 
-Options parse(int argc, char** argv) {
+int measure_all(int argc, char** argv) {
   Options options;
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    const auto value = [&]() -> std::string {
-      if (i + 1 == argc) throw std::runtime_error(argument + " needs a value");
-      return argv[++i];
-    };
-    if (argument == "--loop") {
-      options.loop = std::stoi(value());
-    } else if (argument == "--targets") {
-      options.targets = std::max(1, std::stoi(value()));
-    } else if (argument == "--seeds") {
-      options.seeds = std::max(1, std::stoi(value()));
-    } else if (argument == "--windows") {
-      options.windows = static_cast<std::uint32_t>(std::stoul(value()));
-    } else if (argument == "--corridor") {
-      options.corridor = std::stoul(value());
-    } else if (argument == "--anisotropy") {
-      options.anisotropy = std::stod(value());
-    } else if (argument == "--metric") {
-      options.metric = value();
-      check_metric_name(options.metric);
-    } else if (argument.starts_with("--")) {
-      throw std::runtime_error("no such option: " + argument);
-    } else {
-      options.meshes.push_back(argument);
-    }
-  }
-  if (options.meshes.empty()) throw std::runtime_error("no mesh given");
-  return options;
+  return run(argc, argv,
+             {{"--loop", set_count(options.loop, 0)},
+              {"--targets", set_count(options.targets, 1)},
+              {"--seeds", set_count(options.seeds, 1)},
+              {"--windows",
+               [&](const std::string& value) { options.windows = static_cast<std::uint32_t>(std::stoul(value)); }},
+              {"--corridor", [&](const std::string& value) { options.corridor = std::stoul(value); }},
+              {"--anisotropy", set_number(options.anisotropy)},
+              {"--metric", set_metric(options.metric)}},
+             [&](const std::string& mesh) { measure(mesh, options); });
 }
 
 }  // namespace
+}  // namespace seamwire::bench
 
-int main(int argc, char** argv) {
-  try {
-    const Options options = parse(argc, argv);
-    for (const std::string& mesh : options.meshes) measure(mesh, options);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "first_wire_bench: %s\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return seamwire::bench::measure_all(argc, argv); }

@@ -7,7 +7,6 @@
 // builds agree.
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <fstream>
 #include <memory>
 #include <random>
@@ -15,16 +14,13 @@
 #include "mesh_input.hpp"
 #include "seamwire/geodesics.hpp"
 
+namespace seamwire::bench {
 namespace {
-
-using namespace seamwire;
-using namespace seamwire::bench;
 
 struct Options {
   int loop = 0, repeats = 1, seeds = 5;
   std::string metric = "euclidean";
   double anisotropy = 20.0;
-  std::vector<std::string> meshes;
 };
 
 /// Memory of this process in MB: the most since the last forget_peak() (field VmHWM) or now (VmRSS). Linux.
@@ -75,43 +71,18 @@ void measure(const std::string& file, const Options& options) {
   std::fflush(stdout);
 }
 
-Options parse(int argc, char** argv) {
+int measure_all(int argc, char** argv) {
   Options options;
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    const auto value = [&]() -> std::string {
-      if (i + 1 == argc) throw std::runtime_error(argument + " needs a value");
-      return argv[++i];
-    };
-    if (argument == "--loop") {
-      options.loop = std::stoi(value());
-    } else if (argument == "--repeats") {
-      options.repeats = std::max(1, std::stoi(value()));
-    } else if (argument == "--seeds") {
-      options.seeds = std::max(1, std::stoi(value()));
-    } else if (argument == "--anisotropy") {
-      options.anisotropy = std::stod(value());
-    } else if (argument == "--metric") {
-      options.metric = value();
-      check_metric_name(options.metric);
-    } else if (argument.starts_with("--")) {
-      throw std::runtime_error("no such option: " + argument);
-    } else {
-      options.meshes.push_back(argument);
-    }
-  }
-  if (options.meshes.empty()) throw std::runtime_error("no mesh given");
-  return options;
+  return run(argc, argv,
+             {{"--loop", set_count(options.loop, 0)},
+              {"--repeats", set_count(options.repeats, 1)},
+              {"--seeds", set_count(options.seeds, 1)},
+              {"--anisotropy", set_number(options.anisotropy)},
+              {"--metric", set_metric(options.metric)}},
+             [&](const std::string& mesh) { measure(mesh, options); });
 }
 
 }  // namespace
+}  // namespace seamwire::bench
 
-int main(int argc, char** argv) {
-  try {
-    const Options options = parse(argc, argv);
-    for (const std::string& mesh : options.meshes) measure(mesh, options);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "geodesics_bench: %s\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return seamwire::bench::measure_all(argc, argv); }

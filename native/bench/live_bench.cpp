@@ -15,7 +15,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <memory>
 #include <random>
 #include <thread>
@@ -28,16 +27,14 @@
 #include "seamwire/scribble.hpp"
 #include "seamwire/wire.hpp"
 
+namespace seamwire::bench {
 namespace {
 
-using namespace seamwire;
-using namespace seamwire::bench;
 using Clock = std::chrono::steady_clock;
 
 struct Options {
   int loop = 0, repeats = 100;
   double anisotropy = 20.0;
-  std::vector<std::string> meshes;
 };
 
 double processor_seconds(clockid_t clock) {
@@ -217,38 +214,16 @@ void measure(const std::string& file, const Options& options) {
   measure_cancelling("embedding", embedding, options, [&](const Task& task) { embed(*surface, metrics[1], {}, task); });
 }
 
-Options parse(int argc, char** argv) {
+int measure_all(int argc, char** argv) {
   Options options;
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    const auto value = [&]() -> std::string {
-      if (i + 1 == argc) throw std::runtime_error(argument + " needs a value");
-      return argv[++i];
-    };
-    if (argument == "--loop") {
-      options.loop = std::stoi(value());
-    } else if (argument == "--repeats") {
-      options.repeats = std::max(1, std::stoi(value()));
-    } else if (argument == "--anisotropy") {
-      options.anisotropy = std::stod(value());
-    } else if (argument.starts_with("--")) {
-      throw std::runtime_error("no such option: " + argument);
-    } else {
-      options.meshes.push_back(argument);
-    }
-  }
-  if (options.meshes.empty()) throw std::runtime_error("no mesh given");
-  return options;
+  return run(argc, argv,
+             {{"--loop", set_count(options.loop, 0)},
+              {"--repeats", set_count(options.repeats, 1)},
+              {"--anisotropy", set_number(options.anisotropy)}},
+             [&](const std::string& mesh) { measure(mesh, options); });
 }
 
 }  // namespace
+}  // namespace seamwire::bench
 
-int main(int argc, char** argv) {
-  try {
-    const Options options = parse(argc, argv);
-    for (const std::string& mesh : options.meshes) measure(mesh, options);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "live_bench: %s\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return seamwire::bench::measure_all(argc, argv); }

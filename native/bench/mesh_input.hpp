@@ -8,8 +8,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdio>
 #include <ctime>
+#include <exception>
 #include <functional>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -86,5 +89,42 @@ inline double quantile(std::vector<double> values, double part) {
   return values[std::min(values.size() - 1, static_cast<std::size_t>(part * static_cast<double>(values.size())))];
 }
 inline double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
+
+/// What each option "--name VALUE" does with its value.
+using Setters = std::map<std::string, std::function<void(const std::string&)>>;
+inline auto set_count(int& count, int least) {
+  return [&count, least](const std::string& value) { count = std::max(least, std::stoi(value)); };
+}
+inline auto set_number(double& number) {
+  return [&number](const std::string& value) { number = std::stod(value); };
+}
+inline auto set_metric(std::string& metric) {
+  return [&metric](const std::string& value) { check_metric_name(metric = value); };
+}
+
+/// The main() of a benchmark whose command line is options and meshes: measure() for each mesh, once all options are
+/// set.
+inline int run(int argc, char** argv, const Setters& setters, const std::function<void(const std::string&)>& measure) {
+  try {
+    std::vector<std::string> meshes;
+    for (int i = 1; i < argc; ++i) {
+      const std::string argument = argv[i];
+      if (!argument.starts_with("--")) {
+        meshes.push_back(argument);
+        continue;
+      }
+      const auto setter = setters.find(argument);
+      if (setter == setters.end()) throw std::runtime_error("no such option: " + argument);
+      if (++i == argc) throw std::runtime_error(argument + " needs a value");
+      setter->second(argv[i]);
+    }
+    if (meshes.empty()) throw std::runtime_error("no mesh given");
+    for (const std::string& mesh : meshes) measure(mesh);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", argv[0], error.what());
+    return 1;
+  }
+}
 
 }  // namespace seamwire::bench

@@ -6,82 +6,16 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <functional>
 #include <map>
-#include <numbers>
 #include <random>
-#include <set>
 #include <string>
 #include <thread>
 
+#include "chains.hpp"
 #include "shapes.hpp"
 
-namespace seamwire {
+namespace seamwire::chains {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Sums of a few dozen lengths and turns, all about 1.
-constexpr double kRounding = 1e-12;
-
-using Chain = std::vector<std::int32_t>;
-
-/// Plain lengths, so that answers are known without curvatures.
-Metric plain_metric(const Surface& surface) {
-  Metric metric;
-  metric.normals.assign(surface.vertex_count(), Vector::Zero());
-  metric.tensors.assign(surface.vertex_count(), Eigen::Matrix3d::Identity());
-  return metric;
-}
-
-std::shared_ptr<const EdgeGraph> plain_graph(const Surface& surface) {
-  return make_edge_graph(surface, plain_metric(surface));
-}
-
-double plain_length(const Surface& surface, std::int32_t a, std::int32_t b) {
-  return surface.scale() *
-         (surface.points()[static_cast<std::size_t>(a)] - surface.points()[static_cast<std::size_t>(b)]).norm();
-}
-
-double mean_plain_length(const Surface& surface) {
-  double sum = 0;
-  for (const auto& [a, b] : surface.edges()) sum += plain_length(surface, a, b);
-  return sum / static_cast<double>(surface.edges().size());
-}
-
-/// 1 - cos kappa at v of the chain a, v, b, read off a wire's length. The turning is so small that no detour pays.
-double turn(const Surface& surface, std::int32_t a, std::int32_t v, std::int32_t b) {
-  constexpr double kTurning = 1e-3;
-  const EdgeChain chain = edge_wires(plain_graph(surface), {a, v}, kTurning, true).trace({v, b});
-  EXPECT_EQ(chain.vertices, Chain({a, v, b}));
-  return (chain.length - plain_length(surface, a, v) - plain_length(surface, v, b)) /
-         (kTurning * mean_plain_length(surface));
-}
-
-/// What rounding in a length of about 1 makes of turn().
-constexpr double kTurnRounding = 1e-9;
-
-Chain sorted(Chain chain) {
-  std::ranges::sort(chain);
-  return chain;
-}
-
-bool has_repeated_vertex(Chain chain) {
-  std::ranges::sort(chain);
-  return std::ranges::adjacent_find(chain) != chain.end();
-}
-
-bool same_loop(const Chain& a, const Chain& b) {
-  const auto sides = [](const Chain& loop) {
-    std::set<Edge> result;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const auto [p, q] = std::minmax(loop[i], loop[(i + 1) % loop.size()]);
-      result.insert({p, q});
-    }
-    return result;
-  };
-  return a.size() == b.size() && sides(a) == sides(b);
-}
 
 template <class Call>
 std::string message_of(const Call& call) {
@@ -96,98 +30,6 @@ std::string message_of(const Call& call) {
 testing::AssertionResult contains(const std::string& message, const std::string& part) {
   if (message.find(part) != std::string::npos) return testing::AssertionSuccess();
   return testing::AssertionFailure() << "\"" << message << "\" does not say \"" << part << "\"";
-}
-
-/// Corners of n triangles around vertex 0 in the plane, at the given angles.
-Surface flat_fan(const std::vector<double>& angles, bool closed) {
-  shapes::Mesh mesh;
-  mesh.points.emplace_back(0, 0, 0);
-  for (const double a : angles) mesh.points.emplace_back(std::cos(a), std::sin(a), 0);
-  const auto n = static_cast<std::int32_t>(angles.size());
-  for (std::int32_t i = 1; i < n; ++i) mesh.triangles.push_back({0, i, i + 1});
-  if (closed) mesh.triangles.push_back({0, n, 1});
-  return mesh.surface();
-}
-
-TEST(EdgeTurn, IsZeroStraightAheadAndARightAngleAsideInAQuadGrid) {
-  const Surface surface = shapes::quad_grid(4).surface();
-  // Vertex 12 is the middle; diagonals of the quads run through it on one side only and must not count.
-  EXPECT_NEAR(turn(surface, 11, 12, 13), 0.0, kTurnRounding);
-  EXPECT_NEAR(turn(surface, 7, 12, 17), 0.0, kTurnRounding);
-  EXPECT_NEAR(turn(surface, 11, 12, 17), 1.0, kTurnRounding);
-  EXPECT_NEAR(turn(surface, 11, 12, 7), 1.0, kTurnRounding);
-}
-
-TEST(EdgeTurn, ComparesTheAnglesOnBothSidesAtAnIrregularVertex) {
-  std::vector<double> angles;
-  for (int i = 0; i < 5; ++i) angles.push_back(2 * kPi * i / 5);
-  const Surface five = flat_fan(angles, true);
-  EXPECT_NEAR(turn(five, 1, 0, 2), 1 - std::cos(kPi * (288.0 - 72.0) / 360.0), kTurnRounding);
-  EXPECT_NEAR(turn(five, 1, 0, 3), 1 - std::cos(kPi * (216.0 - 144.0) / 360.0), kTurnRounding);
-
-  // Any angles: 0, 50, 170, 200 degrees.
-  const Surface uneven = flat_fan({0, 50 * kPi / 180, 170 * kPi / 180, 200 * kPi / 180}, true);
-  EXPECT_NEAR(turn(uneven, 2, 0, 4), 1 - std::cos(kPi * (210.0 - 150.0) / 360.0), kTurnRounding);
-}
-
-TEST(EdgeTurn, IsMeasuredOnTheSurfaceNotInSpace) {
-  const shapes::QuadMesh cube = shapes::quad_cube(2);
-  const Surface surface = cube.surface();
-  const auto number = [&](double x, double y, double z) {
-    const auto it = std::ranges::find_if(cube.points, [&](const Vector& p) { return p == Vector(x, y, z); });
-    return static_cast<std::int32_t>(it - cube.points.begin());
-  };
-  // Over the middle of a cube's edge from one side onto the next: bent in space, straight on the surface.
-  EXPECT_NEAR(turn(surface, number(0.5, 0.5, 0), number(0.5, 0, 0), number(0.5, 0, 0.5)), 0.0, kTurnRounding);
-  // At a corner three right angles meet: 90 degrees on one side, 180 on the other.
-  EXPECT_NEAR(turn(surface, number(0.5, 0, 0), number(0, 0, 0), number(0, 0.5, 0)), 1 - std::cos(kPi / 3),
-              kTurnRounding);
-}
-
-TEST(EdgeTurn, IsZeroAlongABoundaryAndPiMinusTheAngleWhenLeavingIt) {
-  const Surface grid = shapes::quad_grid(4).surface();
-  EXPECT_NEAR(turn(grid, 1, 2, 3), 0.0, kTurnRounding);
-  EXPECT_NEAR(turn(grid, 1, 0, 5), 0.0, kTurnRounding) << "round the square's corner";
-  EXPECT_NEAR(turn(grid, 1, 2, 7), 1.0, kTurnRounding);
-  EXPECT_NEAR(turn(grid, 7, 2, 3), 1.0, kTurnRounding);
-
-  const auto degrees = [](double d) { return d * kPi / 180; };
-  const Surface open = flat_fan({0, degrees(40), degrees(110), degrees(250)}, false);
-  EXPECT_NEAR(turn(open, 1, 0, 4), 0.0, kTurnRounding);
-  EXPECT_NEAR(turn(open, 1, 0, 3), 1 - std::cos(degrees(70)), kTurnRounding);
-  EXPECT_NEAR(turn(open, 4, 0, 2), 1 - std::cos(degrees(30)), kTurnRounding);
-  EXPECT_NEAR(turn(open, 2, 0, 3), 1 - std::cos(degrees(110)), kTurnRounding);
-}
-
-TEST(EdgeTurn, IsTakenInSpaceWhereAnEdgeHasThreeFaces) {
-  // Three pages, at 0, 90 and 180 degrees, on a spine of two edges 0 - 1 - 2.
-  shapes::QuadMesh book;
-  for (int i = 0; i < 3; ++i) book.points.emplace_back(0, 0, i);
-  const Vector out[] = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
-  for (const Vector& direction : out) {
-    const auto first = static_cast<std::int32_t>(book.points.size());
-    for (int i = 0; i < 3; ++i) book.points.push_back(direction + Vector(0, 0, i));
-    book.quads.push_back({0, 1, first + 1, first});
-    book.quads.push_back({1, 2, first + 2, first + 1});
-  }
-  const Surface surface = book.surface();
-  ASSERT_EQ(surface.report().nonmanifold_edges.size(), 2u);
-  EXPECT_NEAR(turn(surface, 0, 1, 2), 0.0, kTurnRounding);
-  EXPECT_NEAR(turn(surface, 4, 1, 10), 0.0, kTurnRounding) << "from the first page straight onto the third";
-  EXPECT_NEAR(turn(surface, 4, 1, 7), 1.0, kTurnRounding);
-  EXPECT_NEAR(turn(surface, 0, 1, 4), 1.0, kTurnRounding);
-}
-
-TEST(EdgeTurn, IsTakenInSpaceAtABowTieAndAlongLooseEdges) {
-  // Two triangles that share vertex 0, and a loose edge from it to 5 and on to 6.
-  const Surface surface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 1, 1}},
-                        {{0, 1, 2}, {0, 3, 4}},
-                        std::vector<Edge>{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {3, 4}, {0, 4}, {0, 5}, {5, 6}});
-  EXPECT_NEAR(turn(surface, 1, 0, 3), 0.0, kTurnRounding);
-  EXPECT_NEAR(turn(surface, 2, 0, 3), 1.0, kTurnRounding);
-  EXPECT_NEAR(turn(surface, 1, 0, 5), 1.0, kTurnRounding);
-  EXPECT_NEAR(turn(surface, 0, 5, 6), 1.0, kTurnRounding);
-  EXPECT_EQ(edge_wires(plain_graph(surface), {2, -1}).trace({5, 6}).vertices, Chain({2, 0, 5, 6}));
 }
 
 TEST(EdgeWires, KeepStraightOnAQuadGrid) {
@@ -313,125 +155,6 @@ TEST(EdgeWires, DoNotDependOnTheScaleOfTheModel) {
     EXPECT_NEAR(wires.trace({a, b}).length, large_wires.trace({a, b}).length, 1e-9) << "digits lost by the shift";
   }
 }
-
-/// Turns and lengths as a table, from wires of two edges; and from it, chains by other means than the library's.
-class Table {
- public:
-  explicit Table(const Surface& surface)
-      : surface_(surface), mean_(mean_plain_length(surface)), graph_(plain_graph(surface)) {
-    for (const auto& [a, b] : surface.edges()) {
-      near_[a].push_back(b);
-      near_[b].push_back(a);
-    }
-    for (const auto& [v, neighbors] : near_) {
-      for (const std::int32_t a : neighbors) {
-        for (const std::int32_t b : neighbors) {
-          if (a < b) turns_[{a, v, b}] = turns_[{b, v, a}] = turn(surface, a, v, b);
-        }
-      }
-    }
-  }
-
-  const std::shared_ptr<const EdgeGraph>& graph() const { return graph_; }
-
-  double step(std::int32_t a, std::int32_t v, std::int32_t b, double turning) const {
-    return turning * mean_ * turns_.at({a, v, b}) + plain_length(surface_, v, b);
-  }
-
-  double cost(const Chain& chain, double turning) const {
-    double sum = chain.size() < 2 ? 0.0 : plain_length(surface_, chain[0], chain[1]);
-    for (std::size_t i = 2; i < chain.size(); ++i) sum += step(chain[i - 2], chain[i - 1], chain[i], turning);
-    return sum;
-  }
-
-  double loop_cost(const Chain& loop, double turning) const {
-    const std::size_t n = loop.size();
-    double sum = 0;
-    for (std::size_t i = 0; i < n; ++i) sum += step(loop[i], loop[(i + 1) % n], loop[(i + 2) % n], turning);
-    return sum;
-  }
-
-  /// The cheapest walk from the directed edge (a, b) to every directed edge; vertices may repeat, and `repeats` tells
-  /// where they do.
-  struct Walk {
-    double cost = kInfinity;
-    Edge previous{-1, -1};
-  };
-  std::map<Edge, Walk> walks(const Edge& from, double turning) const {
-    std::map<Edge, Walk> walks;
-    std::set<std::pair<double, Edge>> queue;
-    walks[from].cost = plain_length(surface_, from[0], from[1]);
-    queue.insert({walks[from].cost, from});
-    while (!queue.empty()) {
-      const auto [cost, e] = *queue.begin();
-      queue.erase(queue.begin());
-      for (const std::int32_t next : near_.at(e[1])) {
-        if (next == e[0]) continue;
-        const double there = cost + step(e[0], e[1], next, turning);
-        Walk& walk = walks[{e[1], next}];
-        if (!(there < walk.cost)) continue;
-        queue.erase({walk.cost, {e[1], next}});
-        walk = {there, e};
-        queue.insert({there, {e[1], next}});
-      }
-    }
-    return walks;
-  }
-  static Chain chain_of(const std::map<Edge, Walk>& walks, Edge e) {
-    Chain chain{e[1]};
-    for (; e[0] >= 0; e = walks.at(e).previous) chain.insert(chain.begin(), e[0]);
-    return chain;
-  }
-
-  /// The cheapest simple chain from the directed edge (a, b) to every directed edge, by trying all that cost no more
-  /// than `limit`; with `closed` also those that end where they began.
-  std::map<Edge, double> cheapest_simple(const Edge& from, double turning, double limit) const {
-    std::map<Edge, double> best;
-    std::set<std::int32_t> used{from[0], from[1]};
-    const std::function<void(const Edge&, double)> extend = [&](const Edge& e, double cost) {
-      const auto [it, is_new] = best.try_emplace(e, cost);
-      if (!is_new) it->second = std::min(it->second, cost);
-      for (const std::int32_t next : near_.at(e[1])) {
-        const double there = next == e[0] ? kInfinity : cost + step(e[0], e[1], next, turning);
-        if (there > limit || !used.insert(next).second) continue;
-        extend({e[1], next}, there);
-        used.erase(next);
-      }
-    };
-    extend(from, plain_length(surface_, from[0], from[1]));
-    return best;
-  }
-
-  /// The cheapest loop through the edge, by trying all that cost no more than `limit`.
-  double cheapest_loop(const Edge& edge, double turning, double limit) const {
-    double best = kInfinity;
-    std::set<std::int32_t> used{edge[0], edge[1]};
-    const std::function<void(const Edge&, double)> extend = [&](const Edge& e, double cost) {
-      for (const std::int32_t next : near_.at(e[1])) {
-        const double there = next == e[0] ? kInfinity : cost + step(e[0], e[1], next, turning);
-        if (there > std::min(limit, best)) continue;
-        if (next == edge[0]) {
-          best = std::min(best, there + step(e[1], next, edge[1], turning) - plain_length(surface_, edge[0], edge[1]));
-        } else if (used.insert(next).second) {
-          extend({e[1], next}, there);
-          used.erase(next);
-        }
-      }
-    };
-    extend(edge, plain_length(surface_, edge[0], edge[1]));
-    return best;
-  }
-
- private:
-  const Surface& surface_;
-  double mean_;
-  std::shared_ptr<const EdgeGraph> graph_;
-  std::map<std::int32_t, Chain> near_;
-  std::map<std::array<std::int32_t, 3>, double> turns_;
-};
-
-/// Errors of turn() times turning and the number of steps.
-constexpr double kTableRounding = 1e-7;
 
 /// A grid of 16 vertices whose columns and rows are so uneven that going round a small circle may be cheaper than a
 /// sharp turn.
@@ -605,77 +328,6 @@ TEST(EdgeWires, StopWhenToldTo) {
   EXPECT_GT(last, 0.5);
 }
 
-TEST(EdgeLoop, IsTheRingOnACylinderAndATorus) {
-  const Surface cylinder = shapes::quad_cylinder(24, 10).surface();
-  const EdgeChain ring = edge_loop(*plain_graph(cylinder), {24 * 4 + 7, 24 * 4 + 8});
-  Chain expected;
-  for (int i = 0; i < 24; ++i) expected.push_back(24 * 4 + i);
-  EXPECT_TRUE(same_loop(ring.vertices, expected));
-  EXPECT_NEAR(ring.length, 24 * plain_length(cylinder, 0, 1), kRounding);
-
-  const Surface torus = shapes::quad_torus(20, 12).surface();
-  const auto graph = plain_graph(torus);
-  Chain around_axis, around_tube;
-  for (int i = 0; i < 20; ++i) around_axis.push_back(20 * 3 + i);
-  for (int j = 0; j < 12; ++j) around_tube.push_back(20 * j + 5);
-  EXPECT_TRUE(same_loop(edge_loop(*graph, {65, 66}).vertices, around_axis));
-  EXPECT_TRUE(same_loop(edge_loop(*graph, {65, 85}).vertices, around_tube));
-}
-
-TEST(EdgeLoop, IsTheBoundaryOfAnOpenCylinder) {
-  const Surface cylinder = shapes::quad_cylinder(24, 10).surface();
-  const EdgeChain ring = edge_loop(*plain_graph(cylinder), {0, 23});
-  EXPECT_EQ(ring.vertices.size(), 24u);
-  EXPECT_TRUE(std::ranges::all_of(ring.vertices, [](std::int32_t v) { return v < 24; }));
-}
-
-TEST(EdgeLoop, PaysForItsTurns) {
-  const Surface grid = shapes::quad_grid(40).surface();
-  // In the middle of a wide plane nothing is cheaper than once around a quad: four edges and four right angles.
-  const EdgeChain square = edge_loop(*plain_graph(grid), {41 * 20 + 20, 41 * 20 + 21}, 20.0);
-  EXPECT_EQ(square.vertices.size(), 4u);
-  EXPECT_NEAR(square.length, (4 + 4 * 20.0) / 40, kRounding);
-  // Near a boundary, which costs no turn, it is cheaper to go there and back along it.
-  const Surface small = shapes::quad_grid(9).surface();
-  EXPECT_NEAR(edge_loop(*plain_graph(small), {44, 45}, 20.0).length, (26 + 2 * 20.0) / 9, kRounding);
-}
-
-TEST(EdgeLoop, IsThereForNoBridge) {
-  // A triangle with a tail of loose edges.
-  const Surface surface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}, {3, 0, 0}}, {{0, 1, 2}},
-                        std::vector<Edge>{{0, 1}, {1, 2}, {0, 2}, {1, 3}, {3, 4}});
-  const auto graph = plain_graph(surface);
-  EXPECT_TRUE(edge_loop(*graph, {1, 3}).vertices.empty());
-  EXPECT_EQ(edge_loop(*graph, {3, 4}).length, kInfinity);
-  EXPECT_EQ(sorted(edge_loop(*graph, {0, 2}).vertices), Chain({0, 1, 2}));
-}
-
-TEST(EdgeLoop, IsTheCheapestOfAllOnSmallMeshes) {
-  constexpr double kTurning = 20.0;
-  int loops = 0, dearer = 0;
-  const auto compare = [&](const Surface& surface) {
-    const Table table(surface);
-    for (const Edge& edge : surface.edges()) {
-      const EdgeChain loop = edge_loop(*table.graph(), edge, kTurning);
-      ASSERT_GE(loop.vertices.size(), 3u);
-      ASSERT_FALSE(has_repeated_vertex(loop.vertices));
-      ASSERT_EQ(loop.vertices[0], edge[0]);
-      ASSERT_EQ(loop.vertices[1], edge[1]);
-      ASSERT_NEAR(loop.length, table.loop_cost(loop.vertices, kTurning), kTableRounding);
-      const double cheapest = table.cheapest_loop(edge, kTurning, loop.length + 1);
-      EXPECT_GE(loop.length, cheapest - kTableRounding);
-      ++loops;
-      dearer += loop.length > cheapest + kTableRounding;
-    }
-  };
-  for (unsigned seed = 1; seed <= 3; ++seed) compare(shapes::grid(3, 0.4, seed).surface());
-  compare(shapes::icosphere(1).surface());
-  compare(shapes::quad_cylinder(5, 3).surface());
-  compare(shapes::quad_cube(2).surface());
-  EXPECT_GT(loops, 200);
-  EXPECT_LT(dearer, loops / 50);  // NP-hard, as for wires
-}
-
 // ---------------------------------------------------------------------------------------------------------------------
 // While a search runs
 
@@ -729,4 +381,4 @@ TEST(EdgeWires, AfterCancellingWhatWasFoundIsStillRight) {
 }
 
 }  // namespace
-}  // namespace seamwire
+}  // namespace seamwire::chains

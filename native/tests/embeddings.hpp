@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
+#include <random>
 #include <vector>
 
 #include "seamwire/embedding.hpp"
@@ -14,6 +16,33 @@
 namespace seamwire::embeddings {
 
 inline std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// The same tensor everywhere on a plane z = const: stretched by the roots of l1 along (cos, sin)(angle) and l2 across.
+inline Metric plane_metric(const Surface& surface, double l1, double l2, double angle) {
+  const Vector e1(std::cos(angle), std::sin(angle), 0), e2(-std::sin(angle), std::cos(angle), 0);
+  const Eigen::Matrix3d tensor = l1 * e1 * e1.transpose() + l2 * e2 * e2.transpose();
+  return {std::vector<Vector>(surface.vertex_count(), Vector::UnitZ()),
+          std::vector<Eigen::Matrix3d>(surface.vertex_count(), tensor)};
+}
+
+/// The identity as a quadratic form on space, for surfaces whose normals do not matter.
+inline Metric identity_metric(const Surface& surface) {
+  return {std::vector<Vector>(surface.vertex_count(), Vector::Zero()),
+          std::vector<Eigen::Matrix3d>(surface.vertex_count(), Eigen::Matrix3d::Identity())};
+}
+
+/// A metric that no smooth surface has: at each vertex a direction of its own, at anisotropy A.
+inline Metric random_metric(const Surface& surface, double a, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> angle(0, std::numbers::pi);
+  Metric metric = plane_metric(surface, 1, 1, 0);
+  for (Eigen::Matrix3d& tensor : metric.tensors) {
+    const double t = angle(random);
+    const Vector e1(std::cos(t), std::sin(t), 0), e2(-std::sin(t), std::cos(t), 0);
+    tensor = a * e1 * e1.transpose() + 1 / a * e2 * e2.transpose();
+  }
+  return metric;
+}
 
 inline double area(const Vector& a, const Vector& b, const Vector& c) { return (b - a).cross(c - a).norm() / 2; }
 

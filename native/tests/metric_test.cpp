@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <string>
 
@@ -245,6 +246,47 @@ TEST(EdgeLength, IsOfTheModelInTheUnitCubeAndTheSameBothWays) {
   // Vertices 0 and 1 are a quarter of the square apart, across the direction to follow; l1 there is 2 and 3.
   EXPECT_NEAR(edge_length(surface, metric, 0, 1), integrated_length(std::sqrt(2.0), std::sqrt(3.0)) / 4, 1e-15);
   EXPECT_EQ(edge_length(surface, metric, 0, 6), edge_length(surface, metric, 6, 0));
+}
+
+TEST(MidpointTensor, IsNeverMoreAnisotropicThanTheEnds) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto vector = [&] { return Vector(uniform(random), uniform(random), uniform(random)); };
+  const auto tensor = [&] {
+    const Vector n = vector().normalized(), e1 = n.cross(vector()).normalized(), e2 = n.cross(e1);
+    const double a = 1 + 30 * std::abs(uniform(random)), scale = 1.5 + uniform(random);
+    return TensorAt{n, scale * (a * e1 * e1.transpose() + 1 / a * e2 * e2.transpose())};
+  };
+  for (int trial = 0; trial < 1000; ++trial) {
+    std::vector<TensorAt> all{tensor(), tensor(), tensor(), tensor()};
+    double largest = 0;
+    for (const TensorAt& t : all) largest = std::max(largest, anisotropy(t));
+    while (all.size() < 24) {
+      const std::size_t i = random() % all.size(), j = random() % all.size();
+      all.push_back(midpoint_tensor(all[i], all[j]));
+      EXPECT_NEAR(all.back().normal.norm(), 1, 1e-14);
+      EXPECT_LE((all.back().tensor * all.back().normal).norm(), 1e-13 * all.back().tensor.norm());
+      EXPECT_LE(anisotropy(all.back()), largest * (1 + 1e-9));
+    }
+  }
+}
+
+TEST(MidpointTensor, TurnsTensorsWithTheirNormals) {
+  // A quarter turn of the plane about the direction of the minor eigenvector leaves that one, and takes e1 along.
+  const auto bent = [](double angle) {
+    const Vector n(std::sin(angle), 0, std::cos(angle)), e1(std::cos(angle), 0, -std::sin(angle));
+    return TensorAt{n, 9 * e1 * e1.transpose() + Vector::UnitY() * Vector::UnitY().transpose()};
+  };
+  const TensorAt middle = midpoint_tensor(bent(0), bent(std::numbers::pi / 2)), expected = bent(std::numbers::pi / 4);
+  EXPECT_TRUE(middle.normal.isApprox(expected.normal, 1e-14));
+  EXPECT_TRUE(middle.tensor.isApprox(expected.tensor, 1e-14));
+}
+
+TEST(MidpointTensor, KeepsOneOfOppositeNormals) {
+  const TensorAt a{Vector::UnitZ(), Vector(4, 1, 0).asDiagonal()}, b{-Vector::UnitZ(), Vector(1, 4, 0).asDiagonal()};
+  const TensorAt middle = midpoint_tensor(a, b);
+  EXPECT_EQ(middle.normal, a.normal);
+  EXPECT_TRUE(middle.tensor.isApprox(Eigen::Matrix3d(Vector(2.5, 2.5, 0).asDiagonal()), 1e-14));
 }
 
 }  // namespace

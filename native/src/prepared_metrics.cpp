@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "prepared_metrics.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace seamwire {
+namespace {
+
+/// An artist waits for an embedding, and one that runs away is better cut short, with small holes: at most so many
+/// triangles are added, or so many times the surface's.
+constexpr std::size_t kFacesAdded = 200'000, kFacesAddedPerFace = 12;
+
+Metric make_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Metrics& metrics) {
+  switch (metrics.family) {
+    case MetricFamily::kFeature:
+      return feature_metric(surface, curvature, follow, metrics.strength);
+    case MetricFamily::kCampen:
+      return campen_metric(surface, curvature, follow, metrics.strength);
+    case MetricFamily::kPottmannKovacs:
+      return pottmann_kovacs_metric(surface, curvature, follow, metrics.strength);
+    case MetricFamily::kEuclidean:
+      break;
+  }
+  return euclidean_metric(surface, curvature);
+}
+
+}  // namespace
+
+Prepared prepare(Ground& ground, Metrics& metrics, std::size_t which, const std::stop_token& stop) {
+  const bool on_surface = ground.along == Along::kSurface;
+  std::atomic<double>& fraction = metrics.fractions[which];
+  Prepared prepared;
+  std::shared_ptr<const EdgeFans> fans;
+  const auto prepare_edges = [&] {
+    if (on_surface) prepared.snap_graph = ground.snap_graph_now(stop);
+    fans = ground.fans_now(stop);
+  };
+  if (which == 1) prepare_edges();  // while the other thread is at the curvatures
+  const std::shared_ptr<const Curved> curved = ground.curved_now(stop);
+  if (which == 0) prepare_edges();
+  Task task{.stop = stop, .progress = {}};
+  task.check(0.0);
+  Metric metric = make_metric(*ground.surface, curved->curvature, kFollow[which], metrics);
+  task.check(0.0);
+  if (!metrics.scribbles.empty()) {
+    metric = apply_scribbles(*ground.surface, metric, metrics.scribbles, kFollow[which]);
+  }
+  fraction = kEmbedBegins / kSolveBegins;
+  task.progress = [&fraction](double done) {
+    fraction = (kEmbedBegins + (kSolveBegins - kEmbedBegins) * done) / kSolveBegins;
+    return true;
+  };
+  if (on_surface) {
+    const std::size_t most = std::max(kFacesAdded, kFacesAddedPerFace * ground.surface->face_count());
+    prepared.embedding = embed(*ground.surface, metric, {.max_faces_added = most}, task);
+    prepared.geodesics.emplace(prepared.embedding->mesh);
+  } else {
+    prepared.graph = make_edge_graph(*ground.surface, metric, std::move(fans), task, metrics.scribbles, kFollow[which]);
+  }
+  return prepared;
+}
+
+}  // namespace seamwire

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <random>
+#include <vector>
+
+#include "embeddings.hpp"
+#include "seamwire/scribble.hpp"
+#include "shapes.hpp"
+
+namespace seamwire {
+namespace {
+
+using embeddings::at;
+using embeddings::expect_sound;
+using embeddings::identity_metric;
+using embeddings::random_metric;
+using shapes::Mesh;
+
+// The triangles of an embedding, each by the places of its corners and its lengths, whatever their numbers.
+using PlacedTriangle = std::array<double, 12>;
+std::vector<PlacedTriangle> placed(const Embedding& embedding) {
+  std::vector<PlacedTriangle> all;
+  for (std::size_t f = 0; f < embedding.mesh.face_count(); ++f) {
+    const Triangle& t = embedding.mesh.triangles[f];
+    std::size_t first = 0;
+    const auto before = [&](std::size_t i, std::size_t j) {
+      const Vector &p = embedding.points[at(t[i])], &q = embedding.points[at(t[j])];
+      return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+    };
+    for (std::size_t i = 1; i < 3; ++i) {
+      if (before(i, first)) first = i;
+    }
+    PlacedTriangle row{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t corner = (first + i) % 3;
+      std::ranges::copy(embedding.points[at(t[corner])], row.begin() + static_cast<std::ptrdiff_t>(3 * i));
+      row[9 + i] = embedding.mesh.lengths[3 * f + corner];
+    }
+    all.push_back(row);
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+void expect_same(const Surface& surface, const Embedding& a, const Embedding& b) {
+  EXPECT_EQ(a.invalid_before, b.invalid_before);
+  EXPECT_EQ(a.faces_added, b.faces_added);
+  EXPECT_EQ(a.invalid_left, b.invalid_left);
+  EXPECT_EQ(a.is_local, b.is_local);
+  EXPECT_EQ(a.unreachable, b.unreachable);
+  ASSERT_EQ(a.mesh.vertex_count, b.mesh.vertex_count);
+  ASSERT_EQ(placed(a), placed(b));  // bit for bit
+  expect_sound(surface, a);
+}
+
+// A stroke along a random walk over the vertices.
+Scribble random_scribble(const Surface& surface, std::mt19937& random) {
+  Scribble scribble;
+  auto v = static_cast<std::int32_t>(random() % surface.vertex_count());
+  const HalfEdgeMesh& mesh = surface.half_edges();
+  for (int steps = 2 + static_cast<int>(random() % 30); steps > 0; --steps) {
+    scribble.vertices.push_back(v);
+    scribble.points.push_back(surface.points()[at(v)]);
+    std::vector<std::int32_t> around;
+    for (const auto w : mesh.vv_range(OpenMesh::VertexHandle(v))) around.push_back(w.idx());
+    v = around[random() % around.size()];
+  }
+  scribble.rings = 1 + static_cast<int>(random() % 10);
+  scribble.eta = 2 + static_cast<double>(random() % 29);
+  scribble.attracts = random() % 4 != 0;
+  return scribble;
+}
+
+TEST(ReEmbed, IsEmbeddingFromScratchAfterEveryScribble) {
+  std::mt19937 random(11);
+  // A torus has many triangles of the same size, which only a local order tells apart in the same way.
+  const Mesh meshes[] = {shapes::grid(40, 0.3), shapes::torus(60, 30), shapes::bumpy(shapes::icosphere(4), 0.05)};
+  for (const Mesh& mesh : meshes) {
+    const Surface surface = mesh.surface();
+    const Curvature curvature = principal_curvatures(surface);
+    const Metric base = feature_metric(surface, curvature, Follow::kMax, {.max_anisotropy = 8});
+    std::vector<Scribble> scribbles;
+    Metric former = base;
+    Embedding embedding = embed(surface, base);
+    int local = 0;
+    for (int step = 0; step < 25; ++step) {
+      // Mostly added, sometimes one in the middle of the list removed.
+      if (scribbles.size() > 2 && random() % 3 == 0) {
+        scribbles.erase(scribbles.begin() + static_cast<std::ptrdiff_t>(random() % scribbles.size()));
+      } else {
+        scribbles.push_back(random_scribble(surface, random));
+      }
+      Metric metric = apply_scribbles(surface, base, scribbles);
+      local += embedding.is_local;
+      embedding = re_embed(surface, former, metric, std::move(embedding));
+      expect_same(surface, embedding, embed(surface, metric));
+      former = std::move(metric);
+    }
+    EXPECT_GT(local, 15) << "hardly anything was done locally";
+    const Embedding back = re_embed(surface, former, base, std::move(embedding));
+    expect_same(surface, back, embed(surface, base));
+  }
+}
+
+TEST(ReEmbed, IsEmbeddingFromScratchWhereTheMetricChangesEverywhereAtRandom) {
+  const Surface surface = shapes::grid(24, 0.2).surface();
+  Metric former = random_metric(surface, 6, 1);
+  Embedding embedding = embed(surface, former);
+  std::mt19937 random(5);
+  for (unsigned step = 0; step < 12; ++step) {
+    const Metric other = random_metric(surface, 6, 2 + step);
+    Metric metric = former;
+    for (std::size_t v = 0; v < metric.size(); ++v) {
+      if (random() % 40 == 0) metric.tensors[v] = other.tensors[v];
+    }
+    EXPECT_TRUE(embedding.is_local);
+    embedding = re_embed(surface, former, metric, std::move(embedding));
+    expect_same(surface, embedding, embed(surface, metric));
+    former = std::move(metric);
+  }
+}
+
+TEST(ReEmbed, TakesSurfacesThatAreCutOpenAndOtherNormals) {
+  Mesh mesh = shapes::moebius(24);
+  const Surface surface = mesh.surface();
+  const Metric former = euclidean_metric(surface, principal_curvatures(surface));
+  Metric metric = former;
+  for (std::size_t v = 0; v < 10; ++v) metric.tensors[v] *= 9;
+  expect_same(surface, re_embed(surface, former, metric, embed(surface, former)), embed(surface, metric));
+  const Surface grid = shapes::grid(12).surface();
+  const Metric random = random_metric(grid, 10, 3);
+  const Metric identity = identity_metric(grid);
+  expect_same(grid, re_embed(grid, random, identity, embed(grid, random)), embed(grid, identity));
+  EXPECT_THROW(re_embed(grid, random, random, embed(surface, former)), InvalidInput);
+  EXPECT_THROW(re_embed(grid, random, former, embed(grid, random)), InvalidInput);
+}
+
+// The work, not the time, which other processes share in: a scribble is far smaller than the surface.
+TEST(ReEmbed, LeavesWhatIsFarAwayWhereItIs) {
+  const Surface surface = shapes::grid(100, 0.2).surface();
+  const Metric former = random_metric(surface, 3, 3);
+  Embedding old = embed(surface, former);
+  Metric metric = former;
+  metric.tensors[0] = Vector(40, 0.1, 0).asDiagonal();
+  const std::vector<double> before = old.mesh.lengths;
+  const Embedding embedding = re_embed(surface, former, metric, std::move(old));
+  std::size_t changed = 0;
+  for (std::size_t h = 0; h < 3 * surface.face_count(); ++h) changed += embedding.mesh.lengths[h] != before[h];
+  EXPECT_GT(changed, 0U);
+  EXPECT_LT(changed, 100U);
+}
+
+}  // namespace
+}  // namespace seamwire
