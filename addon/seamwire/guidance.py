@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from .engines import CLAMP_RANGE, STRENGTH_RANGE, STRENGTH_STEP
-from .scribbles import OffMeshError, Scribble, drawn, through_vertices
+from .scribbles import FOR_WIRES, OffMeshError, Scribble, drawn, through_vertices
 from .workings import Workings
 
 if TYPE_CHECKING:
@@ -134,7 +134,7 @@ class Guidance(Workings):
         if acts_on is None and self._network.seed is not None:
             # The wire that the stroke is for stays the active one, even where the other is shorter now.
             chosen = self._live.active_index
-            acts_on = ("min", "max")[chosen]
+            acts_on = FOR_WIRES[chosen]
         scribble = Scribble(*stroke, attracts=attracts, acts_on=acts_on or "both", radius=radius)
         return self._scribbled((*self._network.scribbles, scribble), chosen)
 

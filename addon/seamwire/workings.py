@@ -11,6 +11,7 @@ from .drag import Leg
 from .loops import find_offers, others
 from .network import Network, Seed, Snap, Wire, name, undirected
 from .redraw import Job, other_way, with_lost, with_other_way
+from .scribbles import FOR_WIRES
 from .state import Queued, State
 from .straight import run_on
 
@@ -120,9 +121,13 @@ class Workings(State):
     def _restore(self, network: Network) -> None:
         if network.seed is not None and network.seed != self._network.seed:
             self._sow(network.seed)
+        back = [stroke.acts_on for stroke in network.scribbles if stroke not in self._network.scribbles]
         self._set(network)
         self._last_click = None
         self._settle()
+        if network.seed is not None and back and back[-1] != "both":
+            # As when it was drawn: the wire that a stroke is for is the active one.
+            self._live.chosen = FOR_WIRES.index(back[-1])
 
     def _settle(self) -> None:
         self._live.chosen = None

@@ -184,6 +184,22 @@ def test_a_stroke_is_for_the_active_wire_while_one_is_live() -> None:
     assert session.scribbles[-1].acts_on == "both"
 
 
+def test_a_stroke_that_comes_back_brings_its_wire_forward() -> None:
+    session = Table().session
+    session.click(0)
+    session.hover(7)
+    session.toggle()
+    stroke(session, (0.5, 0.2), (4.5, 0.2))
+    session.undo()
+    session.redo()
+    assert session.active.vertices == (0, 6, 7), "as when it was drawn"
+    session.erase(session.scribbles[0])
+    session.toggle()
+    assert session.active.vertices == (0, 1, 7)
+    session.undo()
+    assert session.active.vertices == (0, 6, 7)
+
+
 def test_the_live_wire_follows_and_kept_ones_stay() -> None:
     table = Table(metric_ready=(False, False))
     session = table.session
