@@ -100,6 +100,7 @@ class Board:
         self.cage = edit_mesh.Cage(obj)
         arrays = edit_mesh.read(obj)
         self._arrays = arrays
+        self._differences: Iterator[bool] = iter(())
         self._points = arrays.points
         self._edges = arrays.edges
         self._settings = settings
@@ -177,19 +178,24 @@ class Board:
         network = self.session.network
         return bool(network.wires or network.scribbles) or network.earlier is not None
 
-    def intact(self, thoroughly: bool) -> bool:
+    def look_through(self) -> None:
+        """Have `intact` look at every vertex, edge and face from now on, from the first one on, not at their numbers alone."""
+        self._differences = self.cage.differences(self._arrays)
+
+    def intact(self, to_the_end: bool = False) -> bool:
         """Whether object and mesh are still there and being edited, with the same vertices, edges and faces.
 
         Parameters
         ----------
-        thoroughly
-            Look at every one of them, not at their number alone.
+        to_the_end
+            Look at all that there is to look at, instead of the next part.
         """
         try:
-            there = self.obj.mode == "EDIT" and self.obj.data == self.cage.mesh and self.cage.intact()
+            if self.obj.mode != "EDIT" or self.obj.data != self.cage.mesh or not self.cage.intact():
+                return False
         except ReferenceError:
             return False
-        return there and (not thoroughly or self.cage.is_as(self._arrays))
+        return not (any(self._differences) if to_the_end else next(self._differences, False))
 
     def shows(self, update: bpy.types.DepsgraphUpdate) -> bool:
         """Whether an update of Blender's tells of a change of the mesh, whichever it is."""

@@ -29,6 +29,7 @@ _TICK = 0.05
 _CLICKS = frozenset({Action.CLICK, Action.NEW_CHAIN, Action.LOOP})
 _STROKES = frozenset({Action.ATTRACT, Action.REPEL})
 _AXES = "XYZ"
+_CHANGED = "The mesh was changed"
 
 running: list[Drawing] = []
 """The drawings going on, so that unregistering the add-on can end them."""
@@ -131,15 +132,26 @@ class Drawing:
             return "Edit mode was left"
         if context.workspace != self._workspace:
             return "Another workspace was opened"
-        # Looking at the whole mesh takes its time: while another editor is at work on it, that can wait.
-        thoroughly = self._touched and place_of(self._window, event) is not None
-        self._touched = self._touched and not thoroughly
+        # Looking through the mesh takes its time: while another editor is at work on it, that can wait.
+        if place_of(self._window, event) is not None:
+            self._look_through()
         for board in self.boards.values():
-            if not board.intact(thoroughly):
-                return "The mesh was changed"
+            if not board.intact():
+                return _CHANGED
             if board.overlay.error is not None:
                 raise board.overlay.error
         return ""
+
+    def trouble_at_the_end(self) -> str:
+        """Say why nothing can be marked; an empty string where it can."""
+        self._look_through()
+        return "" if all(board.intact(to_the_end=True) for board in self.boards.values()) else _CHANGED
+
+    def _look_through(self) -> None:
+        if self._touched:
+            self._touched = False
+            for board in self.boards.values():
+                board.look_through()
 
     def set_aside(self) -> int:
         """Keep what was drawn for when the tool is started again; return how many wires that are."""

@@ -7,7 +7,7 @@ edges are left out of what wires may run on.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from .network import Pick
+
+_PART = 50_000
+"""Vertices, edges or faces that are looked at in some hundredths of a second."""
 
 
 @dataclass(frozen=True)
@@ -129,20 +132,48 @@ class Cage:
         for pairs in groups:
             self._found(pairs)
 
-    def is_as(self, arrays: Arrays) -> bool:
-        """Whether vertices, visible edges and visible faces are what they were when the arrays were read."""
+    def differences(self, arrays: Arrays) -> Iterator[bool]:
+        """Compare vertices, visible edges and visible faces with what they were when arrays were read.
+
+        Yields
+        ------
+        bool
+            Of one part of the mesh after the other, whether it differs: a large one is not looked through in a moment. Between
+            two parts the numbers of vertices, edges and faces must stay.
+        """
+        looked = 0
+        for count, differs in self._comparisons(arrays):
+            looked += count
+            if differs or looked >= _PART:
+                looked = 0
+                yield differs
+
+    def _comparisons(self, arrays: Arrays) -> Iterator[tuple[int, bool]]:
+        """Yield how many items were compared, and whether they differ."""
         bm = self.bm
+        vertices, edges, faces = self._counts
         bm.verts.index_update()
-        places = np.fromiter((x for vertex in bm.verts for x in vertex.co), dtype=np.float64).reshape(-1, 3)
         before = arrays.points @ arrays.to_object.T
-        if places.shape != before.shape or not np.allclose(places, before, rtol=0.0, atol=1e-6 * np.abs(before).max()):
-            return False
-        ends = np.fromiter((v.index for edge in bm.edges if not edge.hide for v in edge.verts), dtype=np.int64)
-        edges = np.sort(ends.reshape(-1, 2), axis=1)
-        if not np.array_equal(edges, np.sort(arrays.edges, axis=1)):
-            return False
-        triangles = sum(len(face.verts) - 2 for face in bm.faces if not face.hide)
-        return triangles == len(arrays.triangles)
+        rounding = 1e-6 * np.abs(before).max()
+        if len(before) != vertices:
+            yield vertices, True
+        for begin in range(0, vertices, _PART):
+            part = before[begin : begin + _PART]
+            places = np.fromiter((x for vertex in bm.verts[begin : begin + _PART] for x in vertex.co), dtype=np.float64)
+            yield len(part), not np.allclose(places, part.ravel(), rtol=0.0, atol=rounding)
+        shown = 0
+        for begin in range(0, edges, _PART):
+            some = bm.edges[begin : begin + _PART]
+            ends = np.fromiter((v.index for edge in some if not edge.hide for v in edge.verts), dtype=np.int64)
+            part = arrays.edges[shown : shown + len(ends) // 2]
+            shown += len(ends) // 2
+            yield len(some), not np.array_equal(np.sort(ends.reshape(-1, 2), axis=1), np.sort(part, axis=1))
+        triangles = 0
+        for begin in range(0, faces, _PART):
+            some = bm.faces[begin : begin + _PART]
+            triangles += sum(len(face.verts) - 2 for face in some if not face.hide)
+            yield len(some), False
+        yield 0, shown != len(arrays.edges) or triangles != len(arrays.triangles)
 
     def _found(self, pairs: Iterable[tuple[int, int]]) -> list[bmesh.types.BMEdge]:
         found = []

@@ -222,13 +222,15 @@ class MESH_OT_seamwire_draw(bpy.types.Operator):
             return {"CANCELLED"}
         try:
             trouble = drawing.trouble(context, event)
+            result = set() if trouble else drawing.handle(context, event)
+            if "FINISHED" in result:
+                trouble = drawing.trouble_at_the_end()
             if trouble:
                 kept = drawing.set_aside()
                 drawing.close()
                 later = f"; start the tool again to go on with {count(kept, 'wire')}" if kept else ""
                 self.report({"WARNING"}, f"{trouble} while seams were drawn: nothing was marked{later}")
                 return {"CANCELLED", "PASS_THROUGH"}
-            result = drawing.handle(context, event)
             if result & {"FINISHED", "CANCELLED"}:
                 drawing.close()
             return self._finish(context, drawing) if "FINISHED" in result else result
