@@ -8,39 +8,6 @@
 #include "refinement.hpp"
 
 namespace seamwire {
-namespace {
-
-using VertexHandle = OpenMesh::VertexHandle;
-using HalfedgeHandle = OpenMesh::HalfedgeHandle;
-using FaceHandle = OpenMesh::FaceHandle;
-
-// Where an original triangle lies in the surface's half-edge mesh: its corners, and the twins of its half-edges.
-struct Given {
-  Triangle corners;
-  std::array<std::int32_t, 3> twins;
-};
-
-Given given(const HalfEdgeMesh& mesh, std::int32_t face) {
-  Given out;
-  const HalfedgeHandle last = mesh.halfedge_handle(FaceHandle(face)), first = mesh.next_halfedge_handle(last);
-  std::size_t i = 0;
-  for (const HalfedgeHandle h : {first, mesh.next_halfedge_handle(first), last}) {
-    out.corners[i] = mesh.from_vertex_handle(h).idx();
-    const HalfedgeHandle opposite = mesh.opposite_halfedge_handle(h);
-    if (mesh.is_boundary(opposite)) {
-      out.twins[i++] = -1;
-      continue;
-    }
-    const FaceHandle beyond = mesh.face_handle(opposite);
-    const HalfedgeHandle its_last = mesh.halfedge_handle(beyond);
-    const int at = opposite == its_last ? 2 : opposite == mesh.next_halfedge_handle(its_last) ? 0 : 1;
-    out.twins[i++] = 3 * beyond.idx() + at;
-  }
-  return out;
-}
-
-}  // namespace
-
 Refinement::Refinement(const Surface& surface, const Metric& metric, const EmbedOptions& options, Embedding&& old)
     : surface_(surface),
       metric_(metric),
@@ -68,7 +35,7 @@ std::vector<std::int32_t> Refinement::changed_faces(const Metric& former) const 
   std::vector<std::int32_t> faces;
   for (std::size_t v = 0; v < fans_; ++v) {
     if (former.tensors[v] == metric_.tensors[v]) continue;
-    for (const FaceHandle f : surface_.half_edges().vf_range(VertexHandle(static_cast<int>(v)))) {
+    for (const auto f : surface_.half_edges().vf_range(OpenMesh::VertexHandle(static_cast<int>(v)))) {
       faces.push_back(f.idx());
     }
   }
@@ -92,7 +59,6 @@ bool Refinement::enter(std::int32_t face) {
 // Makes faces what they were before any bisection, and with them those that they are bisected together with: two faces
 // whose common edge is bisected. In doing so it moves triangles and vertices together.
 void Refinement::reset(const std::vector<std::int32_t>& seeds) {
-  const HalfEdgeMesh& mesh = surface_.half_edges();
   // The parts of each face but the first: of a face the last one made, and of a part the one before it.
   std::vector<std::int32_t> last_part(faces_, -1), part_before(origins_.size() - faces_);
   for (std::size_t f = faces_; f < origins_.size(); ++f) {
@@ -112,12 +78,12 @@ void Refinement::reset(const std::vector<std::int32_t>& seeds) {
   for (const std::int32_t face : seeds) add(face);
   for (std::size_t done = 0; done < faces.size();) {  // add() makes it grow
     const std::int32_t face = faces[done++];
-    const Given original = given(mesh, face);
+    const Triangle& corners = surface_.face_fans()[index(face)];
     std::array<std::int32_t, 3> whole{-1, -1, -1};
     const auto look = [&](std::int32_t part) {
       for (std::int32_t h = 3 * part; h < 3 * part + 3; ++h) {
         for (std::size_t side = 0; side < 3; ++side) {
-          if (mesh_.tail(h) == original.corners[side] && mesh_.tip(h) == original.corners[(side + 1) % 3]) {
+          if (mesh_.tail(h) == corners[side] && mesh_.tip(h) == corners[(side + 1) % 3]) {
             whole[side] = h;
           }
         }
@@ -128,17 +94,16 @@ void Refinement::reset(const std::vector<std::int32_t>& seeds) {
     for (std::size_t side = 0; side < 3; ++side) {
       if (whole[side] >= 0) {
         sides.push_back({3 * face + static_cast<std::int32_t>(side), mesh_.twins[index(whole[side])]});
-      } else if (original.twins[side] >= 0) {
-        add(original.twins[side] / 3);
+      } else if (const std::int32_t twin = surface_.twins()[3 * index(face) + side]; twin >= 0) {
+        add(twin / 3);
       }
     }
   }
   std::erase_if(
       sides, [&](const Outer& side) { return side.outside < 0 || is_reset[index(origins_[index(side.outside / 3)])]; });
   for (const std::int32_t face : faces) {
-    const Given original = given(mesh, face);
-    mesh_.corners[index(face)] = original.corners;
-    std::ranges::copy(original.twins, mesh_.twins.begin() + std::ptrdiff_t{3} * face);
+    mesh_.corners[index(face)] = surface_.face_fans()[index(face)];
+    std::copy_n(surface_.twins().begin() + std::ptrdiff_t{3} * face, 3, mesh_.twins.begin() + std::ptrdiff_t{3} * face);
     branch_[index(face)] = 1;
     states_[index(face)] = State::kOriginal;
   }
@@ -228,7 +193,7 @@ bool Refinement::run_changes(const Metric& former, const Task& task, std::size_t
 
 // Whether an original triangle is valid in a metric.
 bool Refinement::is_given_valid(std::int32_t face, const Metric& metric) const {
-  const auto [a, b, c] = given(surface_.half_edges(), face).corners;
+  const auto [a, b, c] = surface_.face_fans()[index(face)];
   std::array lengths{edge_length(surface_, metric, a, b), edge_length(surface_, metric, b, c),
                      edge_length(surface_, metric, c, a)};
   std::ranges::sort(lengths);

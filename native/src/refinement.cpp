@@ -69,7 +69,7 @@ Refinement::Refinement(const Surface& surface, const Metric& metric, const Embed
   has_mended_ = mending.found_any();
   const HalfEdgeMesh& mesh = has_mended_ ? mending.mesh() : surface.half_edges();
   orient_normals(mesh);
-  mesh_ = flattened(mesh);
+  mesh_ = has_mended_ ? flattened(mesh) : FlatMesh{surface.face_fans(), surface.twins()};
   faces_ = mesh_.corners.size();
   if (has_mended_) {
     origins_ = mending.origins();

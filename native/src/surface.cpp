@@ -362,6 +362,19 @@ void link_half_edges(const std::vector<Vector>& points, const Faces& faces, cons
   }
 }
 
+// The same in flat arrays. A face that is turned over has its sides in the other order.
+void list_faces(const std::vector<Index>& twin, const std::vector<bool>& flipped, const Fans& fans,
+                std::vector<Triangle>& face_fans, std::vector<Index>& twins) {
+  const auto turned_over = [&](Index side) { return flipped[side / 3] ? side / 3 * 3 + 2 - side % 3 : side; };
+  face_fans.resize(twin.size() / 3);
+  twins.resize(twin.size());
+  for (Index side = 0; side < static_cast<Index>(twin.size()); ++side) {
+    const Index tail = flipped[side / 3] ? next_in_face(side) : side;
+    face_fans[side / 3][turned_over(side) % 3] = fans.of_corner[tail];
+    twins[turned_over(side)] = twin[side] == kNone ? -1 : turned_over(twin[side]);
+  }
+}
+
 std::vector<bool> vertices_in_use(std::size_t vertex_count, const Faces& faces, const std::vector<Edge>& edges) {
   std::vector<bool> used(vertex_count, false);
   for (const Triangle& corners : faces.corners) {
@@ -470,6 +483,7 @@ Surface::Surface(std::vector<Vector> points, std::vector<Triangle> triangles, st
 
   Fans fans = find_fans(points_.size(), faces, gluing.twin);
   link_half_edges(points_, faces, gluing.twin, flipped, fans, mesh_);
+  list_faces(gluing.twin, flipped, fans, face_fans_, twins_);
   vertex_of_fan_ = std::move(fans.vertex);
   source_face_ = std::move(faces.source);
 }

@@ -232,6 +232,17 @@ TEST(Curvature, OfVerticesWithoutAUsableFaceIsZero) {
   }
 }
 
+TEST(Curvature, DisregardsFacesOfOnePoint) {
+  Mesh mesh = shapes::icosphere(2);
+  const Triangle face = mesh.triangles[7];
+  for (const std::int32_t v : face) mesh.points[v] = mesh.points[face[0]];
+  const Surface surface = mesh.surface();
+  const Curvature curvature = principal_curvatures(surface);
+  expect_sound(surface, curvature);
+  // The other faces there turn away from the sphere by some 20 degrees.
+  for (const std::int32_t v : face) EXPECT_GT(curvature.normals[v].dot(mesh.points[v].normalized()), 0.9);
+}
+
 TEST(Curvature, IsFiniteOnRandomTriangles) {
   std::mt19937 random(17);
   for (int trial = 0; trial < 200; ++trial) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <random>
 #include <set>
 #include <string>
@@ -72,6 +73,21 @@ void expect_sound(const Surface& surface) {
       EXPECT_EQ(corners, (Numbers{given[0], given[1], given[2]}));
     }
     EXPECT_EQ(f.halfedge().face(), f);
+  }
+  // The flat arrays say the same.
+  ASSERT_EQ(surface.face_fans().size(), mesh.n_faces());
+  ASSERT_EQ(surface.twins().size(), 3 * mesh.n_faces());
+  std::map<int, std::int32_t> number;  // of a half-edge with a face
+  for (const auto f : mesh.faces()) {
+    std::int32_t h = 3 * f.idx();
+    for (auto side = f.halfedge().next(); !number.contains(side.idx()); side = side.next()) {
+      EXPECT_EQ(side.from().idx(), surface.face_fans()[f.idx()][h % 3]);
+      number[side.idx()] = h++;
+    }
+  }
+  for (const auto& [side, h] : number) {
+    const auto beyond = mesh.opposite_halfedge_handle(OpenMesh::HalfedgeHandle(side));
+    EXPECT_EQ(surface.twins()[h], mesh.is_boundary(beyond) ? -1 : number.at(beyond.idx()));
   }
 
   // What the input's edges connect stays reachable: every edge has a face or is loose, and none is both.

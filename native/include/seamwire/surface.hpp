@@ -88,6 +88,11 @@ class Surface {
   /// slit one edge long), so find half-edges by walking, never by their end points.
   const std::vector<std::int32_t>& vertex_of_fan() const { return vertex_of_fan_; }
   const std::vector<std::int32_t>& face_of_half_edge_face() const { return source_face_; }
+  /// half_edges() in flat arrays, for passes over all of it: the fans at the corners of each face, from the caller's
+  /// first corner on; and for its half-edge 3 f + i, from corner i of face f to the next, the one on the other side of
+  /// the edge, -1 on the boundary.
+  const std::vector<Triangle>& face_fans() const { return face_fans_; }
+  const std::vector<std::int32_t>& twins() const { return twins_; }
   /// Edges that no face of half_edges() carries, along which a path may run all the same: edges without faces, and
   /// edges whose faces were all left out.
   const std::vector<Edge>& loose_edges() const { return loose_edges_; }
@@ -101,6 +106,8 @@ class Surface {
   std::vector<Edge> loose_edges_;
   std::vector<std::int32_t> vertex_of_fan_;
   std::vector<std::int32_t> source_face_;
+  std::vector<Triangle> face_fans_;
+  std::vector<std::int32_t> twins_;
   double scale_ = 1.0;
   HalfEdgeMesh mesh_;
   SurfaceReport report_;
