@@ -147,7 +147,7 @@ void measure(const std::string& file, const Options& options) {
   std::uniform_int_distribution<std::int32_t> any(0, static_cast<std::int32_t>(surface->vertex_count()) - 1);
   const HalfEdgeMesh& mesh = surface->half_edges();
   for (const int edges : {1, 4, 16, 64}) {
-    std::vector<double> again, until_wire;
+    std::vector<double> again, drawing, embedding_again, solver, path, until_wire;
     std::size_t touched = 0;
     for (int i = 0; i < 7; ++i) {
       Scribble scribble;
@@ -172,17 +172,19 @@ void measure(const std::string& file, const Options& options) {
       scribble.rings = 10;
       old = embeddings[0];
       const std::int32_t from = any(random), to = any(random);
-      until_wire.push_back(seconds([&] {
-        const Metric drawn = apply_scribbles(*surface, metrics[0], std::vector{scribble});
-        const Embedding embedding = re_embed(*surface, metrics[0], drawn, std::move(old));
-        const ExactGeodesics geodesics(embedding.mesh);
-        QuickPaths(geodesics, from, {}).path(to);
-      }));
+      Metric drawn;
+      drawing.push_back(seconds([&] { drawn = apply_scribbles(*surface, metrics[0], std::vector{scribble}); }));
+      embedding_again.push_back(seconds([&] { old = re_embed(*surface, metrics[0], drawn, std::move(old)); }));
+      std::unique_ptr<ExactGeodesics> geodesics;
+      solver.push_back(seconds([&] { geodesics = std::make_unique<ExactGeodesics>(old.mesh); }));
+      path.push_back(seconds([&] { QuickPaths(*geodesics, from, {}).path(to); }));
+      until_wire.push_back(drawing.back() + embedding_again.back() + solver.back() + path.back());
     }
     std::printf(
         "  embedding again after a stroke of %2d edges, about %zu vertices: %.2f ms; from a stroke ten rings wide to "
-        "the first wire: %.1f ms\n",
-        edges, touched, 1e3 * median(again), 1e3 * median(until_wire));
+        "the first wire: %.1f ms (metric %.1f, embedding again %.1f, geodesics' own mesh %.1f, quick path %.1f)\n",
+        edges, touched, 1e3 * median(again), 1e3 * median(until_wire), 1e3 * median(drawing),
+        1e3 * median(embedding_again), 1e3 * median(solver), 1e3 * median(path));
   }
   std::fflush(stdout);
 

@@ -2,6 +2,7 @@
 #include "geodesic_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <new>
 #include <numbers>
@@ -55,6 +56,7 @@ void check(const IntrinsicMesh& mesh) {
     if (twin < 0 || twin >= count || twin == h || mesh.twins[index(twin)] != h) {
       throw InvalidInput(where() + ": its twin, " + text(twin) + ", does not name it back");
     }
+    if (twin < h) continue;  // the rest has been looked at from the other side
     if (mesh.tail(twin) != mesh.tip(h) || mesh.tip(twin) != mesh.tail(h)) {
       throw InvalidInput(where() + ": its twin, " + text(twin) +
                          ", does not run the other way between the same vertices");
@@ -83,14 +85,13 @@ void check(const IntrinsicMesh& mesh) {
   }
 }
 
-/// Height of the apex over the base. W. Kahan, "Miscalculating area and angles of a needle-like triangle".
-double height(double base, double left, double right) {
-  double a = base, b = left, c = right;
+/// Four times the area of a triangle. W. Kahan, "Miscalculating area and angles of a needle-like triangle".
+double four_areas(double a, double b, double c) {
   if (a < b) std::swap(a, b);
   if (a < c) std::swap(a, c);
   if (b < c) std::swap(b, c);
   const double product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
-  return std::sqrt(std::max(product, 0.0)) / (2 * base);
+  return std::sqrt(std::max(product, 0.0));
 }
 
 /// Where the apex stands over the base, from its tail: (left^2 + base^2 - right^2) / (2 base), with the difference
@@ -99,6 +100,17 @@ double foot(double base, double left, double right) {
   const double square = std::abs(base - right) < std::abs(left - right) ? left * left + (base - right) * (base + right)
                                                                         : base * base + (left - right) * (left + right);
   return square / (2 * base);
+}
+
+/// Items that memory is asked for in advance.
+constexpr std::size_t kAhead = 8;
+
+void prefetch(const void* address) {
+#if defined(__GNUC__)
+  __builtin_prefetch(address);
+#else
+  static_cast<void>(address);
+#endif
 }
 
 /// Rows of an adjacency: for each i, where its items begin, given how many it has in counts[i + 1].
@@ -110,36 +122,49 @@ void accumulate_rows(std::vector<std::int32_t>& counts) {
 
 GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh) {
   check(mesh);
-  renumber(mesh);
+  std::vector<std::int32_t> own_face(mesh.triangles.size(), -1);
+  renumber(mesh, own_face);
 
-  std::vector<std::int32_t> own_face(original_face_.size());
-  for (std::size_t f = 0; f < original_face_.size(); ++f)
-    own_face[index(original_face_[f])] = static_cast<std::int32_t>(f);
   const auto entered_over = [&](std::int32_t original) {
     const std::int32_t twin = mesh.twins[index(original)];
     return twin < 0 ? -1 : 3 * own_face[index(twin / 3)] + twin % 3;
   };
-  half_edges_.resize(3 * original_face_.size());
-  angle_.resize(half_edges_.size());
-  for (std::size_t h = 0; h < half_edges_.size(); ++h) {
-    const std::int32_t original = original_half_edge(static_cast<std::int32_t>(h));
-    const std::int32_t after = next(original), before = previous(original);
-    const double base = mesh.lengths[index(original)];
-    const double left = mesh.lengths[index(before)], right = mesh.lengths[index(after)];
-    half_edges_[h] = {.length = base,
-                      .apex_x = foot(base, left, right),
-                      .apex_y = height(base, left, right),
-                      .left_inverse = 1 / left,
-                      .right_inverse = 1 / right,
-                      .tail = own_vertex(mesh.tail(original)),
-                      .tip = own_vertex(mesh.tip(original)),
-                      .apex = own_vertex(mesh.apex(original)),
-                      .left = entered_over(before),
-                      .right = entered_over(after)};
-    angle_[h] = std::atan2(half_edges_[h].apex_y, half_edges_[h].apex_x);
+  half_edges_.reserve(3 * original_face_.size());
+  angle_.reserve(3 * original_face_.size());
+  std::vector<Triangle> corners;
+  corners.reserve(original_face_.size());
+  for (std::size_t f = 0; f < original_face_.size(); ++f) {
+    if (f + kAhead < original_face_.size()) {
+      const std::size_t ahead = index(original_face_[f + kAhead]);
+      prefetch(&mesh.lengths[3 * ahead]);
+      prefetch(&mesh.twins[3 * ahead]);
+      prefetch(&mesh.triangles[ahead]);
+    }
+    const std::int32_t face = original_face_[f];
+    const double* lengths = &mesh.lengths[3 * index(face)];
+    const std::array inverses{1 / lengths[0], 1 / lengths[1], 1 / lengths[2]};
+    const double areas = four_areas(lengths[0], lengths[1], lengths[2]);
+    const Triangle& triangle = mesh.triangles[index(face)];
+    const Triangle& own =
+        corners.emplace_back(Triangle{own_vertex(triangle[0]), own_vertex(triangle[1]), own_vertex(triangle[2])});
+    const std::array entered{entered_over(3 * face), entered_over(3 * face + 1), entered_over(3 * face + 2)};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t after = (i + 1) % 3, before = (i + 2) % 3;
+      const HalfEdge& h = half_edges_.emplace_back(HalfEdge{.length = lengths[i],
+                                                            .apex_x = foot(lengths[i], lengths[before], lengths[after]),
+                                                            .apex_y = areas / (2 * lengths[i]),
+                                                            .left_inverse = inverses[before],
+                                                            .right_inverse = inverses[after],
+                                                            .tail = own[i],
+                                                            .tip = own[after],
+                                                            .apex = own[before],
+                                                            .left = entered[before],
+                                                            .right = entered[after]});
+      angle_.push_back(std::atan2(h.apex_y, h.apex_x));
+    }
   }
 
-  list_out();
+  list_out(corners);
 
   first_loose_.assign(vertex_count() + 1, 0);
   for (const LooseEdge& edge : mesh.loose_edges) {
@@ -159,14 +184,17 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh) {
   find_bending_vertices();
 }
 
-void GeodesicMesh::list_out() {
+void GeodesicMesh::list_out(const std::vector<Triangle>& corners) {
   first_out_.assign(vertex_count() + 1, 0);
-  for (const HalfEdge& h : half_edges_) ++first_out_[index(h.tail) + 1];
+  for (const Triangle& triangle : corners) {
+    for (const std::int32_t v : triangle) ++first_out_[index(v) + 1];
+  }
   accumulate_rows(first_out_);
   out_.resize(half_edges_.size());
   std::vector<std::int32_t> free_slot(first_out_.begin(), first_out_.end() - 1);
-  for (std::size_t h = 0; h < half_edges_.size(); ++h) {
-    out_[index(free_slot[index(half_edges_[h].tail)]++)] = static_cast<std::int32_t>(h);
+  std::int32_t h = 0;
+  for (const Triangle& triangle : corners) {
+    for (const std::int32_t v : triangle) out_[index(free_slot[index(v)]++)] = h++;
   }
 }
 
@@ -174,6 +202,7 @@ void GeodesicMesh::list_steps() {
   first_step_.assign(vertex_count() + 1, 0);
   steps_.reserve(2 * half_edges_.size() + loose_.size());
   double sum = 0.0;
+  std::size_t leaving = 0;  // in out_
   const auto add = [&](std::int32_t to, double length) {
     const auto rounded = static_cast<float>(length);
     steps_.push_back({to, rounded});
@@ -182,6 +211,10 @@ void GeodesicMesh::list_steps() {
   };
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(vertex_count()); ++v) {
     for (const std::int32_t h : out(v)) {
+      if (++leaving + 2 * kAhead < out_.size()) {
+        prefetch(&half_edge(out_[leaving + 2 * kAhead]));
+        if (const std::int32_t over = half_edge(out_[leaving + kAhead]).right; over >= 0) prefetch(&half_edge(over));
+      }
       const HalfEdge& edge = half_edge(h);
       add(edge.tip, edge.length);
       // On the boundary nobody leaves v along the edge that arrives here.
@@ -191,11 +224,12 @@ void GeodesicMesh::list_steps() {
       const HalfEdge& over = half_edge(edge.right);
       const HalfEdge& back = half_edge(next(h));
       const double x = over.length - back.apex_x, y = -back.apex_y;
-      const double length = std::hypot(over.apex_x - x, over.apex_y - y);
-      const double foot = x - (over.apex_x - x) * y / (over.apex_y - y);
+      const double dx = over.apex_x - x, dy = over.apex_y - y, foot = x * dy - dx * y;  // times dy, which is positive
+      if (!(foot > 0 && foot < over.length * dy)) continue;
+      const double length = std::sqrt(dx * dx + dy * dy);
       const double around =
           std::min(edge.length + 1 / over.right_inverse, half_edge(previous(h)).length + 1 / over.left_inverse);
-      if (foot > 0 && foot < over.length && length < kShortcut * around) add(over.apex, length);
+      if (length < kShortcut * around) add(over.apex, length);
     }
     for (const auto& [to, length] : loose(v)) add(to, length);
     first_step_[index(v) + 1] = static_cast<std::int32_t>(steps_.size());
@@ -204,7 +238,7 @@ void GeodesicMesh::list_steps() {
 }
 
 /// Breadth first over the triangles, a component after the other; a face gets its number with its first vertex.
-void GeodesicMesh::renumber(const IntrinsicMesh& mesh) {
+void GeodesicMesh::renumber(const IntrinsicMesh& mesh, std::vector<std::int32_t>& own_face) {
   const auto vertices = index(mesh.vertex_count);
   std::vector<std::int32_t> first(vertices + 1, 0), corners(3 * mesh.triangles.size());
   for (const Triangle& triangle : mesh.triangles) {
@@ -219,7 +253,6 @@ void GeodesicMesh::renumber(const IntrinsicMesh& mesh) {
   own_vertex_.assign(vertices, -1);
   original_vertex_.reserve(vertices);
   original_face_.reserve(mesh.triangles.size());
-  std::vector<std::uint8_t> numbered(mesh.triangles.size(), 0);
   const auto number = [&](std::int32_t v) {
     if (own_vertex_[index(v)] >= 0) return;
     own_vertex_[index(v)] = static_cast<std::int32_t>(original_vertex_.size());
@@ -232,8 +265,8 @@ void GeodesicMesh::renumber(const IntrinsicMesh& mesh) {
       const auto v = index(original_vertex_[done]);
       for (auto i = index(first[v]); i < index(first[v + 1]); ++i) {
         const std::int32_t face = corners[i];
-        if (numbered[index(face)]) continue;
-        numbered[index(face)] = 1;
+        if (own_face[index(face)] >= 0) continue;
+        own_face[index(face)] = static_cast<std::int32_t>(original_face_.size());
         original_face_.push_back(face);
         for (const std::int32_t corner : mesh.triangles[index(face)]) number(corner);
       }
@@ -309,6 +342,8 @@ MeshPart MeshCutter::cut(std::span<const std::int32_t> vertices) {
   for (std::size_t v = 0; v < used_vertices_.size(); ++v) {
     part->bends_paths_[v] = mesh_.bends_paths(used_vertices_[v]);
   }
+  std::vector<Triangle> corners;
+  corners.reserve(used_faces_.size());
   for (const std::int32_t face : used_faces_) {
     for (const std::int32_t h : {3 * face, 3 * face + 1, 3 * face + 2}) {
       GeodesicMesh::HalfEdge edge = mesh_.half_edge(h);
@@ -321,13 +356,15 @@ MeshPart MeshCutter::cut(std::span<const std::int32_t> vertices) {
       part->half_edges_.push_back(edge);
       part->angle_.push_back(mesh_.angle(h));
     }
+    const auto* h = &part->half_edges_.back() - 2;
+    corners.push_back({h[0].tail, h[1].tail, h[2].tail});
   }
   part->original_vertex_.resize(used_vertices_.size());
   std::iota(part->original_vertex_.begin(), part->original_vertex_.end(), 0);
   part->own_vertex_ = part->original_vertex_;
   part->original_face_.resize(used_faces_.size());
   std::iota(part->original_face_.begin(), part->original_face_.end(), 0);
-  part->list_out();
+  part->list_out(corners);
   part->first_loose_.assign(used_vertices_.size() + 1, 0);
   for (std::size_t v = 0; v < used_vertices_.size(); ++v) {
     for (const auto& [to, length] : mesh_.loose(used_vertices_[v])) {

@@ -80,8 +80,8 @@ class GeodesicMesh {
   }
   friend class MeshCutter;
   GeodesicMesh() = default;
-  void renumber(const IntrinsicMesh& mesh);
-  void list_out();
+  void renumber(const IntrinsicMesh& mesh, std::vector<std::int32_t>& own_face);
+  void list_out(const std::vector<Triangle>& corners);
   void list_steps();
   void find_bending_vertices();
 
