@@ -15,6 +15,8 @@ import bmesh
 import bpy
 import numpy as np
 
+from . import native
+
 if TYPE_CHECKING:
     from mathutils import Matrix
     from numpy.typing import NDArray
@@ -279,21 +281,7 @@ def _cut(
         mesh.calc_loop_triangles()
         polygons = _column(mesh.loop_triangles, "polygon_index", np.int32)
         return _column(mesh.loop_triangles, "vertices", np.int32, 3), polygons
-    starts = np.cumsum(sizes) - sizes
-    first = np.cumsum(sizes - 2) - (sizes - 2)
-    triangles = np.empty((int((sizes - 2).sum()), 3), dtype=np.int32)
-    three, four = np.flatnonzero(sizes == 3), np.flatnonzero(sizes == 4)
-    triangles[first[three]] = corners[starts[three, None] + np.arange(3)]
-    a, b, c, d = corners[starts[four, None] + np.arange(4)].T
-    # From the first corner to the third, unless one of the two triangles would lie on the other.
-    corner = points[a]
-    u, v, w = points[b] - corner, points[d] - corner, points[c] - corner
-    # (u x w) . (v x w), by Lagrange's identity: products alone take a tenth of the time.
-    uv, uw, vw, ww = (np.einsum("ij,ij->i", one, two) for one, two in ((u, v), (u, w), (v, w), (w, w)))
-    other = uv * ww > uw * vw
-    triangles[first[four]] = np.stack([a, b, np.where(other, d, c)], axis=1)
-    triangles[first[four] + 1] = np.stack([np.where(other, b, a), c, d], axis=1)
-    return triangles, np.repeat(np.arange(count, dtype=np.int32), sizes - 2)
+    return native.load().cut_polygons(points, corners, sizes)
 
 
 def _column(items: bpy.types.bpy_prop_collection, name: str, dtype: type, width: int = 1) -> NDArray:

@@ -133,6 +133,7 @@ std::vector<std::int32_t> numbers_from(py::handle value, const std::string& name
   const py::array array = py::array(py::module_::import("numpy").attr("asarray")(value));
   if (array.ndim() != 1) throw InvalidInput(name + ": expected integers of shape (n,), got shape " + shape_of(array));
   std::vector<std::int32_t> to;
+  if (array.shape(0) == 0) return to;  // of no dtype in particular
   to.reserve(static_cast<std::size_t>(array.shape(0)));
   for (const auto& [number] : indices_from<1>(array.attr("reshape")(-1, 1), name)) to.push_back(number);
   return to;

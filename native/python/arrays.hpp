@@ -6,7 +6,9 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "seamwire/edge_wire.hpp"
@@ -52,6 +54,15 @@ py::array view(const std::vector<std::array<T, N>>& rows, py::handle owner) {
 inline py::array view(const std::vector<Vector>& rows, py::handle owner) {
   const double* data = rows.empty() ? nullptr : rows.front().data();
   return view(data, {static_cast<py::ssize_t>(rows.size()), 3}, {sizeof(Vector), sizeof(double)}, owner);
+}
+
+/// A read-only array that keeps the values itself.
+template <class T>
+py::array handed_over(std::vector<T> values) {
+  auto held = std::make_unique<const std::vector<T>>(std::move(values));
+  const std::vector<T>& kept = *held;
+  const py::capsule owner(held.release(), [](void* p) { delete static_cast<const std::vector<T>*>(p); });
+  return view(kept, owner);
 }
 
 inline py::array view(const std::vector<Eigen::Matrix3d>& matrices, py::handle owner) {

@@ -15,7 +15,6 @@
 #include "arrays.hpp"
 #include "objects.hpp"
 #include "seamwire/livewire.hpp"
-#include "seamwire/segments.hpp"
 #include "watch.hpp"
 
 namespace seamwire::python {
@@ -112,37 +111,6 @@ bool wait_for(const LiveWire& live, std::optional<double> seconds) {
 }
 
 }  // namespace
-
-void bind_segments(py::module_& module) {
-  module.def(
-      "face_segments",
-      [](const SurfaceObject& surface, const py::object& cut_edges) {
-        const std::vector<Edge> cuts = edges_from(cut_edges, "cut_edges");
-        auto labels = std::make_unique<std::vector<std::int32_t>>(
-            without_gil([&] { return face_segments(*surface.surface, cuts); }));
-        const auto* const values = labels.get();
-        const py::capsule owner(labels.release(), [](void* p) { delete static_cast<std::vector<std::int32_t>*>(p); });
-        return view(*values, owner);
-      },
-      py::arg("surface"), py::arg("cut_edges"), R"(The segments into which cuts along edges part a surface.
-
-Parameters
-----------
-surface : Surface
-cut_edges : (k, 2) array_like of int
-    Vertex pairs; those that are no real edges, as the diagonals of polygons, cut nothing.
-
-Returns
--------
-(m,) int32
-    A number for each triangle: 0 in the segment of the most triangles, and so on.
-
-Raises
-------
-ValueError
-    Where a vertex is out of range.
-)");
-}
 
 void bind_live_wire(py::module_& module) {
   py::class_<CandidateObject>(module, "LiveCandidate", "One of the two wires from the seed to a target.")

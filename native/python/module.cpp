@@ -453,11 +453,7 @@ Cancelled
   module.def(
       "snap_to_edges",
       [](const SurfaceObject& surface, const Wire& wire) {
-        auto path = std::make_unique<std::vector<std::int32_t>>(
-            without_gil([&] { return snap_to_edges(*surface.surface, surface.snap_graph(), wire); }));
-        const auto* const vertices = path.get();
-        const py::capsule owner(path.release(), [](void* p) { delete static_cast<std::vector<std::int32_t>*>(p); });
-        return view(*vertices, owner);
+        return handed_over(without_gil([&] { return snap_to_edges(*surface.surface, surface.snap_graph(), wire); }));
       },
       py::arg("surface"), py::arg("wire"),
       R"(The path of real edges that stays closest to a wire, from its start to its end.
@@ -596,5 +592,5 @@ False cancels, and Cancelled is raised. Arrays that a result hands out are read-
   bind_scribble(module);
   bind_live_wire(module);
   bind_rays(module);
-  bind_segments(module);
+  bind_faces(module);
 }

@@ -117,11 +117,9 @@ struct EdgeWiresObject {
 void bind_scribble(py::module_& module);
 /// Adds LiveWire and what it answers with.
 void bind_live_wire(py::module_& module);
-/// Adds face_segments.
-void bind_segments(py::module_& module);
+/// Adds face_segments and cut_polygons.
+void bind_faces(py::module_& module);
 /// Adds RayTree.
-void bind_rays(py::module_& module);
-/// Rays, in rays.cpp.
 void bind_rays(py::module_& module);
 
 }  // namespace seamwire::python

@@ -235,5 +235,10 @@ class RayTree:
     ready: bool
     def wait(self) -> None: ...
 
+def cut_polygons(
+    points: ArrayLike, corners: ArrayLike, sizes: ArrayLike
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Return the triangles of triangles and quads, cut as Blender cuts them, and the polygon of each."""
+
 def face_segments(surface: Surface, cut_edges: ArrayLike) -> NDArray[np.int32]:
     """Return a segment number per triangle, 0 the one of the most triangles."""

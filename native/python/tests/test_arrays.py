@@ -175,3 +175,20 @@ def test_tensors_are_those_of_the_metric(curvature: sw.Curvature, metric: sw.Met
         mapped = np.einsum("nij,nj->ni", metric.tensors, direction)
         assert np.abs(np.cross(mapped, direction)).max() < 1e-9 * np.abs(mapped).max()
     assert np.abs(np.einsum("nij,nj->ni", metric.tensors, metric.normals)).max() < 1e-9
+
+
+def test_polygons_are_cut_into_triangles() -> None:
+    points = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.3, 0.3, 0.0), (0.0, 1.0, 0.0)]
+    triangles, polygons = sw.cut_polygons(points, [0, 1, 2, 3, 1, 2, 3], [4, 3])
+    assert triangles.dtype == polygons.dtype == np.int32
+    assert triangles.tolist() == [[0, 1, 2], [0, 2, 3], [1, 2, 3]], (
+        "the second quad would fold along the other diagonal"
+    )
+    assert polygons.tolist() == [0, 0, 1]
+    turned, _ = sw.cut_polygons(points, [1, 2, 3, 0], [4])
+    assert turned.tolist() == [[1, 2, 0], [2, 3, 0]]
+    assert sw.cut_polygons([], [], [])[0].shape == (0, 3)
+    with pytest.raises(ValueError, match=r"^sizes: they add up to 4, but there are 3 corners"):
+        sw.cut_polygons(points, [0, 1, 2], [4])
+    with pytest.raises(ValueError, match=r"^points: expected real numbers of shape \(n, 3\)"):
+        sw.cut_polygons([(0.0, 0.0)], [0, 1, 2], [3])
