@@ -7,8 +7,7 @@
 // - two metrics: seeding both on two threads, to the slower one alone
 // - a wire: tracing one path; tracing both, mapping them to the surface and snapping them to edges
 // - embedding, and doing it again after a stroke of 1, 4, 16 and 64 edges; and all that lies between the end of a
-// stroke
-//   and the first wire
+//   stroke and the first wire, part by part on one thread, and by the clock in a live wire
 #include <pthread.h>
 
 #include <atomic>
@@ -42,9 +41,6 @@ double processor_seconds(clockid_t clock) {
   clock_gettime(clock, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
-
-// Of strokes.
-const Vector kDirection(0.3, 0.9, 0.3);
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -119,6 +115,55 @@ void measure_two_metrics(const ExactGeodesics& first, const ExactGeodesics& seco
   std::fflush(stdout);
 }
 
+/// From a vertex on to the neighbour that lies furthest along, in one direction, again and again.
+Scribble stroke(const Surface& surface, std::int32_t v, int edges) {
+  const Vector direction(0.3, 0.9, 0.3);
+  const auto along = [&](std::int32_t u) { return surface.points()[static_cast<std::size_t>(u)].dot(direction); };
+  Scribble scribble;
+  for (int k = 0; k <= edges; ++k) {
+    scribble.points.push_back(surface.points()[static_cast<std::size_t>(v)]);
+    scribble.vertices.push_back(v);
+    std::int32_t best = v;
+    for (const auto u : surface.half_edges().vv_range(OpenMesh::VertexHandle(v))) {
+      if (along(u.idx()) > along(best)) best = u.idx();
+    }
+    v = best;
+  }
+  return scribble;
+}
+
+/// From the call that adds a stroke until the wires differ, on the clock: the live wire's threads do the work.
+void measure_strokes(const std::shared_ptr<const Surface>& surface, const Options& options) {
+  LiveWire live(surface, {.strength = {.max_anisotropy = options.anisotropy}});
+  std::mt19937 random(1);
+  std::uniform_int_distribution<std::int32_t> any(0, static_cast<std::int32_t>(surface->vertex_count()) - 1);
+  std::vector<double> first, both;
+  for (int i = 0; i < 9; ++i) {
+    const std::int32_t from = any(random), to = any(random);
+    live.set_scribbles({});
+    live.seed({from});
+    live.wait();
+    const LiveWires before = live.wires({to});
+    const Clock::time_point start = Clock::now();
+    live.set_scribbles({stroke(*surface, from, 16)});  // it begins at the seed, so that all wires feel it
+    for (std::size_t changed = 0; changed < 2;) {
+      const LiveWires now = live.wires({to});
+      const std::size_t was = changed;
+      changed = 0;
+      for (std::size_t which = 0; which < 2; ++which) changed += now.wires[which].length != before.wires[which].length;
+      if (was == 0 && changed > 0) first.push_back(since(start));
+      if (changed == 2) both.push_back(since(start));
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+  }
+  std::printf(
+      "  live wire, both metrics on two threads, from the end of a stroke of 16 edges, ten rings wide, to the first "
+      "new "
+      "wire (clock): median %.1f ms, least %.1f; to both: median %.1f ms, least %.1f\n",
+      1e3 * median(first), 1e3 * quantile(first, 0), 1e3 * median(both), 1e3 * quantile(both, 0));
+  std::fflush(stdout);
+}
+
 void measure(const std::string& file, const Options& options) {
   const auto surface = std::make_shared<const Surface>(read_surface(file, options.loop));
   std::vector<double> norms;
@@ -145,24 +190,11 @@ void measure(const std::string& file, const Options& options) {
   }
   std::mt19937 random(1);
   std::uniform_int_distribution<std::int32_t> any(0, static_cast<std::int32_t>(surface->vertex_count()) - 1);
-  const HalfEdgeMesh& mesh = surface->half_edges();
   for (const int edges : {1, 4, 16, 64}) {
     std::vector<double> again, drawing, embedding_again, solver, path, until_wire;
     std::size_t touched = 0;
     for (int i = 0; i < 7; ++i) {
-      Scribble scribble;
-      std::int32_t v = any(random);
-      for (int k = 0; k <= edges; ++k) {
-        scribble.points.push_back(surface->points()[static_cast<std::size_t>(v)]);
-        scribble.vertices.push_back(v);
-        // On to the neighbour that lies furthest along, in one direction.
-        std::int32_t best = v;
-        for (const auto u : mesh.vv_range(HalfEdgeMesh::VertexHandle(v))) {
-          const Vector& p = surface->points()[static_cast<std::size_t>(u.idx())];
-          if (p.dot(kDirection) > surface->points()[static_cast<std::size_t>(best)].dot(kDirection)) best = u.idx();
-        }
-        v = best;
-      }
+      Scribble scribble = stroke(*surface, any(random), edges);
       scribble.rings = 3;
       const Metric changed = apply_scribbles(*surface, metrics[0], std::vector{scribble});
       touched = 0;
@@ -207,6 +239,7 @@ void measure(const std::string& file, const Options& options) {
   std::printf("  tracing: median %.1f us, 95%% %.1f; both wires, mapped and snapped: median %.0f us, 95%% %.0f\n",
               1e6 * median(traced), 1e6 * quantile(traced, 0.95), 1e6 * median(both), 1e6 * quantile(both, 0.95));
   measure_two_metrics(first, second);
+  measure_strokes(surface, options);
 
   measure_cancelling("geodesics", duration, options, [&](const Task& task) { second.solve(0, task); });
   const auto edges = make_edge_graph(*surface, metrics[0]);

@@ -71,7 +71,9 @@ void LiveWire::set_metric(MetricFamily family, const Strength& strength) {
 void LiveWire::set_scribbles(std::vector<Scribble> scribbles) {
   const std::shared_ptr<Metrics> now = impl_->metrics_now();
   if (scribbles == now->scribbles) return;
-  impl_->change_metrics(std::make_shared<Metrics>(now->family, now->strength, std::move(scribbles)));
+  auto to = std::make_shared<Metrics>(now->family, now->strength, std::move(scribbles));
+  if (impl_->ground->along == Along::kSurface) to->go_on_from(*now);
+  impl_->change_metrics(std::move(to));
 }
 
 void LiveWire::seed(const Pick& pick, bool forward) {

@@ -27,6 +27,15 @@ Metric make_metric(const Surface& surface, const Curvature& curvature, Follow fo
 
 }  // namespace
 
+void Metrics::go_on_from(const Metrics& metrics) {
+  for (std::size_t which = 0; which < former_.size(); ++which) {
+    std::shared_ptr<const Prepared> from = metrics.prepared[which].peek();
+    if (!from) from = metrics.former(which);
+    const std::scoped_lock lock(mutex_);
+    former_[which] = std::move(from);
+  }
+}
+
 Prepared prepare(Ground& ground, Metrics& metrics, std::size_t which, const std::stop_token& stop) {
   const bool on_surface = ground.along == Along::kSurface;
   std::atomic<double>& fraction = metrics.fractions[which];
@@ -53,8 +62,13 @@ Prepared prepare(Ground& ground, Metrics& metrics, std::size_t which, const std:
   };
   if (on_surface) {
     const std::size_t most = std::max(kFacesAdded, kFacesAddedPerFace * ground.surface->face_count());
-    prepared.embedding = embed(*ground.surface, metric, {.max_faces_added = most}, task);
+    const EmbedOptions options{.max_faces_added = most};
+    const std::shared_ptr<const Prepared> former = metrics.former(which);
+    prepared.embedding = former ? re_embed(*ground.surface, former->metric, metric, *former->embedding, options, task)
+                                : embed(*ground.surface, metric, options, task);
     prepared.geodesics.emplace(prepared.embedding->mesh);
+    prepared.metric = std::move(metric);
+    metrics.forget_former(which);
   } else {
     prepared.graph = make_edge_graph(*ground.surface, metric, std::move(fans), task, metrics.scribbles, kFollow[which]);
   }

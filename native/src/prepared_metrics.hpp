@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <stop_token>
 #include <utility>
@@ -53,8 +54,9 @@ struct Ground {
   ComputedOnce<std::shared_ptr<const EdgeFans>> fans;
 };
 
-/// What one metric needs for any seed: across the surface the first three, along edges the last.
+/// What one metric needs for any seed: along edges the last, across the surface the others.
 struct Prepared {
+  Metric metric;
   std::optional<Embedding> embedding;
   std::optional<ExactGeodesics> geodesics;
   std::shared_ptr<const SnapGraph> snap_graph;
@@ -66,11 +68,27 @@ struct Metrics {
   Metrics(MetricFamily of, const Strength& with, std::vector<Scribble> after)
       : family(of), strength(with), scribbles(std::move(after)) {}
 
+  /// Embeddings are made from those of `metrics`, or, where these are not there yet, from what they would have been
+  /// made from: scribbles change little.
+  void go_on_from(const Metrics& metrics);
+  std::shared_ptr<const Prepared> former(std::size_t which) const {
+    const std::scoped_lock lock(mutex_);
+    return former_[which];
+  }
+  void forget_former(std::size_t which) {
+    const std::scoped_lock lock(mutex_);
+    former_[which] = nullptr;
+  }
+
   const MetricFamily family;
   const Strength strength;
   const std::vector<Scribble> scribbles;
   std::array<ComputedOnce<Prepared>, 2> prepared;
   std::array<std::atomic<double>, 2> fractions = {};  // of the preparation
+
+ private:
+  mutable std::mutex mutex_;
+  std::array<std::shared_ptr<const Prepared>, 2> former_;
 };
 
 /// Makes what one of the two metrics needs; throws Cancelled where `stop` tells it to. The metric's fractions of

@@ -8,7 +8,9 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <random>
 #include <thread>
+#include <vector>
 
 #include "seamwire/embedding.hpp"
 #include "seamwire/geodesics.hpp"
@@ -368,6 +370,54 @@ TEST(LiveWire, ScribblesChangeTheMetricsTheyAreMeantForAndGoWithoutATrace) {
     off.vertices[1] = 41 * 41;
     live.set_scribbles({off});
     EXPECT_THROW(live.wait(), InvalidInput);
+  }
+}
+
+TEST(LiveWire, AfterManyChangesOfTheStrokesWiresAreThoseOfTheListAlone) {
+  const auto surface = shared(shapes::bumpy(shapes::torus(40, 24), 0.02));
+  std::mt19937 random(3);
+  const auto stroke = [&] {
+    Scribble scribble;
+    auto v = static_cast<std::int32_t>(random() % surface->vertex_count());
+    for (int i = 0; i < 12; ++i) {
+      scribble.vertices.push_back(v);
+      scribble.points.push_back(surface->points()[static_cast<std::size_t>(v)]);
+      v = (v + (i % 3 == 0 ? 40 : 1)) % 960;
+    }
+    scribble.rings = 1 + static_cast<int>(random() % 6);
+    scribble.attracts = random() % 4 != 0;
+    return scribble;
+  };
+  LiveWire live(surface);
+  live.seed({7});
+  ASSERT_TRUE(live.wait());
+  std::vector<Scribble> strokes;
+  for (int i = 0; i < 30; ++i) {
+    const std::size_t at = strokes.empty() ? 0 : random() % strokes.size();
+    if (random() % 3 > 0 || strokes.empty()) {
+      strokes.insert(strokes.begin() + static_cast<std::ptrdiff_t>(at), stroke());
+    } else if (random() % 2 == 0) {
+      strokes.erase(strokes.begin() + static_cast<std::ptrdiff_t>(at));
+    } else {
+      std::swap(strokes[at], strokes.front());
+    }
+    live.set_scribbles(strokes);
+    if (i % 3 != 2) continue;  // the others are replaced while they are being worked on
+    ASSERT_TRUE(live.wait());
+    LiveWire fresh(surface);
+    fresh.set_scribbles(strokes);
+    fresh.seed({7});
+    ASSERT_TRUE(fresh.wait());
+    const LiveWires is = live.wires({333}), expected = fresh.wires({333});
+    EXPECT_EQ(is.shorter, expected.shorter);
+    for (std::size_t which = 0; which < 2; ++which) {
+      // Triangles may have other numbers, so sums are in another order.
+      EXPECT_NEAR(is.wires[which].length, expected.wires[which].length, 1e-12);
+      ASSERT_EQ(is.wires[which].points.size(), expected.wires[which].points.size());
+      for (std::size_t k = 0; k < is.wires[which].points.size(); ++k) {
+        EXPECT_NEAR((is.wires[which].points[k] - expected.wires[which].points[k]).norm(), 0, 1e-9);
+      }
+    }
   }
 }
 
