@@ -2,21 +2,22 @@
 """Exact geodesics of Seamwire beside those of other libraries, in one run on one machine.
 
     python native/bench/peers.py MESH... [--loop LEVELS]... [--repeats N] [--seeds N] [--skip NAME] [--most-faces N]
-        [--cgal build/bench/native/bench/cgal_bench] [--plot GROWTH.svg]
+        [--programs build/bench/native/bench] [--plot GROWTH.svg]
 
-Needs numpy, pygeodesic and potpourri3d, and seamwire_core on the path; CGAL's solver is a program of its own. All get the same triangles
-and the same seeds, one thread. Prints the median processor time of a solve, how many times as long the others take, how far their distances
-are from ours, and the exponent with which each one's time grows with the faces; --plot draws that. Exact peers are left out above
---most-faces. Peers run in a process of their own: some of them abort on meshes that are not manifold.
+Needs numpy, pygeodesic and potpourri3d, and seamwire_core on the path; CGAL's solver is a program of its own, and our own benchmark adds
+what it counts. All get the same triangles and the same seeds, one thread. Prints the median processor time of a solve, how many times as
+long the others take, how far their distances are from ours, and the exponent with which each time grows with the faces; --plot draws that.
+Exact peers are left out above --most-faces. Peers run in a process of their own: some of them abort on meshes that are not manifold.
 """
 
 import argparse
+import contextlib
 import multiprocessing
 import statistics
 import subprocess
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -113,16 +114,28 @@ def run_apart(name: str, *arguments: object) -> tuple[float, list[Array]] | None
     return result
 
 
-def run_cgal(program: Path, points: Array, triangles: NDArray[np.int32], seeds: list[int]) -> float | None:
-    """Return the median time of CGAL's solver, or None where it fails."""
+@contextlib.contextmanager
+def off_file(points: Array, triangles: NDArray[np.int32]) -> Iterator[str]:
+    """Write a mesh to a file that is there for a while."""
     with tempfile.NamedTemporaryFile("w", suffix=".off") as file:
         file.write(f"OFF\n{len(points)} {len(triangles)} 0\n")
         np.savetxt(file, points, fmt="%.17g")
         np.savetxt(file, np.insert(triangles, 0, 3, axis=1), fmt="%d")
         file.flush()
-        result = subprocess.run([program, file.name, *map(str, seeds)], capture_output=True, text=True, check=False)
+        yield file.name
+
+
+def run_cgal(program: Path, file: str, seeds: list[int]) -> float | None:
+    """Return the median time of CGAL's solver, or None where it fails."""
+    result = subprocess.run([program, file, *map(str, seeds)], capture_output=True, text=True, check=False)
     times = [float(line.split()[0]) for line in result.stdout.splitlines()]
     return statistics.median(times) if len(times) == len(seeds) else None
+
+
+def run_own(program: Path, file: str) -> str:
+    """Return what our own benchmark says of a mesh: lists, windows, nanoseconds a window, memory, sum of the distances."""
+    line = subprocess.run([program, file], capture_output=True, text=True, check=True).stdout
+    return " ".join(line.partition(" faces ")[2].split())
 
 
 def compare(file: Path, loop: int, options: argparse.Namespace) -> tuple[int, dict[str, float]]:
@@ -162,8 +175,13 @@ def compare(file: Path, loop: int, options: argparse.Namespace) -> tuple[int, di
             f"{error.mean():.1e} on average, {np.median(error):.1e} in the median",
             flush=True,
         )
-    if options.cgal and len(triangles) <= options.most_faces:
-        theirs = run_cgal(options.cgal, points, triangles, seeds)
+    if options.programs:
+        with off_file(points, triangles) as path:
+            print(f"  its own program: {run_own(options.programs / 'geodesics_bench', path)}", flush=True)
+    cgal = options.programs and options.programs / "cgal_bench"
+    if cgal and cgal.exists() and len(triangles) <= options.most_faces:
+        with off_file(points, triangles) as path:
+            theirs = run_cgal(cgal, path, seeds)
         if theirs is None:
             print("  CGAL             failed", flush=True)
         else:
@@ -223,7 +241,9 @@ def main() -> None:
     parser.add_argument("--seeds", type=int, default=5)
     parser.add_argument("--skip", action="append", default=[], choices=[n for n in SOLVERS if n != "seamwire"])
     parser.add_argument("--most-faces", type=int, default=200_000, help="leave the exact peers out above")
-    parser.add_argument("--cgal", type=Path, help="the program cgal_bench")
+    parser.add_argument(
+        "--programs", type=Path, help="the folder with geodesics_bench and, where it was built, cgal_bench"
+    )
     parser.add_argument("--plot", type=Path, help="an SVG of the times over the faces")
     options = parser.parse_args()
     curves: dict[str, list[tuple[int, float]]] = {}
