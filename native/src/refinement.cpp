@@ -15,7 +15,7 @@ using FaceHandle = OpenMesh::FaceHandle;
 // does not choose which edge to bisect.
 constexpr double kEqual = 1e-9;
 // Bisections of an original face, one of a part of a part, until newest-vertex bisection begins.
-constexpr std::uint8_t kNewestDepth = 40;
+constexpr std::uint8_t kNewestDepth = 14;
 // Bisections of an original face where the rest is left to fitting: few enough that no edge gets too short for that.
 constexpr std::uint8_t kShallowDepth = 8;
 
@@ -200,6 +200,7 @@ bool Refinement::refine(std::int32_t f, std::size_t most) {
       continue;
     }
     if (faces_added_ + (beyond < 0 ? 1 : 2) > most) return false;
+    newest_bisections_ += first_newest_ > 0;
     if (states_.empty() || beyond < 0 || enter(origins_[index(beyond / 3)])) {
       bisect(h);
     } else {
@@ -299,6 +300,7 @@ Embedding Refinement::result() && {
   out.invalid_before = invalid_before_;
   out.faces_added = faces_added_;
   out.hit_cap = hit_cap_;
+  out.newest_bisections = newest_bisections_;
   IntrinsicMesh& mesh = out.mesh;
   mesh.vertex_count = static_cast<std::int32_t>(points_.size());
   const auto faces = static_cast<std::int32_t>(mesh_.corners.size());

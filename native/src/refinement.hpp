@@ -165,6 +165,7 @@ class Refinement {
   std::vector<bool> is_flat_origin_;  // per face of the surface's half-edge mesh: it has no area; empty: none is
   std::size_t invalid_before_ = 0;
   std::size_t faces_added_ = 0;
+  std::size_t newest_bisections_ = 0;
   bool hit_cap_ = false;
 };
 

@@ -138,6 +138,21 @@ TEST(EmbeddingEnds, WhereThePapersSchemeDoesNot) {
   }
 }
 
+TEST(EmbeddingEnds, ByNewestVertexBisectionWherePropagationGoesTooDeep) {
+  const Surface surface = shapes::torus(24, 40).surface();
+  const Curvature curvature = principal_curvatures(surface);
+  const Embedding embedding =
+      embed(surface, feature_metric(surface, curvature, Follow::kMax, {.max_anisotropy = 1000}));
+  EXPECT_GT(embedding.newest_bisections, 100U);
+  EXPECT_FALSE(embedding.hit_cap);
+  EXPECT_EQ(embedding.invalid_left, 0U);
+  expect_sound(surface, embedding);
+  // Where the paper's scheme ends there is no need of it.
+  const Embedding mild = embed(surface, feature_metric(surface, curvature, Follow::kMax, {.max_anisotropy = 10}));
+  EXPECT_GT(mild.faces_added, 0U);
+  EXPECT_EQ(mild.newest_bisections, 0U);
+}
+
 TEST(EmbeddingEnds, OnBumpyShapesAtAnyAnisotropy) {
   for (const Mesh& mesh : {shapes::bumpy(shapes::icosphere(3), 0.05), shapes::bumpy(shapes::torus(40, 20), 0.05)}) {
     const Surface surface = mesh.surface();

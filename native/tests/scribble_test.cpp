@@ -219,6 +219,22 @@ TEST(Scribble, WithARadiusTheDensityOfTheMeshDoesNotMatter) {
   }
 }
 
+TEST(Scribble, ARadiusIsInTheUnitsOfTheModel) {
+  shapes::Mesh mesh = shapes::grid(20);
+  const Surface surface = mesh.surface();
+  Scribble scribble = stroke_on_plane(surface, line(Vector(0.21, 0.5, 0), Vector(0.79, 0.5, 0), 60));
+  scribble.radius = 0.17;
+  const Metric metric = apply_scribbles(surface, flat_metric(surface), {{scribble}});
+  for (Vector& p : mesh.points) p *= 64;  // exact in binary
+  for (Vector& p : scribble.points) p *= 64;
+  *scribble.radius *= 64;
+  const Surface large = mesh.surface();
+  const Metric of_large = apply_scribbles(large, flat_metric(large), {{scribble}});
+  for (std::size_t v = 0; v < metric.size(); ++v) {
+    ASSERT_NEAR((of_large.tensors[v] - metric.tensors[v]).norm(), 0, 1e-12) << v;
+  }
+}
+
 TEST(Scribble, TheDirectionIsThatOfTheDrawnLineDespiteATremblingHand) {
   const Surface surface = shapes::grid(40, 0.2).surface();
   std::mt19937 random(3);
@@ -264,6 +280,40 @@ TEST(Scribble, IsCarriedOverACurvedSurfaceInItsTangentPlanes) {
       EXPECT_NEAR((metric.tensors[v] - expected).norm(), 0, 1e-6) << "row " << row << ", column " << i;
     }
   }
+}
+
+TEST(Scribble, IsTurnedByTheLeastRotationFromNormalToNormal) {
+  // On a coarse cylinder, where projecting onto the next tangent plane would be another thing. Turned from normal to
+  // normal, a direction keeps its angle to the axis, whichever way it is carried.
+  const int n = 12, rows = 24;
+  const shapes::Mesh mesh = shapes::cylinder(n, rows);
+  const Surface surface = mesh.surface();
+  const Metric base = euclidean_metric(surface, principal_curvatures(surface));
+  Scribble scribble;  // a helix; around it all is as it is one step further up
+  for (int i = 0; i <= 16; ++i) {
+    scribble.vertices.push_back((4 + i) * n + i % n);
+    scribble.points.push_back(mesh.points[at(scribble.vertices.back())]);
+  }
+  scribble.rings = 4;
+  const Metric metric = apply_scribbles(surface, base, {{scribble}});
+  const auto angle_to_axis = [&](std::int32_t v) {
+    const Vector& normal = metric.normals[at(v)];
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(metric.tensors[at(v)] +
+                                                               100 * normal * normal.transpose());
+    const Vector along = eigen.eigenvectors().col(0);
+    return std::atan(along.dot(kUp.cross(normal)) / along.z());
+  };
+  const int middle = 12;  // the row where the stroke is half way
+  const double drawn = angle_to_axis(middle * n + middle - 4);
+  EXPECT_GT(std::abs(drawn), 0.3);
+  int carried = 0;
+  for (int aside = -3; aside <= 3; ++aside) {
+    const std::int32_t v = middle * n + (middle - 4 + aside + n) % n;
+    if (metric.tensors[at(v)].isApprox(base.tensors[at(v)])) continue;
+    ++carried;
+    EXPECT_NEAR(angle_to_axis(v), drawn, 1e-9) << aside << " columns aside";
+  }
+  EXPECT_GE(carried, 5);
 }
 
 TEST(Scribble, OfTwoThatCrossTheLaterWinsAlongItsLine) {
@@ -312,6 +362,21 @@ TEST(Scribble, TheListAloneDecides) {
   Metric step = base;
   for (const Scribble& scribble : scribbles) step = apply_scribbles(surface, step, {{scribble}});
   EXPECT_EQ(step.tensors, all.tensors);
+  // Removed from the list, a scribble leaves no trace, bit for bit; in another order they make another metric, whatever
+  // the order was before.
+  const std::vector<Scribble> without{scribbles[0], scribbles[2]}, reordered{scribbles[2], scribbles[0], scribbles[1]};
+  const Metric two = apply_scribbles(surface, apply_scribbles(surface, base, {{scribbles[0]}}), {{scribbles[2]}});
+  scribbles.erase(scribbles.begin() + 1);
+  EXPECT_EQ(apply_scribbles(surface, base, scribbles).tensors, two.tensors);
+  EXPECT_EQ(scribbles, without);
+  EXPECT_NE(apply_scribbles(surface, base, reordered).tensors, all.tensors);
+  EXPECT_EQ(apply_scribbles(surface, base, reordered).tensors,
+            apply_scribbles(surface, apply_scribbles(surface, base, {{reordered[0], reordered[1]}}), {{reordered[2]}})
+                .tensors);
+  scribbles.clear();
+  const Metric back = apply_scribbles(surface, base, scribbles);
+  EXPECT_EQ(back.tensors, base.tensors);
+  EXPECT_EQ(back.normals, base.normals);
 }
 
 TEST(Scribble, ActsOnTheMetricsItIsMeantFor) {

@@ -32,18 +32,20 @@ struct Embedding {
   std::vector<std::int32_t> source_face;  ///< the caller's face that each triangle of `mesh` lies in
   std::size_t invalid_before = 0;         ///< invalid triangles of the input, those without an area among them
   std::size_t faces_added = 0;
-  std::size_t invalid_left = 0;  ///< holes: faces without an area, smaller ones than sigma, or what the cap leaves
-  bool hit_cap = false;          ///< max_faces_added ended the subdivision
-  bool is_local = false;         ///< re_embed() can go on from it: see there
+  std::size_t newest_bisections = 0;  ///< of newest-vertex bisection, where the other schemes are left for it
+  std::size_t invalid_left = 0;       ///< holes: faces without an area, smaller ones than sigma, or what the cap leaves
+  bool hit_cap = false;               ///< max_faces_added ended the subdivision
+  bool is_local = false;              ///< re_embed() can go on from it: see there
   std::vector<std::int32_t>
       unreachable;  ///< the caller's vertices in a face, but in no valid triangle and on no edge to run along
 };
 
 /// Bisects invalid triangles, largest perimeter first, at the midpoint of their longest edge in the metric, until none
 /// is left. Where that takes more than four times the surface's triangles, and 20 000, it begins anew and bisects the
-/// neighbour behind the edge first, until that edge is the neighbour's longest too; what takes too many triangles even
-/// so is bisected once more with lengths that make it valid. That ends, with at most one and a half times the triangles
-/// of the first scheme where that does (docs/method.md). Lengths are those of the ambient reading (metric.hpp).
+/// neighbour behind the edge first, until that edge is the neighbour's longest too, and from a depth on opposite the
+/// newest vertex; what takes too many triangles even so is bisected once more with lengths that make it valid. That
+/// ends, with at most one and a half times the triangles of the first scheme where that does (docs/method.md). Lengths
+/// are those of the ambient reading (metric.hpp).
 ///
 /// Where the surface is cut open each side is bisected on its own. Triangles without an area cannot be bisected away:
 /// they are taken away before, by merging corners at the same place (one of the two vertices then has no triangle, but
