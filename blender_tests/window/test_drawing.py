@@ -11,6 +11,16 @@ from desk import GREEN, ORANGE, RED, WHITE, Desk, near, shows
 from mathutils import Euler
 from scene import ADDON, add_grid, chain, seams, snapshot
 from seamwire import board, edit_mesh
+from seamwire.session import Session
+
+
+def with_a_wire(desk: Desk) -> Session:
+    """Start the tool and keep a wire along the middle row."""
+    session, ui = desk.start(), desk.ui
+    ui.click(desk.at(36), ctrl=True)
+    ui.click(desk.at(44))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    return session
 
 
 def test_wires_are_drawn_kept_and_marked(desk: Desk) -> None:
@@ -255,10 +265,8 @@ def test_keys_of_edit_mode_do_nothing_while_drawing(desk: Desk) -> None:
 
 
 def test_wires_on_the_far_side_are_faint(desk: Desk) -> None:
-    session, ui = desk.start(), desk.ui
-    ui.click(desk.at(36), ctrl=True)
-    ui.click(desk.at(44))
-    ui.wait_until(lambda: len(session.wires) == 1)
+    with_a_wire(desk)
+    ui = desk.ui
     at = desk.at(37, 38)
     assert shows(ui.pixels(), at, RED)
     # A second sheet above the first, as seen from the eye, is in Blender's way and not in the drawing's.
@@ -305,10 +313,8 @@ def test_leaving_edit_mode_ends_the_tool(desk: Desk) -> None:
 
 
 def test_changing_the_mesh_ends_the_tool(desk: Desk) -> None:
-    session, ui = desk.start(), desk.ui
-    ui.click(desk.at(36), ctrl=True)
-    ui.click(desk.at(44))
-    ui.wait_until(lambda: len(session.wires) == 1)
+    with_a_wire(desk)
+    ui = desk.ui
     bm = bmesh.from_edit_mesh(desk.obj.data)
     bm.verts.ensure_lookup_table()
     bmesh.ops.delete(bm, geom=[bm.verts[80]], context="VERTS")
@@ -334,10 +340,8 @@ def change_of(what: str, bm: bmesh.types.BMesh) -> None:
 
 @pytest.mark.parametrize("what", ["a place", "an edge", "the order", "what is hidden"])
 def test_changing_the_mesh_ends_the_tool_also_where_all_counts_stay(desk: Desk, what: str) -> None:
-    session, ui = desk.start(), desk.ui
-    ui.click(desk.at(36), ctrl=True)
-    ui.click(desk.at(44))
-    ui.wait_until(lambda: len(session.wires) == 1)
+    with_a_wire(desk)
+    ui = desk.ui
     bm = bmesh.from_edit_mesh(desk.obj.data)
     bm.verts.ensure_lookup_table()
     change_of(what, bm)
@@ -352,10 +356,7 @@ def test_a_change_that_is_not_found_yet_is_found_before_anything_is_marked(
     desk: Desk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(edit_mesh, "_PART", 8)
-    session, ui = desk.start(), desk.ui
-    ui.click(desk.at(36), ctrl=True)
-    ui.click(desk.at(44))
-    ui.wait_until(lambda: len(session.wires) == 1)
+    session, ui = with_a_wire(desk), desk.ui
     bm = bmesh.from_edit_mesh(desk.obj.data)
     bm.verts.ensure_lookup_table()
     change_of("what is hidden", bm)
@@ -396,10 +397,7 @@ def test_removing_the_object_ends_the_tool(desk: Desk) -> None:
 
 
 def test_an_error_ends_the_tool_and_leaves_the_mesh(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
-    session, ui = desk.start(), desk.ui
-    ui.click(desk.at(36), ctrl=True)
-    ui.click(desk.at(44))
-    ui.wait_until(lambda: len(session.wires) == 1)
+    session, ui = with_a_wire(desk), desk.ui
 
     def fail(*_: object, **__: object) -> None:
         raise RuntimeError("as the test wants it")
