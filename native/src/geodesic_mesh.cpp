@@ -105,14 +105,6 @@ double foot(double base, double left, double right) {
 /// Items that memory is asked for in advance.
 constexpr std::size_t kAhead = 8;
 
-void prefetch(const void* address) {
-#if defined(__GNUC__)
-  __builtin_prefetch(address);
-#else
-  static_cast<void>(address);
-#endif
-}
-
 /// Rows of an adjacency: for each i, where its items begin, given how many it has in counts[i + 1].
 void accumulate_rows(std::vector<std::int32_t>& counts) {
   std::partial_sum(counts.begin(), counts.end(), counts.begin());
@@ -142,7 +134,6 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh) {
     }
     const std::int32_t face = original_face_[f];
     const double* lengths = &mesh.lengths[3 * index(face)];
-    const std::array inverses{1 / lengths[0], 1 / lengths[1], 1 / lengths[2]};
     const double areas = four_areas(lengths[0], lengths[1], lengths[2]);
     const Triangle& triangle = mesh.triangles[index(face)];
     const Triangle& own =
@@ -153,8 +144,8 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh) {
       const HalfEdge& h = half_edges_.emplace_back(HalfEdge{.length = lengths[i],
                                                             .apex_x = foot(lengths[i], lengths[before], lengths[after]),
                                                             .apex_y = areas / (2 * lengths[i]),
-                                                            .left_inverse = inverses[before],
-                                                            .right_inverse = inverses[after],
+                                                            .left_length = lengths[before],
+                                                            .right_length = lengths[after],
                                                             .tail = own[i],
                                                             .tip = own[after],
                                                             .apex = own[before],
@@ -227,8 +218,7 @@ void GeodesicMesh::list_steps() {
       const double dx = over.apex_x - x, dy = over.apex_y - y, foot = x * dy - dx * y;  // times dy, which is positive
       if (!(foot > 0 && foot < over.length * dy)) continue;
       const double length = std::sqrt(dx * dx + dy * dy);
-      const double around =
-          std::min(edge.length + 1 / over.right_inverse, half_edge(previous(h)).length + 1 / over.left_inverse);
+      const double around = std::min(edge.length + over.right_length, edge.left_length + over.left_length);
       if (length < kShortcut * around) add(over.apex, length);
     }
     for (const auto& [to, length] : loose(v)) add(to, length);

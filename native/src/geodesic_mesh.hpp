@@ -12,6 +12,15 @@
 
 namespace seamwire {
 
+/// Asks for memory that is needed soon.
+inline void prefetch(const void* address) {
+#if defined(__GNUC__)
+  __builtin_prefetch(address);
+#else
+  static_cast<void>(address);
+#endif
+}
+
 /// What the wavefront reads: every triangle unfolded into the frame of each of its half-edges, in one cache line each.
 /// Vertices and faces are renumbered breadth first, so that a front touches memory that lies together.
 ///
@@ -22,7 +31,7 @@ class GeodesicMesh {
   struct alignas(64) HalfEdge {
     double length;
     double apex_x, apex_y;
-    double left_inverse, right_inverse;  ///< one over the lengths of tail-apex and of tip-apex
+    double left_length, right_length;  ///< of tail-apex and of tip-apex
     std::int32_t tail, tip, apex;
     std::int32_t left, right;  ///< the half-edge a path enters next over tail-apex, over tip-apex; -1 on the boundary
   };

@@ -36,11 +36,11 @@ double cross(const Point2& a, const Point2& b) { return a.x * b.y - a.y * b.x; }
 
 /// Into the frame of the half-edge entered over the left or the right side.
 Point2 to_left(const HalfEdge& h, const Point2& p) {
-  const double c = h.apex_x * h.left_inverse, s = h.apex_y * h.left_inverse;
+  const double c = h.apex_x / h.left_length, s = h.apex_y / h.left_length;
   return {p.x * c + p.y * s, p.y * c - p.x * s};
 }
 Point2 to_right(const HalfEdge& h, const Point2& p) {
-  const double c = (h.length - h.apex_x) * h.right_inverse, s = -h.apex_y * h.right_inverse;
+  const double c = (h.length - h.apex_x) / h.right_length, s = -h.apex_y / h.right_length;
   const double x = p.x - h.apex_x, y = p.y - h.apex_y;
   return {x * c + y * s, y * c - x * s};
 }

@@ -17,6 +17,8 @@ class VertexQueue {
 
   bool empty() const { return heap_.empty(); }
 
+  std::int32_t least() const { return heap_.front().second; }
+
   /// Puts a vertex in, or moves it to a lesser distance than it has.
   void lower(std::int32_t vertex, double distance) {
     std::int32_t& place = place_[static_cast<std::size_t>(vertex)];

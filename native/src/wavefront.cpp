@@ -16,9 +16,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "vertex_queue.hpp"
+#include "window_kernels.hpp"
 #include "window_lists.hpp"
 
 namespace seamwire {
@@ -31,13 +33,6 @@ using TraceRecord = DistanceField::TraceRecord;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A window narrower than this part of its edge is dropped: what is missed next to it is of second order in the width.
-constexpr double kLeastWidth = 1e-12;
-/// Two windows are compared once their overlap is this part of the narrower one: less is not worth the roots.
-constexpr double kLeastOverlap = 0.25;
-/// Where a window's way to the apex is closer to an end of the base than this part of it and not straight, it is the
-/// way over that end, which is known better from the end itself.
-constexpr double kCornerWidth = 1e-9;
 /// A path arrives at a vertex in a direction known up to this angle: ties, and gains too small to count, are within it.
 constexpr double kShadowMargin = 1e-3;
 /// A source whose distance falls by less than this part of it does not send out windows again: that is rounding.
@@ -46,7 +41,10 @@ constexpr double kLeastGain = 1e-13;
 constexpr std::size_t kWorkBetweenChecks = 8192;
 constexpr std::size_t kWorkOfAList = 8;
 
+/// A vertex: not met, met, passed by the front.
 enum class Status : std::uint8_t { kOut, kFront, kInside };
+/// A half-edge's list: without windows, with windows that wait for the front, in the queue of those that go on.
+enum class Gathered : std::uint8_t { kNothing, kSome, kGoesOn };
 
 class Wavefront {
  public:
@@ -58,7 +56,7 @@ class Wavefront {
         status_(mesh.vertex_count(), Status::kOut),
         queue_(mesh.vertex_count()),
         lists_(mesh.half_edge_count()),
-        is_waiting_(mesh.half_edge_count(), 0) {
+        gathered_(mesh.half_edge_count(), Gathered::kNothing) {
     result_.distances.assign(mesh.vertex_count(), kInfinity);
     result_.records.resize(mesh.vertex_count());
   }
@@ -67,8 +65,12 @@ class Wavefront {
     task_.check(0.0);
     lower(seed_, 0.0, {});
     while (!queue_.empty()) {
-      advance(queue_.pop());
+      const std::int32_t v = queue_.pop();
+      const auto next = queue_.empty() ? std::span<const std::int32_t>() : mesh_.out(queue_.least());
+      prefetch(next.data());
+      advance(v);
       ++vertices_done_;
+      for (const std::int32_t h : next) prefetch(&mesh_.half_edge(h));
       drain();
     }
     task_.check(1.0);
@@ -111,7 +113,10 @@ class Wavefront {
       enqueue(GeodesicMesh::previous(h));
       enqueue(GeodesicMesh::next(h));
       const std::int32_t opposite = mesh_.half_edge(h).right;
-      if (opposite >= 0 && status_[index(mesh_.half_edge(opposite).apex)] != Status::kOut) enqueue(opposite);
+      if (opposite >= 0 && gathered_[index(opposite)] == Gathered::kSome &&
+          status_[index(mesh_.half_edge(opposite).apex)] != Status::kOut) {
+        enqueue(opposite);
+      }
     }
   }
 
@@ -119,10 +124,11 @@ class Wavefront {
   void lower_neighbours(std::int32_t v) {
     const double from = distance(v);
     for (const std::int32_t h : mesh_.out(v)) {
+      const HalfEdge& edge = mesh_.half_edge(h);
+      lower(edge.tip, from + edge.length, {.x = edge.length, .half_edge = ~h, .source = v});
+      if (edge.left >= 0) continue;  // the edge to the apex is that to the tip in the corner beside
       const std::int32_t before = GeodesicMesh::previous(h);
-      const double tip_length = mesh_.half_edge(h).length, apex_length = mesh_.half_edge(before).length;
-      lower(mesh_.half_edge(h).tip, from + tip_length, {.x = tip_length, .half_edge = ~h, .source = v});
-      lower(mesh_.half_edge(h).apex, from + apex_length, {.x = apex_length, .half_edge = ~before, .source = v});
+      lower(edge.apex, from + edge.left_length, {.x = edge.left_length, .half_edge = ~before, .source = v});
     }
     for (const auto& [to, length] : mesh_.loose(v)) {
       lower(to, from + length, {.x = length, .half_edge = TraceRecord::kLooseEdge, .source = v});
@@ -197,14 +203,15 @@ class Wavefront {
   /// A window from v over the corner between h and the edge on its left, for the directions from `begin` to `end`, as
   /// angles from h.
   void send_window(std::int32_t v, std::int32_t h, double begin, double end) {
+    if (!(begin < end) || end <= 0 || begin >= mesh_.angle(h)) return;
     const HalfEdge& edge = mesh_.half_edge(h);
-    if (edge.right < 0 || !(begin < end) || end <= 0 || begin >= mesh_.angle(h)) return;
-    const double cosine = (edge.length - edge.apex_x) * edge.right_inverse;
-    const double sine = -edge.apex_y * edge.right_inverse;
+    if (edge.right < 0) return;
+    const double cosine = (edge.length - edge.apex_x) / edge.right_length;
+    const double sine = -edge.apex_y / edge.right_length;
     const double x = -edge.apex_x * cosine - edge.apex_y * sine, y = edge.apex_x * sine - edge.apex_y * cosine;
     if (!(y < 0)) return;
     // Where the line from v in a direction meets the opposite edge, from its tip (the apex here).
-    const double length = mesh_.half_edge(edge.right).length;
+    const double length = edge.right_length;
     const auto meets = [&](double direction) {
       const double dx = std::cos(direction), dy = std::sin(direction);
       const double rx = dx * cosine + dy * sine, ry = dy * cosine - dx * sine;
@@ -215,27 +222,30 @@ class Wavefront {
     if (!(b1 - b0 > kLeastWidth * length)) return;
     WindowList& list = lists_[index(edge.right)];
     list.reserve_back(1, blocks_).set(0, b0, b1, x, y, distance(v), v);
-    list.grew_back(1, blocks_);
-    enqueue_if_passed(edge.right);
+    list.grew_back(1);
+    gather(edge.right, edge.apex, edge.tip);
   }
 
   void enqueue(std::int32_t h) {
-    if (is_waiting_[index(h)] || lists_[index(h)].size == 0) return;
-    is_waiting_[index(h)] = 1;
-    waiting_.push_back(h);
+    if (gathered_[index(h)] != Gathered::kSome) return;
+    gathered_[index(h)] = Gathered::kGoesOn;
+    going_on_.push_back(h);
+    prefetch(&mesh_.half_edge(h));
+    prefetch(&lists_[index(h)]);
   }
-  /// A list goes on as soon as the front has passed an end of its edge; until then it gathers.
-  void enqueue_if_passed(std::int32_t h) {
-    const HalfEdge& edge = mesh_.half_edge(h);
-    if (status_[index(edge.tail)] == Status::kInside || status_[index(edge.tip)] == Status::kInside) enqueue(h);
+  /// The list of h, from tail to tip, has got windows. It goes on as soon as the front has passed an end of its edge;
+  /// until then it gathers.
+  void gather(std::int32_t h, std::int32_t tail, std::int32_t tip) {
+    if (gathered_[index(h)] == Gathered::kNothing) gathered_[index(h)] = Gathered::kSome;
+    if (status_[index(tail)] == Status::kInside || status_[index(tip)] == Status::kInside) enqueue(h);
   }
 
   /// First in, first out: a list that comes later finds more windows gathered, and better distances.
   void drain() {
     // NOLINTNEXTLINE(modernize-loop-convert): the list grows while it is read.
-    for (std::size_t i = 0; i < waiting_.size(); ++i) {
-      const std::int32_t h = waiting_[i];
-      is_waiting_[index(h)] = 0;
+    for (std::size_t i = 0; i < going_on_.size(); ++i) {
+      const std::int32_t h = going_on_[i];
+      gathered_[index(h)] = Gathered::kNothing;
       propagate(h);
       while (!sources_again_.empty()) {
         const std::int32_t v = sources_again_.back();
@@ -243,7 +253,7 @@ class Wavefront {
         send_out(v);
       }
     }
-    waiting_.clear();
+    going_on_.clear();
   }
 
   void count(std::size_t windows) {
@@ -255,196 +265,175 @@ class Wavefront {
     task_.check(static_cast<double>(vertices_done_) / static_cast<double>(mesh_.vertex_count()));
   }
 
-  /// The filter of Xin and Wang: the window cannot matter if the ends of the edge, walked along it, do better at the
-  /// window's far end. Compared in squares: no root.
-  static bool is_useless(double at_tail, double at_tip, double length, double b0, double b1, double x, double y,
-                         double distance) {
-    const double over_tail = at_tail + b1 - distance, over_tip = at_tip + (length - b0) - distance;
-    const double square0 = (b0 - x) * (b0 - x) + y * y, square1 = (b1 - x) * (b1 - x) + y * y;
-    return over_tail < 0 || over_tip < 0 || over_tail * over_tail < square1 || over_tip * over_tip < square0;
-  }
-
-  static double distance_at(const Windows& w, std::size_t i, double b) {
-    return w.distance[i] + std::sqrt((b - w.x[i]) * (b - w.x[i]) + w.y[i] * w.y[i]);
-  }
-
-  /// Where on the base the windows i and j are equally far, between begin and end, at which different ones are nearer:
-  /// the root of d_i + |s_i - b| = d_j + |s_j - b|, squared twice.
-  static double border(const Windows& w, std::size_t i, std::size_t j, double begin, double end) {
-    const double gap = w.distance[j] - w.distance[i], gap2 = gap * gap;
-    const double xi = w.x[i] - begin, xj = w.x[j] - begin;
-    const double norm_i = xi * xi + w.y[i] * w.y[i], norm_j = xj * xj + w.y[j] * w.y[j];
-    const double p = xj - xi, q = 0.5 * (norm_i - norm_j - gap2);
-    const double a = p * p - gap2, b = p * q + gap2 * xj, c = q * q - gap2 * norm_j;
-    const double root = std::sqrt(std::max(b * b - a * c, 0.0));
-    const double sum = b < 0 ? root - b : -root - b;
-    const double r0 = sum / a, r1 = c / sum;
-    const double width = end - begin;
-    const bool is_r0_inside = r0 >= 0 && r0 <= width, is_r1_inside = r1 >= 0 && r1 <= width;
-    if (is_r0_inside != is_r1_inside) return begin + (is_r0_inside ? r0 : r1);
-    // One of the two belongs to the equation's mirror image, d_i - |s_i - b|.
-    const auto miss = [&](double r) { return std::abs(distance_at(w, i, begin + r) - distance_at(w, j, begin + r)); };
-    if (is_r0_inside) return begin + (miss(r0) < miss(r1) ? r0 : r1);
-    return std::nan("");
-  }
-
-  /// Drops what is useless from a list, in place, and cuts back windows where the one beside them is nearer. Returns
-  /// how many are left.
-  std::uint32_t prune(const Windows& w, std::uint32_t size, double at_tail, double at_tip, double length) {
-    std::uint32_t kept = 0;
-    const double narrow = kLeastWidth * length;
-    for (std::uint32_t next = 0; next < size; ++next) {
-      if (is_useless(at_tail, at_tip, length, w.b0[next], w.b1[next], w.x[next], w.y[next], w.distance[next])) continue;
-      if (kept != next) w.set(kept, w.b0[next], w.b1[next], w.x[next], w.y[next], w.distance[next], w.source[next]);
-      bool is_alive = true;
-      while (kept > 0) {
-        const std::size_t i = kept - 1, j = kept;
-        const double begin = std::max(w.b0[i], w.b0[j]), end = std::min(w.b1[i], w.b1[j]);
-        if (!(end - begin > kLeastOverlap * std::min(w.b1[i] - w.b0[i], w.b1[j] - w.b0[j]))) break;
-        const double at_begin = distance_at(w, i, begin) - distance_at(w, j, begin);
-        const double at_end = distance_at(w, i, end) - distance_at(w, j, end);
-        // The difference of the two distances rises or falls all along the overlap if the line through both sources
-        // does not meet it.
-        const double side_begin = (w.x[i] - begin) * w.y[j] - (w.x[j] - begin) * w.y[i];
-        const double side_end = (w.x[i] - end) * w.y[j] - (w.x[j] - end) * w.y[i];
-        if (side_begin * side_end < 0) break;
-        double i_until = end, j_from = begin;  // i is the nearer one up to here; j from here on
-        if (at_begin <= 0 && at_end <= 0) {
-          j_from = end;
-        } else if (at_begin >= 0 && at_end >= 0) {
-          i_until = begin;
-        } else if (at_begin < 0) {
-          const double b = border(w, i, j, begin, end);
-          if (!std::isnan(b)) i_until = j_from = b;
-        } else {
-          break;
-        }
-        if (i_until < end && w.b1[i] <= end) w.b1[i] = i_until;
-        if (j_from > begin && w.b0[j] >= begin) w.b0[j] = j_from;
-        if (!(w.b1[j] - w.b0[j] > narrow)) {
-          is_alive = false;
-          break;
-        }
-        if (w.b1[i] - w.b0[i] > narrow) break;
-        w.set(i, w.b0[j], w.b1[j], w.x[j], w.y[j], w.distance[j], w.source[j]);
-        --kept;
+  /// Sorts a list by the middles of its windows: those that came over different sides of a triangle are mixed, and
+  /// only neighbours are compared. Few are out of place.
+  static void sort(const Windows& w, std::size_t size) {
+    for (std::size_t i = 1; i < size; ++i) {
+      const double b0 = w.b0[i], b1 = w.b1[i], x = w.x[i], y = w.y[i], d = w.distance[i];
+      const std::int32_t source = w.source[i];
+      std::size_t to = i;
+      for (; to > 0 && w.b0[to - 1] + w.b1[to - 1] > b0 + b1; --to) {
+        w.set(to, w.b0[to - 1], w.b1[to - 1], w.x[to - 1], w.y[to - 1], w.distance[to - 1], w.source[to - 1]);
       }
-      kept += is_alive;
+      if (to < i) w.set(to, b0, b1, x, y, d, source);
+    }
+  }
+
+  /// Sorts a list in place, cuts windows back to where they are nearer than their neighbours, and drops those of which
+  /// nothing is left. Returns how many there still are. What is cut off is reached sooner by a path that exists,
+  /// whatever becomes of its window, so all pairs can be compared at once.
+  std::size_t prune(const Windows& w, std::size_t size, double length) {
+    std::int64_t* overlaps = flags_.room_for(size);
+    if (!kernels_.find_overlaps(w, size, overlaps)) {
+      sort(w, size);
+      kernels_.find_overlaps(w, size, overlaps);
+    }
+    std::size_t* lefts = lefts_.room_for(size);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i + 1 < size; ++i) {
+      lefts[count] = i;
+      count += static_cast<std::size_t>(overlaps[i]);
+    }
+    if (count == 0) return size;
+
+    const std::size_t stride = count + kPadding;
+    const Pairs pairs = Pairs::in(pairs_.room_for(Pairs::kColumns * stride), stride);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = lefts[k], j = i + 1;
+      pairs.begin[k] = std::max(w.b0[i], w.b0[j]);
+      pairs.end[k] = std::min(w.b1[i], w.b1[j]);
+      pairs.left_x[k] = w.x[i];
+      pairs.left_y[k] = w.y[i];
+      pairs.left_distance[k] = w.distance[i];
+      pairs.right_x[k] = w.x[j];
+      pairs.right_y[k] = w.y[j];
+      pairs.right_distance[k] = w.distance[j];
+    }
+    kernels_.compare(pairs, count);
+    const double narrow = kLeastWidth * length;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = lefts[k], j = i + 1;
+      if (pairs.left_until[k] < pairs.end[k] && w.b1[i] <= pairs.end[k]) w.b1[i] = pairs.left_until[k];
+      if (pairs.right_from[k] > pairs.begin[k] && w.b0[j] >= pairs.begin[k]) w.b0[j] = pairs.right_from[k];
+    }
+    const auto is_left_over = [&](std::size_t i) { return w.b1[i] - w.b0[i] > narrow; };
+    bool are_all = true;
+    for (std::size_t k = 0; k < count; ++k) {
+      are_all &= is_left_over(lefts[k]);
+      are_all &= is_left_over(lefts[k] + 1);
+    }
+    if (are_all) return size;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      const bool is_kept = is_left_over(i);
+      w.set(kept, w.b0[i], w.b1[i], w.x[i], w.y[i], w.distance[i], w.source[i]);
+      kept += is_kept;
     }
     return kept;
   }
 
   /// Carries the list of h through the triangle it enters.
   void propagate(std::int32_t h) {
-    WindowList list = std::exchange(lists_[index(h)], {});
-    Windows in = list.windows();
-    count(list.size);
     const HalfEdge& edge = mesh_.half_edge(h);
-    const double at_tail = distance(edge.tail), at_tip = distance(edge.tip);
+    const WindowList list = std::exchange(lists_[index(h)], {});
+    if (edge.left >= 0) prefetch(&lists_[index(edge.left)]);
+    if (edge.right >= 0) prefetch(&lists_[index(edge.right)]);
+    count(list.size);
+    Windows in = list.windows();
+    std::size_t kept = prune(in, list.size, edge.length);
 
     // One angle, two sides: of all ways through the triangle to its apex find the shortest, and the point of the base
     // it passes. No ray on its left reaches the right side first, none on its right the left side.
-    const double left_length = mesh_.half_edge(GeodesicMesh::previous(h)).length;
-    const double right_length = mesh_.half_edge(GeodesicMesh::next(h)).length;
-    double split = 0.0, shortest = at_tail + left_length;
-    TraceRecord record{.x = left_length, .half_edge = ~GeodesicMesh::previous(h), .source = edge.tail};
-    if (at_tip + right_length < shortest) {
-      shortest = at_tip + right_length;
+    const double at_tail = distance(edge.tail), at_tip = distance(edge.tip);
+    double split = 0.0, shortest = at_tail + edge.left_length;
+    TraceRecord record{.x = edge.left_length, .half_edge = ~GeodesicMesh::previous(h), .source = edge.tail};
+    std::size_t winner = 0;
+    if (at_tip + edge.right_length < shortest) {
+      shortest = at_tip + edge.right_length;
       split = edge.length;
-      record = {.x = right_length, .half_edge = ~GeodesicMesh::next(h), .source = edge.tip};
+      record = {.x = edge.right_length, .half_edge = ~GeodesicMesh::next(h), .source = edge.tip};
+      winner = std::max<std::size_t>(kept, 1) - 1;
     }
-    std::uint32_t kept = prune(in, list.size, at_tail, at_tip, edge.length), winner = 0;
-    if (split > 0 && kept > 0) winner = kept - 1;
-    feet_.resize(std::max<std::size_t>(feet_.size(), kept));
-    double* feet = feet_.data();
-    for (std::uint32_t i = 0; i < kept; ++i) {
-      const double b0 = in.b0[i], b1 = in.b1[i], x = in.x[i], y = in.y[i], d = in.distance[i];
-      const double foot = x + (edge.apex_x - x) * -y / (edge.apex_y - y);
-      feet[i] = foot;
-      const double through = std::clamp(foot, b0, b1);
-      const double to_apex = d + std::sqrt((through - x) * (through - x) + y * y) +
-                             std::sqrt((through - edge.apex_x) * (through - edge.apex_x) + edge.apex_y * edge.apex_y);
-      const bool is_over_corner =
-          through != foot && (through < kCornerWidth * edge.length || through > (1 - kCornerWidth) * edge.length);
-      if (to_apex < shortest && !is_over_corner) {
-        shortest = to_apex;
-        split = through;
-        record = {.x = x, .y = y, .half_edge = h, .source = in.source[i]};
+    const Entered triangle{edge.length, edge.apex_x, edge.apex_y};
+    const double* feet = feet_.room_for(kept);
+    const double* ways = ways_.room_for(kept);
+    kernels_.find_ways(in, kept, triangle, feet_.room_for(kept), ways_.room_for(kept));
+    bool wins = false;
+    for (std::size_t i = 0; i < kept; ++i) {
+      if (ways[i] < shortest) [[unlikely]] {
+        shortest = ways[i];
         winner = i;
+        wins = true;
       }
     }
+    if (wins) {
+      split = std::clamp(feet[winner], in.b0[winner], in.b1[winner]);
+      record = {.x = in.x[winner], .y = in.y[winner], .half_edge = h, .source = in.source[winner]};
+    }
     if (windows_kept_ > 0 && kept > windows_kept_) {
-      const std::uint32_t first =
-          std::min(winner > windows_kept_ / 2 ? winner - windows_kept_ / 2 : 0, kept - windows_kept_);
+      const std::size_t before = winner > windows_kept_ / 2 ? winner - windows_kept_ / 2 : 0;
+      const std::size_t first = std::min(before, kept - windows_kept_);
       in.b0[first] = std::min(in.b0[first], in.b0[0]);
       in.b1[first + windows_kept_ - 1] = std::max(in.b1[first + windows_kept_ - 1], in.b1[kept - 1]);
       in = in + first;
-      feet = feet_.data() + first;
+      feet += first;
       kept = windows_kept_;
     }
     lower(edge.apex, shortest, record);
-    const double at_apex = distance(edge.apex);
 
-    if (edge.left >= 0 && kept > 0 && split > 0) {
-      WindowList& to = lists_[index(edge.left)];
-      const double cosine = edge.apex_x * edge.left_inverse, sine = edge.apex_y * edge.left_inverse;
-      const Windows out = to.reserve_front(kept, blocks_);
-      std::ptrdiff_t made = 0;
-      for (std::uint32_t i = kept; i-- > 0;) {
-        const double b0 = in.b0[i], x = in.x[i], y = in.y[i], d = in.distance[i];
-        const double b1 = std::min(in.b1[i], split);
-        if (!(b0 < b1) || !(b0 < feet[i])) continue;
-        // Where the rays over b0 and b1 meet the side, from the tail. The further right a ray, the smaller its
-        // denominator; where that is not positive, the ray never gets to the side.
-        const double denominator0 = -y * cosine - sine * (b0 - x);
-        if (!(denominator0 > 0)) continue;
-        const double t0 = -y * b0 / denominator0;
-        double t1 = left_length;
-        if (b1 < feet[i]) {
-          const double denominator1 = -y * cosine - sine * (b1 - x);
-          if (denominator1 > 0) t1 = std::min(-y * b1 / denominator1, left_length);
-        }
-        if (!(t1 - t0 > kLeastWidth * left_length)) continue;
-        const double child_x = x * cosine + y * sine, child_y = y * cosine - x * sine;
-        if (!(child_y < 0) || is_useless(at_tail, at_apex, left_length, t0, t1, child_x, child_y, d)) continue;
-        ++made;
-        const Windows slot = {out.b0 - made, out.b1 - made,       out.x - made,
-                              out.y - made,  out.distance - made, out.source - made};
-        slot.set(0, t0, t1, child_x, child_y, d, in.source[i]);
+    const double at_apex = distance(edge.apex);
+    const std::size_t stride = kept + kPadding;
+    const Children children =
+        Children::in(children_.room_for(Children::kColumns * stride), stride, flags_.room_for(kept));
+    if (edge.left >= 0 && split > 0) {
+      std::size_t end = kept;
+      while (end > 0 && !(in.b0[end - 1] < std::min(split, feet[end - 1]))) --end;
+      const Side side{.length = edge.left_length,
+                      .cosine = edge.apex_x / edge.left_length,
+                      .sine = edge.apex_y / edge.left_length,
+                      .at_tail = at_tail,
+                      .at_tip = at_apex};
+      const std::size_t made = kernels_.to_left(in, end, feet, split, side, children);
+      if (made > 0) {
+        const Windows behind = lists_[index(edge.left)].reserve_front(made, blocks_);
+        hand_on(in, children, end, made, behind - made);
+        lists_[index(edge.left)].grew_front(made);
+        gather(edge.left, edge.tail, edge.apex);
       }
-      to.grew_front(static_cast<std::size_t>(made), blocks_);
-      enqueue_if_passed(edge.left);
     }
-    if (edge.right >= 0 && kept > 0 && split < edge.length) {
-      WindowList& to = lists_[index(edge.right)];
+    if (edge.right >= 0 && split < edge.length) {
+      std::size_t begin = 0;
+      while (begin < kept && !(in.b1[begin] > std::max(split, feet[begin]))) ++begin;
       // The side runs from the apex to the tip; seen from its next triangle the apex is its tail.
-      const double cosine = (edge.length - edge.apex_x) * edge.right_inverse, sine = -edge.apex_y * edge.right_inverse;
-      const Windows out = to.reserve_back(kept, blocks_);
-      std::size_t made = 0;
-      for (std::uint32_t i = 0; i < kept; ++i) {
-        const double b1 = in.b1[i], x = in.x[i], y = in.y[i], d = in.distance[i];
-        const double b0 = std::max(in.b0[i], split);
-        if (!(b0 < b1) || !(feet[i] < b1)) continue;
-        // As on the left, mirrored: distances from the tip.
-        const double denominator1 = -y * cosine - sine * (b1 - x);
-        if (!(denominator1 > 0)) continue;
-        const double t1 = right_length - -y * (edge.length - b1) / denominator1;
-        double t0 = 0.0;
-        if (b0 > feet[i]) {
-          const double denominator0 = -y * cosine - sine * (b0 - x);
-          if (denominator0 > 0) t0 = std::max(right_length - -y * (edge.length - b0) / denominator0, 0.0);
-        }
-        if (!(t1 - t0 > kLeastWidth * right_length)) continue;
-        const double from_apex_x = x - edge.apex_x, from_apex_y = y - edge.apex_y;
-        const double child_x = from_apex_x * cosine + from_apex_y * sine;
-        const double child_y = from_apex_y * cosine - from_apex_x * sine;
-        if (!(child_y < 0) || is_useless(at_apex, at_tip, right_length, t0, t1, child_x, child_y, d)) continue;
-        out.set(made++, t0, t1, child_x, child_y, d, in.source[i]);
+      const Side side{.length = edge.right_length,
+                      .cosine = (edge.length - edge.apex_x) / edge.right_length,
+                      .sine = -edge.apex_y / edge.right_length,
+                      .at_tail = at_apex,
+                      .at_tip = at_tip};
+      const std::size_t made =
+          kernels_.to_right(in + begin, kept - begin, feet + begin, split, triangle, side, children);
+      if (made > 0) {
+        WindowList& to = lists_[index(edge.right)];
+        hand_on(in + begin, children, kept - begin, made, to.reserve_back(made, blocks_));
+        to.grew_back(made);
+        gather(edge.right, edge.apex, edge.tip);
       }
-      to.grew_back(made, blocks_);
-      enqueue_if_passed(edge.right);
     }
     blocks_.give_back(list.block);
+  }
+
+  /// Writes those that are alive, `made` of `count`, side by side.
+  static void hand_on(const Windows& from, const Children& children, std::size_t count, std::size_t made,
+                      const Windows& to) {
+    if (made == count) {
+      copy({children.b0, children.b1, children.x, children.y, from.distance, from.source}, count, to);
+      return;
+    }
+    std::size_t written = 0;
+    for (std::size_t i = 0; written < made; ++i) {
+      to.set(written, children.b0[i], children.b1[i], children.x[i], children.y[i], from.distance[i], from.source[i]);
+      written += static_cast<std::size_t>(children.alive[i]);
+    }
   }
 
   const GeodesicMesh& mesh_;
@@ -456,9 +445,12 @@ class Wavefront {
   VertexQueue queue_;
   WindowBlocks blocks_;
   std::vector<WindowList> lists_;
-  std::vector<std::uint8_t> is_waiting_;
-  std::vector<std::int32_t> waiting_, sources_again_, fan_;
-  std::vector<double> feet_;
+  std::vector<Gathered> gathered_;
+  std::vector<std::int32_t> going_on_, sources_again_, fan_;
+  const WindowKernels& kernels_ = window_kernels();
+  Scratch<double> feet_, ways_, pairs_, children_;
+  Scratch<std::int64_t> flags_;
+  Scratch<std::size_t> lefts_;
   std::size_t vertices_done_ = 0, work_ = 0;
 };
 

@@ -19,6 +19,7 @@ struct Windows {
   std::int32_t* source;
 
   Windows operator+(std::size_t n) const { return {b0 + n, b1 + n, x + n, y + n, distance + n, source + n}; }
+  Windows operator-(std::size_t n) const { return {b0 - n, b1 - n, x - n, y - n, distance - n, source - n}; }
   void set(std::size_t i, double begin, double end, double at_x, double at_y, double d, std::int32_t from) const {
     b0[i] = begin;
     b1[i] = end;
@@ -54,6 +55,8 @@ struct WindowBlock {
 class WindowBlocks {
  public:
   static constexpr std::uint32_t kSmallest = 8;
+  /// So many entries may be read, whatever they are, behind the last window of a list.
+  static constexpr std::size_t kPadding = 8;
 
   WindowBlock take(std::size_t at_least) {
     const auto capacity = std::bit_ceil(std::max(static_cast<std::uint32_t>(at_least), kSmallest));
@@ -71,7 +74,7 @@ class WindowBlocks {
   static constexpr std::size_t kChunk = std::size_t{1} << 15;  // doubles: 256 kB
 
   double* allocate(std::uint32_t capacity) {
-    const std::size_t size = (11 * std::size_t{capacity} / 2 + 7) / 8 * 8;
+    const std::size_t size = (11 * std::size_t{capacity} / 2 + 7) / 8 * 8 + kPadding;
     if (size > kChunk / 4) return chunks_.emplace_back(std::make_unique_for_overwrite<double[]>(size)).get();
     if (size > left_) {
       rest_ = chunks_.emplace_back(std::make_unique_for_overwrite<double[]>(kChunk)).get();
@@ -107,17 +110,12 @@ struct WindowList {
     if (block.memory == nullptr || begin + size + count > block.capacity) move(0, count, blocks);
     return windows() + size;
   }
-  /// Tells how much of the reserved room was used; a list without a window keeps no memory.
-  void grew_front(std::size_t count, WindowBlocks& blocks) {
+  /// Tells how much of the reserved room was used.
+  void grew_front(std::size_t count) {
     begin -= static_cast<std::uint32_t>(count);
-    grew_back(count, blocks);
-  }
-  void grew_back(std::size_t count, WindowBlocks& blocks) {
     size += static_cast<std::uint32_t>(count);
-    if (size > 0) return;
-    blocks.give_back(block);
-    *this = {};
   }
+  void grew_back(std::size_t count) { size += static_cast<std::uint32_t>(count); }
 
  private:
   void move(std::size_t front, std::size_t back, WindowBlocks& blocks) {
