@@ -31,7 +31,8 @@ struct Point2 {
   double x, y;
 };
 
-double distance(const Point2& a, const Point2& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+double norm(const Point2& a) { return std::sqrt(a.x * a.x + a.y * a.y); }
+double distance(const Point2& a, const Point2& b) { return norm({a.x - b.x, a.y - b.y}); }
 double cross(const Point2& a, const Point2& b) { return a.x * b.y - a.y * b.x; }
 
 /// Into the frame of the half-edge entered over the left or the right side.
@@ -64,8 +65,17 @@ class Tracer {
       const TraceRecord& record = records_[static_cast<std::size_t>(vertex)];
       if (record.half_edge == TraceRecord::kNone) break;
       if (record.half_edge >= 0) {
-        vertex = follow_line(vertex, record);
-        if (vertex < 0) return std::nullopt;
+        const auto length = path_.length;
+        const auto points = path_.points.size(), faces = path_.faces.size();
+        std::int32_t next = follow_line(vertex, record, Beside::kSkip);
+        if (next < 0) {
+          path_.points.resize(points);
+          path_.faces.resize(faces);
+          path_.length = length;
+          next = follow_line(vertex, record, Beside::kRemember);
+        }
+        if (next < 0) return std::nullopt;
+        vertex = next;
       } else {
         const bool is_loose = record.half_edge == TraceRecord::kLooseEdge;
         add_vertex(record.source, is_loose ? -1 : ~record.half_edge, record.x);
@@ -78,6 +88,9 @@ class Tracer {
   }
 
  private:
+  /// What to do about vertices beside the line. They are asked for rarely, and their distances lie all over memory.
+  enum class Beside : std::uint8_t { kSkip, kRemember };
+
   /// A vertex beside the line, from which to go on if the line leads nowhere; with the path's state when it was passed.
   struct Passed {
     double length = std::numeric_limits<double>::infinity();
@@ -101,16 +114,16 @@ class Tracer {
     path_.points.push_back({.half_edge = half_edge, .t = x / mesh_.half_edge(half_edge).length});
   }
 
-  /// From `vertex` straight towards its source. Returns the vertex to go on from: the source, or one on the way; -1
-  /// where the line leads nowhere.
-  std::int32_t follow_line(std::int32_t vertex, const TraceRecord& record) {
+  /// From `vertex` straight towards its source. Returns the vertex to go on from: the source, or one on the way; where
+  /// the line leads nowhere the best one beside it that was remembered, or -1.
+  std::int32_t follow_line(std::int32_t vertex, const TraceRecord& record, Beside beside) {
     const HalfEdge& first = mesh_.half_edge(record.half_edge);
     Point2 from{first.apex_x, first.apex_y}, source{record.x, record.y};
     best_ = {};
     for (const std::int32_t side : {0, 1}) {
       const Point2 corner{side == 0 ? 0.0 : first.length, 0.0};
       const std::int32_t u = side == 0 ? first.tail : first.tip;
-      if (passes(vertex, u, corner, from, source, from, record.half_edge, first.length)) return take_best();
+      if (passes(vertex, u, corner, from, source, from, record.half_edge, first.length, beside)) return take_best();
     }
 
     // `h` is the half-edge entered, `behind` the last one of the triangle left; `here` is the last point, in h's frame.
@@ -122,16 +135,18 @@ class Tracer {
     std::size_t crossings_left = 16 * mesh_.half_edge_count();
     while (h >= 0 && source.y > 0 && crossings_left-- > 0) {
       const HalfEdge& edge = mesh_.half_edge(h);
+      if (edge.left >= 0) prefetch(&mesh_.half_edge(edge.left));
+      if (edge.right >= 0) prefetch(&mesh_.half_edge(edge.right));
       const double x = crossing(edge, from, source);
       add_crossing(h, x, behind, distance(here, {x, 0.0}));
       here = {x, 0.0};
       const Point2 apex{edge.apex_x, edge.apex_y};
-      const double size = std::max(edge.length, std::hypot(apex.x, apex.y));
-      if (edge.apex == record.source && distance(apex, source) <= kSameVertex * size) {
+      if (edge.apex == record.source &&
+          distance(apex, source) <= kSameVertex * std::max(edge.length, edge.left_length)) {
         add_vertex(edge.apex, h, distance(here, apex));
         return edge.apex;
       }
-      if (passes(vertex, edge.apex, apex, from, source, here, h, edge.length)) return take_best();
+      if (passes(vertex, edge.apex, apex, from, source, here, h, edge.length, beside)) return take_best();
       const bool apex_is_left = cross({source.x - from.x, source.y - from.y}, {apex.x - from.x, apex.y - from.y}) > 0;
       behind = h;
       h = apex_is_left ? edge.right : edge.left;
@@ -140,18 +155,19 @@ class Tracer {
       source = move(source);
       here = move(here);
     }
-    return best_.vertex < 0 ? -1 : take_best();
+    return beside == Beside::kSkip || best_.vertex < 0 ? -1 : take_best();
   }
 
-  /// Remembers the vertex u beside the line if it is the best so far; true if the line is as good as through it.
+  /// True if the line is as good as through the vertex u. Else u is remembered, if that is asked for and it is the best
+  /// so far.
   bool passes(std::int32_t vertex, std::int32_t u, const Point2& at_u, const Point2& from, const Point2& source,
-              const Point2& here, std::int32_t half_edge, double base) {
-    if (!(at(u) < at(vertex))) return false;
-    const double length = at(u) + distance(from, at_u);
+              const Point2& here, std::int32_t half_edge, double base, Beside beside) {
+    const Point2 line{source.x - from.x, source.y - from.y}, aside{at_u.x - from.x, at_u.y - from.y};
+    const bool is_near = std::abs(cross(line, aside)) <= kSnapWidth * base * norm(line);
+    if ((!is_near && beside == Beside::kSkip) || !(at(u) < at(vertex))) return false;
+    const double length = at(u) + norm(aside);
     const Passed candidate{length, u, half_edge, distance(here, at_u), path_.length, path_.points.size()};
     if (length < best_.length) best_ = candidate;
-    const Point2 line{source.x - from.x, source.y - from.y}, aside{at_u.x - from.x, at_u.y - from.y};
-    const bool is_near = std::abs(cross(line, aside)) <= kSnapWidth * base * std::hypot(line.x, line.y);
     if (!is_near || std::abs(length - at(vertex)) > kSnapDistance * at(vertex)) return false;
     best_ = candidate;
     return true;
