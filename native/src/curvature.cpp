@@ -11,12 +11,17 @@
 #include <cmath>
 #include <utility>
 
+#include "prefetch.hpp"
+
 namespace seamwire {
 namespace {
 
 // A triangle lower than this, on the unit cube's scale, tells nothing of the surface's direction: so high does storing
 // coordinates as 32-bit floats make triangles whose corners are in line. Fits to them make curvatures of any size.
 constexpr double kLeastHeight = 0x1p-22;
+
+// Faces whose corners memory is asked for in advance.
+constexpr std::size_t kAhead = 8;
 
 struct FaceShape {
   std::array<Vector, 3> edges;  // opposite the corners, in the face's direction
@@ -72,6 +77,12 @@ std::vector<Vector> fan_normals(const Surface& surface) {
   const Vector* points = surface.half_edges().points();
   std::vector<std::size_t> flat;
   for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (f + kAhead < faces.size()) {
+      for (const std::int32_t fan : faces[f + kAhead]) {
+        prefetch(&points[fan]);
+        prefetch(&normals[fan]);
+      }
+    }
     const FaceShape shape = face_shape(points, faces[f], surface.scale());
     if (!shape.is_usable()) {
       flat.push_back(f);
@@ -245,7 +256,15 @@ std::vector<Fit> fit_fans(const Surface& surface, const std::vector<Frame>& fram
   const std::vector<Triangle>& faces = surface.face_fans();
   const Vector* points = surface.half_edges().points();
   std::vector<Fit> fits(frames.size());
-  for (const Triangle& fans : faces) {
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (f + kAhead < faces.size()) {
+      for (const std::int32_t fan : faces[f + kAhead]) {
+        prefetch(&points[fan]);
+        prefetch(&frames[fan]);
+        prefetch(&fits[fan]);
+      }
+    }
+    const Triangle& fans = faces[f];
     const FaceShape shape = face_shape(points, fans, surface.scale());
     if (!shape.is_usable()) continue;
     fit_face(shape, {&frames[fans[0]], &frames[fans[1]], &frames[fans[2]]},

@@ -8,18 +8,10 @@
 #include <span>
 #include <vector>
 
+#include "prefetch.hpp"
 #include "seamwire/intrinsic_mesh.hpp"
 
 namespace seamwire {
-
-/// Asks for memory that is needed soon.
-inline void prefetch(const void* address) {
-#if defined(__GNUC__)
-  __builtin_prefetch(address);
-#else
-  static_cast<void>(address);
-#endif
-}
 
 /// What the wavefront reads: every triangle unfolded into the frame of each of its half-edges, in one cache line each.
 /// Vertices and faces are renumbered breadth first, so that a front touches memory that lies together.

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "prefetch.hpp"
+
 namespace seamwire {
 namespace {
 
@@ -18,6 +20,9 @@ constexpr double kEqual = 1e-9;
 constexpr std::uint8_t kNewestDepth = 14;
 // Bisections of an original face where the rest is left to fitting: few enough that no edge gets too short for that.
 constexpr std::uint8_t kShallowDepth = 8;
+
+// Faces whose corners memory is asked for in advance.
+constexpr std::size_t kAhead = 8;
 
 MetricNode node_of(const Vector& point, const Vector& n, const Eigen::Matrix3d& m) {
   const double w = normal_weight(m);
@@ -129,6 +134,9 @@ void Refinement::measure_all() {
   const auto count = static_cast<std::int32_t>(mesh_.twins.size());
   lengths_.resize(mesh_.twins.size());
   for (std::int32_t h = 0; h < count; ++h) {
+    if (const std::size_t ahead = index(h / 3) + kAhead; h % 3 == 0 && ahead < mesh_.corners.size()) {
+      for (const std::int32_t v : mesh_.corners[ahead]) prefetch(&node(v));
+    }
     const std::int32_t twin = mesh_.twins[index(h)];
     lengths_[index(h)] = twin >= 0 && twin < h ? lengths_[index(twin)] : measure(h);
   }
