@@ -169,7 +169,7 @@ void measure(const std::string& file, const Options& options) {
   std::vector<double> norms;
   Curvature curvature;
   std::vector<Metric> metrics;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 5; ++i) {
     metrics.clear();
     norms.push_back(seconds([&] {
       curvature = principal_curvatures(*surface);
@@ -183,7 +183,8 @@ void measure(const std::string& file, const Options& options) {
   std::vector<Embedding> embeddings(2);
   for (std::size_t which = 0; which < 2; ++which) {
     std::vector<double> times;
-    for (int i = 0; i < 3; ++i) times.push_back(seconds([&] { embeddings[which] = embed(*surface, metrics[which]); }));
+    times.reserve(5);
+    for (int i = 0; i < 5; ++i) times.push_back(seconds([&] { embeddings[which] = embed(*surface, metrics[which]); }));
     std::printf("  embedding %s, A = %g: %.1f ms, %zu invalid, %zu added, %zu left\n", which == 0 ? "M_min" : "M_max",
                 options.anisotropy, 1e3 * median(times), embeddings[which].invalid_before,
                 embeddings[which].faces_added, embeddings[which].invalid_left);
