@@ -80,6 +80,7 @@ void LiveWire::Impl::work_on_seed(std::size_t which, std::unique_lock<std::mutex
   try {
     const std::shared_ptr<const Prepared> prepared =
         with->prepared[which].get(preparing, [&] { return prepare(*ground, *with, which, preparing); });
+    with->forget_former(which);
     if (pick) {
       task.check(0.0);
       solved = ground->along == Along::kSurface ? find_field(which, prepared, pick->a, at, task)

@@ -29,8 +29,9 @@ Metric make_metric(const Surface& surface, const Curvature& curvature, Follow fo
 
 void Metrics::go_on_from(const Metrics& metrics) {
   for (std::size_t which = 0; which < former_.size(); ++which) {
-    std::shared_ptr<const Prepared> from = metrics.prepared[which].peek();
-    if (!from) from = metrics.former(which);
+    // In this order: what is former is forgotten only when the metric is prepared.
+    std::shared_ptr<const Prepared> from = metrics.former(which);
+    if (std::shared_ptr<const Prepared> prepared = metrics.prepared[which].peek()) from = std::move(prepared);
     const std::scoped_lock lock(mutex_);
     former_[which] = std::move(from);
   }
@@ -68,7 +69,6 @@ Prepared prepare(Ground& ground, Metrics& metrics, std::size_t which, const std:
                                 : embed(*ground.surface, metric, options, task);
     prepared.geodesics.emplace(prepared.embedding->mesh);
     prepared.metric = std::move(metric);
-    metrics.forget_former(which);
   } else {
     prepared.graph = make_edge_graph(*ground.surface, metric, std::move(fans), task, metrics.scribbles, kFollow[which]);
   }

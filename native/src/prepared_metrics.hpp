@@ -75,9 +75,11 @@ struct Metrics {
     const std::scoped_lock lock(mutex_);
     return former_[which];
   }
+  /// Once the metric is prepared.
   void forget_former(std::size_t which) {
+    std::shared_ptr<const Prepared> dropped;  // freed without the lock
     const std::scoped_lock lock(mutex_);
-    former_[which] = nullptr;
+    dropped.swap(former_[which]);
   }
 
   const MetricFamily family;
