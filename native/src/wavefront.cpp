@@ -7,9 +7,10 @@
 // A window says: through the interval [b0, b1] of this half-edge the source (x, y) is seen in a straight line, when the
 // triangles in between are unfolded. The front carries lists of windows from triangle to triangle, vertex by vertex in
 // the order of their distance. A shortest path may bend at certain vertices only (GeodesicMesh::bends_paths), which
-// become sources themselves. Windows that cannot matter are dropped; those that stay may overlap, so that no
-// equation for the border between two of them needs solving. What is dropped loses strictly to another path, or ties
-// with it up to rounding, in which case a sliver is lost whose border lies next to a path of the same length.
+// become sources themselves. Windows that cannot matter are dropped; those that stay may overlap, so only neighbours in
+// a list are compared, and only on the edge itself. The arithmetic is in window_kernels. What is dropped loses strictly
+// to another path, or ties with it up to rounding, in which case a sliver is lost whose border lies next to a path of
+// the same length.
 #include "wavefront.hpp"
 
 #include <algorithm>
