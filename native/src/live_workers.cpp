@@ -67,8 +67,10 @@ void LiveWire::Impl::work_on_seed(std::size_t which, std::unique_lock<std::mutex
   const std::optional<Pick> pick = seed;
   const bool is_forward = forward;
   const std::stop_token preparing = worker.preparing.get_token();
+  // For this seed, if there is one: a new seed drops it.
+  const std::shared_ptr<const Solved> before = worker.solved;
   worker.fraction = 0.0;
-  worker.was_prepared = with->prepared[which].peek() != nullptr;
+  worker.was_prepared = with->prepared[which]->peek() != nullptr;
   const Task task{.stop = worker.solving.get_token(), .progress = [&worker](double done) {
                     worker.fraction = done;
                     return true;
@@ -79,9 +81,11 @@ void LiveWire::Impl::work_on_seed(std::size_t which, std::unique_lock<std::mutex
   std::exception_ptr error;
   try {
     const std::shared_ptr<const Prepared> prepared =
-        with->prepared[which].get(preparing, [&] { return prepare(*ground, *with, which, preparing); });
+        with->prepared[which]->get(preparing, [&] { return prepare(*ground, *with, which, preparing); });
     with->forget_former(which);
-    if (pick) {
+    if (before && before->field && before->prepared == prepared) {
+      solved = before;  // the other metric was changed
+    } else if (pick) {
       task.check(0.0);
       solved = ground->along == Along::kSurface ? find_field(which, prepared, pick->a, at, task)
                                                 : find_chains(which, prepared, *pick, is_forward, at, task);
@@ -109,7 +113,7 @@ void LiveWire::Impl::work_on_loop(std::size_t which, std::unique_lock<std::mutex
   Worker& worker = workers[which];
   const std::int64_t at = loop_request;
   const Edge edge = loop_edge;
-  const std::shared_ptr<const Prepared> prepared = metrics->prepared[which].peek();  // null: that failed
+  const std::shared_ptr<const Prepared> prepared = metrics->prepared[which]->peek();  // null: that failed
   const Task task{.stop = worker.solving.get_token(), .progress = {}};
   worker.is_at_loop = true;
   lock.unlock();
@@ -216,11 +220,12 @@ LiveCandidate LiveWire::Impl::candidate(std::size_t which, const Solved& solved,
 
 void LiveWire::Impl::change_metrics(std::shared_ptr<Metrics> to) {
   const std::scoped_lock lock(mutex);
-  metrics = std::move(to);
+  metrics.swap(to);
   ++request;
   drop_loop();
-  for (Worker& worker : workers) {
-    worker.preparing.request_stop();
+  for (std::size_t which = 0; which < workers.size(); ++which) {
+    Worker& worker = workers[which];
+    if (metrics->prepared[which] != to->prepared[which]) worker.preparing.request_stop();
     worker.solving.request_stop();
     worker.error = nullptr;
   }

@@ -72,7 +72,7 @@ void LiveWire::set_scribbles(std::vector<Scribble> scribbles) {
   const std::shared_ptr<Metrics> now = impl_->metrics_now();
   if (scribbles == now->scribbles) return;
   auto to = std::make_shared<Metrics>(now->family, now->strength, std::move(scribbles));
-  if (impl_->ground->along == Along::kSurface) to->go_on_from(*now);
+  to->go_on_from(*now);
   impl_->change_metrics(std::move(to));
 }
 

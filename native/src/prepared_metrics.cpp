@@ -2,6 +2,7 @@
 #include "prepared_metrics.hpp"
 
 #include <algorithm>
+#include <ranges>
 #include <utility>
 
 namespace seamwire {
@@ -25,13 +26,19 @@ Metric make_metric(const Surface& surface, const Curvature& curvature, Follow fo
   return euclidean_metric(surface, curvature);
 }
 
+bool are_same_for(Follow follow, const std::vector<Scribble>& these, const std::vector<Scribble>& those) {
+  const auto act = std::views::filter([follow](const Scribble& scribble) { return scribble.acts_on(follow); });
+  return std::ranges::equal(these | act, those | act);
+}
+
 }  // namespace
 
 void Metrics::go_on_from(const Metrics& metrics) {
   for (std::size_t which = 0; which < former_.size(); ++which) {
     // In this order: what is former is forgotten only when the metric is prepared.
     std::shared_ptr<const Prepared> from = metrics.former(which);
-    if (std::shared_ptr<const Prepared> prepared = metrics.prepared[which].peek()) from = std::move(prepared);
+    if (std::shared_ptr<const Prepared> made = metrics.prepared[which]->peek()) from = std::move(made);
+    if (are_same_for(kFollow[which], scribbles, metrics.scribbles)) prepared[which] = metrics.prepared[which];
     const std::scoped_lock lock(mutex_);
     former_[which] = std::move(from);
   }

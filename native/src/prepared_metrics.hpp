@@ -18,10 +18,10 @@
 /// What a live wire computes before there is a seed, each part once, whoever asks for it first.
 namespace seamwire {
 
-constexpr std::array kFollow = {Follow::kMin, Follow::kMax};
+inline constexpr std::array kFollow = {Follow::kMin, Follow::kMax};
 
 /// Fractions of the first seed's work, preparation included, at which its parts begin.
-constexpr double kEmbedBegins = 0.1, kSolveBegins = 0.5;
+inline constexpr double kEmbedBegins = 0.1, kSolveBegins = 0.5;
 
 struct Curved {
   Curvature curvature;
@@ -68,8 +68,9 @@ struct Metrics {
   Metrics(MetricFamily of, const Strength& with, std::vector<Scribble> after)
       : family(of), strength(with), scribbles(std::move(after)) {}
 
-  /// Embeddings are made from those of `metrics`, or, where these are not there yet, from what they would have been
-  /// made from: scribbles change little.
+  /// After other scribbles than these metrics, of one family and strength: a metric for which they are the same is
+  /// shared. Embeddings of the other are made from those of `metrics`, or, where these are not there yet, from what
+  /// they would have been made from: scribbles change little.
   void go_on_from(const Metrics& metrics);
   std::shared_ptr<const Prepared> former(std::size_t which) const {
     const std::scoped_lock lock(mutex_);
@@ -85,7 +86,8 @@ struct Metrics {
   const MetricFamily family;
   const Strength strength;
   const std::vector<Scribble> scribbles;
-  std::array<ComputedOnce<Prepared>, 2> prepared;
+  std::array<std::shared_ptr<ComputedOnce<Prepared>>, 2> prepared = {std::make_shared<ComputedOnce<Prepared>>(),
+                                                                     std::make_shared<ComputedOnce<Prepared>>()};
   std::array<std::atomic<double>, 2> fractions = {};  // of the preparation
 
  private:

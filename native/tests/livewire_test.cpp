@@ -7,11 +7,13 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <random>
 #include <thread>
 #include <vector>
 
+#include "../src/prepared_metrics.hpp"
 #include "seamwire/embedding.hpp"
 #include "seamwire/geodesics.hpp"
 #include "shapes.hpp"
@@ -373,6 +375,29 @@ TEST(LiveWire, ScribblesChangeTheMetricsTheyAreMeantForAndGoWithoutATrace) {
   }
 }
 
+TEST(LiveWire, AStrokeForOneMetricLeavesWhatIsPreparedForTheOther) {
+  Scribble one, two;
+  one.acts_on_max = two.acts_on_max = false;
+  two.rings = 3;
+  const auto after = [](const Metrics& before, const std::vector<Scribble>& scribbles) {
+    auto metrics = std::make_unique<Metrics>(MetricFamily::kFeature, Strength{}, scribbles);
+    metrics->go_on_from(before);
+    return metrics;
+  };
+  const Metrics none(MetricFamily::kFeature, {}, {});
+  const auto with_one = after(none, {one}), with_both = after(*with_one, {one, two});
+  EXPECT_EQ(with_one->prepared[1], none.prepared[1]);
+  EXPECT_NE(with_one->prepared[0], none.prepared[0]);
+  EXPECT_EQ(with_both->prepared[1], none.prepared[1]);
+  EXPECT_NE(with_both->prepared[0], with_one->prepared[0]);
+  EXPECT_NE(after(*with_both, {two, one})->prepared[0], with_both->prepared[0]) << "their order counts";
+  Scribble three;
+  three.acts_on_min = false;
+  const auto with_three = after(*with_both, {three, one, two});
+  EXPECT_EQ(with_three->prepared[0], with_both->prepared[0]);
+  EXPECT_NE(with_three->prepared[1], with_both->prepared[1]);
+}
+
 TEST(LiveWire, AfterManyChangesOfTheStrokesWiresAreThoseOfTheListAlone) {
   const auto surface = shared(shapes::bumpy(shapes::torus(40, 24), 0.02));
   std::mt19937 random(3);
@@ -386,6 +411,8 @@ TEST(LiveWire, AfterManyChangesOfTheStrokesWiresAreThoseOfTheListAlone) {
     }
     scribble.rings = 1 + static_cast<int>(random() % 6);
     scribble.attracts = random() % 4 != 0;
+    scribble.acts_on_min = random() % 3 != 0;
+    scribble.acts_on_max = !scribble.acts_on_min || random() % 3 != 0;
     return scribble;
   };
   LiveWire live(surface);
