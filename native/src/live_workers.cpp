@@ -68,7 +68,7 @@ void LiveWire::Impl::work_on_seed(std::size_t which, std::unique_lock<std::mutex
   const bool is_forward = forward;
   const std::stop_token preparing = worker.preparing.get_token();
   // For this seed, if there is one: a new seed drops it.
-  const std::shared_ptr<const Solved> before = worker.solved;
+  std::shared_ptr<const Solved> before = worker.solved;
   worker.fraction = 0.0;
   worker.was_prepared = with->prepared[which]->peek() != nullptr;
   const Task task{.stop = worker.solving.get_token(), .progress = [&worker](double done) {
@@ -105,7 +105,7 @@ void LiveWire::Impl::work_on_seed(std::size_t which, std::unique_lock<std::mutex
     worker.error = std::move(error);
   }
   lock.unlock();
-  solved = nullptr;
+  before = solved = nullptr;
   lock.lock();
 }
 
