@@ -2,7 +2,6 @@
 #include "prepared_metrics.hpp"
 
 #include <algorithm>
-#include <ranges>
 #include <utility>
 
 namespace seamwire {
@@ -27,8 +26,14 @@ Metric make_metric(const Surface& surface, const Curvature& curvature, Follow fo
 }
 
 bool are_same_for(Follow follow, const std::vector<Scribble>& these, const std::vector<Scribble>& those) {
-  const auto act = std::views::filter([follow](const Scribble& scribble) { return scribble.acts_on(follow); });
-  return std::ranges::equal(these | act, those | act);
+  const auto acts = [follow](const Scribble& scribble) { return scribble.acts_on(follow); };
+  auto other = those.begin();
+  for (const Scribble& scribble : these) {
+    if (!acts(scribble)) continue;
+    other = std::find_if(other, those.end(), acts);
+    if (other == those.end() || !(*other++ == scribble)) return false;
+  }
+  return std::none_of(other, those.end(), acts);
 }
 
 }  // namespace
