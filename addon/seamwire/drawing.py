@@ -133,7 +133,7 @@ class Drawing:
         if context.workspace != self._workspace:
             return "Another workspace was opened"
         # Looking through the mesh takes its time: while another editor is at work on it, that can wait.
-        if place_of(self._window, event) is not None:
+        if self._touched and place_of(self._window, event) is not None:
             self._look_through()
         for board in self.boards.values():
             if not board.intact():
@@ -144,14 +144,14 @@ class Drawing:
 
     def trouble_at_the_end(self) -> str:
         """Say why nothing can be marked; an empty string where it can."""
-        self._look_through()
+        if self._touched:
+            self._look_through()
         return "" if all(board.intact(to_the_end=True) for board in self.boards.values()) else _CHANGED
 
     def _look_through(self) -> None:
-        if self._touched:
-            self._touched = False
-            for board in self.boards.values():
-                board.look_through()
+        self._touched = False
+        for board in self.boards.values():
+            board.look_through()
 
     def set_aside(self) -> int:
         """Keep what was drawn for when the tool is started again; return how many wires that are."""

@@ -175,18 +175,19 @@ def compare(file: Path, loop: int, options: argparse.Namespace) -> tuple[int, di
             f"{error.mean():.1e} on average, {np.median(error):.1e} in the median",
             flush=True,
         )
-    if options.programs:
-        with off_file(points, triangles) as path:
-            print(f"  its own program: {run_own(options.programs / 'geodesics_bench', path)}", flush=True)
-    cgal = options.programs and options.programs / "cgal_bench"
-    if cgal and cgal.exists() and len(triangles) <= options.most_faces:
-        with off_file(points, triangles) as path:
-            theirs = run_cgal(cgal, path, seeds)
-        if theirs is None:
-            print("  CGAL             failed", flush=True)
-        else:
-            times["CGAL"] = theirs
-            print(f"  CGAL             {theirs:9.4f} s  {theirs / ours[0]:6.1f} times as long", flush=True)
+    if options.programs is None:
+        return len(triangles), times
+    with off_file(points, triangles) as path:
+        print(f"  its own program: {run_own(options.programs / 'geodesics_bench', path)}", flush=True)
+        cgal = options.programs / "cgal_bench"
+        if not cgal.exists() or len(triangles) > options.most_faces:
+            return len(triangles), times
+        theirs = run_cgal(cgal, path, seeds)
+    if theirs is None:
+        print("  CGAL             failed", flush=True)
+    else:
+        times["CGAL"] = theirs
+        print(f"  CGAL             {theirs:9.4f} s  {theirs / ours[0]:6.1f} times as long", flush=True)
     return len(triangles), times
 
 
