@@ -136,6 +136,7 @@ def run(folder: Path, path: Path | None) -> None:
     if addon_utils.enable("seamwire", default_set=True) is None:
         raise DemoError("the add-on could not be enabled")
     from seamwire import native
+    from seamwire.engines import STRENGTHS
 
     bpy.data.batch_remove([*bpy.data.objects, *bpy.data.meshes])
     obj = suzanne() if path is None else load(path)
@@ -153,7 +154,7 @@ def run(folder: Path, path: Path | None) -> None:
     )
 
     started = time.monotonic()
-    network = demo_network.plan(native.load(), points, triangles, edges, along.lower(), tell)
+    network = demo_network.plan(native.load(), points, triangles, edges, along.lower(), STRENGTHS[along], tell)
     tell(f"network planned in {time.monotonic() - started:.1f} s")
     if not network.wires:
         raise DemoError("nothing to cut: the whole mesh is flat enough to be unwrapped as it is")

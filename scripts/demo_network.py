@@ -81,6 +81,7 @@ class Drawing:
         triangles: NDArray[np.int32],
         edges: NDArray[np.int32],
         along: Literal["edges", "surface"],
+        strength: float,
     ) -> None:
         self.points, self.triangles = points, triangles
         self._sw = sw
@@ -88,7 +89,7 @@ class Drawing:
         curvature = sw.principal_curvatures(surface)
         metric = sw.feature_metric(surface, curvature, follow="min", max_anisotropy=10.0, clamp_percentile=99.0)
         self._embedding = sw.embed(surface, metric)
-        self._live = sw.LiveWire(surface, along=along)
+        self._live = sw.LiveWire(surface, along=along, max_anisotropy=strength, clamp_percentile=99.0)
         self._scale = surface.scale
         # Ranks, not values: one sharp corner must not outweigh all soft ridges.
         self._feature = np.argsort(np.argsort(curvature.difference)) / max(len(points) - 1, 1)
@@ -432,6 +433,7 @@ def plan(
     triangles: NDArray[np.int32],
     edges: NDArray[np.int32],
     along: Literal["edges", "surface"],
+    strength: float,
     tell: Callable[[str], None],
 ) -> Network:
     """Plan a network of wires that cuts the mesh into disks.
@@ -444,10 +446,12 @@ def plan(
         (n, 3), (m, 3) and (e, 2): the mesh; the edges are those of its polygons.
     along
         Where the wires run.
+    strength
+        The metric's largest anisotropy: that of whatever is to draw these wires again.
     tell
         Is told in a line what was done.
     """
-    drawing = Drawing(sw, points, triangles, edges, along)
+    drawing = Drawing(sw, points, triangles, edges, along, strength)
     while len(drawing.seeds) < SEEDS and drawing.add_seed():
         pass
     while True:

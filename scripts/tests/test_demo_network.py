@@ -109,7 +109,7 @@ def euler_characteristics(triangles: NDArray[np.int32], seams: set[tuple[int, in
 @pytest.mark.parametrize("mesh", [torus, cube, two_parts])
 def test_every_segment_is_a_disk(mesh: Callable[[], Mesh], along: str) -> None:
     points, triangles = mesh()
-    network = demo_network.plan(sw, points, triangles, all_edges(triangles), along, lambda _: None)
+    network = demo_network.plan(sw, points, triangles, all_edges(triangles), along, 10.0, lambda _: None)
     euler = euler_characteristics(triangles, network.edges())
     assert set(euler.values()) == {1}
     assert len(euler) == network.segments.max() + 1
@@ -122,7 +122,7 @@ def test_an_uncut_torus_is_no_disk() -> None:
 
 def test_wires_are_between_the_seeds_that_the_operator_is_given() -> None:
     points, triangles = torus()
-    network = demo_network.plan(sw, points, triangles, all_edges(triangles), "edges", lambda _: None)
+    network = demo_network.plan(sw, points, triangles, all_edges(triangles), "edges", 10.0, lambda _: None)
     chains = [tuple(int(seed) for seed in chain.split()) for chain in network.chains().split(";")]
     assert chains == [(wire.vertices[0], wire.vertices[-1]) for wire in network.wires]
 
@@ -130,5 +130,5 @@ def test_wires_are_between_the_seeds_that_the_operator_is_given() -> None:
 def test_a_flat_mesh_needs_no_wires() -> None:
     points, triangles = cube()
     flat = triangles[(points[triangles][:, :, 0] == 0.0).all(axis=1)]
-    network = demo_network.plan(sw, points, flat, all_edges(flat), "edges", lambda _: None)
+    network = demo_network.plan(sw, points, flat, all_edges(flat), "edges", 10.0, lambda _: None)
     assert network.wires == []
