@@ -11,8 +11,8 @@ from bl_ui.space_statusbar import STATUSBAR_HT_header
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from numpy.typing import NDArray
 from scene import add_grid, add_layers, edit, snapshot
-from seamwire import drawing
-from seamwire.session import Session
+from seamwire.core.session import Session
+from seamwire.operators import modal as drawing
 
 ORANGE, RED, GREEN, WHITE = (1.0, 0.72, 0.05), (1.0, 0.25, 0.15), (0.3, 1.0, 0.55), (1.0, 1.0, 1.0)
 

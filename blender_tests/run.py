@@ -34,8 +34,8 @@ def enable_addon() -> None:
     if module is None or failures:
         sys.stderr.write(f"The add-on {ADDON} could not be enabled.\n" + "".join(failures))
         leave(3)
-    for part in pkgutil.iter_modules(module.__path__):
-        importlib.import_module(f"{ADDON}.{part.name}")
+    for part in pkgutil.walk_packages(module.__path__, f"{ADDON}."):
+        importlib.import_module(part.name)
     for name in [name for name in sys.modules if name == ADDON or name.startswith(f"{ADDON}.")]:
         sys.modules["seamwire" + name.removeprefix(ADDON)] = sys.modules[name]
 

@@ -52,7 +52,8 @@ class Film:
         """Write under the headers what is being done."""
         if not self.caption:
             return
-        from seamwire import overlay, paint
+        from seamwire.view import gpu_draw as paint
+        from seamwire.view import overlay
 
         left, bottom, width, height = overlay.free_room(bpy.context.area, bpy.context.region)
         size = paint.text_size(1.0, 1.9)
@@ -146,7 +147,7 @@ class Film:
 
 def session() -> object | None:
     """Return the session of the running drawing."""
-    from seamwire import drawing
+    from seamwire.operators import modal as drawing
 
     return drawing.running[0].session if drawing.running else None
 

@@ -52,7 +52,11 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     Reading the mesh; beginning all that is computed beside; that it is ready for a seed; from the click to the first wire that is
     shown; to both final ones; and from a move of the cursor to the next wire.
     """
-    from seamwire import board, edit_mesh, picking, session, view
+    from seamwire.core import session
+    from seamwire.mesh import edit_mesh
+    from seamwire.mesh import object_session as board
+    from seamwire.view import picking
+    from seamwire.view import viewport as view
 
     steps = {}
     watch = Watch()

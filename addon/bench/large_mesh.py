@@ -61,7 +61,8 @@ class Holds:
 
     def watch_events(self) -> None:
         """Time what Blender calls: the operator's methods count their arguments, so the drawing is watched below them."""
-        from seamwire import drawing, overlay
+        from seamwire.operators import modal as drawing
+        from seamwire.view import overlay
 
         self.watch(drawing.Drawing, "__init__", "start")
         for name in ("handle", "trouble", "close"):
@@ -94,7 +95,7 @@ def memory() -> int:
 
 def session() -> object | None:
     """Return the session of the running drawing."""
-    from seamwire import drawing
+    from seamwire.operators import modal as drawing
 
     return drawing.running[0].session if drawing.running else None
 
@@ -229,7 +230,7 @@ def moves(ui: driver.Ui, places: NDArray[np.float64], holds: Holds) -> tuple[NDA
 
 def overlay_busy() -> bool:
     """Whether segments are being computed."""
-    from seamwire import drawing
+    from seamwire.operators import modal as drawing
 
     return bool(drawing.running) and any(board.busy for board in drawing.running[0].boards.values())
 

@@ -18,7 +18,7 @@ bl_info = {
 for _name in [name for name in sys.modules if name.startswith(f"{__name__}.")]:
     del sys.modules[_name]
 
-_PARTS = ("preferences", "operator", "keymap", "tool", "ui")
+_PARTS = ("ui.preferences", "operators.draw", "ui.keymap", "ui.toolbar", "ui.menus")
 
 
 def register() -> None:

@@ -6,8 +6,8 @@ from __future__ import annotations
 import itertools
 
 from fake_live import FakeLive, grid_edges, grid_points, grid_triangles
-from seamwire.network import Along
-from seamwire.session import Session
+from seamwire.core.network import Along
+from seamwire.core.session import Session
 
 SIZE = 6
 

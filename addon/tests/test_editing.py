@@ -7,9 +7,9 @@ import json
 
 import pytest
 from fake_live import FakeLive, grid_edges
-from seamwire.network import Snap
-from seamwire.session import Intent, Session
-from seamwire.storage import dump, load
+from seamwire.core.network import Snap
+from seamwire.core.serialization import dump, load
+from seamwire.core.session import Intent, Session
 from table import SIZE, Table, chain, corner, courses
 
 # Joining and closing

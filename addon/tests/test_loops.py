@@ -6,9 +6,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from fake_live import FakeLive, grid_edges, grid_points
-from seamwire.network import Snap
-from seamwire.session import Intent, Session
-from seamwire.storage import dump, load
+from seamwire.core.network import Snap
+from seamwire.core.serialization import dump, load
+from seamwire.core.session import Intent, Session
 from table import SIZE, Table, chain
 
 ROW = (12, 13, 14, 15, 16, 17)

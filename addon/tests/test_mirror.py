@@ -8,9 +8,9 @@ import time
 import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points
-from seamwire.cells import Cells
-from seamwire.mirror import TOLERANCE, Mirror
-from seamwire.network import Wire
+from seamwire.core.network import Wire
+from seamwire.core.spatial_hash import Cells
+from seamwire.core.symmetry import TOLERANCE, Mirror
 from table import SIZE, Table, chain
 
 
@@ -91,7 +91,7 @@ def test_on_a_large_mesh_images_are_the_same_and_only_the_wires_vertices_are_loo
 ) -> None:
     small, large = (Mirror(centred(), grid_edges(SIZE)) for _ in range(2))
     expected = [image.vertices for image in small.images(wire(0, 1, 7), (0, 1))]
-    monkeypatch.setattr("seamwire.mirror._SAMPLE", 0)
+    monkeypatch.setattr("seamwire.core.symmetry._SAMPLE", 0)
     monkeypatch.setattr(Mirror, "partners", lambda *_: pytest.fail("all vertices were looked for"))
     assert [image.vertices for image in large.images(wire(0, 1, 7), (0, 1))] == expected
 

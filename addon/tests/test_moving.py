@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from seamwire.network import Snap
-from seamwire.session import Intent
+from seamwire.core.network import Snap
+from seamwire.core.session import Intent
 from table import Table, corner, courses
 
 

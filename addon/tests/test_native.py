@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from seamwire import native
+from seamwire.core import native
 
 
 @pytest.fixture(autouse=True)

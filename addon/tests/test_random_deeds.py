@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
-from seamwire.eventual import EventualLive, Eventually
-from seamwire.network import Pick, Snap
-from seamwire.session import CLAMP_PERCENTILE, STRENGTHS, Session
-from seamwire.storage import dump, load
+from seamwire.core.eventual import EventualLive, Eventually
+from seamwire.core.network import Pick, Snap
+from seamwire.core.serialization import dump, load
+from seamwire.core.session import CLAMP_PERCENTILE, STRENGTHS, Session
 
 core = pytest.importorskip("seamwire_core")
 

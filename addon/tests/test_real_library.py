@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from fake_live import grid_edges
 from numpy.typing import NDArray
-from seamwire.eventual import EventualLive, Eventually
-from seamwire.network import Along, Snap
-from seamwire.session import CLAMP_PERCENTILE, STRENGTHS, Session
-from seamwire.storage import dump, load
+from seamwire.core.eventual import EventualLive, Eventually
+from seamwire.core.network import Along, Snap
+from seamwire.core.serialization import dump, load
+from seamwire.core.session import CLAMP_PERCENTILE, STRENGTHS, Session
 
 core = pytest.importorskip("seamwire_core")
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
-from seamwire.chains import draw_scribbles, parse_scribbles
-from seamwire.network import Network
-from seamwire.scribbles import OffMeshError, drawn, into_triangles, on_mesh, through_vertices
-from seamwire.storage import dump, load
+from seamwire.core.network import Network
+from seamwire.core.serialization import dump, load
+from seamwire.core.strokes import OffMeshError, drawn, into_triangles, on_mesh, through_vertices
+from seamwire.operators.seed_text import draw_scribbles, parse_scribbles
 from table import SIZE, Table
 
 MESH, TRIANGLES = grid_points(SIZE), grid_triangles(SIZE)

@@ -7,7 +7,7 @@ import time
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from seamwire.segments import SegmentMaker, coloured, neighbours
+from seamwire.core.islands import SegmentMaker, coloured, neighbours
 
 
 def strip(count: int) -> NDArray[np.int32]:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import pytest
-from seamwire.session import Intent
+from seamwire.core.session import Intent
 from table import Table, chain, corner, courses
 
 

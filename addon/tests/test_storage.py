@@ -8,8 +8,8 @@ import json
 import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points
-from seamwire.network import Network
-from seamwire.storage import dump, load
+from seamwire.core.network import Network
+from seamwire.core.serialization import dump, load
 from table import SIZE, Table, chain
 
 EDGES = grid_edges(SIZE)

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from seamwire import native
+from seamwire.core import native
 
 HERE = f"cp{sys.version_info.major}{sys.version_info.minor}"
 

@@ -31,7 +31,7 @@ def test_disabling_leaves_nothing_and_enabling_brings_all_back() -> None:
 
 
 def test_without_the_compiled_part_the_operator_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    from seamwire import native
+    from seamwire.core import native
 
     def fail() -> None:
         raise native.NativeError("Seamwire's compiled part is missing: install the package")

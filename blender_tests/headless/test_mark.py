@@ -115,7 +115,7 @@ def test_a_turned_moved_and_scaled_object_gets_the_same_seams(along: str) -> Non
 
 
 def test_lengths_are_those_that_are_seen() -> None:
-    from seamwire import edit_mesh
+    from seamwire.mesh import edit_mesh
 
     obj = add_suzanne()
     obj.rotation_euler = (0.3, 1.1, -0.7)
@@ -134,7 +134,7 @@ def test_lengths_are_those_that_are_seen() -> None:
 
 
 def test_a_flattened_object_is_read_without_its_matrix() -> None:
-    from seamwire import edit_mesh
+    from seamwire.mesh import edit_mesh
 
     obj = add_grid(3)
     obj.scale = (1.0, 1.0, 0.0)

@@ -13,10 +13,10 @@ import pytest
 from mathutils import Euler, Matrix, Vector
 from mathutils.bvhtree import BVHTree
 from scene import add_grid, add_object, add_suzanne, edit
-from seamwire import edit_mesh
-from seamwire.network import Edge, Pick, Snap, Wire
-from seamwire.picking import Picker, nearest_edge
-from seamwire.view import View
+from seamwire.core.network import Edge, Pick, Snap, Wire
+from seamwire.mesh import edit_mesh
+from seamwire.view.picking import Picker, nearest_edge
+from seamwire.view.viewport import View
 
 SIZE = 400.0
 

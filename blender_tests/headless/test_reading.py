@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from scene import add_grid, add_object, add_suzanne, edit
-from seamwire import edit_mesh
+from seamwire.mesh import edit_mesh
 
 
 def add_mixed() -> bpy.types.Object:

@@ -4,9 +4,12 @@
 import bpy
 import pytest
 from scene import add_grid, edit
-from seamwire import board, edit_mesh, keymap, ui
-from seamwire.network import Snap
-from seamwire.session import Session
+from seamwire.core.network import Snap
+from seamwire.core.session import Session
+from seamwire.mesh import edit_mesh
+from seamwire.mesh import object_session as board
+from seamwire.ui import keymap
+from seamwire.ui import menus as ui
 
 
 @pytest.fixture

@@ -10,8 +10,9 @@ import ui as driver
 from desk import GREEN, ORANGE, RED, WHITE, Desk, near, shows
 from mathutils import Euler
 from scene import ADDON, add_grid, chain, seams, snapshot
-from seamwire import board, edit_mesh
-from seamwire.session import Session
+from seamwire.core.session import Session
+from seamwire.mesh import edit_mesh
+from seamwire.mesh import object_session as board
 
 
 def with_a_wire(desk: Desk) -> Session:

@@ -5,8 +5,8 @@ import bpy
 import ui as driver
 from desk import GREEN, WHITE, Desk, shows
 from scene import chain, seams
-from seamwire import drawing
-from seamwire import ui as texts
+from seamwire.operators import modal as drawing
+from seamwire.ui import menus as texts
 
 
 def said() -> str:

@@ -8,7 +8,8 @@ import pytest
 import ui as driver
 from desk import Desk
 from scene import chain, seams
-from seamwire import drawing, keymap
+from seamwire.operators import modal as drawing
+from seamwire.ui import keymap
 
 
 def begin(desk: Desk) -> None:

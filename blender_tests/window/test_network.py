@@ -7,7 +7,7 @@ import bpy
 import ui as driver
 from desk import Desk
 from scene import chain, seams, snapshot
-from seamwire.session import Session
+from seamwire.core.session import Session
 
 
 def draw(desk: Desk, *vertices: int) -> Session:
@@ -203,7 +203,7 @@ def test_a_kept_wire_is_toggled(cone: Desk) -> None:
 
 
 def test_w_toggles_and_the_wheel_does_what_the_preferences_say(cone: Desk) -> None:
-    from seamwire import preferences
+    from seamwire.ui import preferences
 
     session, ui = cone.start(), cone.ui
     ui.click(cone.at(20), ctrl=True)
@@ -229,8 +229,8 @@ def test_w_toggles_and_the_wheel_does_what_the_preferences_say(cone: Desk) -> No
 
 
 def test_shift_and_the_wheel_change_the_strength_and_say_it(cone: Desk) -> None:
-    from seamwire import drawing
-    from seamwire import ui as texts
+    from seamwire.operators import modal as drawing
+    from seamwire.ui import menus as texts
 
     session, ui = cone.start(), cone.ui
     settings = bpy.context.window_manager.seamwire
@@ -289,8 +289,9 @@ def test_v_and_g_switch_settings_that_the_header_shows(desk: Desk) -> None:
 
 
 def test_keys_can_be_bound_anew(ui: driver.Ui, desk: Desk) -> None:
-    from seamwire import drawing, keymap
-    from seamwire import ui as texts
+    from seamwire.operators import modal as drawing
+    from seamwire.ui import keymap
+    from seamwire.ui import menus as texts
 
     def bind(key: str) -> None:
         # Blender may make the items anew whenever one has changed: none is kept.

@@ -18,11 +18,11 @@ import show
 import ui as driver
 from numpy.typing import NDArray
 from scene import add_grid, add_object, edit
-from seamwire import edit_mesh
-from seamwire.looks import Looks, Style
-from seamwire.network import Edge, Pick, Snap, Wire
-from seamwire.overlay import Overlay
-from seamwire.segments import SegmentMaker
+from seamwire.core.islands import SegmentMaker
+from seamwire.core.network import Edge, Pick, Snap, Wire
+from seamwire.mesh import edit_mesh
+from seamwire.view.overlay import Overlay
+from seamwire.view.theme import Looks, Style
 
 SIDE = 9
 HUES = {"red": (0, 30), "orange": (35, 60), "green": (110, 170), "blue": (190, 225)}

@@ -8,7 +8,8 @@ import pytest
 import ui as driver
 from desk import Desk
 from scene import ADDON
-from seamwire import preferences, tool
+from seamwire.ui import preferences
+from seamwire.ui import toolbar as tool
 
 
 def recorded(function: Callable, calls: list[str]) -> Callable:

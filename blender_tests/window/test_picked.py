@@ -9,8 +9,8 @@ import pytest
 import ui as driver
 from desk import ORANGE, Desk, leave, shows
 from scene import add_grid, add_object, chain, edit, seams
-from seamwire import drawing
-from seamwire import ui as texts
+from seamwire.operators import modal as drawing
+from seamwire.ui import menus as texts
 
 
 def said() -> str:

@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 import ui as driver
 from scene import add_grid, chain, edit, seams, snapshot
-from seamwire import drawing
+from seamwire.operators import modal as drawing
 
 
 def test_a_double_click_takes_a_loop_and_single_clicks_draw(real_ui: driver.RealUi) -> None:

@@ -5,7 +5,8 @@ import bpy
 import traces
 import ui as driver
 from scene import add_grid, edit
-from seamwire import drawing, keymap
+from seamwire.operators import modal as drawing
+from seamwire.ui import keymap
 
 TIMES = 20
 

@@ -10,8 +10,8 @@ import pytest
 import ui as driver
 from desk import Desk, leave
 from scene import add_grid, chain, seams
-from seamwire import drawing
-from seamwire import ui as texts
+from seamwire.operators import modal as drawing
+from seamwire.ui import menus as texts
 
 SIDE = 31
 LEFT, RIGHT = 15 * SIDE + 5, 15 * SIDE + 25

@@ -4,8 +4,8 @@
 import bpy
 import ui as driver
 from scene import add_grid, edit
-from seamwire import drawing
-from seamwire.session import Session
+from seamwire.core.session import Session
+from seamwire.operators import modal as drawing
 
 
 def start(ui: driver.Ui) -> tuple[bpy.types.Object, Session]:

@@ -9,8 +9,8 @@ import pytest
 import ui as driver
 from desk import Desk, leave
 from scene import add_grid, chain, edit, seams
-from seamwire import drawing
-from seamwire import ui as texts
+from seamwire.operators import modal as drawing
+from seamwire.ui import menus as texts
 
 
 def said() -> str:
@@ -246,7 +246,7 @@ def test_escape_stores_nothing(desk: Desk) -> None:
 
 
 def test_the_preferences_say_whether_wires_are_taken_up(desk: Desk) -> None:
-    from seamwire import preferences
+    from seamwire.ui import preferences
 
     own = preferences.get()
     desk.start()

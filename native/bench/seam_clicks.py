@@ -28,8 +28,8 @@ from blender_engine import BlenderEngine
 from seams_engine import SeamwireEngine
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
-from seamwire.loops import past_poles  # these know no Blender
-from seamwire.mirror import Mirror
+from seamwire.core.edge_loops import past_poles  # these know no Blender
+from seamwire.core.symmetry import Mirror
 
 Pair = tuple[int, int]
 Edges = frozenset[Pair]

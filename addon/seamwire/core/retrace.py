@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from .drag import Courses, Leg
+from .seed_drag import Courses, Leg
 
 if TYPE_CHECKING:
     from .live import LiveWire

@@ -10,10 +10,16 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from . import edit_mesh, native, overlay, picking, preferences, segments, session, storage, strokes
-from .eventual import EventualLive, Eventually
-from .looks import HUES
-from .ui import count
+from ..core import islands as segments
+from ..core import native, session
+from ..core import serialization as storage
+from ..core.eventual import EventualLive, Eventually
+from ..operators import stroke_handler as strokes
+from ..ui import preferences
+from ..ui.menus import count
+from ..view import overlay, picking
+from ..view.theme import HUES
+from . import edit_mesh
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -21,11 +27,11 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from .live import LiveWire
-    from .network import Along, Edge, Snap, Wire
-    from .scribbles import Scribble
-    from .tool import SeamwireSettings
-    from .view import View
+    from ..core.live import LiveWire
+    from ..core.network import Along, Edge, Snap, Wire
+    from ..core.strokes import Scribble
+    from ..ui.toolbar import SeamwireSettings
+    from ..view.viewport import View
 
 KEY = "seamwire"
 """The mesh's custom property that holds the network."""

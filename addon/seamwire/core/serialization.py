@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .cells import Cells
 from .network import LOOP_NAMES, Network, Wire, undirected, vertices_of
-from .scribbles import Scribble
+from .spatial_hash import Cells
+from .strokes import Scribble
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from .network import Along, Edge, LoopKind, Pick
-    from .scribbles import ActsOn
+    from .strokes import ActsOn
 
 FORMAT = "seamwire network"
 VERSION = 1

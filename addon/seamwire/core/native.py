@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     from types import ModuleType
 
 NAME = "seamwire_core"
-FOLDER = Path(__file__).parent / "_native"
+FOLDER = Path(__file__).parent.parent / "_native"
 """Where the add-on's own copy lies, in Blenders that do not install wheels themselves."""
-WHEELS = Path(__file__).parent / "wheels"
+WHEELS = Path(__file__).parent.parent / "wheels"
 """The compiled part for each Python and system that this package is for, as the package brought them."""
 
 

@@ -11,20 +11,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 from mathutils import Vector
 
-from . import native
-from .network import Snap
-from .polylines import nearest_on_segments
-from .view import Projected
+from ..core import native
+from ..core.geometry import nearest_on_segments
+from ..core.network import Snap
+from .viewport import Projected
 
 if TYPE_CHECKING:
     import bmesh
     from mathutils import Matrix
     from numpy.typing import ArrayLike, NDArray
 
-    from .edit_mesh import Arrays
-    from .network import Pick, Wire
-    from .session import Session
-    from .view import View
+    from ..core.network import Pick, Wire
+    from ..core.session import Session
+    from ..mesh.edit_mesh import Arrays
+    from .viewport import View
 
 VERTEX_RADIUS = 12.0
 """Pixels around a vertex in which it is picked rather than its edge..."""

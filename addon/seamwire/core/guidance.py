@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from .engines import CLAMP_RANGE, STRENGTH_RANGE, STRENGTH_STEP
-from .scribbles import FOR_WIRES, OffMeshError, Scribble, drawn, through_vertices
+from .strokes import FOR_WIRES, OffMeshError, Scribble, drawn, through_vertices
 from .workings import Workings
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from .live import MetricName
     from .network import Along
-    from .scribbles import ActsOn
+    from .strokes import ActsOn
 
 
 class Guidance(Workings):

@@ -10,23 +10,23 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from .candidates import Preview
+from .edge_loops import LoopPreview
 from .engines import Engines
 from .history import History
-from .loops import LoopPreview
-from .mirror import Mirror
 from .network import Network, Snap, Wire, net_effect, undirected
-from .preview import Preview
-from .redraw import Redraws
-from .scribbles import for_library
+from .retrace import Redraws
 from .straight import Stops
+from .strokes import for_library
+from .symmetry import Mirror
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from .drag import Drag
     from .live import LiveWire, MetricName
     from .network import Along, Edge, LoopKind, Pick
-    from .scribbles import Scribble
+    from .seed_drag import Drag
+    from .strokes import Scribble
 
 
 class Intent(Enum):

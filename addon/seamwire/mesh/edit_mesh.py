@@ -15,13 +15,13 @@ import bmesh
 import bpy
 import numpy as np
 
-from . import native
+from ..core import native
 
 if TYPE_CHECKING:
     from mathutils import Matrix
     from numpy.typing import NDArray
 
-    from .network import Pick
+    from ..core.network import Pick
 
 _PART = 50_000
 """Vertices, edges or faces that are looked at in some hundredths of a second."""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from .live import LiveWire, MetricName
     from .network import Along
-    from .scribbles import Scribble
+    from .strokes import Scribble
 
 STRENGTHS: Mapping[Along, float] = {"EDGES": 10.0, "SURFACE": 20.0}
 """The metric's largest anisotropy to begin with: how strongly wires are drawn to features; docs/method.md says why."""

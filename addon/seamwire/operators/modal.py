@@ -9,20 +9,26 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from . import keymap, lazy, preferences, ui
-from .holds import Hold, SeedHold
-from .keymap import Action
-from .places import Place, place_of
+from .. import lazy
+from ..ui import keymap, preferences
+from ..ui import menus as ui
+from ..ui.keymap import Action
+from ..view.places import Place, place_of
+from .drag_handlers import Hold, SeedHold
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from . import board as boards
-    from . import network, strokes, tool
-    from .board import Board
-    from .session import Session
+    from ..core import network
+    from ..core.session import Session
+    from ..mesh import object_session as boards
+    from ..mesh.object_session import Board
+    from ..ui import toolbar as tool
+    from . import stroke_handler as strokes
 else:
-    boards, network, strokes, tool = map(lazy.Part, ("board", "network", "strokes", "tool"))
+    boards, network, strokes, tool = map(
+        lazy.Part, ("mesh.object_session", "core.network", "operators.stroke_handler", "ui.toolbar")
+    )
 
 _TICK = 0.05
 """Seconds between two looks at running work: redraws stay below what the eye takes for a stop."""

@@ -6,11 +6,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from . import paint
-from .network import LOOP_NAMES
+from ..core.network import LOOP_NAMES
+from . import gpu_draw as paint
 
 if TYPE_CHECKING:
-    from .session import Session
+    from ..core.session import Session
 
 _METRICS = {
     "feature": "",

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from . import paint
-from .looks import Colour
+from . import gpu_draw as paint
+from .theme import Colour
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -6,14 +6,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from . import lazy
+from .. import lazy
 
 if TYPE_CHECKING:
     import bpy
 
-    from . import view as views
+    from . import viewport as views
 else:
-    views = lazy.Part("view")
+    views = lazy.Part("view.viewport")
 
 
 @dataclass(frozen=True)

@@ -10,14 +10,14 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from .drag import Drag
+from .candidates import only_vertices
+from .edge_loops import taken
 from .engines import CLAMP_PERCENTILE, STRENGTHS
 from .guidance import Guidance
-from .loops import taken
 from .network import Network, Seed, Snap, Wire, name, undirected
-from .preview import only_vertices
-from .scribbles import on_mesh
+from .seed_drag import Drag
 from .state import Intent, Queued
+from .strokes import on_mesh
 
 if TYPE_CHECKING:
     from .network import Pick

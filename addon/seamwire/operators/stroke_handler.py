@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .polylines import nearest_on_segments
+from ..core.geometry import nearest_on_segments
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from mathutils import Matrix
     from numpy.typing import NDArray
 
-    from .board import Board
-    from .network import Wire
-    from .places import Place
-    from .scribbles import Scribble
-    from .view import View
+    from ..core.network import Wire
+    from ..core.strokes import Scribble
+    from ..mesh.object_session import Board
+    from ..view.places import Place
+    from ..view.viewport import View
 
 STEP = 3.0
 """Pixels between two looks at the surface under a stroke: a hand moves the mouse farther from one event to the next."""

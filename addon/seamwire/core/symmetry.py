@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .cells import Cells
 from .network import Wire
+from .spatial_hash import Cells
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -9,19 +9,19 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from . import help as keys
-from . import hud
-from .looks import Looks, Style, hue_colours
-from .paint import Eye, Faces, Lines, blended, draw_dots, sees_through, unseen
+from . import key_table as keys
+from . import text_overlay as hud
+from .gpu_draw import Eye, Faces, Lines, blended, draw_dots, sees_through, unseen
+from .theme import Looks, Style, hue_colours
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
-    from .network import Edge, Pick, Wire
-    from .segments import SegmentMaker
-    from .session import Session
+    from ..core.islands import SegmentMaker
+    from ..core.network import Edge, Pick, Wire
+    from ..core.session import Session
 
 TINT_LIFT = 1.5
 _NO_ROOM = (0.0, 0.0, 0.0, 0.0)

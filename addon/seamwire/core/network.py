@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from .polylines import nearest_on_segments
+from .geometry import nearest_on_segments
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .scribbles import Scribble
+    from .strokes import Scribble
 
 Along = Literal["EDGES", "SURFACE"]
 """Where wires run: along the mesh's edges, or across its surface."""

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from .live import LiveWire
-    from .mirror import Mirror
     from .network import Edge, Network, Seed
+    from .symmetry import Mirror
 
 
 class Stops:

@@ -8,17 +8,22 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from . import lazy
-from .drawing import Drawing, close_all, on_load, running
-from .tool import ALONG_ITEMS, METRIC_ITEMS, settings
-from .ui import count
+from .. import lazy
+from ..ui.menus import count
+from ..ui.toolbar import ALONG_ITEMS, METRIC_ITEMS, settings
+from .modal import Drawing, close_all, on_load, running
 
 if TYPE_CHECKING:
-    from . import board, chains, edit_mesh, native, session
-    from .network import Edge, Pick
-    from .session import Session
+    from ..core import native, session
+    from ..core.network import Edge, Pick
+    from ..core.session import Session
+    from ..mesh import edit_mesh
+    from ..mesh import object_session as board
+    from . import seed_text as chains
 else:
-    board, chains, edit_mesh, native, session = map(lazy.Part, ("board", "chains", "edit_mesh", "native", "session"))
+    board, chains, edit_mesh, native, session = map(
+        lazy.Part, ("mesh.object_session", "operators.seed_text", "mesh.edit_mesh", "core.native", "core.session")
+    )
 
 
 def _in_edit_mode(context: bpy.types.Context) -> bool:

@@ -8,17 +8,18 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from . import keymap, lazy
+from .. import lazy
+from . import keymap
 from .keymap import Action
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from . import network
-    from .network import LoopKind
-    from .session import Session
+    from ..core import network
+    from ..core.network import LoopKind
+    from ..core.session import Session
 else:
-    network = lazy.Part("network")
+    network = lazy.Part("core.network")
 
 MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "VIEW3D_MT_edit_mesh_context_menu", "IMAGE_MT_uvs")
 

@@ -6,9 +6,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
-    from .board import Board
-    from .network import Snap
-    from .places import Place
+    from ..core.network import Snap
+    from ..mesh.object_session import Board
+    from ..view.places import Place
 
 
 class Hold(Protocol):

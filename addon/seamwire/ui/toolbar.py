@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from . import keymap, lazy
-from .engines import CLAMP_PERCENTILE, CLAMP_RANGE, STRENGTH_RANGE, STRENGTHS
+from .. import lazy
+from ..core.engines import CLAMP_PERCENTILE, CLAMP_RANGE, STRENGTH_RANGE, STRENGTHS
+from . import keymap
 
 if TYPE_CHECKING:
-    from . import drawing
+    from ..operators import modal as drawing
 else:
-    drawing = lazy.Part("drawing")
+    drawing = lazy.Part("operators.modal")
 
 ALONG_ITEMS = (
     ("EDGES", "Along Edges", "Wires are chains of the mesh's edges"),
@@ -28,7 +29,7 @@ METRIC_ITEMS = (
 )
 KEYMAP = f"3D View Tool: Edit Mesh, {keymap.NAME}"
 """What Blender calls the keymap of the tool."""
-_ICON = Path(__file__).parent / "icons" / "seamwire.draw"
+_ICON = Path(__file__).parent.parent / "icons" / "seamwire.draw"
 
 
 def strength_property(along: str) -> object:

@@ -7,18 +7,18 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from .drag import Leg
-from .loops import find_offers, others
+from .edge_loops import find_offers, others
 from .network import Network, Seed, Snap, Wire, name, undirected
-from .redraw import Job, other_way, with_lost, with_other_way
-from .scribbles import FOR_WIRES
+from .retrace import Job, other_way, with_lost, with_other_way
+from .seed_drag import Leg
 from .state import Queued, State
 from .straight import run_on
+from .strokes import FOR_WIRES
 
 if TYPE_CHECKING:
-    from .drag import Courses
     from .live import LiveWire, MetricName
     from .network import Along, Pick
+    from .seed_drag import Courses
 
 
 class Workings(State):

@@ -13,7 +13,7 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix
 
-from .looks import HALO, Colour, Style
+from .theme import HALO, Colour, Style
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

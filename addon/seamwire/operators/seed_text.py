@@ -8,11 +8,11 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from .network import LOOP_NAMES
+from ..core.network import LOOP_NAMES
 
 if TYPE_CHECKING:
-    from .network import Edge, LoopKind, Pick
-    from .session import Session
+    from ..core.network import Edge, LoopKind, Pick
+    from ..core.session import Session
 
 _TOKEN = re.compile(r"(\d+)(?:-(\d+))?")
 _VERTEX = re.compile(r"\d+")

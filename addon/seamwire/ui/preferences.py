@@ -7,10 +7,14 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from . import keymap, tool
+from . import keymap
+from . import toolbar as tool
 
 if TYPE_CHECKING:
     from .keymap import Action
+
+
+_ADDON = __package__.rpartition(".")[0]
 
 
 def _colour(name: str, description: str, default: tuple[float, float, float, float]) -> object:
@@ -22,7 +26,7 @@ def _colour(name: str, description: str, default: tuple[float, float, float, flo
 class SeamwirePreferences(bpy.types.AddonPreferences):
     """What the add-on remembers from one start of Blender to the next."""
 
-    bl_idname = __package__
+    bl_idname = _ADDON
 
     line_width: bpy.props.FloatProperty(
         name="Line Width",
@@ -137,7 +141,7 @@ def _draw_key(box: bpy.types.UILayout, keys: bpy.types.KeyMap, item: bpy.types.K
 def get(context: bpy.types.Context | None = None) -> SeamwirePreferences | None:
     """Return the preferences; None where the add-on runs without being enabled there."""
     addons = (context or bpy.context).preferences.addons
-    return addons[__package__].preferences if __package__ in addons else None
+    return addons[_ADDON].preferences if _ADDON in addons else None
 
 
 def register() -> None:
