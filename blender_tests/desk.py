@@ -12,7 +12,10 @@ from bpy_extras.view3d_utils import location_3d_to_region_2d
 from numpy.typing import NDArray
 from scene import add_grid, add_layers, edit, snapshot
 from seamwire.core.session import Session
-from seamwire.operators import modal as drawing
+from seamwire.mesh.settings import TOOL, settings
+from seamwire.operators import modal
+from seamwire.operators.report import running
+from seamwire.view.edited_objects import edited
 
 ORANGE, RED, GREEN, WHITE = (1.0, 0.72, 0.05), (1.0, 0.25, 0.15), (0.3, 1.0, 0.55), (1.0, 1.0, 1.0)
 
@@ -23,9 +26,7 @@ class Desk:
     def __init__(self, ui: driver.Ui, obj: bpy.types.Object) -> None:
         self.ui = ui
         self.obj = obj
-        settings = bpy.context.window_manager.seamwire
-        for name in settings.bl_rna.properties.keys():  # noqa: SIM118 - Blender's collections give their items otherwise
-            settings.property_unset(name)
+        reset_settings()
         add_layers(obj)
         ui.wait()
         with ui.override():
@@ -34,21 +35,33 @@ class Desk:
         self.before = snapshot(obj)
 
     def start(self, **options: str) -> Session:
-        """Start the tool."""
+        """Begin a chain that waits for its first click."""
         with self.ui.override():
             assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", **options) == {"RUNNING_MODAL"}
         self.ui.wait()
         return self.session
 
+    def choose(self) -> Session:
+        """Choose the tool in the toolbar, and point at the middle of the mesh."""
+        choose(self.ui)
+        self.ui.move(self.ui.on_screen((0.03, 0.04, 0.0)))
+        self.ui.wait_until(lambda: edited.front is not None)
+        return self.session
+
+    @property
+    def chain(self) -> modal.Chain:
+        """The chain that is being drawn."""
+        return running[0]
+
     @property
     def session(self) -> Session:
-        """The running drawing's session."""
-        return drawing.running[0].session
+        """The session of the object that was pointed at last."""
+        return running[0].session if running else edited.front.session
 
     @property
     def running(self) -> bool:
-        """Whether the tool runs."""
-        return bool(drawing.running)
+        """Whether a chain is being drawn."""
+        return bool(running)
 
     def at(self, *vertices: int) -> tuple[float, float]:
         """Return where a vertex is seen, or the middle of an edge."""
@@ -65,10 +78,11 @@ class Desk:
         return None if at is None else (at.x, at.y)
 
     def left_clean(self) -> bool:
-        """Whether the tool has ended, and the status bar and the handlers are as they were."""
+        """Whether no chain is being drawn, and the status bar and the handlers are as they were."""
         status = getattr(STATUSBAR_HT_header, "_draw_orig", STATUSBAR_HT_header.draw)
-        handlers = [handler for handler in bpy.app.handlers.depsgraph_update_post if "Drawing" in str(handler)]
-        return not self.running and STATUSBAR_HT_header.draw is status and not handlers
+        handlers = [*bpy.app.handlers.save_pre, *bpy.app.handlers.load_pre]
+        left = [handler for handler in handlers if "modal" in handler.__module__]
+        return not self.running and STATUSBAR_HT_header.draw is status and not left
 
     def unchanged(self) -> bool:
         """Whether the mesh is as it was when it came."""
@@ -90,9 +104,28 @@ def half_cone(ui: driver.Ui) -> Desk:
     return Desk(ui, obj)
 
 
+def choose(ui: driver.Ui, tool: str = TOOL) -> None:
+    """Choose a tool of edit mode."""
+    with ui.override():
+        bpy.ops.wm.tool_set_by_id(name=tool)
+    ui.wait(redraw=True)
+
+
+def reset_settings() -> None:
+    """Set the tool as it comes."""
+    chosen = settings()
+    for name in chosen.bl_rna.properties.keys():  # noqa: SIM118 - Blender's collections give their items otherwise
+        if name != "rna_type":
+            chosen.property_unset(name)
+
+
 def leave(ui: driver.Ui) -> None:
-    """End the tool, however it stands."""
-    drawing.close_all()
+    """End what is drawn, however it stands, and forget what was prepared."""
+    for chain in tuple(running):
+        chain.drop()
+    edited.clear()
+    if bpy.context.mode == "EDIT_MESH":
+        choose(ui, "builtin.select_box")
     ui.move((ui.region.width * 0.5, ui.region.height * 0.5))
     ui.wait()
 

@@ -18,7 +18,17 @@ bl_info = {
 for _name in [name for name in sys.modules if name.startswith(f"{__name__}.")]:
     del sys.modules[_name]
 
-_PARTS = ("ui.preferences", "operators.draw", "ui.keymap", "ui.toolbar", "ui.menus")
+_PARTS = (
+    "mesh.settings",
+    "ui.preferences",
+    "operators.mark",
+    "operators.draw",
+    "operators.hover",
+    "ui.keymap",
+    "ui.toolbar",
+    "ui.status_bar",
+    "ui.menus",
+)
 
 
 def register() -> None:
@@ -28,6 +38,9 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Remove them."""
+    """Remove them, and forget what was prepared."""
     for part in reversed(_PARTS):
         import_module(f".{part}", __package__).unregister()
+    objects = sys.modules.get(f"{__package__}.view.edited_objects")
+    if objects is not None:
+        objects.edited.clear()

@@ -80,16 +80,10 @@ class Guidance(Workings):
         return self._use_metric(self.metric, self._engines.strengths, percentile)
 
     def set_mirror(self, axes: Iterable[int]) -> bool:
-        """Mirror all wires over axes, 0 to 2; none: not at all."""
+        """Mirror the wires that are kept from here on over axes, 0 to 2; none: not at all."""
         mirror = tuple(sorted(set(axes)))
-        if mirror == self._network.mirror:
-            return True
-        self._calm()
-        network = replace(self._network, mirror=mirror)
-        if not self._history.empty:
-            return self._change(network)
-        # Nothing was drawn: this is how drawing begins, and no step of it.
-        self._set(network)
+        if mirror != self._network.mirror:
+            self._set(replace(self._network, mirror=mirror))
         return True
 
     def scribble(

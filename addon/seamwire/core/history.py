@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from .network import Network
 
 
@@ -59,7 +57,7 @@ class History:
         self._undo.append(now)
         return self._redo.pop()
 
-    def rewrite(self, change: Callable[[Network], Network]) -> None:
-        """Change all networks, where something belongs to a step that was done before."""
-        self._undo = [change(network) for network in self._undo]
-        self._redo = [change(network) for network in self._redo]
+    def forget(self) -> None:
+        """Forget all steps: what was done is Blender's to undo now."""
+        self._undo.clear()
+        self._redo.clear()

@@ -142,6 +142,10 @@ class Wire:
         Whether it is a loop.
     marks
         Whether its edges become seams; else they cease to be seams.
+    mirror
+        The axes, 0 to 2, that it is mirrored over.
+    images
+        The edges that its mirror images mark or clear as well, smaller vertex first; None: not found yet.
     heading
         The directed edge that it goes on from, where it begins at the end of another wire.
     follow
@@ -156,6 +160,8 @@ class Wire:
         The edge of that click, smaller vertex first.
     offers
         What else that click offered, the next one first; they have no offers themselves.
+    stored
+        The number under which the mesh knows it as it runs now; 0: under none yet.
     id
         Its own number, kept when its course changes.
     """
@@ -167,6 +173,8 @@ class Wire:
     end: Pick
     closed: bool = False
     marks: bool = True
+    mirror: tuple[int, ...] = ()
+    images: tuple[Edge, ...] | None = None
     heading: Edge | None = None
     follow: int = 0
     alternative: Wire | None = None
@@ -174,12 +182,18 @@ class Wire:
     kind: LoopKind | None = None
     through: Edge | None = None
     offers: tuple[Wire, ...] = ()
+    stored: int = 0
     id: int = field(default_factory=_ids.__next__)
 
     def edges(self) -> list[Edge]:
         """Return the edges it marks or clears, in order along the wire."""
         following = self.vertices[1:] + (self.vertices[:1] if self.closed else ())
         return [(min(a, b), max(a, b)) for a, b in zip(self.vertices, following, strict=False)]
+
+    def claims(self) -> Iterator[Edge]:
+        """Yield the edges that it and its images mark or clear."""
+        yield from self.edges()
+        yield from self.images or ()
 
     @property
     def last_edge(self) -> Edge:
@@ -196,11 +210,15 @@ class Wire:
         """Return its alternative in its place. There must be one."""
         assert self.alternative is not None
         back = replace(self, alternative=None)
-        return replace(self.alternative, id=self.id, marks=self.marks, alternative=back)
+        return replace(self.alternative, id=self.id, marks=self.marks, mirror=self.mirror, alternative=back)
 
     def drawn(self, **course: object) -> Wire:
         """Return it with another course, which is none that a click on an edge offered."""
-        return replace(self, **course, alternative=None, kind=None, through=None, offers=())
+        return self.changed(**course, images=None, alternative=None, kind=None, through=None, offers=())
+
+    def changed(self, **changes: object) -> Wire:
+        """Return it with changes that the mesh does not know yet."""
+        return replace(self, **changes, stored=0)
 
     def all_offers(self) -> tuple[Wire, ...]:
         """Return itself and what else the click on its edge offered, all without offers of their own."""
@@ -210,7 +228,7 @@ class Wire:
         """Return what the click on its edge offered next, or some steps on, in its place."""
         offers = self.all_offers()
         offers = offers[steps:] + offers[:steps]
-        return replace(offers[0], id=self.id, marks=self.marks, offers=offers[1:])
+        return replace(offers[0], id=self.id, marks=self.marks, mirror=self.mirror, offers=offers[1:])
 
 
 @dataclass(frozen=True)
@@ -224,22 +242,16 @@ class Network:
     seed
         Where the live wire begins; None between chains.
     mirror
-        The axes, 0 to 2, that it is mirrored over.
-    lost
-        Wires of a stored network whose edges are gone, and whose seeds are there: to be drawn anew between them.
+        The axes, 0 to 2, that wires are mirrored over which are kept from here on.
     scribbles
         The strokes that live wires follow or keep from; where they cross, the later one counts. Kept wires stay as they
         are.
-    earlier
-        The edges that an earlier drawing marked, whose wires were taken up; None: none was taken up. Not stored.
     """
 
     wires: tuple[Wire, ...] = ()
     seed: Seed | None = None
     mirror: tuple[int, ...] = ()
-    lost: tuple[Wire, ...] = ()
     scribbles: tuple[Scribble, ...] = ()
-    earlier: frozenset[Edge] | None = None
 
     def find(self, wire: Wire | None) -> Wire | None:
         """Return the wire with another's number, as it runs in this network."""
@@ -311,7 +323,7 @@ class Network:
         def follows(own: Wire) -> Wire:
             if own.id == wire.id:
                 return own.next_offer(steps)
-            return replace(own, heading=None) if _goes_on(wire, own.start, own.heading) else own
+            return own.changed(heading=None) if _goes_on(wire, own.start, own.heading) else own
 
         return replace(self, wires=tuple(follows(own) for own in self.wires), seed=self._seed_without(wire))
 
@@ -340,7 +352,7 @@ class Network:
             if new is None:
                 continue
             before = next((own for own in changed if own is not wire and _goes_on(own, wire.start, wire.heading)), None)
-            wires.append(new if before is None else replace(new, heading=last_edge(before)))
+            wires.append(new if before is None else new.changed(heading=last_edge(before)))
         seed = self.seed
         if seed is not None and seed.forward:
             before = next((own for own in changed if _goes_on(own, seed.place, seed.pick)), None)
@@ -357,12 +369,6 @@ class Network:
             return None
         wires = itertools.chain.from_iterable(parts if one is own else (one,) for one in self.wires)
         return replace(self, wires=tuple(wires))
-
-    def claims(self) -> Iterator[tuple[Edge, bool]]:
-        """Yield each edge of each wire with what the wire does to it; where wires share an edge, the last one counts."""
-        for wire in self.wires:
-            for edge in wire.edges():
-                yield edge, wire.marks
 
 
 def _goes_on(wire: Wire, start: Pick, heading: Pick | None) -> bool:
@@ -417,16 +423,8 @@ def split(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[Wire, Wi
     seed: Pick = vertices[after] if before == after else (vertices[before], vertices[after])
     heading = (vertices[after - 1], vertices[after])
     first = wire.drawn(vertices=vertices[: after + 1], points=wire.points[: after + 1], end=seed)
-    second = Wire(
-        "EDGES",
-        vertices[after:],
-        wire.points[after:],
-        seed,
-        wire.end,
-        marks=wire.marks,
-        heading=heading,
-        follow=wire.follow,
-        strength=wire.strength,
+    second = wire.drawn(
+        vertices=vertices[after:], points=wire.points[after:], start=seed, heading=heading, id=next(_ids)
     )
     return first, second
 
@@ -458,16 +456,14 @@ def _split_loop(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[Wi
         closed=False,
         heading=(around[-2], around[-1]),
     )
-    second = Wire(
-        wire.along,
-        around[middle:],
-        points[list(around[middle:])],
-        around[middle],
-        seed,
-        marks=wire.marks,
+    second = wire.drawn(
+        vertices=around[middle:],
+        points=points[list(around[middle:])],
+        start=around[middle],
+        end=seed,
+        closed=False,
         heading=(around[middle - 1], around[middle]),
-        follow=wire.follow,
-        strength=wire.strength,
+        id=next(_ids),
     )
     return first, second
 
@@ -485,15 +481,12 @@ def _split_curve(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[W
         points=np.vstack([wire.points[: nearest + 1], place]),
         end=pick,
     )
-    second = Wire(
-        "SURFACE",
-        wire.vertices[at:],
-        np.vstack([place, wire.points[nearest + 1 :]]),
-        pick,
-        wire.end,
-        marks=wire.marks,
-        follow=wire.follow,
-        strength=wire.strength,
+    second = wire.drawn(
+        vertices=wire.vertices[at:],
+        points=np.vstack([place, wire.points[nearest + 1 :]]),
+        start=pick,
+        heading=None,
+        id=next(_ids),
     )
     return first, second
 
@@ -502,3 +495,13 @@ def net_effect(claims: Iterable[tuple[Edge, bool]]) -> tuple[list[Edge], list[Ed
     """Return the edges to mark and those to clear, each sorted; of several claims to an edge the last one counts."""
     effect = dict(claims)
     return sorted(e for e, marks in effect.items() if marks), sorted(e for e, marks in effect.items() if not marks)
+
+
+def edges_after(edges: NDArray[np.int32], added: Iterable[Edge], removed: Iterable[Edge]) -> NDArray[np.int32]:
+    """Return (k, 2) edges with some more and without others, each once, smaller vertex first."""
+    more = np.array(list(added), dtype=np.int32).reshape(-1, 2)
+    less = np.array(list(removed), dtype=np.int64).reshape(-1, 2)
+    both = np.sort(np.concatenate([np.asarray(edges, dtype=np.int32).reshape(-1, 2), more]), axis=1).astype(np.int64)
+    count = int(max(both.max(initial=0), less.max(initial=0))) + 1
+    keys = np.setdiff1d(both @ (count, 1), np.sort(less, axis=1) @ (count, 1))
+    return np.stack([keys // count, keys % count], axis=1).astype(np.int32)

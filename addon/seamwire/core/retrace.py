@@ -16,18 +16,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Job:
-    """A wire that is drawn anew.
+    """A wire that is to take its other way.
 
     Parameters
     ----------
     leg
         Finds its courses.
-    lost
-        Whether it is one of a stored network's `lost` wires; else it is to take its other way.
     """
 
     leg: Leg
-    lost: bool
 
     @property
     def wire(self) -> Wire:
@@ -48,12 +45,13 @@ class Redraws:
         """Begin with one more."""
         self._jobs.append(job)
 
-    def drop_toggle(self) -> bool:
+    def drop_last(self) -> bool:
         """Forget the last wire that was to take its other way; return whether there was one."""
-        toggles = [job for job in self._jobs if not job.lost]
-        if toggles:
-            self._jobs.remove(toggles[-1])
-        return bool(toggles)
+        return bool(self._jobs) and self._jobs.pop() is not None
+
+    def clear(self) -> None:
+        """Forget all."""
+        self._jobs.clear()
 
     def lives(self) -> list[LiveWire]:
         """Return what computes them."""
@@ -90,11 +88,3 @@ def other_way(own: Wire, courses: Courses) -> Wire | None:
     if not others:
         return None
     return others[-1] if own.follow == 0 else others[0]
-
-
-def with_lost(network: Network, wire: Wire, found: Wire | None) -> Network:
-    """Return a network where a lost wire is drawn anew, or, where that cannot be, given up."""
-    if wire not in network.lost:
-        return network
-    lost = tuple(one for one in network.lost if one is not wire)
-    return replace(network, lost=lost, wires=(*network.wires, *([found] if found else [])))

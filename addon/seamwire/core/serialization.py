@@ -1,169 +1,284 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A network as text that is kept with the mesh, and found again on a mesh that has changed."""
+"""What a mesh keeps of its wires and strokes, as text: records that the labels of its edges call by their numbers.
+
+Which wires a mesh has, its edges say, see `wire_labels`: their labels come and go with Blender's undo. What each wire is, a
+record says. A record never changes, and its number follows from what it says: records of different times and meshes go
+together, and one that nothing calls any more does no harm.
+"""
 
 from __future__ import annotations
 
-import itertools
+import base64
+import binascii
+import hashlib
 import json
+import zlib
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .network import LOOP_NAMES, Network, Wire, undirected, vertices_of
-from .spatial_hash import Cells
+from .network import LOOP_NAMES, Network, Wire, undirected
 from .strokes import Scribble
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .network import Along, Edge, LoopKind, Pick
+    from .network import Pick
     from .strokes import ActsOn
 
-FORMAT = "seamwire network"
-VERSION = 1
+FORMAT = "seamwire"
+VERSION = 2
+WAS_SEAM = 1
+"""A member of a label: the edge was a seam before a wire ran along it."""
+_FIRST_NUMBER = 16
 _TOLERANCE = 1e-4
 """How far a vertex may have moved and still be found by its place, as part of the mesh's size."""
 
+Record = dict[str, Any]
 
-def dump(network: Network, points: NDArray[np.float64]) -> str:
-    """Write the wires and strokes of a network; the live wire's seed is left out.
+
+class UnreadableError(ValueError):
+    """A mesh's text cannot be read; the text is a sentence for the artist."""
+
+
+class NewerError(UnreadableError):
+    """It was written by a later version: it must stay as it is."""
+
+
+class Archive:
+    """Records of wires and strokes, and which of them each label of an edge stands for, all by their numbers.
+
+    A label stands for its members: the number of a wire that runs along the edge, the same negative for an image of that
+    wire, the number of a stroke that begins there, `WAS_SEAM`. One with a single member is that number itself.
+    """
+
+    def __init__(self) -> None:
+        self.wires: dict[int, Record] = {}
+        self.strokes: dict[int, Record] = {}
+        self._sets: dict[int, tuple[int, ...]] = {}
+
+    @classmethod
+    def parse(cls, text: str) -> Archive:
+        """Read what `text` wrote.
+
+        Raises
+        ------
+        NewerError, UnreadableError
+            Where it was written by a later version, or is none.
+        """
+        archive = cls()
+        if not text:
+            return archive
+        try:
+            name, version, body = text.split(" ", 2)
+            if name != FORMAT:
+                raise ValueError
+            if int(version) > VERSION:
+                raise NewerError("The wires of this mesh were drawn with a newer Seamwire: they stay as they are")
+            data = json.loads(zlib.decompress(base64.b64decode(body, validate=True)))
+            archive.wires = {int(number): _checked_wire(record) for number, record in data["wires"].items()}
+            archive.strokes = {int(number): dict(record) for number, record in data["strokes"].items()}
+            archive._sets = {int(label): tuple(map(int, members)) for label, members in data["sets"].items()}
+        except NewerError:
+            raise
+        except (ValueError, TypeError, KeyError, AttributeError, RecursionError, zlib.error, binascii.Error) as error:
+            raise UnreadableError("The wires stored with this mesh cannot be read; its seams are untouched") from error
+        return archive
+
+    def text(self, labels: Iterable[int]) -> str:
+        """Write what some labels stand for; an empty string where they stand for nothing."""
+        used = set(labels)
+        members = {abs(member) for label in used for member in self.members(label)}
+        data = {
+            "wires": {number: self.wires[number] for number in sorted(members & self.wires.keys())},
+            "strokes": {number: self.strokes[number] for number in sorted(members & self.strokes.keys())},
+            "sets": {label: self._sets[label] for label in sorted(used & self._sets.keys())},
+        }
+        if not data["wires"] and not data["strokes"]:
+            return ""
+        body = json.dumps(data, separators=(",", ":")).encode()
+        return f"{FORMAT} {VERSION} {base64.b64encode(zlib.compress(body, 9)).decode()}"
+
+    def merge(self, other: Archive) -> None:
+        """Take in the records of another archive."""
+        self.wires.update(other.wires)
+        self.strokes.update(other.strokes)
+        self._sets.update(other._sets)
+
+    def knows(self, label: int) -> bool:
+        """Whether what a label stands for is here."""
+        return all(
+            member == WAS_SEAM or abs(member) in self.wires or abs(member) in self.strokes
+            for member in self.members(label)
+        )
+
+    def members(self, label: int) -> tuple[int, ...]:
+        """Return what a label stands for."""
+        return self._sets.get(label, (label,))
+
+    def label_of(self, members: Iterable[int]) -> int:
+        """Return the label that stands for some members; 0: for none."""
+        wanted = tuple(sorted(set(members)))
+        if len(wanted) < 2:
+            return wanted[0] if wanted else 0
+        return self._add(self._sets, wanted)
+
+    def add_wire(self, record: Record) -> int:
+        """Add a wire's record and return its number."""
+        return self._add(self.wires, record)
+
+    def add_stroke(self, record: Record) -> int:
+        """Add a stroke's record and return its number."""
+        return self._add(self.strokes, record)
+
+    def _add(self, where: dict[int, Any], what: object) -> int:
+        digest = hashlib.blake2b(json.dumps(what, sort_keys=True).encode(), digest_size=4).digest()
+        number = max(int.from_bytes(digest, "big") & 0x7FFFFFFF, _FIRST_NUMBER)
+        kinds = (self.wires, self.strokes, self._sets)
+        while any(number in kind and (kind is not where or kind[number] != what) for kind in kinds):
+            number = max((number + 1) & 0x7FFFFFFF, _FIRST_NUMBER)
+        where[number] = what
+        return number
+
+
+# Wires
+
+
+def wire_record(wire: Wire, places: NDArray[np.float64], to_object: NDArray[np.float64]) -> Record:
+    """Return what there is to keep of a wire that is not closed or is, by the numbers its vertices have now.
 
     Parameters
     ----------
-    network
+    wire
         Of vertices below n.
-    points
-        (n, 3) vertices.
+    places
+        (n, 3) the vertices in object coordinates.
+    to_object
+        (3, 3) takes the wire's points there.
     """
-    used = {vertex for wire in network.wires for vertex in wire.vertices}
-    for wire in network.wires:
-        used.update(vertices_of(wire.start), vertices_of(wire.end), wire.heading or (), wire.through or ())
-    for scribble in network.scribbles:
-        used.update(scribble.corners.ravel().tolist())
-    numbers = sorted(used)
-    data = {
-        "format": FORMAT,
-        "version": VERSION,
-        "vertex_count": len(points),
-        "vertices": numbers,
-        "coordinates": points[numbers].tolist(),
-        "mirror": list(network.mirror),
-        "wires": [_wire_data(wire) for wire in network.wires],
-        "scribbles": [_scribble_data(scribble) for scribble in network.scribbles],
-    }
-    return json.dumps(data, separators=(",", ":"))
-
-
-def _wire_data(wire: Wire) -> dict[str, Any]:
-    data = {
+    chain = list(wire.vertices)
+    record: Record = {
         "along": wire.along,
-        "vertices": list(wire.vertices),
+        "vertices": chain,
+        "ends": places[[chain[0], chain[1] if wire.closed else chain[-1]]].astype(np.float32).tolist(),
         "start": wire.start,
         "end": wire.end,
         "closed": wire.closed,
-        "marks": wire.marks,
-        "heading": wire.heading,
+        "goes_on": wire.heading is not None,
         "follow": wire.follow,
         "strength": wire.strength,
+        "mirror": list(wire.mirror),
     }
     if wire.kind is not None:
-        data["kind"], data["through"] = wire.kind, wire.through
+        record["kind"], record["through"] = wire.kind, wire.through
     if wire.along == "SURFACE":
-        data["curve"] = wire.points.tolist()
-    return data
+        record["curve"] = _packed(wire.points @ to_object.T)
+        record["places"] = _packed(places[chain])
+    return json.loads(json.dumps(record))  # tuples become lists, as they will be when it is read again
 
 
-def _scribble_data(scribble: Scribble) -> dict[str, Any]:
+def _checked_wire(record: Record) -> Record:
+    """Return a record that was read, where nothing in it can be misunderstood; raises ValueError, TypeError, KeyError."""
+    vertices = [int(vertex) for vertex in record["vertices"]]
+    ends = np.array(record["ends"], dtype=np.float64)
+    sound = len(vertices) >= (3 if record["closed"] else 2) and min(vertices) >= 0
+    if not sound or ends.shape != (2, 3) or not np.isfinite(ends).all() or record["along"] not in {"EDGES", "SURFACE"}:
+        raise ValueError
+    if not np.isfinite(float(record["strength"])) or any(axis not in {0, 1, 2} for axis in record["mirror"]):
+        raise ValueError
+    for name in ("start", "end"):
+        pick_of(record[name])
+    if record.get("kind") is not None and (
+        record["kind"] not in LOOP_NAMES or not isinstance(pick_of(record["through"]), tuple)
+    ):
+        raise ValueError
+    if record["along"] == "SURFACE" and (
+        len(_unpacked(record["curve"])) < 2 or len(_unpacked(record["places"])) != len(vertices)
+    ):
+        raise ValueError
+    return record
+
+
+def pick_of(stored: int | list[int]) -> Pick:
+    """Return a pick as it was stored."""
+    if isinstance(stored, list):
+        one, two = stored
+        return int(one), int(two)
+    return int(stored)
+
+
+def stored_curve(
+    record: Record, vertices: tuple[int, ...], places: NDArray[np.float64], to_object: NDArray[np.float64]
+) -> NDArray[np.float64] | None:
+    """Return the curve of a wire across the surface where its vertices have not moved, as `Wire.points` are; else None."""
+    if record["along"] != "SURFACE":
+        return None
+    before = _unpacked(record["places"])
+    now = places[list(vertices)]
+    if before.shape != now.shape or len(now) == 0:
+        return None
+    tolerance = _TOLERANCE * float(np.ptp(places, axis=0).max(initial=0.0))
+    if np.abs(before - now).max() > tolerance:
+        return None
+    return _unpacked(record["curve"]) @ np.linalg.inv(to_object).T
+
+
+def _packed(points: NDArray[np.float64]) -> str:
+    return base64.b64encode(np.ascontiguousarray(points, dtype="<f4").tobytes()).decode()
+
+
+def _unpacked(text: str) -> NDArray[np.float64]:
+    points = np.frombuffer(base64.b64decode(text, validate=True), dtype="<f4").reshape(-1, 3).astype(np.float64)
+    if not np.isfinite(points).all():
+        raise ValueError
+    return points
+
+
+# Strokes
+
+
+def stroke_record(stroke: Scribble, places: NDArray[np.float64], to_object: NDArray[np.float64]) -> Record:
+    """Return what there is to keep of a stroke; parameters as those of `wire_record`."""
+    numbers = np.unique(stroke.corners)
     return {
-        "points": scribble.points.tolist(),
-        "corners": scribble.corners.tolist(),
-        "attracts": scribble.attracts,
-        "acts_on": scribble.acts_on,
-        "eta": scribble.eta,
-        "rings": scribble.rings,
-        "radius": scribble.radius,
+        "points": _packed(stroke.points @ to_object.T),
+        "corners": stroke.corners.tolist(),
+        "vertices": numbers.tolist(),
+        "places": _packed(places[numbers]),
+        "vertex_count": len(places),
+        "attracts": stroke.attracts,
+        "acts_on": stroke.acts_on,
+        "eta": stroke.eta,
+        "rings": stroke.rings,
+        "radius": stroke.radius,
     }
 
 
-def load(text: str, points: NDArray[np.float64], edges: NDArray[np.int32]) -> tuple[Network, list[str]]:
-    """Read a network, and find its vertices on the mesh as it is now.
+def stored_stroke(record: Record, places: NDArray[np.float64], to_object: NDArray[np.float64]) -> Scribble | None:
+    """Return as much of a stroke in one piece as the mesh has now; None: nothing of it, or it is damaged.
 
-    A vertex is the one with its number where that has its place, else the nearest to its place; where the mesh has as
-    many vertices as before, and none is there, the one with its number has moved.
-
-    Parameters
-    ----------
-    text
-        What `dump` wrote.
-    points
-        (n, 3) vertices.
-    edges
-        (e, 2) visible edges.
-
-    Returns
-    -------
-    network
-        With the wires whose edges are all there; those whose seeds alone are there are its `lost` ones. Of its strokes
-        only the corners say where they lie: see `scribbles.on_mesh`.
-    problems
-        In words, what could not be found; nothing is raised for a text that is not a network.
+    Its corners alone say where it lies, see `strokes.on_mesh`.
     """
     try:
-        data = json.loads(text)
-        if data["format"] != FORMAT:
-            raise ValueError
-        version = int(data["version"])
-    except (ValueError, TypeError, KeyError, RecursionError):
-        return Network(), ["The stored network cannot be read: it is damaged, or something else"]
-    if version > VERSION:
-        return Network(), ["The stored network was written by a newer Seamwire: this one cannot read it"]
-    try:
-        return _found(data, points, edges)
-    except (ValueError, TypeError, KeyError, IndexError, OverflowError, AttributeError):
-        return Network(), ["The stored network cannot be read: it is damaged"]
+        numbers = np.array(record["vertices"], dtype=np.int64)
+        same_count = int(record["vertex_count"]) == len(places)
+        mapped, _ = matched(numbers, _unpacked(record["places"]), places, same_count)
+        number_of = dict(zip(numbers.tolist(), mapped.tolist(), strict=True))
+        points = _unpacked(record["points"]) @ np.linalg.inv(to_object).T
+        return stroke_of(record, points, number_of)
+    except (ValueError, TypeError, KeyError, IndexError, OverflowError):
+        return None
 
 
-def _found(data: dict[str, Any], points: NDArray[np.float64], edges: NDArray[np.int32]) -> tuple[Network, list[str]]:
-    numbers = np.array(data["vertices"], dtype=np.int64).reshape(-1)
-    places = np.array(data["coordinates"], dtype=np.float64).reshape(len(numbers), 3)
-    mapped, stayed = _matched(numbers, places, points, int(data["vertex_count"]) == len(points))
-    number_of = dict(zip(numbers.tolist(), mapped.tolist(), strict=True))
-    unmoved = {number for number, same in zip(numbers.tolist(), stayed.tolist(), strict=True) if same}
-    mesh_edges = {(min(a, b), max(a, b)) for a, b in _edges_of(edges, mapped)}
-    reader = _Reader(number_of, unmoved, mesh_edges, points)
-    wires, lost, gone = [], [], 0
-    for item in data["wires"]:
-        wire = reader.wire(item)
-        if wire is None:
-            gone += 1
-        else:
-            (wires if wire.vertices else lost).append(wire)
-    mirror = tuple(sorted({axis for axis in map(int, data["mirror"]) if 0 <= axis <= 2}))
-    total = len(data["wires"])
-    problems = []
-    if lost:
-        problems.append(
-            f"{len(lost)} of {total} stored wires ran where edges are gone or hidden: drawn anew between their seeds"
-        )
-    if gone:
-        problems.append(f"{gone} of {total} stored wires are left out: what they ran on is gone or hidden")
-    scribbles, cut = [], 0
-    stored = data.get("scribbles", [])  # there were none at first
-    for item in stored:
-        scribble = _scribble(item, number_of)
-        cut += scribble is None or len(scribble.points) < len(item["points"])
-        if scribble is not None:
-            scribbles.append(scribble)
-    if cut:
-        problems.append(
-            f"{cut} of {len(stored)} stored strokes are cut short or left out: what they were drawn on is gone or hidden"
-        )
-    return Network(tuple(wires), None, mirror, tuple(lost), tuple(scribbles)), problems
+def stroke_of(item: Mapping[str, Any], points: NDArray[np.float64], number_of: Mapping[int, int]) -> Scribble | None:
+    """Return a stroke through those of its points whose vertices are there, as much of it as is in one piece.
 
-
-def _scribble(item: dict[str, Any], number_of: dict[int, int]) -> Scribble | None:
-    """Return a stroke, as much of it in one piece as is there; None where that is nothing."""
-    points = np.array(item["points"], dtype=np.float64).reshape(-1, 3)
+    Raises
+    ------
+    ValueError, TypeError, KeyError
+        Where it is damaged.
+    """
     stored = np.array(item["corners"], dtype=np.int64).reshape(len(points), 3)
     acts_on: ActsOn = item["acts_on"]
     eta, rings = float(item["eta"]), int(item["rings"])
@@ -182,101 +297,122 @@ def _scribble(item: dict[str, Any], number_of: dict[int, int]) -> Scribble | Non
     return Scribble(points[begin:end], corners[begin:end], faces, bool(item["attracts"]), acts_on, eta, rings, radius)
 
 
-def _matched(
+def matched(
     numbers: NDArray[np.int64], places: NDArray[np.float64], points: NDArray[np.float64], same_count: bool
 ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
-    """Return each stored vertex's number now, -1 where there is none, and whether it is where it was."""
+    """Return each stored vertex's number now, -1 where there is none, and whether it is where it was.
+
+    Where the mesh has as many vertices as before and none of the stored ones was lost, numbers count more than places: a
+    mesh that was moved by a cell of its own pattern has other vertices in the old places.
+    """
+    from .spatial_hash import Cells
+
     if not len(numbers) or not len(points) or not np.isfinite(places).all():
         return np.full(len(numbers), -1), np.zeros(len(numbers), dtype=bool)
     tolerance = max(_TOLERANCE * float(np.ptp(points, axis=0).max()), 1e-12)
     known = (numbers >= 0) & (numbers < len(points))
     here = points[np.where(known, numbers, 0)]
     stayed = known & (np.linalg.norm(here - places, axis=1) <= tolerance)
+    if same_count and known.all():
+        return numbers.copy(), stayed
     mapped = np.where(stayed, numbers, -1)
     if not stayed.all():
         mapped[~stayed] = Cells(points, tolerance).nearest(places[~stayed])
         stayed = mapped >= 0
-        if same_count:
-            mapped = np.where((mapped < 0) & known, numbers, mapped)
     return mapped, stayed
 
 
-def _edges_of(edges: NDArray[np.int32], vertices: NDArray[np.int64]) -> list[list[int]]:
-    """Return those edges whose ends are both among some vertices."""
-    return edges[np.isin(edges, vertices).all(axis=1)].tolist()
+# The first version, which knew no labels: a network as one text, found again by numbers and places
 
 
-class _Reader:
-    """Reads wires, with the numbers that their vertices have now."""
+def load_first_version(
+    text: str, points: NDArray[np.float64], edges: NDArray[np.int32], seams: NDArray[np.int32]
+) -> tuple[Network, str]:
+    """Read a network of version 1.
 
-    def __init__(
-        self,
-        number_of: dict[int, int],
-        unmoved: set[int],
-        edges: set[tuple[int, int]],
-        points: NDArray[np.float64],
-    ) -> None:
-        self._number_of = number_of
-        self._unmoved = unmoved
-        self._edges = edges
-        self._points = points
+    Parameters
+    ----------
+    text
+        What that wrote.
+    points
+        (n, 3) vertices, stretched as the object's matrix stretches them.
+    edges
+        (e, 2) visible edges.
+    seams
+        (k, 2) those that are seams: a wire whose edges are not all seams is none.
 
-    def wire(self, item: dict[str, Any]) -> Wire | None:
-        """Return a wire; one without vertices where only its seeds are there, None where not even they are."""
-        along: Along = item["along"]
-        if along not in {"EDGES", "SURFACE"}:
+    Returns
+    -------
+    network
+        The wires and strokes that are there.
+    problem
+        In words, what could not be found; an empty string: nothing is missing.
+    """
+    try:
+        data = json.loads(text)
+        if data["format"] != "seamwire network" or int(data["version"]) != 1:
             raise ValueError
-        closed = bool(item["closed"])
-        stored = [int(vertex) for vertex in item["vertices"]]
-        if len(stored) < (3 if closed else 2):
+        numbers = np.array(data["vertices"], dtype=np.int64).reshape(-1)
+        places = np.array(data["coordinates"], dtype=np.float64).reshape(len(numbers), 3)
+        mapped, stayed = matched(numbers, places, points, int(data["vertex_count"]) == len(points))
+        number_of = dict(zip(numbers.tolist(), mapped.tolist(), strict=True))
+        unmoved = set(numbers[stayed].tolist())
+        mirror = tuple(sorted({axis for axis in map(int, data["mirror"]) if 0 <= axis <= 2}))
+        is_seam = {(min(pair), max(pair)) for pair in seams.tolist()}
+        wires = [_first_wire(item, number_of, unmoved, is_seam, points, mirror) for item in data["wires"]]
+        strokes = [
+            stroke_of(item, np.array(item["points"], dtype=np.float64).reshape(-1, 3), number_of)
+            for item in data.get("scribbles", [])
+        ]
+    except (ValueError, TypeError, KeyError, IndexError, OverflowError, AttributeError, RecursionError):
+        return Network(), "The wires stored with this mesh cannot be read; its seams are untouched"
+    found = tuple(wire for wire in wires if wire is not None)
+    network = Network(found, scribbles=tuple(stroke for stroke in strokes if stroke is not None))
+    missing = len(wires) - len(found)
+    return network, f"{missing} of {len(wires)} stored wires are seams no more, or hidden" if missing else ""
+
+
+def _first_wire(
+    item: Record,
+    number_of: Mapping[int, int],
+    unmoved: set[int],
+    seams: set[tuple[int, int]],
+    points: NDArray[np.float64],
+    mirror: tuple[int, ...],
+) -> Wire | None:
+    stored = [int(vertex) for vertex in item["vertices"]]
+    closed = bool(item["closed"])
+    if item["along"] not in {"EDGES", "SURFACE"} or len(stored) < (3 if closed else 2):
+        raise ValueError
+    vertices = tuple(number_of[vertex] for vertex in stored)
+
+    def pick(what: int | list[int]) -> Pick:
+        picked = pick_of(what)
+        return (number_of[picked[0]], number_of[picked[1]]) if isinstance(picked, tuple) else number_of[picked]
+
+    heading = None if item["heading"] is None else pick(item["heading"])
+    kind = item.get("kind")
+    through = undirected(pick(item["through"])) if kind in LOOP_NAMES else None
+    around = list(vertices + vertices[:1] if closed else vertices)
+    wire = Wire(
+        item["along"],
+        vertices,
+        points[around],
+        pick(item["start"]),
+        pick(item["end"]),
+        closed=closed,
+        mirror=mirror,
+        heading=heading if isinstance(heading, tuple) else None,
+        follow=1 if item["follow"] else 0,
+        strength=float(item["strength"]),
+        kind=kind if isinstance(through, tuple) else None,
+        through=through if isinstance(through, tuple) else None,
+    )
+    if not item["marks"] or min(vertices) < 0 or not seams.issuperset(wire.edges()):
+        return None
+    if "curve" in item and unmoved.issuperset(stored):
+        curve = np.array(item["curve"], dtype=np.float64).reshape(-1, 3)
+        if len(curve) < 2 or not np.isfinite(curve).all():
             raise ValueError
-        start, end = self._pick(item["start"]), self._pick(item["end"])
-        if start is None or end is None:
-            return None
-        vertices = tuple(self._number_of[vertex] for vertex in stored)
-        around = vertices + vertices[:1] if closed else vertices
-        whole = all(self._is_edge(a, b) for a, b in itertools.pairwise(around))
-        if not whole and (closed or start == end):
-            return None
-        points = self._points[list(around)] if whole else np.empty((0, 3))
-        if whole and "curve" in item and self._unmoved.issuperset(stored):
-            points = np.array(item["curve"], dtype=np.float64).reshape(-1, 3)
-            if len(points) < 2 or not np.isfinite(points).all():
-                raise ValueError
-        kind, through = self._clicked(item) if whole else (None, None)
-        heading = None if item["heading"] is None else self._pick(item["heading"])
-        return Wire(
-            along,
-            vertices if whole else (),
-            points,
-            start,
-            end,
-            closed=closed,
-            marks=bool(item["marks"]),
-            heading=heading if isinstance(heading, tuple) else None,
-            follow=1 if item["follow"] else 0,
-            strength=float(item["strength"]),
-            kind=kind,
-            through=through,
-        )
-
-    def _clicked(self, item: dict[str, Any]) -> tuple[LoopKind | None, Edge | None]:
-        """Return what a wire is of what a click offered, and that click's edge; neither where it was drawn."""
-        kind, stored = item.get("kind"), item.get("through")  # there were none at first
-        if kind is None:
-            return None, None
-        if kind not in LOOP_NAMES or not isinstance(stored, list):
-            raise ValueError
-        through = undirected(self._pick(stored))
-        return (kind, through) if isinstance(through, tuple) else (None, None)
-
-    def _is_edge(self, a: int, b: int) -> bool:
-        return (min(a, b), max(a, b)) in self._edges
-
-    def _pick(self, stored: int | list[int]) -> Pick | None:
-        """Return a pick with the numbers of now; None where it is not there."""
-        if isinstance(stored, list):
-            a, b = (self._number_of[int(vertex)] for vertex in stored)
-            return (a, b) if self._is_edge(a, b) else None
-        vertex = self._number_of[int(stored)]
-        return None if vertex < 0 else vertex
+        wire = wire.changed(points=curve)
+    return wire

@@ -17,9 +17,11 @@ from .guidance import Guidance
 from .network import Network, Seed, Snap, Wire, name, undirected
 from .seed_drag import Drag
 from .state import Intent, Queued
-from .strokes import on_mesh
+from .straight import Stops
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
     from .network import Pick
 
 __all__ = ["CLAMP_PERCENTILE", "STRENGTHS", "Intent", "Session"]
@@ -124,7 +126,7 @@ class Session(Guidance):
                 self.revision += 1
                 return True
             return self._refuse(self.message or f"No edges run on from {name(edge)}")
-        wire = taken(offers, min(choice, len(offers) - 1), self.marking)
+        wire = replace(taken(offers, min(choice, len(offers) - 1), self.marking), mirror=self._network.mirror)
         return self._change(replace(self._network, wires=(*self.wires, wire)))
 
     def _take_back_click(self, edge: Pick) -> None:
@@ -188,7 +190,7 @@ class Session(Guidance):
             return self._refuse("A loop has no other way")
         if own.alternative is not None:
             return self._take_other_way(own, own.alternative)
-        return self._redraw(own, lost=False)
+        return self._redraw(own)
 
     def drop(self, wire: Wire) -> bool:
         """Remove a kept wire."""
@@ -292,12 +294,25 @@ class Session(Guidance):
         self._end.wanted = False
         return self._change(replace(self._network, wires=(*self.wires, wire), seed=None))
 
-    def resume(self, network: Network) -> bool:
-        """Go on with a stored network; its lost wires are drawn anew between their seeds, as far as they can be."""
+    def adopt(self, network: Network, seams: ArrayLike) -> None:
+        """Go on with what the mesh has now; what was done before is not for `undo` any more.
+
+        Parameters
+        ----------
+        network
+            Its wires and strokes. The mirror stays what it is; the live wire begins at the network's seed.
+        seams
+            (k, 2) the edges that are seams and no wires.
+        """
         self._calm()
-        strokes = tuple(on_mesh(scribble, self._points, self._triangles) for scribble in network.scribbles)
-        network = replace(network, scribbles=strokes)
-        return self._change(network) and all([self._redraw(wire, lost=True) for wire in network.lost])
+        self._stops = Stops(seams, self._mirror)
+        self._redraws.clear()
+        self._history.forget()
+        seed = network.seed
+        if seed is not None and seed != self._network.seed and not self._sow(seed):
+            seed = None
+        self._set(replace(network, seed=seed, mirror=self._network.mirror))
+        self._settle()
 
     def undo(self) -> bool:
         """Take back the last step: a wire, a loop, a seed, a move, whatever was done; first what still waits."""
@@ -307,7 +322,7 @@ class Session(Guidance):
             return True
         if self.drag_cancel():
             return True
-        if self._redraws.drop_toggle():
+        if self._redraws.drop_last():
             self.revision += 1
             return True
         network = self._history.back(self._network)
@@ -375,7 +390,13 @@ class Session(Guidance):
         ending = self._ending(target)
         if ending is Intent.CLOSE and {edge for own in self.wires for edge in own.edges()}.issuperset(wire.edges()):
             return self._refuse("The way back runs along the chain itself: place another seed first")
-        wire = replace(wire, marks=self.marking, strength=self.strength, alternative=live.other if live.final else None)
+        wire = replace(
+            wire,
+            marks=self.marking,
+            mirror=self._network.mirror,
+            strength=self.strength,
+            alternative=live.other if live.final else None,
+        )
         network = self._network.joined(target, self._points)
         after = None
         if ending is None:

@@ -85,7 +85,7 @@ class State:
     edges
         (e, 2) the visible edges; None: whatever two vertices a mirrored edge would have, they have an edge.
     seams
-        The edges, by their vertices, that are seams already: wires that run straight on end there.
+        The edges, by their vertices, that are seams and no wires: wires that run straight on end there.
     strength
         Largest anisotropy of the metric for each way; `make_live` is to make its live wires with the ones of
         `STRENGTHS`.
@@ -321,16 +321,16 @@ class State:
         return list({undirected(pick): None for pick in ends})
 
     def edges_to_mark(self) -> list[Edge]:
-        """Return the edges that finishing will make seams, each once, sorted, smaller vertex first."""
+        """Return the edges that the wires make seams, each once, sorted, smaller vertex first."""
         return self._net_effect()[0]
 
     def edges_to_clear(self) -> list[Edge]:
-        """Return the edges that finishing will make cease to be seams, each once, sorted, smaller vertex first."""
+        """Return the edges that the wires make cease to be seams, each once, sorted, smaller vertex first."""
         return self._net_effect()[1]
 
-    def mirrored(self, wire: Wire, axes: tuple[int, ...] | None = None) -> list[Wire]:
-        """Return the images of a wire over the mirror's axes, or others, as far as the mesh has their edges."""
-        return self._mirror.images(wire, self.mirror_axes if axes is None else axes)
+    def mirrored(self, wire: Wire) -> list[Wire]:
+        """Return the images that a wire has, or would have if it were kept now, as far as the mesh has their edges."""
+        return self._mirror.images(wire, self.mirror_axes if wire.images is None else wire.mirror)
 
     # For the deeds
 
@@ -343,11 +343,6 @@ class State:
     def _net_effect(self) -> tuple[list[Edge], list[Edge]]:
         network = self.network
         if self._effect is None or self._effect[0] is not network:
-            claims = (
-                (edge, wire.marks)
-                for wire in network.wires
-                for image in (wire, *self.mirrored(wire))
-                for edge in image.edges()
-            )
+            claims = ((edge, wire.marks) for wire in network.wires for edge in wire.claims())
             self._effect = (network, *net_effect(claims))
         return self._effect[1:]

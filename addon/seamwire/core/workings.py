@@ -8,8 +8,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from .edge_loops import find_offers, others
-from .network import Network, Seed, Snap, Wire, name, undirected
-from .retrace import Job, other_way, with_lost, with_other_way
+from .network import Network, Seed, Snap, Wire, undirected
+from .retrace import Job, other_way, with_other_way
 from .seed_drag import Leg
 from .state import Queued, State
 from .straight import run_on
@@ -114,13 +114,26 @@ class Workings(State):
         if seed is not None and seed != self._network.seed and not self._sow(seed):
             return False
         self._history.step(self._network)
-        self._set(network)
+        self._set(self._with_images(network))
         self._settle()
         return True
+
+    def _with_images(self, network: Network) -> Network:
+        """Return a network whose wires have found their images."""
+        if all(wire.images is not None for wire in network.wires):
+            return network
+        wires = (wire if wire.images is not None else self._with_own_images(wire) for wire in network.wires)
+        return replace(network, wires=tuple(wires))
+
+    def _with_own_images(self, wire: Wire) -> Wire:
+        edges = (edge for image in self._mirror.images(wire, wire.mirror) for edge in image.edges())
+        return replace(wire, images=tuple(dict.fromkeys(edges)))
 
     def _restore(self, network: Network) -> None:
         if network.seed is not None and network.seed != self._network.seed:
             self._sow(network.seed)
+        # The mirror is the mesh's, and no step of the drawing.
+        network = replace(network, mirror=self._network.mirror)
         back = [stroke.acts_on for stroke in network.scribbles if stroke not in self._network.scribbles]
         self._set(network)
         self._last_click = None
@@ -231,14 +244,14 @@ class Workings(State):
         except ValueError as error:
             self.message = str(error)
             return None
-        return wire and replace(wire, marks=self.marking, strength=self.strength)
+        return wire and replace(wire, marks=self.marking, mirror=self._network.mirror, strength=self.strength)
 
     # How it is done: kept wires that take another course
 
-    def _redraw(self, wire: Wire, lost: bool) -> bool:
-        """Draw a kept wire anew between its seeds, as soon as it is computed."""
+    def _redraw(self, wire: Wire) -> bool:
+        """Let a kept wire take its other way, as soon as that is computed."""
         try:
-            self._redraws.add(Job(Leg(self._fork(wire.along), self._network, wire, "end", self._points), lost))
+            self._redraws.add(Job(Leg(self._fork(wire.along), self._network, wire, "end", self._points)))
         except ValueError as error:
             return self._refuse(str(error))
         self._read_progress()
@@ -249,8 +262,6 @@ class Workings(State):
         for job, courses in self._redraws.done():
             if isinstance(courses, ValueError):
                 self._refuse(str(courses))
-            elif job.lost:
-                self._add_lost(job.wire, courses)
             else:
                 self._toggle_computed(job.wire, courses)
 
@@ -267,12 +278,3 @@ class Workings(State):
     def _take_other_way(self, own: Wire, other: Wire) -> bool:
         network = with_other_way(self._network, own, other)
         return self._refuse("There is no other way to this seed") if network is None else self._change(network)
-
-    def _add_lost(self, wire: Wire, courses: Courses) -> None:
-        found = courses.following(courses.shorter)
-        # Part of what resume() did, and of all that was done since: no step of its own.
-        self._history.rewrite(lambda network: with_lost(network, wire, found))
-        self._set(with_lost(self._network, wire, found))
-        self._aim(self._live.target, again=True)
-        if found is None:
-            self._refuse(f"A stored wire could not be drawn again: none reaches {name(wire.end)}")

@@ -7,8 +7,9 @@ edges are left out of what wires may run on.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import bmesh
@@ -16,6 +17,7 @@ import bpy
 import numpy as np
 
 from ..core import native
+from ..core.wire_labels import EdgeLabels
 
 if TYPE_CHECKING:
     from mathutils import Matrix
@@ -23,8 +25,8 @@ if TYPE_CHECKING:
 
     from ..core.network import Pick
 
-_PART = 50_000
-"""Vertices, edges or faces that are looked at in some hundredths of a second."""
+LABELS = ".seamwire"
+"""The layer of the edges that holds their labels, see `core.wire_labels`. Blender does not show names that begin so."""
 
 
 @dataclass(frozen=True)
@@ -50,6 +52,11 @@ class Arrays:
     edges: NDArray[np.int32]
     to_object: NDArray[np.float64]
     seams: NDArray[np.int32]
+
+    def same_as(self, other: Arrays) -> bool:
+        """Whether wires run on another mesh as they do on this one; its seams may be others."""
+        names = ("points", "triangles", "edges", "to_object")
+        return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in names)
 
 
 class Cage:
@@ -79,6 +86,11 @@ class Cage:
         """Whether the edit mesh is still there, with as many vertices, edges and faces as before."""
         return self.bm.is_valid and self._count() == self._counts
 
+    @property
+    def vertex_count(self) -> int:
+        """How many vertices the mesh had when it was read, hidden ones included."""
+        return self._counts[0]
+
     def problem_with(self, picks: Iterable[Pick]) -> str:
         """Say in words what keeps picks from being seeds; an empty string where nothing does."""
         count = self._counts[0]
@@ -99,13 +111,31 @@ class Cage:
     def _edge(self, pair: tuple[int, int]) -> bmesh.types.BMEdge | None:
         return self.bm.edges.get((self.bm.verts[pair[0]], self.bm.verts[pair[1]]))
 
-    def seams(self) -> list[tuple[int, int]]:
-        """Return the edges that are seams now, smaller vertex first."""
-        pairs = ((edge.verts[0].index, edge.verts[1].index) for edge in self.bm.edges if edge.seam)
-        return [(min(pair), max(pair)) for pair in pairs]
+    def is_seam(self, pair: tuple[int, int]) -> bool:
+        """Whether there is such an edge, and it is a seam."""
+        edge = self._edge(pair)
+        return edge is not None and edge.seam
 
-    def write_seams(self, mark: Iterable[tuple[int, int]], clear: Iterable[tuple[int, int]] = ()) -> tuple[int, int]:
-        """Make edges seams, and others no seams, and change nothing else.
+    def labels(self) -> EdgeLabels:
+        """Return the edges that have a label."""
+        layer = self.bm.edges.layers.int.get(LABELS)
+        if layer is None:
+            return EdgeLabels.none()
+        found = [(label, edge) for edge in self.bm.edges if (label := edge[layer])]
+        return EdgeLabels(
+            np.array([[v.index for v in edge.verts] for _, edge in found], dtype=np.int64).reshape(-1, 2),
+            np.array([label for label, _ in found], dtype=np.int64),
+            np.array([edge.seam for _, edge in found], dtype=bool),
+            np.array([edge.hide for _, edge in found], dtype=bool),
+        )
+
+    def write(
+        self,
+        mark: Iterable[tuple[int, int]],
+        clear: Iterable[tuple[int, int]] = (),
+        labels: Mapping[tuple[int, int], int] = MappingProxyType({}),
+    ) -> tuple[int, int]:
+        """Make edges seams, and others no seams, give edges other labels, and change nothing else.
 
         Returns
         -------
@@ -118,64 +148,33 @@ class Cage:
             Where two vertices have no edge between them; then nothing is changed.
         """
         self._lookup()
+        # Looked up twice: a new layer makes what was found before invalid.
+        for pairs in (mark := list(mark), clear := list(clear), labels):
+            self._found(pairs)
+        layer = self._label_layer() if any(labels.values()) else self.bm.edges.layers.int.get(LABELS)
         new = [edge for edge in self._found(mark) if not edge.seam]
         old = [edge for edge in self._found(clear) if edge.seam]
         for edge in new:
             edge.seam = True
         for edge in old:
             edge.seam = False
-        if new or old:
+        if layer is not None:
+            for edge, label in zip(self._found(labels), labels.values(), strict=True):
+                edge[layer] = label
+            if labels and not any(edge[layer] for edge in self.bm.edges):
+                self.bm.edges.layers.int.remove(layer)
+                self._lookup()
+        if new or old or labels:
             bmesh.update_edit_mesh(self.mesh, loop_triangles=False, destructive=False)
         return len(new), len(old)
 
-    def check_edges(self, *groups: Iterable[tuple[int, int]]) -> None:
-        """Raise ValueError where one of these pairs of vertices has no edge between them."""
-        self._lookup()
-        for pairs in groups:
-            self._found(pairs)
-
-    def differences(self, arrays: Arrays) -> Iterator[bool]:
-        """Compare vertices, visible edges and visible faces with what they were when arrays were read.
-
-        Yields
-        ------
-        bool
-            Of one part of the mesh after the other, whether it differs: a large one is not looked through in a moment. Between
-            two parts the numbers of vertices, edges and faces must stay.
-        """
-        looked = 0
-        for count, differs in self._comparisons(arrays):
-            looked += count
-            if differs or looked >= _PART:
-                looked = 0
-                yield differs
-
-    def _comparisons(self, arrays: Arrays) -> Iterator[tuple[int, bool]]:
-        """Yield how many items were compared, and whether they differ."""
-        bm = self.bm
-        vertices, edges, faces = self._counts
-        bm.verts.index_update()
-        before = arrays.points @ arrays.to_object.T
-        rounding = 1e-6 * np.abs(before).max()
-        if len(before) != vertices:
-            yield vertices, True
-        for begin in range(0, vertices, _PART):
-            part = before[begin : begin + _PART]
-            places = np.fromiter((x for vertex in bm.verts[begin : begin + _PART] for x in vertex.co), dtype=np.float64)
-            yield len(part), not np.allclose(places, part.ravel(), rtol=0.0, atol=rounding)
-        shown = 0
-        for begin in range(0, edges, _PART):
-            some = bm.edges[begin : begin + _PART]
-            ends = np.fromiter((v.index for edge in some if not edge.hide for v in edge.verts), dtype=np.int64)
-            part = arrays.edges[shown : shown + len(ends) // 2]
-            shown += len(ends) // 2
-            yield len(some), not np.array_equal(np.sort(ends.reshape(-1, 2), axis=1), np.sort(part, axis=1))
-        triangles = 0
-        for begin in range(0, faces, _PART):
-            some = bm.faces[begin : begin + _PART]
-            triangles += sum(len(face.verts) - 2 for face in some if not face.hide)
-            yield len(some), False
-        yield 0, shown != len(arrays.edges) or triangles != len(arrays.triangles)
+    def _label_layer(self) -> bmesh.types.BMLayerItem:
+        layers = self.bm.edges.layers.int
+        layer = layers.get(LABELS)
+        if layer is None:
+            layer = layers.new(LABELS)
+            self._lookup()
+        return layer
 
     def _found(self, pairs: Iterable[tuple[int, int]]) -> list[bmesh.types.BMEdge]:
         found = []
@@ -185,6 +184,68 @@ class Cage:
                 raise ValueError(f"There is no edge {pair[0]}-{pair[1]} to mark")
             found.append(edge)
         return found
+
+
+class StoredMesh:
+    """A mesh outside edit mode, to be marked like a `Cage` where edit mode was left before a chain had ended.
+
+    Parameters
+    ----------
+    mesh
+        Of an object in another mode.
+    """
+
+    def __init__(self, mesh: bpy.types.Mesh) -> None:
+        self.mesh = mesh
+        self.vertex_count = len(mesh.vertices)
+        self._pairs = np.sort(_column(mesh.edges, "vertices", np.int32, 2), axis=1)
+        self._row_of: dict[tuple[int, int], int] = {}
+
+    def _row(self, pair: tuple[int, int]) -> int | None:
+        if not self._row_of:
+            self._row_of = {tuple(own): row for row, own in enumerate(self._pairs.tolist())}
+        return self._row_of.get((min(pair), max(pair)))
+
+    def is_seam(self, pair: tuple[int, int]) -> bool:
+        """As `Cage.is_seam`."""
+        row = self._row(pair)
+        return row is not None and self.mesh.edges[row].use_seam
+
+    def labels(self) -> EdgeLabels:
+        """As `Cage.labels`."""
+        attribute = self.mesh.attributes.get(LABELS)
+        if attribute is None:
+            return EdgeLabels.none()
+        labels = _column(attribute.data, "value", np.int32)
+        rows = np.flatnonzero(labels)
+        seams, hidden = (_column(self.mesh.edges, name, np.bool_)[rows] for name in ("use_seam", "hide"))
+        return EdgeLabels(self._pairs[rows].astype(np.int64), labels[rows].astype(np.int64), seams, hidden)
+
+    def write(
+        self,
+        mark: Iterable[tuple[int, int]],
+        clear: Iterable[tuple[int, int]] = (),
+        labels: Mapping[tuple[int, int], int] = MappingProxyType({}),
+    ) -> tuple[int, int]:
+        """As `Cage.write`."""
+        mark, clear = list(mark), list(clear)
+        rows = {pair: self._row(pair) for pair in (*mark, *clear, *labels)}
+        gone = [pair for pair, row in rows.items() if row is None]
+        if gone:
+            raise ValueError(f"There is no edge {gone[0][0]}-{gone[0][1]} to mark")
+        edges = self.mesh.edges
+        new = [pair for pair in mark if not edges[rows[pair]].use_seam]
+        old = [pair for pair in clear if edges[rows[pair]].use_seam]
+        for pairs, seam in ((new, True), (old, False)):
+            for pair in pairs:
+                edges[rows[pair]].use_seam = seam
+        if labels:
+            attributes = self.mesh.attributes
+            attribute = attributes.get(LABELS) or attributes.new(LABELS, "INT", "EDGE")
+            for pair, label in labels.items():
+                attribute.data[rows[pair]].value = label
+        self.mesh.update()
+        return len(new), len(old)
 
 
 def read(obj: bpy.types.Object) -> Arrays:
@@ -201,7 +262,8 @@ def read(obj: bpy.types.Object) -> Arrays:
     shared = obj.data.copy() if bpy.app.version >= (4, 1, 0) else None
     try:
         columns = _Items(obj.data) if shared is None else _Attributes(shared)
-        points = columns.points().astype(np.float64)
+        points = columns.points() if obj.active_shape_key_index < 1 else _shape(obj)
+        points = points.astype(np.float64)
         edges = columns.edges()
         visible = ~columns.flags("edges", "hide")
         seams = edges[visible & columns.flags("edges", "use_seam")]
@@ -218,6 +280,11 @@ def read(obj: bpy.types.Object) -> Arrays:
         triangles = triangles[~hidden[polygons]]
     stretch = visible_stretch(obj.matrix_world)
     return Arrays(points @ stretch, triangles, edges, np.linalg.inv(stretch), seams)
+
+
+def _shape(obj: bpy.types.Object) -> NDArray[np.float32]:
+    """Return the vertices as the active shape key has them: they are edited and seen, and the mesh holds the basis."""
+    return _column(obj.active_shape_key.data, "co", np.float32, 3)
 
 
 class _Items:

@@ -1,43 +1,42 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One object that is drawn on: its edit mesh, session, picker and overlay, and the network that stays with its mesh."""
+"""One object in edit mode that is drawn on: its edit mesh, its session, and the network that stays with its mesh."""
 
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 
-from ..core import islands as segments
-from ..core import native, session
-from ..core import serialization as storage
+from ..core import native, serialization, wire_labels
+from ..core.engines import CLAMP_PERCENTILE, STRENGTHS
 from ..core.eventual import EventualLive, Eventually
-from ..operators import stroke_handler as strokes
-from ..ui import preferences
-from ..ui.menus import count
-from ..view import overlay, picking
-from ..view.theme import HUES
+from ..core.network import edges_after
+from ..core.serialization import Archive, UnreadableError
+from ..core.session import Session
+from ..core.strokes import on_mesh
+from ..core.wire_labels import EdgeLabels, Found, Places
 from . import edit_mesh
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
     from types import ModuleType
 
     from numpy.typing import NDArray
 
     from ..core.live import LiveWire
-    from ..core.network import Along, Edge, Snap, Wire
-    from ..core.strokes import Scribble
-    from ..ui.toolbar import SeamwireSettings
-    from ..view.viewport import View
+    from ..core.network import Along, Network
+    from .settings import SeamwireSettings
 
-KEY = "seamwire"
-"""The mesh's custom property that holds the network."""
-
+FIRST_VERSION = "seamwire"
+"""The mesh's custom property that held the network in the first version."""
 _MOMENT = 0.1
 """Seconds for which the interface may wait."""
+
+_archive = Archive()
+"""All records that this Blender has seen: undo brings back labels whose records no mesh holds any more."""
 
 
 def live_maker(arrays: edit_mesh.Arrays) -> Callable[[Along], LiveWire]:
@@ -65,10 +64,7 @@ def maker_on(surface: Eventually[object]) -> Callable[[Along], LiveWire]:
 
 def _live(core: ModuleType, surface: object, along: Along) -> LiveWire:
     return core.LiveWire(
-        surface,
-        along=along.lower(),
-        max_anisotropy=session.STRENGTHS[along],
-        clamp_percentile=session.CLAMP_PERCENTILE,
+        surface, along=along.lower(), max_anisotropy=STRENGTHS[along], clamp_percentile=CLAMP_PERCENTILE
     )
 
 
@@ -77,298 +73,267 @@ def mirror_axes(mesh: bpy.types.Mesh) -> tuple[int, ...]:
     return tuple(axis for axis, name in enumerate("xyz") if getattr(mesh, f"use_mirror_{name}"))
 
 
-def in_bounds(obj: bpy.types.Object, view: View, cursor: tuple[float, float]) -> bool:
-    """Whether a pixel lies within the bounds of an object, or within reach of them."""
-    corners = np.array([(*corner, 1.0) for corner in obj.bound_box]) @ np.array(obj.matrix_world).T
-    pixels = view.to_pixels(corners[:, :3])
-    if np.isnan(pixels).any():
-        return True
-    reach = picking.REACH
-    low, high = pixels.min(axis=0) - reach, pixels.max(axis=0) + reach
-    return bool((low <= cursor).all() and (cursor <= high).all())
-
-
-class Board:
+class ObjectSession:
     """One object that is drawn on.
 
     Parameters
     ----------
     obj
         A mesh object in edit mode.
-    settings
-        How wires are drawn at first.
-    interrupted
-        The network of a drawing on this mesh that did not come to its end; None: there was none.
+    along
+        How wires run at first.
+    make_live
+        Makes live wires of a surface; None: on threads of their own, as the tool needs it.
+
+    Attributes
+    ----------
+    problem
+        What there is to say of the wires that came with the mesh, once.
+    generation
+        Grows whenever the edit mesh was read anew.
+
+    Raises
+    ------
+    ValueError
+        Where there is nothing to draw on.
     """
 
-    def __init__(self, obj: bpy.types.Object, settings: SeamwireSettings, interrupted: str | None = None) -> None:
+    def __init__(
+        self, obj: bpy.types.Object, along: Along = "EDGES", make_live: Callable[[Along], LiveWire] | None = None
+    ) -> None:
         self.obj = obj
-        self.cage = edit_mesh.Cage(obj)
-        arrays = edit_mesh.read(obj)
-        self._arrays = arrays
-        self._differences: Iterator[bool] = iter(())
-        self._points = arrays.points
-        self._edges = arrays.edges
-        self._settings = settings
-        self._strength: NDArray[np.float64] | None = None
-        surface = eventual_surface(arrays)
-        self.session = session.Session(
-            maker_on(surface),
-            arrays.points,
-            settings.along,
-            edges=arrays.edges,
-            seams=arrays.seams,
-            strength={"EDGES": settings.strength_edges, "SURFACE": settings.strength_surface},
-            to_object=arrays.to_object,
-            triangles=arrays.triangles,
+        self.cage: edit_mesh.Cage | edit_mesh.StoredMesh = edit_mesh.Cage(obj)
+        self.arrays = edit_mesh.read(obj)
+        self.surface = None if make_live is not None else eventual_surface(self.arrays)
+        self.session = Session(
+            make_live or maker_on(self.surface),
+            self.arrays.points,
+            along,
+            edges=self.arrays.edges,
+            to_object=self.arrays.to_object,
+            triangles=self.arrays.triangles,
         )
-        self.session.set_metric(settings.metric)
-        self.session.set_clamp(settings.clamp)
-        self._mesh_mirror: tuple[int, ...] = ()
-        self.follow_mirror()
-        self._picker = picking.Picker(self.cage.bm, arrays, arrays.seams)
-        self._network = self.session.network
+        self.problem = ""
+        self.generation = 0
+        self.plain_seams: NDArray[np.int32] = self.arrays.seams
         self.symmetric: tuple[int, ...] | None = None
-        self._looking = threading.Thread(target=self._look_for_symmetry, daemon=True)
-        self._looking.start()
-        self._interrupted = interrupted
-        self._earlier = interrupted or self.stored
-        core = native.load()
-        self._segments = segments.SegmentMaker(
-            arrays.triangles, lambda cuts: core.face_segments(surface.get(), cuts), HUES
-        )
-        self.overlay = overlay.Overlay(
-            self.session,
-            obj,
-            arrays.points,
-            arrays.to_object,
-            triangles=arrays.triangles,
-            segments=self._segments,
-            seams=arrays.seams,
-            preferences=preferences.get(),
-        )
+        self._looking: threading.Thread | None = None
+        self._labels = EdgeLabels.none()
+        self._found = Found()
+        self._newer = False
+        self._renumbered = False
+        self._adopt(self.cage.labels())
+        self.follow_mirror()
 
-    def remove(self) -> None:
-        """Stop drawing the overlay."""
-        self.overlay.remove()
-        self._segments.close()
+    # Symmetry
+
+    def look_for_symmetry(self) -> None:
+        """Begin to find out over which axes the mesh is symmetric."""
+        if self._looking is None:
+            self._looking = threading.Thread(target=self._look_for_symmetry, name="seamwire symmetry")
+            self._looking.start()
 
     def _look_for_symmetry(self) -> None:
         self.symmetric = self.session.symmetric_axes
 
     def symmetric_soon(self) -> tuple[int, ...] | None:
         """Return the axes over which the mesh is symmetric; None where that takes longer than a moment to find out."""
-        self._looking.join(_MOMENT)
+        self.look_for_symmetry()
+        if self._looking is not None:
+            self._looking.join(_MOMENT)
         return self.symmetric
 
     @property
-    def offered(self) -> str | None:
-        """The network of an earlier drawing, while it is not taken up."""
-        return self._earlier if self.session.network.earlier is None else None
-
-    @property
-    def offer(self) -> bool:
-        """Whether wires of an earlier drawing are to be offered."""
-        own = preferences.get()
-        return self.offered is not None and (own is None or own.resume != "NEVER")
-
-    @property
     def busy(self) -> bool:
-        """Whether something is being computed: `poll` is to be called now and then."""
-        drawing = self.session
-        return drawing.computing or drawing.waiting_clicks > 0 or self._looking.is_alive() or self.overlay.busy
+        """Whether something is being computed."""
+        looking = self._looking is not None and self._looking.is_alive()
+        return self.session.computing or self.session.waiting_clicks > 0 or looking
 
-    @property
-    def changes(self) -> bool:
-        """Whether finishing would change anything."""
-        network = self.session.network
-        return bool(network.wires or network.scribbles) or network.earlier is not None
-
-    def look_through(self) -> None:
-        """Have `intact` look at every vertex, edge and face from now on, from the first one on, not at their numbers alone."""
-        self._differences = self.cage.differences(self._arrays)
-
-    def intact(self, to_the_end: bool = False) -> bool:
-        """Whether object and mesh are still there and being edited, with the same vertices, edges and faces.
-
-        Parameters
-        ----------
-        to_the_end
-            Look at all that there is to look at, instead of the next part.
-        """
-        try:
-            if self.obj.mode != "EDIT" or self.obj.data != self.cage.mesh or not self.cage.intact():
-                return False
-        except ReferenceError:
-            return False
-        return not (any(self._differences) if to_the_end else next(self._differences, False))
-
-    def shows(self, update: bpy.types.DepsgraphUpdate) -> bool:
-        """Whether an update of Blender's tells of a change of the mesh, whichever it is."""
-        return update.is_updated_geometry and update.id.original in (self.obj, self.cage.mesh)
-
-    def poll(self) -> bool:
-        """Take in what was computed; return whether there are new segments to be seen."""
-        self.session.poll()
-        return self.overlay.poll()
-
-    def stepped(self) -> bool:
-        """Whether there was a step since the last call that undo can take back."""
-        if self.session.dragging:
-            return False
-        before, self._network = self._network, self.session.network
-        return self._network is not before
+    def follow_mirror(self) -> None:
+        """Take over the mesh's own mirror."""
+        self.session.set_mirror(mirror_axes(self.cage.mesh))
 
     # Settings
 
     def follow(self, settings: SeamwireSettings) -> None:
-        """Take over settings that were changed in the tool's header."""
-        drawing = self.session
-        drawing.switch(settings.along)
-        drawing.set_metric(settings.metric)
-        drawing.set_clamp(settings.clamp)
-        drawing.set_strength("EDGES", settings.strength_edges)
-        drawing.set_strength("SURFACE", settings.strength_surface)
-
-    def follow_mirror(self) -> None:
-        """Take over the mesh's own mirror where it was changed."""
-        axes = mirror_axes(self.cage.mesh)
-        if axes != self._mesh_mirror:
-            self._mesh_mirror = axes
-            self.session.set_mirror(axes)
+        """Take over the tool's settings."""
+        session = self.session
+        session.switch(settings.along)
+        session.set_metric(settings.metric)
+        session.set_clamp(settings.clamp)
+        session.set_strength("EDGES", settings.strength_edges)
+        session.set_strength("SURFACE", settings.strength_surface)
+        if session.marking == settings.clear:
+            session.toggle_marking()
 
     def tell(self, settings: SeamwireSettings) -> None:
         """Write back what keys changed."""
-        drawing = self.session
-        for setting in ("along", "metric"):
-            if getattr(settings, setting) != getattr(drawing, setting):
-                setattr(settings, setting, getattr(drawing, setting))
-        name = "strength_edges" if drawing.along == "EDGES" else "strength_surface"
-        if abs(getattr(settings, name) - drawing.strength) > 1e-4 * drawing.strength:
-            setattr(settings, name, drawing.strength)
+        session = self.session
+        for name, value in (("along", session.along), ("metric", session.metric), ("clear", not session.marking)):
+            if getattr(settings, name) != value:
+                setattr(settings, name, value)
+        name = "strength_edges" if session.along == "EDGES" else "strength_surface"
+        if abs(getattr(settings, name) - session.strength) > 1e-4 * session.strength:
+            setattr(settings, name, session.strength)
 
-    # What is under the cursor, and what is seen
-
-    def snap(self, view: View, cursor: tuple[float, float], plain: bool = False) -> Snap | None:
-        """Return what is under the cursor; `plain`: of the mesh alone, whatever was drawn on it."""
-        if self._settings.snap and self._strength is None:
-            self._strength = self.session.feature_strength()
-        return self._picker.snap(
-            view,
-            self.obj.matrix_world,
-            cursor,
-            vertices_only=self.session.along == "SURFACE",
-            session=None if plain else self.session,
-            xray=self._settings.xray,
-            strength=self._strength if self._settings.snap and not plain else None,
-            scale=bpy.context.preferences.system.ui_scale,
-        )
-
-    def depth(self, view: View, cursor: tuple[float, float]) -> float | None:
-        """Return how far from the viewer the object is under the cursor; None where it is not."""
-        return self._picker.depth(view, self.obj.matrix_world, cursor)
-
-    def surface_at(self, view: View, cursor: tuple[float, float]) -> tuple[NDArray[np.float64], int] | None:
-        """Return the place on the mesh that is seen at a pixel, in the session's coordinates, and its triangle."""
-        return self._picker.surface_at(view, self.obj.matrix_world, cursor)
+    # The network and the mesh
 
     @property
-    def stroke_radius(self) -> float | None:
-        """How far strokes reach; None: as many rings as the library takes."""
-        return self._settings.stroke_radius or None
+    def places(self) -> Places:
+        """Where the vertices are."""
+        return Places(self.arrays.points, self.arrays.to_object)
 
-    def stroke_at(self, view: View, cursor: tuple[float, float]) -> Scribble | None:
-        """Return the stroke under the cursor."""
-        matrix = self.obj.matrix_world
-        return strokes.stroke_at(
-            self.session.scribbles,
-            view,
-            matrix,
-            self._arrays.to_object,
-            cursor,
-            strokes.ERASE_REACH * bpy.context.preferences.system.ui_scale,
-            lambda place: self._settings.xray or self._picker.sees(view, matrix, place),
-        )
-
-    def show(self, settings: SeamwireSettings, front: bool, help_rows: Sequence[tuple[str, str]] | None) -> None:
-        """Let the overlay follow."""
-        self.overlay.xray = settings.xray
-        self.overlay.features = settings.snap
-        self.overlay.front = front
-        self.overlay.help_rows = help_rows
-
-    # The network, beyond this drawing
-
-    def resume(self) -> str:
-        """Go on with the wires of an earlier drawing; return what there is to say."""
-        text = self.offered
-        if text is None:
-            return "There are no wires of an earlier drawing on this mesh"
-        network, problems = storage.load(text, self._points, self._edges)
-        now = self.session.network
-        self.session.resume(
-            replace(
-                network,
-                wires=(*network.wires, *now.wires),
-                scribbles=(*network.scribbles, *now.scribbles),
-                mirror=tuple(sorted({*network.mirror, *now.mirror})),
-                # What these wires marked, they are to clear where they are dropped now.
-                earlier=frozenset(edge for wire in network.wires for edge in self._marked_by(wire, network.mirror)),
-            )
-        )
-        return "; ".join([f"Going on with {count(len(network.wires), 'wire')}", *problems])
-
-    def _marked_by(self, wire: Wire, mirror: tuple[int, ...]) -> Iterator[Edge]:
-        if wire.marks:
-            for image in (wire, *self.session.mirrored(wire, mirror)):
-                yield from image.edges()
-
-    def to_set_aside(self) -> tuple[str, str] | None:
-        """Return the mesh's name and the network, for the next drawing on it; None where there is nothing to keep."""
-        network = replace(self.session.network, seed=None)
-        if not network.wires and not network.scribbles:
-            return None
+    def alive(self) -> bool:
+        """Whether the edit mesh that was read is still there, with as many vertices, edges and faces."""
         try:
-            return self.cage.mesh.name, storage.dump(network, self._points)
-        except ReferenceError:  # the mesh is gone, and the wires with it
-            return None
+            return self.obj.mode == "EDIT" and self.obj.data == self.cage.mesh and self.cage.intact()
+        except ReferenceError:
+            return False
 
-    @property
-    def stored(self) -> str | None:
-        """What is stored with the mesh."""
-        return self.cage.mesh.get(KEY)
+    def refresh(self, obj: bpy.types.Object) -> bool:
+        """Take over what the object's mesh holds now; return False where wires would run on it in another way.
 
-    def _effect(self) -> tuple[list[Edge], list[Edge]]:
-        mark, clear = self.session.edges_to_mark(), self.session.edges_to_clear()
-        dropped = (self.session.network.earlier or frozenset()) - set(mark) - set(clear)
-        return mark, [*clear, *dropped]
+        Raises
+        ------
+        ValueError
+            Where there is nothing to draw on.
+        """
+        arrays = edit_mesh.read(obj)
+        if obj.mode != "EDIT" or not arrays.same_as(self.arrays):
+            return False
+        self.obj = obj
+        self.cage = edit_mesh.Cage(obj)
+        self._renumbered = False
+        labels = self.cage.labels()
+        same = labels.same_as(self._labels) and np.array_equal(arrays.seams, self.arrays.seams)
+        self.arrays = replace(self.arrays, seams=arrays.seams)
+        self.generation += 1
+        if not same:
+            self._adopt(labels)
+        elif self._found.known:
+            self._store()
+        self.follow_mirror()
+        return True
 
-    def check(self) -> None:
-        """Raise ValueError where `write` would, so that of several objects either all are written or none."""
-        self.cage.check_edges(*self._effect())
+    def follow_change(self, obj: bpy.types.Object) -> bool:
+        """While wires are drawn, go on with what the object's mesh holds now, and with the wires as they were.
 
-    def write(self) -> tuple[int, int]:
-        """Mark and clear what was drawn, and store the network with the mesh.
+        Returns
+        -------
+        bool
+            False where wires would run on it in another way, or it has left edit mode: then they can be written still, as far
+            as vertices have the numbers that they had.
+        """
+        self.obj = obj
+        editing = obj.mode == "EDIT"
+        self.cage = edit_mesh.Cage(obj) if editing else edit_mesh.StoredMesh(obj.data)
+        self._renumbered = self.cage.vertex_count != len(self.arrays.points)
+        self._labels = self.cage.labels()
+        if not editing or self._renumbered:
+            return False
+        try:
+            arrays = edit_mesh.read(obj)
+        except ValueError:
+            return False
+        if not arrays.same_as(self.arrays):
+            return False
+        self.generation += 1
+        self._set_seams(arrays.seams, self._labels)
+        return True
+
+    def _adopt(self, labels: EdgeLabels) -> None:
+        """Go on with the network that labels tell of."""
+        self._learn(labels)
+        self._labels = labels
+        self._found = Found() if self._newer else wire_labels.read(labels, _archive, self.places)
+        network = self._found.network
+        stored = self.cage.mesh.get(FIRST_VERSION)
+        if isinstance(stored, str) and not len(labels.labels):
+            network, self.problem = serialization.load_first_version(
+                stored, self.arrays.points, self.arrays.edges, self.arrays.seams
+            )
+        strokes = tuple(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in network.scribbles)
+        self._set_seams(self.arrays.seams, labels)
+        self.session.adopt(replace(network, scribbles=strokes), self.plain_seams)
+        self._store()
+
+    def _set_seams(self, seams: NDArray[np.int32], labels: EdgeLabels) -> None:
+        self.arrays = replace(self.arrays, seams=seams)
+        self.plain_seams = wire_labels.seams_beside(seams, labels, _archive)
+
+    def _learn(self, labels: EdgeLabels) -> None:
+        """Take in the records of the mesh and, where labels came from another one, those of all meshes in the file."""
+        self._newer = False
+        try:
+            _archive.merge(Archive.parse(self.cage.mesh.seamwire_wires))
+        except serialization.NewerError as error:
+            self._newer, self.problem = True, str(error)
+            return
+        except UnreadableError as error:
+            self.problem = str(error)
+        if all(_archive.knows(label) for label in np.unique(labels.labels).tolist()):
+            return
+        for mesh in bpy.data.meshes:
+            try:
+                _archive.merge(Archive.parse(mesh.seamwire_wires))
+            except UnreadableError:
+                continue
+
+    def _store(self) -> None:
+        """Let the mesh hold the records that its labels call."""
+        if self._newer:
+            return
+        text = _archive.text(np.unique(self._labels.labels).tolist())
+        mesh = self.cage.mesh
+        if mesh.seamwire_wires != text:
+            mesh.seamwire_wires = text
+        if text and FIRST_VERSION in mesh:
+            del mesh[FIRST_VERSION]
+
+    def plan(self) -> wire_labels.Plan:
+        """Return what the mesh's edges must be for the session's network."""
+        return wire_labels.plan(
+            self.session.network,
+            self._labels,
+            self._found,
+            _archive,
+            self.places,
+            self.cage.is_seam,
+            self.arrays.edges,
+        )
+
+    def write(self, plan: wire_labels.Plan, adopt: bool = True) -> tuple[int, int]:
+        """Mark and clear seams, and let the mesh keep the network.
+
+        Parameters
+        ----------
+        plan
+            From `plan`.
+        adopt
+            Whether the drawing ends with that: what was done before is Blender's to undo then.
 
         Returns
         -------
         tuple of int
             How many edges became seams, and how many ceased to be.
+
+        Raises
+        ------
+        ValueError
+            Where an edge is not there any more; then nothing is changed.
         """
-        written = self.cage.write_seams(*self._effect())
-        network = replace(self.session.network, seed=None)
-        if self.stored is not None and (self.offered is not None or self._interrupted is not None):
-            # Wires that were not taken up stay with the mesh, as far as they still are what they were.
-            earlier, _ = storage.load(self.stored, self._points, self._edges)
-            seams = set(self.cage.seams())
-            drawn = {edge for wire in network.wires for edge in wire.edges()}
-            kept = [
-                wire for wire in earlier.wires if seams.issuperset(wire.edges()) and not drawn.issuperset(wire.edges())
-            ]
-            strokes = earlier.scribbles if network.earlier is None else ()
-            network = replace(network, wires=(*kept, *network.wires), scribbles=(*strokes, *network.scribbles))
-        if network.wires or network.scribbles:
-            self.cage.mesh[KEY] = storage.dump(network, self._points)
-        elif KEY in self.cage.mesh:
-            del self.cage.mesh[KEY]
+        if self._renumbered:
+            raise ValueError("The mesh has other vertices now")
+        written = self.cage.write(plan.mark, plan.clear, {} if self._newer else plan.labels)
+        self._labels = self.cage.labels()
+        self._found = Found(plan.network, plan.known)
+        seams = edges_after(self.arrays.seams, plan.mark, plan.clear)
+        self._set_seams(seams, self._labels)
+        self._store()
+        if adopt:
+            self.session.adopt(replace(plan.network, seed=None), self.plain_seams)
         return written
+
+    def drop_changes(self, network: Network) -> None:
+        """Go back to a network that the session had, whatever was drawn since."""
+        self.session.adopt(replace(network, seed=None), self.plain_seams)

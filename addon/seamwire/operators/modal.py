@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A drawing that goes on in a window: events turned into calls of sessions, and all that has to be put back at the end."""
+"""A chain in a window: from the click that begins it until it is closed, joined or ended, with all that is dragged or stroked."""
 
 from __future__ import annotations
 
@@ -9,578 +9,550 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from .. import lazy
-from ..ui import keymap, preferences
-from ..ui import menus as ui
-from ..ui.keymap import Action
-from ..view.places import Place, place_of
-from .drag_handlers import Hold, SeedHold
+from ..mesh import edit_mesh
+from ..mesh import settings as chosen
+from ..view.edited_objects import edited
+from ..view.viewport import Place, place_of
+from . import bindings, navigation
+from .bindings import Action
+from .drag_handlers import Hold, SeedHold, StrokeHold
+from .navigation import Meaning
+from .report import running, status_makers
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from ..core import network
+    from ..core.network import Network
     from ..core.session import Session
-    from ..mesh import object_session as boards
-    from ..mesh.object_session import Board
-    from ..ui import toolbar as tool
-    from . import stroke_handler as strokes
-else:
-    boards, network, strokes, tool = map(
-        lazy.Part, ("mesh.object_session", "core.network", "operators.stroke_handler", "ui.toolbar")
-    )
+    from ..view.object_view import ObjectView
 
-_TICK = 0.05
-"""Seconds between two looks at running work: redraws stay below what the eye takes for a stop."""
+_TICK = 0.02
+"""Seconds between two looks at running work: a wire is drawn when it is there."""
 _CLICKS = frozenset({Action.CLICK, Action.NEW_CHAIN, Action.LOOP})
-_STROKES = frozenset({Action.ATTRACT, Action.REPEL})
+_STROKES = frozenset({Action.GUIDE, Action.AVOID})
 _AXES = "XYZ"
-_CHANGED = "The mesh was changed"
-
-running: list[Drawing] = []
-"""The drawings going on, so that unregistering the add-on can end them."""
-_interrupted: dict[str, str] = {}
-"""The networks, by the mesh's name, of drawings in this file that did not come to their end."""
 
 
-class Drawing:
-    """A drawing in a window: its boards and handles, and what has to be put back when it ends.
+class Chain:
+    """A chain that is being drawn in a window: what it drew, and what has to be put back when it ends.
 
     Parameters
     ----------
     context
         With the 3D view to draw in, and the active object in edit mode.
+
+    Attributes
+    ----------
+    message
+        What there is to say about the last key.
+    done
+        What was done, in words for Blender's undo history, each once.
+    changed
+        Whether it has changed a mesh.
     """
 
     def __init__(self, context: bpy.types.Context) -> None:
         self._window = context.window
         self._workspace = context.workspace
         self._manager = context.window_manager
-        self._settings = tool.settings(context)
-        active = context.active_object
-        others = [obj for obj in context.objects_in_mode_unique_data if obj.type == "MESH" and obj.data != active.data]
-        # By the names they have now: an object that is renamed meanwhile stays the same one.
-        self._objects = {obj.name: obj for obj in (active, *others)}
         self._timer: bpy.types.Timer | None = None
         self._cursor = ""
-        self._clicks = keymap.DoubleClicks()
+        self._clicks = bindings.DoubleClicks()
         self._shown: tuple[object, ...] | None = None
         self._hold: Hold | None = None
-        self._history: list[Board] = []
-        self._undone: list[Board] = []
-        self._finishing = False
-        self._leaving = False
-        self._help = False
-        self._touched = False
+        self._history: list[ObjectView] = []
+        self._undone: list[ObjectView] = []
+        self._before: dict[int, tuple[ObjectView, Network]] = {}
+        self._seen: dict[int, Network] = {}
+        self._ending = False
+        self._begun = False
+        self._keys = False
         self.message = ""
-        self.keys = keymap.Bindings.of_user(self._manager)
-        self.boards: dict[str, Board] = {}
-        self._ending = ExitStack()
+        self.done: list[str] = []
+        self.changed = False
+        self.keys = bindings.of_user(self._manager).without(lambda key: navigation.takes(key, self._manager))
+        self._cleanup = ExitStack()
         try:
-            self._ending.callback(self._redraw)
-            self._ending.callback(self._remove_overlays)
-            self.board = self._board_of(active.name)
-            self.notes = ("Works on the mesh without its modifiers",) if active.modifiers else ()
-            self._ending.callback(self._set_timer, False)
-            self._ending.callback(self._set_cursor, "")
-            self._ending.callback(self._workspace.status_text_set, None)
-            bpy.app.handlers.depsgraph_update_post.append(self._on_update)
-            self._ending.callback(bpy.app.handlers.depsgraph_update_post.remove, self._on_update)
+            edited.follow_settings()
+            edited.chain = True
+            self._cleanup.callback(self._leave_objects)
+            self._cleanup.callback(self._set_timer, False)
+            self._cleanup.callback(self._set_cursor, "")
+            self._cleanup.callback(self._workspace.status_text_set, None)
+            for handlers, handler in ((bpy.app.handlers.save_pre, _on_save), (bpy.app.handlers.load_pre, _on_load)):
+                handlers.append(handler)
+                self._cleanup.callback(handlers.remove, handler)
             running.append(self)
-            self._ending.callback(running.remove, self)
-            self.refresh()
+            self._cleanup.callback(running.remove, self)
         except BaseException:
             self.close()
             raise
 
+    # What it is
+
+    @property
+    def view(self) -> ObjectView:
+        """The object that was pointed at last."""
+        if edited.front is None:
+            edited.front = edited.of(bpy.context.active_object)
+        return edited.front
+
     @property
     def session(self) -> Session:
-        """The session of the object that was pointed at last."""
-        return self.board.session
+        """Its session."""
+        return self.view.session
 
     @property
     def open(self) -> bool:
-        """Whether it has not been closed."""
+        """Whether it goes on."""
         return self in running
 
     @property
-    def empty(self) -> bool:
-        """Whether nothing was kept, and nothing that was kept before was dropped."""
-        return not any(board.changes for board in self.boards.values())
+    def idle(self) -> bool:
+        """Whether it has begun and nothing is live any more, nothing dragged and nothing waited for: then it ends."""
+        return (
+            self._begun
+            and self._hold is None
+            and not any(
+                view.session.seed is not None or view.session.waiting_clicks or view.session.dragging
+                for view in edited.views()
+            )
+        )
 
     def close(self) -> None:
         """Put everything back; more than once does no harm."""
-        self._ending.close()
+        self._cleanup.close()
 
-    def _remove_overlays(self) -> None:
-        for board in self.boards.values():
-            board.remove()
+    def _leave_objects(self) -> None:
+        edited.chain = False
+        for view in edited.views():
+            view.session.hover(None)
+            view.overlay.stroke = None
+        edited.watch()
+        edited.show()
+        edited.redraw()
 
-    def _on_update(self, _scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-        if not self._touched:
-            self._touched = any(board.shows(update) for update in depsgraph.updates for board in self.boards.values())
-
-    def _board_of(self, name: str) -> Board:
-        if name not in self.boards:
-            obj = self._objects[name]
-            board = boards.Board(obj, self._settings, _interrupted.get(obj.data.name))
-            self.boards[name] = board
-            own = preferences.get()
-            if board.offered is not None and own is not None and own.resume == "ALWAYS":
-                self._resume(board)
-        return self.boards[name]
-
-    # What can happen from outside
-
-    def trouble(self, context: bpy.types.Context, event: bpy.types.Event) -> str:
-        """Say why drawing cannot go on; an empty string where it can. Raises what an overlay could not draw."""
+    def trouble(self, context: bpy.types.Context) -> str:
+        """Say why it cannot go on; an empty string where it can. Raises what an overlay could not draw."""
+        edited.take_error()
         if context.mode != "EDIT_MESH":
             return "Edit mode was left"
         if context.workspace != self._workspace:
             return "Another workspace was opened"
-        # Looking through the mesh takes its time: while another editor is at work on it, that can wait.
-        if self._touched and place_of(self._window, event) is not None:
-            self._look_through()
-        for board in self.boards.values():
-            if not board.intact():
-                return _CHANGED
-            if board.overlay.error is not None:
-                raise board.overlay.error
+        if any(view.stale or not view.mesh.alive() for view in self._touched()):
+            return self._look_again()
         return ""
 
-    def trouble_at_the_end(self) -> str:
-        """Say why nothing can be marked; an empty string where it can."""
-        if self._touched:
-            self._look_through()
-        return "" if all(board.intact(to_the_end=True) for board in self.boards.values()) else _CHANGED
+    def _look_again(self) -> str:
+        """Look whether meshes that Blender says were changed really were; seams may be, for others may mark them."""
+        for view in self._touched():
+            if not view.stale and view.mesh.alive():
+                continue
+            obj = bpy.data.objects.get(view.name)
+            if obj is None:
+                return "An object was removed"
+            if not view.mesh.follow_change(obj):
+                return "The mesh was changed"
+            view.stale = False
+            view.renew()
+        return ""
 
-    def _look_through(self) -> None:
-        self._touched = False
-        for board in self.boards.values():
-            board.look_through()
+    def _touched(self) -> list[ObjectView]:
+        return [view for view, _ in self._before.values()]
 
-    def set_aside(self) -> int:
-        """Keep what was drawn for when the tool is started again; return how many wires that are."""
-        wires = 0
-        for board in self.boards.values():
-            kept = board.to_set_aside()
-            if kept is not None:
-                _interrupted.update([kept])
-                wires += len(board.session.wires)
-        return wires
+    # How it ends
 
-    def write(self) -> Iterator[tuple[Board, int, int]]:
-        """Mark and clear what was drawn: on all objects or, where an edge is not there any more, on none.
+    def finish(self, context: bpy.types.Context, undo_step: bool = True) -> tuple[int, int, int]:
+        """End the chain: mark and clear what was drawn, on all objects or, where an edge is gone, on none.
 
-        Yields
+        Raises
         ------
-        tuple
-            Each board, how many edges became seams, and how many ceased to be.
-        """
-        for board in self.boards.values():
-            board.check()
-        for board in self.boards.values():
-            yield board, *board.write()
-            if board.offered is None:
-                _interrupted.pop(board.cage.mesh.name, None)
-
-    def follow(self, settings: tool.SeamwireSettings) -> None:
-        """Take over settings that were changed in the tool's header."""
-        for board in self.boards.values():
-            board.follow(settings)
-        self.refresh()
-
-    # Events
-
-    def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Do what an event asks for.
+        ValueError
+            Where an edge is gone.
 
         Returns
         -------
-        set of str
-            What modal() returns; FINISHED and CANCELLED ask the operator to end the drawing in that way.
+        tuple of int
+            How many wires and strokes were drawn or changed, and how many edges became seams, and ceased to be.
         """
-        if event.type == "TIMER":
-            return self._tick()
+        self._cancel_hold()
+        for view in edited.views():
+            view.session.end_chain()
+        changed = [(view, before) for view, before in self._before.values() if _differs(view.session.network, before)]
+        marked, cleared, wires = self._write(changed, adopt=True)
+        self.changed = bool(changed)
+        self.close()
+        if changed and undo_step:
+            if (marked or cleared) and context.mode == "EDIT_MESH":
+                edit_mesh.live_unwrap(context)
+            bpy.ops.ed.undo_push(message=self.title)
+        return wires, marked, cleared
+
+    @property
+    def title(self) -> str:
+        """What it did, as Blender's undo history is to call it."""
+        return self.done[0] if len(self.done) == 1 else "Draw Seamwires"
+
+    def save(self) -> None:
+        """Write what is drawn so far to the meshes, so that Blender saves it; the chain goes on."""
+        self._write(list(self._before.values()), adopt=False)
+
+    def _write(self, changed: list[tuple[ObjectView, Network]], adopt: bool) -> tuple[int, int, int]:
+        plans = [(view, before, view.mesh.plan()) for view, before in changed]
+        marked = cleared = wires = 0
+        for view, before, plan in plans:
+            known = {wire.id for wire in before.wires}
+            wires += sum(wire.id not in known for wire in view.session.network.wires)
+            new, old = view.mesh.write(plan, adopt)
+            view.renew()
+            # Blender tells of this change as of any other.
+            view.stale = False
+            view.wrote = True
+            marked, cleared = marked + new, cleared + old
+        return marked, cleared, wires
+
+    def drop(self) -> None:
+        """End the chain and leave all as it was before it."""
+        self._hold = None
+        for view, before in self._before.values():
+            if view.mesh.alive():
+                view.mesh.drop_changes(before)
+        self.close()
+
+    # Events
+
+    def begin(self, action: Action, event: bpy.types.Event) -> bool:
+        """Do what started the chain, under the mouse; return whether there was something to do it to."""
         place = place_of(self._window, event)
-        self._set_cursor("CROSSHAIR" if place else "")
-        double = self._clicks.is_second(event, time.monotonic(), context.preferences)
-        for board in self.boards.values():
-            board.follow_mirror()
-        if self._hold is not None and event.type == self._hold.button and event.value == "RELEASE":
-            hold, self._hold = self._hold, None
-            hold.release()
-            if isinstance(hold, strokes.StrokeHold) and hold.missed:
-                self.message = "Drag over the mesh to draw a stroke"
-            if place is not None:
-                self._rehover(place)
-            return self._done()
         if place is None:
-            if self.keys.is_blender_undo(event):
-                return {"RUNNING_MODAL"}
+            return False
+        self._begun = True
+        if action is Action.REMOVE:
+            done = self._remove(place)
+        elif action is Action.NEXT:
+            done = self._next_kept(place)
+        else:
+            done = True
+            (self._begin_stroke if action in _STROKES else self._click)(action, place, event)
+        self._after()
+        return done
+
+    def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> bool:
+        """Do what an event asks for; return whether Blender is to have it too. Where the chain ends, `idle` tells."""
+        if event.type == "TIMER":
+            self._tick()
+            return True
+        place = place_of(self._window, event)
+        double = self._clicks.is_second(event, time.monotonic(), context.preferences)
+        if self._hold is not None and event.type == self._hold.button and event.value == "RELEASE":
+            self._release(place)
+            return False
+        if place is not None and self._hold is None and navigation.on_gizmo(place, context.preferences):
+            place = None
+            press = False
+        else:
+            press = place is None and event.value == "PRESS"
+        self._set_cursor("CROSSHAIR" if place else "")
+        if place is None:
+            if press and not _in_tool_settings(self._window, event):
+                self._begun = True
+                self._end()
             if event.type == "MOUSEMOVE" and self.session.target is not None and self._hold is None:
                 self.session.hover(None)
-                self.refresh()
-            return {"PASS_THROUGH"}
-        moves = {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"} if isinstance(self._hold, strokes.StrokeHold) else {"MOUSEMOVE"}
+                self.show()
+            return True
+        moves = {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"} if isinstance(self._hold, StrokeHold) else {"MOUSEMOVE"}
         if self._hold is not None and event.type in moves:
-            if not self._hold.move(place, keymap.drag_threshold(event, context.preferences)):
+            if not self._hold.move(place, bindings.drag_threshold(event, context.preferences)):
                 self._hold = None
-            return self._done()
+            self._after()
+            return False
         if event.type in {"INBETWEEN_MOUSEMOVE", "WINDOW_DEACTIVATE"} or event.type.startswith("TIMER"):
-            return {"PASS_THROUGH"}
+            return True
         if event.type == "MOUSEMOVE" or event.type.endswith(("_ALT", "_CTRL", "_SHIFT")):
             self._hover(place, event)
-            return {"PASS_THROUGH" if event.type == "MOUSEMOVE" else "RUNNING_MODAL"}
-        if keymap.emulates_middle_button(event, context.preferences.inputs):
-            return {"PASS_THROUGH"}
-        action = self.keys.action_of(event, double)
-        if action is Action.TOGGLE and event.type.startswith("WHEEL") and not self._wheel_toggles(place, event):
-            action = None
-        if action is None:
-            return {"PASS_THROUGH"} if self._is_blenders(event) else {"RUNNING_MODAL"}
-        if getattr(event, "is_repeat", False) and action not in {Action.UNDO, Action.REDO}:
-            return {"RUNNING_MODAL"}
-        return self._act(action, place, event)
+            return True
+        if navigation.emulates_middle_button(event, context.preferences.inputs):
+            return True
+        return self._key(place, event, double)
 
-    def _act(self, action: Action, place: Place, event: bpy.types.Event) -> set[str]:
-        leaving, self._leaving = self._leaving, False
-        self._finishing = False
+    def _key(self, place: Place, event: bpy.types.Event, double: bool) -> bool:
+        action = self.keys.decode(event, double)
+        if action is None:
+            meaning = navigation.meaning(event, self._manager)
+            if meaning is Meaning.OTHER:
+                self._begun = True
+                self._end()
+            return True
+        if getattr(event, "is_repeat", False) and action not in {Action.UNDO, Action.REDO}:
+            return False
+        return self.act(action, place, event)
+
+    def act(self, action: Action, place: Place, event: bpy.types.Event) -> bool:
+        """Do what a key or button asks for; return whether Blender is to have the event too."""
         self.message = ""
-        if action is Action.FINISH:
-            self._cancel_hold()
-            self._finishing = any(board.session.waiting_clicks for board in self.boards.values())
-            if not self._finishing:
-                return {"FINISHED"}
-            self.message = "Finishing as soon as the last wire is computed"
-        elif action is Action.LEAVE:
-            if self._leave(leaving):
-                return {"CANCELLED"}
+        if action is Action.END:
+            self._begun = True
+            self._end()
         elif action in _CLICKS:
             self._click(action, place, event)
         elif action in _STROKES:
             self._begin_stroke(action, place, event)
+        elif action is Action.REMOVE:
+            if not self._remove(place):
+                # Blender's own meaning of the key, which changes the mesh.
+                self._begun = True
+                self._end()
+                return True
         else:
             self._do(action, place)
-        return self._done()
+        self._after()
+        return False
 
-    def _done(self) -> set[str]:
-        for board in self.boards.values():
-            if board.stepped():
-                self._history.append(board)
+    def _end(self) -> None:
+        """Let go of what is live; clicks that wait for their wires are done first."""
+        if self._cancel_hold():
+            return
+        if any(view.session.waiting_clicks for view in edited.views()):
+            self._ending = True
+            self.message = "Ending as soon as the last wire is computed"
+            return
+        for view in edited.views():
+            view.session.stop_preview()
+            view.session.end_chain()
+
+    def _after(self) -> None:
+        for view in edited.views():
+            network, key = view.session.network, id(view)
+            if not view.session.dragging and self._seen.get(key) is not network:
+                self._seen[key] = network
+                self._history.append(view)
                 self._undone.clear()
-        self.session_to_settings()
-        self.refresh()
-        return {"RUNNING_MODAL"}
+        self.view.mesh.tell(chosen.settings())
+        self.show()
 
-    def _tick(self) -> set[str]:
-        new = [board.poll() for board in self.boards.values()]
-        if any(new):
-            self._redraw()
-        self._done()
-        if self._finishing and not any(board.session.waiting_clicks for board in self.boards.values()):
-            return {"FINISHED"}
-        return {"PASS_THROUGH"}
+    def _track(self, view: ObjectView) -> None:
+        """Remember what an object had before it was drawn on."""
+        if id(view) not in self._before:
+            self._before[id(view)] = (view, view.session.network)
+            self._seen[id(view)] = view.session.network
 
-    def _is_blenders(self, event: bpy.types.Event) -> bool:
-        """Whether an event that means nothing here is to have the meaning that Blender gives it."""
-        # Alt and the wheel change the frame, but not because the cursor slipped off an edge between two offers.
-        wheel = event.alt and event.type.startswith("WHEEL")
-        return self.session.target is None if wheel else keymap.is_navigation(event)
+    def _note(self, done: str) -> None:
+        if done not in self.done:
+            self.done.append(done)
 
-    def _wheel_toggles(self, place: Place, event: bpy.types.Event) -> bool:
-        """Whether the wheel toggles: over the mesh while a wire is live, unless it is always to zoom, and between loops."""
-        if self.keys.previews_loop(event):
-            return self.session.loop_preview is not None
-        own = preferences.get()
-        if own is not None and own.always_zoom:
-            return False
-        return self.session.active is not None and self._find(place)[1] is not None
+    def _tick(self) -> None:
+        edited.poll()
+        if self._ending and not any(view.session.waiting_clicks for view in edited.views()):
+            self._ending = False
+            self._end()
+        self._after()
 
     # What keys and buttons do
 
-    def _leave(self, again: bool) -> bool:
-        """Let go of what is live, one after the other; return whether to leave."""
-        if self._cancel_hold():
-            return False
-        drawing = self.session
-        if drawing.stop_preview():
-            return False
-        if drawing.waiting_clicks or drawing.seed is not None:
-            drawing.end_chain()
-            return False
-        if again or self.empty:
-            return True
-        self._leaving = True
-        kept = ui.count(sum(len(board.session.wires) for board in self.boards.values()), "wire")
-        self.message = (
-            f"{self.keys.text(Action.LEAVE) or 'Again'} again: leave without the {kept} drawn. All else goes on"
-        )
-        return False
-
-    def click_at(self, event: bpy.types.Event, first: str) -> None:
-        """Do the click that started the tool."""
-        place = place_of(self._window, event)
+    def _release(self, place: Place | None) -> None:
+        hold, self._hold = self._hold, None
+        assert hold is not None
+        hold.release()
+        if isinstance(hold, StrokeHold) and hold.missed:
+            self.message = "Drag over the mesh to draw a stroke"
         if place is not None:
-            action = Action[first]
-            (self._begin_stroke if action in _STROKES else self._click)(action, place, event)
-            self._done()
+            self._rehover(place)
+        self._after()
 
     def _click(self, action: Action, place: Place, event: bpy.types.Event) -> None:
-        board, snap = self._find(place, plain=action is Action.LOOP)
-        if board is None or snap is None:
+        view, snap = edited.find(place, plain=action is Action.LOOP)
+        if view is None or snap is None:
             return
-        if board is not self.board:
+        self._begun = True
+        if view is not edited.front:
             self.session.end_chain()
             self.session.hover(None)
-            self.board = board
-        drawing = board.session
+            edited.front = view
+        self._track(view)
+        session = view.session
         if action is Action.NEW_CHAIN:
-            drawing.start(snap)
-            drawing.hover(snap)
-        elif action is Action.LOOP and drawing.along == "EDGES" and isinstance(snap.pick, tuple):
-            drawing.loop(snap)
-        elif drawing.seed is None and not drawing.waiting_clicks and snap.to in {"SEED", "WIRE"}:
+            session.start(snap)
+            session.hover(snap)
+            self._note("Draw Wires")
+        elif action is Action.LOOP and session.along == "EDGES" and isinstance(snap.pick, tuple):
+            session.loop(snap)
+            self._note("Add Loop")
+        elif session.seed is None and not session.waiting_clicks and snap.to in {"SEED", "WIRE"}:
             # Whether it is a click or the beginning of a drag is known when the button or the mouse has moved.
-            drawing.hover(snap)
-            self._hold = SeedHold(event.type, board, snap, place)
+            session.hover(snap)
+            self._hold = SeedHold(event.type, view, snap, place, self._note)
         else:
-            drawing.click(snap)
+            session.click(snap)
+            self._note("Draw Wires")
 
     def _begin_stroke(self, action: Action, place: Place, event: bpy.types.Event) -> None:
-        board, snap = self._find(place)
-        board = board or self.board
+        self._begun = True
+        found, _ = edited.find(place)
+        view = found or self.view
         if self.session.seed is None and not self.session.waiting_clicks:
-            self.board = board
+            edited.front = view
+        self._track(view)
         self._cancel_hold()
-        wire = snap.wire if snap is not None and snap.to == "WIRE" and action is Action.ATTRACT else None
         scale = bpy.context.preferences.system.ui_scale
-        self._hold = strokes.StrokeHold(event.type, board, place, action is Action.ATTRACT, wire, scale)
+        self._hold = StrokeHold(event.type, view, place, action is Action.GUIDE, scale)
+        self._note("Draw Guide Stroke" if action is Action.GUIDE else "Draw Avoid Stroke")
 
     def _cancel_hold(self) -> bool:
         hold, self._hold = self._hold, None
         dragged = hold is not None and hold.cancel()
         # What was released may wait still.
-        return any([board.session.drag_cancel() for board in self.boards.values()]) or dragged or hold is not None
+        return any([view.session.drag_cancel() for view in edited.views()]) or dragged or hold is not None
 
     def _do(self, action: Action, place: Place) -> None:
-        drawing = self.session
-        if action is Action.END_CHAIN:
-            if not self._cancel_hold():
-                drawing.end_chain()
-        elif action is Action.TOGGLE:
-            if drawing.seed is None and drawing.hovered_wire is not None:
-                drawing.toggle_kept(drawing.hovered_wire)
+        session, settings = self.session, chosen.settings()
+        if action is Action.NEXT:
+            if session.seed is None and session.hovered_wire is not None:
+                session.toggle_kept(session.hovered_wire)
             else:
-                drawing.toggle()
-        elif action is Action.DROP:
-            self._drop(place)
-        elif action is Action.ERASE:
-            self._erase(place)
+                session.toggle()
         elif action in {Action.STRONGER, Action.WEAKER}:
-            self._change_strength(1 if action is Action.STRONGER else -1)
-        elif action in {Action.ZOOM_IN, Action.ZOOM_OUT}:
-            self._zoom(place, 1 if action is Action.ZOOM_IN else -1)
+            if session.change_strength(1 if action is Action.STRONGER else -1):
+                self.message = f"Strength {session.strength:.3g}"
         elif action is Action.CLOSE:
-            drawing.close()
-        elif action is Action.RUN:
-            drawing.run_to_end(preview=drawing.end_preview is None)
-        elif action is Action.MARKING:
-            for board in self.boards.values():
-                board.session.toggle_marking()
+            session.close()
+        elif action is Action.EXTEND:
+            session.run_to_end(preview=session.end_preview is None)
+        elif action is Action.CLEAR:
+            session.toggle_marking()
         elif action is Action.XRAY:
-            self._settings.xray = not self._settings.xray
+            settings.xray = not settings.xray
         elif action is Action.SNAP:
-            self._settings.snap = not self._settings.snap
+            settings.snap = not settings.snap
             self._rehover(place)
         elif action is Action.SWITCH:
-            if drawing.switch("SURFACE" if drawing.along == "EDGES" else "EDGES"):
-                self._settings.along = drawing.along
+            if session.switch("SURFACE" if session.along == "EDGES" else "EDGES"):
+                settings.along = session.along
                 self._rehover(place)
         elif action is Action.MIRROR:
             self._cycle_mirror()
-        elif action is Action.RESUME:
-            self._resume(self.board)
-        elif action is Action.HELP:
-            self._help = not self._help
+        elif action is Action.KEYS:
+            self._keys = not self._keys
         elif action is Action.UNDO:
             self._undo()
         elif action is Action.REDO:
             self._redo()
 
-    def _drop(self, place: Place) -> None:
-        board, snap = self._find(place)
+    def _remove(self, place: Place) -> bool:
+        """Remove the wire or the stroke under the cursor; return whether there was one."""
+        view, snap = edited.find(place)
+        if view is None:
+            return False
         wire = snap.wire if snap is not None and snap.to == "WIRE" else None
-        if board is None or wire is None:
-            self.message = "Point at a wire to drop it"
-        else:
-            self.board = board
-            board.session.drop(wire)
-            self._rehover(place)
+        stroke = view.stroke_at(place.view, place.cursor) if wire is None else None
+        if wire is None and stroke is None:
+            return False
+        self._track(view)
+        edited.front = view
+        if wire is not None:
+            view.session.drop(wire)
+            self._note("Remove Wire")
+        elif stroke is not None:
+            view.session.erase(stroke)
+            self._note("Remove Stroke")
+        self._rehover(place)
+        return True
 
-    def _erase(self, place: Place) -> None:
-        board = self._find(place)[0] or self.board
-        stroke = board.stroke_at(place.view, place.cursor)
-        if stroke is None:
-            self.message = "Point at a stroke to remove it"
-        else:
-            board.session.erase(stroke)
-            self._rehover(place)
-
-    def _change_strength(self, steps: int) -> None:
-        if self.session.change_strength(steps):
-            self.message = f"Strength {self.session.strength:.3g}"
+    def _next_kept(self, place: Place) -> bool:
+        """Let the wire under the cursor take its other path; return whether there was one."""
+        view, snap = edited.find(place)
+        if view is None or snap is None or snap.to != "WIRE" or snap.wire is None:
+            return False
+        self._track(view)
+        edited.front = view
+        view.session.hover(snap)
+        view.session.toggle_kept(snap.wire)
+        self._note("Swap Path")
+        return True
 
     def _cycle_mirror(self) -> None:
-        drawing = self.session
-        symmetric = self.board.symmetric_soon()
+        session = self.session
+        symmetric = self.view.mesh.symmetric_soon()
         if symmetric is None:
-            self.message = "Whether the mesh is symmetric is still being found out"
+            self.message = "Still checking the mesh for symmetry"
             return
         ways = [(), *((axis,) for axis in symmetric), *([symmetric] if len(symmetric) > 1 else ())]
-        if len(ways) == 1 and not drawing.mirror_axes:
-            self.message = "The mesh is symmetric over none of its axes"
+        if len(ways) == 1 and not session.mirror_axes:
+            self.message = "The mesh is not symmetric on X, Y or Z"
             return
-        now = ways.index(drawing.mirror_axes) if drawing.mirror_axes in ways else len(ways) - 1
+        now = ways.index(session.mirror_axes) if session.mirror_axes in ways else len(ways) - 1
         axes = ways[(now + 1) % len(ways)]
-        if drawing.set_mirror(axes):
-            self.message = f"Mirrored over {', '.join(_AXES[axis] for axis in axes)}" if axes else "Not mirrored"
-
-    def _resume(self, board: Board) -> None:
-        self.message = board.resume()
+        # The mesh's own option, which Blender's tools heed as well.
+        for axis, name in enumerate("xyz"):
+            setattr(self.view.obj.data, f"use_mirror_{name}", axis in axes)
+        self.view.mesh.follow_mirror()
+        self.message = f"Mirrored on {', '.join(_AXES[axis] for axis in axes)}" if axes else "Not mirrored"
 
     def _undo(self) -> None:
         self._hold = None
-        waiting = next((board for board in self.boards.values() if board.session.waiting_clicks), None)
+        waiting = next((view for view in edited.views() if view.session.waiting_clicks), None)
         if waiting is not None:
             waiting.session.undo()
             return
         while self._history:
-            board = self._history.pop()
-            if board.session.undo():
-                board.stepped()
-                self._undone.append(board)
-                self.board = board
+            view = self._history.pop()
+            if view.session.undo():
+                self._seen[id(view)] = view.session.network
+                self._undone.append(view)
+                edited.front = view
                 return
-        self.session.undo()
-        self.board.stepped()
+        self.message = "Nothing to undo in this chain"
 
     def _redo(self) -> None:
         while self._undone:
-            board = self._undone.pop()
-            if board.session.redo():
-                board.stepped()
-                self._history.append(board)
-                self.board = board
+            view = self._undone.pop()
+            if view.session.redo():
+                self._seen[id(view)] = view.session.network
+                self._history.append(view)
+                edited.front = view
                 return
-        self.session.redo()
-        self.board.stepped()
-
-    def _zoom(self, place: Place, delta: int) -> None:
-        with bpy.context.temp_override(window=self._window, area=place.area, region=place.region):
-            bpy.ops.view3d.zoom("INVOKE_DEFAULT", delta=delta, use_cursor_init=True)
+        self.message = "Nothing to redo in this chain"
 
     # What is under the mouse
 
     def _hover(self, place: Place, event: bpy.types.Event) -> None:
         loop = self.keys.previews_loop(event)
-        board, snap = self._find(place, plain=loop)
-        if board is not None and board is not self.board:
+        view, snap = edited.find(place, plain=loop)
+        if view is not None and view is not edited.front:
             self.session.hover(None)
             # A live wire stays with its object until there is a click on another.
             if self.session.seed is None and not self.session.waiting_clicks:
-                self.board = board
+                edited.front = view
             else:
                 snap = None
         self.session.hover(snap, loop=loop and snap is not None)
-        self.refresh()
+        self.show()
 
     def _rehover(self, place: Place) -> None:
-        board, snap = self._find(place)
-        self.session.hover(snap if board is self.board else None)
-
-    def _find(self, place: Place, plain: bool = False) -> tuple[Board | None, network.Snap | None]:
-        """Return which object is under the mouse, and what of it; `plain`: of the mesh alone, as loops need it."""
-        found = [self._board_of(name) for name in tuple(self._objects) if self._may_be_at(name, place)]
-        if len(found) > 1:
-            depths = [(board.depth(place.view, place.cursor), board) for board in found]
-            hit = [pair for pair in depths if pair[0] is not None]
-            if hit:
-                found = [min(hit, key=lambda pair: pair[0])[1]]
-            elif self.board in found:
-                found.sort(key=lambda board: board is not self.board)
-        for board in found:
-            snap = board.snap(place.view, place.cursor, plain)
-            if snap is not None:
-                return board, snap
-        return (found[0], None) if found else (None, None)
-
-    def _may_be_at(self, name: str, place: Place) -> bool:
-        """Whether an object may be under the mouse: those that were touched always, others where there is room."""
-        if name in self.boards:
-            return True
-        try:
-            if self._objects[name].mode != "EDIT" or not boards.in_bounds(
-                self._objects[name], place.view, place.cursor
-            ):
-                return False
-            self._board_of(name)
-        except (ReferenceError, ValueError):  # it was deleted, or has nothing to draw on
-            del self._objects[name]
-            return False
-        return True
+        view, snap = edited.find(place)
+        self.session.hover(snap if view is edited.front else None)
 
     # What is seen
 
-    def session_to_settings(self) -> None:
-        """Show in the tool's header what the keys changed."""
-        self.board.tell(self._settings)
-
-    def refresh(self) -> None:
+    def show(self) -> None:
         """Show the sessions as they are now."""
-        drawing = self.session
-        self._set_timer(any(board.busy for board in self.boards.values()))
+        session = self.session
+        self._set_timer(any(view.busy for view in edited.views()))
         state = (
-            self.board,
-            tuple(board.session.revision for board in self.boards.values()),
-            round(100.0 * drawing.progress),
-            drawing.computing,
-            drawing.waiting_clicks,
-            self.board.symmetric,
+            id(self.view),
+            tuple(view.session.revision for view in edited.views()),
+            round(100.0 * session.progress),
+            session.computing,
+            session.waiting_clicks,
+            self.view.mesh.symmetric,
             self.message,
-            self._help,
-            self._settings.xray,
-            self._settings.snap,
+            self._keys,
         )
         before, self._shown = self._shown, state
         if state == before:
             return
-        rows = self.keys.rows() if self._help else None
-        for board in self.boards.values():
-            board.show(self._settings, front=board is self.board, help_rows=rows)
-        self._workspace.status_text_set(ui.status_drawer(self.status()))
-        self._redraw()
-
-    def status(self) -> ui.Status:
-        """Return what the status bar is to say."""
-        mirrored = self.board.symmetric
-        offers = mirrored if mirrored and not self.session.mirror_axes else ()
-        return ui.Status(
-            self.session,
-            self.keys,
-            message=self.message,
-            notes=self.notes,
-            mirror_offer="".join(_AXES[axis] for axis in offers),
-            resume_offer=self.board.offer,
-            marks=sum(len(board.session.edges_to_mark()) for board in self.boards.values()),
-            clears=sum(len(board.session.edges_to_clear()) for board in self.boards.values()),
-        )
-
-    def _redraw(self) -> None:
-        for window in self._manager.windows:
-            for area in window.screen.areas:
-                if area.type == "VIEW_3D":
-                    area.tag_redraw()
+        edited.show(self.keys.rows() if self._keys else None)
+        edited.redraw()
+        for make in status_makers:
+            self._workspace.status_text_set(make(self))
 
     def _set_timer(self, wanted: bool) -> None:
         if wanted and self._timer is None:
@@ -599,20 +571,28 @@ class Drawing:
             self._window.cursor_modal_restore()
 
 
-def settings_changed(settings: tool.SeamwireSettings) -> None:
-    """Let the running drawing follow its settings."""
-    for drawing in running:
-        drawing.follow(settings)
+def _differs(now: Network, before: Network) -> bool:
+    return now.wires != before.wires or now.scribbles != before.scribbles
 
 
-def close_all() -> None:
-    """End all drawings, and forget those that did not come to their end."""
-    for drawing in tuple(running):
-        drawing.close()
-    _interrupted.clear()
+def _in_tool_settings(window: bpy.types.Window, event: bpy.types.Event) -> bool:
+    """Whether the mouse is over the settings of a 3D view's tool, which a chain follows."""
+    x, y = event.mouse_x, event.mouse_y
+    regions = (region for area in window.screen.areas if area.type == "VIEW_3D" for region in area.regions)
+    return any(
+        region.x <= x < region.x + region.width and region.y <= y < region.y + region.height
+        for region in regions
+        if region.type in {"TOOL_HEADER", "UI"}
+    )
 
 
-@bpy.app.handlers.persistent
-def on_load(*_: object) -> None:
-    """End all drawings before another file is loaded."""
-    close_all()
+def _on_save(*_: object) -> None:
+    """Let files hold what is drawn so far."""
+    for chain in tuple(running):
+        chain.save()
+
+
+def _on_load(*_: object) -> None:
+    """End what is being drawn before another file is loaded."""
+    for chain in tuple(running):
+        chain.close()

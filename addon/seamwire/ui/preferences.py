@@ -3,18 +3,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import bpy
 
-from . import keymap
-from . import toolbar as tool
-
-if TYPE_CHECKING:
-    from .keymap import Action
-
-
-_ADDON = __package__.rpartition(".")[0]
+from ..mesh.settings import ADDON, SeamwireSettings
+from ..operators import bindings
+from ..operators.bindings import Action
+from . import toolbar
 
 
 def _colour(name: str, description: str, default: tuple[float, float, float, float]) -> object:
@@ -26,7 +20,9 @@ def _colour(name: str, description: str, default: tuple[float, float, float, flo
 class SeamwirePreferences(bpy.types.AddonPreferences):
     """What the add-on remembers from one start of Blender to the next."""
 
-    bl_idname = _ADDON
+    bl_idname = ADDON
+
+    tool: bpy.props.PointerProperty(type=SeamwireSettings)
 
     line_width: bpy.props.FloatProperty(
         name="Line Width",
@@ -37,39 +33,24 @@ class SeamwirePreferences(bpy.types.AddonPreferences):
         soft_max=3.0,
     )
     theme_colours: bpy.props.BoolProperty(
-        name="Colours of the Theme", description="Draw kept wires in the theme's colour of seams", default=True
+        name="Use Theme Colors", description="Draw kept wires in the theme's colour of seams", default=True
     )
     active_colour: _colour("Live Wire", "The wire that a click keeps", (1.0, 0.72, 0.05, 1.0))
-    other_colour: _colour("Other Wire", "The wire that toggling brings forward", (0.45, 0.8, 1.0, 0.9))
+    other_colour: _colour("Next Candidate", "The next candidate", (0.45, 0.8, 1.0, 0.9))
     kept_colour: _colour("Kept Wires", "Wires whose edges become seams", (1.0, 0.2, 0.1, 1.0))
     clear_colour: _colour("Cleared Seams", "Wires whose edges cease to be seams", (0.82, 0.86, 0.95, 1.0))
     loop_colour: _colour("Loop", "The loop that a click takes", (0.3, 1.0, 0.55, 1.0))
     seed_colour: _colour("Seeds", "Seeds, and what is under the cursor", (1.0, 1.0, 1.0, 1.0))
     tint: bpy.props.FloatProperty(
-        name="Tint of Segments",
-        description="How strongly the segments that seams and wires make are tinted; 0: not at all",
+        name="Island Tint",
+        description="How strongly the islands that seams make are tinted; 0: not at all",
         default=0.22,
         min=0.0,
         max=1.0,
         subtype="FACTOR",
     )
     show_text: bpy.props.BoolProperty(
-        name="Text in the View", description="Write the number of segments and other hints in the 3D view", default=True
-    )
-    always_zoom: bpy.props.BoolProperty(
-        name="Wheel Always Zooms",
-        description="The wheel zooms also while a wire is live: the other wire is then had with its key alone",
-        default=False,
-    )
-    resume: bpy.props.EnumProperty(
-        name="Wires Kept Before",
-        description="What starting the tool does about the wires that an earlier drawing left with the mesh",
-        items=(
-            ("ASK", "Offer", "Say that they are there; a key takes them up again"),
-            ("ALWAYS", "Take Up", "Go on with them at once"),
-            ("NEVER", "Leave", "Begin anew"),
-        ),
-        default="ASK",
+        name="Viewport Text", description="Write the number of islands and other hints in the 3D view", default=True
     )
 
     def draw(self, context: bpy.types.Context) -> None:
@@ -81,16 +62,13 @@ class SeamwirePreferences(bpy.types.AddonPreferences):
         column.prop(self, "line_width")
         column.prop(self, "tint")
         column.prop(self, "show_text")
-        column = layout.column(heading="Colours")
+        column = layout.column(heading="Colors")
         column.prop(self, "theme_colours")
         kept = column.row()
         kept.enabled = not self.theme_colours
         kept.prop(self, "kept_colour")
         for name in ("active_colour", "other_colour", "clear_colour", "loop_colour", "seed_colour"):
             column.prop(self, name)
-        column = layout.column(heading="Behaviour")
-        column.prop(self, "always_zoom")
-        column.prop(self, "resume")
         layout.use_property_split = False
         draw_keys(layout, context)
 
@@ -99,20 +77,21 @@ def draw_keys(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     """Show the keys, to be changed."""
     configuration = context.window_manager.keyconfigs.user
     box = layout.box()
-    box.label(text="Keys", icon="MOUSE_LMB")
-    for map_name, idname in (("Mesh", keymap.OPERATOR), (tool.KEYMAP, keymap.OPERATOR)):
-        keys = configuration.keymaps.get(map_name) if configuration is not None else None
-        for item in keymap.items_of(keys, idname) if keys is not None else ():
-            _draw_key(box, keys, item, "Start" if map_name == "Mesh" else "Start with the toolbar's tool")
-    keys = keymap.user_keymap(context.window_manager)
+    box.label(text="Keys of the Tool", icon="MOUSE_LMB")
+    keys = configuration.keymaps.get(toolbar.KEYMAP) if configuration is not None else None
+    for item in bindings.items_of(keys, toolbar.OPERATOR) if keys is not None else ():
+        _draw_key(box, keys, item, item.properties.bl_rna.properties["first"].enum_items[item.properties.first].name)
+    keys = bindings.user_keymap(context.window_manager)
     if keys is None:
         box.label(text="There are no keymaps here")
         return
+    box = layout.box()
+    box.label(text="Keys While a Chain Is Drawn", icon="MOUSE_LMB")
     last: Action | None = None
-    order = list(keymap.Action)
-    items = keymap.items_of(keys, keymap.ACTION_OPERATOR)
-    for item in sorted(items, key=lambda item: order.index(keymap.Action[item.properties.action])):
-        action = keymap.Action[item.properties.action]
+    order = list(Action)
+    items = bindings.items_of(keys, bindings.ACTION_OPERATOR)
+    for item in sorted(items, key=lambda item: order.index(Action[item.properties.action])):
+        action = Action[item.properties.action]
         _draw_key(box, keys, item, action.value if action is not last else "")
         last = action
     row = box.row()
@@ -136,12 +115,6 @@ def _draw_key(box: bpy.types.UILayout, keys: bpy.types.KeyMap, item: bpy.types.K
         sub.label(text="twice")
     if item.is_user_modified:
         row.operator("preferences.keyitem_restore", text="", icon="BACK").item_id = item.id
-
-
-def get(context: bpy.types.Context | None = None) -> SeamwirePreferences | None:
-    """Return the preferences; None where the add-on runs without being enabled there."""
-    addons = (context or bpy.context).preferences.addons
-    return addons[_ADDON].preferences if _ADDON in addons else None
 
 
 def register() -> None:

@@ -9,8 +9,8 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from . import key_table as keys
-from . import text_overlay as hud
+from ..core.network import edges_after
+from . import text_overlay
 from .gpu_draw import Eye, Faces, Lines, blended, draw_dots, sees_through, unseen
 from .theme import Looks, Style, hue_colours
 
@@ -74,13 +74,9 @@ class Overlay:
     segments
         Computes the segments of those triangles; None: they are not shown.
     seams
-        (s, 2) the edges that are seams already.
+        (s, 2) the edges that are seams.
     preferences
         The add-on's, see `Looks.of`.
-
-    Notes
-    -----
-    An exception while drawing would be printed on every redraw: it is kept in `error` instead, and nothing more drawn.
 
     Attributes
     ----------
@@ -123,23 +119,20 @@ class Overlay:
         self._faces: Faces | None = None
         self._tinted: object = None
         self._asked: object = None
+        self._seams_read = 0
         self.xray = False
         self.features = False
         self.front = True
         self.stroke: tuple[NDArray[np.float64], bool] | None = None
-        self.help_rows: Sequence[keys.Row] | None = None
-        self.error: Exception | None = None
+        self.help_rows: Sequence[text_overlay.Row] | None = None
         self.poll()
-        add = bpy.types.SpaceView3D.draw_handler_add
-        self._handles = [
-            add(self._draw, (self._draw_in_scene,), "WINDOW", "POST_VIEW"),
-            add(self._draw, (self._draw_on_screen,), "WINDOW", "POST_PIXEL"),
-        ]
 
-    def remove(self) -> None:
-        """Stop drawing."""
-        while self._handles:
-            bpy.types.SpaceView3D.draw_handler_remove(self._handles.pop(), "WINDOW")
+    def renew(self, obj: bpy.types.Object, seams: NDArray[np.int32]) -> None:
+        """Go on over an object that was read anew, with other seams."""
+        self._obj = obj
+        if not np.array_equal(self._seams, seams):
+            self._seams = np.asarray(seams, dtype=np.int32).reshape(-1, 2)
+            self._seams_read += 1
 
     # Segments come when they are ready
 
@@ -150,7 +143,7 @@ class Overlay:
 
     @property
     def _stale(self) -> bool:
-        return self._asked != self._session.network_revision
+        return self._asked != (self._session.network_revision, self._seams_read)
 
     def poll(self) -> bool:
         """Ask for the segments of a network that has changed.
@@ -163,25 +156,18 @@ class Overlay:
         if self._segments is None:
             return False
         if self._stale:
-            self._asked = self._session.network_revision
+            self._asked = (self._session.network_revision, self._seams_read)
             self._segments.want(self._asked, cuts(self._session, self._seams))
         newest = self._segments.newest
         return newest is not None and newest.key != self._tinted
 
     # Drawing
 
-    def _draw(self, part: object) -> None:
-        if self.error is not None:
-            return
-        try:
-            part()
-        except Exception as error:
-            self.error = error
-
     def _current_looks(self) -> Looks:
         return Looks.of(bpy.context.preferences.themes[0].view_3d, self._preferences)
 
-    def _draw_in_scene(self) -> None:
+    def draw_in_scene(self) -> None:
+        """Draw on the surface; to be called for each region, after the view."""
         self.poll()
         looks = self._current_looks()
         if looks != self._looks:
@@ -219,7 +205,8 @@ class Overlay:
         with blended("LESS_EQUAL"):
             self._faces.draw(eye, hue_colours(self._looks.tint), TINT_LIFT)
 
-    def _draw_on_screen(self) -> None:
+    def draw_on_screen(self) -> None:
+        """Draw over the region: text and the table of keys."""
         if not self.front:
             return
         left, bottom, width, height = room = free_room(bpy.context.area, bpy.context.region)
@@ -229,12 +216,12 @@ class Overlay:
         with blended("NONE"):
             if self._looks.text:
                 found = None if self._segments is None else self._segments.newest
-                lines = hud.lines(
+                lines = text_overlay.lines(
                     self._session, found.count if found is not None else None, xray=self.xray, features=self.features
                 )
-                hud.draw(lines, (left, bottom), scale, bpy.context.preferences.themes[0].view_3d.space.text_hi)
+                text_overlay.draw(lines, (left, bottom), scale, bpy.context.preferences.themes[0].view_3d.space.text_hi)
             if self.help_rows is not None:
-                keys.draw(self.help_rows, (left, bottom, width, height), scale)
+                text_overlay.draw_table(self.help_rows, (left, bottom, width, height), scale)
 
     # What there is to draw
 
@@ -258,14 +245,13 @@ class Overlay:
         """Return the kept wires: many, and seldom changed."""
         session = self._session
         moved = [wire.id for wire in session.moved]
-        key = (session.network_revision, tuple(moved), session.mirror_axes)
+        key = (session.network_revision, tuple(moved))
         if self._kept[0] == key:
             return self._kept[1]
         looks, sheet = self._looks, _Sheet(self._points)
         staying = [wire for wire in session.wires if wire.id not in moved]
         for wire in staying:
-            for image in session.mirrored(wire):
-                sheet.edges(looks.mirrored if wire.marks else looks.clear, image.edges())
+            sheet.edges(looks.mirrored if wire.marks else looks.clear, wire.images or ())
         for wire in staying:
             if wire.along == "SURFACE":
                 sheet.edges(looks.marked if wire.marks else looks.clear, wire.edges())
@@ -338,11 +324,8 @@ class Overlay:
 
 
 def cuts(session: Session, seams: NDArray[np.int32]) -> NDArray[np.int32]:
-    """Return the edges, (c, 2), that will be seams when the session is kept, where some are seams already."""
-    edges = set(map(tuple, np.sort(seams, axis=1).tolist()))
-    edges.update(session.edges_to_mark())
-    edges.difference_update(session.edges_to_clear())
-    return np.array(sorted(edges), dtype=np.int32).reshape(-1, 2)
+    """Return the edges, (c, 2), that are seams with the session's wires, where some are seams already."""
+    return edges_after(seams, session.edges_to_mark(), session.edges_to_clear())
 
 
 def free_room(area: bpy.types.Area, region: bpy.types.Region) -> tuple[float, float, float, float]:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from ..core.network import Pick, Wire
     from ..core.session import Session
+    from ..core.strokes import Scribble
     from ..mesh.edit_mesh import Arrays
     from .viewport import View
 
@@ -38,6 +39,8 @@ WIRE_REACH = 6.0
 """...beside a wire..."""
 SEAM_REACH = 4.0
 """...and beside a seam: narrower, for meshes have many, and they must not keep the edges next to them from being picked."""
+STROKE_REACH = 12.0
+"""Pixels beside a stroke in which it is found."""
 FEATURE_REACH = 10.0
 """Pixels in which the strongest feature is looked for."""
 FEATURE_QUANTILE = 0.75
@@ -138,7 +141,7 @@ class Picker:
     arrays
         The same as arrays.
     seams
-        (s, 2) the edges that are seams already.
+        (s, 2) the edges that are seams and no wires.
 
     Notes
     -----
@@ -156,6 +159,16 @@ class Picker:
         self._seam_edges = np.asarray(seams, dtype=np.int64).reshape(-1, 2)
         self._drawn: _Drawn | None = None
         self._strength: tuple[object, float] = (None, 0.0)
+        bm.verts.ensure_lookup_table()
+        bm.faces.ensure_lookup_table()
+
+    def renew(self, bm: bmesh.types.BMesh, seams: ArrayLike) -> None:
+        """Go on with an edit mesh that was read anew and is the same, but for its seams."""
+        self._bm = bm
+        edges = np.asarray(seams, dtype=np.int64).reshape(-1, 2)
+        if not np.array_equal(edges, self._seam_edges):
+            self._seam_edges = edges
+            self.__dict__.pop("_seams", None)
         bm.verts.ensure_lookup_table()
         bm.faces.ensure_lookup_table()
 
@@ -469,3 +482,45 @@ class Picker:
         for other in around - {face}:
             if side(other) * facing > 0.0:
                 yield from other.edges
+
+
+def stroke_at(
+    strokes: Sequence[Scribble],
+    view: View,
+    matrix: Matrix,
+    to_object: NDArray[np.float64],
+    cursor: tuple[float, float],
+    scale: float,
+    sees: Callable[[NDArray[np.float64]], bool],
+) -> Scribble | None:
+    """Return the stroke nearest to the cursor, of equal ones the newest.
+
+    Parameters
+    ----------
+    strokes
+        Oldest first.
+    view, matrix
+        The view, and the object's matrix.
+    to_object
+        (3, 3) takes the strokes' points to object coordinates.
+    cursor
+        Pixels.
+    scale
+        Of the display.
+    sees
+        Whether a place, in object coordinates, is to be looked at.
+    """
+    world = np.array(matrix, dtype=np.float64)
+    best: tuple[float, Scribble | None] = (STROKE_REACH * scale, None)
+    for stroke in strokes:
+        places = np.asarray(stroke.points) @ to_object.T
+        pixels = view.to_pixels(places @ world[:3, :3].T + world[:3, 3])
+        part, gaps = nearest_on_segments(cursor, pixels[:-1], pixels[1:])
+        gaps = np.where(np.isnan(gaps), np.inf, gaps)
+        for row in np.argsort(gaps, kind="stable").tolist():
+            if gaps[row] > best[0]:
+                break
+            if sees(places[row] + part[row] * (places[row + 1] - places[row])):
+                best = (float(gaps[row]), stroke)
+                break
+    return best[1]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where points of the scene are seen in a viewport, and what a pixel of it shows."""
+"""Where points of the scene are seen in a 3D view, what a pixel of it shows, and which view the mouse is in."""
 
 from __future__ import annotations
 
@@ -101,3 +101,66 @@ class Projected:
         x, y, _ = self.seen(view, matrix)
         rows = np.flatnonzero(np.abs(x - cursor[0]) <= radius)
         return rows[np.abs(y[rows] - cursor[1]) <= radius]
+
+
+@dataclass(frozen=True)
+class Place:
+    """A pixel of a 3D view.
+
+    Parameters
+    ----------
+    area, region
+        The view.
+    view
+        How it sees the world.
+    cursor
+        Pixels from the region's bottom left.
+    x, y
+        Pixels of the window.
+    """
+
+    area: bpy.types.Area
+    region: bpy.types.Region
+    view: View
+    cursor: tuple[float, float]
+    x: int
+    y: int
+
+    def away(self, other: Place) -> int:
+        """Return how far another place is, as Blender measures when a press becomes a drag."""
+        return max(abs(self.x - other.x), abs(self.y - other.y))
+
+
+def place_of(window: bpy.types.Window, event: bpy.types.Event) -> Place | None:
+    """Return the 3D view under the mouse, where no toolbar, sidebar or header lies over it."""
+    x, y = event.mouse_x, event.mouse_y
+    for area in window.screen.areas:
+        if area.type != "VIEW_3D" or not _contains(area, x, y):
+            continue
+        under = [region for region in area.regions if region.width > 1 and _contains(region, x, y)]
+        if any(region.type != "WINDOW" for region in under):
+            return None
+        for region in under:
+            return place_in(area, region, (x - region.x, y - region.y))
+    return None
+
+
+def place_in(area: bpy.types.Area, region: bpy.types.Region, location: tuple[int, int]) -> Place:
+    """Return a pixel of a 3D view, counted from the bottom left of its region."""
+    view = View.of(region, _region_3d(area, region))
+    x, y = location
+    return Place(area, region, view, (x + 0.5, y + 0.5), region.x + x, region.y + y)
+
+
+def _contains(box: bpy.types.Area | bpy.types.Region, x: int, y: int) -> bool:
+    return box.x <= x < box.x + box.width and box.y <= y < box.y + box.height
+
+
+def _region_3d(area: bpy.types.Area, region: bpy.types.Region) -> bpy.types.RegionView3D:
+    """Return what a window region of a 3D view shows; a quad view has four."""
+    space = area.spaces.active
+    quads = space.region_quadviews
+    if not quads:
+        return space.region_3d
+    windows = [one for one in area.regions if one.type == "WINDOW"]
+    return quads[windows.index(region)]

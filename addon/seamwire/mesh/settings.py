@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the artist has set: the tool's settings, and the add-on's preferences, which hold them from one file to the next."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import bpy
+
+from ..core.engines import CLAMP_PERCENTILE, CLAMP_RANGE, STRENGTH_RANGE, STRENGTHS
+
+if TYPE_CHECKING:
+    from ..core.network import Along
+
+ADDON = __package__.rpartition(".")[0]
+"""The add-on's name in this Blender."""
+TOOL = "seamwire.draw"
+"""The tool's name in Blender's toolbar."""
+ALONG_ITEMS = (
+    ("EDGES", "Along Edges", "Wires are chains of the mesh's edges", 0),
+    ("SURFACE", "Across Surface", "Wires cross faces, and the chain of edges nearest to them is marked", 1),
+)
+METRIC_ITEMS = (
+    ("feature", "Features", "Follow ridges, valleys and lines of curvature", 0),
+    ("campen", "Principal Directions", "Keep to the directions of curvature (Campen, Bommes, Kobbelt)", 1),
+    ("pottmann_kovacs", "Surface Normals", "Turning normals make paths long (Pottmann, Kovacs)", 2),
+    ("euclidean", "Shortest Path", "Run as short as possible, whatever the shape", 3),
+)
+
+
+def _redraw(_settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
+
+
+def strength_property(along: Along) -> object:
+    """Return a property for the strength of one way of running."""
+    return bpy.props.FloatProperty(
+        name="Strength",
+        description="How strongly wires follow the shape. 1 is the shortest path",
+        default=STRENGTHS[along],
+        min=STRENGTH_RANGE[0],
+        max=STRENGTH_RANGE[1],
+        update=_redraw,
+    )
+
+
+class SeamwireSettings(bpy.types.PropertyGroup):
+    """How wires are drawn; sessions follow them, and they follow the keys of a chain."""
+
+    along: bpy.props.EnumProperty(name="Along", description="Where wires run", items=ALONG_ITEMS, update=_redraw)
+    strength_edges: strength_property("EDGES")
+    strength_surface: strength_property("SURFACE")
+    metric: bpy.props.EnumProperty(
+        name="Metric", description="What draws wires to features", items=METRIC_ITEMS, update=_redraw
+    )
+    clamp: bpy.props.FloatProperty(
+        name="Feature Percentile",
+        description="Clip feature strength at this percentile, so that noise does not dominate",
+        default=CLAMP_PERCENTILE,
+        min=CLAMP_RANGE[0],
+        max=CLAMP_RANGE[1],
+        precision=1,
+        update=_redraw,
+    )
+    clear: bpy.props.BoolProperty(
+        name="Clear Seams", description="Clear seams instead of marking them", default=False, update=_redraw
+    )
+    stroke_radius: bpy.props.FloatProperty(
+        name="Stroke Radius",
+        description="How far strokes reach, in the object's units; 0: ten rings of vertices",
+        default=0.0,
+        min=0.0,
+        soft_max=1.0,
+        precision=3,
+        subtype="DISTANCE",
+    )
+    snap: bpy.props.BoolProperty(
+        name="Snap to Features",
+        description="Snap to the strongest feature within a few pixels of the cursor",
+        default=False,
+        update=_redraw,
+    )
+    xray: bpy.props.BoolProperty(
+        name="X-Ray", description="Show wires, and pick, through the mesh", default=False, update=_redraw
+    )
+
+
+def preferences(context: bpy.types.Context | None = None) -> bpy.types.AddonPreferences:
+    """Return the add-on's preferences.
+
+    Raises
+    ------
+    ValueError
+        Where the add-on is not enabled in Blender's preferences.
+    """
+    addons = (context or bpy.context).preferences.addons
+    if ADDON not in addons:
+        raise ValueError("Enable Seamwire in Blender's preferences first")
+    return addons[ADDON].preferences
+
+
+def settings(context: bpy.types.Context | None = None) -> SeamwireSettings:
+    """Return the tool's settings; raises as `preferences` does."""
+    return preferences(context).tool
+
+
+def tool_is_active(context: bpy.types.Context) -> bool:
+    """Whether the tool is the active one of edit mode in the workspace."""
+    if context.mode != "EDIT_MESH" or context.workspace is None:
+        return False
+    tool = context.workspace.tools.from_space_view3d_mode("EDIT_MESH", create=False)
+    return tool is not None and tool.idname == TOOL
+
+
+def register() -> None:
+    """Add the settings' type, and where meshes keep their wires."""
+    bpy.utils.register_class(SeamwireSettings)
+    bpy.types.Mesh.seamwire_wires = bpy.props.StringProperty(
+        name="Seamwires", description="The wires drawn on this mesh", options={"HIDDEN"}
+    )
+
+
+def unregister() -> None:
+    """Remove them; what meshes keep stays with them."""
+    del bpy.types.Mesh.seamwire_wires
+    bpy.utils.unregister_class(SeamwireSettings)

@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that draws lists of seeds without a hand."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import bpy
+
+from ..mesh.settings import ALONG_ITEMS, METRIC_ITEMS
+from .report import in_edit_mode, summary
+
+if TYPE_CHECKING:
+    from ..core.network import Edge, Pick, Wire
+    from ..mesh.object_session import ObjectSession
+    from .seed_text import Stroke
+
+
+class MESH_OT_seamwire_mark(bpy.types.Operator):
+    """Mark the seams of wires between given vertices or edges"""  # noqa: D400 - a tooltip
+
+    bl_idname = "mesh.seamwire_mark"
+    bl_label = "Mark Seamwires"
+    bl_options = {"REGISTER", "UNDO"}
+
+    chains: bpy.props.StringProperty(
+        name="Chains",
+        description="Chains of seeds: vertex numbers, or edges as two numbers with a hyphen; semicolons between chains",
+    )
+    loops: bpy.props.StringProperty(
+        name="Loops",
+        description="Edges, each as two vertex numbers with a hyphen: the closed loop through each of them is taken",
+    )
+    take: bpy.props.EnumProperty(
+        name="Take",
+        description="What is taken through the edges given as loops",
+        items=(
+            ("FIRST", "First Offered", "The closed loop where there is one, else the strip"),
+            ("CLOSED", "Closed Loop", "The closed chain of edges that is shortest for its shape"),
+            ("STRIP", "Strip", "Straight on both ways, up to seams, other wires and the mirror"),
+            (
+                "PAST",
+                "Past Poles",
+                "Straight on as well where other than four edges meet, up to seams, other wires and the mirror",
+            ),
+            ("WHOLE", "Whole Strip", "Straight on both ways, across seams and wires"),
+            ("EDGE", "Edge", "The edge alone"),
+        ),
+        default="FIRST",
+    )
+    strokes: bpy.props.StringProperty(
+        name="Strokes",
+        description="Strokes that wires are to follow: vertex numbers along each; semicolons between strokes; a tilde"
+        " before one that they are to keep off",
+    )
+    along: bpy.props.EnumProperty(name="Along", description="Where wires run", items=ALONG_ITEMS, default="EDGES")
+    clear: bpy.props.BoolProperty(name="Clear", description="Clear seams instead of marking them", default=False)
+    mirror: bpy.props.EnumProperty(
+        name="Mirror",
+        description="The axes over which wires are mirrored; where not given, those that the mesh is mirrored over",
+        items=(("X", "X", ""), ("Y", "Y", ""), ("Z", "Z", "")),
+        options={"ENUM_FLAG"},
+        default=set(),
+    )
+    strength: bpy.props.FloatProperty(
+        name="Strength",
+        description="How much longer than straight a way may be for following the shape, 1 to 100; 0: as the tool does",
+        default=0.0,
+        min=0.0,
+        max=100.0,
+    )
+    metric: bpy.props.EnumProperty(
+        name="Metric", description="What draws wires to features", items=METRIC_ITEMS, default="feature"
+    )
+
+    objects: bpy.props.StringProperty(
+        name="Objects",
+        description="Names of objects in edit mode, separated by semicolons; empty: the active one. An asterisk: all",
+    )
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Whether a mesh is in edit mode."""
+        if not in_edit_mode(context):
+            cls.poll_message_set("Needs a mesh in Edit Mode")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Draw the chains and loops, and mark or clear what they run along."""
+        from ..core.native import NativeError
+        from ..mesh import edit_mesh
+
+        try:
+            self._before: dict[str, tuple[Wire, ...]] = {}
+            drawn = [self._draw(obj) for obj in self._chosen(context)]
+        except (ValueError, NativeError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        problems = [problem for _, found in drawn for problem in found]
+        for problem in problems:
+            self.report({"WARNING"}, problem)
+        if not any(mesh.session.wires for mesh, _ in drawn):
+            self.report({"ERROR"}, f"No seam was marked. {problems[0]}" if problems else "No seam was marked")
+            return {"CANCELLED"}
+        plans = [(mesh, mesh.plan()) for mesh, _ in drawn]
+        wires = new = old = touched = 0
+        for mesh, plan in plans:
+            session = mesh.session
+            wires += len(session.wires) - len(self._before[mesh.obj.name])
+            touched += len(_new_edges(session.wires, self._before[mesh.obj.name]))
+            marked, cleared = mesh.write(plan)
+            new, old = new + marked, old + cleared
+        if new or old:
+            edit_mesh.live_unwrap(context)
+        self.report({"INFO"}, summary(wires, new, old, touched))
+        return {"FINISHED"}
+
+    def _chosen(self, context: bpy.types.Context) -> list[bpy.types.Object]:
+        edited = [obj for obj in context.objects_in_mode_unique_data if obj.type == "MESH"]
+        names = [name.strip() for name in self.objects.split(";") if name.strip()]
+        if not names:
+            return [context.active_object]
+        if names == ["*"]:
+            return edited
+        missing = sorted(set(names) - {obj.name for obj in edited})
+        if missing:
+            raise ValueError(f"Not a mesh in Edit Mode: {', '.join(missing)}")
+        return [obj for obj in edited if obj.name in names]
+
+    def _draw(self, obj: bpy.types.Object) -> tuple[ObjectSession, list[str]]:
+        """Draw on one object; return its session, and what could not be done, in words."""
+        from ..mesh.edit_mesh import read
+        from ..mesh.object_session import ObjectSession, live_maker
+        from . import seed_text
+
+        mesh = ObjectSession(obj, self.along, live_maker(read(obj)))
+        seeds, loops, strokes = self._read(mesh)
+        session = mesh.session
+        self._before[obj.name] = session.wires
+        if self.strength:
+            session.set_strength(self.along, self.strength)
+        session.set_metric(self.metric)
+        if self.properties.is_property_set("mirror"):
+            session.set_mirror("XYZ".index(axis) for axis in self.mirror)
+        if self.clear:
+            session.toggle_marking()
+        take = None if self.take == "FIRST" else self.take
+        problems = [
+            *seed_text.draw_scribbles(session, strokes),
+            *seed_text.draw_chains(session, seeds),
+            *seed_text.draw_loops(session, loops, take),
+        ]
+        return mesh, problems
+
+    def _read(self, mesh: ObjectSession) -> tuple[list[list[Pick]], list[Edge], list[Stroke]]:
+        """Return chains, loops and strokes; raises ValueError where they cannot be drawn."""
+        from . import seed_text
+
+        loops = seed_text.parse_edges(self.loops)
+        seeds = [] if loops and not self.chains.strip() else seed_text.parse_chains(self.chains)
+        strokes = seed_text.parse_scribbles(self.strokes)
+        through = [stroke.vertices for stroke in strokes]
+        problem = mesh.cage.problem_with(pick for chain in (*seeds, loops, *through) for pick in chain)
+        if problem:
+            raise ValueError(problem)
+        if self.along == "SURFACE" and (loops or any(isinstance(pick, tuple) for chain in seeds for pick in chain)):
+            raise ValueError("Across the surface seeds are vertices: give vertex numbers, not edges")
+        return seeds, loops, strokes
+
+
+def _new_edges(wires: tuple[Wire, ...], before: tuple[Wire, ...]) -> set[Edge]:
+    known = {wire.id for wire in before}
+    return {edge for wire in wires if wire.id not in known for edge in wire.claims()}
+
+
+def register() -> None:
+    """Add the operator."""
+    bpy.utils.register_class(MESH_OT_seamwire_mark)
+
+
+def unregister() -> None:
+    """Remove it."""
+    bpy.utils.unregister_class(MESH_OT_seamwire_mark)

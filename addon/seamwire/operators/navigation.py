@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What Blender would do with an event, by the user's own keymap: move the view, save, or something that ends a chain first."""
+
+from __future__ import annotations
+
+from enum import Enum, auto
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import bpy
+
+    from ..view.viewport import Place
+    from .bindings import Key
+
+_KEYMAPS = ("Mesh", "3D View Generic", "3D View", "Object Non-modal", "Frames", "Screen", "Screen Editing", "Window")
+"""Those that have a say over a 3D view in edit mode, first the one that is asked first."""
+_NAVIGATION = (
+    "view3d.rotate",
+    "view3d.move",
+    "view3d.zoom",
+    "view3d.dolly",
+    "view3d.view",
+    "view3d.ndof",
+    "view3d.navigate",
+    "view3d.walk",
+    "view3d.fly",
+    "view3d.smoothview",
+)
+"""Operators that move the view: what their names begin with."""
+_HARMLESS = (
+    *_NAVIGATION,
+    "view3d.clip_border",
+    "view3d.cursor3d",
+    "view3d.toggle_shading",
+    "view3d.toggle_xray",
+    "screen.animation",
+    "screen.frame",
+    "screen.region",
+    "screen.screen_full_area",
+    "screen.screenshot",
+    "screen.space_",
+    "screen.header",
+    "wm.context_",
+    "wm.save",
+    "wm.window_fullscreen",
+)
+"""Operators that change neither the mesh nor the mode."""
+_HARMLESS_PIES = frozenset({"VIEW3D_MT_view_pie", "VIEW3D_MT_shading_pie", "VIEW3D_MT_shading_ex_pie"})
+_GIZMO_MARGIN = 10.0
+_GIZMO_BUTTON = 28.0
+_GIZMO_BUTTONS = 5
+
+
+class Meaning(Enum):
+    """What Blender makes of an event."""
+
+    NOTHING = auto()
+    """It has no key for it, or one that changes neither the mesh nor the mode."""
+    OTHER = auto()
+    """Something that a chain must end for."""
+
+
+def meaning(event: bpy.types.Event, manager: bpy.types.WindowManager) -> Meaning:
+    """Return what Blender would do with an event over a 3D view in edit mode."""
+    if event.value not in {"PRESS", "CLICK", "DOUBLE_CLICK", "CLICK_DRAG", "ANY"} or event.type.startswith("TIMER"):
+        return Meaning.NOTHING
+    configuration = manager.keyconfigs.user
+    for name in _KEYMAPS:
+        keymap = configuration.keymaps.get(name) if configuration is not None else None
+        item = keymap.keymap_items.match_event(event) if keymap is not None else None
+        if item is not None and item.active:
+            return _meaning_of(item)
+    return Meaning.NOTHING
+
+
+def _meaning_of(item: bpy.types.KeyMapItem) -> Meaning:
+    if item.idname == "wm.call_menu_pie" and item.properties.name in _HARMLESS_PIES:
+        return Meaning.NOTHING
+    return Meaning.NOTHING if item.idname.startswith(_HARMLESS) else Meaning.OTHER
+
+
+def takes(key: Key, manager: bpy.types.WindowManager) -> bool:
+    """Whether the user's keymap moves the view with a key of the mouse: that comes before the same key of ours."""
+    if not key.type.endswith("MOUSE"):
+        return False
+    configuration = manager.keyconfigs.user
+    keymap = configuration.keymaps.get("3D View") if configuration is not None else None
+    held = (key.ctrl, key.shift, key.alt, key.oskey)
+    return keymap is not None and any(
+        item.active
+        and item.idname.startswith(_NAVIGATION)
+        and item.type == key.type
+        and (item.any or tuple(int(getattr(item, name)) for name in ("ctrl", "shift", "alt", "oskey")) == held)
+        for item in keymap.keymap_items
+    )
+
+
+def on_gizmo(place: Place, preferences: bpy.types.Preferences) -> bool:
+    """Whether a place lies on the navigation gizmo or one of the buttons below it."""
+    space = place.area.spaces.active
+    if not (space.show_gizmo and space.show_gizmo_navigate):
+        return False
+    scale, view = preferences.system.ui_scale, preferences.view
+    # Blender 3.4 keeps its size to itself.
+    size = getattr(view, "gizmo_size_navigate_view", 80) if view.mini_axis_type == "GIZMO" else 0
+    right, top = float(place.region.width), float(place.region.height)
+    for other in place.area.regions:
+        if other.type == "UI" and other.width > 1:
+            right = min(right, float(other.x - place.region.x))
+        elif other.type in {"HEADER", "TOOL_HEADER"} and other.height > 1 and other.y > place.region.y:
+            top = min(top, float(other.y - place.region.y))
+    wide = (size + 2.0 * _GIZMO_MARGIN) * scale if size else 2.0 * _GIZMO_BUTTON * scale
+    high = (size + 2.0 * _GIZMO_MARGIN + _GIZMO_BUTTONS * _GIZMO_BUTTON) * scale
+    if place.cursor[0] >= right - wide and place.cursor[1] >= top - (size + 2.0 * _GIZMO_MARGIN) * scale:
+        return True
+    return place.cursor[0] >= right - 2.0 * _GIZMO_BUTTON * scale and place.cursor[1] >= top - high
+
+
+def emulates_middle_button(event: bpy.types.Event, inputs: bpy.types.PreferencesInput) -> bool:
+    """Whether an event is one of the middle button that the left one plays."""
+    if not inputs.use_mouse_emulate_3_button or event.type != "LEFTMOUSE":
+        return False
+    return event.oskey if getattr(inputs, "mouse_emulate_3_button_modifier", "ALT") == "OSKEY" else event.alt

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What operators run in, and what they say they did."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import bpy
+
+    from .modal import Chain
+
+running: list[Chain] = []
+"""The chain that is being drawn."""
+status_makers: list[Callable[[Chain], object]] = []
+"""Make what draws the status bar while a chain is drawn; the interface adds one."""
+
+
+def in_edit_mode(context: bpy.types.Context) -> bool:
+    """Whether a mesh is in edit mode."""
+    obj = context.active_object
+    return context.mode == "EDIT_MESH" and obj is not None and obj.type == "MESH"
+
+
+def count(number: int, what: str) -> str:
+    """Return a number with what it counts."""
+    return f"{number} {what}{'' if number == 1 else 's'}"
+
+
+def summary(wires: int, marked: int, cleared: int, touched: int) -> str:
+    """Say what was done: `touched` edges are those that wires run along, seams before or not."""
+    parts = [count(wires, "wire")]
+    if marked or not cleared:
+        parts.append(f"{count(marked, 'edge')} marked")
+    if cleared:
+        parts.append(f"{count(cleared, 'edge')} cleared")
+    already = touched - marked - cleared
+    if already > 0:
+        parts.append(f"{already} already seams" if not cleared else f"{already} unchanged")
+    return ", ".join(parts)

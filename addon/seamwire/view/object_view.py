@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One object that is drawn on, as it is seen: what of it is under the cursor, and what is drawn over it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+
+from ..core import islands, native
+from ..mesh import settings as chosen
+from ..mesh.object_session import ObjectSession
+from .overlay import Overlay
+from .picking import REACH, Picker, stroke_at
+from .theme import HUES
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from ..core.network import Snap
+    from ..core.session import Session
+    from ..core.strokes import Scribble
+    from .text_overlay import Row
+    from .viewport import View
+
+
+def in_bounds(obj: bpy.types.Object, view: View, cursor: tuple[float, float]) -> bool:
+    """Whether a pixel lies within the bounds of an object, or within reach of them."""
+    corners = np.array([(*corner, 1.0) for corner in obj.bound_box]) @ np.array(obj.matrix_world).T
+    pixels = view.to_pixels(corners[:, :3])
+    if np.isnan(pixels).any():
+        return True
+    low, high = pixels.min(axis=0) - REACH, pixels.max(axis=0) + REACH
+    return bool((low <= cursor).all() and (cursor <= high).all())
+
+
+class ObjectView:
+    """One object that is drawn on, with its picker and its overlay.
+
+    Parameters
+    ----------
+    obj
+        A mesh object in edit mode.
+
+    Attributes
+    ----------
+    name
+        The object's, when it was read.
+    stale
+        Whether Blender told of a change of the mesh since it was read.
+    wrote
+        Whether the next change that Blender tells of is our own.
+
+    Raises
+    ------
+    ValueError
+        Where there is nothing to draw on.
+    """
+
+    def __init__(self, obj: bpy.types.Object) -> None:
+        settings = chosen.settings()
+        self.mesh = ObjectSession(obj, settings.along)
+        self.mesh.follow(settings)
+        arrays = self.mesh.arrays
+        core, surface = native.load(), self.mesh.surface
+        assert surface is not None
+        self._islands = islands.SegmentMaker(
+            arrays.triangles, lambda cuts: core.face_segments(surface.get(), cuts), HUES
+        )
+        self._picker = Picker(self.mesh.cage.bm, arrays, self.mesh.plain_seams)
+        self.overlay = Overlay(
+            self.session,
+            obj,
+            arrays.points,
+            arrays.to_object,
+            triangles=arrays.triangles,
+            segments=self._islands,
+            seams=arrays.seams,
+            preferences=chosen.preferences(),
+        )
+        self._strength: NDArray[np.float64] | None = None
+        self.name = obj.name_full
+        self.stale = False
+        self.wrote = False
+        self.mesh.look_for_symmetry()
+
+    @property
+    def obj(self) -> bpy.types.Object:
+        """The object; its data may be gone."""
+        return self.mesh.obj
+
+    @property
+    def session(self) -> Session:
+        """The object's session."""
+        return self.mesh.session
+
+    def close(self) -> None:
+        """Let go of what works on threads."""
+        self._islands.close()
+
+    def refresh(self, obj: bpy.types.Object) -> bool:
+        """Take over what the mesh holds now; return False where it is another one, see `ObjectSession.refresh`."""
+        if not self.mesh.refresh(obj):
+            return False
+        self.stale = False
+        self.renew()
+        return True
+
+    def renew(self) -> None:
+        """Let picker and overlay follow the mesh that was read, or written."""
+        self._picker.renew(self.mesh.cage.bm, self.mesh.plain_seams)
+        self.overlay.renew(self.obj, self.mesh.arrays.seams)
+
+    @property
+    def busy(self) -> bool:
+        """Whether something is being computed: `poll` is to be called now and then."""
+        return self.mesh.busy or self.overlay.busy
+
+    def poll(self) -> bool:
+        """Take in what was computed; return whether there is something new to be seen."""
+        return any((self.session.poll(), self.overlay.poll()))
+
+    def shows(self, update: bpy.types.DepsgraphUpdate) -> bool:
+        """Whether an update of Blender's tells of a change of the mesh, whichever it is."""
+        try:
+            return update.is_updated_geometry and update.id.original in (self.obj, self.mesh.cage.mesh)
+        except ReferenceError:
+            return False
+
+    def snap(self, view: View, cursor: tuple[float, float], plain: bool = False) -> Snap | None:
+        """Return what is under the cursor; `plain`: of the mesh alone, whatever was drawn on it."""
+        settings = chosen.settings()
+        if settings.snap and self._strength is None:
+            self._strength = self.session.feature_strength()
+        return self._picker.snap(
+            view,
+            self.obj.matrix_world,
+            cursor,
+            vertices_only=self.session.along == "SURFACE",
+            session=None if plain else self.session,
+            xray=settings.xray,
+            strength=self._strength if settings.snap and not plain else None,
+            scale=bpy.context.preferences.system.ui_scale,
+        )
+
+    def depth(self, view: View, cursor: tuple[float, float]) -> float | None:
+        """Return how far from the viewer the object is under the cursor; None where it is not."""
+        return self._picker.depth(view, self.obj.matrix_world, cursor)
+
+    def surface_at(self, view: View, cursor: tuple[float, float]) -> tuple[NDArray[np.float64], int] | None:
+        """Return the place on the mesh that is seen at a pixel, in the session's coordinates, and its triangle."""
+        return self._picker.surface_at(view, self.obj.matrix_world, cursor)
+
+    @property
+    def stroke_radius(self) -> float | None:
+        """How far strokes reach; None: as many rings as the library takes."""
+        return chosen.settings().stroke_radius or None
+
+    def stroke_at(self, view: View, cursor: tuple[float, float]) -> Scribble | None:
+        """Return the stroke under the cursor."""
+        matrix = self.obj.matrix_world
+        return stroke_at(
+            self.session.scribbles,
+            view,
+            matrix,
+            self.mesh.arrays.to_object,
+            cursor,
+            bpy.context.preferences.system.ui_scale,
+            lambda place: chosen.settings().xray or self._picker.sees(view, matrix, place),
+        )
+
+    def show(self, front: bool, help_rows: Sequence[Row] | None) -> None:
+        """Let the overlay follow."""
+        settings = chosen.settings()
+        self.overlay.xray = settings.xray
+        self.overlay.features = settings.snap
+        self.overlay.front = front
+        self.overlay.help_rows = help_rows
