@@ -24,9 +24,10 @@ _FIRST = (
     ("AVOID", "Avoid Stroke", "Draw a stroke that wires keep off", 4),
     ("REMOVE", "Remove", "Remove the wire or the stroke; where there is none, Blender has the key", 5),
     ("NEXT", "Next Candidate", "Let the wire take its other path; where there is none, Blender has the key", 6),
+    ("PEEK", "Show Loop", "Show the loop that a click would take, while the key is held", 7),
 )
-_FOR_BLENDER = {"REMOVE", "NEXT"}
-"""Where these find no wire, the key has Blender's meaning."""
+_FOR_BLENDER = {"REMOVE", "NEXT", "PEEK"}
+"""Where these find nothing to do, the key has Blender's meaning."""
 
 
 class MESH_OT_seamwire_draw(bpy.types.Operator):
@@ -75,7 +76,7 @@ class MESH_OT_seamwire_draw(bpy.types.Operator):
         # Blender frees an operator whose invoke raised, and would call its modal method all the same.
         try:
             self._tell_problem(self._chain)
-            done = self.first == "NONE" or self._chain.begin(Action[self.first], event)
+            done = self._begin(event)
             if not done and self.first in _FOR_BLENDER:
                 self._chain.drop()
                 return {"PASS_THROUGH"}
@@ -84,7 +85,13 @@ class MESH_OT_seamwire_draw(bpy.types.Operator):
         except Exception as error:
             return self._failed(error)
         context.window_manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
+        return {"RUNNING_MODAL"} if self.first != "PEEK" else {"RUNNING_MODAL", "PASS_THROUGH"}
+
+    def _begin(self, event: bpy.types.Event) -> bool:
+        """Do what comes first; return whether there was something to do it to."""
+        if self.first == "NONE":
+            return True
+        return self._chain.peek(event) if self.first == "PEEK" else self._chain.begin(Action[self.first], event)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Pass an event on to the chain, and end it where that is due."""

@@ -64,6 +64,7 @@ class Chain:
         self._seen: dict[int, Network] = {}
         self._ending = False
         self._begun = False
+        self._peek = ""
         self._keys = False
         self.message = ""
         self.done: list[str] = []
@@ -110,6 +111,7 @@ class Chain:
         """Whether it has begun and nothing is live any more, nothing dragged and nothing waited for: then it ends."""
         return (
             self._begun
+            and not self._peek
             and self._hold is None
             and not any(
                 view.session.seed is not None or view.session.waiting_clicks or view.session.dragging
@@ -235,11 +237,24 @@ class Chain:
         self._after()
         return done
 
+    def peek(self, event: bpy.types.Event) -> bool:
+        """Show the loop under the mouse while the key of an event is held; return whether it shows loops."""
+        place = place_of(self._window, event)
+        if place is None or not self.keys.previews_loop(event):
+            return False
+        self._begun, self._peek = True, event.type
+        self._hover(place, event)
+        return True
+
     def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> bool:
         """Do what an event asks for; return whether Blender is to have it too. Where the chain ends, `idle` tells."""
         if event.type == "TIMER":
             self._tick()
             return True
+        if self._peek and (
+            event.type == "WINDOW_DEACTIVATE" or (event.type == self._peek and event.value == "RELEASE")
+        ):
+            self._peek = ""
         place = place_of(self._window, event)
         double = self._clicks.is_second(event, time.monotonic(), context.preferences)
         if self._hold is not None and event.type == self._hold.button and event.value == "RELEASE":
@@ -253,7 +268,6 @@ class Chain:
         self._set_cursor("CROSSHAIR" if place else "")
         if place is None:
             if press and not _in_tool_settings(self._window, event):
-                self._begun = True
                 self._end()
             if event.type == "MOUSEMOVE" and self.session.target is not None and self._hold is None:
                 self.session.hover(None)
@@ -279,7 +293,6 @@ class Chain:
         if action is None:
             meaning = navigation.meaning(event, self._manager)
             if meaning is Meaning.OTHER:
-                self._begun = True
                 self._end()
             return True
         if getattr(event, "is_repeat", False) and action not in {Action.UNDO, Action.REDO}:
@@ -289,8 +302,9 @@ class Chain:
     def act(self, action: Action, place: Place, event: bpy.types.Event) -> bool:
         """Do what a key or button asks for; return whether Blender is to have the event too."""
         self.message = ""
+        if self._peek and action is not Action.NEXT:
+            self._peek = ""
         if action is Action.END:
-            self._begun = True
             self._end()
         elif action in _CLICKS:
             self._click(action, place, event)
@@ -299,7 +313,6 @@ class Chain:
         elif action is Action.REMOVE:
             if not self._remove(place):
                 # Blender's own meaning of the key, which changes the mesh.
-                self._begun = True
                 self._end()
                 return True
         else:
@@ -309,6 +322,7 @@ class Chain:
 
     def _end(self) -> None:
         """Let go of what is live; clicks that wait for their wires are done first."""
+        self._begun, self._peek = True, ""
         if self._cancel_hold():
             return
         if any(view.session.waiting_clicks for view in edited.views()):

@@ -45,6 +45,7 @@ class SeamwireTool(bpy.types.WorkSpaceTool):
         _key("REMOVE", "X"),
         _key("REMOVE", "DEL"),
         _key("NEXT", "W"),
+        _key("PEEK", "LEFT_ALT", any=True),
     )
 
     @staticmethod

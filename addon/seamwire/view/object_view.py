@@ -131,7 +131,7 @@ class ObjectView:
             return False
 
     def snap(self, view: View, cursor: tuple[float, float], plain: bool = False) -> Snap | None:
-        """Return what is under the cursor; `plain`: of the mesh alone, whatever was drawn on it."""
+        """Return what is under the cursor; `plain`: the mesh's nearest edge, whatever was drawn on it, as loops need it."""
         settings = chosen.settings()
         if settings.snap and self._strength is None:
             self._strength = self.session.feature_strength()
@@ -140,6 +140,7 @@ class ObjectView:
             self.obj.matrix_world,
             cursor,
             vertices_only=self.session.along == "SURFACE",
+            edges_only=plain,
             session=None if plain else self.session,
             xray=settings.xray,
             strength=self._strength if settings.snap and not plain else None,

@@ -195,6 +195,7 @@ class Picker:
         cursor: tuple[float, float],
         *,
         vertices_only: bool,
+        edges_only: bool = False,
         session: Session | None = None,
         xray: bool = False,
         strength: NDArray[np.float64] | None = None,
@@ -210,8 +211,8 @@ class Picker:
             The object's matrix; may rotate, scale and shear.
         cursor
             Pixels from the region's bottom left.
-        vertices_only
-            Find vertices of the mesh alone.
+        vertices_only, edges_only
+            Find vertices of the mesh alone, or edges.
         session
             Whose seeds and wires can be found; without it neither they nor seams are.
         xray
@@ -230,7 +231,7 @@ class Picker:
         if xray:
             pick = self._pick_through(view, matrix, cursor, vertices_only, scale)
         else:
-            pick = self.pick(view, matrix, cursor, vertices_only, scale)
+            pick = self.pick(view, matrix, cursor, vertices_only, scale, edges_only)
         if pick is None or strength is None:
             return None if pick is None else Snap(pick)
         feature = self._feature_at(view, matrix, cursor, pick, strength, xray, scale)
@@ -388,7 +389,13 @@ class Picker:
         return pair if end is None else pair[end]
 
     def pick(
-        self, view: View, matrix: Matrix, cursor: tuple[float, float], vertices_only: bool, scale: float = 1.0
+        self,
+        view: View,
+        matrix: Matrix,
+        cursor: tuple[float, float],
+        vertices_only: bool,
+        scale: float = 1.0,
+        edges_only: bool = False,
     ) -> Pick | None:
         """Return the edge or the vertex under the cursor.
 
@@ -400,8 +407,8 @@ class Picker:
             The object's matrix; may rotate, scale and shear.
         cursor
             Pixels from the region's bottom left.
-        vertices_only
-            Find vertices alone.
+        vertices_only, edges_only
+            Find vertices alone, or edges.
         scale
             Of the display.
 
@@ -428,7 +435,7 @@ class Picker:
         index, end = nearest_edge(cursor, pixels[ends[:, 0]], pixels[ends[:, 1]], scale)
         if index < 0:
             return None
-        return pairs[index] if end is None else pairs[index][end]
+        return pairs[index] if end is None or edges_only else pairs[index][end]
 
     def _faces_at(
         self, view: View, matrix: Matrix, cursor: tuple[float, float], reach: float
