@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A mesh with known numbers on a desk: in edit mode, seen from above, to be drawn on in the real window."""
 
+import ctypes
 import math
+import re
 
 import bmesh
 import bpy
 import numpy as np
+import pytest
 import ui as driver
 from bl_ui.space_statusbar import STATUSBAR_HT_header
 from bpy_extras.view3d_utils import location_3d_to_region_2d
@@ -119,6 +122,31 @@ def reset_settings() -> None:
             chosen.property_unset(name)
 
 
+def draw(desk: Desk, *vertices: int, at_vertices: bool = True) -> Session:
+    """With the tool chosen, draw a chain with clicks, and end it."""
+    ui = desk.ui
+    ui.click(desk.at(vertices[0]), ctrl=not at_vertices)
+    session = desk.session
+    before = len(session.wires)
+    for number, vertex in enumerate(vertices[1:], start=1):
+        ui.click(desk.at(vertex))
+        ui.wait_until(lambda number=number: not desk.running or len(session.wires) >= before + number)
+    if desk.running:
+        ui.click(desk.at(vertices[-1]), button="RIGHTMOUSE")
+    ui.wait_until(lambda: not desk.running)
+    return session
+
+
+def drag(desk: Desk, start: tuple[float, float], end: tuple[float, float]) -> None:
+    """Press, move in steps, release."""
+    ui = desk.ui
+    ui.move(start)
+    ui.event("LEFTMOUSE", "PRESS", start)
+    for part in (0.3, 0.7, 1.0):
+        ui.move((start[0] + part * (end[0] - start[0]), start[1] + part * (end[1] - start[1])))
+    ui.event("LEFTMOUSE", "RELEASE", end)
+
+
 def leave(ui: driver.Ui) -> None:
     """End what is drawn, however it stands, and forget what was prepared."""
     for chain in tuple(running):
@@ -128,6 +156,16 @@ def leave(ui: driver.Ui) -> None:
         choose(ui, "builtin.select_box")
     ui.move((ui.region.width * 0.5, ui.region.height * 0.5))
     ui.wait()
+
+
+def undo_steps(capfd: pytest.CaptureFixture[str]) -> list[str]:
+    """Return the names of the steps in Blender's undo history, which it tells nobody but the terminal."""
+    capfd.readouterr()
+    bpy.context.window_manager.print_undo_steps()
+    ctypes.CDLL(None).fflush(None)
+    names = re.findall(r"name='([^']*)'", capfd.readouterr().out)
+    assert names, "there is a history"
+    return names
 
 
 def near(pixels: NDArray[np.float32], at: tuple[float, float], radius: int = 2) -> NDArray[np.float32]:

@@ -1,24 +1,28 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What one click on an edge takes: with Alt held the offers are shown, the wheel and W turn from one to the next."""
 
+import bmesh
 import bpy
+import pytest
 import ui as driver
-from desk import GREEN, WHITE, Desk, shows
+from desk import GREEN, Desk, shows, undo_steps
 from scene import chain, seams
-from seamwire.operators import modal as drawing
-from seamwire.ui import menus as texts
+from seamwire.operators.report import running
+from seamwire.ui import status_bar
 
 
 def said() -> str:
-    return "; ".join(text for _, text in texts.hints(drawing.running[0].status()))
+    return "; ".join(text for _, text in status_bar.hints(status_bar.status_of(running[0])))
 
 
 def offer(desk: Desk, *edge: int) -> tuple[float, float]:
-    """Point at an edge with Alt held; return where that is."""
+    """With the tool chosen, point at an edge and hold Alt; return where that is."""
     place = desk.at(*edge)
+    desk.choose()
     session = desk.session
     desk.ui.wait_until(lambda: not session.computing)
-    desk.ui.move(place, alt=True)
+    desk.ui.move(place)
+    desk.ui.event("LEFT_ALT", "PRESS", place, alt=True)
     desk.ui.wait_until(lambda: session.loop_preview is not None)
     return place
 
@@ -32,22 +36,22 @@ def turn_to(desk: Desk, kind: str, up: bool = True) -> None:
 
 
 def take(desk: Desk, kind: str, *edge: int) -> list[tuple[int, int]]:
-    """Take an offer with a click, and finish; return what is marked."""
+    """Take an offer with a click; return what is marked."""
     place = offer(desk, *edge)
     turn_to(desk, kind)
     shown = sorted(desk.session.loop_preview.edges())
     desk.ui.click(place, alt=True)
-    assert desk.session.edges_to_mark() == shown
-    desk.ui.key("RET")
     assert desk.left_clean()
+    assert desk.session.edges_to_mark() == shown
     return seams(desk.obj)
 
 
-def test_the_wheel_and_w_turn_from_one_offer_to_the_next(desk: Desk) -> None:
-    session, ui = desk.start(), desk.ui
-    offer(desk, 40, 41)
+def test_alt_shows_what_a_click_takes_and_w_and_the_wheel_turn_from_one_to_the_next(desk: Desk) -> None:
+    place, ui = offer(desk, 40, 41), desk.ui
+    session = desk.session
     kinds = session.loop_offers
-    assert {"STRIP", "EDGE"} <= set(kinds)
+    assert "STRIP" in kinds
+    assert len(kinds) > 1
     frame, distance = bpy.context.scene.frame_current, ui.view.view_distance
     seen = [session.loop_choice]
     for _ in kinds[1:]:
@@ -57,52 +61,59 @@ def test_the_wheel_and_w_turn_from_one_offer_to_the_next(desk: Desk) -> None:
     ui.key("W", alt=True)
     assert session.loop_choice == kinds[0], "and round again"
     assert (bpy.context.scene.frame_current, ui.view.view_distance) == (frame, distance)
-    ui.move(desk.at(40, 41))
+    assert f"1 of {len(kinds)}" in said()
+    ui.event("LEFT_ALT", "RELEASE", place)
+    assert not desk.running
     assert session.loop_preview is None
     assert desk.unchanged()
 
 
-def test_the_status_bar_says_which_offer_it_is_and_of_how_many(desk: Desk) -> None:
-    session = desk.start()
-    offer(desk, 40, 41)
-    count = len(session.loop_offers)
-    turn_to(desk, "STRIP")
-    assert f"Take Strip, {session.loop_offers.index('STRIP') + 1} of {count}" in said()
-    turn_to(desk, "EDGE")
-    assert f"Take Single Edge, {count} of {count}" in said()
-    desk.ui.move(desk.at(40, 41))
-    assert "Take" not in said()
+def test_alt_over_a_vertex_takes_the_nearest_edge(desk: Desk) -> None:
+    desk.choose()
+    ui, session = desk.ui, desk.session
+    x, y = desk.at(40)
+    ui.move((x + 3.0, y))
+    assert session.target.pick == 40
+    ui.event("LEFT_ALT", "PRESS", (x + 3.0, y), alt=True)
+    assert session.target.pick == (40, 41)
+    ui.event("LEFT_ALT", "RELEASE", (x + 3.0, y))
 
 
-def test_a_strip_is_taken_up_to_the_seams(desk: Desk) -> None:
-    import bmesh
+def test_alt_with_another_key_is_blenders(desk: Desk) -> None:
+    desk.choose()
+    ui = desk.ui
+    ui.move(desk.at(40))
+    ui.event("LEFT_ALT", "PRESS", alt=True)
+    ui.event("A", "PRESS", alt=True)
+    ui.event("A", "RELEASE", alt=True)
+    ui.event("LEFT_ALT", "RELEASE")
+    assert not desk.running
+    assert not any(v.select for v in bmesh.from_edit_mesh(desk.obj.data).verts)
 
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    bm.verts.ensure_lookup_table()
-    bm.edges.get((bm.verts[34], bm.verts[43])).seam = True  # a stub that ends in the row
-    bmesh.update_edit_mesh(desk.obj.data)
-    desk.start()
-    assert take(desk, "STRIP", 40, 41) == sorted([*chain(*range(36, 44)), (34, 43)])
 
-
-def test_a_whole_strip_is_taken_across_seams(desk: Desk) -> None:
-    import bmesh
-
+def stub(desk: Desk) -> None:
+    """Mark a seam that ends in the middle row."""
     bm = bmesh.from_edit_mesh(desk.obj.data)
     bm.verts.ensure_lookup_table()
     bm.edges.get((bm.verts[34], bm.verts[43])).seam = True
     bmesh.update_edit_mesh(desk.obj.data)
-    desk.start()
+
+
+def test_a_strip_is_taken_up_to_the_seams_in_one_step(desk: Desk, capfd: pytest.CaptureFixture[str]) -> None:
+    stub(desk)
+    bpy.ops.ed.undo_push(message="Before")
+    assert take(desk, "STRIP", 40, 41) == sorted([*chain(*range(36, 44)), (34, 43)])
+    assert undo_steps(capfd)[-1] == "Add Loop"
+    desk.ui.key("Z", ctrl=True)
+    assert seams(desk.obj) == [(34, 43)]
+
+
+def test_a_whole_strip_is_taken_across_seams(desk: Desk) -> None:
+    stub(desk)
     assert take(desk, "WHOLE", 40, 41) == sorted([*chain(*range(36, 45)), (34, 43)])
 
 
-def test_a_single_edge_is_taken(desk: Desk) -> None:
-    desk.start()
-    assert take(desk, "EDGE", 40, 41) == [(40, 41)]
-
-
 def test_a_closed_loop_is_taken(desk: Desk) -> None:
-    desk.start()
     marked = take(desk, "CLOSED", 40, 41)
     assert (40, 41) in marked
     ends = [vertex for edge in marked for vertex in edge]
@@ -110,40 +121,22 @@ def test_a_closed_loop_is_taken(desk: Desk) -> None:
 
 
 def test_a_taken_strip_is_changed_in_place(desk: Desk) -> None:
-    session, ui = desk.start(), desk.ui
-    place = offer(desk, 40, 41)
-    turn_to(desk, "STRIP")
-    ui.click(place, alt=True)
-    assert session.edges_to_mark() == chain(*range(36, 45))
+    take(desk, "STRIP", 40, 41)
+    ui = desk.ui
+    assert seams(desk.obj) == chain(*range(36, 45))
     ui.move(desk.at(38))
     ui.key("W")
-    assert len(session.wires) == 1
-    assert session.edges_to_mark() != chain(*range(36, 45))
+    ui.wait_until(lambda: not desk.running)
+    assert len(desk.session.wires) == 1
+    assert seams(desk.obj) != chain(*range(36, 45))
     ui.key("Z", ctrl=True)
-    assert session.edges_to_mark() == chain(*range(36, 45)), "one step"
-    ui.key("RET")
-    assert seams(desk.obj) == chain(*range(36, 45))
-
-
-def test_alt_and_the_wheel_change_the_frame_where_nothing_is_offered(desk: Desk) -> None:
-    desk.start()
-    ui = desk.ui
-    frame = bpy.context.scene.frame_current
-    beside = (ui.region.width - 130.0, 40.0)
-    ui.move(beside, alt=True)
-    ui.wheel(up=False, alt=True)
-    assert bpy.context.scene.frame_current == frame + 1, "as everywhere in Blender"
-    ui.wheel(up=True, alt=True)
-    assert bpy.context.scene.frame_current == frame
-    assert desk.unchanged()
+    assert seams(desk.obj) == chain(*range(36, 45)), "one step"
 
 
 def test_the_offer_that_is_shown_is_seen(ui: driver.Ui, desk: Desk) -> None:
-    desk.start()
-    offer(desk, 40, 41)
+    place = offer(desk, 40, 41)
     turn_to(desk, "STRIP")
     assert shows(ui.pixels(), desk.at(37, 38), GREEN)
-    turn_to(desk, "EDGE")
-    pixels = ui.pixels()
-    assert shows(pixels, desk.at(40, 40, 40, 41), WHITE), "what is under the cursor lies over what is offered"
-    assert not shows(pixels, desk.at(37, 38), GREEN)
+    turn_to(desk, "CLOSED")
+    assert not shows(ui.pixels(), desk.at(37, 38), GREEN)
+    ui.event("LEFT_ALT", "RELEASE", place)

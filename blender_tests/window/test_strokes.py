@@ -8,10 +8,12 @@ import bmesh
 import bpy
 import pytest
 import ui as driver
-from desk import Desk, leave
+from desk import Desk, choose, leave, undo_steps
 from scene import add_grid, chain, seams
-from seamwire.operators import modal as drawing
-from seamwire.ui import menus as texts
+from seamwire.mesh.settings import settings
+from seamwire.operators.report import running
+from seamwire.ui import status_bar
+from seamwire.view.edited_objects import edited
 
 SIDE = 31
 LEFT, RIGHT = 15 * SIDE + 5, 15 * SIDE + 25
@@ -55,7 +57,7 @@ def computed(desk: Desk) -> None:
 
 
 def said() -> str:
-    return "; ".join(text for _, text in texts.hints(drawing.running[0].status()))
+    return "; ".join(text for _, text in status_bar.hints(status_bar.status_of(running[0])))
 
 
 def wire(desk: Desk) -> list[tuple[int, int]]:
@@ -90,32 +92,50 @@ def test_a_stroke_leads_the_live_wire_and_undo_takes_it_back(fine: Desk) -> None
     ui.wait_until(lambda: len(session.wires) == 1)
     ui.key("RET")
     assert seams(fine.obj) == sorted(ROUND)
+    assert not fine.running
 
 
-def test_an_erased_stroke_leads_no_more(fine: Desk) -> None:
-    session, ui = fine.start(), fine.ui
-    computed(fine)
+def test_between_chains_a_stroke_is_a_step_of_blenders_undo_and_kept_with_the_mesh(
+    fine: Desk, capfd: pytest.CaptureFixture[str]
+) -> None:
+    bpy.ops.ed.undo_push(message="Before")
+    choose(fine.ui)
     draw(fine, GATE)
-    assert session.scribbles[0].acts_on == "both", "no wire is live"
-    ui.move(at(fine, (15.0, 19.0)))
-    ui.key("D")
-    assert len(session.scribbles) == 1, "not under the cursor"
-    assert "Point at a stroke" in said()
+    fine.ui.wait_until(lambda: not fine.running)
+    assert undo_steps(capfd)[-1] == "Draw Guide Stroke"
+    assert seams(fine.obj) == []
+    edited.clear()
+    fine.ui.move(fine.at(LEFT))
+    assert len(fine.session.scribbles) == 1, "as the mesh has it"
+    fine.ui.key("Z", ctrl=True)
+    fine.ui.move(fine.at(LEFT))
+    assert fine.session.scribbles == ()
+    fine.ui.key("Z", ctrl=True, shift=True)
+    fine.ui.move(fine.at(LEFT))
+    assert len(fine.session.scribbles) == 1
+    computed(fine)
+    assert wire(fine) == sorted(ROUND)
+
+
+def test_x_removes_the_stroke_under_the_cursor(fine: Desk, capfd: pytest.CaptureFixture[str]) -> None:
+    ui = fine.ui
+    bpy.ops.ed.undo_push(message="Before")
+    choose(ui)
+    draw(fine, GATE)
+    ui.wait_until(lambda: not fine.running)
     ui.move(at(fine, (15.0, 23.2)))
-    ui.key("D")
-    assert session.scribbles == ()
+    ui.key("X")
+    assert fine.session.scribbles == ()
+    assert undo_steps(capfd)[-1] == "Remove Stroke"
     computed(fine)
     assert wire(fine) == STRAIGHT
-    ui.click(fine.at(RIGHT))
-    ui.wait_until(lambda: len(session.wires) == 1)
-    ui.key("RET")
-    assert seams(fine.obj) == STRAIGHT
 
 
 def test_wires_keep_off_a_stroke_that_repels(fine: Desk) -> None:
-    session, ui = fine.start(), fine.ui
-    computed(fine)
+    choose(fine.ui)
+    ui = fine.ui
     draw(fine, [(6.0, 15.0), (24.0, 15.0)], ctrl=True)
+    session = fine.session
     assert not session.scribbles[0].attracts
     computed(fine)
     off = wire(fine)
@@ -127,10 +147,9 @@ def test_wires_keep_off_a_stroke_that_repels(fine: Desk) -> None:
 
 
 def test_a_stroke_ends_where_it_leaves_the_model(fine: Desk) -> None:
-    session = fine.start()
-    computed(fine)
+    choose(fine.ui)
     draw(fine, [(20.0, 15.0), (40.0, 15.0), (40.0, 25.0), (20.0, 25.0)])
-    points = session.scribbles[0].points
+    points = fine.session.scribbles[0].points
     assert points[:, 0].max() <= 1.0 + 1e-6
     assert abs(points[:, 1]).max() < 0.1, "what came after it left is not part of it"
     assert fine.unchanged()
@@ -141,31 +160,26 @@ def test_hidden_parts_of_the_mesh_are_not_drawn_on(fine: Desk) -> None:
     for face in bm.faces:
         face.hide_set(face.calc_center_median().x > 0.0)
     bmesh.update_edit_mesh(fine.obj.data)
-    session = fine.start()
-    computed(fine)
+    choose(fine.ui)
     draw(fine, [(5.0, 15.0), (25.0, 15.0), (25.0, 20.0), (5.0, 20.0)])
-    points = session.scribbles[0].points
+    points = fine.session.scribbles[0].points
     assert points[:, 0].max() <= 1e-6
     assert abs(points[:, 1]).max() < 0.1, "there it ended"
-    ui = fine.ui
     draw(fine, [(20.0, 15.0), (25.0, 20.0)])
-    assert len(session.scribbles) == 1
-    assert "Drag over the mesh" in said()
-    ui.key("ESC")
+    assert len(fine.session.scribbles) == 1
 
 
 def test_a_stroke_that_comes_back_to_its_beginning_is_closed(fine: Desk) -> None:
-    session = fine.start()
-    computed(fine)
+    choose(fine.ui)
     draw(fine, [(8.0, 8.0), (22.0, 8.0), (22.0, 22.0), (8.0, 22.0), (8.0, 8.3)])
-    points = session.scribbles[0].points
+    points = fine.session.scribbles[0].points
     assert (points[0] == points[-1]).all()
 
 
 def test_while_it_is_drawn_a_stroke_is_shown_and_escape_drops_it(fine: Desk) -> None:
     session, ui = fine.start(), fine.ui
     computed(fine)
-    overlay = drawing.running[0].board.overlay
+    overlay = edited.front.overlay
     ui.move(at(fine, (5.0, 15.0)), shift=True)
     ui.event("LEFTMOUSE", "PRESS", shift=True)
     for x in (10.0, 15.0, 20.0):
@@ -177,76 +191,13 @@ def test_while_it_is_drawn_a_stroke_is_shown_and_escape_drops_it(fine: Desk) -> 
     assert overlay.stroke is None
     ui.event("LEFTMOUSE", "RELEASE", shift=True)
     assert session.scribbles == ()
-    assert fine.running
-
-
-def test_a_click_with_shift_draws_nothing_and_drops_a_wire(fine: Desk) -> None:
-    session, ui = fine.start(), fine.ui
-    wire(fine)
-    ui.click(fine.at(RIGHT))
-    ui.wait_until(lambda: len(session.wires) == 1)
-    ui.click(fine.at(RIGHT), button="RIGHTMOUSE")
-    ui.click(at(fine, (15.0, 22.0)), shift=True)
-    assert len(session.wires) == 1
-    assert session.scribbles == ()
-    assert "Drag over the mesh" in said()
-    ui.click(fine.at(LEFT + 10), shift=True)
-    assert session.wires == ()
-    assert session.scribbles == ()
-
-
-def test_strokes_are_kept_with_the_network(fine: Desk) -> None:
-    session, ui = fine.start(), fine.ui
-    computed(fine)
-    draw(fine, GATE)
-    computed(fine)
-    wire(fine)
-    ui.click(fine.at(RIGHT))
-    ui.wait_until(lambda: len(session.wires) == 1)
-    ui.key("RET")
-    assert seams(fine.obj) == sorted(ROUND)
-    session = fine.start()
-    assert session.scribbles == ()
-    ui.move(fine.at(SIDE))
-    ui.key("R")
-    assert len(session.scribbles) == 1
-    assert len(session.wires) == 1
-
-
-def test_strokes_alone_are_kept_too(fine: Desk) -> None:
-    ui = fine.ui
-    fine.start()
-    computed(fine)
-    draw(fine, GATE)
-    ui.key("RET")
-    assert not fine.running
-    assert seams(fine.obj) == []
-    session = fine.start()
-    ui.move(fine.at(SIDE))
-    ui.key("R")
-    assert len(session.scribbles) == 1
 
 
 def test_the_tools_reach_of_strokes_is_taken(fine: Desk) -> None:
-    session = fine.start()
-    computed(fine)
-    bpy.context.window_manager.seamwire.stroke_radius = 0.2
+    choose(fine.ui)
+    settings().stroke_radius = 0.2
     draw(fine, GATE)
-    assert session.scribbles[0].radius == pytest.approx(0.2)
-
-
-def test_the_first_drag_with_the_tool_is_a_stroke(fine: Desk) -> None:
-    ui = fine.ui
-    with ui.override():
-        bpy.ops.wm.tool_set_by_id(name="seamwire.draw")
-    try:
-        ui.wait(redraw=True)
-        draw(fine, GATE)
-        ui.wait_until(lambda: fine.running and len(fine.session.scribbles) == 1)
-        assert fine.session.seed is None
-    finally:
-        with ui.override():
-            bpy.ops.wm.tool_set_by_id(name="builtin.select_box")
+    assert fine.session.scribbles[0].radius == pytest.approx(0.2)
 
 
 @pytest.fixture(params=[1.0, 2.0])
@@ -271,11 +222,10 @@ def stroke_by(desk: Desk, *ways: tuple[float, float]) -> None:
 
 
 def test_a_hand_may_be_as_unsteady_on_a_display_of_twice_the_scale(fine: Desk, display_scale: float) -> None:
-    session = fine.start()
-    computed(fine)
+    choose(fine.ui)
     stroke_by(fine, (5.0, 0.0))
-    assert len(session.scribbles) == (1 if display_scale == 1.0 else 0), "five pixels are a drag, or a click"
+    assert len(fine.session.scribbles) == (1 if display_scale == 1.0 else 0), "five pixels are a drag, or a click"
     stroke_by(fine, (200.0, 0.0), (200.0, 100.0), (0.0, 100.0), (0.0, 15.0))
-    points = session.scribbles[-1].points
+    points = fine.session.scribbles[-1].points
     closed = bool((points[0] == points[-1]).all())
     assert closed is (display_scale == 2.0), "fifteen pixels from its beginning"

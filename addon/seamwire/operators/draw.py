@@ -84,6 +84,7 @@ class MESH_OT_seamwire_draw(bpy.types.Operator):
                 return self._finish(context)
         except Exception as error:
             return self._failed(error)
+        self._chain.show()
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"} if self.first != "PEEK" else {"RUNNING_MODAL", "PASS_THROUGH"}
 

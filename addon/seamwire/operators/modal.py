@@ -72,6 +72,7 @@ class Chain:
         self.keys = bindings.of_user(self._manager).without(lambda key: navigation.takes(key, self._manager))
         self._cleanup = ExitStack()
         try:
+            edited.take_stock()
             edited.follow_settings()
             edited.chain = True
             self._cleanup.callback(self._leave_objects)

@@ -94,6 +94,12 @@ class EditedObjects:
         for name in idle[: max(0, len(self._views) - _KEPT)]:
             self._remove(name)
 
+    def take_stock(self) -> None:
+        """Read anew what has changed, and let one of the objects that are edited be in front."""
+        self.refresh()
+        if self.front is None or not self.front.mesh.alive():
+            self.front = self.of(bpy.context.active_object)
+
     def clear(self) -> None:
         """Forget all objects, draw nothing any more and follow Blender no more."""
         for name, handler in _HANDLERS:

@@ -1,0 +1,437 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender stays Blender around the tool: its keys, menus, undo, saving and modes, between chains and within one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import bmesh
+import bpy
+import pytest
+import ui as driver
+from desk import ORANGE, Desk, choose, draw, shows, undo_steps
+from scene import ADDON, chain, edit, seams
+from seamwire.core.session import Session
+from seamwire.operators.report import running
+from seamwire.view.edited_objects import edited
+
+ROW = chain(*range(36, 45))
+
+
+def live(desk: Desk) -> Session:
+    """Choose the tool, keep a wire along the middle row, and leave the next one live."""
+    desk.choose()
+    ui = desk.ui
+    ui.click(desk.at(36))
+    ui.click(desk.at(44))
+    session = desk.session
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.move(desk.at(53))
+    assert desk.running
+    return session
+
+
+def modal_operators(ui: driver.Ui) -> list[str]:
+    """Return the modal operators that run in the window, as far as Blender tells of them."""
+    found = getattr(ui.window, "modal_operators", None)
+    return [operator.bl_idname for operator in found] if found is not None else ["?"] * len(running)
+
+
+# Between chains
+
+
+def test_between_chains_no_operator_of_ours_runs_and_what_a_click_takes_is_lit(desk: Desk) -> None:
+    session = desk.choose()
+    assert modal_operators(desk.ui) == []
+    desk.ui.move(desk.at(40))
+    assert session.target.pick == 40
+    draw(desk, 36, 44)
+    desk.ui.move(desk.at(40))
+    assert session.hovered_wire is not None
+    desk.ui.move(desk.at(36))
+    assert session.hovered_seed == 36
+    assert modal_operators(desk.ui) == []
+
+
+def test_between_chains_blender_has_its_keys(desk: Desk) -> None:
+    desk.choose()
+    draw(desk, 36, 44)
+    ui, obj = desk.ui, desk.obj
+    ui.move(desk.at(60))
+    ui.key("A", alt=True)
+    assert not any(v.select for v in bmesh.from_edit_mesh(obj.data).verts)
+    ui.key("A")
+    assert all(v.select for v in bmesh.from_edit_mesh(obj.data).verts)
+    ui.key("A", alt=True)
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    bm.verts[80].select = True
+    ui.key("H")
+    assert bmesh.from_edit_mesh(obj.data).verts[80].hide if ensured(obj) else False
+    ui.key("H", alt=True)
+    assert not bmesh.from_edit_mesh(obj.data).verts[80].hide if ensured(obj) else False
+    ui.key("TAB")
+    assert obj.mode == "OBJECT"
+    ui.key("TAB")
+    assert obj.mode == "EDIT"
+    assert seams(obj) == ROW
+    ui.move(desk.at(40))
+    ui.wait_until(lambda: bool(desk.session.wires))
+    assert desk.session.hovered_wire is not None, "a mode switch leaves the network"
+
+
+def ensured(obj: bpy.types.Object) -> bool:
+    bmesh.from_edit_mesh(obj.data).verts.ensure_lookup_table()
+    return True
+
+
+def test_x_is_blenders_where_there_is_no_wire(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = []
+    menu = bpy.types.VIEW3D_MT_edit_mesh_delete
+    monkeypatch.setattr(menu, "draw", lambda self, _context: (asked.append(1), self.layout.label(text="Delete"))[0])
+    desk.choose()
+    desk.ui.move(desk.at(60))
+    desk.ui.key("X")
+    desk.ui.wait_until(lambda: bool(asked))
+    desk.ui.key("ESC")
+
+
+def test_hidden_wires_stay_and_are_back_when_they_are_shown(desk: Desk) -> None:
+    desk.choose()
+    draw(desk, 36, 44)
+    draw(desk, 0, 8)
+    bm = bmesh.from_edit_mesh(desk.obj.data)
+    bm.faces.ensure_lookup_table()
+    for face in bm.faces[:16]:
+        face.hide_set(True)
+    bmesh.update_edit_mesh(desk.obj.data)
+    desk.ui.wait()
+    desk.ui.move(desk.at(60))
+    assert [wire.edges() for wire in desk.session.wires] == [ROW]
+    desk.ui.move(desk.at(40))
+    desk.ui.key("X")
+    assert seams(desk.obj) == chain(*range(9)), "what is hidden is not touched"
+    with desk.ui.override():
+        bpy.ops.mesh.reveal(select=False)
+    desk.ui.wait()
+    desk.ui.move(desk.at(60))
+    assert [wire.edges() for wire in desk.session.wires] == [chain(*range(9))]
+
+
+def test_a_wire_whose_seams_are_cleared_is_none(desk: Desk) -> None:
+    desk.choose()
+    draw(desk, 36, 44)
+    bm = bmesh.from_edit_mesh(desk.obj.data)
+    bm.verts.ensure_lookup_table()
+    bm.edges.get((bm.verts[40], bm.verts[41])).seam = False
+    bmesh.update_edit_mesh(desk.obj.data)
+    desk.ui.wait()
+    desk.ui.move(desk.at(60))
+    assert desk.session.wires == ()
+    assert len(seams(desk.obj)) == 7, "its other seams stay"
+
+
+def test_the_network_follows_subdividing_and_duplicating(desk: Desk) -> None:
+    desk.choose()
+    draw(desk, 36, 44)
+    with desk.ui.override():
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.mesh.subdivide()
+    desk.ui.wait()
+    desk.ui.move(desk.ui.on_screen((0.05, 0.6, 0.0)))
+    assert [len(wire.edges()) for wire in desk.session.wires] == [16]
+    with desk.ui.override():
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.mesh.duplicate_move(TRANSFORM_OT_translate={"value": (0.0, 0.0, -1.0)})
+    desk.ui.wait()
+    desk.ui.move(desk.ui.on_screen((0.05, 0.55, 0.0)))
+    assert sorted(len(wire.edges()) for wire in desk.session.wires) == [16, 16]
+
+
+def test_what_is_prepared_is_kept_from_one_chain_to_the_next(desk: Desk) -> None:
+    session = desk.choose()
+    draw(desk, 36, 44)
+    engine = session._engine()
+    choose(desk.ui, "builtin.select_box")
+    choose(desk.ui)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    with desk.ui.override():
+        edit()
+    draw(desk, 0, 8)
+    assert desk.session is session
+    assert session._engine() is engine
+
+
+def test_saved_and_reopened_the_network_is_there(desk: Desk, tmp_path: Path) -> None:
+    desk.choose()
+    draw(desk, 36, 40, 76)
+    path = str(tmp_path / "drawn.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    name, marked = desk.obj.name, seams(desk.obj)
+    bpy.ops.wm.open_mainfile(filepath=path, load_ui=False)
+    desk.ui.wait(4)
+    desk.ui = ui = driver.Ui()
+    desk.obj = bpy.data.objects[name]
+    assert seams(desk.obj) == marked
+    if desk.obj.mode != "EDIT":
+        with ui.override():
+            edit()
+    ui.look_from_top(distance=4.0)
+    session = desk.choose()
+    assert [wire.end for wire in session.wires] == [40, 76]
+    drag_to = desk.at(49)
+    ui.move(desk.at(40))
+    ui.event("LEFTMOUSE", "PRESS", desk.at(40))
+    ui.move(drag_to)
+    ui.event("LEFTMOUSE", "RELEASE", drag_to)
+    ui.wait_until(lambda: not desk.running)
+    assert {49} <= {v for edge in seams(desk.obj) for v in edge}
+
+
+# Within a chain
+
+
+def test_ctrl_s_saves_what_is_drawn_so_far_and_the_chain_goes_on(desk: Desk, tmp_path: Path) -> None:
+    path = tmp_path / "drawn.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    session, ui = live(desk), desk.ui
+    before = path.stat().st_mtime_ns
+    ui.key("S", ctrl=True)
+    ui.wait_until(lambda: path.stat().st_mtime_ns > before)
+    assert desk.running
+    assert session.seed is not None
+    with bpy.data.libraries.load(str(path), link=False) as (inside, wanted):
+        wanted.meshes = inside.meshes
+    saved = wanted.meshes[0]
+    assert sorted(tuple(sorted(edge.vertices)) for edge in saved.edges if edge.use_seam) == ROW
+    ui.key("ESC")
+    assert seams(desk.obj) == ROW
+
+
+@pytest.mark.parametrize(
+    ("key", "held"), [("TAB", {}), ("H", {}), ("A", {}), ("F3", {}), ("I", {"ctrl": True}), ("THREE", {})]
+)
+def test_keys_that_change_mode_or_mesh_end_the_chain_first(desk: Desk, key: str, held: dict[str, bool]) -> None:
+    live(desk)
+    desk.ui.key(key, **held)
+    assert not desk.running
+    assert seams(desk.obj) == ROW, "its wires are kept"
+    if key == "TAB":
+        assert desk.obj.mode == "OBJECT", "and then the key does what it does"
+    elif key == "THREE":
+        assert tuple(bpy.context.tool_settings.mesh_select_mode) == (False, False, True)
+        bpy.context.tool_settings.mesh_select_mode = (True, False, False)
+    elif key == "I":
+        assert all(v.select for v in bmesh.from_edit_mesh(desk.obj.data).verts) or held
+    desk.ui.key("ESC")
+
+
+def test_a_press_in_another_editor_ends_the_chain_and_does_what_it_does(desk: Desk) -> None:
+    live(desk)
+    ui = desk.ui
+    area = next(area for area in ui.window.screen.areas if area.type == "DOPESHEET_EDITOR")
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    inside = (region.x + region.width // 2 - ui.region.x, region.y + region.height // 2 - ui.region.y)
+    ui.move(inside)
+    assert desk.running, "pointing there alone does nothing"
+    frame = bpy.context.scene.frame_current
+    ui.key("RIGHT_ARROW")
+    assert bpy.context.scene.frame_current == frame + 1
+    assert not desk.running
+    assert seams(desk.obj) == ROW
+
+
+def test_undo_in_another_window_leaves_the_chain_its_wires(desk: Desk) -> None:
+    bpy.ops.ed.undo_push(message="One")
+    bm = bmesh.from_edit_mesh(desk.obj.data)
+    bm.verts.ensure_lookup_table()
+    for vertex in bm.verts:
+        vertex.select = False
+    bm.select_flush(False)
+    bmesh.update_edit_mesh(desk.obj.data)
+    bpy.ops.ed.undo_push(message="Two")
+    live(desk)
+    name = desk.obj.name
+    with desk.ui.override():
+        bpy.ops.ed.undo()
+    desk.ui.move(desk.at(60))
+    desk.ui.key("ESC")
+    assert not desk.running
+    assert seams(bpy.data.objects[name]) == ROW
+
+
+def test_another_workspace_ends_the_chain_and_keeps_its_wires(desk: Desk) -> None:
+    live(desk)
+    ui = desk.ui
+    before = ui.window.workspace
+    ui.window.workspace = next(space for space in bpy.data.workspaces if space != before)
+    ui.wait(4)
+    try:
+        ui.move((300.0, 300.0))
+        assert not desk.running
+    finally:
+        ui.window.workspace = before
+        ui.wait(4)
+    assert desk.left_clean()
+    assert seams(desk.obj) == ROW
+
+
+def test_a_script_that_leaves_edit_mode_ends_the_chain_and_its_wires_are_kept(desk: Desk) -> None:
+    live(desk)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    desk.ui.move((300.0, 300.0))
+    assert desk.left_clean()
+    assert seams(desk.obj) == ROW
+    with desk.ui.override():
+        edit()
+    desk.ui.move(desk.at(40))
+    assert desk.session.hovered_wire is not None, "and known as a wire"
+
+
+def test_a_script_that_removes_the_object_ends_the_chain(desk: Desk) -> None:
+    live(desk)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.data.objects.remove(desk.obj)
+    desk.ui.move((300.0, 300.0))
+    assert desk.left_clean()
+
+
+def test_a_script_that_changes_the_mesh_ends_the_chain(desk: Desk) -> None:
+    live(desk)
+    bm = bmesh.from_edit_mesh(desk.obj.data)
+    bm.verts.ensure_lookup_table()
+    bmesh.ops.delete(bm, geom=[bm.verts[0]], context="VERTS")
+    bmesh.update_edit_mesh(desk.obj.data)
+    desk.ui.wait()
+    desk.ui.move((300.0, 300.0))
+    assert desk.left_clean()
+    assert seams(desk.obj) == [], "the vertices have other numbers: nothing is marked in a wrong place"
+
+
+def test_a_script_that_moves_vertices_ends_the_chain_and_its_wires_are_kept(desk: Desk) -> None:
+    live(desk)
+    bm = bmesh.from_edit_mesh(desk.obj.data)
+    bm.verts.ensure_lookup_table()
+    bm.verts[80].co.z += 0.1
+    bmesh.update_edit_mesh(desk.obj.data)
+    desk.ui.wait()
+    desk.ui.move((300.0, 300.0))
+    assert desk.left_clean()
+    assert seams(desk.obj) == ROW
+
+
+def test_another_add_ons_seams_under_a_chain_are_heard_of(desk: Desk) -> None:
+    session = live(desk)
+    bm = bmesh.from_edit_mesh(desk.obj.data)
+    bm.verts.ensure_lookup_table()
+    bm.edges.get((bm.verts[0], bm.verts[1])).seam = True
+    bmesh.update_edit_mesh(desk.obj.data)
+    desk.ui.wait()
+    desk.ui.move(desk.at(53))
+    assert desk.running
+    assert len(session.wires) == 1
+    desk.ui.key("ESC")
+    assert seams(desk.obj) == [(0, 1), *ROW]
+
+
+def test_an_exception_ends_the_chain_and_leaves_the_mesh_as_it_was(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    session = live(desk)
+
+    def fail(*_: object, **__: object) -> None:
+        raise RuntimeError("as the test wants it")
+
+    monkeypatch.setattr(session, "hover", fail)
+    desk.ui.move(desk.at(50))
+    assert not desk.running
+    monkeypatch.undo()
+    assert desk.left_clean()
+    assert desk.unchanged()
+    draw(desk, 36, 44)
+    assert seams(desk.obj) == ROW, "the tool goes on"
+
+
+def test_an_exception_in_the_first_click_leaves_blender_alive(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    session = desk.choose()
+
+    def fail(*_: object, **__: object) -> None:
+        raise RuntimeError("as the test wants it")
+
+    monkeypatch.setattr(session, "click", fail)
+    desk.ui.click(desk.at(36))
+    monkeypatch.undo()
+    assert desk.left_clean()
+    desk.ui.move(desk.at(50))
+    assert desk.unchanged()
+    draw(desk, 36, 44)
+    assert seams(desk.obj) == ROW
+
+
+def test_an_exception_in_the_overlay_ends_the_chain(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    session = live(desk)
+
+    def fail() -> None:
+        raise RuntimeError("as the test wants it")
+
+    monkeypatch.setattr(session, "seeds", fail)
+    desk.ui.move(desk.at(54))
+    desk.ui.wait(redraw=True)
+    desk.ui.move(desk.at(50))
+    assert not desk.running
+    monkeypatch.undo()
+    driver.take_errors()
+    assert desk.unchanged()
+
+
+def test_disabling_the_addon_ends_the_chain(desk: Desk) -> None:
+    import addon_utils
+
+    live(desk)
+    choose(desk.ui, "builtin.select_box")
+    try:
+        addon_utils.disable(ADDON)
+        assert not running
+        desk.ui.move(desk.at(40))
+        assert desk.unchanged()
+    finally:
+        addon_utils.enable(ADDON)
+
+
+def test_one_chain_at_a_time_and_only_in_edit_mode(desk: Desk) -> None:
+    desk.start()
+    with desk.ui.override():
+        assert not bpy.ops.mesh.seamwire_draw.poll()
+    desk.ui.move(desk.at(40))
+    desk.ui.key("ESC")
+    with desk.ui.override():
+        assert bpy.ops.mesh.seamwire_draw.poll()
+
+
+def test_what_is_lit_goes_with_another_tool(desk: Desk) -> None:
+    desk.choose()
+    desk.ui.click(desk.at(36))
+    desk.ui.move(desk.at(44))
+    session = desk.session
+    desk.ui.wait_until(lambda: session.active is not None)
+    assert shows(desk.ui.pixels(), desk.at(37, 38), ORANGE)
+    desk.ui.key("ESC")
+    choose(desk.ui, "builtin.select_box")
+    assert not shows(desk.ui.pixels(), desk.at(37, 38), ORANGE)
+    assert edited.front is not None, "prepared still"
+
+
+def test_blenders_steps_of_undo_are_one_a_deed(desk: Desk, capfd: pytest.CaptureFixture[str]) -> None:
+    bpy.ops.ed.undo_push(message="Before")
+    desk.choose()
+    before = undo_steps(capfd)
+    draw(desk, 36, 40)
+    draw(desk, 0, 8)
+    desk.ui.move(desk.at(4))
+    desk.ui.key("X")
+    assert undo_steps(capfd)[len(before) :] == ["Draw Wires", "Draw Wires", "Remove Wire"]
+    name = desk.obj.name
+    for expected in (chain(*range(9)) + chain(36, 37, 38, 39, 40), chain(36, 37, 38, 39, 40), []):
+        desk.ui.key("Z", ctrl=True)
+        assert seams(bpy.data.objects[name]) == sorted(expected)
+    for expected in (1, 2, 1):
+        desk.ui.key("Z", ctrl=True, shift=True)
+        assert len(desk.session.wires) == expected
