@@ -28,7 +28,7 @@ class Desk:
 
     def __init__(self, ui: driver.Ui, obj: bpy.types.Object) -> None:
         self.ui = ui
-        self.obj = obj
+        self.name = obj.name
         reset_settings()
         add_layers(obj)
         ui.wait()
@@ -36,6 +36,12 @@ class Desk:
             edit()
         ui.look_from_top(distance=4.0)
         self.before = snapshot(obj)
+        bpy.ops.ed.undo_push(message="Before")  # calls from Python leave no steps of their own
+
+    @property
+    def obj(self) -> bpy.types.Object:
+        """The object; Blender's undo makes another one of it."""
+        return bpy.data.objects[self.name]
 
     def start(self, **options: str) -> Session:
         """Begin a chain that waits for its first click."""

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""While seams are drawn, Blender goes on: the view is moved in every way, and other editors take their events."""
+"""While a chain is drawn the view is moved in every way that the user's keymap knows."""
 
+from collections.abc import Iterator
+from pathlib import Path
 from types import SimpleNamespace
 
 import bpy
@@ -8,8 +10,8 @@ import pytest
 import ui as driver
 from desk import Desk
 from scene import chain, seams
-from seamwire.operators import modal as drawing
-from seamwire.ui import keymap
+from seamwire.operators import navigation
+from seamwire.operators.navigation import Meaning
 
 
 def begin(desk: Desk) -> None:
@@ -93,34 +95,14 @@ def event(desk: Desk, kind: str, **held: bool) -> SimpleNamespace:
     "kind", ["NDOF_MOTION", "NDOF_BUTTON_FIT", "TRACKPADZOOM", "MOUSEROTATE", "MOUSESMARTZOOM", "HOME"]
 )
 def test_what_cannot_be_simulated_is_let_through(desk: Desk, kind: str) -> None:
-    """Blender simulates no spaceball, and crashes on one that says nothing: the event is handed to the drawing itself."""
+    """Blender simulates no spaceball, and crashes on one that says nothing: the event is handed to the chain itself."""
     begin(desk)
     handed = event(desk, kind)
     before = desk.session.revision
     with desk.ui.override():
-        assert drawing.running[0].handle(bpy.context, handed) == {"PASS_THROUGH"}
+        assert desk.chain.handle(bpy.context, handed)
     assert desk.session.revision == before
-    assert keymap.is_navigation(handed)
-    finish(desk)
-
-
-@pytest.mark.parametrize(
-    ("kind", "held"),
-    [
-        ("N", "shift"),
-        ("N", "alt"),
-        ("T", "alt"),
-        ("NUMPAD_PLUS", "ctrl"),
-        ("NUMPAD_MINUS", "ctrl"),
-        ("NUMPAD_0", "ctrl"),
-    ],
-)
-def test_keys_that_change_the_mesh_with_others_held_are_kept_away(desk: Desk, kind: str, held: str) -> None:
-    begin(desk)
-    handed = event(desk, kind, **{held: True})
-    handed.value = "PRESS"
-    with desk.ui.override():
-        assert drawing.running[0].handle(bpy.context, handed) == {"RUNNING_MODAL"}
+    assert not desk.chain.idle
     finish(desk)
 
 
@@ -136,38 +118,80 @@ def test_shading_and_sidebars_can_be_switched(desk: Desk) -> None:
     finish(desk)
 
 
-def beside(ui: driver.Ui, kind: str) -> tuple[bpy.types.Area, bpy.types.Region, tuple[float, float]]:
-    """Return an editor and where the middle of its main region is."""
-    area = next(area for area in ui.window.screen.areas if area.type == kind)
-    region = next(region for region in area.regions if region.type == "WINDOW")
-    return area, region, (region.x + region.width // 2 - ui.region.x, region.y + region.height // 2 - ui.region.y)
-
-
-def test_other_editors_take_keys_and_the_wheel(desk: Desk) -> None:
+def test_the_navigation_gizmo_works(desk: Desk) -> None:
     begin(desk)
-    ui, scene = desk.ui, bpy.context.scene
-    revision = desk.session.network_revision
-    _, region, at = beside(ui, "DOPESHEET_EDITOR")
-    frame = scene.frame_current
-    ui.move(at)
-    ui.key("RIGHT_ARROW")
-    assert scene.frame_current == frame + 1
-    ui.key("LEFT_ARROW")
-    assert scene.frame_current == frame
-    left = region.view2d.region_to_view(0.0, 0.0)
-    ui.wheel(up=True, at=at)
-    ui.wait(4)
-    assert region.view2d.region_to_view(0.0, 0.0) != left, "zoomed"
-    ui.key("BACK_SPACE")
+    ui = desk.ui
+    turned = ui.view.view_rotation.copy()
+    scale = bpy.context.preferences.system.ui_scale
+    sidebar = next(region for region in ui.area.regions if region.type == "UI")
+    header = max(region.y + region.height for region in ui.area.regions if region.type == "HEADER")
+    right = ui.region.width - (sidebar.width if sidebar.width > 1 else 0)
+    tops = [region.y - ui.region.y for region in ui.area.regions if region.type in {"HEADER", "TOOL_HEADER"}]
+    top = min([top for top in tops if top > ui.region.height / 2], default=header - ui.region.y)
+    ball = (right - 52.0 * scale, top - 52.0 * scale)
+    ui.move(ball)
+    ui.event("LEFTMOUSE", "PRESS", ball)
+    for step in range(1, 4):
+        ui.move((ball[0] + 8.0 * step, ball[1] - 6.0 * step))
+    ui.event("LEFTMOUSE", "RELEASE", (ball[0] + 24.0, ball[1] - 18.0))
+    ui.wait(2)
+    assert ui.view.view_rotation.rotation_difference(turned).angle > 0.02
     assert desk.running
-    assert desk.session.network_revision == revision
-    assert desk.session.seed == 36, "keys over other editors are not the tool's"
+    assert desk.session.wires == ()
     finish(desk)
 
 
-def test_arrows_over_the_view_are_not_the_timelines(desk: Desk) -> None:
+@pytest.fixture
+def industry() -> Iterator[None]:
+    """Blender's preset keymap Industry Compatible."""
+    manager = bpy.context.window_manager
+    before = manager.keyconfigs.active.name
+    path = next(
+        Path(folder) / "Industry_Compatible.py"
+        for folder in bpy.utils.preset_paths("keyconfig")
+        if (Path(folder) / "Industry_Compatible.py").exists()
+    )
+    bpy.utils.keyconfig_set(str(path))
+    yield
+    manager.keyconfigs.active = manager.keyconfigs[before]
+
+
+def test_with_the_industry_compatible_keymap_alt_and_the_mouse_move_the_view(industry: None, desk: Desk) -> None:
+    desk.ui.wait(4)
     begin(desk)
-    frame = bpy.context.scene.frame_current
-    desk.ui.key("RIGHT_ARROW")
-    assert bpy.context.scene.frame_current == frame
+    ui = desk.ui
+    turned, distance = ui.view.view_rotation.copy(), ui.view.view_distance
+    start = desk.at(40)
+    for button in ("LEFTMOUSE", "RIGHTMOUSE"):
+        ui.move(start, alt=True)
+        ui.event(button, "PRESS", start, alt=True)
+        for step in range(1, 4):
+            ui.move((start[0] + 10.0 * step, start[1] + 6.0 * step), alt=True)
+        ui.event(button, "RELEASE", (start[0] + 30.0, start[1] + 18.0), alt=True)
+        ui.wait(2)
+    assert ui.view.view_rotation.rotation_difference(turned).angle > 0.02
+    assert ui.view.view_distance != distance
+    assert desk.running
+    assert desk.session.wires == ()
     finish(desk)
+
+
+def test_what_a_key_means_is_read_from_the_users_keymap(desk: Desk) -> None:
+    manager = bpy.context.window_manager
+
+    def meaning(kind: str, **held: bool) -> Meaning:
+        handed = event(desk, kind, **held)
+        handed.value = "PRESS"
+        return navigation.meaning(handed, manager)
+
+    assert meaning("NUMPAD_1") is Meaning.NOTHING
+    assert meaning("S", ctrl=True) is Meaning.NOTHING
+    assert meaning("TAB") is Meaning.OTHER
+    keys = manager.keyconfigs.user.keymaps["3D View"].keymap_items
+    own = keys.new("view3d.view_all", "F19", "PRESS")
+    try:
+        assert meaning("F19") is Meaning.NOTHING
+        own.idname = "mesh.delete"
+        assert meaning("F19") is Meaning.OTHER
+    finally:
+        keys.remove(own)

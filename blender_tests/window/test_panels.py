@@ -8,8 +8,7 @@ import pytest
 import ui as driver
 from desk import Desk
 from scene import ADDON
-from seamwire.ui import preferences
-from seamwire.ui import toolbar as tool
+from seamwire.ui import preferences, properties
 
 
 def recorded(function: Callable, calls: list[str]) -> Callable:
@@ -60,7 +59,7 @@ def test_the_tools_settings_are_shown_in_its_header_and_in_the_properties(
     desk: Desk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     calls: list[str] = []
-    monkeypatch.setattr(tool, "draw_settings", recorded(tool.draw_settings, calls))
+    monkeypatch.setattr(properties, "draw_settings", recorded(properties.draw_settings, calls))
     ui = desk.ui
     with ui.override():
         bpy.ops.wm.tool_set_by_id(name="seamwire.draw")

@@ -5,7 +5,7 @@ import bpy
 import ui as driver
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from scene import add_grid, edit
-from seamwire.operators import modal as drawing
+from seamwire.operators.report import running
 
 
 def test_every_view_of_a_quad_view_can_be_drawn_in(ui: driver.Ui) -> None:
@@ -20,7 +20,7 @@ def test_every_view_of_a_quad_view_can_be_drawn_in(ui: driver.Ui) -> None:
     with ui.override():
         bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT")
     ui.wait()
-    session = drawing.running[0].session
+    session = running[0].session
     for view in ui.space.region_quadviews:
         view.view_location = (0.0, 0.0, 0.0)
         view.view_distance = 3.0
@@ -40,4 +40,4 @@ def test_every_view_of_a_quad_view_can_be_drawn_in(ui: driver.Ui) -> None:
         found += 1
     assert found == 3, "from above twice, for the view that the drawing began in was turned there, and the user's"
     ui.key("ESC")
-    assert not drawing.running
+    assert not running

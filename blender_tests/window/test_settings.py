@@ -3,11 +3,11 @@
 
 from collections.abc import Iterator
 
-import bpy
 import pytest
 import ui as driver
 from desk import Desk, leave
 from scene import GATE_RIDGE, GATE_SEEDS, GATE_STRAIGHT, add_gate, chain, seams
+from seamwire.mesh.settings import settings
 
 
 @pytest.fixture
@@ -21,7 +21,7 @@ def gate(ui: driver.Ui) -> Iterator[Desk]:
 
 def test_metric_clamp_and_strength_change_the_live_wire(gate: Desk) -> None:
     session, ui = gate.start(), gate.ui
-    settings = bpy.context.window_manager.seamwire
+    chosen = settings()
     ridge, straight = chain(*GATE_RIDGE), chain(*GATE_STRAIGHT)
 
     def runs(edges: list[tuple[int, int]]) -> bool:
@@ -36,16 +36,16 @@ def test_metric_clamp_and_strength_change_the_live_wire(gate: Desk) -> None:
         ("clamp", 50.0, 99.0),
         ("strength_edges", 2.0, 10.0),
     ):
-        assert getattr(settings, name) == before
-        setattr(settings, name, value)
+        assert getattr(chosen, name) == before
+        setattr(chosen, name, value)
         ui.wait_until(lambda: runs(straight))
-        setattr(settings, name, before)
+        setattr(chosen, name, before)
         ui.wait_until(lambda: runs(ridge))
-    settings.strength_surface = 50.0
+    chosen.strength_surface = 50.0
     ui.wait()
     assert runs(ridge), "the other way's strength is the other way's"
     ui.click(gate.at(GATE_SEEDS[1]))
-    settings.metric = "euclidean"
+    chosen.metric = "euclidean"
     ui.wait_until(lambda: not session.computing)
     ui.key("RET")
     assert seams(gate.obj) == ridge, "a kept wire stays"

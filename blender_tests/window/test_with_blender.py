@@ -171,7 +171,6 @@ def test_saved_and_reopened_the_network_is_there(desk: Desk, tmp_path: Path) -> 
     bpy.ops.wm.open_mainfile(filepath=path, load_ui=False)
     desk.ui.wait(4)
     desk.ui = ui = driver.Ui()
-    desk.obj = bpy.data.objects[name]
     assert seams(desk.obj) == marked
     if desk.obj.mode != "EDIT":
         with ui.override():
@@ -200,12 +199,14 @@ def test_ctrl_s_saves_what_is_drawn_so_far_and_the_chain_goes_on(desk: Desk, tmp
     ui.wait_until(lambda: path.stat().st_mtime_ns > before)
     assert desk.running
     assert session.seed is not None
-    with bpy.data.libraries.load(str(path), link=False) as (inside, wanted):
-        wanted.meshes = inside.meshes
-    saved = wanted.meshes[0]
-    assert sorted(tuple(sorted(edge.vertices)) for edge in saved.edges if edge.use_seam) == ROW
     ui.key("ESC")
     assert seams(desk.obj) == ROW
+    bpy.ops.object.mode_set(mode="OBJECT")
+    with bpy.data.libraries.load(str(path), link=False) as (inside, wanted):
+        wanted.objects = inside.objects
+    saved = wanted.objects[0].data
+    assert sorted(tuple(sorted(edge.vertices)) for edge in saved.edges if edge.use_seam) == ROW
+    assert saved.seamwire_wires
 
 
 @pytest.mark.parametrize(

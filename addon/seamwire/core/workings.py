@@ -46,7 +46,7 @@ class Workings(State):
 
     def _use_metric(self, metric: MetricName, strengths: Mapping[Along, float], clamp: float | None = None) -> bool:
         if self._drag is not None:
-            return self._refuse("Leave the seed first, then change what draws the wires")
+            return self._refuse("Finish moving the seed first")
         self._engines.use(metric, strengths, self.clamp if clamp is None else clamp)
         self.message = ""
         self._loop.clear()

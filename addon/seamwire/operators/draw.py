@@ -11,7 +11,7 @@ import bpy
 from ..core.native import NativeError
 from ..mesh.settings import ALONG_ITEMS, settings
 from .bindings import Action
-from .report import in_edit_mode, running, summary
+from .report import in_edit_mode, running
 
 if TYPE_CHECKING:
     from .modal import Chain
@@ -123,15 +123,14 @@ class MESH_OT_seamwire_draw(bpy.types.Operator):
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
         try:
-            wires, marked, cleared = self._chain.finish(context)
+            self._chain.finish(context)
         except ValueError as error:
             self._chain.drop()
             self.report({"WARNING"}, f"{error}: the wires of this chain are lost")
             return {"CANCELLED"}
-        if not self._chain.changed:
-            return {"CANCELLED"}
-        self.report({"INFO"}, f"{self._chain.title}: {summary(wires, marked, cleared, 0)}")
-        return {"FINISHED"}
+        for told in self._chain.told:
+            self.report({"INFO"}, told)
+        return {"FINISHED"} if self._chain.told else {"CANCELLED"}
 
     def _failed(self, error: Exception) -> set[str]:
         traceback.print_exc()

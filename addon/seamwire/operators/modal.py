@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
+from ..core.network import Network
 from ..mesh import edit_mesh
 from ..mesh import settings as chosen
 from ..view.edited_objects import edited
@@ -17,10 +18,9 @@ from . import bindings, navigation
 from .bindings import Action
 from .drag_handlers import Hold, SeedHold, StrokeHold
 from .navigation import Meaning
-from .report import running, status_makers
+from .report import running, status_makers, summary
 
 if TYPE_CHECKING:
-    from ..core.network import Network
     from ..core.session import Session
     from ..view.object_view import ObjectView
 
@@ -45,8 +45,8 @@ class Chain:
         What there is to say about the last key.
     done
         What was done, in words for Blender's undo history, each once.
-    changed
-        Whether it has changed a mesh.
+    told
+        What became of it, in words, for each step of undo.
     """
 
     def __init__(self, context: bpy.types.Context) -> None:
@@ -58,17 +58,15 @@ class Chain:
         self._clicks = bindings.DoubleClicks()
         self._shown: tuple[object, ...] | None = None
         self._hold: Hold | None = None
-        self._history: list[ObjectView] = []
-        self._undone: list[ObjectView] = []
-        self._before: dict[int, tuple[ObjectView, Network]] = {}
-        self._seen: dict[int, Network] = {}
+        self._drawn: ObjectView | None = None
+        self._before = Network()
         self._ending = False
         self._begun = False
         self._peek = ""
         self._keys = False
         self.message = ""
         self.done: list[str] = []
-        self.changed = False
+        self.told: list[str] = []
         self.keys = bindings.of_user(self._manager).without(lambda key: navigation.takes(key, self._manager))
         self._cleanup = ExitStack()
         try:
@@ -140,84 +138,70 @@ class Chain:
             return "Edit mode was left"
         if context.workspace != self._workspace:
             return "Another workspace was opened"
-        if any(view.stale or not view.mesh.alive() for view in self._touched()):
-            return self._look_again()
+        view = self._drawn
+        if view is None or not (view.stale or not view.mesh.alive()):
+            return ""
+        # Blender says that the mesh was changed. Seams may be: others may mark them.
+        obj = bpy.data.objects.get(view.name)
+        if obj is None:
+            return "The object was removed"
+        if not view.mesh.follow_change(obj):
+            return "The mesh was changed"
+        view.stale = False
+        view.renew()
         return ""
-
-    def _look_again(self) -> str:
-        """Look whether meshes that Blender says were changed really were; seams may be, for others may mark them."""
-        for view in self._touched():
-            if not view.stale and view.mesh.alive():
-                continue
-            obj = bpy.data.objects.get(view.name)
-            if obj is None:
-                return "An object was removed"
-            if not view.mesh.follow_change(obj):
-                return "The mesh was changed"
-            view.stale = False
-            view.renew()
-        return ""
-
-    def _touched(self) -> list[ObjectView]:
-        return [view for view, _ in self._before.values()]
 
     # How it ends
 
-    def finish(self, context: bpy.types.Context, undo_step: bool = True) -> tuple[int, int, int]:
-        """End the chain: mark and clear what was drawn, on all objects or, where an edge is gone, on none.
+    def finish(self, context: bpy.types.Context, undo_step: bool = True) -> None:
+        """End the chain: mark and clear what was drawn, as a step of Blender's undo.
 
         Raises
         ------
         ValueError
-            Where an edge is gone.
-
-        Returns
-        -------
-        tuple of int
-            How many wires and strokes were drawn or changed, and how many edges became seams, and ceased to be.
+            Where an edge is gone; then nothing is changed.
         """
         self._cancel_hold()
+        self._keep(context, undo_step)
+        self.close()
+
+    def _keep(self, context: bpy.types.Context, undo_step: bool = True) -> None:
         for view in edited.views():
             view.session.end_chain()
-        changed = [(view, before) for view, before in self._before.values() if _differs(view.session.network, before)]
-        marked, cleared, wires = self._write(changed, adopt=True)
-        self.changed = bool(changed)
-        self.close()
-        if changed and undo_step:
+        view, before = self._drawn, self._before
+        self._drawn = None
+        title = self.done[0] if len(self.done) == 1 else "Draw Seamwires"
+        self.done.clear()
+        if view is None or not _differs(view.session.network, before):
+            return
+        known = {wire.id for wire in before.wires}
+        wires = sum(wire.id not in known for wire in view.session.network.wires)
+        marked, cleared = self._write(view, adopt=True)
+        if undo_step:
             if (marked or cleared) and context.mode == "EDIT_MESH":
                 edit_mesh.live_unwrap(context)
-            bpy.ops.ed.undo_push(message=self.title)
-        return wires, marked, cleared
-
-    @property
-    def title(self) -> str:
-        """What it did, as Blender's undo history is to call it."""
-        return self.done[0] if len(self.done) == 1 else "Draw Seamwires"
+            bpy.ops.ed.undo_push(message=title)
+        self.told.append(f"{title}: {summary(wires, marked, cleared)}")
 
     def save(self) -> None:
-        """Write what is drawn so far to the meshes, so that Blender saves it; the chain goes on."""
-        self._write(list(self._before.values()), adopt=False)
+        """Write what is drawn so far to the mesh, so that Blender saves it; the chain goes on."""
+        if self._drawn is not None:
+            self._write(self._drawn, adopt=False)
 
-    def _write(self, changed: list[tuple[ObjectView, Network]], adopt: bool) -> tuple[int, int, int]:
-        plans = [(view, before, view.mesh.plan()) for view, before in changed]
-        marked = cleared = wires = 0
-        for view, before, plan in plans:
-            known = {wire.id for wire in before.wires}
-            wires += sum(wire.id not in known for wire in view.session.network.wires)
-            new, old = view.mesh.write(plan, adopt)
-            view.renew()
-            # Blender tells of this change as of any other.
-            view.stale = False
-            view.wrote = True
-            marked, cleared = marked + new, cleared + old
-        return marked, cleared, wires
+    @staticmethod
+    def _write(view: ObjectView, adopt: bool) -> tuple[int, int]:
+        counts = view.mesh.write(view.mesh.plan(), adopt)
+        view.renew()
+        # Blender tells of this change as of any other.
+        view.stale, view.wrote = False, True
+        return counts
 
     def drop(self) -> None:
         """End the chain and leave all as it was before it."""
         self._hold = None
-        for view, before in self._before.values():
-            if view.mesh.alive():
-                view.mesh.drop_changes(before)
+        view, self._drawn = self._drawn, None
+        if view is not None and view.mesh.alive():
+            view.mesh.drop_changes(self._before)
         self.close()
 
     # Events
@@ -249,6 +233,7 @@ class Chain:
 
     def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> bool:
         """Do what an event asks for; return whether Blender is to have it too. Where the chain ends, `idle` tells."""
+        edited.follow_settings()
         if event.type == "TIMER":
             self._tick()
             return True
@@ -335,20 +320,16 @@ class Chain:
             view.session.end_chain()
 
     def _after(self) -> None:
-        for view in edited.views():
-            network, key = view.session.network, id(view)
-            if not view.session.dragging and self._seen.get(key) is not network:
-                self._seen[key] = network
-                self._history.append(view)
-                self._undone.clear()
         self.view.mesh.tell(chosen.settings())
         self.show()
 
-    def _track(self, view: ObjectView) -> None:
-        """Remember what an object had before it was drawn on."""
-        if id(view) not in self._before:
-            self._before[id(view)] = (view, view.session.network)
-            self._seen[id(view)] = view.session.network
+    def _draw_on(self, view: ObjectView) -> None:
+        """Let an object be the one that is drawn on; what was drawn on another is a chain of its own."""
+        edited.front = view
+        if self._drawn is not view:
+            if self._drawn is not None:
+                self._keep(bpy.context)
+            self._drawn, self._before = view, view.session.network
 
     def _note(self, done: str) -> None:
         if done not in self.done:
@@ -379,10 +360,10 @@ class Chain:
             return
         self._begun = True
         if view is not edited.front:
-            self.session.end_chain()
             self.session.hover(None)
-            edited.front = view
-        self._track(view)
+        if action is Action.NEW_CHAIN and not view.session.waiting_clicks:
+            self._keep(bpy.context)
+        self._draw_on(view)
         session = view.session
         if action is Action.NEW_CHAIN:
             session.start(snap)
@@ -402,10 +383,9 @@ class Chain:
     def _begin_stroke(self, action: Action, place: Place, event: bpy.types.Event) -> None:
         self._begun = True
         found, _ = edited.find(place)
-        view = found or self.view
-        if self.session.seed is None and not self.session.waiting_clicks:
-            edited.front = view
-        self._track(view)
+        live = self.session.seed is not None or self.session.waiting_clicks
+        view = self.view if live or found is None else found
+        self._draw_on(view)
         self._cancel_hold()
         scale = bpy.context.preferences.system.ui_scale
         self._hold = StrokeHold(event.type, view, place, action is Action.GUIDE, scale)
@@ -460,8 +440,7 @@ class Chain:
         stroke = view.stroke_at(place.view, place.cursor) if wire is None else None
         if wire is None and stroke is None:
             return False
-        self._track(view)
-        edited.front = view
+        self._draw_on(view)
         if wire is not None:
             view.session.drop(wire)
             self._note("Remove Wire")
@@ -476,8 +455,7 @@ class Chain:
         view, snap = edited.find(place)
         if view is None or snap is None or snap.to != "WIRE" or snap.wire is None:
             return False
-        self._track(view)
-        edited.front = view
+        self._draw_on(view)
         view.session.hover(snap)
         view.session.toggle_kept(snap.wire)
         self._note("Swap Path")
@@ -503,28 +481,11 @@ class Chain:
 
     def _undo(self) -> None:
         self._hold = None
-        waiting = next((view for view in edited.views() if view.session.waiting_clicks), None)
-        if waiting is not None:
-            waiting.session.undo()
-            return
-        while self._history:
-            view = self._history.pop()
-            if view.session.undo():
-                self._seen[id(view)] = view.session.network
-                self._undone.append(view)
-                edited.front = view
-                return
-        self.message = "Nothing to undo in this chain"
+        if not self.session.undo():
+            self._end()
 
     def _redo(self) -> None:
-        while self._undone:
-            view = self._undone.pop()
-            if view.session.redo():
-                self._seen[id(view)] = view.session.network
-                self._history.append(view)
-                edited.front = view
-                return
-        self.message = "Nothing to redo in this chain"
+        self.session.redo()
 
     # What is under the mouse
 

@@ -29,8 +29,8 @@ def count(number: int, what: str) -> str:
     return f"{number} {what}{'' if number == 1 else 's'}"
 
 
-def summary(wires: int, marked: int, cleared: int, touched: int) -> str:
-    """Say what was done: `touched` edges are those that wires run along, seams before or not."""
+def summary(wires: int, marked: int, cleared: int, touched: int = 0) -> str:
+    """Say what was done: `touched` edges are those that new wires run along, seams before or not."""
     parts = [count(wires, "wire")]
     if marked or not cleared:
         parts.append(f"{count(marked, 'edge')} marked")

@@ -14,6 +14,7 @@ from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix
 
 from .theme import HALO, Colour, Style
+from .viewport import clipping_planes
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -83,6 +84,13 @@ class Eye:
         self._orthographic = region_3d.window_matrix[3][3] != 0.0
         self._pixel = 2.0 / (region_3d.window_matrix[1][1] * self.size[1])
         self._to_clip = np.array(region_3d.window_matrix @ region_3d.view_matrix @ model, dtype=np.float64)
+        self._planes = clipping_planes(region_3d) @ np.array(model, dtype=np.float64)
+
+    def shows(self, points: NDArray[np.float64]) -> NDArray[np.bool_] | None:
+        """Return which of (n, 3) points lie inside the view's clipping border; None: it has none."""
+        if not len(self._planes):
+            return None
+        return (points @ self._planes[:, :3].T + self._planes[:, 3] >= 0.0).all(axis=1)
 
     def lifted(self, pixels: float) -> Matrix:
         """Return the model-view matrix that brings all nearer to the viewer by the depth of a number of pixels.
@@ -136,8 +144,15 @@ class Lines:
     def _make(self, ends: NDArray[np.float64]) -> gpu.types.GPUBatch:
         return batch_for_shader(self._shader, "LINES", {"pos": ends.reshape(-1, 3).astype(np.float32)})
 
+    def within(self, eye: Eye) -> Lines:
+        """Return those that the view's clipping border leaves, or themselves where it has none."""
+        inside = eye.shows(self._ends.mean(axis=1))
+        return self if inside is None else Lines(self.style, self._ends[inside])
+
     def draw(self, eye: Eye, opacity: float = 1.0, rim: bool = True) -> None:
         """Draw them under the depth test that is set."""
+        if not len(self._ends):
+            return
         style = self.style
         if style.dash and self._seen_from != eye.key:
             self._batch = self._make(dashes(self._ends, eye.on_screen, style.dash * eye.scale))

@@ -181,10 +181,12 @@ class Overlay:
             with blended(test):
                 for sheet in sheets:
                     for lines in sheet.lines:
-                        lines.draw(eye, lines.style.hidden if hidden else 1.0, rim=not hidden)
+                        lines.within(eye).draw(eye, lines.style.hidden if hidden else 1.0, rim=not hidden)
                 for sheet in sheets:
                     for style, places in sheet.dots:
-                        draw_dots(style, places, eye, style.hidden if hidden else 1.0, rim=not hidden)
+                        inside = eye.shows(places)
+                        shown = places if inside is None else places[inside]
+                        draw_dots(style, shown, eye, style.hidden if hidden else 1.0, rim=not hidden)
 
     def _draw_tint(self, eye: Eye) -> None:
         found = None if self._segments is None else self._segments.newest

@@ -47,8 +47,8 @@ FEATURE_QUANTILE = 0.75
 """A vertex counts as a feature from this share of all vertices' strengths on: on a plain nothing is stronger than noise."""
 _MAX_NEAR = 400
 """Vertices that are looked at for a feature: what a far view has within a few pixels more than this, nobody can tell apart."""
-_MAX_OWNERS = 6
-"""Wires under one cursor that are tried for one that is not hidden."""
+_MAX_PIECES = 24
+"""Pieces of wires under one cursor that are tried for one that is not hidden."""
 _FEW_EDGES = 50_000
 """So many are projected all; of more, those at the vertices that are near."""
 
@@ -71,21 +71,17 @@ class _Segments:
     def near(
         self, view: View, matrix: Matrix, cursor: tuple[float, float], radius: float
     ) -> Iterator[tuple[int, NDArray[np.float64]]]:
-        """Yield owners and their points under the cursor, nearest first, each owner once."""
+        """Yield owners and their points under the cursor, nearest first: of one that lies there more than once, each."""
         if not len(self.owners):
             return
         starts = np.stack(self.starts.seen(view, matrix)[:2], axis=1)
         ends = np.stack(self.ends.seen(view, matrix)[:2], axis=1)
         part, gaps = nearest_on_segments(cursor, starts, ends)
         rows = np.flatnonzero(gaps <= radius)
-        done: set[int] = set()
-        for row in rows[np.argsort(gaps[rows], kind="stable")].tolist():
-            owner = int(self.owners[row])
-            if owner not in done and len(done) < _MAX_OWNERS:
-                done.add(owner)
-                start, end = self.starts.points[row], self.ends.points[row]
-                # Halves on the screen are not halves in space where there is perspective; near enough for a few pixels.
-                yield owner, start + part[row] * (end - start)
+        for row in rows[np.argsort(gaps[rows], kind="stable")][:_MAX_PIECES].tolist():
+            start, end = self.starts.points[row], self.ends.points[row]
+            # Halves on the screen are not halves in space where there is perspective; near enough for a few pixels.
+            yield int(self.owners[row]), start + part[row] * (end - start)
 
 
 @dataclass(frozen=True)
@@ -421,6 +417,8 @@ class Picker:
             return None
         faces = list(self._faces_at(view, matrix, cursor, REACH * scale))
         edges = {edge for face in faces for edge in self._surroundings(face, view, matrix) if not edge.hide}
+        if not vertices_only:
+            edges |= self._loose_at(view, matrix, cursor, scale)
         if not edges:
             return None
         pairs = [(edge.verts[0].index, edge.verts[1].index) for edge in sorted(edges, key=lambda edge: edge.index)]
@@ -436,6 +434,32 @@ class Picker:
         if index < 0:
             return None
         return pairs[index] if end is None or edges_only else pairs[index][end]
+
+    @cached_property
+    def _loose(self) -> _Segments:
+        """The edges that no face has."""
+        return _Segments(list(self._in_object(self._points[self._loose_edges.reshape(-1)]).reshape(-1, 2, 3)))
+
+    @cached_property
+    def _loose_edges(self) -> NDArray[np.int32]:
+        count = len(self._points)
+        sides = np.concatenate([self._triangles[:, [0, 1]], self._triangles[:, [1, 2]], self._triangles[:, [2, 0]]])
+        keys = np.sort(sides.astype(np.int64), axis=1) @ (count, 1)
+        own = np.sort(self._all_edges.astype(np.int64), axis=1) @ (count, 1)
+        return self._all_edges[~np.isin(own, keys)]
+
+    def _loose_at(
+        self, view: View, matrix: Matrix, cursor: tuple[float, float], scale: float
+    ) -> set[bmesh.types.BMEdge]:
+        """Return the edges without a face that are seen near the cursor."""
+        found = set()
+        for row, place in self._loose.near(view, matrix, cursor, REACH * scale):
+            if self.sees(view, matrix, place):
+                one, two = (self._bm.verts[int(vertex)] for vertex in self._loose_edges[row])
+                edge = self._bm.edges.get((one, two))
+                if edge is not None:
+                    found.add(edge)
+        return found
 
     def _faces_at(
         self, view: View, matrix: Matrix, cursor: tuple[float, float], reach: float

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -25,16 +25,24 @@ class View:
         Size in pixels.
     perspective
         (4, 4), takes world coordinates to clip space.
+    clipped
+        (k, 4) the planes of Blender's clipping border: what lies on the negative side of one is not shown.
     """
 
     width: float
     height: float
     perspective: NDArray[np.float64]
+    clipped: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 4)))
 
     @classmethod
     def of(cls, region: bpy.types.Region, region_3d: bpy.types.RegionView3D) -> View:
         """Return the view of a 3D region."""
-        return cls(region.width, region.height, np.array(region_3d.perspective_matrix, dtype=np.float64))
+        perspective = np.array(region_3d.perspective_matrix, dtype=np.float64)
+        return cls(region.width, region.height, perspective, clipping_planes(region_3d))
+
+    def shows(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Return which of (n, 3) world points lie inside the clipping border."""
+        return (points @ self.clipped[:, :3].T + self.clipped[:, 3] >= 0.0).all(axis=1)
 
     @cached_property
     def inverse(self) -> NDArray[np.float64]:
@@ -42,23 +50,37 @@ class View:
         return np.linalg.inv(self.perspective)
 
     def to_pixels(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Project (n, 3) world points to (n, 2) pixels from the bottom left; NaN behind the viewer."""
+        """Project (n, 3) world points to (n, 2) pixels from the bottom left; NaN behind the viewer, or where clipped away."""
         clip = points @ self.perspective[:, :3].T + self.perspective[:, 3]
-        w = np.where(clip[:, 3] > 1e-9, clip[:, 3], np.nan)[:, None]
+        w = np.where((clip[:, 3] > 1e-9) & self.shows(points), clip[:, 3], np.nan)[:, None]
         return (clip[:, :2] / w * 0.5 + 0.5) * (self.width, self.height)
 
     def ray(self, cursor: tuple[float, float]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return two world points on the line that a pixel shows, on the near and on the far plane."""
+        """Return two world points on the line that a pixel shows: on the near and the far plane, or the clipping border."""
         x, y = 2.0 * cursor[0] / self.width - 1.0, 2.0 * cursor[1] / self.height - 1.0
         ends = np.array([[x, y, -1.0, 1.0], [x, y, 1.0, 1.0]]) @ self.inverse.T
-        ends = ends[:, :3] / ends[:, 3:]
-        return ends[0], ends[1]
+        near, far = ends[:, :3] / ends[:, 3:]
+        for plane in self.clipped:
+            first, last = near @ plane[:3] + plane[3], far @ plane[:3] + plane[3]
+            if first < 0.0 <= last:
+                near = near + first / (first - last) * (far - near)
+            elif last < 0.0 <= first:
+                far = near + first / (first - last) * (far - near)
+        return near, far
 
     def pixel_size(self, point: NDArray[np.float64]) -> float:
         """Return how far apart two world points are that are seen a pixel apart, as far away as a point."""
         clip = self.perspective @ (*point, 1.0)
         beside = self.inverse @ np.add(clip, (2.0 / self.width * clip[3], 0.0, 0.0, 0.0))
         return float(np.linalg.norm(beside[:3] / beside[3] - point))
+
+
+def clipping_planes(region_3d: bpy.types.RegionView3D) -> NDArray[np.float64]:
+    """Return the planes, (k, 4), of a view's clipping border (Alt+B); none where it is not clipped."""
+    if not region_3d.use_clip_planes:
+        return np.empty((0, 4))
+    # Two more lie before and behind the view.
+    return np.array(region_3d.clip_planes, dtype=np.float64)[:4]
 
 
 class Projected:
@@ -78,13 +100,16 @@ class Projected:
     def seen(self, view: View, matrix: Matrix) -> tuple[NDArray, NDArray, NDArray]:
         """Return x and y in pixels and the depth, larger farther away; NaN behind the viewer."""
         world = np.array(matrix, dtype=np.float64)
-        key = (view.width, view.height, view.perspective.tobytes(), world.tobytes())
+        key = (view.width, view.height, view.perspective.tobytes(), view.clipped.tobytes(), world.tobytes())
         if key != self._key:
             to_clip = (view.perspective @ world).astype(self.points.dtype)
             clip = self.points @ to_clip[:, :3].T
             clip += to_clip[:, 3]
             with np.errstate(divide="ignore", invalid="ignore"):
-                w = np.where(clip[:, 3] > 1e-9, clip[:, 3], np.nan)
+                shown = clip[:, 3] > 1e-9
+                if len(view.clipped):
+                    shown &= view.shows(self.points @ world[:3, :3].T + world[:3, 3])
+                w = np.where(shown, clip[:, 3], np.nan)
                 self._found = tuple(
                     np.ascontiguousarray(part)
                     for part in (
