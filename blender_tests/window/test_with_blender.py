@@ -167,7 +167,7 @@ def test_saved_and_reopened_the_network_is_there(desk: Desk, tmp_path: Path) -> 
     draw(desk, 36, 40, 76)
     path = str(tmp_path / "drawn.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
-    name, marked = desk.obj.name, seams(desk.obj)
+    marked = seams(desk.obj)
     bpy.ops.wm.open_mainfile(filepath=path, load_ui=False)
     desk.ui.wait(4)
     desk.ui = ui = driver.Ui()
