@@ -2,7 +2,7 @@
 # What the scripts share; to be sourced. Sets the working folder to the top of the project.
 
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 ROOT=$PWD
 
 # Debian's own tools, whatever stands before them: the add-on's module must be built for the Python that Blender embeds.
@@ -24,6 +24,27 @@ REPORTS=$ROOT/build/reports
 
 say() { printf '\033[1m== %s\033[0m\n' "$*"; }
 die() { printf '%s\n' "$*" >&2; exit 1; }
+
+# install_debian_packages PACKAGE...: installs those that are missing, as root or with sudo; apt's own words go to build/apt.log. Fails
+# with a sentence where that cannot be.
+install_debian_packages() {
+  local missing=() as_root=() package log=$ROOT/build/apt.log
+  for package in "$@"; do
+    [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
+  done
+  [ ${#missing[@]} -gt 0 ] || return 0
+  say "Debian packages: ${missing[*]}"
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || { echo "not root, and no sudo: these Debian packages are missing: ${missing[*]}" >&2; return 1; }
+    as_root=(sudo)
+  fi
+  # Another script of ours may be installing.
+  local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=300)
+  mkdir -p "$ROOT/build"
+  "${apt[@]}" update >"$log" 2>&1 || say "apt-get update had errors; trying with the lists at hand"
+  "${apt[@]}" install -y --no-install-recommends "${missing[@]}" >>"$log" 2>&1 ||
+    { tail -n 20 "$log" >&2; echo "not installed: ${missing[*]} ($log)" >&2; return 1; }
+}
 
 # A number that changes with the contents of the files and folders named.
 fingerprint() {
