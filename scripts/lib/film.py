@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Films the tool at work in Blender's window, with simulated events and the display's own pixels; scripts/animation runs this.
 
-``blender ... --python scripts/lib/film.py -- animation|guide FOLDER`` leaves frames.raw or guide-*.png in the folder. The simulated mouse has
-no pointer on the display: one is drawn into the frames where it would be.
+``blender ... --python scripts/lib/film.py -- animation|guide FOLDER`` leaves frames.raw or guide-*.png in the folder. The simulated mouse
+has no pointer on the display: one is drawn into the frames where it would be.
 """
 
 import os
