@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# shellcheck shell=bash disable=SC2034
 # What the scripts share; to be sourced. Sets the working folder to the top of the project.
 
 set -euo pipefail
@@ -39,10 +40,10 @@ install_debian_packages() {
     as_root=(sudo)
   fi
   # Another script of ours may be installing.
-  local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=300)
+  local apt_get=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=300)
   mkdir -p "$ROOT/build"
-  "${apt[@]}" update >"$log" 2>&1 || say "apt-get update had errors; trying with the lists at hand"
-  "${apt[@]}" install -y --no-install-recommends "${missing[@]}" >>"$log" 2>&1 ||
+  "${apt_get[@]}" update >"$log" 2>&1 || say "apt-get update had errors; trying with the lists at hand"
+  "${apt_get[@]}" install -y --no-install-recommends "${missing[@]}" >>"$log" 2>&1 ||
     { tail -n 20 "$log" >&2; echo "not installed: ${missing[*]} ($log)" >&2; return 1; }
 }
 
@@ -67,8 +68,9 @@ once() {
 with_window() {
   local folder code=0
   folder=$(mktemp -d)
+  # The search for a free display begins where nobody else does who begins at the same time.
   env -u WAYLAND_DISPLAY LIBGL_ALWAYS_SOFTWARE=1 SEAMWIRE_SCREEN="$folder/Xvfb_screen0" \
-    xvfb-run -a -s "-screen 0 ${SEAMWIRE_SCREEN_SIZE:-1280x960}x24 -fbdir $folder" "$@" || code=$?
+    xvfb-run -n "$((100 + BASHPID % 400))" -a -s "-screen 0 ${SEAMWIRE_SCREEN_SIZE:-1280x960}x24 -fbdir $folder" "$@" || code=$?
   rm -rf "$folder"
   return $code
 }
@@ -76,6 +78,8 @@ with_window() {
 # The Debian mirror that this machine's own packages come from.
 debian_mirror() {
   local codename
+  # shellcheck disable=SC1091
   codename=$(. /etc/os-release && printf '%s' "${VERSION_CODENAME:-}")
+  # shellcheck disable=SC2016 # apt fills them in
   apt-get indextargets --format '$(RELEASE) $(COMPONENT) $(REPO_URI)' | awk -v c="$codename" '$1 == c && $2 == "main" {print $3; exit}'
 }
