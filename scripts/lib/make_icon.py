@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes the tool's icon, addon/seamwire/icons/seamwire.draw.dat: ``python3 scripts/make_icon.py``.
+"""Makes the tool's icon, addon/seamwire/icons/seamwire.draw.dat: ``python3 scripts/lib/make_icon.py``.
 
 The format is that of Blender's own toolbar icons: "VCO", a zero, width and height (255), two bytes for where it starts, then the corners of
 all triangles, a byte for x and y each, y upwards, then a colour of four bytes for each corner. As theirs, it is a cube of grey lines with
@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-PATH = Path(__file__).parents[1] / "addon" / "seamwire" / "icons" / "seamwire.draw.dat"
+PATH = Path(__file__).parents[2] / "addon" / "seamwire" / "icons" / "seamwire.draw.dat"
 GREY, GREEN = (229, 229, 229, 255), (117, 255, 175, 255)
 LINE, WIRE, SEED, GAP = 9.0, 14.0, 17.0, 11.0
 

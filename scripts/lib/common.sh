@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# shellcheck shell=bash disable=SC2034
 # What the scripts share; to be sourced. Sets the working folder to the top of the project.
 
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 ROOT=$PWD
 
 # Debian's own tools, whatever stands before them: the add-on's module must be built for the Python that Blender embeds.
@@ -25,6 +26,27 @@ REPORTS=$ROOT/build/reports
 say() { printf '\033[1m== %s\033[0m\n' "$*"; }
 die() { printf '%s\n' "$*" >&2; exit 1; }
 
+# install_debian_packages PACKAGE...: installs those that are missing, as root or with sudo; apt's own words go to build/apt.log. Fails
+# with a sentence where that cannot be.
+install_debian_packages() {
+  local missing=() as_root=() package log=$ROOT/build/apt.log
+  for package in "$@"; do
+    [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
+  done
+  [ ${#missing[@]} -gt 0 ] || return 0
+  say "Debian packages: ${missing[*]}"
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || { echo "not root, and no sudo: these Debian packages are missing: ${missing[*]}" >&2; return 1; }
+    as_root=(sudo)
+  fi
+  # Another script of ours may be installing.
+  local apt_get=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=300)
+  mkdir -p "$ROOT/build"
+  "${apt_get[@]}" update >"$log" 2>&1 || say "apt-get update had errors; trying with the lists at hand"
+  "${apt_get[@]}" install -y --no-install-recommends "${missing[@]}" >>"$log" 2>&1 ||
+    { tail -n 20 "$log" >&2; echo "not installed: ${missing[*]} ($log)" >&2; return 1; }
+}
+
 # A number that changes with the contents of the files and folders named.
 fingerprint() {
   find "$@" -type f ! -name '*.pyc' -print0 | LC_ALL=C sort -z | xargs -0 sha256sum | sha256sum | cut -d' ' -f1
@@ -46,8 +68,9 @@ once() {
 with_window() {
   local folder code=0
   folder=$(mktemp -d)
+  # The search for a free display begins where nobody else does who begins at the same time.
   env -u WAYLAND_DISPLAY LIBGL_ALWAYS_SOFTWARE=1 SEAMWIRE_SCREEN="$folder/Xvfb_screen0" \
-    xvfb-run -a -s "-screen 0 ${SEAMWIRE_SCREEN_SIZE:-1280x960}x24 -fbdir $folder" "$@" || code=$?
+    xvfb-run -n "$((100 + BASHPID % 400))" -a -s "-screen 0 ${SEAMWIRE_SCREEN_SIZE:-1280x960}x24 -fbdir $folder" "$@" || code=$?
   rm -rf "$folder"
   return $code
 }
@@ -55,6 +78,8 @@ with_window() {
 # The Debian mirror that this machine's own packages come from.
 debian_mirror() {
   local codename
+  # shellcheck disable=SC1091
   codename=$(. /etc/os-release && printf '%s' "${VERSION_CODENAME:-}")
+  # shellcheck disable=SC2016 # apt fills them in
   apt-get indextargets --format '$(RELEASE) $(COMPONENT) $(REPO_URI)' | awk -v c="$codename" '$1 == c && $2 == "main" {print $3; exit}'
 }

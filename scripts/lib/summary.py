@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Counts what ``scripts/test`` ran: ``summary.py REPORTS``. Ends with 1 when anything failed.
+"""Counts what ``scripts/test`` ran: ``summary.py REPORTS [SECONDS]``. Ends with 1 when anything failed.
 
 REPORTS holds ``stages.txt``, a line ``name exit-code seconds`` a stage, and for each stage ``name.xml`` or ``name.*.xml`` in JUnit's form,
-or ``name.txt`` with a line ``passed|failed what`` a check. ``skipped.txt``, if there is one, says line by line what could not be had today.
+or ``name.txt`` with a line ``passed|failed what`` a check. ``blenders.txt`` is there where other Blenders than the installed one were asked
+for, with a line ``ready|skipped|failed what`` for each: one that cannot be had is named, one that does not start is a failure, and so is a
+run in which none was ready. SECONDS is how long all of it took.
 """
 
 import sys
@@ -69,22 +71,42 @@ def count_stage(reports: Path, name: str, code: int) -> Counts:
     return counts
 
 
-def main() -> int:
-    """Print the counts of every stage and of all."""
-    reports = Path(sys.argv[1])
+def count_blenders(path: Path) -> tuple[Counts, list[str]]:
+    """Count the Blenders that failed, and return a line for each that the tests had to do without."""
+    found: dict[str, list[str]] = {"ready": [], "skipped": [], "failed": []}
+    for line in path.read_text().splitlines():
+        result, what = line.split(maxsplit=1)
+        found[result].append(what)
+    failures = found["failed"]
+    if not found["ready"]:
+        failures = [*failures, "no Blender could be had"]
+    for failure in failures:
+        print(f"failed: Blender: {failure}")
+    return Counts(failed=len(failures)), [f"Blender {what}" for what in (*found["skipped"], *failures)]
+
+
+def summarize(reports: Path, seconds: int | None = None) -> int:
+    """Print the counts of every stage and of all, and return the exit code."""
     total = Counts()
     lines = []
-    for line in (reports / "stages.txt").read_text().splitlines():
-        name, code, seconds = line.split()
+    stages = reports / "stages.txt"
+    for line in stages.read_text().splitlines() if stages.exists() else []:
+        name, code, took = line.split()
         counts = count_stage(reports, name, int(code))
         total += counts
-        lines += [f"{name} took {seconds} s", f"{name}: {counts}"]
-    skipped = reports / "skipped.txt"
-    if skipped.exists():
-        lines += skipped.read_text().splitlines()
+        lines += [f"{name} took {took} s", f"{name}: {counts}"]
+    if (reports / "blenders.txt").exists():
+        counts, without = count_blenders(reports / "blenders.txt")
+        total += counts
+        lines += without
+    if seconds is not None:
+        lines.append(f"all took {seconds // 60} min {seconds % 60} s")
+    if total.passed == 0 and total.failed == 0:
+        print("failed: nothing ran")
+        total += Counts(failed=1)
     print(*lines, total, sep="\n")
     return 0 if total.failed == 0 else 1
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(summarize(Path(sys.argv[1]), *map(int, sys.argv[2:3])))

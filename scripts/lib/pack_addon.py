@@ -11,7 +11,7 @@ import sys
 import zipfile
 from pathlib import Path
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 ADDON = ROOT / "addon" / "seamwire"
 LEFT_OUT = {"__pycache__", "_native"}
 

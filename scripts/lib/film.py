@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Films the tool at work in Blender's window, with simulated events and the display's own pixels; scripts/animation runs this.
 
-``blender ... --python scripts/film.py -- animation|guide FOLDER`` leaves frames.raw or guide-*.png in the folder. The simulated mouse has
-no pointer on the display: one is drawn into the frames where it would be.
+``blender ... --python scripts/lib/film.py -- animation|guide FOLDER`` leaves frames.raw or guide-*.png in the folder. The simulated mouse
+has no pointer on the display: one is drawn into the frames where it would be.
 """
 
 import os
@@ -12,7 +12,7 @@ import sys
 import zlib
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [os.environ["SEAMWIRE_BLENDER_PACKAGES"], str(ROOT / "blender_tests")]
 
 import addon_utils

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Opens the drawing tool on the demo's result: ``blender NAME.blend --python scripts/demo_window.py``."""
+"""Opens the drawing tool on the demo's result: ``blender NAME.blend --python scripts/lib/demo_window.py``."""
 
 import addon_utils
 import bpy

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The demo inside Blender: ``blender --background --factory-startup --python scripts/demo_blender.py -- FOLDER [MESH]``.
+"""The demo inside Blender: ``blender --background --factory-startup --python scripts/lib/demo_blender.py -- FOLDER [MESH]``.
 
 Opens a mesh, plans a network of wires (``demo_network.py``), marks it with the operator ``mesh.seamwire_mark``, unwraps, and writes
 NAME.blend and pictures into FOLDER.

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The summary is red whenever something was not tested that should have been."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+import summary
+
+PASSED = '<testsuite><testcase classname="a" name="holds"/></testsuite>'
+FAILED = '<testsuite><testcase classname="a" name="holds"/><testcase classname="a" name="breaks"><failure/></testcase></testsuite>'
+ERROR = '<testsuite><testcase classname="a" name="starts"><error/></testcase></testsuite>'
+SKIPPED = '<testsuite><testcase classname="a" name="elsewhere"><skipped/></testcase></testsuite>'
+DISABLED = '<testsuite><testcase classname="a" name="off" status="disabled"/></testsuite>'
+
+
+def told(reports: Path, capsys: pytest.CaptureFixture[str], files: dict[str, str]) -> tuple[int, list[str]]:
+    for name, text in files.items():
+        (reports / name).write_text(text)
+    code = summary.summarize(reports)
+    return code, capsys.readouterr().out.splitlines()
+
+
+def test_all_passed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    files = {"stages.txt": "cpp 0 12\nlint 0 3\n", "cpp.xml": PASSED, "lint.txt": "passed ruff\npassed clang-tidy\n"}
+    code, lines = told(tmp_path, capsys, files)
+    assert code == 0
+    assert lines == [
+        "cpp took 12 s",
+        "cpp: 1 passed, 0 failed",
+        "lint took 3 s",
+        "lint: 2 passed, 0 failed",
+        "3 passed, 0 failed",
+    ]
+
+
+@pytest.mark.parametrize(
+    "files",
+    [
+        {"stages.txt": "cpp 8 12\n", "cpp.xml": FAILED},
+        {"stages.txt": "cpp 8 12\n", "cpp.xml": ERROR},
+        {"stages.txt": "lint 1 12\n", "lint.txt": "passed ruff\nfailed clang-tidy\n"},
+        {"stages.txt": "window 0 12\n", "window.test_a.xml": PASSED, "window.test_b.xml": FAILED},
+    ],
+    ids=["failure", "error", "check", "one of two files"],
+)
+def test_failures_that_reports_tell_are_counted_once(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], files: dict[str, str]
+) -> None:
+    code, lines = told(tmp_path, capsys, files)
+    assert code == 1
+    assert lines[-1].endswith(" 1 failed")
+
+
+@pytest.mark.parametrize(
+    "files",
+    [
+        {},
+        {"stages.txt": ""},
+        {"stages.txt": "cpp 0 12\n"},
+        {"stages.txt": "cpp 139 12\n", "cpp.xml": PASSED},
+        {"stages.txt": "cpp 0 12\n", "cpp.xml": "<testsuite>"},
+        {"stages.txt": "cpp 0 12\n", "cpp.xml": SKIPPED},
+        {"stages.txt": "cpp 0 12\n", "cpp.xml": DISABLED},
+    ],
+    ids=["no stage", "empty", "no report", "crash after the report", "broken report", "all skipped", "all disabled"],
+)
+def test_stage_without_a_sound_report_fails(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], files: dict[str, str]
+) -> None:
+    assert told(tmp_path, capsys, files)[0] == 1
+
+
+def test_skipped_blender_is_named_and_the_rest_counts(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    blenders = "ready 3.4\nskipped 5.2: skipped: needs root (log)\n"
+    files = {"stages.txt": "headless-3.4 0 9\n", "headless-3.4.xml": PASSED, "blenders.txt": blenders}
+    code, lines = told(tmp_path, capsys, files)
+    assert code == 0
+    assert lines[-2:] == ["Blender 5.2: skipped: needs root (log)", "1 passed, 0 failed"]
+
+
+@pytest.mark.parametrize("blenders", ["", "skipped 3.4: skipped: no network (log)\n"], ids=["none", "all skipped"])
+def test_run_without_any_blender_fails(tmp_path: Path, capsys: pytest.CaptureFixture[str], blenders: str) -> None:
+    code, lines = told(tmp_path, capsys, {"stages.txt": "cpp 0 12\n", "cpp.xml": PASSED, "blenders.txt": blenders})
+    assert code == 1
+    assert "failed: Blender: no Blender could be had" in lines
+    assert lines[-1] == "1 passed, 1 failed"
+
+
+def test_blender_that_does_not_start_fails(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    blenders = "ready 3.4\nfailed 4.3: failed: it was installed, but does not start: (log)\n"
+    files = {"stages.txt": "headless-3.4 0 9\n", "headless-3.4.xml": PASSED, "blenders.txt": blenders}
+    code, lines = told(tmp_path, capsys, files)
+    assert code == 1
+    assert "failed: Blender: 4.3: failed: it was installed, but does not start: (log)" in lines
+    assert lines[-1] == "1 passed, 1 failed"
+
+
+def test_time_of_all_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "stages.txt").write_text("cpp 0 12\n")
+    (tmp_path / "cpp.xml").write_text(PASSED)
+    assert summary.summarize(tmp_path, 1894) == 0
+    assert capsys.readouterr().out.splitlines()[-2:] == ["all took 31 min 34 s", "1 passed, 0 failed"]
