@@ -18,7 +18,7 @@ import show
 import ui as driver
 from numpy.typing import NDArray
 from scene import add_grid, add_object, edit
-from seamwire.core.islands import SegmentMaker
+from seamwire.core.islands import IslandMaker
 from seamwire.core.network import Edge, Pick, Snap, Wire
 from seamwire.mesh import edit_mesh
 from seamwire.view.overlay import Overlay
@@ -463,7 +463,7 @@ def test_where_blender_shows_all_layers_the_nearest_is_tinted_and_hidden_wires_a
     sight = Sight(ui, add_object(lower + upper, [*quads, (count, count + 1, count + 2, count + 3)]))
     sight.overlay.remove()
     triangles = sight.arrays.triangles
-    maker = SegmentMaker(triangles, lambda cuts: (triangles >= count).any(axis=1).astype(np.int32))
+    maker = IslandMaker(triangles, lambda cuts: (triangles >= count).any(axis=1).astype(np.int32))
     sight.overlay = sight.make(triangles=triangles, segments=maker)
     try:
         show.shading(ui, name)
@@ -488,7 +488,7 @@ def halves(triangles: NDArray[np.int32], cuts: NDArray[np.int32]) -> NDArray[np.
 def test_segments_are_tinted_apart_and_counted(sight: Sight) -> None:
     triangles = sight.arrays.triangles
     sight.overlay.remove()
-    maker = SegmentMaker(triangles, lambda cuts: halves(triangles, cuts))
+    maker = IslandMaker(triangles, lambda cuts: halves(triangles, cuts))
     sight.overlay = sight.make(triangles=triangles, segments=maker)
     inside = [tuple(np.add(sight.at(v, v + 10), (0.0, 0.0))) for v in (19, 55)]
     plain = sight.pixels()

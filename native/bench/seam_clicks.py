@@ -29,7 +29,7 @@ from seams_engine import SeamwireEngine
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
 from seamwire.core.edge_loops import past_poles  # these know no Blender
-from seamwire.core.symmetry import Mirror
+from seamwire.core.symmetry import Symmetry
 
 Pair = tuple[int, int]
 Edges = frozenset[Pair]
@@ -135,7 +135,7 @@ def connected(seams: Edges) -> list[Edges]:
 
 def drawn_once(points: np.ndarray, seams: Edges) -> list[Edges]:
     """Return what is drawn with mirroring on, and what without."""
-    mirror = Mirror(points)
+    mirror = Symmetry(points)
     if not mirror.symmetric_axes:
         return [seams]
     axis = mirror.symmetric_axes[0]
@@ -145,7 +145,7 @@ def drawn_once(points: np.ndarray, seams: Edges) -> list[Edges]:
     return [kept, seams - both]
 
 
-def image_of(mirror: Mirror, axis: int, edge: Pair) -> Pair | None:
+def image_of(mirror: Symmetry, axis: int, edge: Pair) -> Pair | None:
     """Return the mirror image of an edge; None where it has none."""
     image = mirror.partners((axis,))[list(edge)]
     return None if (image < 0).any() else (int(image.min()), int(image.max()))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .network import LOOP_NAMES, Network, Wire, undirected, vertices_of
-from .spatial_hash import Cells
+from .spatial_hash import SpatialHash
 from .strokes import Scribble
 
 if TYPE_CHECKING:
@@ -194,7 +194,7 @@ def _matched(
     stayed = known & (np.linalg.norm(here - places, axis=1) <= tolerance)
     mapped = np.where(stayed, numbers, -1)
     if not stayed.all():
-        mapped[~stayed] = Cells(points, tolerance).nearest(places[~stayed])
+        mapped[~stayed] = SpatialHash(points, tolerance).nearest(places[~stayed])
         stayed = mapped >= 0
         if same_count:
             mapped = np.where((mapped < 0) & known, numbers, mapped)

@@ -17,7 +17,7 @@ _MOST_IN_A_CELL = 64
 """Where points are denser than this, the tolerance says nothing, and not all of them are looked at."""
 
 
-class Cells:
+class SpatialHash:
     """Points in the cells of a grid.
 
     Parameters
@@ -38,7 +38,7 @@ class Cells:
 
     @staticmethod
     def _keys(cells: NDArray[np.int64]) -> NDArray[np.int64]:
-        # Cells far from each other may share a key: distances decide in the end.
+        # SpatialHash far from each other may share a key: distances decide in the end.
         return cells[:, 0] * _PRIMES[0] + cells[:, 1] * _PRIMES[1] + cells[:, 2] * _PRIMES[2]
 
     def nearest(self, places: NDArray[np.float64]) -> NDArray[np.int64]:

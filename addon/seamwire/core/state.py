@@ -11,14 +11,13 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from .candidates import Preview
-from .edge_loops import LoopPreview
+from .edge_loops import LoopPreview, Stops
 from .engines import Engines
 from .history import History
 from .network import Network, Snap, Wire, net_effect, undirected
 from .retrace import Redraws
-from .straight import Stops
 from .strokes import for_library
-from .symmetry import Mirror
+from .symmetry import Symmetry
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -116,7 +115,7 @@ class State:
     ) -> None:
         self._points = points
         self._triangles = triangles
-        self._mirror = Mirror(points, edges, to_object)
+        self._mirror = Symmetry(points, edges, to_object)
         self._stops = Stops(seams, self._mirror)
         self._engines = Engines(make_live, strength or {}, make_scribble)
         self._network = Network()

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .network import Wire
-from .spatial_hash import Cells
+from .spatial_hash import SpatialHash
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -25,7 +25,7 @@ SYMMETRIC = 0.95
 _SAMPLE = 50_000
 
 
-class Mirror:
+class Symmetry:
     """What the mesh's vertices and edges are mirrored to; found out when it is first asked for.
 
     Parameters
@@ -54,8 +54,8 @@ class Mirror:
         return self._points @ self._to_object.T
 
     @cached_property
-    def _cells(self) -> Cells:
-        return Cells(self._places, TOLERANCE)
+    def _cells(self) -> SpatialHash:
+        return SpatialHash(self._places, TOLERANCE)
 
     @cached_property
     def _edge_keys(self) -> NDArray[np.int64] | None:

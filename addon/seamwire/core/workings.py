@@ -7,12 +7,11 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from .edge_loops import find_offers, others
+from .edge_loops import extension, find_offers, others
 from .network import Network, Seed, Snap, Wire, name, undirected
 from .retrace import Job, other_way, with_lost, with_other_way
 from .seed_drag import Leg
 from .state import Queued, State
-from .straight import run_on
 from .strokes import FOR_WIRES
 
 if TYPE_CHECKING:
@@ -227,7 +226,7 @@ class Workings(State):
             return None
         stops = self._stops.of(self._network, active, edge[1:])
         try:
-            wire = run_on(self._engine(), seed, active, edge, stops, self._points)
+            wire = extension(self._engine(), seed, active, edge, stops, self._points)
         except ValueError as error:
             self.message = str(error)
             return None

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ..core import islands as segments
-from ..core import native, session
+from ..core import islands, native, session
 from ..core import serialization as storage
 from ..core.eventual import EventualLive, Eventually
 from ..operators import stroke_handler as strokes
@@ -134,7 +133,7 @@ class Board:
         self._interrupted = interrupted
         self._earlier = interrupted or self.stored
         core = native.load()
-        self._segments = segments.SegmentMaker(
+        self._segments = islands.IslandMaker(
             arrays.triangles, lambda cuts: core.face_segments(surface.get(), cuts), HUES
         )
         self.overlay = overlay.Overlay(

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points
 from seamwire.core.network import Wire
-from seamwire.core.spatial_hash import Cells
-from seamwire.core.symmetry import TOLERANCE, Mirror
+from seamwire.core.spatial_hash import SpatialHash
+from seamwire.core.symmetry import TOLERANCE, Symmetry
 from table import SIZE, Table, chain
 
 
@@ -31,7 +31,7 @@ def test_the_nearest_point_is_found_as_by_looking_at_all() -> None:
     generator = np.random.default_rng(1)
     points = generator.uniform(-1.0, 1.0, (400, 3))
     places = np.concatenate([points + generator.normal(0.0, 0.02, points.shape), generator.uniform(-1, 1, (200, 3))])
-    found = Cells(points, 0.05).nearest(places)
+    found = SpatialHash(points, 0.05).nearest(places)
     gaps = np.linalg.norm(places[:, None] - points[None], axis=2)
     expected = np.where(gaps.min(axis=1) <= 0.05, gaps.argmin(axis=1), -1)
     assert (found == expected).all()
@@ -42,14 +42,14 @@ def test_the_nearest_point_is_found_as_by_looking_at_all() -> None:
 def test_points_on_the_borders_of_cells_are_found() -> None:
     size = 16.0 * 0.1  # the edge of a cell
     points = np.array([[x, y, z] for x in (0.0, size) for y in (0.0, size) for z in (0.0, -size)])
-    cells = Cells(points, 0.1)
+    cells = SpatialHash(points, 0.1)
     for shift in np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * 0.05:
         assert (cells.nearest(points + shift) == np.arange(len(points))).all()
 
 
 def test_of_points_in_one_place_the_first_is_found() -> None:
-    assert Cells(np.zeros((500, 3)), 1e-3).nearest(np.zeros((2, 3))).tolist() == [0, 0]
-    assert Cells(np.empty((0, 3)), 1e-3).nearest(np.zeros((1, 3))).tolist() == [-1]
+    assert SpatialHash(np.zeros((500, 3)), 1e-3).nearest(np.zeros((2, 3))).tolist() == [0, 0]
+    assert SpatialHash(np.empty((0, 3)), 1e-3).nearest(np.zeros((1, 3))).tolist() == [-1]
 
 
 # The mirror
@@ -59,7 +59,7 @@ def test_vertices_have_partners_within_blenders_tolerance() -> None:
     points = centred()
     points[0, 1] += 0.9 * TOLERANCE
     points[6, 1] += 1.1 * TOLERANCE
-    partners = Mirror(points).partners((0,))
+    partners = Symmetry(points).partners((0,))
     assert partners[0] == 5
     assert partners[6] == -1
     assert partners[12] == 17
@@ -67,37 +67,37 @@ def test_vertices_have_partners_within_blenders_tolerance() -> None:
 
 def test_symmetric_axes_are_those_where_nearly_all_have_a_partner() -> None:
     points = centred(8)
-    assert Mirror(points).symmetric_axes == (0, 1), "all lies in the plane of z, which is no symmetry"
+    assert Symmetry(points).symmetric_axes == (0, 1), "all lies in the plane of z, which is no symmetry"
     points[0] += 0.1
-    assert Mirror(points).symmetric_axes == (0, 1), "2 of 64 vertices have none"
+    assert Symmetry(points).symmetric_axes == (0, 1), "2 of 64 vertices have none"
     points[1] += 0.1
-    assert Mirror(points).symmetric_axes == (), "now it is 4 of them"
-    assert Mirror(np.empty((0, 3))).symmetric_axes == ()
+    assert Symmetry(points).symmetric_axes == (), "now it is 4 of them"
+    assert Symmetry(np.empty((0, 3))).symmetric_axes == ()
 
 
 def test_a_wires_image_runs_on_the_other_side() -> None:
-    images = Mirror(centred(), grid_edges(SIZE)).images(wire(0, 1, 7), (0,))
+    images = Symmetry(centred(), grid_edges(SIZE)).images(wire(0, 1, 7), (0,))
     assert [image.vertices for image in images] == [(5, 4, 10)]
     assert images[0].points.tolist() == centred()[[5, 4, 10]].tolist()
 
 
 def test_two_axes_make_three_images() -> None:
-    images = Mirror(centred(), grid_edges(SIZE)).images(wire(0, 1), (0, 1))
+    images = Symmetry(centred(), grid_edges(SIZE)).images(wire(0, 1), (0, 1))
     assert [image.vertices for image in images] == [(5, 4), (30, 31), (35, 34)]
 
 
 def test_on_a_large_mesh_images_are_the_same_and_only_the_wires_vertices_are_looked_for(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    small, large = (Mirror(centred(), grid_edges(SIZE)) for _ in range(2))
+    small, large = (Symmetry(centred(), grid_edges(SIZE)) for _ in range(2))
     expected = [image.vertices for image in small.images(wire(0, 1, 7), (0, 1))]
     monkeypatch.setattr("seamwire.core.symmetry._SAMPLE", 0)
-    monkeypatch.setattr(Mirror, "partners", lambda *_: pytest.fail("all vertices were looked for"))
+    monkeypatch.setattr(Symmetry, "partners", lambda *_: pytest.fail("all vertices were looked for"))
     assert [image.vertices for image in large.images(wire(0, 1, 7), (0, 1))] == expected
 
 
 def test_what_is_its_own_image_is_not_doubled() -> None:
-    mirror = Mirror(centred(5), grid_edges(5))
+    mirror = Symmetry(centred(5), grid_edges(5))
     on_plane = wire(2, 7, 12, points=centred(5))
     across = wire(5, 6, 7, 8, 9, points=centred(5))
     assert mirror.images(on_plane, (0,)) == []
@@ -107,12 +107,12 @@ def test_what_is_its_own_image_is_not_doubled() -> None:
 
 
 def test_a_wire_that_crosses_the_plane_has_an_image_that_crosses_it_there() -> None:
-    images = Mirror(centred(), grid_edges(SIZE)).images(wire(1, 2, 3, 9), (0,))
+    images = Symmetry(centred(), grid_edges(SIZE)).images(wire(1, 2, 3, 9), (0,))
     assert [image.vertices for image in images] == [(4, 3, 2, 8)]
 
 
 def test_a_loops_image_is_a_loop() -> None:
-    images = Mirror(centred(), grid_edges(SIZE)).images(wire(0, 1, 7, 6, closed=True), (0,))
+    images = Symmetry(centred(), grid_edges(SIZE)).images(wire(0, 1, 7, 6, closed=True), (0,))
     assert images[0].closed
     assert sorted(images[0].edges()) == chain(5, 4, 10, 11, 5)
 
@@ -120,11 +120,11 @@ def test_a_loops_image_is_a_loop() -> None:
 def test_where_the_mesh_lacks_edges_the_image_has_a_gap() -> None:
     edges = grid_edges(SIZE)
     without = edges[~((edges == [3, 4]).all(axis=1))]
-    images = Mirror(centred(), without).images(wire(0, 1, 2, 8), (0,))
+    images = Symmetry(centred(), without).images(wire(0, 1, 2, 8), (0,))
     assert [image.vertices for image in images] == [(5, 4), (3, 9)]
     points = centred()
     points[4, 2] = 1.0
-    images = Mirror(points, edges).images(wire(0, 1, 2, 8), (0,))
+    images = Symmetry(points, edges).images(wire(0, 1, 2, 8), (0,))
     assert [image.vertices for image in images] == [(3, 9)]
 
 
@@ -132,7 +132,7 @@ def test_an_object_is_mirrored_in_its_own_coordinates() -> None:
     turn = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
     points = centred() * [3.0, 1.0, 1.0]
     to_object = turn / 3.0
-    images = Mirror(points, grid_edges(SIZE), to_object).images(wire(0, 1, points=points), (0,))
+    images = Symmetry(points, grid_edges(SIZE), to_object).images(wire(0, 1, points=points), (0,))
     assert [image.vertices for image in images] == [(30, 31)], "the object's x runs along y here"
     assert np.allclose(images[0].points, points[[30, 31]])
 
@@ -145,7 +145,7 @@ def test_a_million_vertices_are_mirrored_in_less_than_a_second() -> None:
     least = np.inf
     for _ in range(12):  # the processor's time, and the least of several: other work takes cache and clock from this
         started = time.process_time()
-        mirror = Mirror(points)
+        mirror = Symmetry(points)
         partners = mirror.partners((0,))
         least = min(least, time.process_time() - started)
         if least < 1.0:
