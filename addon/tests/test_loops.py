@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What one click on an edge offers: the closed loop, the strip, the whole strip, the edge alone."""
+"""What one click on an edge offers: the closed loop, the strip, the whole strip."""
 
 from __future__ import annotations
+
+import json
 
 import numpy as np
 import pytest
@@ -21,10 +23,10 @@ def shown(session: Session) -> tuple[int, ...]:
     return session.loop_preview.vertices
 
 
-def test_the_closed_loop_comes_first_then_strip_and_edge() -> None:
+def test_the_closed_loop_comes_first_then_the_strip() -> None:
     session = Table().session
     session.hover((14, 15), loop=True)
-    assert session.loop_offers == ("CLOSED", "STRIP", "EDGE"), "the strip without stops is the strip"
+    assert session.loop_offers == ("CLOSED", "STRIP"), "the strip without stops is the strip"
     assert session.loop_choice == "CLOSED"
     assert shown(session) == LOOP
     assert session.intent is Intent.LOOP
@@ -33,7 +35,7 @@ def test_the_closed_loop_comes_first_then_strip_and_edge() -> None:
 def test_where_there_is_no_closed_loop_the_strip_is_taken() -> None:
     session = Table().session
     session.hover((14, 20), loop=True)
-    assert session.loop_offers == ("STRIP", "EDGE")
+    assert session.loop_offers == ("STRIP",)
     assert session.loop((14, 20))
     (wire,) = session.wires
     assert wire.vertices == COLUMN
@@ -47,7 +49,7 @@ def test_where_there_is_no_closed_loop_the_strip_is_taken() -> None:
 def test_a_strip_ends_at_seams_and_the_whole_one_is_offered_next() -> None:
     session = Table(seams=[(8, 9), (26, 25)]).session
     session.hover((14, 20), loop=True)
-    assert session.loop_offers == ("STRIP", "WHOLE", "EDGE")
+    assert session.loop_offers == ("STRIP", "WHOLE")
     assert shown(session) == (8, 14, 20, 26)
     assert session.toggle()
     assert shown(session) == COLUMN
@@ -85,7 +87,7 @@ def test_a_strip_ends_on_the_mirrors_plane_unless_it_runs_along_it() -> None:
 def test_of_an_edge_that_is_a_seam_already_the_whole_strip_is_offered() -> None:
     session = Table(seams=[(14, 20)]).session
     session.hover((14, 20), loop=True)
-    assert session.loop_offers == ("WHOLE", "EDGE")
+    assert session.loop_offers == ("WHOLE",)
 
 
 def test_toggling_goes_around_and_stays_while_the_edge_is_the_same() -> None:
@@ -98,8 +100,9 @@ def test_toggling_goes_around_and_stays_while_the_edge_is_the_same() -> None:
         assert session.toggle()
         assert session.revision > before
         session.hover((15, 14), loop=True)
-    assert kinds == ["CLOSED", "STRIP", "EDGE", "CLOSED"]
-    assert session.loop_choice == "STRIP"
+    assert kinds == ["CLOSED", "STRIP", "CLOSED", "STRIP"]
+    assert session.loop_choice == "CLOSED"
+    session.toggle()
     session.hover((15, 16), loop=True)
     assert session.loop_choice == "CLOSED", "another edge begins with its default"
 
@@ -141,10 +144,11 @@ def test_a_kept_loop_takes_its_next_offer_in_place() -> None:
         assert session.toggle_kept(session.wires[0])
         courses.append(session.wires[0].vertices)
         assert session.wires[0].id == number
-    assert courses == [ROW, (14, 15), LOOP]
+    assert courses == [ROW, LOOP, ROW]
     assert session.undo()
-    assert session.wires[0].vertices == (14, 15)
+    assert session.wires[0].vertices == LOOP
     assert session.undo()
+    assert session.wires[0].vertices == ROW
     assert session.undo()
     assert session.wires[0].vertices == LOOP
     assert session.undo()
@@ -281,7 +285,7 @@ def test_an_edge_that_is_none_is_refused_in_words() -> None:
 
 
 @pytest.mark.parametrize("order", [range(SIZE**2), range(SIZE**2)[::-1]])
-@pytest.mark.parametrize("steps", [0, 1, 2])
+@pytest.mark.parametrize("steps", [0, 1])
 def test_a_stored_loop_or_strip_goes_through_the_same_offers_again(order: range, steps: int) -> None:
     table = Table()
     table.session.loop((14, 15))
@@ -315,7 +319,7 @@ def test_a_stored_loop_is_previewed_with_its_offers() -> None:
     session = Table(seams=network.wires[0].edges()).session
     session.resume(network)
     session.hover((15, 14), loop=True)
-    assert session.loop_offers == ("CLOSED", "STRIP", "EDGE")
+    assert session.loop_offers == ("CLOSED", "STRIP")
     assert session.toggle()
     assert session.loop((15, 14))
     assert [wire.vertices for wire in session.wires] == [ROW], "in place, not beside it"
@@ -348,3 +352,19 @@ def test_a_stored_loops_offers_are_waited_for_across_the_surface_too() -> None:
     session.toggle_kept(session.wires[0])
     session.wait()
     assert session.wires[0].vertices == ROW
+
+
+def test_a_single_edge_that_was_stored_as_an_offer_is_a_wire_like_any_other() -> None:
+    table = Table()
+    table.session.loop((14, 15))
+    table.session.loop((14, 20))
+    stored = json.loads(dump(table.session.network, table.points))
+    stored["wires"][1].update(kind="EDGE", vertices=[14, 20], start=14, end=20)
+    network, problems = load(json.dumps(stored), table.points, grid_edges(SIZE))
+    assert problems == []
+    assert [wire.vertices for wire in network.wires] == [LOOP, (14, 20)]
+    assert network.wires[1].kind is None
+    again = Table().session
+    assert again.resume(network)
+    again.hover((14, 20), loop=True)
+    assert again.loop_offers == ("WHOLE",)

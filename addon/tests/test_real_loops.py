@@ -107,7 +107,7 @@ def test_around_a_tube_loop_and_strip_are_one() -> None:
     ring = list(range(4 * AROUND, 5 * AROUND))
     edge = (ring[0], ring[1])
     session = tube()
-    assert hovered(session, edge) == [("CLOSED", ring), ("EDGE", list(edge))]
+    assert hovered(session, edge) == [("CLOSED", ring)]
     assert session.loop(edge)
     assert session.wires[0].closed
 
@@ -176,7 +176,7 @@ def test_a_kept_ring_ends_the_next_strip() -> None:
 def test_on_a_sheet_the_strip_comes_before_the_way_around_a_face() -> None:
     session = grid()
     middle = SIZE // 2 * SIZE + SIZE // 2
-    assert [kind for kind, _ in hovered(session, (middle, middle + 1))] == ["STRIP", "EDGE", "CLOSED"]
+    assert [kind for kind, _ in hovered(session, (middle, middle + 1))] == ["STRIP", "CLOSED"]
     session.loop((middle, middle + 1))
     assert len(session.wires[0].vertices) == SIZE
 
@@ -189,7 +189,7 @@ def test_a_ring_of_four_edges_around_a_limb_comes_first() -> None:
     walls = np.concatenate([square + 4 * ring for ring in range(5)])
     quads = np.concatenate([walls, [[3, 2, 1, 0], [20, 21, 22, 23]]]).astype(np.int32)
     session = session_on(points, halves(quads), sides(quads))
-    assert hovered(session, (8, 9)) == [("CLOSED", [8, 9, 10, 11]), ("EDGE", [8, 9])]
+    assert hovered(session, (8, 9)) == [("CLOSED", [8, 9, 10, 11])]
     assert hovered(session, (20, 21))[0] == ("CLOSED", [20, 21, 22, 23]), "around the end, where no strip runs"
 
 

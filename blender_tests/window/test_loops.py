@@ -47,7 +47,7 @@ def test_the_wheel_and_w_turn_from_one_offer_to_the_next(desk: Desk) -> None:
     session, ui = desk.start(), desk.ui
     offer(desk, 40, 41)
     kinds = session.loop_offers
-    assert {"STRIP", "EDGE"} <= set(kinds)
+    assert {"STRIP", "CLOSED"} <= set(kinds)
     frame, distance = bpy.context.scene.frame_current, ui.view.view_distance
     seen = [session.loop_choice]
     for _ in kinds[1:]:
@@ -68,8 +68,8 @@ def test_the_status_bar_says_which_offer_it_is_and_of_how_many(desk: Desk) -> No
     count = len(session.loop_offers)
     turn_to(desk, "STRIP")
     assert f"Take Strip, {session.loop_offers.index('STRIP') + 1} of {count}" in said()
-    turn_to(desk, "EDGE")
-    assert f"Take Single Edge, {count} of {count}" in said()
+    turn_to(desk, "CLOSED")
+    assert f"Take Closed Loop, {session.loop_offers.index('CLOSED') + 1} of {count}" in said()
     desk.ui.move(desk.at(40, 41))
     assert "Take" not in said()
 
@@ -94,11 +94,6 @@ def test_a_whole_strip_is_taken_across_seams(desk: Desk) -> None:
     bmesh.update_edit_mesh(desk.obj.data)
     desk.start()
     assert take(desk, "WHOLE", 40, 41) == sorted([*chain(*range(36, 45)), (34, 43)])
-
-
-def test_a_single_edge_is_taken(desk: Desk) -> None:
-    desk.start()
-    assert take(desk, "EDGE", 40, 41) == [(40, 41)]
 
 
 def test_a_closed_loop_is_taken(desk: Desk) -> None:
@@ -143,7 +138,7 @@ def test_the_offer_that_is_shown_is_seen(ui: driver.Ui, desk: Desk) -> None:
     offer(desk, 40, 41)
     turn_to(desk, "STRIP")
     assert shows(ui.pixels(), desk.at(37, 38), GREEN)
-    turn_to(desk, "EDGE")
+    turn_to(desk, "CLOSED")
     pixels = ui.pixels()
     assert shows(pixels, desk.at(40, 40, 40, 41), WHITE), "what is under the cursor lies over what is offered"
     assert not shows(pixels, desk.at(37, 38), GREEN)

@@ -443,7 +443,7 @@ def test_a_stroke_is_seen_while_it_is_drawn_and_lies_under_the_wires(sight: Sigh
 
 def test_the_text_names_what_a_click_on_the_edge_would_take(sight: Sight) -> None:
     loop = sight.wire(30, 31, 32, 41, 50, 49, 48, 39)
-    offers = ("CLOSED", "STRIP", "EDGE")
+    offers = ("CLOSED", "STRIP", "WHOLE")
     seen = [
         text_pixels(sight.pixels(loop_preview=loop, loop_offers=offers, loop_choice=choice))
         for choice in (*offers, None)

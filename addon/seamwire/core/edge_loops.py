@@ -108,7 +108,7 @@ def find_offers(
         found.append(_wire("PAST", *past_poles(live, edge, stops), edge, points))
     chain = live.strip(edge, ())
     whole = _wire("WHOLE", chain.vertices, chain.closed, edge, points)
-    found += [whole, _wire("EDGE", edge, False, edge, points)]
+    found.append(whole)
     if closed is not None:
         aside = whole is not None and _is_around_a_face(closed, whole)
         found.insert(len(found) if aside else 0, closed)

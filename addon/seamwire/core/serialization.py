@@ -263,7 +263,7 @@ class _Reader:
     def _clicked(self, item: dict[str, Any]) -> tuple[LoopKind | None, Edge | None]:
         """Return what a wire is of what a click offered, and that click's edge; neither where it was drawn."""
         kind, stored = item.get("kind"), item.get("through")  # there were none at first
-        if kind is None:
+        if kind is None or kind == "EDGE":  # a single edge was an offer once; it is a wire like any other
             return None, None
         if kind not in LOOP_NAMES or not isinstance(stored, list):
             raise ValueError
