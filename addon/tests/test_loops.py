@@ -32,6 +32,35 @@ def test_the_closed_loop_comes_first_then_the_strip() -> None:
     assert session.intent is Intent.LOOP
 
 
+def first_offer(edge: tuple[int, int], *before: tuple[tuple[int, int], str], **options: object) -> str:
+    """Return what is offered first for an edge after offers of other edges were taken."""
+    session = Table(**options).session
+    for other, kind in before:
+        session.hover(other, loop=True)
+        while session.loop_choice != kind:
+            assert session.toggle()
+        assert session.loop(other)
+    session.hover(edge, loop=True)
+    return session.loop_choice
+
+
+def test_a_loop_with_corners_comes_after_what_goes_straight_on() -> None:
+    assert first_offer((14, 15)) == "CLOSED"
+    assert first_offer((14, 15), boxes=True) == "STRIP"
+    assert first_offer((14, 15), ((0, 1), "CLOSED"), boxes=True) == "STRIP"
+
+
+def test_what_was_taken_last_comes_first_again() -> None:
+    assert first_offer((14, 15), ((30, 31), "STRIP")) == "STRIP"
+    assert first_offer((14, 15), ((30, 31), "STRIP"), ((6, 7), "CLOSED")) == "CLOSED"
+    assert first_offer((14, 15), ((30, 31), "CLOSED")) == "CLOSED"
+
+
+def test_a_loop_across_wires_or_seams_comes_later() -> None:
+    assert first_offer((14, 15), seams=[(21, 22)]) == "CLOSED", "across one"
+    assert first_offer((14, 15), seams=[(21, 22), (27, 28), (20, 19), (26, 25)]) == "STRIP"
+
+
 def test_where_there_is_no_closed_loop_the_strip_is_taken() -> None:
     session = Table().session
     session.hover((14, 20), loop=True)

@@ -11,7 +11,7 @@ import numpy as np
 from .network import Wire, undirected
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Collection, Iterable, Mapping, Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
@@ -20,7 +20,16 @@ if TYPE_CHECKING:
     from .symmetry import Symmetry
 
 
-_EDGES_OF_A_FACE = 4
+_BY_KIND: Mapping[LoopKind, float] = {"CLOSED": 0.0, "PAST": 0.2, "STRIP": 0.5, "WHOLE": 0.7}
+_LOOP_CROSSES = 0.7
+_STRIP_CROSSES = 0.2
+"""How unlikely an offer is, in corners of a loop; being of another kind than what was taken last counts as a corner, too.
+Fitted to what artists' seams consist of, see docs/method.md."""
+_MOST_CORNERS, _MOST_CROSSINGS = 3, 4
+"""More than these say no more."""
+_CORNER_COSINE = 0.5
+_MOST_PIECES = 64
+"""Straight pieces of a loop that are looked at: over triangles it may have as many as edges."""
 
 
 @dataclass
@@ -34,7 +43,7 @@ class LoopPreview:
     edge
         The edge that they are for, smaller vertex first.
     offers
-        No two alike, the default one first; empty: not computed.
+        No two alike, the likeliest first; empty: not computed.
     choice
         The one that is shown.
     final
@@ -74,9 +83,15 @@ def others(kept: Wire, offers: tuple[Wire, ...]) -> tuple[Wire, ...]:
 
 
 def find_offers(
-    live: LiveWire, edge: Edge, stops: Sequence[int] | None, points: NDArray[np.float64], strength: float
+    live: LiveWire,
+    edge: Edge,
+    stops: Sequence[int] | None,
+    points: NDArray[np.float64],
+    strength: float,
+    kept: Collection[int] = (),
+    last: LoopKind | None = None,
 ) -> tuple[tuple[Wire, ...], bool]:
-    """Return what one click on an edge may take, the default first, and whether that is computed; until then nothing.
+    """Return what one click on an edge may take, the likeliest first, and whether that is computed; until then nothing.
 
     Parameters
     ----------
@@ -91,6 +106,10 @@ def find_offers(
         (n, 3) vertices of the mesh.
     strength
         The metric's largest anisotropy.
+    kept
+        The vertices of seams and kept wires: what leads across them is less likely.
+    last
+        What was taken last: that is likely to be taken again; None: nothing yet.
 
     Raises
     ------
@@ -100,20 +119,81 @@ def find_offers(
     loop = live.loop(edge)
     if not loop.final:
         return (), False
-    closed = _wire("CLOSED", loop.vertices, True, edge, points, strength)
-    found = []
+    found = [_wire("CLOSED", loop.vertices, True, edge, points, strength)]
     if stops is not None:
         strip = live.strip(edge, stops)
         found.append(_wire("STRIP", strip.vertices, strip.closed, edge, points))
         found.append(_wire("PAST", *past_poles(live, edge, stops), edge, points))
     chain = live.strip(edge, ())
-    whole = _wire("WHOLE", chain.vertices, chain.closed, edge, points)
-    found.append(whole)
-    if closed is not None:
-        aside = whole is not None and _is_around_a_face(closed, whole)
-        found.insert(len(found) if aside else 0, closed)
+    found.append(_wire("WHOLE", chain.vertices, chain.closed, edge, points))
+    # Of those that run along the same edges the first.
     different = {frozenset(wire.edges()): wire for wire in reversed(found) if wire is not None}
-    return tuple(wire for wire in found if wire in different.values()), True
+    offers = [wire for wire in found if wire in different.values()]
+    if len(offers) > 1:
+        offers.sort(key=lambda wire: _unlikeliness(live, wire, points, kept, last or "CLOSED"))
+    return tuple(offers), True
+
+
+def _unlikeliness(
+    live: LiveWire, wire: Wire, points: NDArray[np.float64], kept: Collection[int], last: LoopKind
+) -> float:
+    """Return how unlikely an offer is to be what the artist wants, in corners of a loop."""
+    assert wire.kind is not None
+    inner = wire.vertices if wire.closed else wire.vertices[1:-1]
+    crossings = min(sum(vertex in kept for vertex in inner), _MOST_CROSSINGS)
+    cost = _BY_KIND[wire.kind] + (wire.kind != last)
+    if wire.kind == "CLOSED":
+        return cost + _LOOP_CROSSES * crossings + min(corners(live, wire.vertices, points), _MOST_CORNERS)
+    return cost + _STRIP_CROSSES * crossings
+
+
+def corners(live: LiveWire, loop: Sequence[int], points: NDArray[np.float64]) -> int:
+    """Count the vertices where a closed chain turns off by 60 degrees or more, though straight ways go on there.
+
+    From neither side does the straight way follow the chain at such a vertex. Where both lead into the same third edge,
+    three edges meet, and no way is straight.
+
+    Parameters
+    ----------
+    live
+        Of the way along edges.
+    loop
+        The vertices of the chain, the first one not repeated.
+    points
+        (n, 3) vertices of the mesh.
+    """
+    forth = _straight_on(live, loop)
+    ahead = np.roll(loop, -1)
+    at = np.flatnonzero((forth >= 0) & (forth != ahead))
+    if not len(at):
+        return 0
+    back = _straight_on(live, loop[::-1])[::-1]
+    before = np.roll(loop, 1)
+    at = at[(back[at] >= 0) & (back[at] != before[at]) & (back[at] != forth[at])]
+    middle = points[np.asarray(loop)[at]]
+
+    def turned(one: NDArray[np.int64], two: NDArray[np.int64]) -> NDArray[np.bool_]:
+        to_one, to_two = points[one[at]] - middle, points[two[at]] - middle
+        lengths = np.linalg.norm(to_one, axis=1) * np.linalg.norm(to_two, axis=1)
+        return np.einsum("ij,ij->i", to_one, to_two) <= _CORNER_COSINE * lengths
+
+    return int((turned(forth, ahead) & turned(back, before)).sum())
+
+
+def _straight_on(live: LiveWire, loop: Sequence[int]) -> NDArray[np.int64]:
+    """Return for each vertex of a closed chain the one after it if the chain went straight on there; -1: there is none."""
+    after = np.full(len(loop), -1, dtype=np.int64)
+    at = 0
+    for _ in range(_MOST_PIECES):
+        if at >= len(loop):
+            break
+        # As far as the chain follows it, one way tells of all vertices.
+        way = np.asarray(live.run_on((loop[at - 1], loop[at]), ()).vertices, dtype=np.int64)[1 : len(loop) - at + 1]
+        follows = way[:-1] == np.asarray(loop[at + 1 : at + len(way)])
+        count = len(way) if follows.all() else int(np.argmin(follows)) + 1
+        after[at : at + count] = way[:count]
+        at += max(count, 1)
+    return after
 
 
 def past_poles(live: LiveWire, edge: Edge, stops: Sequence[int]) -> tuple[tuple[int, ...], bool]:
@@ -130,19 +210,6 @@ def past_poles(live: LiveWire, edge: Edge, stops: Sequence[int]) -> tuple[tuple[
     back = way(edge[1], edge[0])
     chain = (*back[::-1], *forth)
     return (chain if len(set(chain)) == len(chain) else ()), False
-
-
-def _is_around_a_face(loop: Wire, strip: Wire) -> bool:
-    """Whether a loop of few edges turns off at both ends of its edge, though straight ways go on there.
-
-    Where there is no ring, the shortest loop through an edge is the one around a face beside it. A ring of four edges
-    around a thin limb goes straight on, or there is no straight way.
-    """
-    if len(loop.vertices) > _EDGES_OF_A_FACE:
-        return False
-    ends = set(loop.through or ())
-    beside = {edge for edge in strip.edges() if edge != loop.through and not ends.isdisjoint(edge)}
-    return bool(beside) and beside.isdisjoint(loop.edges())
 
 
 def _wire(
@@ -201,6 +268,10 @@ class Stops:
         if not plane.issuperset(begin):
             stops |= plane
         return list(stops)
+
+    def kept(self, network: Network) -> frozenset[int]:
+        """Return the vertices of seams, of kept wires and of their images."""
+        return self._kept(network)[0]
 
     def taken(self, network: Network, edge: Edge) -> bool:
         """Whether an edge belongs already to a seam, to a kept wire or to an image of one."""

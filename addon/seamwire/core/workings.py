@@ -170,7 +170,13 @@ class Workings(State):
         stops = None if known.taken(network, pick) else known.of(network, None, pick)
         try:
             offers, self._loop.final = find_offers(
-                self._engine("EDGES"), pick, stops, self._points, self._engines.strengths["EDGES"]
+                self._engine("EDGES"),
+                pick,
+                stops,
+                self._points,
+                self._engines.strengths["EDGES"],
+                kept=known.kept(network),
+                last=next((wire.kind for wire in reversed(network.wires) if wire.kind is not None), None),
             )
         except ValueError as error:
             self.message = str(error)
