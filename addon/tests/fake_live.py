@@ -128,7 +128,7 @@ class FakeLive:
         return FakeChain(np.array(ring, dtype=np.int32))
 
     def run_on(self, edge: tuple[int, int], stops: list[int]) -> FakeChain:
-        if stops == () and edge in self.rings:  # asked without a list of stops: for a loop, not for a wire
+        if isinstance(stops, tuple) and edge in self.rings:  # asked without a list of stops: for a loop, not for a wire
             return FakeChain(np.array([edge[1], self.rings[edge]], dtype=np.int32))
         return self._straight(edge, stops)
 

@@ -8,9 +8,11 @@ import json
 import numpy as np
 import pytest
 from fake_live import FakeLive, grid_edges, grid_points
-from seamwire.core.network import Snap
+from seamwire.core.edge_loops import Stops
+from seamwire.core.network import Network, Snap, Wire
 from seamwire.core.serialization import dump, load
 from seamwire.core.session import Intent, Session
+from seamwire.core.symmetry import Symmetry
 from table import SIZE, Table, chain
 
 ROW = (12, 13, 14, 15, 16, 17)
@@ -397,3 +399,42 @@ def test_a_single_edge_that_was_stored_as_an_offer_is_a_wire_like_any_other() ->
     assert again.resume(network)
     again.hover((14, 20), loop=True)
     assert again.loop_offers == ("WHOLE",)
+
+
+@pytest.mark.parametrize("axes", [(), (0,), (0, 1)])
+def test_stops_are_the_vertices_of_seams_wires_and_their_images(axes: tuple[int, ...]) -> None:
+    points = grid_points(7) - [3.0, 3.0, 0.0]
+    edges = grid_edges(7)
+    symmetry = Symmetry(points, edges)
+    generator = np.random.default_rng(6)
+    seams = generator.permutation(edges)[:8][:, ::-1]
+
+    def wire(*vertices: int) -> Wire:
+        return Wire("EDGES", vertices, points[list(vertices)], vertices[0], vertices[-1])
+
+    kept, live = (wire(1, 2, 9), wire(43, 36, 35)), wire(10, 11, 12)
+    network = Network(kept, mirror=axes)
+    stops = Stops(seams, symmetry)
+
+    def with_images(*wires: Wire) -> list[Wire]:
+        return [one for own in wires for one in (own, *symmetry.images(own, axes))]
+
+    pairs = {tuple(sorted(pair)) for pair in seams.tolist()}
+    vertices = {vertex for pair in pairs for vertex in pair}
+    expected = vertices.union(*(one.vertices for one in with_images(*kept)))
+    plane = symmetry.on_plane(axes)
+    assert stops.kept(network).tolist() == sorted(expected)
+    assert stops.of(network, None, (0, 1)).tolist() == sorted(expected | plane)
+    assert stops.of(network, None, (17, 24)).tolist() == sorted(expected if axes else expected | plane), (
+        "along the plane"
+    )
+    both = expected.union(*(one.vertices for one in with_images(live)))
+    assert stops.of(network, live, (0, 1)).tolist() == sorted(both | plane)
+    taken = pairs.union(*(one.edges() for one in with_images(*kept)))
+    for edge in edges.tolist():
+        assert stops.taken(network, tuple(edge[::-1])) == (tuple(edge) in taken)
+    along = Wire("EDGES", tuple(seams[0].tolist()), points[seams[0]], 0, 1)
+    left = stops.without(along, network)
+    gone = {edge for one in with_images(along) for edge in one.edges()}
+    assert left.kept(Network()).tolist() == sorted({vertex for pair in pairs - gone for vertex in pair})
+    assert Stops([], symmetry).of(Network(), None, (0, 1)).tolist() == []

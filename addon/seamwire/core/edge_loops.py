@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .network import Wire, undirected
+from .symmetry import among
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Mapping, Sequence
@@ -85,10 +87,10 @@ def others(kept: Wire, offers: tuple[Wire, ...]) -> tuple[Wire, ...]:
 def find_offers(
     live: LiveWire,
     edge: Edge,
-    stops: Sequence[int] | None,
+    stops: NDArray[np.int64] | Sequence[int] | None,
     points: NDArray[np.float64],
     strength: float,
-    kept: Collection[int] = (),
+    kept: NDArray[np.int64] | Collection[int] = (),
     last: LoopKind | None = None,
 ) -> tuple[tuple[Wire, ...], bool]:
     """Return what one click on an edge may take, the likeliest first, and whether that is computed; until then nothing.
@@ -130,17 +132,18 @@ def find_offers(
     different = {frozenset(wire.edges()): wire for wire in reversed(found) if wire is not None}
     offers = [wire for wire in found if wire in different.values()]
     if len(offers) > 1:
+        kept = _ranked(_numbers(kept))
         offers.sort(key=lambda wire: _unlikeliness(live, wire, points, kept, last or "CLOSED"))
     return tuple(offers), True
 
 
 def _unlikeliness(
-    live: LiveWire, wire: Wire, points: NDArray[np.float64], kept: Collection[int], last: LoopKind
+    live: LiveWire, wire: Wire, points: NDArray[np.float64], kept: NDArray[np.int64], last: LoopKind
 ) -> float:
     """Return how unlikely an offer is to be what the artist wants, in corners of a loop."""
     assert wire.kind is not None
     inner = wire.vertices if wire.closed else wire.vertices[1:-1]
-    crossings = min(sum(vertex in kept for vertex in inner), _MOST_CROSSINGS)
+    crossings = min(int(among(np.array(inner, dtype=np.int64), kept).sum()), _MOST_CROSSINGS)
     cost = _BY_KIND[wire.kind] + (wire.kind != last)
     if wire.kind == "CLOSED":
         return cost + _LOOP_CROSSES * crossings + min(corners(live, wire.vertices, points), _MOST_CORNERS)
@@ -196,7 +199,7 @@ def _straight_on(live: LiveWire, loop: Sequence[int]) -> NDArray[np.int64]:
     return after
 
 
-def past_poles(live: LiveWire, edge: Edge, stops: Sequence[int]) -> tuple[tuple[int, ...], bool]:
+def past_poles(live: LiveWire, edge: Edge, stops: NDArray[np.int64] | Sequence[int]) -> tuple[tuple[int, ...], bool]:
     """Return the way that runs on from both ends of an edge, and whether it is closed; no vertices: it meets itself."""
 
     def way(first: int, second: int) -> tuple[int, ...]:
@@ -243,14 +246,14 @@ class Stops:
     """
 
     def __init__(self, seams: ArrayLike, mirror: Symmetry) -> None:
-        pairs = np.asarray(seams, dtype=np.int64).reshape(-1, 2)
-        self._seam_vertices = frozenset(np.unique(pairs).tolist())
-        self._seams = frozenset(map(tuple, np.sort(pairs, axis=1).tolist()))
+        self._seams = _ranked(_keys(np.asarray(seams, dtype=np.int64).reshape(-1, 2)))
+        self._seam_vertices = _ranked(np.concatenate([self._seams >> _BITS, self._seams & _LOW]))
         self._mirror = mirror
-        self._last: tuple[Network, frozenset[int], frozenset[Edge]] | None = None
+        self._last: tuple[Network, NDArray[np.int64], frozenset[Edge]] | None = None
+        self._plane: tuple[tuple[int, ...], frozenset[int], NDArray[np.int64]] | None = None
 
-    def of(self, network: Network, live: Wire | None, begin: Iterable[int]) -> list[int]:
-        """Return the stops of a wire.
+    def of(self, network: Network, live: Wire | None, begin: Iterable[int]) -> NDArray[np.int64]:
+        """Return the stops of a wire, in rising order.
 
         Parameters
         ----------
@@ -261,37 +264,70 @@ class Stops:
         begin
             The vertices that the wire has before it runs on. Where all lie on the mirror's plane, it runs along that.
         """
-        stops = set(self._kept(network)[0])
+        stops = self._kept(network)[0]
         if live is not None:
-            stops.update(*(one.vertices for one in self._with_images(live, network)))
-        plane = self._mirror.on_plane(network.mirror)
-        if not plane.issuperset(begin):
-            stops |= plane
-        return list(stops)
+            stops = _joined(stops, itertools.chain(*(one.vertices for one in self._with_images(live, network))))
+        if not network.mirror:
+            return stops
+        if self._plane is None or self._plane[0] != network.mirror:
+            plane = self._mirror.on_plane(network.mirror)
+            self._plane = (network.mirror, plane, np.fromiter(plane, dtype=np.int64, count=len(plane)))
+        _, plane, vertices = self._plane
+        return stops if plane.issuperset(begin) else _ranked(np.concatenate([stops, vertices]))
 
-    def kept(self, network: Network) -> frozenset[int]:
-        """Return the vertices of seams, of kept wires and of their images."""
+    def kept(self, network: Network) -> NDArray[np.int64]:
+        """Return the vertices of seams, of kept wires and of their images, in rising order."""
         return self._kept(network)[0]
 
     def taken(self, network: Network, edge: Edge) -> bool:
         """Whether an edge belongs already to a seam, to a kept wire or to an image of one."""
-        return undirected(edge) in self._kept(network)[1]
+        if undirected(edge) in self._kept(network)[1]:
+            return True
+        key = _keys(np.array([edge], dtype=np.int64))
+        return bool(among(key, self._seams)[0])
 
     def without(self, wire: Wire, network: Network) -> Stops:
         """Return the stops there would be without a wire's own edges, which are seams where it was finished before."""
-        own = {edge for one in self._with_images(wire, network) for edge in one.edges()}
-        return Stops(sorted(self._seams - own), self._mirror)
+        own = [edge for one in self._with_images(wire, network) for edge in one.edges()]
+        seams = self._seams[~among(self._seams, _ranked(_keys(np.array(own, dtype=np.int64).reshape(-1, 2))))]
+        return Stops(np.stack([seams >> _BITS, seams & _LOW], axis=1), self._mirror)
 
-    def _kept(self, network: Network) -> tuple[frozenset[int], frozenset[Edge]]:
-        """Return the vertices and edges of seams, kept wires and their images."""
+    def _kept(self, network: Network) -> tuple[NDArray[np.int64], frozenset[Edge]]:
+        """Return the vertices of seams, kept wires and their images, in rising order, and the edges of those wires."""
         if self._last is None or self._last[0] is not network:
             wires = [one for wire in network.wires for one in self._with_images(wire, network)]
-            vertices = self._seam_vertices.union(*(one.vertices for one in wires))
-            self._last = (network, vertices, self._seams.union(*(one.edges() for one in wires)))
+            vertices = _joined(self._seam_vertices, itertools.chain(*(one.vertices for one in wires)))
+            self._last = (network, vertices, frozenset().union(*(one.edges() for one in wires)))
         return self._last[1:]
 
     def _with_images(self, wire: Wire, network: Network) -> list[Wire]:
         return [wire, *self._mirror.images(wire, network.mirror)]
+
+
+_BITS = 32
+_LOW = (1 << _BITS) - 1
+
+
+def _keys(edges: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return a number for each edge, (k, 2): its smaller vertex above its larger one."""
+    return (edges.min(axis=1) << _BITS) | edges.max(axis=1)
+
+
+def _numbers(vertices: Iterable[int]) -> NDArray[np.int64]:
+    return vertices if isinstance(vertices, np.ndarray) else np.fromiter(vertices, dtype=np.int64)
+
+
+def _ranked(numbers: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return numbers in rising order, each once."""
+    numbers = np.sort(numbers)
+    return numbers[np.diff(numbers, prepend=-1) > 0]
+
+
+def _joined(ranked: NDArray[np.int64], vertices: Iterable[int]) -> NDArray[np.int64]:
+    """Return numbers in rising order with a few more among them."""
+    more = _ranked(_numbers(vertices))
+    more = more[~among(more, ranked)]
+    return np.insert(ranked, np.searchsorted(ranked, more), more) if len(more) else ranked
 
 
 def extension(
@@ -317,7 +353,8 @@ def extension(
     ValueError
         Where the edge is not part of the surface.
     """
-    way = tuple(int(v) for v in live.run_on(edge, [vertex for vertex in stops if vertex != edge[1]]).vertices)
+    stops = _numbers(stops)
+    way = tuple(int(v) for v in live.run_on(edge, stops[stops != edge[1]]).vertices)
     if len(way) < 2:
         return None
     vertices = way if active is None else active.vertices + way[1:]

@@ -231,7 +231,7 @@ class Symmetry:
         pairs = np.stack([mapped[:-1], mapped[1:]], axis=1)
         there = (pairs >= 0).all(axis=1) & (pairs[:, 0] != pairs[:, 1])
         if keys is not None and len(keys):
-            there &= _among(self._key(pairs), keys)
+            there &= among(self._key(pairs), keys)
         return mapped, there
 
     def _image(self, wire: Wire, axes: tuple[int, ...]) -> list[Wire]:
@@ -303,7 +303,7 @@ class _HalfEdges:
         wanted = edges.astype(np.int64)
         wanted = np.sort(wanted.min(axis=1) * count + wanted.max(axis=1))
         inner = np.empty(len(keys), dtype=bool)
-        inner[order] = ~_among(ranked, wanted)
+        inner[order] = ~among(ranked, wanted)
         numbers = np.arange(len(keys))
         following = numbers - numbers % 3 + (numbers + 1) % 3
         # From corner to corner of a polygon, past the diagonals that cut it into triangles.
@@ -352,8 +352,8 @@ class _HalfEdges:
         return found
 
 
-def _among(values: NDArray[np.int64], ranked: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """Whether values, best in rising order, are among others in rising order."""
+def among(values: NDArray[np.int64], ranked: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Return which values, best in rising order, are among others in rising order."""
     if not len(ranked):
         return np.zeros(len(values), dtype=bool)
     return ranked[np.minimum(np.searchsorted(ranked, values), len(ranked) - 1)] == values
