@@ -63,6 +63,7 @@ class FakeLive:
 
     The first is shorter, unless `shorter` says otherwise. Vertices in `islands` are reached by no wire. Forks begin as
     `fork_ready` says; a new metric makes it ready as `metric_ready` says, and until it is the wires are `stale` ones.
+    Loops go straight on at their corners, as around a limb, or turn off there, as `boxes`.
     """
 
     size: int
@@ -75,6 +76,8 @@ class FakeLive:
     fork_ready: tuple[bool, bool] = (True, True)
     metric_ready: tuple[bool, bool] = (True, True)
     stale: bool = False
+    boxes: bool = False
+    rings: dict[tuple[int, int], int] = field(default_factory=dict)
     forks: list[FakeLive] = field(default_factory=list)
     metrics: list[tuple[str, float | None, float | None]] = field(default_factory=list)
     scribbles: list[tuple[object, ...]] = field(default_factory=list)
@@ -118,9 +121,18 @@ class FakeLive:
         if not all(self.ready) or abs(a - b) != 1:
             return FakeChain(np.empty(0, dtype=np.int32), final=all(self.ready))
         up = self.size if max(a, b) + 2 * self.size < self.size**2 else -self.size
-        return FakeChain(np.array([a, b, b + up, b + 2 * up, a + 2 * up, a + up], dtype=np.int32))
+        ring = [a, b, b + up, b + 2 * up, a + 2 * up, a + up]
+        if not self.boxes:
+            for way in (ring, ring[::-1]):
+                self.rings |= {(way[i - 2], way[i - 1]): way[i] for i in range(len(way))}
+        return FakeChain(np.array(ring, dtype=np.int32))
 
     def run_on(self, edge: tuple[int, int], stops: list[int]) -> FakeChain:
+        if isinstance(stops, tuple) and edge in self.rings:  # asked without a list of stops: for a loop, not for a wire
+            return FakeChain(np.array([edge[1], self.rings[edge]], dtype=np.int32))
+        return self._straight(edge, stops)
+
+    def _straight(self, edge: tuple[int, int], stops: list[int]) -> FakeChain:
         way = [edge[1]]
         dx, dy = edge[1] % self.size - edge[0] % self.size, edge[1] // self.size - edge[0] // self.size
         while way[-1] not in stops:
@@ -134,7 +146,7 @@ class FakeLive:
         if not any(self.ready):
             return FakeChain(np.empty(0, dtype=np.int32))
         ways = [
-            [end] if end in stops else self.run_on((start, end), stops).vertices for start, end in (edge, edge[::-1])
+            [end] if end in stops else self._straight((start, end), stops).vertices for start, end in (edge, edge[::-1])
         ]
         return FakeChain(np.array([*ways[1][::-1], *ways[0]], dtype=np.int32))
 

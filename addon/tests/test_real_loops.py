@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
+from seamwire.core.edge_loops import corners
 from seamwire.core.eventual import EventualLive, Eventually
 from seamwire.core.network import Along
 from seamwire.core.serialization import dump, load
@@ -107,9 +108,45 @@ def test_around_a_tube_loop_and_strip_are_one() -> None:
     ring = list(range(4 * AROUND, 5 * AROUND))
     edge = (ring[0], ring[1])
     session = tube()
-    assert hovered(session, edge) == [("CLOSED", ring), ("EDGE", list(edge))]
+    assert hovered(session, edge) == [("CLOSED", ring)]
     assert session.loop(edge)
     assert session.wires[0].closed
+
+
+def test_along_a_limb_the_strip_comes_before_a_loop_with_corners() -> None:
+    session = tube()
+    kinds = [kind for kind, _ in hovered(session, (3 * AROUND + 2, 4 * AROUND + 2))]
+    assert kinds == ["STRIP", "CLOSED"]
+    session.loop((3 * AROUND + 2, 4 * AROUND + 2))
+    assert sorted(session.wires[0].vertices) == meridian(2)
+
+
+def test_corners_are_where_straight_ways_leave_a_loop() -> None:
+    session = tube()
+    live, points = session._engines.get("EDGES"), session._points
+    live.wait()
+    ring = list(range(4 * AROUND, 5 * AROUND))
+    assert corners(live, ring, points) == 0
+    assert corners(live, ring[::-1], points) == 0
+    low, high = 3 * AROUND, 5 * AROUND
+    box = [*range(low, low + 5), low + AROUND + 4, *range(high + 4, high - 1, -1), low + AROUND]
+    assert corners(live, box, points) == 4
+    face = [low, low + 1, low + AROUND + 1, low + AROUND]
+    assert corners(live, face, points) == 4
+    rim = [*range(5), *range(AROUND + 4, AROUND - 1, -1)]
+    assert corners(live, rim, points) == 2, "at the rim no way goes on straight across it"
+
+
+def test_where_three_edges_meet_a_loop_has_no_corner() -> None:
+    quads = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
+    quads = np.array(quads, dtype=np.int32)
+    square = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
+    points = np.concatenate([square, square + np.array([0.0, 0.0, 1.0])])
+    points += np.random.default_rng(1).normal(0.0, 0.1, points.shape)
+    session = session_on(points, halves(quads), sides(quads))
+    live = session._engines.get("EDGES")
+    live.wait()
+    assert [corners(live, quad[::turn].tolist(), points) for quad in quads for turn in (1, -1)] == [0] * 12
 
 
 def test_along_a_tube_the_strip_runs_from_rim_to_rim() -> None:
@@ -176,7 +213,7 @@ def test_a_kept_ring_ends_the_next_strip() -> None:
 def test_on_a_sheet_the_strip_comes_before_the_way_around_a_face() -> None:
     session = grid()
     middle = SIZE // 2 * SIZE + SIZE // 2
-    assert [kind for kind, _ in hovered(session, (middle, middle + 1))] == ["STRIP", "EDGE", "CLOSED"]
+    assert [kind for kind, _ in hovered(session, (middle, middle + 1))] == ["STRIP", "CLOSED"]
     session.loop((middle, middle + 1))
     assert len(session.wires[0].vertices) == SIZE
 
@@ -189,7 +226,7 @@ def test_a_ring_of_four_edges_around_a_limb_comes_first() -> None:
     walls = np.concatenate([square + 4 * ring for ring in range(5)])
     quads = np.concatenate([walls, [[3, 2, 1, 0], [20, 21, 22, 23]]]).astype(np.int32)
     session = session_on(points, halves(quads), sides(quads))
-    assert hovered(session, (8, 9)) == [("CLOSED", [8, 9, 10, 11]), ("EDGE", [8, 9])]
+    assert hovered(session, (8, 9)) == [("CLOSED", [8, 9, 10, 11])]
     assert hovered(session, (20, 21))[0] == ("CLOSED", [20, 21, 22, 23]), "around the end, where no strip runs"
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What ``mesh.seamwire_mark`` takes beside chains: strips, single edges, and strokes that lead its wires."""
+"""What ``mesh.seamwire_mark`` takes beside chains: strips, and strokes that lead its wires."""
 
 import bpy
 import pytest
@@ -29,11 +29,9 @@ def mark(**options: object) -> set[str]:
     return bpy.ops.mesh.seamwire_mark(**options)
 
 
-def test_strips_and_single_edges_are_taken_too(grid: bpy.types.Object) -> None:
+def test_strips_are_taken_too(grid: bpy.types.Object) -> None:
     assert mark(loops="40-41", take="STRIP") == {"FINISHED"}
     assert seams(grid) == chain(*range(36, 45))
-    assert mark(loops="4-13", take="EDGE") == {"FINISHED"}
-    assert seams(grid) == sorted([*chain(*range(36, 45)), (4, 13)])
     assert mark(loops="13-22", take="STRIP") == {"FINISHED"}
     assert seams(grid) == sorted(chain(*range(36, 45)) + chain(4, 13, 22, 31, 40)), "up to the seam"
     assert mark(loops="13-22", take="WHOLE") == {"FINISHED"}
@@ -58,8 +56,6 @@ def test_what_there_is_not_is_said() -> None:
     edit()
     with pytest.raises(RuntimeError, match="No closed loop runs through edge 0-1"):
         mark(loops="0-1", take="CLOSED")
-    assert mark(loops="0-1", take="EDGE", clear=True) == {"FINISHED"}
-    assert seams(obj) == []
 
 
 def test_strokes_lead_wires() -> None:

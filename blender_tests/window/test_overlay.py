@@ -18,7 +18,7 @@ import show
 import ui as driver
 from numpy.typing import NDArray
 from scene import add_grid, add_object, edit
-from seamwire.core.islands import SegmentMaker
+from seamwire.core.islands import IslandMaker
 from seamwire.core.network import Edge, Pick, Snap, Wire
 from seamwire.mesh import edit_mesh
 from seamwire.view.overlay import Overlay
@@ -455,7 +455,7 @@ def test_a_stroke_is_seen_while_it_is_drawn_and_lies_under_the_wires(sight: Sigh
 
 def test_the_text_names_what_a_click_on_the_edge_would_take(sight: Sight) -> None:
     loop = sight.wire(30, 31, 32, 41, 50, 49, 48, 39)
-    offers = ("CLOSED", "STRIP", "EDGE")
+    offers = ("CLOSED", "STRIP", "WHOLE")
     seen = [
         text_pixels(sight.pixels(loop_preview=loop, loop_offers=offers, loop_choice=choice))
         for choice in (*offers, None)
@@ -474,7 +474,7 @@ def test_where_blender_shows_all_layers_the_nearest_is_tinted_and_hidden_wires_a
     count = len(lower)
     sight = Sight(ui, add_object(lower + upper, [*quads, (count, count + 1, count + 2, count + 3)]))
     triangles = sight.arrays.triangles
-    maker = SegmentMaker(triangles, lambda cuts: (triangles >= count).any(axis=1).astype(np.int32))
+    maker = IslandMaker(triangles, lambda cuts: (triangles >= count).any(axis=1).astype(np.int32))
     sight.overlay = sight.make(triangles=triangles, segments=maker)
     try:
         show.shading(ui, name)
@@ -498,7 +498,7 @@ def halves(triangles: NDArray[np.int32], cuts: NDArray[np.int32]) -> NDArray[np.
 
 def test_segments_are_tinted_apart_and_counted(sight: Sight) -> None:
     triangles = sight.arrays.triangles
-    maker = SegmentMaker(triangles, lambda cuts: halves(triangles, cuts))
+    maker = IslandMaker(triangles, lambda cuts: halves(triangles, cuts))
     sight.overlay = sight.make(triangles=triangles, segments=maker)
     inside = [tuple(np.add(sight.at(v, v + 10), (0.0, 0.0))) for v in (19, 55)]
     plain = sight.pixels()

@@ -10,6 +10,8 @@ Needs SciPy. Presses of a mouse button are counted:
   one lies in the seams as a whole. A path may begin where an edge loop was clicked.
 - Seamwire: a click for a chain's seed, one for each wire, and one for each offer of the loop gesture: a closed loop, a strip or a way
   past poles up to seams drawn before, a whole strip, wherever one lies in the seams as a whole, and a single edge.
+- How often what the loop gesture is to take is what it offers first, and how many notches of the wheel it takes: over the edges of what is
+  taken, about twelve of each, after what was taken before.
 - The same, mirrored: where the mesh is symmetric, edges whose images are seams too are drawn once, if that takes fewer clicks. Blender's
   Select Mirror is counted as if it did the same.
 """
@@ -21,18 +23,23 @@ import importlib
 import sys
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from blender_engine import BlenderEngine
 from seams_engine import SeamwireEngine
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
-from seamwire.core.edge_loops import past_poles  # these know no Blender
-from seamwire.core.symmetry import Mirror
+from seamwire.core.edge_loops import find_offers, past_poles  # these know no Blender
+from seamwire.core.symmetry import Symmetry
+
+if TYPE_CHECKING:
+    from seamwire.core.network import LoopKind
 
 Pair = tuple[int, int]
 Edges = frozenset[Pair]
+
+_EDGES_TRIED = 12
 
 
 def edges_of(chain: list[int], closed: bool) -> Edges:
@@ -68,6 +75,7 @@ class Seamwire:
     def __init__(self, points: np.ndarray, offsets: np.ndarray, corners: np.ndarray) -> None:
         self.engine = SeamwireEngine()
         self.engine.prepare(points, offsets, corners)
+        self._points = points
         self._loops: dict[Pair, list[int] | None] = {}
 
     def offers(self, edge: Pair, stops: frozenset[int]) -> Iterable[Edges]:
@@ -82,9 +90,32 @@ class Seamwire:
         chain, closed = past_poles(self.engine.live, edge, list(stops))
         yield edges_of(list(chain), closed)
 
+    def notches(self, wanted: Edges, stops: frozenset[int], last: LoopKind | None) -> tuple[list[int], LoopKind | None]:
+        """Return the place of what is taken among what its edges offer, for each edge that offers it, and what it is."""
+        places, kind = [], None
+        for edge in sorted(wanted)[:: max(1, len(wanted) // _EDGES_TRIED)]:
+            final = False
+            while not final:
+                offers, final = find_offers(self.engine.live, edge, list(stops), self._points, 0.0, stops, last)
+                self.engine.live.wait()
+            place = next((i for i, offer in enumerate(offers) if set(offer.edges()) == wanted), None)
+            if place is not None:
+                places.append(place)
+                kind = kind or offers[place].kind
+        return places, kind
 
-def clicks(measure: Any, near: dict[int, set[int]], tool: Blender | Seamwire, seams: Edges) -> int:  # noqa: ANN401
-    """Count the clicks for a set of seams: loops and strips where each saves the most, and wires for what is left."""
+
+def clicks(
+    measure: Any,  # noqa: ANN401
+    near: dict[int, set[int]],
+    tool: Blender | Seamwire,
+    seams: Edges,
+    notches: list[list[int]] | None = None,
+) -> int:
+    """Count the clicks for a set of seams: loops and strips where each saves the most, and wires for what is left.
+
+    The places of what is taken among the offers, for some of its edges, are appended to `notches`.
+    """
     known: dict[tuple[tuple[int, ...], bool], int] = {}
 
     def chain_clicks(chain: list[int], closed: bool) -> int:
@@ -98,7 +129,7 @@ def clicks(measure: Any, near: dict[int, set[int]], tool: Blender | Seamwire, se
     def wire_clicks(left: Edges) -> int:
         return sum(chain_clicks(chain, closed) for chain, closed in measure.chains(sorted(left)))
 
-    total = 0
+    total, last = 0, None
     for left in connected(seams):
         whole, taken, stops = left, 0, frozenset()
         while left:
@@ -107,6 +138,9 @@ def clicks(measure: Any, near: dict[int, set[int]], tool: Blender | Seamwire, se
             best = min(costs, key=costs.__getitem__, default=None)
             if best is None or costs[best] + 1 >= wire_clicks(left):
                 break
+            if notches is not None and isinstance(tool, Seamwire):
+                places, last = tool.notches(best, stops, last)
+                notches += [places] if places else []
             left, taken = left - best, taken + 1
             if tool.stops_at_seams:
                 stops |= {vertex for edge in best for vertex in edge}
@@ -135,7 +169,7 @@ def connected(seams: Edges) -> list[Edges]:
 
 def drawn_once(points: np.ndarray, seams: Edges) -> list[Edges]:
     """Return what is drawn with mirroring on, and what without."""
-    mirror = Mirror(points)
+    mirror = Symmetry(points)
     if not mirror.symmetric_axes:
         return [seams]
     axis = mirror.symmetric_axes[0]
@@ -145,7 +179,7 @@ def drawn_once(points: np.ndarray, seams: Edges) -> list[Edges]:
     return [kept, seams - both]
 
 
-def image_of(mirror: Mirror, axis: int, edge: Pair) -> Pair | None:
+def image_of(mirror: Symmetry, axis: int, edge: Pair) -> Pair | None:
     """Return the mirror image of an edge; None where it has none."""
     image = mirror.partners((axis,))[list(edge)]
     return None if (image < 0).any() else (int(image.min()), int(image.max()))
@@ -159,7 +193,7 @@ def main() -> None:
     chosen = parser.parse_args()
     sys.path.insert(0, str(chosen.seams))
     measure = importlib.import_module("measure")
-    rows = []
+    rows, offered = [], []
     for path in sorted((chosen.seams / "data").glob("*.npz")):
         if chosen.models and path.stem not in chosen.models:
             continue
@@ -167,7 +201,9 @@ def main() -> None:
         seams = frozenset(listed)
         mesh = (points, offsets, corners)
         tools = Blender(*mesh), Seamwire(*mesh)
-        plain = [clicks(measure, near, tool, seams) for tool in tools]
+        notches: list[list[int]] = []
+        plain = [clicks(measure, near, tool, seams, notches) for tool in tools]
+        offered += notches
         parts = drawn_once(points, seams)
         # Whoever sees that mirroring costs more than it saves leaves it off.
         mirrored = [
@@ -187,6 +223,9 @@ def main() -> None:
             len(rows), *ratios
         )
     )
+    first = np.mean([np.mean(np.array(places) == 0) for places in offered])
+    turned = np.mean([np.mean(places) for places in offered])
+    print(f"{len(offered)} loops and strips: offered first {first:.3f}, notches of the wheel {turned:.3f}")
 
 
 if __name__ == "__main__":

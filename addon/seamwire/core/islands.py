@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The segments that wires and seams cut a mesh into, computed beside the drawing. Knows neither Blender nor the GPU."""
+"""The islands that wires and seams cut a mesh into, computed beside the drawing. Knows neither Blender nor the GPU."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 Label = Callable[["NDArray[np.int32]"], "NDArray[np.int32]"]
-"""Takes cut edges, (c, 2), and returns a label for every triangle: 0, 1, ..., largest segment first."""
+"""Takes cut edges, (c, 2), and returns a label for every triangle: 0, 1, ..., largest island first."""
 
 AT_ONCE = 20_000
 """Triangles up to which the answer takes a few milliseconds, so that a thread would only make it late."""
 _TOLD_APART = 4096
-"""Segments beyond this many are so small that neighbours may share a hue."""
+"""Islands beyond this many are so small that neighbours may share a hue."""
 
 
 @dataclass(frozen=True)
-class Segments:
+class Islands:
     """What a network cuts a mesh into.
 
     Parameters
@@ -31,13 +31,13 @@ class Segments:
     key
         What it was asked for by.
     count
-        How many segments there are.
+        How many islands there are.
     labels
         (m,) of each triangle.
     hues
         (count,) a number below the number of hues for each; neighbours across a cut have different ones.
     cut
-        Whether anything was cut: else the segments are the parts that the mesh has anyway.
+        Whether anything was cut: else the islands are the parts that the mesh has anyway.
     pieces
         For each hue that is used: it, and its triangles, (k, 3).
     """
@@ -50,15 +50,15 @@ class Segments:
     pieces: tuple[tuple[int, NDArray[np.int32]], ...]
 
 
-class SegmentMaker:
-    """Computes segments on a thread of its own; of several requests the newest wins.
+class IslandMaker:
+    """Computes islands on a thread of its own; of several requests the newest wins.
 
     Parameters
     ----------
     triangles
         (m, 3).
     label
-        What tells the segments apart; called on the thread.
+        What tells the islands apart; called on the thread.
     hues
         How many colours there are.
     """
@@ -72,7 +72,7 @@ class SegmentMaker:
         self._working = False
         self._closed = False
         self._error: Exception | None = None
-        self._newest: Segments | None = None
+        self._newest: Islands | None = None
 
     @property
     def busy(self) -> bool:
@@ -80,14 +80,14 @@ class SegmentMaker:
         return self._working
 
     @property
-    def newest(self) -> Segments | None:
+    def newest(self) -> Islands | None:
         """What was computed last. Raises what went wrong on the thread."""
         if self._error is not None:
             raise self._error
         return self._newest
 
     def want(self, key: object, cuts: Iterable[tuple[int, int]] | NDArray[np.int32]) -> None:
-        """Ask for the segments that cut edges make; `key` is how the answer is known."""
+        """Ask for the islands that cut edges make; `key` is how the answer is known."""
         edges = np.array(cuts if isinstance(cuts, np.ndarray) else list(cuts), dtype=np.int32).reshape(-1, 2)
         if len(self._triangles) <= AT_ONCE:
             self._newest = self._make(key, edges)
@@ -97,7 +97,7 @@ class SegmentMaker:
             if self._working:
                 return
             self._working = True
-        threading.Thread(target=self._work, name="seamwire-segments", daemon=True).start()
+        threading.Thread(target=self._work, name="seamwire-islands", daemon=True).start()
 
     def close(self) -> None:
         """Drop what is asked for; a running computation ends unseen."""
@@ -122,7 +122,7 @@ class SegmentMaker:
             if not self._closed:
                 self._newest = made
 
-    def _make(self, key: object, cuts: NDArray[np.int32]) -> Segments:
+    def _make(self, key: object, cuts: NDArray[np.int32]) -> Islands:
         labels = np.asarray(self._label(cuts), dtype=np.int32)
         if labels.shape != (len(self._triangles),):
             raise ValueError(f"{labels.shape} labels for {len(self._triangles)} triangles")
@@ -136,10 +136,10 @@ class SegmentMaker:
             for hue in range(self._hues)
             if bounds[hue] < bounds[hue + 1]
         )
-        return Segments(key, count, labels, hues, len(cuts) > 0, pieces)
+        return Islands(key, count, labels, hues, len(cuts) > 0, pieces)
 
     def _wishes(self, labels: NDArray[np.int32], count: int) -> NDArray[np.int64]:
-        """Return the hue that most of each segment had before, so that a new wire recolours only what it cuts off."""
+        """Return the hue that most of each island had before, so that a new wire recolours only what it cuts off."""
         if self._newest is None or count > _TOLD_APART:
             return np.arange(count) % self._hues
         before = self._newest.hues[self._newest.labels].astype(np.int64)
@@ -171,12 +171,12 @@ def neighbours(triangles: NDArray[np.int32], labels: NDArray[np.int32], cuts: ND
 
 
 def coloured(count: int, pairs: NDArray[np.int32], wishes: NDArray[np.int64], hues: int) -> NDArray[np.uint8]:
-    """Choose a hue for each segment, unlike those of its neighbours; where there are hues enough, unlike all others.
+    """Choose a hue for each island, unlike those of its neighbours; where there are hues enough, unlike all others.
 
     Parameters
     ----------
     count
-        How many segments, the largest first: it chooses first.
+        How many islands, the largest first: it chooses first.
     pairs
         (k, 2) neighbours.
     wishes
@@ -192,13 +192,13 @@ def coloured(count: int, pairs: NDArray[np.int32], wishes: NDArray[np.int64], hu
         around[one].append(two)
         around[two].append(one)
     used = np.zeros(hues, dtype=np.int64)
-    for segment in range(count):
-        others = range(segment) if count <= hues else (other for other in around[segment] if other < segment)
+    for island in range(count):
+        others = range(island) if count <= hues else (other for other in around[island] if other < island)
         taken = {int(chosen[other]) for other in others}
-        hue = int(chosen[segment])
+        hue = int(chosen[island])
         if hue in taken:
             free = [one for one in range(hues) if one not in taken] or list(range(hues))
             hue = min(free, key=lambda one: (used[one], one))
-        chosen[segment] = hue
+        chosen[island] = hue
         used[hue] += 1
     return chosen

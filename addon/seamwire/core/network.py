@@ -31,16 +31,15 @@ Edge = tuple[int, int]
 
 End = Literal["start", "end"]
 
-LoopKind = Literal["CLOSED", "STRIP", "PAST", "WHOLE", "EDGE"]
+LoopKind = Literal["CLOSED", "STRIP", "PAST", "WHOLE"]
 """What a click on an edge takes: the closed loop of the metric, the straight strip up to what is there already, the same past
-poles, the whole strip, the edge alone."""
+poles, the whole strip."""
 
 LOOP_NAMES: Mapping[LoopKind, str] = {
     "CLOSED": "closed loop",
     "STRIP": "strip",
     "PAST": "strip past poles",
     "WHOLE": "whole strip",
-    "EDGE": "single edge",
 }
 """What the artist reads of them."""
 

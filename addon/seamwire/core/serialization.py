@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .network import LOOP_NAMES, Network, Wire, undirected
+from .spatial_hash import SpatialHash
 from .strokes import Scribble
 
 if TYPE_CHECKING:
@@ -305,8 +306,6 @@ def matched(
     Where the mesh has as many vertices as before and none of the stored ones was lost, numbers count more than places: a
     mesh that was moved by a cell of its own pattern has other vertices in the old places.
     """
-    from .spatial_hash import Cells
-
     if not len(numbers) or not len(points) or not np.isfinite(places).all():
         return np.full(len(numbers), -1), np.zeros(len(numbers), dtype=bool)
     tolerance = max(_TOLERANCE * float(np.ptp(points, axis=0).max()), 1e-12)
@@ -317,7 +316,7 @@ def matched(
         return numbers.copy(), stayed
     mapped = np.where(stayed, numbers, -1)
     if not stayed.all():
-        mapped[~stayed] = Cells(points, tolerance).nearest(places[~stayed])
+        mapped[~stayed] = SpatialHash(points, tolerance).nearest(places[~stayed])
         stayed = mapped >= 0
     return mapped, stayed
 

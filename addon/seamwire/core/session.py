@@ -11,13 +11,12 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from .candidates import only_vertices
-from .edge_loops import taken
+from .edge_loops import Stops, taken
 from .engines import CLAMP_PERCENTILE, STRENGTHS
 from .guidance import Guidance
 from .network import Network, Seed, Snap, Wire, name, undirected
 from .seed_drag import Drag
 from .state import Intent, Queued
-from .straight import Stops
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

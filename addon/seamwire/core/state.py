@@ -11,14 +11,13 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from .candidates import Preview
-from .edge_loops import LoopPreview
+from .edge_loops import LoopPreview, Stops
 from .engines import Engines
 from .history import History
 from .network import Network, Snap, Wire, net_effect, undirected
 from .retrace import Redraws
-from .straight import Stops
 from .strokes import for_library
-from .symmetry import Mirror
+from .symmetry import Symmetry
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -95,6 +94,8 @@ class State:
         (m, 3) those that the surface was made of; None: strokes run through vertices only.
     make_scribble
         Makes of a stroke what the live wires take.
+    topology
+        Whether what is mirrored to what is found by how the mesh hangs together, see `Symmetry`.
 
     Notes
     -----
@@ -113,10 +114,12 @@ class State:
         to_object: NDArray[np.float64] | None = None,
         triangles: NDArray[np.int32] | None = None,
         make_scribble: Callable[[Scribble], object] = for_library,
+        topology: bool = False,
     ) -> None:
         self._points = points
         self._triangles = triangles
-        self._mirror = Mirror(points, edges, to_object)
+        self._mirror = Symmetry(points, edges, to_object, topology, triangles)
+        self._told_one_sided = False
         self._stops = Stops(seams, self._mirror)
         self._engines = Engines(make_live, strength or {}, make_scribble)
         self._network = Network()

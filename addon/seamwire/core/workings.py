@@ -7,12 +7,11 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from .edge_loops import find_offers, others
+from .edge_loops import extension, find_offers, others
 from .network import Network, Seed, Snap, Wire, undirected
 from .retrace import Job, other_way, with_other_way
 from .seed_drag import Leg
 from .state import Queued, State
-from .straight import run_on
 from .strokes import FOR_WIRES
 
 if TYPE_CHECKING:
@@ -116,7 +115,16 @@ class Workings(State):
         self._history.step(self._network)
         self._set(self._with_images(network))
         self._settle()
+        self._tell_one_sided()
         return True
+
+    def _tell_one_sided(self) -> None:
+        """Say, once, that part of a mirrored wire stays alone."""
+        if not self._told_one_sided and self._network.wires:
+            wire = self._network.wires[-1]
+            if wire.mirror and self._mirror.one_sided(wire, wire.mirror):
+                self._told_one_sided = True
+                self.message = "Part of this wire has no mirror image: the mesh is not symmetric there"
 
     def _with_images(self, network: Network) -> Network:
         """Return a network whose wires have found their images."""
@@ -179,12 +187,18 @@ class Workings(State):
         # Wires that were stored have lost their offers: they are those of a click made without them.
         network, known = self._network, self._stops
         if own is not None:
-            network, known = network.without(own), known.without(own, network)
+            network = network.without(own)
         # An edge that is taken already stops itself: what remains to be offered there is more than that.
         stops = None if known.taken(network, pick) else known.of(network, None, pick)
         try:
             offers, self._loop.final = find_offers(
-                self._engine("EDGES"), pick, stops, self._points, self._engines.strengths["EDGES"]
+                self._engine("EDGES"),
+                pick,
+                stops,
+                self._points,
+                self._engines.strengths["EDGES"],
+                kept=known.kept(network),
+                last=next((wire.kind for wire in reversed(network.wires) if wire.kind is not None), None),
             )
         except ValueError as error:
             self.message = str(error)
@@ -240,7 +254,7 @@ class Workings(State):
             return None
         stops = self._stops.of(self._network, active, edge[1:])
         try:
-            wire = run_on(self._engine(), seed, active, edge, stops, self._points)
+            wire = extension(self._engine(), seed, active, edge, stops, self._points)
         except ValueError as error:
             self.message = str(error)
             return None

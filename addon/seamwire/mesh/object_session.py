@@ -112,6 +112,7 @@ class ObjectSession:
             edges=self.arrays.edges,
             to_object=self.arrays.to_object,
             triangles=self.arrays.triangles,
+            topology=obj.data.use_mirror_topology,
         )
         self.problem = ""
         self.generation = 0

@@ -44,7 +44,6 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
                 "Straight on as well where other than four edges meet, up to seams, other wires and the mirror",
             ),
             ("WHOLE", "Whole Strip", "Straight on both ways, across seams and wires"),
-            ("EDGE", "Edge", "The edge alone"),
         ),
         default="FIRST",
     )

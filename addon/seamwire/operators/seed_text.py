@@ -113,9 +113,7 @@ def _turn_to(session: Session, edge: Edge, kind: LoopKind) -> bool:
     wanted: LoopKind | None = kind
     if kind not in edges:
         closed, strip = edges.get("CLOSED"), edges.get("STRIP")
-        if kind == "EDGE":
-            wanted = next((other for other, found in edges.items() if len(found) == 1), None)
-        elif kind == "CLOSED" or closed is None:
+        if kind == "CLOSED" or closed is None:
             wanted = "STRIP" if kind in {"PAST", "WHOLE"} and strip is not None else None
         else:
             wanted = "CLOSED" if strip is None or strip <= closed else "STRIP"

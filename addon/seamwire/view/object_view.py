@@ -67,7 +67,7 @@ class ObjectView:
         arrays = self.mesh.arrays
         core, surface = native.load(), self.mesh.surface
         assert surface is not None
-        self._islands = islands.SegmentMaker(
+        self._islands = islands.IslandMaker(
             arrays.triangles, lambda cuts: core.face_segments(surface.get(), cuts), HUES
         )
         self._picker = Picker(self.mesh.cage.bm, arrays, self.mesh.plain_seams)

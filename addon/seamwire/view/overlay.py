@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from ..core.islands import SegmentMaker
+    from ..core.islands import IslandMaker
     from ..core.network import Edge, Pick, Wire
     from ..core.session import Session
 
@@ -100,7 +100,7 @@ class Overlay:
         to_object: NDArray[np.float64],
         *,
         triangles: NDArray[np.int32] | None = None,
-        segments: SegmentMaker | None = None,
+        segments: IslandMaker | None = None,
         seams: ArrayLike = (),
         preferences: object | None = None,
     ) -> None:

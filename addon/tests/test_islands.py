@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Segments: their pieces, their hues, and the thread they are made on."""
+"""Islands: their pieces, their hues, and the thread they are made on."""
 
 import threading
 import time
@@ -7,7 +7,7 @@ import time
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from seamwire.core.islands import SegmentMaker, coloured, neighbours
+from seamwire.core.islands import IslandMaker, coloured, neighbours
 
 
 def strip(count: int) -> NDArray[np.int32]:
@@ -30,7 +30,7 @@ def labelled(count: int) -> object:
     return label
 
 
-def finished(maker: SegmentMaker) -> None:
+def finished(maker: IslandMaker) -> None:
     end = time.monotonic() + 20.0
     while maker.busy:
         assert time.monotonic() < end
@@ -39,7 +39,7 @@ def finished(maker: SegmentMaker) -> None:
 
 def test_pieces_are_all_triangles_once() -> None:
     triangles = strip(30)
-    maker = SegmentMaker(triangles, labelled(30))
+    maker = IslandMaker(triangles, labelled(30))
     maker.want("a", cut_at(30, 4, 11, 20))
     found = maker.newest
     assert found.key == "a"
@@ -60,7 +60,7 @@ def test_neighbours_are_those_that_meet_at_a_cut() -> None:
     assert pairs.tolist() == [[0, 1], [1, 2]]
 
 
-def test_a_cut_inside_one_segment_has_no_neighbours() -> None:
+def test_a_cut_inside_one_island_has_no_neighbours() -> None:
     triangles = strip(6)
     pairs = neighbours(triangles, np.zeros(12, dtype=np.int32), cut_at(6, 3))
     assert pairs.shape == (0, 2)
@@ -82,13 +82,13 @@ def test_more_neighbours_than_hues_are_no_error() -> None:
     assert coloured(20, pairs, np.zeros(20, dtype=np.int64), 12).max() < 12
 
 
-def test_few_segments_have_each_a_hue_of_their_own() -> None:
+def test_few_islands_have_each_a_hue_of_their_own() -> None:
     none = np.empty((0, 2), dtype=np.int32)
     assert len(set(coloured(12, none, np.zeros(12, dtype=np.int64), 12).tolist())) == 12
 
 
 def test_a_new_cut_recolours_only_what_it_cuts_off() -> None:
-    maker = SegmentMaker(strip(30), labelled(30))
+    maker = IslandMaker(strip(30), labelled(30))
     maker.want(1, cut_at(30, 10))
     first = maker.newest
     maker.want(2, cut_at(30, 10, 25))
@@ -110,7 +110,7 @@ def test_a_large_mesh_is_done_on_a_thread_and_the_newest_request_wins() -> None:
         assert go.wait(20.0)
         return inner(cuts)
 
-    maker = SegmentMaker(strip(count), slow)
+    maker = IslandMaker(strip(count), slow)
     for number in range(1, 6):
         maker.want(number, cut_at(count, *range(100, 100 + number)))
         assert maker.busy
@@ -127,7 +127,7 @@ def test_what_goes_wrong_on_the_thread_comes_out() -> None:
     def fail(_: NDArray[np.int32]) -> NDArray[np.int32]:
         raise RuntimeError("as the test wants it")
 
-    maker = SegmentMaker(strip(15_000), fail)
+    maker = IslandMaker(strip(15_000), fail)
     maker.want(1, cut_at(15_000, 3))
     finished(maker)
     with pytest.raises(RuntimeError, match="as the test wants it"):
@@ -142,7 +142,7 @@ def test_nothing_comes_after_the_end() -> None:
         assert go.wait(20.0)
         return labelled(count)(cuts)
 
-    maker = SegmentMaker(strip(count), slow)
+    maker = IslandMaker(strip(count), slow)
     maker.want(1, cut_at(count, 5))
     maker.close()
     go.set()
@@ -151,13 +151,13 @@ def test_nothing_comes_after_the_end() -> None:
 
 
 def test_a_wrong_number_of_labels_is_refused() -> None:
-    maker = SegmentMaker(strip(4), lambda _: np.zeros(3, dtype=np.int32))
+    maker = IslandMaker(strip(4), lambda _: np.zeros(3, dtype=np.int32))
     with pytest.raises(ValueError, match="labels"):
         maker.want(1, cut_at(4, 2))
 
 
 def test_no_triangles_are_no_segments() -> None:
-    maker = SegmentMaker(np.empty((0, 3), dtype=np.int32), lambda _: np.empty(0, dtype=np.int32))
+    maker = IslandMaker(np.empty((0, 3), dtype=np.int32), lambda _: np.empty(0, dtype=np.int32))
     maker.want(1, [])
     assert maker.newest.count == 0
     assert maker.newest.pieces == ()
