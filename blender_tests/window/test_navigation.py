@@ -10,8 +10,6 @@ import pytest
 import ui as driver
 from desk import Desk
 from scene import chain, seams
-from seamwire.operators import navigation
-from seamwire.operators.navigation import Meaning
 
 
 def begin(desk: Desk) -> None:
@@ -177,21 +175,23 @@ def test_with_the_industry_compatible_keymap_alt_and_the_mouse_move_the_view(ind
 
 
 def test_what_a_key_means_is_read_from_the_users_keymap(desk: Desk) -> None:
-    manager = bpy.context.window_manager
-
-    def meaning(kind: str, **held: bool) -> Meaning:
-        handed = event(desk, kind, **held)
-        handed.value = "PRESS"
-        return navigation.meaning(handed, manager)
-
-    assert meaning("NUMPAD_1") is Meaning.NOTHING
-    assert meaning("S", ctrl=True) is Meaning.NOTHING
-    assert meaning("TAB") is Meaning.OTHER
-    keys = manager.keyconfigs.user.keymaps["3D View"].keymap_items
-    own = keys.new("view3d.view_all", "F19", "PRESS")
+    keys = bpy.context.window_manager.keyconfigs.user.keymaps["3D View"].keymap_items
+    own = keys.new("view3d.view_axis", "F19", "PRESS")
+    own.properties.type = "FRONT"
     try:
-        assert meaning("F19") is Meaning.NOTHING
-        own.idname = "mesh.delete"
-        assert meaning("F19") is Meaning.OTHER
+        begin(desk)
+        ui = desk.ui
+        turned = ui.view.view_rotation.copy()
+        ui.key("F19")
+        assert ui.view.view_rotation.rotation_difference(turned).angle > 0.1
+        assert desk.running
+        ui.look_from_top(distance=4.0)
+        own.idname = "mesh.select_all"
+        ui.move(desk.at(44))
+        ui.click(desk.at(44))
+        ui.wait_until(lambda: len(desk.session.wires) == 1)
+        ui.key("F19")
+        assert not desk.running
+        assert seams(desk.obj) == chain(*range(36, 45))
     finally:
         keys.remove(own)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import bmesh
@@ -202,7 +203,9 @@ def test_ctrl_s_saves_what_is_drawn_so_far_and_the_chain_goes_on(desk: Desk, tmp
     ui.key("ESC")
     assert seams(desk.obj) == ROW
     bpy.ops.object.mode_set(mode="OBJECT")
-    with bpy.data.libraries.load(str(path), link=False) as (inside, wanted):
+    copy = tmp_path / "copy.blend"  # Blender does not load from the file that is open
+    shutil.copy(path, copy)
+    with bpy.data.libraries.load(str(copy), link=False) as (inside, wanted):
         wanted.objects = inside.objects
     saved = wanted.objects[0].data
     assert sorted(tuple(sorted(edge.vertices)) for edge in saved.edges if edge.use_seam) == ROW

@@ -10,6 +10,8 @@ import bpy
 from ..core.engines import CLAMP_PERCENTILE, CLAMP_RANGE, STRENGTH_RANGE, STRENGTHS
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from ..core.network import Along
 
 ADDON = __package__.rpartition(".")[0]
@@ -28,7 +30,13 @@ METRIC_ITEMS = (
 )
 
 
-def _redraw(_settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+listeners: list[Callable[[], None]] = []
+"""Called when a setting was changed: what is drawn follows at once."""
+
+
+def _changed(_settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    for listener in tuple(listeners):
+        listener()
     for window in context.window_manager.windows:
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
@@ -43,18 +51,18 @@ def strength_property(along: Along) -> object:
         default=STRENGTHS[along],
         min=STRENGTH_RANGE[0],
         max=STRENGTH_RANGE[1],
-        update=_redraw,
+        update=_changed,
     )
 
 
 class SeamwireSettings(bpy.types.PropertyGroup):
     """How wires are drawn; sessions follow them, and they follow the keys of a chain."""
 
-    along: bpy.props.EnumProperty(name="Along", description="Where wires run", items=ALONG_ITEMS, update=_redraw)
+    along: bpy.props.EnumProperty(name="Along", description="Where wires run", items=ALONG_ITEMS, update=_changed)
     strength_edges: strength_property("EDGES")
     strength_surface: strength_property("SURFACE")
     metric: bpy.props.EnumProperty(
-        name="Metric", description="What draws wires to features", items=METRIC_ITEMS, update=_redraw
+        name="Metric", description="What draws wires to features", items=METRIC_ITEMS, update=_changed
     )
     clamp: bpy.props.FloatProperty(
         name="Feature Percentile",
@@ -63,10 +71,10 @@ class SeamwireSettings(bpy.types.PropertyGroup):
         min=CLAMP_RANGE[0],
         max=CLAMP_RANGE[1],
         precision=1,
-        update=_redraw,
+        update=_changed,
     )
     clear: bpy.props.BoolProperty(
-        name="Clear Seams", description="Clear seams instead of marking them", default=False, update=_redraw
+        name="Clear Seams", description="Clear seams instead of marking them", default=False, update=_changed
     )
     stroke_radius: bpy.props.FloatProperty(
         name="Stroke Radius",
@@ -81,10 +89,10 @@ class SeamwireSettings(bpy.types.PropertyGroup):
         name="Snap to Features",
         description="Snap to the strongest feature within a few pixels of the cursor",
         default=False,
-        update=_redraw,
+        update=_changed,
     )
     xray: bpy.props.BoolProperty(
-        name="X-Ray", description="Show wires, and pick, through the mesh", default=False, update=_redraw
+        name="X-Ray", description="Show wires, and pick, through the mesh", default=False, update=_changed
     )
 
 

@@ -28,6 +28,7 @@ class Action(Enum):
     GUIDE = "Draw Guide Stroke (drag)"
     AVOID = "Draw Avoid Stroke (drag)"
     END = "End Chain"
+    CANCEL = "Cancel Wire"
     NEXT = "Next Candidate"
     STRONGER = "Follow Shape More"
     WEAKER = "Follow Shape Less"
@@ -64,6 +65,7 @@ NUMBERS = {
     Action.KEYS: 18,
     Action.UNDO: 19,
     Action.REDO: 20,
+    Action.CANCEL: 21,
 }
 """What Blender stores of an action with the keys that a user has changed: a number is never given to another action."""
 
@@ -127,7 +129,7 @@ KEYS: tuple[tuple[Action, Key], ...] = (
     (Action.END, Key("RIGHTMOUSE")),
     (Action.END, Key("RET")),
     (Action.END, Key("NUMPAD_ENTER")),
-    (Action.END, Key("ESC", **_ANY)),
+    (Action.CANCEL, Key("ESC", **_ANY)),
     (Action.NEXT, Key("W")),
     (Action.NEXT, Key("W", alt=1)),
     (Action.NEXT, Key("WHEELUPMOUSE", alt=1)),

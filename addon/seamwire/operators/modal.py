@@ -80,6 +80,8 @@ class Chain:
             for handlers, handler in ((bpy.app.handlers.save_pre, _on_save), (bpy.app.handlers.load_pre, _on_load)):
                 handlers.append(handler)
                 self._cleanup.callback(handlers.remove, handler)
+            chosen.listeners.append(self._on_settings)
+            self._cleanup.callback(chosen.listeners.remove, self._on_settings)
             running.append(self)
             self._cleanup.callback(running.remove, self)
         except BaseException:
@@ -134,22 +136,24 @@ class Chain:
     def trouble(self, context: bpy.types.Context) -> str:
         """Say why it cannot go on; an empty string where it can. Raises what an overlay could not draw."""
         edited.take_error()
+        reason = ""
         if context.mode != "EDIT_MESH":
-            return "Edit mode was left"
-        if context.workspace != self._workspace:
-            return "Another workspace was opened"
+            reason = "Edit mode was left"
+        elif context.workspace != self._workspace:
+            reason = "Another workspace was opened"
         view = self._drawn
         if view is None or not (view.stale or not view.mesh.alive()):
-            return ""
+            return reason
         # Blender says that the mesh was changed. Seams may be: others may mark them.
         obj = bpy.data.objects.get(view.name)
         if obj is None:
+            self._drawn = None
             return "The object was removed"
         if not view.mesh.follow_change(obj):
-            return "The mesh was changed"
+            return reason or "The mesh was changed"
         view.stale = False
         view.renew()
-        return ""
+        return reason
 
     # How it ends
 
@@ -191,9 +195,10 @@ class Chain:
     @staticmethod
     def _write(view: ObjectView, adopt: bool) -> tuple[int, int]:
         counts = view.mesh.write(view.mesh.plan(), adopt)
-        view.renew()
-        # Blender tells of this change as of any other.
-        view.stale, view.wrote = False, True
+        if view.mesh.alive():
+            view.renew()
+            # Blender tells of this change as of any other.
+            view.stale, view.wrote = False, True
         return counts
 
     def drop(self) -> None:
@@ -233,7 +238,6 @@ class Chain:
 
     def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> bool:
         """Do what an event asks for; return whether Blender is to have it too. Where the chain ends, `idle` tells."""
-        edited.follow_settings()
         if event.type == "TIMER":
             self._tick()
             return True
@@ -241,6 +245,8 @@ class Chain:
             event.type == "WINDOW_DEACTIVATE" or (event.type == self._peek and event.value == "RELEASE")
         ):
             self._peek = ""
+        for view in edited.views():
+            view.mesh.follow_mirror()
         place = place_of(self._window, event)
         double = self._clicks.is_second(event, time.monotonic(), context.preferences)
         if self._hold is not None and event.type == self._hold.button and event.value == "RELEASE":
@@ -292,6 +298,8 @@ class Chain:
             self._peek = ""
         if action is Action.END:
             self._end()
+        elif action is Action.CANCEL:
+            self._end(wait=False)
         elif action in _CLICKS:
             self._click(action, place, event)
         elif action in _STROKES:
@@ -306,12 +314,12 @@ class Chain:
         self._after()
         return False
 
-    def _end(self) -> None:
-        """Let go of what is live; clicks that wait for their wires are done first."""
+    def _end(self, wait: bool = True) -> None:
+        """Let go of what is live; clicks that wait for their wires are done first, or forgotten."""
         self._begun, self._peek = True, ""
         if self._cancel_hold():
             return
-        if any(view.session.waiting_clicks for view in edited.views()):
+        if wait and any(view.session.waiting_clicks for view in edited.views()):
             self._ending = True
             self.message = "Ending as soon as the last wire is computed"
             return
@@ -334,6 +342,10 @@ class Chain:
     def _note(self, done: str) -> None:
         if done not in self.done:
             self.done.append(done)
+
+    def _on_settings(self) -> None:
+        edited.follow_settings()
+        self.show()
 
     def _tick(self) -> None:
         edited.poll()

@@ -105,6 +105,8 @@ class EditedObjects:
         for name, handler in _HANDLERS:
             if handler in getattr(bpy.app.handlers, name):
                 getattr(bpy.app.handlers, name).remove(handler)
+        if self._on_settings in chosen.listeners:
+            chosen.listeners.remove(self._on_settings)
         for name in tuple(self._views):
             self._remove(name)
         while self._handles:
@@ -169,6 +171,10 @@ class EditedObjects:
         for view in self.views():
             view.mesh.follow(settings)
             view.mesh.follow_mirror()
+
+    def _on_settings(self) -> None:
+        self.follow_settings()
+        self.watch()
 
     def refresh(self) -> None:
         """Read those anew whose meshes have changed; those that are other meshes now, when they are pointed at.
@@ -246,6 +252,8 @@ class EditedObjects:
             handlers = getattr(bpy.app.handlers, name)
             if handler not in handlers:
                 handlers.append(handler)
+        if self._on_settings not in chosen.listeners:
+            chosen.listeners.append(self._on_settings)
         if not self._handles and not bpy.app.background:
             add = bpy.types.SpaceView3D.draw_handler_add
             self._handles = [

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Drawing in views of every kind: with perspective, on a display of larger scale, clipped, from a second window, on a shape key."""
+
+from collections.abc import Iterator
+
+import bmesh
+import bpy
+import pytest
+import ui as driver
+from desk import ORANGE, WHITE, Desk, choose, draw, leave, shows
+from scene import add_grid, chain, seams
+from seamwire.operators.report import running
+from seamwire.ui import status_bar
+from seamwire.view.edited_objects import edited
+
+ROW = chain(*range(36, 45))
+
+
+@pytest.fixture
+def scaled(ui: driver.Ui) -> Iterator[driver.Ui]:
+    """A display of scale 1.75."""
+    view = bpy.context.preferences.view
+    view.ui_scale = 1.75
+    ui.wait(4, redraw=True)
+    yield ui
+    view.ui_scale = 1.0
+    ui.wait(4, redraw=True)
+
+
+def test_in_perspective_wires_lie_where_they_are_seen(desk: Desk) -> None:
+    ui = desk.ui
+    ui.look((0.9, 0.35, 0.1, 0.2), (0.0, 0.0, 0.0), 4.0)
+    ui.view.view_perspective = "PERSP"
+    ui.wait(redraw=True)
+    choose(ui)
+    ui.click(desk.at(36))
+    session = desk.session
+    ui.move(desk.at(44))
+    ui.wait_until(lambda: session.active is not None)
+    assert session.active.vertices == tuple(range(36, 45))
+    pixels = ui.pixels()
+    assert all(shows(pixels, desk.at(v, v + 1), ORANGE) for v in range(37, 43))
+    ui.click(desk.at(44))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.key("RET")
+    assert seams(desk.obj) == ROW
+
+
+def test_at_a_scale_of_one_and_three_quarters_it_draws_and_says_first_what_matters(scaled: driver.Ui) -> None:
+    desk = Desk(scaled, add_grid(9))
+    try:
+        session = desk.choose()
+        scaled.click(desk.at(36))
+        scaled.move(desk.at(44))
+        scaled.wait_until(lambda: session.active is not None)
+        hints = [text for _, text in status_bar.hints(status_bar.status_of(desk.chain)) if "Computing" not in text]
+        assert "Keep Wire" in hints[0]
+        assert "End Chain" in " ".join(hints[1:3])
+        scaled.click(desk.at(44))
+        scaled.wait_until(lambda: len(session.wires) == 1)
+        scaled.key("RET")
+        assert seams(desk.obj) == ROW
+    finally:
+        leave(scaled)
+
+
+def test_what_the_clipping_border_hides_is_neither_picked_nor_drawn(desk: Desk) -> None:
+    ui = desk.ui
+    session = desk.choose()
+    draw(desk, 36, 44)
+    left, right = desk.at(37), desk.at(43)
+    middle = desk.at(40)
+    with ui.override():
+        bpy.ops.view3d.clip_border(
+            xmin=round(middle[0]), xmax=ui.region.width - 5, ymin=5, ymax=ui.region.height - 5, wait_for_input=False
+        )
+    ui.wait(redraw=True)
+    assert ui.view.use_clip_planes
+    try:
+        ui.move(right)
+        assert session.target is not None
+        ui.move(left)
+        assert session.target is None
+        ui.move((right[0], right[1] + 40.0))
+        pixels = ui.pixels()
+        assert not shows(pixels, desk.at(36), WHITE)
+        assert shows(pixels, desk.at(44), WHITE)
+    finally:
+        ui.view.use_clip_planes = False
+
+
+def test_drawing_is_on_the_shape_that_is_seen(ui: driver.Ui) -> None:
+    obj = add_grid(9)
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="Lifted")
+    for number, point in enumerate(key.data):
+        point.co.x *= 0.5
+        point.co.z = 0.2 * (number % 9)
+    key.value = 1.0
+    obj.active_shape_key_index = 1
+    desk = Desk(ui, obj)
+    try:
+        session = desk.choose()
+        bm = bmesh.from_edit_mesh(obj.data)
+        bm.verts.ensure_lookup_table()
+        assert abs(bm.verts[8].co.x - 0.5) < 1e-6
+        ui.move(desk.at(44))
+        assert session.target.pick == 44
+        draw(desk, 36, 44)
+        assert not running
+        assert seams(desk.obj) == ROW
+        assert [tuple(point.co) for point in obj.data.shape_keys.key_blocks["Basis"].data][8][0] == 1.0
+    finally:
+        leave(ui)
+
+
+def test_blenders_undo_in_a_second_window_leaves_a_chain_its_wires(desk: Desk) -> None:
+    ui = desk.ui
+    desk.choose()
+    ui.click(desk.at(36))
+    ui.click(desk.at(44))
+    session = desk.session
+    ui.wait_until(lambda: len(session.wires) == 1)
+    name = desk.name
+    with ui.override():
+        bpy.ops.wm.window_new()
+    other = next(window for window in bpy.context.window_manager.windows if window != ui.window)
+    ui.wait(4)
+    try:
+        x, y = other.width // 2, other.height // 2
+        other.event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y)
+        for value in ("PRESS", "RELEASE"):
+            other.event_simulate(type="Z", value=value, x=x, y=y, ctrl=True)
+        ui.wait(4)
+    finally:
+        with bpy.context.temp_override(window=other):
+            bpy.ops.wm.window_close()
+        ui.wait(4)
+    ui.move(desk.at(60))
+    ui.key("ESC")
+    assert not running
+    obj = bpy.data.objects.get(name)
+    if obj is not None and obj.mode == "EDIT":
+        assert seams(obj) in (ROW, []), "kept, or undone with all else"
+        assert bool(edited.of(obj).session.wires) == bool(seams(obj))
