@@ -7,7 +7,7 @@ import time
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from seamwire.core.islands import IslandMaker, coloured, neighbours
+from seamwire.core.islands import IslandMaker, choose_hues, neighbours, places_of
 
 
 def strip(count: int) -> NDArray[np.int32]:
@@ -66,36 +66,104 @@ def test_a_cut_inside_one_island_has_no_neighbours() -> None:
     assert pairs.shape == (0, 2)
 
 
-@pytest.mark.parametrize("count", [2, 7, 60])
-def test_neighbours_have_different_hues(count: int) -> None:
+ANY = -1
+PLACES = np.array(places_of(12))
+
+
+def gaps(hues: NDArray[np.uint8], pairs: NDArray[np.int32]) -> NDArray[np.int64]:
+    return np.abs(PLACES[hues[pairs[:, 0]]] - PLACES[hues[pairs[:, 1]]])
+
+
+def honeycomb(size: int) -> NDArray[np.int32]:
+    """Return the pairs of neighbors among size x size cells, up to six each: as islands most often meet, by threes."""
+    numbers = np.arange(size * size).reshape(size, size)
+    ways = (numbers[:, :-1], numbers[:, 1:]), (numbers[:-1], numbers[1:]), (numbers[:-1, 1:], numbers[1:, :-1])
+    return np.sort(np.concatenate([np.stack([a.ravel(), b.ravel()], axis=1) for a, b in ways]), axis=1).astype(np.int32)
+
+
+@pytest.mark.parametrize("size", [2, 5, 20, 60])
+def test_neighbors_have_hues_that_are_far_apart(size: int) -> None:
+    numbers = np.random.default_rng(size).permutation(size * size)
+    pairs = np.sort(numbers[honeycomb(size)], axis=1).astype(np.int32)
+    hues = choose_hues(np.full(size * size, ANY), pairs, 12)
+    assert gaps(hues, pairs).min() >= 3
+
+
+@pytest.mark.parametrize("count", [7, 60])
+def test_neighbors_have_different_hues_however_many_there_are(count: int) -> None:
     rng = np.random.default_rng(count)
     pairs = np.unique(np.sort(rng.integers(0, count, (2 * count, 2)), axis=1), axis=0).astype(np.int32)
     pairs = pairs[pairs[:, 0] != pairs[:, 1]]
-    hues = coloured(count, pairs, np.zeros(count, dtype=np.int64), 12)
-    degree = np.bincount(pairs.reshape(-1), minlength=count).max()
-    assert degree < 12, "else twelve hues might not do"
-    assert (hues[pairs[:, 0]] != hues[pairs[:, 1]]).all()
+    assert gaps(choose_hues(np.full(count, ANY), pairs, 12), pairs).min() >= 2
 
 
 def test_more_neighbours_than_hues_are_no_error() -> None:
     pairs = np.array([(i, j) for i in range(20) for j in range(i + 1, 20)], dtype=np.int32)
-    assert coloured(20, pairs, np.zeros(20, dtype=np.int64), 12).max() < 12
+    assert choose_hues(np.full(20, ANY), pairs, 12).max() < 12
+    assert choose_hues(np.full(20, ANY), pairs, 2).max() < 2
 
 
 def test_few_islands_have_each_a_hue_of_their_own() -> None:
     none = np.empty((0, 2), dtype=np.int32)
-    assert len(set(coloured(12, none, np.zeros(12, dtype=np.int64), 12).tolist())) == 12
+    assert len(set(choose_hues(np.full(12, ANY), none, 12).tolist())) == 12
 
 
-def test_a_new_cut_recolours_only_what_it_cuts_off() -> None:
+def test_of_neighbors_with_hues_too_much_alike_the_larger_keeps_its_own() -> None:
+    close = np.flatnonzero(np.abs(PLACES - PLACES[0]) == 1)[0]
+    pairs = np.array([[0, 1], [1, 2]], dtype=np.int32)
+    hues = choose_hues(np.array([0, close, 7]), pairs, 12)
+    assert hues[[0, 2]].tolist() == [0, 7]
+    assert gaps(hues, pairs).min() >= 3
+
+
+def tinted(maker: IslandMaker, key: object, cuts: NDArray[np.int32]) -> NDArray[np.uint8]:
+    """Return the hue of each triangle."""
+    maker.want(key, cuts)
+    return maker.newest.hues[maker.newest.labels]
+
+
+def test_a_new_cut_recolors_only_what_it_cuts_off_and_dropping_it_nothing_else() -> None:
     maker = IslandMaker(strip(30), labelled(30))
-    maker.want(1, cut_at(30, 10))
-    first = maker.newest
-    maker.want(2, cut_at(30, 10, 25))
-    second = maker.newest
-    before, after = first.hues[first.labels], second.hues[second.labels]
-    assert (before[:50] == after[:50]).all()
-    assert (before[50:] != after[50:]).all()
+    first = tinted(maker, 1, cut_at(30, 10))
+    second = tinted(maker, 2, cut_at(30, 10, 25))
+    assert (first[:50] == second[:50]).all()
+    assert (first[50:] != second[50:]).all()
+    assert (tinted(maker, 3, cut_at(30, 10)) == first).all()
+
+
+def test_hues_stay_whatever_is_cut_and_dropped_elsewhere() -> None:
+    count = 200
+    maker = IslandMaker(strip(count), labelled(count))
+    rng = np.random.default_rng(8)
+    cuts = set(rng.choice(np.arange(5, count), 25, replace=False).tolist())
+    before = tinted(maker, 0, cut_at(count, *sorted(cuts)))
+    for step in range(60):
+        # Add one, or drop one.
+        at = int(rng.integers(5, count))
+        at = at if at not in cuts and step % 2 == 0 else int(rng.choice(sorted(cuts)))
+        cuts ^= {at}
+        after = tinted(maker, step + 1, cut_at(count, *sorted(cuts)))
+        bounds = np.array([0, *sorted(cuts - {at}), count])
+        here = np.searchsorted(bounds, at, side="right")
+        touched = np.zeros(2 * count, dtype=bool)
+        touched[2 * bounds[here - 1] : 2 * bounds[here]] = True
+        left, right = 2 * bounds[here - 1], 2 * bounds[here]
+        assert (after[:left] == before[:left]).all() or len(set(after[left:right])) == 1
+        changed = (after != before) & ~touched
+        # Where two islands have become one, its neighbor may have a hue too much like it: that alone gives way.
+        assert len(np.unique(np.searchsorted(sorted(cuts), np.flatnonzero(changed) // 2, side="right"))) <= 1
+        newest = maker.newest
+        pairs = neighbours(strip(count), newest.labels, cut_at(count, *sorted(cuts)))
+        assert gaps(newest.hues, pairs).min() >= 3
+        before = after
+
+
+def test_of_what_a_cut_leaves_the_largest_keeps_the_hue() -> None:
+    maker = IslandMaker(strip(30), labelled(30))
+    whole = tinted(maker, 0, cut_at(30))
+    ring = tinted(maker, 1, cut_at(30, 5, 11))
+    assert (ring[22:] == whole[22:]).all()
+    assert len({int(ring[0]), int(ring[15]), int(ring[40])}) == 3, "also what lies beyond it"
 
 
 def test_a_large_mesh_is_done_on_a_thread_and_the_newest_request_wins() -> None:

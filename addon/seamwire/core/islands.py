@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import heapq
 import threading
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -19,7 +20,10 @@ Label = Callable[["NDArray[np.int32]"], "NDArray[np.int32]"]
 AT_ONCE = 20_000
 """Triangles up to which the answer takes a few milliseconds, so that a thread would only make it late."""
 _TOLD_APART = 4096
-"""Islands beyond this many are so small that neighbours may share a hue."""
+"""Islands beyond this many are so small that neighbors may share a hue."""
+_CLEAR = 3
+"""By how many places in the rainbow the hues of neighbors differ wherever that can be: 60 degrees of the circle of hues, where
+12 hues share two thirds of it."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +39,7 @@ class Islands:
     labels
         (m,) of each triangle.
     hues
-        (count,) a number below the number of hues for each; neighbours across a cut have different ones.
+        (count,) a number below the number of hues for each; those of neighbors across a cut are far apart, see `places_of`.
     cut
         Whether anything was cut: else the islands are the parts that the mesh has anyway.
     pieces
@@ -60,7 +64,7 @@ class IslandMaker:
     label
         What tells the islands apart; called on the thread.
     hues
-        How many colours there are.
+        How many colors there are.
     """
 
     def __init__(self, triangles: NDArray[np.int32], label: Label, hues: int = 12) -> None:
@@ -127,7 +131,7 @@ class IslandMaker:
         if labels.shape != (len(self._triangles),):
             raise ValueError(f"{labels.shape} labels for {len(self._triangles)} triangles")
         count = int(labels.max(initial=-1)) + 1
-        hues = coloured(count, neighbours(self._triangles, labels, cuts), self._wishes(labels, count), self._hues)
+        hues = choose_hues(self._inherited(labels, count), neighbours(self._triangles, labels, cuts), self._hues)
         of_triangle = hues[labels]
         order = np.argsort(of_triangle, kind="stable")
         bounds = np.searchsorted(of_triangle[order], np.arange(self._hues + 1))
@@ -138,13 +142,30 @@ class IslandMaker:
         )
         return Islands(key, count, labels, hues, len(cuts) > 0, pieces)
 
-    def _wishes(self, labels: NDArray[np.int32], count: int) -> NDArray[np.int64]:
-        """Return the hue that most of each island had before, so that a new wire recolours only what it cuts off."""
-        if self._newest is None or count > _TOLD_APART:
-            return np.arange(count) % self._hues
-        before = self._newest.hues[self._newest.labels].astype(np.int64)
-        shares = np.bincount(labels.astype(np.int64) * self._hues + before, minlength=count * self._hues)
-        return shares.reshape(count, self._hues).argmax(axis=1)
+    def _inherited(self, labels: NDArray[np.int32], count: int) -> NDArray[np.int64]:
+        """Return the hue that each island keeps, (count,), -1 for what was cut off or is new.
+
+        An island has the hue of the one that most of it belonged to; of several pieces of that, the largest has it.
+        """
+        hues = np.full(count, -1, dtype=np.int64)
+        before = self._newest
+        if before is None or not before.count or max(count, before.count) > _TOLD_APART:
+            return hues
+        shared = np.sort(labels.astype(np.int64) * before.count + before.labels)
+        begin = np.flatnonzero(np.diff(shared, prepend=-1))
+        now, then = np.divmod(shared[begin], before.count)
+        sizes = np.diff(begin, append=len(shared))
+        main = _largest_of_each(now, sizes)
+        now, then, sizes = now[main], then[main], sizes[main]
+        heirs = _largest_of_each(then, sizes)
+        hues[now[heirs]] = before.hues[then[heirs]]
+        return hues
+
+
+def _largest_of_each(groups: NDArray[np.int64], sizes: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return which one is the largest of each group."""
+    order = np.lexsort((sizes, groups))
+    return order[np.diff(groups[order], append=-1) != 0]
 
 
 def neighbours(triangles: NDArray[np.int32], labels: NDArray[np.int32], cuts: NDArray[np.int32]) -> NDArray[np.int32]:
@@ -170,35 +191,76 @@ def neighbours(triangles: NDArray[np.int32], labels: NDArray[np.int32], cuts: ND
     return np.unique(pairs, axis=0)
 
 
-def coloured(count: int, pairs: NDArray[np.int32], wishes: NDArray[np.int64], hues: int) -> NDArray[np.uint8]:
-    """Choose a hue for each island, unlike those of its neighbours; where there are hues enough, unlike all others.
+def places_of(hues: int) -> list[int]:
+    """Return where each of some hues lies in the rainbow: hues with numbers next to each other lie far apart in it."""
+    return [(4 + 5 * hue) % hues for hue in range(hues)]
+
+
+def choose_hues(inherited: NDArray[np.int64], pairs: NDArray[np.int32], hues: int) -> NDArray[np.uint8]:
+    """Choose a hue for each island, far from those of its neighbors, and one that few others have.
 
     Parameters
     ----------
-    count
-        How many islands, the largest first: it chooses first.
+    inherited
+        (count,) the hue that each keeps, unless a larger neighbor has one too much like it; -1: any. The largest islands
+        come first.
     pairs
-        (k, 2) neighbours.
-    wishes
-        (count,) the hue that each would have without neighbours.
+        (k, 2) neighbors.
     hues
         How many there are.
+
+    Returns
+    -------
+    (count,) array
+        A hue for each island.
     """
-    chosen = wishes.astype(np.uint8) % hues
+    count = len(inherited)
     if count > _TOLD_APART:
-        return chosen
+        return np.where(inherited >= 0, inherited, np.arange(count) % hues).astype(np.uint8)
+    places = places_of(hues)
     around: list[list[int]] = [[] for _ in range(count)]
     for one, two in pairs.tolist():
         around[one].append(two)
         around[two].append(one)
-    used = np.zeros(hues, dtype=np.int64)
-    for island in range(count):
-        others = range(island) if count <= hues else (other for other in around[island] if other < island)
-        taken = {int(chosen[other]) for other in others}
-        hue = int(chosen[island])
-        if hue in taken:
-            free = [one for one in range(hues) if one not in taken] or list(range(hues))
-            hue = min(free, key=lambda one: (used[one], one))
+    chosen = [-1] * count
+    used = [0] * hues
+    clear = max(1, min(_CLEAR, hues // 4))
+    # Sets of hues as bits: those too near to each, and for each island those that are not too near to a neighbor's.
+    too_near = [
+        sum(1 << other for other in range(hues) if abs(places[hue] - places[other]) < clear) for hue in range(hues)
+    ]
+    free = [(1 << hues) - 1] * count
+
+    def settle(island: int, hue: int) -> None:
         chosen[island] = hue
         used[hue] += 1
-    return chosen
+        for other in around[island]:
+            free[other] &= ~too_near[hue]
+
+    # What was there before stays, the larger first; what cannot is chosen anew with the rest, when all of it is known.
+    for island, hue in enumerate(inherited.tolist()):
+        if hue >= 0 and free[island] >> hue & 1:
+            settle(island, hue)
+    # The one with the fewest hues left is next (Brelaz, New methods to color the vertices of a graph, 1979).
+    waiting = [(free[island].bit_count(), island) for island in range(count) if chosen[island] < 0]
+    heapq.heapify(waiting)
+    while waiting:
+        left, island = heapq.heappop(waiting)
+        if chosen[island] >= 0 or left != free[island].bit_count():
+            continue
+        gaps = [hues] * hues
+        open_to = [free[other] for other in around[island] if chosen[other] < 0]
+        for other in around[island]:
+            if chosen[other] >= 0:
+                place = places[chosen[other]]
+                gaps = [min(gap, abs(places[hue] - place)) for hue, gap in enumerate(gaps)]
+
+        def merit(hue: int, gaps: list[int] = gaps, open_to: list[int] = open_to) -> tuple[int, int, int, int]:
+            taken = sum((mask & too_near[hue]).bit_count() for mask in open_to)
+            return min(gaps[hue], clear), -taken, -used[hue], gaps[hue]
+
+        settle(island, max(range(hues), key=merit))
+        for other in around[island]:
+            if chosen[other] < 0:
+                heapq.heappush(waiting, (free[other].bit_count(), other))
+    return np.array(chosen, dtype=np.uint8)
