@@ -35,7 +35,7 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
         name="Take",
         description="What is taken through the edges given as loops",
         items=(
-            ("FIRST", "First Offered", "The closed loop where there is one, else the strip"),
+            ("FIRST", "First Offered", "What a click on the edge offers first"),
             ("CLOSED", "Closed Loop", "The closed chain of edges that is shortest for its shape"),
             ("STRIP", "Strip", "Straight on both ways, up to seams, other wires and the mirror"),
             (
