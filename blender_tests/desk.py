@@ -164,6 +164,13 @@ def leave(ui: driver.Ui) -> None:
     ui.wait()
 
 
+def dismiss(ui: driver.Ui) -> None:
+    """Move away from a message of Blender's, which closes it."""
+    for step in range(3):
+        ui.move((ui.region.width - 150.0 + step, ui.region.height - 130.0))
+        ui.wait(3)
+
+
 def undo_steps(capfd: pytest.CaptureFixture[str]) -> list[str]:
     """Return the names of the steps in Blender's undo history, which it tells nobody but the terminal."""
     capfd.readouterr()

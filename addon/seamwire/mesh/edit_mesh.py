@@ -201,6 +201,10 @@ class StoredMesh:
         self._pairs = np.sort(_column(mesh.edges, "vertices", np.int32, 2), axis=1)
         self._row_of: dict[tuple[int, int], int] = {}
 
+    def intact(self) -> bool:
+        """Whether it can be drawn on: only an edit mesh can."""
+        return False
+
     def _row(self, pair: tuple[int, int]) -> int | None:
         if not self._row_of:
             self._row_of = {tuple(own): row for row, own in enumerate(self._pairs.tolist())}

@@ -126,12 +126,12 @@ class Chain:
 
     def _leave_objects(self) -> None:
         edited.chain = False
-        for view in edited.views():
-            view.session.hover(None)
-            view.overlay.stroke = None
         edited.watch()
-        edited.show()
         edited.redraw()
+        for view in edited.views():
+            view.overlay.stroke = None
+            view.session.hover(None)
+        edited.show()
 
     def trouble(self, context: bpy.types.Context) -> str:
         """Say why it cannot go on; an empty string where it can. Raises what an overlay could not draw."""
