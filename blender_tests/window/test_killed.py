@@ -98,6 +98,7 @@ def test_blender_saves_what_was_drawn_by_itself_once_edit_mode_is_left(ui: drive
     edited.of(obj)
     with ui.override():
         bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.ops.ed.undo_push(message="Left edit mode")  # as Blender does where a person leaves it
         edit()
     try:
         files.temporary_directory = str(tmp_path)
