@@ -104,7 +104,8 @@ class Plan:
     Parameters
     ----------
     network
-        As it is when that is done: wires that clear seams have done so, and are no wires, nor are those that they cleared.
+        As it is when that is done: wires that clear seams have done so, and are no wires, nor are those that they cleared a
+        part of, whose other edges are plain seams then.
     labels
         The edges' new labels; 0: none.
     mark, clear
@@ -388,9 +389,13 @@ def plan(
     }
     after: dict[Edge, set[int]] = {}
     known: set[int] = set()
+    cut: set[Edge] = set()
     wires = []
     for wire in network.wires:
-        if not wire.marks or not cleared.isdisjoint(wire.edges()):
+        if not wire.marks:
+            continue
+        if not cleared.isdisjoint(wire.edges()):
+            cut.update(wire.claims())
             continue
         number = wire.stored
         if not number:
@@ -409,7 +414,7 @@ def plan(
             after.setdefault(edge, set()).add(number)
     result = Plan(replace(network, wires=tuple(wires)), {}, [], [], frozenset(known))
     old = frozenset(found.known)
-    for edge in sorted({*before, *after, *cleared}):
+    for edge in sorted({*before, *after, *cleared, *cut}):
         _decide(
             result,
             edge,
@@ -419,6 +424,7 @@ def plan(
             found.broken,
             archive,
             edge in cleared,
+            edge in cut,
             is_seam,
         )
     return result
@@ -433,9 +439,10 @@ def _decide(
     broken: frozenset[int],
     archive: Archive,
     cleared: bool,
+    cut: bool,
     is_seam: Callable[[Edge], bool],
 ) -> None:
-    """Add to a plan what one edge is to be."""
+    """Add to a plan what one edge is to be; `cut`: it is left of a wire that was cleared elsewhere."""
 
     def wires(members: Iterable[int]) -> set[int]:
         return {member for member in members if abs(member) in archive.wires}
@@ -445,7 +452,7 @@ def _decide(
     sound = wires(before) - broken
     now = wires(after) | (wires(others) if not cleared else set())
     was_seam = WAS_SEAM in before if sound else seam
-    wanted = False if cleared else bool(now) or (was_seam if sound else seam)
+    wanted = not cleared and (cut or bool(now) or (was_seam if sound else seam))
     members = after | (others if not cleared else others - wires(others))
     if was_seam and now:
         members = members | {WAS_SEAM}
