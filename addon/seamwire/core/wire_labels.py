@@ -493,9 +493,7 @@ def seams_beside(
     wired = [
         edge
         for edge, label in labels.items()
-        if any(
-            abs(member) in archive.wires and (known is None or member in known) for member in archive.members(label)
-        )
+        if any(abs(member) in archive.wires and (known is None or member in known) for member in archive.members(label))
     ]
     if not wired or not len(seams):
         return seams
