@@ -131,7 +131,15 @@ def ends(edges: Iterable[Edge]) -> list[int]:
 
 
 def snapshot(obj: bpy.types.Object, with_seams: bool = True) -> dict[str, object]:
-    """Return all that a mesh in edit mode holds and a tool might change."""
+    """Return all that a mesh in edit mode holds but the add-on's own: every layer of every kind that this Blender has.
+
+    Parameters
+    ----------
+    obj
+        In edit mode.
+    with_seams
+        Whether seams count as well.
+    """
     bm = bmesh.from_edit_mesh(obj.data)
     history = range(len(bm.select_history))
     found: dict[str, object] = {
@@ -141,28 +149,149 @@ def snapshot(obj: bpy.types.Object, with_seams: bool = True) -> dict[str, object
             (tuple(v.index for v in f.verts), f.select, f.hide, f.smooth, f.material_index, tuple(f.normal))
             for f in bm.faces
         ],
+        "active face": None if bm.faces.active is None else bm.faces.active.index,
         # Not iterated: Blender 4.3 cannot, on the Python 3.13 of Debian 13.
         "history": [(type(item).__name__, item.index) for item in map(bm.select_history.__getitem__, history)],
         "mode": tuple(bpy.context.tool_settings.mesh_select_mode),
     }
     if with_seams:
         found["seams"] = [e.seam for e in bm.edges]
-    for domain, items in (("verts", bm.verts), ("edges", bm.edges), ("faces", bm.faces)):
-        for layer in items.layers.float.values():
-            found[f"{domain} {layer.name}"] = [item[layer] for item in items]
-    for layer in bm.loops.layers.uv.values():
-        found[f"uv {layer.name}"] = [tuple(loop[layer].uv) for f in bm.faces for loop in f.loops]
+    items = items_of(bm)
+    for domain, kind, layers in layer_kinds(bm):
+        for name, layer in layers.items():
+            if (domain, kind, name) == ("edges", "int", ".seamwire"):
+                continue
+            if kind == "uv":
+                found[f"uv {name}"] = [tuple(loop[layer].uv) for loop in items[domain]]
+            found[f"{domain} {kind} {name}"] = [plain(item[layer]) for item in items[domain]]
+    return found | of_mesh(obj)
+
+
+def layer_kinds(bm: bmesh.types.BMesh) -> list[tuple[str, str, object]]:
+    """Return the kinds of layers that a bmesh can have, each with its domain and the layers of it that there are."""
+    found = []
+    for domain in ("verts", "edges", "faces", "loops"):
+        layers = getattr(bm, domain).layers
+        names = [name for name in dir(layers) if not name.startswith("_")]
+        found += [(domain, name, getattr(layers, name)) for name in names if hasattr(getattr(layers, name), "items")]
+    return found
+
+
+def items_of(bm: bmesh.types.BMesh) -> dict[str, list[object]]:
+    """Return a bmesh's items by their domains; a new layer makes them invalid."""
+    loops = [loop for face in bm.faces for loop in face.loops]
+    return {"verts": list(bm.verts), "edges": list(bm.edges), "faces": list(bm.faces), "loops": loops}
+
+
+def plain(value: object) -> object:
+    """Return what a layer holds of an item as values that can be compared."""
+    if value is NotImplemented:  # Blender has no Python for these
+        return None
+    if isinstance(value, (bool, int, float, bytes, str)):
+        return value
+    # Of UVs the places are told apart from the rest.
+    fields = ("pin_uv", "select", "select_edge", "radius", "use_root", "use_loose")
+    known = tuple((name, plain(getattr(value, name))) for name in fields if hasattr(value, name))
+    if known:
+        return known
+    return tuple(sorted(value.items())) if hasattr(value, "items") else tuple(value)
+
+
+def of_mesh(obj: bpy.types.Object) -> dict[str, object]:
+    """Return what a mesh and its object hold beside the layers of the edit mesh."""
+    mesh = obj.data
+    keys = mesh.shape_keys
+    found: dict[str, object] = {
+        "groups": [group.name for group in obj.vertex_groups],
+        "materials": [material and material.name for material in mesh.materials],
+        "keys": keys and [(key.name, key.value, key.mute) for key in keys.key_blocks],
+        "active key": obj.active_shape_key_index,
+        "properties": {name: mesh[name] for name in mesh.keys() if "seamwire" not in name},  # noqa: SIM118
+        "mirror": [getattr(mesh, f"use_mirror_{axis}") for axis in "xyz"],
+        "uv layers": [(layer.name, layer.active, layer.active_render) for layer in mesh.uv_layers],
+        "has custom normals": mesh.has_custom_normals,
+    }
+    if mesh.has_custom_normals:
+        obj.update_from_editmode()
+        if hasattr(mesh, "corner_normals"):
+            found["corner normals"] = [tuple(normal.vector) for normal in mesh.corner_normals]
+        else:
+            mesh.calc_normals_split()
+            found["corner normals"] = [tuple(loop.normal) for loop in mesh.loops]
+            mesh.free_normals_split()
     return found
 
 
 def add_layers(obj: bpy.types.Object) -> None:
-    """Give a mesh in object mode things that must not change: UVs, an attribute, materials, smooth faces."""
-    layer = obj.data.uv_layers.new(name="Kept")
+    """Give a mesh in object mode things that must not change: each kind of layer that this Blender has, and all else."""
+    mesh = obj.data
+    layer = mesh.uv_layers.new(name="Kept")
     for i, corner in enumerate(layer.data):
         corner.uv = (i % 7 / 7.0, i % 11 / 11.0)
-    attribute = obj.data.attributes.new("kept", "FLOAT", "POINT")
+    attribute = mesh.attributes.new("kept", "FLOAT", "POINT")
     for i, value in enumerate(attribute.data):
         value.value = i % 5
-    for i, polygon in enumerate(obj.data.polygons):
+    for i, polygon in enumerate(mesh.polygons):
         polygon.use_smooth = i % 2 == 0
         polygon.select = i % 3 == 0
+        polygon.material_index = i % 2
+    for name in ("Stone", "Moss"):
+        mesh.materials.append(bpy.data.materials.get(name) or bpy.data.materials.new(name))
+    _fill_layers(mesh)
+    for name in ("Left", "Right"):
+        group = obj.vertex_groups.new(name=name)
+        for i in range(0, len(mesh.vertices), 3):
+            group.add([i], i % 4 / 4.0, "REPLACE")
+    mesh["kept"] = "a custom property"
+    if hasattr(mesh, "use_auto_smooth"):
+        mesh.use_auto_smooth = True
+    mesh.normals_split_custom_set([(0.0, 0.6 * (i % 2), 0.8) for i in range(len(mesh.loops))])
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="Raised", from_mix=False)
+    for i, point in enumerate(key.data):
+        point.co.z += 0.1 * (i % 3)
+    key.value = 0.5
+    obj.active_shape_key_index = 0
+
+
+_FILLS = {
+    "bool": lambda i: i % 3 == 0,
+    "int": lambda i: i % 13 - 4,
+    "float": lambda i: i % 7 / 7.0,
+    "string": lambda i: f"{i % 5}".encode(),
+    "float_vector": lambda i: (i % 2, i % 3, i % 5),
+    "float_color": lambda i: (i % 2, i % 3 / 3.0, i % 5 / 5.0, 1.0),
+    "color": lambda i: (i % 2, i % 3 / 2.0, i % 5 / 4.0, 1.0),
+    "crease": lambda i: i % 3 / 3.0,
+    "bevel_weight": lambda i: i % 4 / 4.0,
+    "paint_mask": lambda i: i % 5 / 5.0,
+    "face_map": lambda i: i % 2,
+}
+_ALONE = {"crease", "bevel_weight", "paint_mask", "face_map", "skin"}
+"""Kinds of layers of which a mesh has one at most."""
+
+
+def _fill_layers(mesh: bpy.types.Mesh) -> None:
+    bm = bmesh.new()
+    bm.from_mesh(mesh)
+    for domain, kind, layers in layer_kinds(bm):
+        if kind in _ALONE:
+            layers.verify()
+        elif kind in _FILLS:
+            layers.new(f"kept {kind} of {domain}")
+    if not hasattr(bm.edges.layers, "crease"):  # then these are attributes like any other
+        bm.edges.layers.float.new("crease_edge")
+        bm.edges.layers.float.new("bevel_weight_edge")
+    items = items_of(bm)
+    for domain, kind, layers in layer_kinds(bm):
+        for name, layer in layers.items() if kind in _FILLS else ():
+            if name.startswith("kept") or kind in _ALONE or "_edge" in name:
+                for i, item in enumerate(items[domain]):
+                    item[layer] = _FILLS[kind](i)
+    pinned = bm.loops.layers.uv["Kept"]
+    for i, loop in enumerate(items["loops"]):
+        loop[pinned].pin_uv = i % 4 == 0
+    for i, edge in enumerate(bm.edges):
+        edge.smooth = i % 3 != 0
+    bm.to_mesh(mesh)
+    bm.free()

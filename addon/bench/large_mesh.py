@@ -61,13 +61,16 @@ class Holds:
 
     def watch_events(self) -> None:
         """Time what Blender calls: the operator's methods count their arguments, so the drawing is watched below them."""
-        from seamwire.operators import modal as drawing
-        from seamwire.view import overlay
+        from seamwire.operators.modal import Chain
+        from seamwire.view.edited_objects import EditedObjects
 
-        self.watch(drawing.Drawing, "__init__", "start")
-        for name in ("handle", "trouble", "close"):
-            self.watch(drawing.Drawing, name, "event")
-        self.watch(overlay.Overlay, "_draw", "draw")
+        for name in ("__init__", "begin"):
+            self.watch(Chain, name, "start")
+        for name in ("handle", "trouble", "finish"):
+            self.watch(Chain, name, "event")
+        for name in ("hover", "_tick"):
+            self.watch(EditedObjects, name, "event")
+        self.watch(EditedObjects, "_draw", "draw")
 
     @contextmanager
     def during(self, what: str) -> Iterator[None]:
@@ -94,10 +97,10 @@ def memory() -> int:
 
 
 def session() -> object | None:
-    """Return the session of the running drawing."""
-    from seamwire.operators import modal as drawing
+    """Return the session of the chain that is being drawn."""
+    from seamwire.operators.report import running
 
-    return drawing.running[0].session if drawing.running else None
+    return running[0].session if running else None
 
 
 def stage(ui: driver.Ui, levels: int) -> bpy.types.Object:
@@ -229,10 +232,10 @@ def moves(ui: driver.Ui, places: NDArray[np.float64], holds: Holds) -> tuple[NDA
 
 
 def overlay_busy() -> bool:
-    """Whether segments are being computed."""
-    from seamwire.operators import modal as drawing
+    """Whether islands are being computed."""
+    from seamwire.view.edited_objects import edited
 
-    return bool(drawing.running) and any(board.busy for board in drawing.running[0].boards.values())
+    return any(view.busy for view in edited.views())
 
 
 def report(along: str, found: dict[str, object], holds: Holds) -> None:

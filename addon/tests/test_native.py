@@ -59,3 +59,17 @@ def test_what_the_module_itself_misses_is_said(tmp_path: Path) -> None:
     (tmp_path / f"{native.NAME}.py").write_text("import a_library_that_is_not_there\n")
     with pytest.raises(native.NativeError, match="a_library_that_is_not_there"):
         native.load(tmp_path)
+
+
+def test_an_extension_takes_what_blender_installed_and_puts_nothing_on_the_path(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(native, "IS_EXTENSION", True)
+    (tmp_path / f"{native.NAME}.py").write_text("")
+    before = list(sys.path)
+    with pytest.raises(native.NativeError, match="is missing"):
+        native.load(tmp_path, tmp_path / "wheels")
+    assert sys.path == before
+    assert [path.name for path in tmp_path.iterdir()] == [f"{native.NAME}.py"], "nothing is unpacked"
+    monkeypatch.syspath_prepend(tmp_path)
+    assert Path(native.load().__file__).parent == tmp_path

@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 
 import pytest
-from seamwire.ui.keymap import Bindings
+from seamwire.operators.bindings import Bindings
 
 ROOT = Path(__file__).resolve().parents[2]
 GUIDE = (ROOT / "docs/guide.md").read_text(encoding="utf-8")

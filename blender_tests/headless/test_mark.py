@@ -163,6 +163,74 @@ def test_of_several_objects_in_edit_mode_only_the_active_one_is_marked() -> None
     assert seams(other) == []
 
 
+def several() -> list[bpy.types.Object]:
+    """Two grids in edit mode, and a third object that has the second one's mesh as well."""
+    one, two = add_grid(5, name="One"), add_grid(5, name="Two")
+    twin = bpy.data.objects.new("Twin", two.data)
+    bpy.context.collection.objects.link(twin)
+    twin.select_set(True)
+    edit()
+    return [one, two, twin]
+
+
+@pytest.mark.parametrize(
+    ("objects", "marked"),
+    [
+        ("*", ["One", "Two"]),
+        ("One", ["One"]),
+        ("One; Two", ["One", "Two"]),
+        ("Two", ["Two"]),
+        ("Two; One;", ["One", "Two"]),
+        ("", ["Two"]),
+    ],
+)
+def test_other_objects_in_edit_mode_are_named_and_each_mesh_is_marked_once(objects: str, marked: list[str]) -> None:
+    one, two, _ = several()
+    assert bpy.ops.mesh.seamwire_mark(chains="10 14", objects=objects) == {"FINISHED"}
+    row = chain(10, 11, 12, 13, 14)
+    assert {obj.name: seams(obj) for obj in (one, two)} == {
+        name: row if name in marked else [] for name in ("One", "Two")
+    }
+    assert {obj.name for obj in (one, two) if obj.data.seamwire_wires} == set(marked)
+
+
+def test_what_is_wrong_with_one_of_several_objects_is_said_with_its_name_and_none_is_marked() -> None:
+    one, two, _ = several()
+    with pytest.raises(RuntimeError, match="Not a mesh in Edit Mode: Three, Zero"):
+        bpy.ops.mesh.seamwire_mark(chains="10 14", objects="One; Zero; Three")
+    hide_faces(two, {15})
+    with pytest.raises(RuntimeError, match="Two: Vertex 24 is hidden"):
+        bpy.ops.mesh.seamwire_mark(chains="10 20; 20 24", objects="*")
+    assert seams(one) == seams(two) == []
+
+
+def test_what_is_there_already_is_said_and_nothing_is_done_again() -> None:
+    bpy.ops.mesh.primitive_cylinder_add(vertices=8, end_fill_type="NOTHING")
+    edit()
+    assert bpy.ops.mesh.seamwire_mark(loops="0-2") == {"FINISHED"}
+    stored = bpy.context.object.data.seamwire_wires
+    with pytest.raises(RuntimeError, match="The loop through edge 0-2 is there already"):
+        bpy.ops.mesh.seamwire_mark(loops="0-2")
+    assert bpy.context.object.data.seamwire_wires == stored
+
+
+def test_wires_stay_with_the_mesh() -> None:
+    from seamwire.mesh.object_session import ObjectSession
+
+    obj = add_grid(9)
+    edit()
+    mark("36 40 44")
+    bpy.ops.mesh.seamwire_mark(loops="4-13", take="STRIP")
+    assert obj.data.seamwire_wires.startswith("seamwire 2 ")
+    bm = bmesh.from_edit_mesh(obj.data)
+    layer = bm.edges.layers.int[".seamwire"]
+    labelled = sorted(tuple(sorted(v.index for v in e.verts)) for e in bm.edges if e[layer])
+    assert labelled == seams(obj)
+    wires = ObjectSession(obj).session.wires
+    assert {wire.vertices for wire in wires} >= {(36, 37, 38, 39, 40), (40, 41, 42, 43, 44)}
+    assert len(wires) == 3
+
+
 def test_seams_that_were_there_stay() -> None:
     obj = add_grid(5)
     edit()
@@ -199,6 +267,8 @@ def test_what_can_be_reached_is_marked_and_the_rest_said(capfd: pytest.CaptureFi
         ("0 25", "EDGES", "no vertex 25"),
         ("0 99999999999999999999", "EDGES", "no vertex 9999"),
         ("0 0-2", "EDGES", "no edge 0-2"),
+        ("0 0", "EDGES", "'0' comes twice in a row: a wire needs two different ends"),
+        ("0 1 6-7 7-6", "EDGES", "'7-6' comes twice in a row"),
         ("0 6-25", "EDGES", "no vertex 25"),
         ("0-1 4", "SURFACE", "seeds are vertices"),
         ("0 24", "EDGES", "Vertex 24 is hidden"),
@@ -224,7 +294,7 @@ def test_a_mesh_without_anything_visible_is_said() -> None:
     edit()
     bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.mesh.hide()
-    with pytest.raises(RuntimeError, match="hidden"):
+    with pytest.raises(RuntimeError, match="No edge of the mesh is visible"):
         mark("0 2")
     assert seams(obj) == []
 
@@ -241,8 +311,10 @@ def test_outside_edit_mode_the_operators_cannot_be_called() -> None:
     add_grid(3)
     assert not bpy.ops.mesh.seamwire_mark.poll()
     assert not bpy.ops.mesh.seamwire_draw.poll()
-    with pytest.raises(RuntimeError, match="poll"):
+    with pytest.raises(RuntimeError, match=r"poll\(\).*Needs a mesh in Edit Mode"):
         mark("0 2")
+    with pytest.raises(RuntimeError, match=r"poll\(\).*Needs a mesh in Edit Mode"):
+        bpy.ops.mesh.seamwire_draw()
 
 
 def test_marking_is_one_step_of_undo() -> None:
@@ -290,8 +362,8 @@ def test_loops_are_taken_alone_or_beside_chains() -> None:
     bm.verts.index_update()
     ring = [e for e in bm.edges if all(abs(v.co.z) < 1e-6 for v in e.verts)]
     a, b = (v.index for v in ring[0].verts)
-    assert bpy.ops.mesh.seamwire_mark(loops=f"{a}-{b}") == {"FINISHED"}
     middle = sorted(tuple(sorted(v.index for v in e.verts)) for e in ring)
+    assert bpy.ops.mesh.seamwire_mark(loops=f"{a}-{b}") == {"FINISHED"}
     assert seams(obj) == middle
     with pytest.raises(RuntimeError, match="not an edge"):
         bpy.ops.mesh.seamwire_mark(loops="7")

@@ -69,7 +69,13 @@ def test_strokes_lead_wires() -> None:
     mark(chains=f"{left} {right}", strokes=" ".join(map(str, gate)), clear=True)
     assert seams(grid) == []
     assert mark(chains=f"{left} {right}") == {"FINISHED"}
-    assert seams(grid) == chain(*range(left, right + 1))
+    assert seams(grid) == chain(*gate), "the stroke stays with the mesh"
+    bpy.ops.object.mode_set(mode="OBJECT")
+    grid.select_set(False)
+    other = add_grid(31)
+    edit()
+    assert mark(chains=f"{left} {right}") == {"FINISHED"}
+    assert seams(other) == chain(*range(left, right + 1)), "and leads nothing on another one"
 
 
 def test_wires_keep_off_strokes_that_repel(grid: bpy.types.Object) -> None:

@@ -101,7 +101,7 @@ print("label:", bpy.ops.mesh.seamwire_mark.get_rna_type().name)
 def later_version(package: Path, folder: Path) -> Path:
     """Make a package of version 0.9.9 whose operator has another label."""
     label = re.compile(r'(bl_idname = "mesh\.seamwire_mark"\s+bl_label = )"[^"]*"')
-    step = changed(package, folder / "1.zip", "operator.py", lambda text: label.sub(r'\1"Mark Later"', text))
+    step = changed(package, folder / "1.zip", "operators/mark.py", lambda text: label.sub(r'\1"Mark Later"', text))
     step = changed(
         step, folder / "2.zip", "__init__.py", lambda text: re.sub(r'"version": \(.*\)', '"version": (0, 9, 9)', text)
     )

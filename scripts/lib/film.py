@@ -145,11 +145,21 @@ class Film:
         write_png(self.folder / f"guide-{name}.png", self.shot())
 
 
-def session() -> object | None:
-    """Return the session of the running drawing."""
-    from seamwire.operators import modal as drawing
+def settings() -> bpy.types.PropertyGroup:
+    """Return the tool's settings."""
+    from seamwire.mesh.settings import settings as of_tool
 
-    return drawing.running[0].session if drawing.running else None
+    return of_tool()
+
+
+def session() -> object | None:
+    """Return the session of the chain that is drawn, or of what is pointed at."""
+    from seamwire.operators.report import running
+    from seamwire.view.edited_objects import edited
+
+    if running:
+        return running[0].session
+    return edited.front.session if edited.front is not None else None
 
 
 def draw_pointer(picture: NDArray[np.uint8], tip: tuple[float, float], pressed: bool) -> None:
@@ -224,10 +234,9 @@ def stage(film: Film) -> None:
 
 
 def start(film: Film) -> None:
-    """Start the tool where the pointer is."""
+    """Point at the mesh with the tool, which reads it."""
     film.ui.move(film.at)
-    with film.ui.override():
-        assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+    film.ui.wait_until(lambda: session() is not None, 60.0)
     film.settle()
 
 
@@ -243,10 +252,10 @@ def animation(film: Film) -> None:
     film.go(film.vertex(0.45, -0.60, 0.72), 7)
     film.go(film.vertex(0.80, -0.40, 0.40), 9)
     film.hold(4)
-    film.say("Wheel: the other one")
-    film.ui.wheel(up=True)
+    film.say("W: the other one")
+    film.key("W")
     film.hold(8)
-    film.ui.wheel(up=True)
+    film.key("W")
     film.hold(7)
     film.say("Click: keep it, and go on")
     film.click()
@@ -266,8 +275,8 @@ def animation(film: Film) -> None:
     film.ui.event("LEFTMOUSE", "RELEASE", film.at)
     film.settle()
     film.hold(2)
-    film.say("M: mirrored")
-    film.key("M")
+    film.say("The mirror of the mesh: mirrored")
+    film.obj.data.use_mirror_x = True
     film.hold(7)
     film.say("Alt: the whole loop, before the click")
     film.go(film.edge(EYE), 9)
@@ -287,11 +296,10 @@ def animation(film: Film) -> None:
         film.settle()
         film.hold(7)
     film.click(alt=True)
-    film.say("The segments that the seams make are tinted")
+    film.say("The islands that the seams make are tinted")
     film.go(film.vertex(0.9, -0.4, -0.6), 6)
     film.hold(12)
-    film.say("Enter: they are seams, and unwrapped")
-    film.key("RET")
+    film.say("They are seams at once: unwrapped")
     film.hold(6)
     unwrap(film)
     film.hold(24)
@@ -369,7 +377,7 @@ def guide(film: Film) -> None:
     film.go(film.edge(EYE), alt=True)
     film.picture("loop")
     film.click(alt=True)
-    film.key("M")
+    film.obj.data.use_mirror_x = True
     film.go(film.edge(EAR), alt=True)
     film.picture("mirror")
     film.click(alt=True)
@@ -378,10 +386,11 @@ def guide(film: Film) -> None:
     film.click(alt=True)
     film.go(film.vertex(0.9, -0.4, -0.6))
     film.picture("segments")
-    film.key("H")
+    film.click()
+    film.key("F1")
     film.picture("keys")
-    film.key("H")
-    film.key("RET")
+    film.key("F1")
+    film.click("RIGHTMOUSE")
     unwrap(film)
     film.picture("unwrapped")
 
@@ -427,13 +436,13 @@ def looks(film: Film) -> None:
     film.go(film.vertex(0.55, -0.40, -0.30))
     film.click()
     film.click("RIGHTMOUSE")
-    film.key("M")
+    film.obj.data.use_mirror_x = True
     film.go(film.edge(EYE), alt=True)
     film.click(alt=True)
-    film.key("X")
+    settings().clear = True
     film.go(film.edge(EAR), alt=True)
     film.click(alt=True)
-    film.key("X")
+    settings().clear = False
     film.go(film.vertex(0.55, -0.40, -0.30))
     film.click()
     film.go(film.vertex(0.0, -0.75, -0.08))
@@ -452,8 +461,6 @@ def looks(film: Film) -> None:
     film.click("RIGHTMOUSE")
     film.go(film.edge(EYE), alt=True)
     write_png(film.folder / "looks-loop.png", film.shot())
-    film.key("ESC")
-    film.key("ESC")
     film.key("ESC")
 
 

@@ -19,6 +19,8 @@ FOLDER = Path(__file__).parent.parent / "_native"
 """Where the add-on's own copy lies, in Blenders that do not install wheels themselves."""
 WHEELS = Path(__file__).parent.parent / "wheels"
 """The compiled part for each Python and system that this package is for, as the package brought them."""
+IS_EXTENSION = __package__.startswith("bl_ext.")
+"""Whether this is an extension of Blender 4.2 or later, which installs the wheel of an extension itself."""
 
 
 class NativeError(ImportError):
@@ -27,6 +29,8 @@ class NativeError(ImportError):
 
 def load(folder: Path = FOLDER, wheels: Path = WHEELS) -> ModuleType:
     """Return the module: an installed one first, else the one in the add-on's own folder, unpacked there if need be.
+
+    An extension has no folder of its own: what Blender has not installed is not there.
 
     Raises
     ------
@@ -41,6 +45,8 @@ def load(folder: Path = FOLDER, wheels: Path = WHEELS) -> ModuleType:
         raise
     except ImportError as error:
         installed = error
+    if IS_EXTENSION:
+        raise NativeError(_sentence(folder, wheels, installed, installed)) from installed
     place = _unpacked(folder, wheels)
     sys.path.insert(0, str(place))
     try:

@@ -8,7 +8,7 @@ where its number stands on a whole chain of edges that are all seams.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -104,7 +104,8 @@ class Plan:
     Parameters
     ----------
     network
-        As it is when that is done: wires that clear seams have done so, and are no wires, nor are those that they cleared.
+        As it is when that is done: wires that clear seams have done so, and are no wires, nor are those that they cleared a
+        part of, whose other edges are plain seams then.
     labels
         The edges' new labels; 0: none.
     mark, clear
@@ -359,6 +360,7 @@ def plan(
     places: Places,
     is_seam: Callable[[Edge], bool],
     edges: NDArray[np.int32],
+    own: frozenset[Edge] = frozenset(),
 ) -> Plan:
     """Return what a mesh's edges must be for a network; all that it does not know of stays.
 
@@ -378,6 +380,8 @@ def plan(
         Whether an edge is a seam now.
     edges
         (e, 2) the visible edges.
+    own
+        Edges without labels that are seams for the network's wires alone: they cease to be with them.
     """
     effect = {edge: wire.marks for wire in network.wires for edge in wire.claims()}
     cleared = {edge for edge, marks_it in effect.items() if not marks_it}
@@ -388,9 +392,13 @@ def plan(
     }
     after: dict[Edge, set[int]] = {}
     known: set[int] = set()
+    cut: set[Edge] = set()
     wires = []
     for wire in network.wires:
-        if not wire.marks or not cleared.isdisjoint(wire.edges()):
+        if not wire.marks:
+            continue
+        if not cleared.isdisjoint(wire.edges()):
+            cut.update(wire.claims())
             continue
         number = wire.stored
         if not number:
@@ -409,7 +417,7 @@ def plan(
             after.setdefault(edge, set()).add(number)
     result = Plan(replace(network, wires=tuple(wires)), {}, [], [], frozenset(known))
     old = frozenset(found.known)
-    for edge in sorted({*before, *after, *cleared}):
+    for edge in sorted({*before, *after, *cleared, *cut, *own}):
         _decide(
             result,
             edge,
@@ -419,6 +427,8 @@ def plan(
             found.broken,
             archive,
             edge in cleared,
+            edge in cut,
+            edge in own,
             is_seam,
         )
     return result
@@ -433,19 +443,24 @@ def _decide(
     broken: frozenset[int],
     archive: Archive,
     cleared: bool,
+    cut: bool,
+    own: bool,
     is_seam: Callable[[Edge], bool],
 ) -> None:
-    """Add to a plan what one edge is to be."""
+    """Add to a plan what one edge is to be.
+
+    `cut`: it is left of a wire that was cleared elsewhere; `own`: it is a seam for wires alone, without a label.
+    """
 
     def wires(members: Iterable[int]) -> set[int]:
         return {member for member in members if abs(member) in archive.wires}
 
     seam = is_seam(edge)
     others = before - known - broken - {WAS_SEAM}
-    sound = wires(before) - broken
+    wired = own or bool(wires(before) - broken)
     now = wires(after) | (wires(others) if not cleared else set())
-    was_seam = WAS_SEAM in before if sound else seam
-    wanted = False if cleared else bool(now) or (was_seam if sound else seam)
+    was_seam = WAS_SEAM in before if wired else seam
+    wanted = not cleared and (cut or bool(now) or was_seam)
     members = after | (others if not cleared else others - wires(others))
     if was_seam and now:
         members = members | {WAS_SEAM}
@@ -466,14 +481,19 @@ def _beginning(stroke: Scribble, edges: NDArray[np.int32]) -> Iterator[Edge]:
 
 
 def seams_beside(
-    seams: NDArray[np.int32], labels: Mapping[Edge, int] | EdgeLabels, archive: Archive
+    seams: NDArray[np.int32],
+    labels: Mapping[Edge, int] | EdgeLabels,
+    archive: Archive,
+    known: Collection[int] | None = None,
 ) -> NDArray[np.int32]:
-    """Return those seams, (k, 2), that no wire runs along."""
+    """Return those seams, (k, 2), that no wire runs along; `known`: the wires that count; None: all."""
     if isinstance(labels, EdgeLabels):
         rows = zip(labels.pairs.tolist(), labels.labels.tolist(), strict=True)
         labels = {_edge(pair): label for pair, label in rows}
     wired = [
-        edge for edge, label in labels.items() if any(abs(member) in archive.wires for member in archive.members(label))
+        edge
+        for edge, label in labels.items()
+        if any(abs(member) in archive.wires and (known is None or member in known) for member in archive.members(label))
     ]
     if not wired or not len(seams):
         return seams

@@ -248,6 +248,8 @@ class StoredMesh:
             attribute = attributes.get(LABELS) or attributes.new(LABELS, "INT", "EDGE")
             for pair, label in labels.items():
                 attribute.data[rows[pair]].value = label
+            if not _column(attribute.data, "value", np.int32).any():
+                attributes.remove(attribute)
         self.mesh.update()
         return len(new), len(old)
 
@@ -266,8 +268,7 @@ def read(obj: bpy.types.Object) -> Arrays:
     shared = obj.data.copy() if bpy.app.version >= (4, 1, 0) else None
     try:
         columns = _Items(obj.data) if shared is None else _Attributes(shared)
-        points = columns.points() if obj.active_shape_key_index < 1 else _shape(obj)
-        points = points.astype(np.float64)
+        points = (columns.points() if _on_basis(obj) else _shape(obj)).astype(np.float64)
         edges = columns.edges()
         visible = ~columns.flags("edges", "hide")
         seams = edges[visible & columns.flags("edges", "use_seam")]
@@ -284,6 +285,11 @@ def read(obj: bpy.types.Object) -> Arrays:
         triangles = triangles[~hidden[polygons]]
     stretch = visible_stretch(obj.matrix_world)
     return Arrays(points @ stretch, triangles, edges, np.linalg.inv(stretch), seams)
+
+
+def _on_basis(obj: bpy.types.Object) -> bool:
+    # Without keys the index is what it was with them.
+    return obj.active_shape_key is None or obj.active_shape_key_index == 0
 
 
 def _shape(obj: bpy.types.Object) -> NDArray[np.float32]:

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.live import LiveWire
-    from ..core.network import Along, Network
+    from ..core.network import Along, Edge, Network
     from .settings import SeamwireSettings
 
 FIRST_VERSION = "seamwire"
@@ -122,7 +122,9 @@ class ObjectSession:
         self._labels = EdgeLabels.none()
         self._found = Found()
         self._newer = False
+        self._damaged = False
         self._renumbered = False
+        self._own: frozenset[Edge] = frozenset()
         self._adopt(self.cage.labels())
         self.follow_mirror()
 
@@ -246,6 +248,7 @@ class ObjectSession:
         """Go on with the network that labels tell of."""
         self._learn(labels)
         self._labels = labels
+        self._own = frozenset()
         self._found = Found() if self._newer else wire_labels.read(labels, _archive, self.places)
         network = self._found.network
         stored = self.cage.mesh.get(FIRST_VERSION)
@@ -253,25 +256,28 @@ class ObjectSession:
             network, self.problem = serialization.load_first_version(
                 stored, self.arrays.points, self.arrays.edges, self.arrays.seams
             )
+            # It did not tell which edges were seams before: those of its wires are taken for theirs.
+            self._own = frozenset(edge for wire in network.wires for edge in wire.claims())
         strokes = tuple(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in network.scribbles)
         self._set_seams(self.arrays.seams, labels)
         self.session.adopt(replace(network, scribbles=strokes), self.plain_seams)
-        self._store()
+        if not self._damaged:
+            self._store()
 
     def _set_seams(self, seams: NDArray[np.int32], labels: EdgeLabels) -> None:
         self.arrays = replace(self.arrays, seams=seams)
-        self.plain_seams = wire_labels.seams_beside(seams, labels, _archive)
+        self.plain_seams = wire_labels.seams_beside(seams, labels, _archive, self._found.known)
 
     def _learn(self, labels: EdgeLabels) -> None:
         """Take in the records of the mesh and, where labels came from another one, those of all meshes in the file."""
-        self._newer = False
+        self._newer = self._damaged = False
         try:
             _archive.merge(Archive.parse(self.cage.mesh.seamwire_wires))
         except serialization.NewerError as error:
             self._newer, self.problem = True, str(error)
             return
         except UnreadableError as error:
-            self.problem = str(error)
+            self._damaged, self.problem = True, str(error)
         if all(_archive.knows(label) for label in np.unique(labels.labels).tolist()):
             return
         for mesh in bpy.data.meshes:
@@ -301,6 +307,7 @@ class ObjectSession:
             self.places,
             self.cage.is_seam,
             self.arrays.edges,
+            self._own,
         )
 
     def write(self, plan: wire_labels.Plan, adopt: bool = True) -> tuple[int, int]:
@@ -328,6 +335,7 @@ class ObjectSession:
         written = self.cage.write(plan.mark, plan.clear, {} if self._newer else plan.labels)
         self._labels = self.cage.labels()
         self._found = Found(plan.network, plan.known)
+        self._own = frozenset()
         seams = edges_after(self.arrays.seams, plan.mark, plan.clear)
         self._set_seams(seams, self._labels)
         self._store()

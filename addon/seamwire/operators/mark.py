@@ -74,7 +74,7 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
 
     objects: bpy.props.StringProperty(
         name="Objects",
-        description="Names of objects in edit mode, separated by semicolons; empty: the active one. An asterisk: all",
+        description="Names of objects in Edit Mode, separated by semicolons, or an asterisk for all; empty: the active one",
     )
 
     @classmethod
@@ -90,24 +90,26 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
         from ..core.native import NativeError
         from ..mesh import edit_mesh
 
+        self._before: dict[str, tuple[Wire, ...]] = {}
         try:
-            self._before: dict[str, tuple[Wire, ...]] = {}
-            drawn = [self._draw(obj) for obj in self._chosen(context)]
+            chosen = self._chosen(context)
+            # Nothing is written before all is drawn: where one object fails, none is changed.
+            drawn = [self._draw(obj, "" if len(chosen) == 1 else f"{obj.name}: ") for obj in chosen]
         except (ValueError, NativeError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         problems = [problem for _, found in drawn for problem in found]
         for problem in problems:
             self.report({"WARNING"}, problem)
-        if not any(mesh.session.wires for mesh, _ in drawn):
+        new_wires = {mesh: _new_wires(mesh.session.wires, self._before[mesh.obj.name]) for mesh, _ in drawn}
+        if not any(new_wires.values()):
             self.report({"ERROR"}, f"No seam was marked. {problems[0]}" if problems else "No seam was marked")
             return {"CANCELLED"}
         plans = [(mesh, mesh.plan()) for mesh, _ in drawn]
         wires = new = old = touched = 0
         for mesh, plan in plans:
-            session = mesh.session
-            wires += len(session.wires) - len(self._before[mesh.obj.name])
-            touched += len(_new_edges(session.wires, self._before[mesh.obj.name]))
+            wires += len(new_wires[mesh])
+            touched += len({edge for wire in new_wires[mesh] for edge in wire.claims()})
             marked, cleared = mesh.write(plan)
             new, old = new + marked, old + cleared
         if new or old:
@@ -116,25 +118,27 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
         return {"FINISHED"}
 
     def _chosen(self, context: bpy.types.Context) -> list[bpy.types.Object]:
-        edited = [obj for obj in context.objects_in_mode_unique_data if obj.type == "MESH"]
+        """Return the objects to draw on, each mesh once; raises ValueError where there is none of a name."""
+        edited = [obj for obj in context.objects_in_mode if obj.type == "MESH"]
         names = [name.strip() for name in self.objects.split(";") if name.strip()]
         if not names:
             return [context.active_object]
-        if names == ["*"]:
-            return edited
-        missing = sorted(set(names) - {obj.name for obj in edited})
+        missing = sorted(set(names) - {"*"} - {obj.name for obj in edited})
         if missing:
             raise ValueError(f"Not a mesh in Edit Mode: {', '.join(missing)}")
-        return [obj for obj in edited if obj.name in names]
+        return list({obj.data: obj for obj in edited if obj.name in names or "*" in names}.values())
 
-    def _draw(self, obj: bpy.types.Object) -> tuple[ObjectSession, list[str]]:
-        """Draw on one object; return its session, and what could not be done, in words."""
+    def _draw(self, obj: bpy.types.Object, prefix: str) -> tuple[ObjectSession, list[str]]:
+        """Draw on one object; return its session, and what could not be done, in words that begin with a prefix."""
         from ..mesh.edit_mesh import read
         from ..mesh.object_session import ObjectSession, live_maker
         from . import seed_text
 
-        mesh = ObjectSession(obj, self.along, live_maker(read(obj)))
-        seeds, loops, strokes = self._read(mesh)
+        try:
+            mesh = ObjectSession(obj, self.along, live_maker(read(obj)))
+            seeds, loops, strokes = self._read(mesh)
+        except ValueError as error:
+            raise ValueError(f"{prefix}{error}") from error
         session = mesh.session
         self._before[obj.name] = session.wires
         if self.strength:
@@ -146,11 +150,12 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
             session.toggle_marking()
         take = None if self.take == "FIRST" else self.take
         problems = [
+            *([mesh.problem] if mesh.problem else []),
             *seed_text.draw_scribbles(session, strokes),
             *seed_text.draw_chains(session, seeds),
             *seed_text.draw_loops(session, loops, take),
         ]
-        return mesh, problems
+        return mesh, [f"{prefix}{problem}" for problem in problems]
 
     def _read(self, mesh: ObjectSession) -> tuple[list[list[Pick]], list[Edge], list[Stroke]]:
         """Return chains, loops and strokes; raises ValueError where they cannot be drawn."""
@@ -168,9 +173,10 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
         return seeds, loops, strokes
 
 
-def _new_edges(wires: tuple[Wire, ...], before: tuple[Wire, ...]) -> set[Edge]:
-    known = {wire.id for wire in before}
-    return {edge for wire in wires if wire.id not in known for edge in wire.claims()}
+def _new_wires(wires: tuple[Wire, ...], before: tuple[Wire, ...]) -> list[Wire]:
+    """Return the wires that were drawn, and those that run along other edges than before."""
+    known = set(before)
+    return [wire for wire in wires if wire not in known]
 
 
 def register() -> None:

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..core.network import LOOP_NAMES
+from ..core.network import LOOP_NAMES, undirected
 
 if TYPE_CHECKING:
     from ..core.network import Edge, LoopKind, Pick
@@ -30,9 +30,11 @@ def parse_chains(text: str) -> list[list[Pick]]:
     Raises
     ------
     ValueError
-        Where a seed is neither, where a chain has fewer than two seeds, or where there is no chain.
+        Where a seed is neither, or the one before it again, where a chain has fewer than two seeds, or where there is no
+        chain.
     """
     chains: list[list[Pick]] = []
+    pick: Pick
     for number, part in enumerate((p for p in text.split(";") if p.strip()), start=1):
         chain: list[Pick] = []
         for token in part.replace(",", " ").split():
@@ -42,7 +44,10 @@ def parse_chains(text: str) -> list[list[Pick]]:
             first, second = match.groups()
             if second is not None and int(first) == int(second):
                 raise ValueError(f"Chain {number}: '{token}' is not an edge: both its vertices are the same")
-            chain.append(int(first) if second is None else (int(first), int(second)))
+            pick = int(first) if second is None else (int(first), int(second))
+            if chain and undirected(chain[-1]) == undirected(pick):
+                raise ValueError(f"Chain {number}: '{token}' comes twice in a row: a wire needs two different ends")
+            chain.append(pick)
         if len(chain) < 2:
             raise ValueError(f"Chain {number}: a chain needs at least two seeds, not only '{part.strip()}'")
         chains.append(chain)
@@ -87,13 +92,13 @@ def draw_loops(session: Session, edges: Iterable[Edge], kind: LoopKind | None = 
     """
     problems = []
     for edge in edges:
-        before = len(session.wires)
+        before = session.wires
         if kind is not None and not _turn_to(session, edge, kind):
             problems.append(f"No {LOOP_NAMES[kind]} runs through edge {edge[0]}-{edge[1]}")
             continue
         done = session.loop(edge)
         session.wait()
-        if not done or len(session.wires) == before:
+        if not done or session.wires == before:
             problems.append(session.message or f"The loop through edge {edge[0]}-{edge[1]} is there already")
     return problems
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The add-on's preferences: how the drawing looks, what the wheel does, and the keys."""
+"""The add-on's preferences: how the drawing looks, and the keys."""
 
 from __future__ import annotations
 

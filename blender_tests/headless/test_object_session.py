@@ -1,0 +1,291 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One object that is drawn on: how its session, its seams and what its mesh keeps go together."""
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from mathutils import Matrix
+from scene import add_grid, add_layers, chain, edit, seams, snapshot
+from seamwire.mesh import edit_mesh
+from seamwire.mesh.object_session import ObjectSession
+from stored import agree, chains, forget, session_on, wired, write
+
+ROW = tuple(range(36, 45))
+LAYER = edit_mesh.LABELS
+
+
+@pytest.fixture
+def grid() -> bpy.types.Object:
+    """A grid in edit mode with all kinds of layers; vertex y * 9 + x is column x of row y."""
+    obj = add_grid(9)
+    add_layers(obj)
+    edit()
+    return obj
+
+
+def draw(mesh: ObjectSession, *picks: int) -> None:
+    for pick in picks:
+        assert mesh.session.click(pick), mesh.session.message
+        mesh.session.wait()
+    write(mesh)
+
+
+def set_seams(obj: bpy.types.Object, *pairs: tuple[int, int], seam: bool = True) -> None:
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    for a, b in pairs:
+        bm.edges.get((bm.verts[a], bm.verts[b])).seam = seam
+    bmesh.update_edit_mesh(obj.data)
+
+
+def has_labels(obj: bpy.types.Object) -> bool:
+    return LAYER in bmesh.from_edit_mesh(obj.data).edges.layers.int
+
+
+# What is written
+
+
+def test_a_mesh_without_wires_stays_untouched(grid: bpy.types.Object) -> None:
+    before = snapshot(grid)
+    mesh = session_on(grid)
+    assert mesh.problem == ""
+    assert mesh.write(mesh.plan()) == (0, 0)
+    assert not has_labels(grid)
+    assert grid.data.seamwire_wires == ""
+    assert snapshot(grid) == before
+
+
+@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
+def test_wires_drawn_moved_and_removed_change_seams_and_nothing_else(grid: bpy.types.Object, along: str) -> None:
+    before = snapshot(grid)
+    rest = snapshot(grid, with_seams=False)
+    mesh = session_on(grid)
+    mesh.session.switch(along)
+    draw(mesh, 36, 40, 44)
+    assert seams(grid) == chain(*ROW)
+    assert snapshot(grid, with_seams=False) == rest, "drawn"
+    assert mesh.session.drag(40)
+    mesh.session.drag_to(49)
+    mesh.session.wait()
+    mesh.session.drag_end()
+    mesh.session.wait()
+    write(mesh)
+    assert agree(grid)
+    assert 49 in {vertex for edge in seams(grid) for vertex in edge}
+    assert snapshot(grid, with_seams=False) == rest, "moved"
+    for wire in mesh.session.wires:
+        mesh.session.drop(wire)
+    write(mesh)
+    assert snapshot(grid) == before, "removed"
+    assert not has_labels(grid)
+    assert grid.data.seamwire_wires == ""
+
+
+def test_a_seam_that_was_there_before_a_wire_stays_when_the_wire_goes(grid: bpy.types.Object) -> None:
+    set_seams(grid, (38, 39), (4, 13))
+    mesh = session_on(grid)
+    draw(mesh, 36, 44)
+    assert seams(grid) == sorted([*chain(*ROW), (4, 13)])
+    mesh = session_on(grid)
+    mesh.session.drop(mesh.session.wires[0])
+    write(mesh)
+    assert seams(grid) == [(4, 13), (38, 39)]
+
+
+def test_an_edge_of_two_wires_stays_a_seam_until_both_are_gone(grid: bpy.types.Object) -> None:
+    mesh = session_on(grid)
+    draw(mesh, 36, 40)
+    draw(mesh, 38, 44)
+    assert agree(grid)
+    mesh = session_on(grid)
+    mesh.session.drop(mesh.session.wires[0])
+    write(mesh)
+    assert seams(grid) == chain(*range(38, 45))
+    mesh.session.drop(mesh.session.wires[0])
+    write(mesh)
+    assert seams(grid) == []
+
+
+def test_of_a_wire_that_is_cleared_in_part_the_rest_stays_as_plain_seams(grid: bpy.types.Object) -> None:
+    draw(session_on(grid), 36, 44)
+    mesh = session_on(grid)
+    mesh.session.toggle_marking()
+    draw(mesh, 38, 42)
+    rest = sorted(chain(36, 37, 38) + chain(42, 43, 44))
+    assert seams(grid) == rest
+    assert mesh.session.wires == ()
+    assert not has_labels(grid)
+    assert [sorted(edge) for edge in mesh.plain_seams.tolist()] == [list(edge) for edge in rest]
+
+
+def test_mirrored_wires_are_kept_with_their_images(grid: bpy.types.Object) -> None:
+    grid.data.use_mirror_x = True
+    draw(session_on(grid), 9, 11)
+    assert seams(grid) == sorted(chain(9, 10, 11) + chain(15, 16, 17))
+    grid.data.use_mirror_x = False
+    mesh = session_on(grid)
+    assert chains(grid) == [(9, 10, 11)]
+    assert wired(grid) == seams(grid)
+    mesh.session.drop(mesh.session.wires[0])
+    write(mesh)
+    assert seams(grid) == []
+
+
+# What is found again
+
+
+def test_wires_are_found_again_with_their_seeds(grid: bpy.types.Object, monkeypatch: pytest.MonkeyPatch) -> None:
+    mesh = session_on(grid)
+    draw(mesh, 36, 40, 44)
+    forget(monkeypatch)
+    again = session_on(grid)
+    assert again.problem == ""
+    assert sorted(again.session.seeds()) == [36, 40, 44]
+    assert [(wire.start, wire.end) for wire in again.session.wires] == [(36, 40), (40, 44)]
+    assert len(again.plain_seams) == 0
+    assert not again.session.can_undo, "what was done before is Blender's to undo"
+
+
+def test_reading_a_mesh_writes_nothing(grid: bpy.types.Object, monkeypatch: pytest.MonkeyPatch) -> None:
+    draw(session_on(grid), 36, 40, 44)
+    text, before = grid.data.seamwire_wires, snapshot(grid)
+    forget(monkeypatch)
+    mesh = session_on(grid)
+    assert grid.data.seamwire_wires == text
+    assert mesh.write(mesh.plan()) == (0, 0)
+    assert grid.data.seamwire_wires == text
+    assert snapshot(grid) == before
+
+
+def test_a_wire_whose_seams_somebody_cleared_is_none(grid: bpy.types.Object) -> None:
+    mesh = session_on(grid)
+    draw(mesh, 36, 40, 44)
+    set_seams(grid, (37, 38), seam=False)
+    assert mesh.refresh(grid)
+    assert [wire.vertices for wire in mesh.session.wires] == [(40, 41, 42, 43, 44)]
+    rest = [(36, 37), (38, 39), (39, 40)]
+    assert sorted(tuple(sorted(edge)) for edge in mesh.plain_seams.tolist()) == rest
+    mesh.write(mesh.plan())
+    assert seams(grid) == sorted(chain(36, 37) + chain(*range(38, 45))), "the rest of it stays"
+    assert (37, 38) not in seams(grid), "what was cleared stays cleared"
+
+
+def test_refreshed_it_keeps_what_was_prepared_where_only_seams_changed(grid: bpy.types.Object) -> None:
+    mesh = session_on(grid)
+    session = mesh.session
+    set_seams(grid, (4, 13))
+    assert mesh.refresh(grid)
+    assert mesh.session is session
+    assert mesh.plain_seams.tolist() == [[4, 13]]
+
+
+def test_it_does_not_go_on_with_another_shape(grid: bpy.types.Object) -> None:
+    mesh = session_on(grid)
+    bm = bmesh.from_edit_mesh(grid.data)
+    bm.verts.ensure_lookup_table()
+    bm.verts[40].co.z += 0.5
+    bmesh.update_edit_mesh(grid.data)
+    assert not mesh.refresh(grid)
+    assert not mesh.follow_change(grid)
+    assert session_on(grid).refresh(grid)
+
+
+def test_it_tells_when_its_mesh_is_gone(grid: bpy.types.Object) -> None:
+    mesh = session_on(grid)
+    assert mesh.alive()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert not mesh.alive()
+    bpy.data.objects.remove(grid)
+    assert not mesh.alive()
+
+
+def test_what_is_drawn_is_written_after_edit_mode_was_left_too(grid: bpy.types.Object) -> None:
+    draw(session_on(grid), 4, 22)
+    mesh = session_on(grid)
+    for pick in (36, 44):
+        mesh.session.click(pick)
+        mesh.session.wait()
+    mesh.session.end_chain()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert not mesh.follow_change(grid)
+    mesh.write(mesh.plan())
+    assert seams(grid) == sorted(chain(*ROW) + chain(4, 13, 22))
+    edit()
+    assert chains(grid) == [(4, 13, 22), ROW]
+    assert agree(grid)
+
+
+def test_after_edit_mode_was_left_removed_wires_leave_no_labels(grid: bpy.types.Object) -> None:
+    draw(session_on(grid), 36, 44)
+    mesh = session_on(grid)
+    mesh.session.drop(mesh.session.wires[0])
+    bpy.ops.object.mode_set(mode="OBJECT")
+    mesh.follow_change(grid)
+    mesh.write(mesh.plan())
+    assert seams(grid) == []
+    assert LAYER not in grid.data.attributes
+    edit()
+    assert chains(grid) == []
+
+
+# Shapes
+
+
+def test_with_a_shape_key_active_the_shape_is_the_one_seen(grid: bpy.types.Object) -> None:
+    bpy.ops.object.mode_set(mode="OBJECT")
+    grid.active_shape_key_index = 1
+    edit()
+    bm = bmesh.from_edit_mesh(grid.data)
+    seen = np.array([v.co for v in bm.verts])
+    assert np.ptp(seen[:, 2]) > 0.1
+    arrays = edit_mesh.read(grid)
+    np.testing.assert_allclose(arrays.points @ arrays.to_object.T, seen, atol=1e-6)
+    before = snapshot(grid, with_seams=False)
+    mesh = session_on(grid)
+    draw(mesh, 36, 44)
+    assert mesh.refresh(grid), "nothing else has changed"
+    assert snapshot(grid, with_seams=False) == before
+    bpy.ops.object.mode_set(mode="OBJECT")
+    grid.active_shape_key_index = 0
+    edit()
+    assert not mesh.refresh(grid), "another shape is seen"
+    assert len(chains(grid)) == 1
+    assert agree(grid)
+
+
+@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
+def test_wires_do_not_mind_the_objects_scale(
+    grid: bpy.types.Object, along: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    mesh = session_on(grid)
+    mesh.session.switch(along)
+    draw(mesh, 36, 40, 44)
+    curves = {wire.vertices: wire.points @ mesh.arrays.to_object.T for wire in mesh.session.wires}
+    grid.matrix_world = Matrix.Diagonal((1.0, 4.0, 0.5, 1.0))
+    bpy.context.view_layer.update()
+    assert not mesh.refresh(grid), "lengths are others"
+    forget(monkeypatch)
+    again = session_on(grid)
+    assert chains(grid) == [(36, 37, 38, 39, 40), (40, 41, 42, 43, 44)]
+    for wire in again.session.wires:
+        np.testing.assert_allclose(wire.points @ again.arrays.to_object.T, curves[wire.vertices], atol=1e-5)
+    assert agree(grid)
+
+
+def test_strokes_stay_with_the_mesh_and_go_when_removed(
+    grid: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    mesh = session_on(grid)
+    assert mesh.session.scribble(vertices=[38, 42], attracts=True, acts_on="both")
+    write(mesh)
+    assert seams(grid) == []
+    forget(monkeypatch)
+    again = session_on(grid)
+    assert len(again.session.scribbles) == 1
+    np.testing.assert_allclose(again.session.scribbles[0].points, mesh.session.scribbles[0].points, atol=1e-6)
+    again.session.erase(again.session.scribbles[0])
+    write(again)
+    assert session_on(grid).session.scribbles == ()
+    assert not has_labels(grid)
+    assert grid.data.seamwire_wires == ""

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Choosing tools in the toolbar: Blender's and ours, with the add-on and without."""
+
+from collections.abc import Iterator
+
+import bpy
+import pytest
+import traces
+import ui as driver
+from scene import add_grid, edit
+from seamwire.mesh.settings import TOOL
+from toolbar import slots
+
+
+@pytest.fixture
+def view(ui: driver.Ui) -> Iterator[driver.Ui]:
+    """A 3D view in edit mode."""
+    add_grid(3)
+    ui.wait()
+    with ui.override():
+        edit()
+    yield ui
+    choose(ui, "builtin.select_box")
+
+
+def choose(ui: driver.Ui, name: str, cycle: bool = False) -> str:
+    """Choose a tool, as a click on its slot does or, to cycle, as its key pressed again does; return which is active then."""
+    with ui.override():
+        assert bpy.ops.wm.tool_set_by_id(name=name, cycle=cycle) == {"FINISHED"}
+        return bpy.context.workspace.tools.from_space_view3d_mode("EDIT_MESH", create=False).idname
+
+
+@pytest.mark.parametrize("enabled", [True, False], ids=["with the add-on", "after it was disabled"])
+def test_every_tool_can_be_chosen_and_cycled(view: driver.Ui, enabled: bool) -> None:
+    if not enabled:
+        traces.disable()
+    try:
+        with view.override():
+            groups = [slot for slot in slots() if slot is not None]
+        assert ([TOOL] in groups) == enabled
+        for group in groups:
+            for name in group:
+                assert choose(view, name) == name
+            seen = {choose(view, group[0], cycle=True) for _ in group}
+            assert seen == set(group)
+    finally:
+        if not enabled:
+            traces.enable()
+
+
+def test_every_slot_can_be_hovered(view: driver.Ui) -> None:
+    toolbar = next(region for region in view.area.regions if region.type == "TOOLS")
+    with view.override():
+        view.space.show_region_toolbar = True
+    view.wait(4, redraw=True)
+    for up in range(toolbar.height - 4, 0, -12):
+        # From the lower left corner of the view's own region.
+        view.move((toolbar.x + 0.5 * toolbar.width - view.region.x, toolbar.y + up - view.region.y))
+        view.wait(2, redraw=True)
+
+
+def test_disabled_while_it_is_chosen_it_leaves_a_view_that_works(view: driver.Ui) -> None:
+    assert choose(view, TOOL) == TOOL
+    traces.disable()
+    try:
+        view.wait(4, redraw=True)
+        assert choose(view, "builtin.knife", cycle=True) in {"builtin.knife", "builtin.bisect"}
+        view.wait(2, redraw=True)
+    finally:
+        traces.enable()
+    assert choose(view, TOOL) == TOOL
