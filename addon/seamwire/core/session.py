@@ -10,6 +10,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from .candidates import only_vertices
 from .edge_loops import taken
 from .engines import CLAMP_PERCENTILE, STRENGTHS
@@ -308,6 +310,10 @@ class Session(Guidance):
         self._stops = Stops(seams, self._mirror)
         self._redraws.clear()
         self._history.forget()
+        if any(wire.images is None for wire in network.wires):
+            # Wires of the first version do not know their images: they are what is a seam of them still.
+            pairs = np.sort(np.asarray(seams, dtype=np.int64).reshape(-1, 2), axis=1)
+            network = self._with_images(network, set(map(tuple, pairs.tolist())))
         seed = network.seed
         if seed is not None and seed != self._network.seed and not self._sow(seed):
             seed = None
@@ -325,7 +331,7 @@ class Session(Guidance):
         if self._redraws.drop_last():
             self.revision += 1
             return True
-        network = self._history.back(self._network)
+        network = self._history.back(self._unmirrored())
         if network is None:
             return self._refuse("Nothing to undo in this drawing")
         self._restore(network)
@@ -334,7 +340,7 @@ class Session(Guidance):
     def redo(self) -> bool:
         """Bring back what undo took."""
         self.drag_cancel()
-        network = self._history.forth(self._network)
+        network = self._history.forth(self._unmirrored())
         if network is None:
             return self._refuse("Nothing to redo in this drawing")
         self._restore(network)
