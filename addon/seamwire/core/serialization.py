@@ -274,9 +274,7 @@ def _unpacked(text: str) -> NDArray[np.float64]:
 # Strokes
 
 
-def stroke_record(
-    stroke: Scribble, places: NDArray[np.float64], to_object: NDArray[np.float64], order: int
-) -> Record:
+def stroke_record(stroke: Scribble, places: NDArray[np.float64], to_object: NDArray[np.float64], order: int) -> Record:
     """Return what there is to keep of a stroke; parameters as those of `wire_record`, and how many strokes came before."""
     numbers = np.unique(stroke.corners)
     return {

@@ -383,6 +383,8 @@ class _Wires:
         stored = serialization.pick_of(piece.record[name])
         if not isinstance(stored, tuple):
             return self._numbers[row].get(stored, end)
+        if tuple(piece.record["vertices"]) == piece.vertices and end in stored and _edge(stored) in self._edges:
+            return stored
         # An edge where two wires meet lies on one of them: the numbers of both may be of different times.
         for other in (row, *self._beside.get(end, [])):
             found = self._edge_now(other, stored)
@@ -406,7 +408,12 @@ class _Wires:
                 for end in names:
                     seed = getattr(wires[other], end)
                     before = serialization.pick_of(self._pieces[other].record[end])
-                    if isinstance(seed, tuple) and vertex in seed and undirected(before) == undirected(stored):
+                    goes_on = (name, end) == ("start", "end") and record["heading"]
+                    if (
+                        isinstance(seed, tuple)
+                        and vertex in seed
+                        and (undirected(before) == undirected(stored) or goes_on)
+                    ):
                         wire = replace(wire, **{name: seed})
         return wire
 
@@ -545,7 +552,8 @@ class _Change:
         else:
             wanted = self.seam  # whatever it is, it is no wire's of the session
         members = self.after | others
-        if was_seam and (wires(members) or (others and WAS_SEAM in self.before)):
+        unknown = others and WAS_SEAM in self.before and not ours  # a member of a label that is not ours to change
+        if unknown or (was_seam and wires(members)):
             members = members | {WAS_SEAM}
         label = archive.label_of(members)
         if label != archive.label_of(self.before):
