@@ -188,7 +188,30 @@ def test_what_is_left_of_images_whose_wire_is_gone_is_plain() -> None:
     assert mesh.labels == {}
 
 
+def test_images_of_a_wire_of_which_nothing_is_left_are_plain() -> None:
+    mesh = mirrored()
+    mesh.delete_edges(chain(0, 1, 2, 8))
+    mesh.write(opened(mesh))
+    assert mesh.seams == lines((5, 4, 3, 9))
+    assert mesh.labels == {}
+
+
 # Clearing
+
+
+def test_what_clears_an_edge_of_a_hidden_wire_takes_it_from_that() -> None:
+    mesh, _ = drawn((0, 3))
+    mesh.hide((0, 1))
+    session = opened(mesh)
+    session.toggle_marking()
+    session.click(2)
+    session.click(3)
+    mesh.write(session)
+    assert mesh.seams == set(mesh.labels) == lines((0, 1, 2))
+    mesh.hidden.clear()
+    mesh.write(opened(mesh))
+    assert mesh.seams == lines((0, 1, 2))
+    assert mesh.labels == {}
 
 
 def test_a_wire_that_clears_leaves_the_rest_of_those_it_crosses_as_seams() -> None:
@@ -506,17 +529,17 @@ def test_the_same_number_of_vertices_moved_by_a_cell_is_the_same_mesh() -> None:
 def test_of_wires_that_end_in_one_seed_each_goes_on_from_its_own() -> None:
     mesh = paper()
     session = Table().session
-    for pick in (0, 3, 21):
+    for pick in (21, 3, 5):
         session.click(pick)
     session.end_chain()
-    for row in (9, 5):
-        session.start(row)
+    for begin in (0, 1):
+        session.start(begin)
         session.click(Snap(3, "SEED"))
     mesh.write(session)
     again = opened(mesh)
     (wire,) = [wire for wire in again.wires if wire.heading is not None]
-    assert wire.heading == (2, 3)
-    assert again.network.before(wire).vertices == (0, 1, 2, 3)
+    assert wire.heading == (9, 3), "not (2, 3)"
+    assert again.network.before(wire).vertices == (21, 15, 9, 3)
 
 
 # Subdivided
@@ -538,6 +561,8 @@ def test_a_subdivided_wire_is_the_same_wire_with_more_vertices() -> None:
     plan = mesh.write(session)
     assert (plan.mark, plan.clear) == ([], [])
     assert found(mesh) == sorted(courses(session))
+    records = Archive.parse(mesh.text).wires.values()
+    assert sorted(tuple(record["vertices"]) for record in records) == found(mesh), "from here on it is another wire"
 
 
 def test_the_edge_seed_between_subdivided_wires_is_one_seed() -> None:

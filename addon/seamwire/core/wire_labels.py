@@ -385,11 +385,9 @@ class _Wires:
             return self._numbers[row].get(stored, end)
         if tuple(piece.record["vertices"]) == piece.vertices and end in stored and _edge(stored) in self._edges:
             return stored
-        # An edge where two wires meet lies on one of them: the numbers of both may be of different times.
-        for other in (row, *self._beside.get(end, [])):
-            found = self._edge_now(other, stored)
-            if found is not None and end in found:
-                return found
+        found = self._edge_now(row, stored)
+        if found is not None and end in found:
+            return found
         if not piece.unchanged and not piece.record["closed"]:
             chain, now = piece.record["vertices"], piece.vertices
             if undirected(stored) == _edge(chain[:2] if name == "start" else chain[-2:]):
@@ -397,7 +395,10 @@ class _Wires:
         return end
 
     def _with_shared_seeds(self, row: int, wires: list[Wire]) -> Wire:
-        """Return a wire with the seeds that others have at its ends, where it had the same and did not find them."""
+        """Return a wire with the seeds that others have at its ends, where it had the same and did not find them.
+
+        An edge where two wires meet lies on one of them, and the records of both may be of different times.
+        """
         wire, record = wires[row], self._pieces[row].record
         names: tuple[End, End] = ("start", "end")
         for name in names:
