@@ -219,6 +219,9 @@ def test_a_wires_images_are_those_of_when_it_was_kept_and_follow_its_course() ->
     assert [sorted(one.images) for one in session.wires] == [chain(5, 11), chain(11, 10, 9)]
     assert [one.mirror for one in session.wires] == [(0,), (0,)]
     assert [image.vertices for image in session.mirrored(session.wires[0])] == [(5, 11)]
+    session.drag(8)
+    session.drag_to(7)
+    assert [image.vertices for image in session.mirrored(session.wires[1])] == [(11, 10)], "and are shown meanwhile"
 
 
 def test_running_on_ends_where_the_wire_meets_its_image() -> None:

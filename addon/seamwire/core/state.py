@@ -330,7 +330,8 @@ class State:
 
     def mirrored(self, wire: Wire) -> list[Wire]:
         """Return the images that a wire has, or would have if it were kept now, as far as the mesh has their edges."""
-        return self._mirror.images(wire, self.mirror_axes if wire.images is None else wire.mirror)
+        kept = wire.images is not None or self.network.find(wire) is not None
+        return self._mirror.images(wire, wire.mirror if kept else self.mirror_axes)
 
     # For the deeds
 
