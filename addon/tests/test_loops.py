@@ -305,6 +305,20 @@ def test_a_stored_loop_or_strip_goes_through_the_same_offers_again(order: range,
     assert again.wires[0] is kept
 
 
+def test_a_loop_that_waits_does_not_keep_a_click_before_it_waiting() -> None:
+    table = Table(ready=(False, False), islands=(21,))
+    session = table.session
+    session.click(0)
+    session.click(21)
+    session.loop((14, 15))
+    session.click(3)
+    assert session.waiting_clicks == 3
+    table.compute()
+    assert session.waiting_clicks == 0
+    assert not session.computing
+    assert [wire.vertices for wire in session.wires] == [LOOP, (0, 1, 2, 3)], "no wire reaches 21"
+
+
 def test_a_stored_loop_is_previewed_with_its_offers() -> None:
     table = Table()
     table.session.loop((14, 15))

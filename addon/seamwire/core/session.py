@@ -86,7 +86,7 @@ class Session(Guidance):
         seen = self._live.active_final and target == self._live.target
         self._aim(target)
         # What is seen is kept; where nothing is seen yet, the one that is there first must not win for that.
-        if not (self._live.decided or (seen and self._live.active_final)) and self.computing:
+        if not (self._live.decided or (seen and self._live.active_final)) and self._wires_computing:
             self._queue.append(Queued("click", target))
             self.revision += 1
             return True
@@ -283,7 +283,7 @@ class Session(Guidance):
             self._preview_end()
             return self._end.wire is not None or self.computing or self._refuse(self.message or _NOWHERE)
         target = self._live.target
-        if self._queue or (target is not None and not self._live.active_final and self.computing):
+        if self._queue or (target is not None and not self._live.active_final and self._wires_computing):
             if target is None:
                 return self._refuse(_NOWHERE)
             self._end.wanted = False
@@ -428,8 +428,11 @@ class Session(Guidance):
         """Do the oldest waiting click if its wire is there; returns whether it was done."""
         head = self._queue[0]
         self._aim(head.snap, again=True)
-        blocked = not self._find_offers(head.snap.pick) if head.kind in {"loop", "offer"} else not self._live.decided
-        if blocked and self.computing:
+        if head.kind in {"loop", "offer"}:
+            waits = not self._find_offers(head.snap.pick) and self.computing
+        else:
+            waits = not self._live.decided and self._wires_computing
+        if waits:
             return False
         del self._queue[0]
         rest, self._queue = self._queue, []

@@ -239,6 +239,11 @@ class State:
         return self._progress < 1.0 or not self._loop.final
 
     @property
+    def _wires_computing(self) -> bool:
+        """Whether it works on wires: a loop that waits behind a click must not keep that waiting."""
+        return self._progress < 1.0
+
+    @property
     def progress(self) -> float:
         """Fraction of that work that is done."""
         return self._progress
