@@ -6,6 +6,7 @@ from __future__ import annotations
 import itertools
 
 from fake_live import FakeLive, grid_edges, grid_points, grid_triangles
+from paper_mesh import PaperMesh
 from seamwire.core.network import Along
 from seamwire.core.session import Session
 
@@ -43,6 +44,14 @@ class Table:
             for one in (live, *live.forks):
                 one.ready = (True, True)
         self.session.poll()
+
+
+def paper(centred: bool = False, **options: object) -> PaperMesh:
+    """Return the mesh of a table."""
+    points = grid_points(SIZE)
+    if centred:
+        points[:, :2] -= (SIZE - 1) / 2
+    return PaperMesh(points, grid_edges(SIZE), triangles=grid_triangles(SIZE), **options)
 
 
 def chain(*vertices: int) -> list[tuple[int, int]]:

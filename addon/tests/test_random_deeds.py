@@ -10,10 +10,11 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
+from paper_mesh import PaperMesh
 from seamwire.core.eventual import EventualLive, Eventually
-from seamwire.core.network import Pick, Snap
-from seamwire.core.serialization import dump, load
+from seamwire.core.network import Edge, Network, Pick, Snap
 from seamwire.core.session import CLAMP_PERCENTILE, STRENGTHS, Session
+from seamwire.core.wire_labels import Plan
 
 core = pytest.importorskip("seamwire_core")
 
@@ -49,6 +50,12 @@ class Monkey:
             seams=[(40, 41), (41, 53)],
             triangles=grid_triangles(SIZE),
         )
+        self.mesh = PaperMesh(self.points, EDGES, triangles=grid_triangles(SIZE), seams={(40, 41), (41, 53)})
+        self.plain: set[Edge] = set(self.mesh.seams)
+        """What is to be a seam whether wires run along it or not."""
+        self.begun = Network()
+        """What the session goes back to when all is undone."""
+        self.saved = [(self.mesh.snapshot(), set(self.plain))]
         session = self.session
         self.deeds: list[Callable[[], object]] = [
             *[lambda: session.click(self.snap())] * 6,
@@ -74,7 +81,8 @@ class Monkey:
             self.with_wire(session.drop),
             self.with_wire(lambda wire: session.insert(wire, self.dice.choice(wire.vertices))),
             self.erase,
-            self.store,
+            *[self.store] * 2,
+            self.undo_in_mesh,
         ]
 
     def snap(self) -> Snap:
@@ -106,14 +114,52 @@ class Monkey:
             self.session.erase(self.dice.choice(self.session.scribbles))
 
     def store(self) -> None:
-        if self.session.dragging:
+        session, mesh = self.session, self.mesh
+        if session.dragging:
             return
-        network, problems = load(dump(self.session.network, self.points), self.points, EDGES)
-        assert problems == []
-        assert [wire.edges() for wire in network.wires] == [wire.edges() for wire in self.session.wires]
-        assert len(network.scribbles) == len(self.session.scribbles)
+        cleared = set(session.edges_to_clear())
+        self.plain -= cleared
+        for wire in session.wires:
+            if wire.marks and not cleared.isdisjoint(wire.edges()):
+                self.plain |= set(wire.claims()) - cleared
+        plan = mesh.write(session)
+        assert mesh.seams == self.plain | set(session.edges_to_mark())
+        again = mesh.write(session)
+        assert (again.mark, again.clear, again.labels) == ([], [], {}), "done once, it is done"
+        self.check_stored(plan)
         if self.dice.random() < 0.3:
-            self.session.resume(network)
+            self.open()
+            self.saved.append((mesh.snapshot(), set(self.plain)))
+
+    def check_stored(self, plan: Plan) -> None:
+        """Whether a Blender that was just started finds in the mesh what there is."""
+        mesh, expected = self.mesh, plan.network
+        found = mesh.read()
+        assert found.known == plan.known
+        assert (found.broken, found.unknown) == (set(), 0)
+        assert looks(found.network) == looks(expected)
+        assert len(found.network.scribbles) == len(expected.scribbles)
+        marked = {edge for wire in found.network.wires for edge in wire.claims()}
+        assert mesh.plain_seams() == mesh.seams - marked
+        assert marked <= mesh.seams
+        assert self.plain | marked == mesh.seams
+
+    def open(self) -> None:
+        self.mesh.open(self.session, self.mesh.archive)
+        self.begun = self.session.network
+        assert not self.session.can_undo
+
+    def undo_in_mesh(self) -> None:
+        """Let Blender take back what was written, while no chain is drawn."""
+        if self.session.seed is not None or self.dice.random() < 0.5:
+            return
+        snapshot, plain = self.dice.choice(self.saved)
+        self.mesh.undo(snapshot)
+        self.plain = set(plain)
+        self.mesh.open(self.session, self.mesh.archive)
+        self.begun = self.session.network
+        assert self.mesh.found.unknown == 0
+        assert self.mesh.seams == self.plain | set(self.session.edges_to_mark())
 
     def check(self) -> None:
         session = self.session
@@ -126,6 +172,14 @@ class Monkey:
         assert (session.loop_choice is None) == (session.loop_offers == ())
         assert len(set(session.loop_offers)) == len(session.loop_offers)
         assert session.intent is not None
+
+
+def looks(network: Network) -> set[tuple[object, ...]]:
+    """Return what there is to be seen of wires; of several that are the same, one is."""
+    return {
+        (wire.along, wire.vertices, wire.closed, wire.follow, wire.mirror, frozenset(wire.images or ()))
+        for wire in network.wires
+    }
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
@@ -143,8 +197,10 @@ def test_whatever_is_done_the_network_is_sound_and_undo_leads_back(seed: int) ->
         session.undo()
         left -= 1
     assert left
-    assert session.wires == ()
-    assert session.scribbles == ()
+    assert looks(session.network) == looks(monkey.begun)
+    assert [one.id for one in session.scribbles] == [one.id for one in monkey.begun.scribbles]
+    for scribble in session.scribbles:
+        session.erase(scribble)
     session.switch("EDGES")
     session.set_metric("feature")
     session.set_strength("EDGES", STRENGTHS["EDGES"])

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from fake_live import grid_edges
 from numpy.typing import NDArray
+from paper_mesh import PaperMesh
 from seamwire.core.eventual import EventualLive, Eventually
 from seamwire.core.network import Along, Snap
-from seamwire.core.serialization import dump, load
 from seamwire.core.session import CLAMP_PERCENTILE, STRENGTHS, Session
 
 core = pytest.importorskip("seamwire_core")
@@ -205,20 +205,30 @@ def test_mirrored_wires_lie_on_the_other_side_of_the_ridge() -> None:
     assert session.mirrored(session.wires[1]) == []
 
 
-def test_a_stored_network_is_drawn_anew_where_its_edges_are_hidden() -> None:
+def test_wires_of_the_library_come_back_from_the_mesh_and_can_be_dragged() -> None:
     session = draw()
+    mesh = PaperMesh(ridge(), grid_edges(SIZE))
     click(session, at(0, -8), at(0, 8))
-    text = dump(session.network, ridge())
-    edges = grid_edges(SIZE)
-    left = edges[~(edges == [at(0, 0), at(0, 1)]).all(axis=1)]
-    network, problems = load(text, ridge(), left)
-    assert len(problems) == 1
-    surface = core.Surface(ridge(), triangles(), left)
-    again = Session(lambda way: core.LiveWire(surface, along=way.lower()), ridge(), edges=left)
-    again.resume(network)
+    session.switch("SURFACE")
+    session.start(at(-6, -6))
+    click(session, at(7, -4))
+    mesh.write(session, adopt=True)
+    mesh.hide((at(0, 0), at(0, 1)))
+    again = draw()
+    mesh.open(again)
+    assert [wire.along for wire in again.wires] == ["SURFACE"], "the other one is not there while it is hidden"
+    assert again.wires[0].vertices == session.wires[1].vertices
+    assert np.allclose(again.wires[0].points, session.wires[1].points, atol=1e-5)
+    mesh.hidden.clear()
+    mesh.open(again)
+    assert sorted(wire.vertices for wire in again.wires) == sorted(wire.vertices for wire in session.wires)
+    assert again.drag(at(0, 8))
+    again.drag_to(at(2, 8))
     again.wait()
-    assert again.seeds() == [at(0, -8), at(0, 8)]
-    assert (at(0, 0), at(0, 1)) not in again.edges_to_mark()
+    assert again.drag_end()
+    assert at(2, 8) in again.seeds()
+    mesh.write(again)
+    assert mesh.seams == set(again.edges_to_mark())
 
 
 def test_a_seed_off_the_surface_is_refused_in_words() -> None:

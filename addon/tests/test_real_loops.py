@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
+from paper_mesh import PaperMesh
 from seamwire.core.edge_loops import corners
 from seamwire.core.eventual import EventualLive, Eventually
 from seamwire.core.network import Along
-from seamwire.core.serialization import dump, load
 from seamwire.core.session import CLAMP_PERCENTILE, STRENGTHS, Session
 
 core = pytest.importorskip("seamwire_core")
@@ -249,10 +249,10 @@ def test_the_strip_of_a_stored_network_can_be_moved() -> None:
         session.toggle()
     session.loop(edge)
     points = session._points
-    network, problems = load(dump(session.network, points), points, session._mirror._edges)
-    assert problems == []
+    mesh = PaperMesh(points, session._mirror._edges)
+    mesh.write(session)
     again = tube()
-    again.resume(network)
+    mesh.open(again)
     assert again.drag(again.seeds()[0])
     again.drag_to(4)
     again.wait()
@@ -375,10 +375,10 @@ def test_a_stored_stroke_draws_the_same_wire() -> None:
     session = grid()
     session.scribble(bow(), faces_under(bow()))
     before = wire_between(session, "EDGES")
-    network, problems = load(dump(session.network, grid_points(SIZE)), grid_points(SIZE), grid_edges(SIZE))
-    assert problems == []
+    mesh = PaperMesh(grid_points(SIZE), grid_edges(SIZE), triangles=grid_triangles(SIZE))
+    mesh.write(session)
     again = grid()
-    again.resume(network)
+    mesh.open(again)
     assert np.array_equal(wire_between(again, "EDGES"), before)
 
 

@@ -3,15 +3,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
-from fake_live import grid_edges, grid_points, grid_triangles
+from fake_live import grid_points, grid_triangles
 from numpy.typing import NDArray
-from seamwire.core.network import Network
-from seamwire.core.serialization import dump, load
 from seamwire.core.strokes import OffMeshError, drawn, into_triangles, on_mesh, through_vertices
 from seamwire.operators.seed_text import draw_scribbles, parse_scribbles
-from table import SIZE, Table
+from table import SIZE, Table, paper
 
 MESH, TRIANGLES = grid_points(SIZE), grid_triangles(SIZE)
 
@@ -241,48 +241,44 @@ def test_live_wires_made_later_know_the_strokes() -> None:
 # As they are stored
 
 
-def stored(network: Network, points: NDArray[np.float64] = MESH) -> tuple[Network, list[str]]:
-    return load(dump(network, MESH), points, grid_edges(SIZE))
-
-
 def test_strokes_are_stored_and_found_again() -> None:
     session = Table().session
     stroke(session, (0.5, 0.2), (4.5, 3.2), radius=0.5)
     session.scribble(vertices=[1, 8, 20], attracts=False)
-    network, problems = stored(session.network)
-    assert problems == []
+    mesh = paper()
+    mesh.write(session)
     again = Table().session
-    assert again.resume(network)
+    mesh.open(again)
     for before, after in zip(session.scribbles, again.scribbles, strict=True):
-        assert np.allclose(before.points, after.points, atol=1e-12)
+        assert np.allclose(before.points, after.points, atol=1e-6)
         assert (before.faces == after.faces).all()
         assert (before.vertices == after.vertices).all()
         assert (before.attracts, before.acts_on, before.radius) == (after.attracts, after.acts_on, after.radius)
-    assert again.undo()
-    assert again.scribbles == ()
+    assert not again.can_undo
+    assert again.erase(again.scribbles[0])
+    mesh.write(again)
+    assert len(mesh.read().network.scribbles) == 1
 
 
 def test_strokes_on_renumbered_vertices_are_found_by_their_places() -> None:
-    order = np.random.default_rng(2).permutation(len(MESH))
-    renumbered = np.empty_like(MESH)
-    renumbered[order] = MESH
     session = Table().session
     stroke(session, (0.5, 0.2), (4.5, 3.2))
-    network, problems = load(dump(session.network, MESH), renumbered, order[grid_edges(SIZE)].astype(np.int32))
-    assert problems == []
-    found = on_mesh(network.scribbles[0], renumbered, order[TRIANGLES].astype(np.int32))
-    assert np.allclose(found.points, session.scribbles[0].points, atol=1e-12)
+    mesh = paper()
+    mesh.write(session)
+    mesh.renumber(np.random.default_rng(2).permutation(len(MESH)))
+    found = on_mesh(mesh.read().network.scribbles[0], mesh.points, mesh.triangles)
+    assert np.allclose(found.points, session.scribbles[0].points, atol=1e-6)
     assert (found.faces == session.scribbles[0].faces).all()
 
 
 def test_of_a_stroke_over_what_is_gone_the_longest_part_stays() -> None:
     session = Table().session
     stroke(session, (0.1, 0.2), (4.9, 0.2))
-    moved = MESH.copy()[:-1]
-    moved[[1, 7]] += 0.4
-    network, problems = stored(session.network, moved)
-    assert "1 of 1 stored strokes" in problems[0]
-    (left,) = network.scribbles
+    mesh = paper()
+    mesh.write(session)
+    mesh.delete_vertices([35])
+    mesh.places[[1, 7]] += 0.4
+    (left,) = mesh.read().network.scribbles
     assert (left.points[:, 0] >= 2.0).all(), "the first two squares are no more what they were"
     assert len(left.points) > 10
 
@@ -292,37 +288,54 @@ def test_a_stroke_whose_triangles_are_gone_runs_through_vertices() -> None:
     stroke(session, (0.1, 0.2), (4.9, 0.2))
     flipped = TRIANGLES.copy()
     flipped[0::2, 2], flipped[1::2, 0] = TRIANGLES[1::2, 2], TRIANGLES[0::2, 1]
-    found = on_mesh(stored(session.network)[0].scribbles[0], MESH, flipped)
+    mesh = paper()
+    mesh.write(session)
+    found = on_mesh(mesh.read().network.scribbles[0], MESH, flipped)
     assert (found.faces == -1).all()
     assert (found.points == MESH[found.vertices]).all()
     assert set(found.vertices.tolist()) == {0, 1, 2, 3, 4, 5}
 
 
-def test_networks_stored_before_there_were_strokes_are_read() -> None:
-    text = dump(Network(), MESH).replace(',"scribbles":[]', "")
-    assert "scribbles" not in text
-    network, problems = load(text, MESH, grid_edges(SIZE))
-    assert problems == []
-    assert network.scribbles == ()
+def test_a_stroke_on_a_mesh_that_moved_by_a_cell_goes_with_its_vertices() -> None:
+    session = Table().session
+    stroke(session, (0.5, 0.2), (3.5, 0.2))
+    mesh = paper()
+    mesh.write(session)
+    mesh.places[:, 0] -= 1.0
+    (found,) = mesh.read().network.scribbles
+    assert (found.corners == session.scribbles[0].corners).all()
 
 
 @pytest.mark.parametrize(
-    ("sound", "damaged"),
+    "spoil",
     [
-        ('"both"', '"none"'),
-        ('"eta":20.0', '"eta":0.5'),
-        ('"rings":10', '"rings":"x"'),
-        ('"corners":[[', '"corners":[[7,'),
+        lambda record: record.update(acts_on="none"),
+        lambda record: record.update(acts_on=["both"]),
+        lambda record: record.update(eta=0.5),
+        lambda record: record.update(rings="x"),
+        lambda record: record["corners"].__setitem__(0, [7]),
+        lambda record: record.update(corners=3),
+        lambda record: record.update(corners=[]),
+        lambda record: record.update(points="!"),
+        lambda record: record.update(places=record["points"]),
+        lambda record: record.update(vertex_count=None),
+        lambda record: record.pop("vertices"),
+        lambda record: record.update(vertices=[10**30]),
+        lambda record: record.clear(),
     ],
 )
-def test_damaged_strokes_raise_nothing(sound: str, damaged: str) -> None:
+def test_damaged_strokes_raise_nothing_and_are_no_strokes(spoil: Callable[[dict[str, object]], object]) -> None:
     session = Table().session
     stroke(session, (0.5, 0.2), (4.5, 0.2))
-    text = dump(session.network, MESH)
-    assert sound in text
-    network, problems = load(text.replace(sound, damaged, 1), MESH, grid_edges(SIZE))
-    assert network == Network()
-    assert "damaged" in problems[0]
+    session.click(12)
+    session.click(15)
+    mesh = paper()
+    mesh.write(session)
+    spoil(next(iter(mesh.archive.strokes.values())))
+    mesh.text = mesh.archive.text(mesh.labels.values())
+    found = mesh.read()
+    assert found.network.scribbles == ()
+    assert len(found.network.wires) == 1
 
 
 # As text

@@ -431,19 +431,55 @@ def test_mirrored_edges_are_marked_and_cleared() -> None:
     assert [image.vertices for image in session.mirrored(session.wires[0])] == [(5, 4)]
 
 
-def test_mirroring_is_a_step_but_for_how_drawing_begins() -> None:
+def test_mirroring_is_for_wires_kept_from_then_on_and_no_step() -> None:
     session = Table(centred=True).session
     assert session.set_mirror((0,))
     assert not session.can_undo
     session.click(0)
     session.click(1)
-    before = session.network_revision
-    session.set_mirror(())
-    assert session.network_revision > before
-    assert session.edges_to_mark() == [(0, 1)]
+    session.end_chain()
+    assert session.set_mirror(())
+    assert session.edges_to_mark() == [(0, 1), (4, 5)], "the kept wire keeps its images"
+    session.click(12)
+    session.click(13)
+    assert session.edges_to_mark() == [(0, 1), (4, 5), (12, 13)]
     session.undo()
-    assert session.mirror_axes == (0,)
+    assert session.mirror_axes == ()
     assert session.edges_to_mark() == [(0, 1), (4, 5)]
+    session.redo()
+    assert session.edges_to_mark() == [(0, 1), (4, 5), (12, 13)]
+
+
+def test_after_the_mirror_was_set_undo_does_not_stop_at_steps_that_changed_nothing() -> None:
+    session = Table(centred=True).session
+    session.click(0)
+    session.adopt(session.network, [])
+    session.start(0)
+    assert not session.can_undo
+    session.set_mirror((0,))
+    assert not session.can_undo
+    assert not session.undo()
+
+
+def test_a_wires_images_are_those_of_when_it_was_kept_and_follow_its_course() -> None:
+    session = Table(centred=True).session
+    session.set_mirror((0,))
+    session.click(0)
+    session.click(8)
+    session.end_chain()
+    session.set_mirror((1,))
+    (wire,) = session.wires
+    assert wire.mirror == (0,)
+    assert sorted(wire.images) == chain(5, 4, 3, 9)
+    assert session.toggle_kept(wire)
+    assert sorted(session.wires[0].images) == chain(5, 11, 10, 9)
+    assert session.insert(session.wires[0], 6)
+    assert [sorted(one.images) for one in session.wires] == [chain(5, 11), chain(11, 10, 9)]
+    assert [one.mirror for one in session.wires] == [(0,), (0,)]
+    assert [image.vertices for image in session.mirrored(session.wires[0])] == [(5, 11)]
+    session.drag(8)
+    session.drag_to(7)
+    assert [image.vertices for image in session.mirrored(session.wires[1])] == [(11, 10)], "and are shown meanwhile"
 
 
 def test_running_on_ends_where_the_wire_meets_its_image() -> None:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -74,7 +74,7 @@ class LoopPreview:
 
 def taken(offers: tuple[Wire, ...], choice: int, marks: bool) -> Wire:
     """Return an offer as a wire to be kept, with the others in their order, the next one first."""
-    return replace(offers[choice], marks=marks, offers=offers[choice + 1 :] + offers[:choice])
+    return offers[choice].anew(marks=marks, offers=offers[choice + 1 :] + offers[:choice])
 
 
 def others(kept: Wire, offers: tuple[Wire, ...]) -> tuple[Wire, ...]:

@@ -215,6 +215,10 @@ class Wire:
         """Return it with another course, which is none that a click on an edge offered."""
         return self.changed(**course, images=None, alternative=None, kind=None, through=None, offers=())
 
+    def anew(self, **changes: object) -> Wire:
+        """Return it as another wire, with changes."""
+        return self.changed(**changes, images=None, id=next(_ids))
+
     def changed(self, **changes: object) -> Wire:
         """Return it with changes that the mesh does not know yet."""
         return replace(self, **changes, stored=0)

@@ -25,7 +25,7 @@ from .strokes import Scribble
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .network import Pick
+    from .network import Edge, Pick
     from .strokes import ActsOn
 
 FORMAT = "seamwire"
@@ -37,6 +37,20 @@ _TOLERANCE = 1e-4
 """How far a vertex may have moved and still be found by its place, as part of the mesh's size."""
 
 Record = dict[str, Any]
+
+
+_DAMAGED = (
+    ValueError,
+    TypeError,
+    KeyError,
+    IndexError,
+    AttributeError,
+    OverflowError,
+    RecursionError,
+    zlib.error,
+    binascii.Error,
+)
+"""What reading raises where a text is not what it should be."""
 
 
 class UnreadableError(ValueError):
@@ -72,18 +86,19 @@ class Archive:
         if not text:
             return archive
         try:
-            name, version, body = text.split(" ", 2)
+            name, version, *rest = text.split(maxsplit=2)
             if name != FORMAT:
                 raise ValueError
-            if int(version) > VERSION:
+            if version != str(VERSION):
                 raise NewerError("The wires of this mesh were drawn with a newer Seamwire: they stay as they are")
+            (body,) = rest
             data = json.loads(zlib.decompress(base64.b64decode(body, validate=True)))
-            archive.wires = {int(number): _checked_wire(record) for number, record in data["wires"].items()}
-            archive.strokes = {int(number): dict(record) for number, record in data["strokes"].items()}
-            archive._sets = {int(label): tuple(map(int, members)) for label, members in data["sets"].items()}
+            archive.wires = {_number(number): _checked_wire(record) for number, record in data["wires"].items()}
+            archive.strokes = {_number(number): dict(record) for number, record in data["strokes"].items()}
+            archive._sets = {_number(label): tuple(map(int, members)) for label, members in data["sets"].items()}
         except NewerError:
             raise
-        except (ValueError, TypeError, KeyError, AttributeError, RecursionError, zlib.error, binascii.Error) as error:
+        except _DAMAGED as error:
             raise UnreadableError("The wires stored with this mesh cannot be read; its seams are untouched") from error
         return archive
 
@@ -96,7 +111,7 @@ class Archive:
             "strokes": {number: self.strokes[number] for number in sorted(members & self.strokes.keys())},
             "sets": {label: self._sets[label] for label in sorted(used & self._sets.keys())},
         }
-        if not data["wires"] and not data["strokes"]:
+        if not any(data.values()):
             return ""
         body = json.dumps(data, separators=(",", ":")).encode()
         return f"{FORMAT} {VERSION} {base64.b64encode(zlib.compress(body, 9)).decode()}"
@@ -143,6 +158,14 @@ class Archive:
         return number
 
 
+def _number(text: str) -> int:
+    """Return the number of a record; raises ValueError where it is none."""
+    number = int(text)
+    if not _FIRST_NUMBER <= number <= 0x7FFFFFFF:
+        raise ValueError
+    return number
+
+
 # Wires
 
 
@@ -166,7 +189,7 @@ def wire_record(wire: Wire, places: NDArray[np.float64], to_object: NDArray[np.f
         "start": wire.start,
         "end": wire.end,
         "closed": wire.closed,
-        "goes_on": wire.heading is not None,
+        "heading": wire.heading,
         "follow": wire.follow,
         "strength": wire.strength,
         "mirror": list(wire.mirror),
@@ -181,17 +204,26 @@ def wire_record(wire: Wire, places: NDArray[np.float64], to_object: NDArray[np.f
 
 def _checked_wire(record: Record) -> Record:
     """Return a record that was read, where nothing in it can be misunderstood; raises ValueError, TypeError, KeyError."""
-    vertices = [int(vertex) for vertex in record["vertices"]]
+    vertices = record["vertices"]
     ends = np.array(record["ends"], dtype=np.float64)
-    sound = len(vertices) >= (3 if record["closed"] else 2) and min(vertices) >= 0
-    if not sound or ends.shape != (2, 3) or not np.isfinite(ends).all() or record["along"] not in {"EDGES", "SURFACE"}:
-        raise ValueError
-    if not np.isfinite(float(record["strength"])) or any(axis not in {0, 1, 2} for axis in record["mirror"]):
+    sound = (
+        type(record["closed"]) is bool
+        and all(type(vertex) is int and vertex >= 0 for vertex in vertices)
+        and len(vertices) >= (3 if record["closed"] else 2)
+        and ends.shape == (2, 3)
+        and np.isfinite(ends).all()
+        and record["along"] in ("EDGES", "SURFACE")
+        and record["follow"] in (0, 1)
+        and np.isfinite(float(record["strength"]))
+        and all(axis in (0, 1, 2) for axis in record["mirror"])
+        and (record["heading"] is None or isinstance(pick_of(record["heading"]), tuple))
+    )
+    if not sound:
         raise ValueError
     for name in ("start", "end"):
         pick_of(record[name])
-    if record.get("kind") is not None and (
-        record["kind"] not in LOOP_NAMES or not isinstance(pick_of(record["through"]), tuple)
+    if record.get("kind") is not None and not (
+        isinstance(record["kind"], str) and isinstance(pick_of(record["through"]), tuple)
     ):
         raise ValueError
     if record["along"] == "SURFACE" and (
@@ -209,6 +241,11 @@ def pick_of(stored: int | list[int]) -> Pick:
     return int(stored)
 
 
+def tolerance(places: NDArray[np.float64]) -> float:
+    """Return how far vertices of a mesh may be from where they were and count as unmoved."""
+    return max(_TOLERANCE * float(np.ptp(places, axis=0).max(initial=0.0)), 1e-12)
+
+
 def stored_curve(
     record: Record, vertices: tuple[int, ...], places: NDArray[np.float64], to_object: NDArray[np.float64]
 ) -> NDArray[np.float64] | None:
@@ -219,8 +256,7 @@ def stored_curve(
     now = places[list(vertices)]
     if before.shape != now.shape or len(now) == 0:
         return None
-    tolerance = _TOLERANCE * float(np.ptp(places, axis=0).max(initial=0.0))
-    if np.abs(before - now).max() > tolerance:
+    if np.abs(before - now).max() > tolerance(places):
         return None
     return _unpacked(record["curve"]) @ np.linalg.inv(to_object).T
 
@@ -239,8 +275,8 @@ def _unpacked(text: str) -> NDArray[np.float64]:
 # Strokes
 
 
-def stroke_record(stroke: Scribble, places: NDArray[np.float64], to_object: NDArray[np.float64]) -> Record:
-    """Return what there is to keep of a stroke; parameters as those of `wire_record`."""
+def stroke_record(stroke: Scribble, places: NDArray[np.float64], to_object: NDArray[np.float64], order: int) -> Record:
+    """Return what there is to keep of a stroke; parameters as those of `wire_record`, and how many strokes came before."""
     numbers = np.unique(stroke.corners)
     return {
         "points": _packed(stroke.points @ to_object.T),
@@ -253,22 +289,44 @@ def stroke_record(stroke: Scribble, places: NDArray[np.float64], to_object: NDAr
         "eta": stroke.eta,
         "rings": stroke.rings,
         "radius": stroke.radius,
+        "order": order,
     }
 
 
-def stored_stroke(record: Record, places: NDArray[np.float64], to_object: NDArray[np.float64]) -> Scribble | None:
+def order_of(record: Record) -> int:
+    """Return how many strokes came before that of a record: where strokes cross, the later one counts."""
+    order = record.get("order")
+    return order if type(order) is int else 0
+
+
+def stored_stroke(
+    record: Record, places: NDArray[np.float64], to_object: NDArray[np.float64], begins: Iterable[Edge]
+) -> Scribble | None:
     """Return as much of a stroke in one piece as the mesh has now; None: nothing of it, or it is damaged.
 
     Its corners alone say where it lies, see `strokes.on_mesh`.
+
+    Parameters
+    ----------
+    record
+        What `stroke_record` made.
+    places, to_object
+        As those of `wire_record`.
+    begins
+        The edges that its number stands on: they show whether vertices have the numbers that they had.
     """
     try:
         numbers = np.array(record["vertices"], dtype=np.int64)
-        same_count = int(record["vertex_count"]) == len(places)
-        mapped, _ = matched(numbers, _unpacked(record["places"]), places, same_count)
+        corner = set(record["corners"][0])
+        shared = 2 if len(corner) > 1 else 1
+        same_numbers = int(record["vertex_count"]) == len(places) and any(
+            len(corner.intersection(edge)) >= shared for edge in begins
+        )
+        mapped, _ = matched(numbers, _unpacked(record["places"]), places, same_numbers)
         number_of = dict(zip(numbers.tolist(), mapped.tolist(), strict=True))
         points = _unpacked(record["points"]) @ np.linalg.inv(to_object).T
         return stroke_of(record, points, number_of)
-    except (ValueError, TypeError, KeyError, IndexError, OverflowError):
+    except _DAMAGED:
         return None
 
 
@@ -299,24 +357,24 @@ def stroke_of(item: Mapping[str, Any], points: NDArray[np.float64], number_of: M
 
 
 def matched(
-    numbers: NDArray[np.int64], places: NDArray[np.float64], points: NDArray[np.float64], same_count: bool
+    numbers: NDArray[np.int64], places: NDArray[np.float64], points: NDArray[np.float64], same_numbers: bool
 ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
     """Return each stored vertex's number now, -1 where there is none, and whether it is where it was.
 
-    Where the mesh has as many vertices as before and none of the stored ones was lost, numbers count more than places: a
-    mesh that was moved by a cell of its own pattern has other vertices in the old places.
+    With `same_numbers` they count more than places: a mesh that was moved by a cell of its own pattern has other vertices in
+    the old places.
     """
     if not len(numbers) or not len(points) or not np.isfinite(places).all():
         return np.full(len(numbers), -1), np.zeros(len(numbers), dtype=bool)
-    tolerance = max(_TOLERANCE * float(np.ptp(points, axis=0).max()), 1e-12)
+    near = tolerance(points)
     known = (numbers >= 0) & (numbers < len(points))
     here = points[np.where(known, numbers, 0)]
-    stayed = known & (np.linalg.norm(here - places, axis=1) <= tolerance)
-    if same_count and known.all():
+    stayed = known & (np.linalg.norm(here - places, axis=1) <= near)
+    if same_numbers and known.all():
         return numbers.copy(), stayed
     mapped = np.where(stayed, numbers, -1)
     if not stayed.all():
-        mapped[~stayed] = SpatialHash(points, tolerance).nearest(places[~stayed])
+        mapped[~stayed] = SpatialHash(points, near).nearest(places[~stayed])
         stayed = mapped >= 0
     return mapped, stayed
 
@@ -351,67 +409,87 @@ def load_first_version(
         data = json.loads(text)
         if data["format"] != "seamwire network" or int(data["version"]) != 1:
             raise ValueError
+        reader = _FirstVersion(data, points, edges, seams)
+        # Where the mesh has as many vertices as before, numbers or places may be what has changed: seams tell.
+        same_count = int(data["vertex_count"]) == len(points)
+        tries = [reader.network(same_numbers) for same_numbers in ((True, False) if same_count else (False,))]
+        network = max(tries, key=lambda one: len(one.wires))
+        stored = sum(bool(item["marks"]) for item in data["wires"])
+    except _DAMAGED:
+        return Network(), "The wires stored with this mesh cannot be read; its seams are untouched"
+    missing = stored - len(network.wires)
+    return network, f"{missing} of {stored} stored wires are seams no more, or hidden" if missing else ""
+
+
+class _FirstVersion:
+    """A network of version 1, to be found on a mesh; anything of `_DAMAGED` is raised where it is none."""
+
+    def __init__(
+        self, data: Record, points: NDArray[np.float64], edges: NDArray[np.int32], seams: NDArray[np.int32]
+    ) -> None:
+        self._data = data
+        self._points = points
+        self._edges = {(min(pair), max(pair)) for pair in np.asarray(edges).tolist()}
+        self._seams = {(min(pair), max(pair)) for pair in np.asarray(seams).tolist()}
+        self._mirror = tuple(sorted({axis for axis in map(int, data["mirror"]) if 0 <= axis <= 2}))
+        self._number_of: dict[int, int] = {}
+        self._unmoved: set[int] = set()
+
+    def network(self, same_numbers: bool) -> Network:
+        """Return what is there, by numbers or by places."""
+        data = self._data
         numbers = np.array(data["vertices"], dtype=np.int64).reshape(-1)
         places = np.array(data["coordinates"], dtype=np.float64).reshape(len(numbers), 3)
-        mapped, stayed = matched(numbers, places, points, int(data["vertex_count"]) == len(points))
-        number_of = dict(zip(numbers.tolist(), mapped.tolist(), strict=True))
-        unmoved = set(numbers[stayed].tolist())
-        mirror = tuple(sorted({axis for axis in map(int, data["mirror"]) if 0 <= axis <= 2}))
-        is_seam = {(min(pair), max(pair)) for pair in seams.tolist()}
-        wires = [_first_wire(item, number_of, unmoved, is_seam, points, mirror) for item in data["wires"]]
+        mapped, stayed = matched(numbers, places, self._points, same_numbers)
+        self._number_of = dict(zip(numbers.tolist(), mapped.tolist(), strict=True))
+        self._unmoved = set(numbers[stayed].tolist())
+        wires = [self._wire(item) for item in data["wires"]]
         strokes = [
-            stroke_of(item, np.array(item["points"], dtype=np.float64).reshape(-1, 3), number_of)
+            stroke_of(item, np.array(item["points"], dtype=np.float64).reshape(-1, 3), self._number_of)
             for item in data.get("scribbles", [])
         ]
-    except (ValueError, TypeError, KeyError, IndexError, OverflowError, AttributeError, RecursionError):
-        return Network(), "The wires stored with this mesh cannot be read; its seams are untouched"
-    found = tuple(wire for wire in wires if wire is not None)
-    network = Network(found, scribbles=tuple(stroke for stroke in strokes if stroke is not None))
-    missing = len(wires) - len(found)
-    return network, f"{missing} of {len(wires)} stored wires are seams no more, or hidden" if missing else ""
+        return Network(
+            tuple(wire for wire in wires if wire is not None),
+            scribbles=tuple(stroke for stroke in strokes if stroke is not None),
+        )
 
+    def _pick(self, stored: int | list[int]) -> Pick | None:
+        """Return a pick with the numbers of now; None where it is not there."""
+        pick = pick_of(stored)
+        if not isinstance(pick, tuple):
+            found = self._number_of[pick]
+            return None if found < 0 else found
+        edge = self._number_of[pick[0]], self._number_of[pick[1]]
+        return edge if undirected(edge) in self._edges else None
 
-def _first_wire(
-    item: Record,
-    number_of: Mapping[int, int],
-    unmoved: set[int],
-    seams: set[tuple[int, int]],
-    points: NDArray[np.float64],
-    mirror: tuple[int, ...],
-) -> Wire | None:
-    stored = [int(vertex) for vertex in item["vertices"]]
-    closed = bool(item["closed"])
-    if item["along"] not in {"EDGES", "SURFACE"} or len(stored) < (3 if closed else 2):
-        raise ValueError
-    vertices = tuple(number_of[vertex] for vertex in stored)
-
-    def pick(what: int | list[int]) -> Pick:
-        picked = pick_of(what)
-        return (number_of[picked[0]], number_of[picked[1]]) if isinstance(picked, tuple) else number_of[picked]
-
-    heading = None if item["heading"] is None else pick(item["heading"])
-    kind = item.get("kind")
-    through = undirected(pick(item["through"])) if kind in LOOP_NAMES else None
-    around = list(vertices + vertices[:1] if closed else vertices)
-    wire = Wire(
-        item["along"],
-        vertices,
-        points[around],
-        pick(item["start"]),
-        pick(item["end"]),
-        closed=closed,
-        mirror=mirror,
-        heading=heading if isinstance(heading, tuple) else None,
-        follow=1 if item["follow"] else 0,
-        strength=float(item["strength"]),
-        kind=kind if isinstance(through, tuple) else None,
-        through=through if isinstance(through, tuple) else None,
-    )
-    if not item["marks"] or min(vertices) < 0 or not seams.issuperset(wire.edges()):
-        return None
-    if "curve" in item and unmoved.issuperset(stored):
-        curve = np.array(item["curve"], dtype=np.float64).reshape(-1, 3)
-        if len(curve) < 2 or not np.isfinite(curve).all():
+    def _wire(self, item: Record) -> Wire | None:
+        stored = [int(vertex) for vertex in item["vertices"]]
+        closed = bool(item["closed"])
+        if item["along"] not in {"EDGES", "SURFACE"} or len(stored) < (3 if closed else 2):
             raise ValueError
-        wire = wire.changed(points=curve)
-    return wire
+        vertices = tuple(self._number_of[vertex] for vertex in stored)
+        kind = item.get("kind")
+        # A click offers other things now than it did.
+        through = undirected(self._pick(item["through"])) if kind in LOOP_NAMES else None
+        heading = None if item["heading"] is None else self._pick(item["heading"])
+        start, end = self._pick(item["start"]), self._pick(item["end"])
+        curve = np.array(item["curve"], dtype=np.float64).reshape(-1, 3) if "curve" in item else None
+        if curve is not None and (len(curve) < 2 or not np.isfinite(curve).all()):
+            raise ValueError
+        around = list(vertices + vertices[:1] if closed else vertices)
+        wire = Wire(
+            item["along"],
+            vertices,
+            self._points[around] if curve is None or not self._unmoved.issuperset(stored) else curve,
+            vertices[0] if start is None else start,
+            vertices[0 if closed else -1] if end is None else end,
+            closed=closed,
+            mirror=self._mirror,
+            heading=heading if isinstance(heading, tuple) else None,
+            follow=1 if item["follow"] else 0,
+            strength=float(item["strength"]),
+            kind=kind if isinstance(through, tuple) else None,
+            through=through if isinstance(through, tuple) else None,
+        )
+        there = bool(item["marks"]) and min(vertices) >= 0 and self._seams.issuperset(wire.edges())
+        return wire if there else None

@@ -10,6 +10,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from .candidates import only_vertices
 from .edge_loops import Stops, taken
 from .engines import CLAMP_PERCENTILE, STRENGTHS
@@ -83,7 +85,7 @@ class Session(Guidance):
         seen = self._live.active_final and target == self._live.target
         self._aim(target)
         # What is seen is kept; where nothing is seen yet, the one that is there first must not win for that.
-        if not (self._live.decided or (seen and self._live.active_final)) and self.computing:
+        if not (self._live.decided or (seen and self._live.active_final)) and self._wires_computing:
             self._queue.append(Queued("click", target))
             self.revision += 1
             return True
@@ -280,7 +282,7 @@ class Session(Guidance):
             self._preview_end()
             return self._end.wire is not None or self.computing or self._refuse(self.message or _NOWHERE)
         target = self._live.target
-        if self._queue or (target is not None and not self._live.active_final and self.computing):
+        if self._queue or (target is not None and not self._live.active_final and self._wires_computing):
             if target is None:
                 return self._refuse(_NOWHERE)
             self._end.wanted = False
@@ -307,6 +309,10 @@ class Session(Guidance):
         self._stops = Stops(seams, self._mirror)
         self._redraws.clear()
         self._history.forget()
+        if any(wire.images is None for wire in network.wires):
+            # Wires of the first version do not know their images: they are what is a seam of them still.
+            pairs = np.sort(np.asarray(seams, dtype=np.int64).reshape(-1, 2), axis=1)
+            network = self._with_images(network, set(map(tuple, pairs.tolist())))
         seed = network.seed
         if seed is not None and seed != self._network.seed and not self._sow(seed):
             seed = None
@@ -324,7 +330,7 @@ class Session(Guidance):
         if self._redraws.drop_last():
             self.revision += 1
             return True
-        network = self._history.back(self._network)
+        network = self._history.back(self._unmirrored())
         if network is None:
             return self._refuse("Nothing to undo in this drawing")
         self._restore(network)
@@ -333,7 +339,7 @@ class Session(Guidance):
     def redo(self) -> bool:
         """Bring back what undo took."""
         self.drag_cancel()
-        network = self._history.forth(self._network)
+        network = self._history.forth(self._unmirrored())
         if network is None:
             return self._refuse("Nothing to redo in this drawing")
         self._restore(network)
@@ -421,8 +427,11 @@ class Session(Guidance):
         """Do the oldest waiting click if its wire is there; returns whether it was done."""
         head = self._queue[0]
         self._aim(head.snap, again=True)
-        blocked = not self._find_offers(head.snap.pick) if head.kind in {"loop", "offer"} else not self._live.decided
-        if blocked and self.computing:
+        if head.kind in {"loop", "offer"}:
+            waits = not self._find_offers(head.snap.pick) and self.computing
+        else:
+            waits = not self._live.decided and self._wires_computing
+        if waits:
             return False
         del self._queue[0]
         rest, self._queue = self._queue, []

@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, replace
 from enum import Enum, auto
 from typing import TYPE_CHECKING, Literal
 
@@ -242,6 +242,11 @@ class State:
         return self._progress < 1.0 or not self._loop.final
 
     @property
+    def _wires_computing(self) -> bool:
+        """Whether it works on wires: a loop that waits behind a click must not keep that waiting."""
+        return self._progress < 1.0
+
+    @property
     def progress(self) -> float:
         """Fraction of that work that is done."""
         return self._progress
@@ -255,7 +260,7 @@ class State:
     @property
     def can_undo(self) -> bool:
         """Whether undo() has something to take back."""
-        return bool(self._queue or self._drag or self._redraws) or self._history.can_undo(self._network)
+        return bool(self._queue or self._drag or self._redraws) or self._history.can_undo(self._unmirrored())
 
     @property
     def can_redo(self) -> bool:
@@ -333,9 +338,25 @@ class State:
 
     def mirrored(self, wire: Wire) -> list[Wire]:
         """Return the images that a wire has, or would have if it were kept now, as far as the mesh has their edges."""
-        return self._mirror.images(wire, self.mirror_axes if wire.images is None else wire.mirror)
+        kept = wire.images is not None or self.network.find(wire) is not None
+        return self._mirror.images(wire, wire.mirror if kept else self.mirror_axes)
 
     # For the deeds
+
+    def _unmirrored(self) -> Network:
+        """Return the network as the history knows it: the mirror is the mesh's, and no step of the drawing."""
+        return replace(self._network, mirror=())
+
+    def _with_images(self, network: Network, among: Collection[Edge] | None = None) -> Network:
+        """Return a network whose wires have found their images, all or those `among` some edges."""
+        if all(wire.images is not None for wire in network.wires):
+            return network
+        wires = (wire if wire.images is not None else self._with_own_images(wire, among) for wire in network.wires)
+        return replace(network, wires=tuple(wires))
+
+    def _with_own_images(self, wire: Wire, among: Collection[Edge] | None) -> Wire:
+        edges = dict.fromkeys(edge for image in self._mirror.images(wire, wire.mirror) for edge in image.edges())
+        return replace(wire, images=tuple(edge for edge in edges if among is None or edge in among))
 
     def _ending(self, target: Snap) -> Intent | None:
         """Return how a wire to a target ends the chain; None: it does not."""
@@ -346,6 +367,7 @@ class State:
     def _net_effect(self) -> tuple[list[Edge], list[Edge]]:
         network = self.network
         if self._effect is None or self._effect[0] is not network:
-            claims = ((edge, wire.marks) for wire in network.wires for edge in wire.claims())
+            # Wires that follow a dragged seed have not found their images yet.
+            claims = ((edge, wire.marks) for wire in self._with_images(network).wires for edge in wire.claims())
             self._effect = (network, *net_effect(claims))
         return self._effect[1:]

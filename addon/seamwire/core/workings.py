@@ -112,7 +112,7 @@ class Workings(State):
         seed = network.seed
         if seed is not None and seed != self._network.seed and not self._sow(seed):
             return False
-        self._history.step(self._network)
+        self._history.step(self._unmirrored())
         self._set(self._with_images(network))
         self._settle()
         self._tell_one_sided()
@@ -125,17 +125,6 @@ class Workings(State):
             if wire.mirror and self._mirror.one_sided(wire, wire.mirror):
                 self._told_one_sided = True
                 self.message = "Part of this wire has no mirror image: the mesh is not symmetric there"
-
-    def _with_images(self, network: Network) -> Network:
-        """Return a network whose wires have found their images."""
-        if all(wire.images is not None for wire in network.wires):
-            return network
-        wires = (wire if wire.images is not None else self._with_own_images(wire) for wire in network.wires)
-        return replace(network, wires=tuple(wires))
-
-    def _with_own_images(self, wire: Wire) -> Wire:
-        edges = (edge for image in self._mirror.images(wire, wire.mirror) for edge in image.edges())
-        return replace(wire, images=tuple(dict.fromkeys(edges)))
 
     def _restore(self, network: Network) -> None:
         if network.seed is not None and network.seed != self._network.seed:

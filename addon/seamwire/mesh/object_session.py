@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.live import LiveWire
-    from ..core.network import Along, Edge, Network
+    from ..core.network import Along, Network
     from .settings import SeamwireSettings
 
 FIRST_VERSION = "seamwire"
@@ -124,7 +124,6 @@ class ObjectSession:
         self._newer = False
         self._damaged = False
         self._renumbered = False
-        self._own: frozenset[Edge] = frozenset()
         self._adopt(self.cage.labels())
         self.follow_mirror()
 
@@ -248,7 +247,6 @@ class ObjectSession:
         """Go on with the network that labels tell of."""
         self._learn(labels)
         self._labels = labels
-        self._own = frozenset()
         self._found = Found() if self._newer else wire_labels.read(labels, _archive, self.places)
         network = self._found.network
         stored = self.cage.mesh.get(FIRST_VERSION)
@@ -256,11 +254,12 @@ class ObjectSession:
             network, self.problem = serialization.load_first_version(
                 stored, self.arrays.points, self.arrays.edges, self.arrays.seams
             )
-            # It did not tell which edges were seams before: those of its wires are taken for theirs.
-            self._own = frozenset(edge for wire in network.wires for edge in wire.claims())
         strokes = tuple(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in network.scribbles)
         self._set_seams(self.arrays.seams, labels)
         self.session.adopt(replace(network, scribbles=strokes), self.plain_seams)
+        if network is not self._found.network:
+            # It did not tell which edges were seams before: those of its wires are taken for theirs.
+            self._found = Found(self.session.network)
         if not self._damaged:
             self._store()
 
@@ -307,7 +306,6 @@ class ObjectSession:
             self.places,
             self.cage.is_seam,
             self.arrays.edges,
-            self._own,
         )
 
     def write(self, plan: wire_labels.Plan, adopt: bool = True) -> tuple[int, int]:
@@ -335,7 +333,6 @@ class ObjectSession:
         written = self.cage.write(plan.mark, plan.clear, {} if self._newer else plan.labels)
         self._labels = self.cage.labels()
         self._found = Found(plan.network, plan.known)
-        self._own = frozenset()
         seams = edges_after(self.arrays.seams, plan.mark, plan.clear)
         self._set_seams(seams, self._labels)
         self._store()

@@ -173,14 +173,15 @@ class Chain:
         for view in edited.views():
             view.session.end_chain()
         view, before = self._drawn, self._before
-        self._drawn = None
         title = self.done[0] if len(self.done) == 1 else "Draw Seamwires"
         self.done.clear()
         if view is None or not _differs(view.session.network, before):
+            self._drawn = None
             return
         known = {wire.id for wire in before.wires}
         wires = sum(wire.id not in known for wire in view.session.network.wires)
         marked, cleared = self._write(view, adopt=True)
+        self._drawn = None
         if undo_step:
             if (marked or cleared) and context.mode == "EDIT_MESH":
                 edit_mesh.live_unwrap(context)
