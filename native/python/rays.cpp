@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "arrays.hpp"
+#include "gil.hpp"
 #include "objects.hpp"
 
 namespace seamwire::python {
@@ -37,7 +38,7 @@ ValueError
       .def(py::init([](const py::object& points, const py::object& triangles) {
              auto own_points = points_from(points, "points");
              auto own_triangles = triangles_from(triangles, "triangles");
-             const py::gil_scoped_release release;
+             const GilRelease released;
              return std::make_unique<RayTree>(std::move(own_points), std::move(own_triangles));
            }),
            py::arg("points"), py::arg("triangles"))
@@ -51,7 +52,7 @@ ValueError
           py::arg("origin"), py::arg("direction"),
           "Return the triangle's number and how far away it is, in lengths of `direction`; None: there is none.")
       .def_property_readonly("ready", &RayTree::ready, "Whether the tree is built.")
-      .def("wait", &RayTree::wait, py::call_guard<py::gil_scoped_release>(), "Wait until the tree is built.");
+      .def("wait", &RayTree::wait, py::call_guard<GilRelease>(), "Wait until the tree is built.");
 }
 
 }  // namespace seamwire::python
