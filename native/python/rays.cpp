@@ -11,6 +11,7 @@
 #include "arrays.hpp"
 #include "gil.hpp"
 #include "objects.hpp"
+#include "watch.hpp"
 
 namespace seamwire::python {
 
@@ -46,7 +47,8 @@ ValueError
           "first_hit",
           [](const RayTree& tree, const std::array<double, 3>& origin,
              const std::array<double, 3>& direction) -> py::object {
-            const RayHit hit = tree.first_hit(vector_from(origin), vector_from(direction));
+            const auto look = [&] { return tree.first_hit(vector_from(origin), vector_from(direction)); };
+            const RayHit hit = tree.ready() ? look() : without_gil(look);  // microseconds, or a look at all triangles
             return hit.triangle < 0 ? py::none().cast<py::object>() : py::make_tuple(hit.triangle, hit.distance);
           },
           py::arg("origin"), py::arg("direction"),
