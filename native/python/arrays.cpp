@@ -157,7 +157,9 @@ std::int32_t vertex_from(py::handle value, std::size_t count, const std::string&
 }
 
 Edge edge_from(py::handle value, std::size_t count, const std::string& name) {
-  if (!PySequence_Check(value.ptr()) || py::len(value) != 2) {
+  const Py_ssize_t count_given = PySequence_Check(value.ptr()) != 0 ? PySequence_Size(value.ptr()) : -1;
+  if (count_given != 2) {
+    PyErr_Clear();  // an array without dimensions is a sequence without a length
     throw InvalidInput(name + ": expected an edge as two vertex numbers, got " + std::string(py::repr(value)));
   }
   const auto sequence = py::reinterpret_borrow<py::sequence>(value);

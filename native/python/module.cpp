@@ -201,7 +201,7 @@ Of the model scaled to the unit cube, in 1 / side of the cube. 0 at vertices wit
           "Largest ratio of the lengths of unit vectors at a vertex.")
       .def("__repr__", [](const MetricObject& m) {
         return "<Metric: " + std::to_string(m.metric.size()) + " vertices, maximum anisotropy " +
-               number(max_anisotropy(m.metric)) + ">";
+               number(without_gil([&] { return max_anisotropy(m.metric); })) + ">";
       });
 
   module.def(
@@ -318,6 +318,12 @@ The first vertices are those of the surface, with their numbers; new ones are mi
           "invalid_left", [](const EmbeddingObject& e) { return e.embedding.invalid_left; },
           "Number of triangles that stayed invalid: holes.")
       .def_property_readonly(
+          "clamped_edges", [](const EmbeddingObject& e) { return e.embedding.clamped_edges; },
+          "Number of edges whose length is not the metric's, so that triangles be valid that bisection left.")
+      .def_property_readonly(
+          "worst_clamp", [](const EmbeddingObject& e) { return e.embedding.worst_clamp; },
+          "The largest factor, up or down, between such a length and the metric's; 1: there is none.")
+      .def_property_readonly(
           "hit_cap", [](const EmbeddingObject& e) { return e.embedding.hit_cap; },
           "Whether max_faces_added ended the subdivision.")
       .def("__repr__", [](const EmbeddingObject& e) {
@@ -358,7 +364,9 @@ The first vertices are those of the surface, with their numbers; new ones are mi
           [](const FieldObject& object, const py::object& vertex) {
             const EmbeddingObject& on = *object.embedding;
             const std::int32_t target = vertex_from(vertex, on.surface->vertex_count(), "vertex");
-            return without_gil([&] { return trace_wire(*on.surface, on.embedding, object.field, target); });
+            return Watch(py::none()).run([&](const Task& task) {
+              return trace_wire(*on.surface, on.embedding, object.field, target, task);
+            });
           },
           py::arg("vertex"), R"(The shortest path from the seed to a vertex.
 

@@ -90,6 +90,8 @@ class Embedding:
     invalid_before: int
     faces_added: int
     invalid_left: int
+    clamped_edges: int
+    worst_clamp: float
     hit_cap: bool
     unreachable: NDArray[np.int32]
 
