@@ -34,7 +34,7 @@ std::atomic<std::thread::id> caller;
 
 /// The caller gets answers while a worker is in here, unless the worker holds the lock that answers need.
 void note(std::size_t size) noexcept {
-  if (size < kLarge || !watches) return;
+  if (size < kLarge || !watches || freed_with_the_lock > 0) return;
   if (caller.load() == std::this_thread::get_id()) {
     ++freed_by_caller;
     return;
@@ -52,7 +52,10 @@ void note(std::size_t size) noexcept {
 
 }  // namespace
 
-extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*start)(void*), void* value) {
+/// Takes the place of pthread_create().
+extern "C" int make_thread(pthread_t* thread, const pthread_attr_t* attributes, void* (*start)(void*),
+                           void* value) __asm__("pthread_create");
+extern "C" int make_thread(pthread_t* thread, const pthread_attr_t* attributes, void* (*start)(void*), void* value) {
   if (threads_left == 0) return EAGAIN;
   if (threads_left > 0) --threads_left;
   using Create = int (*)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*);
@@ -150,6 +153,18 @@ TEST_P(Freeing, OfAFormerMetricAndItsFieldsToo) {
     live_.seed({70});
     static_cast<void>(live_.wires({100}));
   });
+  expect_freed_by_workers();
+}
+
+TEST_P(Freeing, OfAFormerMetricWhoseWiresAreStillSoughtIsDoneWithoutTheLock) {
+  live_.wait();
+  for (const int i : {1, 2, 3, 4, 5, 6}) {
+    change_under_watch(live_, [&] {
+      live_.seed({100 * i});
+      std::this_thread::sleep_for(2ms);  // the workers are at it, and the last to hold the metric
+      live_.set_metric(MetricFamily::kFeature, {.max_anisotropy = 2.0 + i});
+    });
+  }
   expect_freed_by_workers();
 }
 
