@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "gil.hpp"
+
 namespace seamwire::python {
 
 namespace {
@@ -90,7 +92,7 @@ std::vector<std::array<std::int32_t, N>> indices_from(py::handle value, const st
   const Layout layout(array);
   const bool is_signed = array.dtype().kind() == 'i';
   const py::ssize_t size = array.itemsize();
-  const py::gil_scoped_release release;
+  const GilRelease released;
   switch (size) {
     case 1:
       return is_signed ? copy_indices<std::int8_t, N>(layout, name) : copy_indices<std::uint8_t, N>(layout, name);
@@ -115,7 +117,7 @@ std::vector<Vector> points_from(py::handle value, const std::string& name) {
   py::array array = rows_from(value, 3, "fiu", "real numbers", name);
   if (!py::isinstance<py::array_t<double>>(array)) array = py::array(array.attr("astype")("float64"));
   const Layout from(array);
-  const py::gil_scoped_release release;
+  const GilRelease released;
   std::vector<Vector> to(from.rows);
   for (std::size_t row = 0; row < from.rows; ++row) {
     for (std::size_t column = 0; column < 3; ++column) {
@@ -155,7 +157,9 @@ std::int32_t vertex_from(py::handle value, std::size_t count, const std::string&
 }
 
 Edge edge_from(py::handle value, std::size_t count, const std::string& name) {
-  if (!PySequence_Check(value.ptr()) || py::len(value) != 2) {
+  const Py_ssize_t count_given = PySequence_Check(value.ptr()) != 0 ? PySequence_Size(value.ptr()) : -1;
+  if (count_given != 2) {
+    PyErr_Clear();  // an array without dimensions is a sequence without a length
     throw InvalidInput(name + ": expected an edge as two vertex numbers, got " + std::string(py::repr(value)));
   }
   const auto sequence = py::reinterpret_borrow<py::sequence>(value);

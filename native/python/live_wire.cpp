@@ -30,7 +30,7 @@ struct LiveWireObject {
   LiveWireObject(const LiveWireObject&) = delete;
   LiveWireObject& operator=(const LiveWireObject&) = delete;
   ~LiveWireObject() {
-    const py::gil_scoped_release release;  // joins threads
+    const GilRelease released;  // joins threads
     live.reset();
   }
 

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "arrays.hpp"
+#include "gil.hpp"
 #include "objects.hpp"
 #include "seamwire/errors.hpp"
 #include "watch.hpp"
@@ -200,7 +201,7 @@ Of the model scaled to the unit cube, in 1 / side of the cube. 0 at vertices wit
           "Largest ratio of the lengths of unit vectors at a vertex.")
       .def("__repr__", [](const MetricObject& m) {
         return "<Metric: " + std::to_string(m.metric.size()) + " vertices, maximum anisotropy " +
-               number(max_anisotropy(m.metric)) + ">";
+               number(without_gil([&] { return max_anisotropy(m.metric); })) + ">";
       });
 
   module.def(
@@ -317,6 +318,12 @@ The first vertices are those of the surface, with their numbers; new ones are mi
           "invalid_left", [](const EmbeddingObject& e) { return e.embedding.invalid_left; },
           "Number of triangles that stayed invalid: holes.")
       .def_property_readonly(
+          "clamped_edges", [](const EmbeddingObject& e) { return e.embedding.clamped_edges; },
+          "Number of edges whose length is not the metric's, so that triangles be valid that bisection left.")
+      .def_property_readonly(
+          "worst_clamp", [](const EmbeddingObject& e) { return e.embedding.worst_clamp; },
+          "The largest factor, up or down, between such a length and the metric's; 1: there is none.")
+      .def_property_readonly(
           "hit_cap", [](const EmbeddingObject& e) { return e.embedding.hit_cap; },
           "Whether max_faces_added ended the subdivision.")
       .def("__repr__", [](const EmbeddingObject& e) {
@@ -357,7 +364,9 @@ The first vertices are those of the surface, with their numbers; new ones are mi
           [](const FieldObject& object, const py::object& vertex) {
             const EmbeddingObject& on = *object.embedding;
             const std::int32_t target = vertex_from(vertex, on.surface->vertex_count(), "vertex");
-            return without_gil([&] { return trace_wire(*on.surface, on.embedding, object.field, target); });
+            return Watch(py::none()).run([&](const Task& task) {
+              return trace_wire(*on.surface, on.embedding, object.field, target, task);
+            });
           },
           py::arg("vertex"), R"(The shortest path from the seed to a vertex.
 
@@ -582,9 +591,11 @@ After Zhuang, Zou, Carr, Ju, "Anisotropic geodesics for live-wire mesh segmentat
 Lengths and curvatures are of the model scaled to the unit cube (Section 3 of the paper) unless the name says otherwise;
 points are in the caller's coordinates. Wrong input raises ValueError with the numbers of the elements; an index out of
 range too. Long functions release the GIL and take `progress`, called now and then with the fraction done; returning
-False cancels, and Cancelled is raised. Arrays that a result hands out are read-only views of its memory.)";
+False cancels, and Cancelled is raised. When the interpreter exits, long functions that other threads are in are told to
+stop and raise SystemExit. Arrays that a result hands out are read-only views of its memory.)";
   module.attr("__version__") = SEAMWIRE_VERSION;
   pybind11::register_exception<seamwire::Cancelled>(module, "Cancelled", PyExc_RuntimeError);
+  heed_interpreter_exit();
   bind_surface(module);
   bind_metric(module);
   bind_geodesics(module);

@@ -9,7 +9,9 @@
 #include <utility>
 
 #include "arrays.hpp"
+#include "gil.hpp"
 #include "objects.hpp"
+#include "watch.hpp"
 
 namespace seamwire::python {
 
@@ -37,7 +39,7 @@ ValueError
       .def(py::init([](const py::object& points, const py::object& triangles) {
              auto own_points = points_from(points, "points");
              auto own_triangles = triangles_from(triangles, "triangles");
-             const py::gil_scoped_release release;
+             const GilRelease released;
              return std::make_unique<RayTree>(std::move(own_points), std::move(own_triangles));
            }),
            py::arg("points"), py::arg("triangles"))
@@ -45,13 +47,14 @@ ValueError
           "first_hit",
           [](const RayTree& tree, const std::array<double, 3>& origin,
              const std::array<double, 3>& direction) -> py::object {
-            const RayHit hit = tree.first_hit(vector_from(origin), vector_from(direction));
+            const auto look = [&] { return tree.first_hit(vector_from(origin), vector_from(direction)); };
+            const RayHit hit = tree.ready() ? look() : without_gil(look);  // microseconds, or a look at all triangles
             return hit.triangle < 0 ? py::none().cast<py::object>() : py::make_tuple(hit.triangle, hit.distance);
           },
           py::arg("origin"), py::arg("direction"),
           "Return the triangle's number and how far away it is, in lengths of `direction`; None: there is none.")
       .def_property_readonly("ready", &RayTree::ready, "Whether the tree is built.")
-      .def("wait", &RayTree::wait, py::call_guard<py::gil_scoped_release>(), "Wait until the tree is built.");
+      .def("wait", &RayTree::wait, py::call_guard<GilRelease>(), "Wait until the tree is built.");
 }
 
 }  // namespace seamwire::python

@@ -6,7 +6,8 @@ After Zhuang, Zou, Carr, Ju, "Anisotropic geodesics for live-wire mesh segmentat
 Lengths and curvatures are of the model scaled to the unit cube (Section 3 of the paper) unless the name says otherwise; points are in
 the caller's coordinates. Wrong input raises ValueError with the numbers of the elements; an index out of range too. Long functions release
 the GIL and take `progress`, called now and then with the fraction done; returning False cancels, and Cancelled is raised.
-Arrays that a result hands out are read-only views of its memory.
+When the interpreter exits, long functions that other threads are in are told to stop and raise SystemExit. Arrays that a
+result hands out are read-only views of its memory.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -89,6 +90,8 @@ class Embedding:
     invalid_before: int
     faces_added: int
     invalid_left: int
+    clamped_edges: int
+    worst_clamp: float
     hit_cap: bool
     unreachable: NDArray[np.int32]
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "gil.hpp"
 #include "seamwire/task.hpp"
 
 namespace seamwire::python {
@@ -27,13 +28,15 @@ class Watch {
   /// work(task), run without the GIL. What the callback raises comes out of here.
   template <class Work>
   auto run(const Work& work) {
-    Task task;
-    task.progress = [this](double fraction) { return report(fraction); };
+    leave_if_cut_off();
     try {
-      const py::gil_scoped_release release;
+      const GilRelease released;
+      Task task;
+      task.progress = [&](double fraction) { return report(fraction, released); };
       return work(task);
     } catch (const Cancelled&) {
       if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+      leave_if_cut_off();
       throw;
     }
   }
@@ -43,20 +46,25 @@ class Watch {
   /// Taking the GIL may mean waiting for another thread to let it go (5 ms by default), so it is not done at each call.
   static constexpr std::chrono::milliseconds kPeriod{25};
 
-  bool report(double fraction) {
+  bool report(double fraction, const GilRelease& released) {
+    if (is_cut_off()) return false;
     const Clock::time_point now = Clock::now();
     if (now < next_) return true;
     next_ = now + kPeriod;
-    const py::gil_scoped_acquire acquire;
-    try {
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      if (progress_.is_none()) return true;
-      const py::object answer = progress_(fraction);
-      return answer.is_none() || py::bool_(answer);
-    } catch (...) {
-      error_ = std::current_exception();
-      return false;
+    bool goes_on = false;
+    return released.with_gil([&] { goes_on = ask(fraction); }) && goes_on;
+  }
+
+  /// With the GIL; C functions only, as GilRelease::with_gil() wants it.
+  bool ask(double fraction) {
+    int answer = PyErr_CheckSignals() == 0 ? 1 : -1;
+    if (answer > 0 && !progress_.is_none()) {
+      PyObject* const object = PyObject_CallFunction(progress_.ptr(), "d", fraction);
+      answer = object == nullptr ? -1 : object == Py_None ? 1 : PyObject_IsTrue(object);
+      Py_XDECREF(object);
     }
+    if (answer < 0) error_ = std::make_exception_ptr(py::error_already_set());
+    return answer > 0;
   }
 
   py::object progress_;
@@ -67,7 +75,8 @@ class Watch {
 /// work(), run without the GIL.
 template <class Work>
 auto without_gil(const Work& work) {
-  const py::gil_scoped_release release;
+  leave_if_cut_off();
+  const GilRelease released;
   return work();
 }
 

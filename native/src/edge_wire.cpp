@@ -18,7 +18,9 @@
 #include <utility>
 
 #include "edge_fans.hpp"
+#include "metric_check.hpp"
 #include "stroke_chain.hpp"
+#include "text.hpp"
 
 namespace seamwire {
 
@@ -69,8 +71,13 @@ EdgeGraph::EdgeGraph(const Surface& surface, const Metric& metric, std::shared_p
     throw InvalidInput("the metric has " + std::to_string(metric.size()) + " tensors, the surface " +
                        std::to_string(surface.vertex_count()) + " vertices");
   }
-  fans_ = fans ? std::move(fans) : make_edge_fans(surface, task);
+  check_finite(metric);
   const std::size_t edges = surface.edges().size();
+  fans_ = fans ? std::move(fans) : make_edge_fans(surface, task);
+  if (at(vertex_count()) != surface.vertex_count() || directed_count() != 2 * edges) {
+    throw InvalidInput("the fans are of another surface: they have " + std::to_string(vertex_count()) +
+                       " vertices and " + std::to_string(directed_count() / 2) + " edges");
+  }
   lengths_.resize(directed_count());
   std::vector<std::int32_t> next(at(vertex_count()));
   for (std::int32_t v = 0; v < vertex_count(); ++v) next[at(v)] = begin(v);
@@ -395,7 +402,7 @@ void check_pick(const EdgeGraph& graph, const Pick& pick, const std::string& wha
 
 void check_turning(double turning) {
   if (!(turning >= 0.0) || turning == kInfinity) {
-    throw InvalidInput("turning must be a number that is not negative, not " + std::to_string(turning));
+    throw InvalidInput("turning must be a number that is not negative, not " + text(turning));
   }
 }
 

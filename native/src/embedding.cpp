@@ -5,7 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "metric_check.hpp"
 #include "refinement.hpp"
+#include "text.hpp"
 
 namespace seamwire {
 namespace {
@@ -26,11 +28,7 @@ void check_size(const Surface& surface, const Metric& metric) {
 
 void check_metric(const Surface& surface, const Metric& metric) {
   check_size(surface, metric);
-  for (std::size_t v = 0; v < metric.size(); ++v) {
-    if (!metric.tensors[v].allFinite() || !metric.normals[v].allFinite()) {
-      throw InvalidInput("the metric at vertex " + std::to_string(v) + " is not finite");
-    }
-  }
+  check_finite(metric);
 }
 
 std::size_t budget(const Surface& surface) { return std::max(kLeastBudget, kBudget * surface.face_count()); }
@@ -43,7 +41,7 @@ std::size_t later_budget(const Surface& surface, std::size_t cap) {
 
 Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions& options, const Task& task) {
   check_metric(surface, metric);
-  if (!(options.sigma >= 0)) throw InvalidInput("sigma is " + std::to_string(options.sigma) + ", not 0 or more");
+  if (!(options.sigma >= 0)) throw InvalidInput("sigma is " + text(options.sigma) + ", not 0 or more");
   task.check(0);
   double progress = 0;
   const auto done = [&](Refinement&& refinement) {
@@ -54,7 +52,7 @@ Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions
   Refinement paper(surface, metric, options, Scheme::kPaper);
   const std::size_t first_most = std::min(budget(surface), options.max_faces_added);
   const bool ends = paper.run(task, first_most, progress);
-  if (ends ? !paper.has_decayed() : first_most == options.max_faces_added) return done(std::move(paper));
+  if (ends && !paper.has_decayed()) return done(std::move(paper));
 
   const std::size_t most = later_budget(surface, options.max_faces_added);
   for (const Scheme scheme : {Scheme::kPropagate, Scheme::kShallow}) {
@@ -69,7 +67,20 @@ Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions
   }
   Refinement fitting(surface, metric, options, Scheme::kFitAlone);
   fitting.run(task, most, progress);
-  fitting.fit(task, progress);
+  if (!fitting.fit(task, progress)) {
+    // Each bisection that fits leaves fewer invalid triangles, those of the paper's scheme now more, now fewer. So that
+    // a larger cap never leaves more, what counts is where the latter has left fewest.
+    Refinement again(surface, metric, options, Scheme::kPaper);
+    again.watch_unfit();
+    again.run(task, first_most, progress);
+    if (again.least_unfit() < fitting.count_unfit()) {
+      Refinement best(surface, metric, options, Scheme::kPaper);
+      best.run(task, again.least_unfit_at(), progress);
+      Embedding out = done(std::move(best));
+      out.hit_cap = fitting.hit_cap();
+      return out;
+    }
+  }
   return done(std::move(fitting));
 }
 

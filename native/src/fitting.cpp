@@ -75,8 +75,15 @@ bool Refinement::fit(const Task& task, double progress) {
       bisect(h);
       set_length(h, half);
       set_length(3 * count, half);
-      set_length(3 * count + 2, fitted(3 * count + 2, half, b, c));
-      if (o >= 0) set_length(3 * count + 5, fitted(3 * count + 5, half, d, e));
+      const auto set_fitted = [&](std::int32_t edge, double one, double other) {
+        const double length = fitted(edge, half, one, other), measured = measure(edge);
+        set_length(edge, length);
+        if (length == measured) return;
+        ++clamped_edges_;
+        worst_clamp_ = std::max({worst_clamp_, length / measured, measured / length});
+      };
+      set_fitted(3 * count + 2, b, c);
+      if (o >= 0) set_fitted(3 * count + 5, d, e);
       // Rounding may leave one of them invalid.
       for (const std::int32_t part : {h / 3, count, o < 0 ? count : o / 3, o < 0 ? count : count + 1}) {
         if (can_be_fitted(part)) todo.push_back(part);

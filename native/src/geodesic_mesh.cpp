@@ -9,6 +9,8 @@
 #include <numeric>
 #include <string>
 
+#include "text.hpp"
+
 namespace seamwire {
 namespace {
 
@@ -24,7 +26,7 @@ constexpr double kRounding = 1e-12;
 /// A step over an edge counts if it is shorter than this part of the way along two edges.
 constexpr double kShortcut = 0.95;
 
-std::string text(double number) { return std::to_string(number); }
+using seamwire::text;
 std::string text(std::int32_t number) { return std::to_string(number); }
 
 void check_vertex(const IntrinsicMesh& mesh, std::int32_t vertex, const char* what, std::size_t number) {
@@ -189,15 +191,28 @@ void GeodesicMesh::list_out(const std::vector<Triangle>& corners) {
   }
 }
 
+/// What lengths are multiplied by to be those of steps: a power of two, 1 unless sums of them might leave the range of
+/// single precision.
+double GeodesicMesh::unit_of_steps() const {
+  constexpr int kMostExponent = 80;  // 2^80 times the number of vertices is still far below 2^128
+  double longest = 0.0;
+  for (const HalfEdge& edge : half_edges_) longest = std::max(longest, edge.length);
+  for (const Loose& edge : loose_) longest = std::max(longest, edge.length);
+  if (longest == 0.0) return 1.0;
+  const int exponent = std::ilogb(longest);
+  return std::abs(exponent) > kMostExponent ? std::ldexp(1.0, -exponent) : 1.0;
+}
+
 void GeodesicMesh::list_steps() {
   first_step_.assign(vertex_count() + 1, 0);
   steps_.reserve(2 * half_edges_.size() + loose_.size());
   double sum = 0.0;
   std::size_t leaving = 0;  // in out_
+  const double unit = unit_of_steps();
   const auto add = [&](std::int32_t to, double length) {
-    const auto rounded = static_cast<float>(length);
+    const auto rounded = static_cast<float>(length * unit);
     steps_.push_back({to, rounded});
-    sum += length;
+    sum += length * unit;
     longest_step_ = std::max(longest_step_, rounded);
   };
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(vertex_count()); ++v) {

@@ -33,8 +33,8 @@ class GeodesicMesh {
     std::int32_t to;
     double length;
   };
-  /// A straight way to a vertex nearby, along an edge or over one, through two triangles; in single precision: for a
-  /// first look at where to go.
+  /// A straight way to a vertex nearby, along an edge or over one, through two triangles; in single precision, and in a
+  /// unit that is not that of lengths where these are huge or tiny: for a first look at where to go.
   struct Step {
     std::int32_t to;
     float length;
@@ -83,6 +83,7 @@ class GeodesicMesh {
   GeodesicMesh() = default;
   void renumber(const IntrinsicMesh& mesh, std::vector<std::int32_t>& own_face);
   void list_out(const std::vector<Triangle>& corners);
+  double unit_of_steps() const;
   void list_steps();
   void find_bending_vertices();
 

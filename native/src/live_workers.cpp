@@ -20,30 +20,29 @@ LiveWire::Impl::Impl(std::shared_ptr<Ground> on, std::shared_ptr<Metrics> by, co
       loop_turning(with.loop_turning.value_or(loop_turning_for(ground->surface->edges().size()))),
       metrics(std::move(by)) {
   for (std::size_t which = 0; which < kFollow.size(); ++which) {
-    threads[which] = std::jthread([this, which] { work(which); });
+    threads[which] = std::jthread([this, which](const std::stop_token& quit) { work(which, quit); });
   }
 }
 
 LiveWire::Impl::~Impl() {
-  const std::scoped_lock lock(mutex);
-  quit = true;
-  for (Worker& worker : workers) {
-    worker.preparing.request_stop();
-    worker.solving.request_stop();
-  }
-  changed.notify_all();
+  for (std::jthread& thread : threads) thread.request_stop();  // both, before the first of them is joined
 }
 
-void LiveWire::Impl::work(std::size_t which) {
+void LiveWire::Impl::work(std::size_t which, const std::stop_token& quit) {
   Worker& worker = workers[which];
+  const std::stop_callback stop_work(quit, [&] {
+    const std::scoped_lock lock(mutex);
+    worker.preparing.request_stop();
+    worker.solving.request_stop();
+  });
   std::unique_lock lock(mutex);
   while (true) {
-    changed.wait(lock, [&] {
-      return quit || worker.handled != request || worker.loop_handled != loop_request || !worker.dropped.empty();
+    changed.wait(lock, quit, [&] {
+      return worker.handled != request || worker.loop_handled != loop_request || !worker.dropped.empty();
     });
-    if (quit) return;
+    if (quit.stop_requested()) return;
     if (!worker.dropped.empty()) {
-      std::vector<std::shared_ptr<const Solved>> dropped = std::exchange(worker.dropped, {});
+      std::vector<std::shared_ptr<const void>> dropped = std::exchange(worker.dropped, {});
       lock.unlock();
       dropped.clear();
       lock.lock();
@@ -62,7 +61,7 @@ void LiveWire::Impl::work(std::size_t which) {
 
 void LiveWire::Impl::work_on_seed(std::size_t which, std::unique_lock<std::mutex>& lock) {
   Worker& worker = workers[which];
-  const std::shared_ptr<Metrics> with = metrics;
+  std::shared_ptr<Metrics> with = metrics;
   const std::int64_t at = request;
   const std::optional<Pick> pick = seed;
   const bool is_forward = forward;
@@ -95,6 +94,7 @@ void LiveWire::Impl::work_on_seed(std::size_t which, std::unique_lock<std::mutex
   } catch (...) {
     error = std::current_exception();
   }
+  with = nullptr;  // without the lock: it may be the last to hold a former metric
 
   lock.lock();
   worker.handled = at;
@@ -113,7 +113,7 @@ void LiveWire::Impl::work_on_loop(std::size_t which, std::unique_lock<std::mutex
   Worker& worker = workers[which];
   const std::int64_t at = loop_request;
   const Edge edge = loop_edge;
-  const std::shared_ptr<const Prepared> prepared = metrics->prepared[which]->peek();  // null: that failed
+  std::shared_ptr<const Prepared> prepared = metrics->prepared[which]->peek();  // null: that failed
   const Task task{.stop = worker.solving.get_token(), .progress = {}};
   worker.is_at_loop = true;
   lock.unlock();
@@ -128,6 +128,7 @@ void LiveWire::Impl::work_on_loop(std::size_t which, std::unique_lock<std::mutex
   } catch (...) {
     error = std::current_exception();
   }
+  prepared = nullptr;  // without the lock, as in work_on_seed()
 
   lock.lock();
   worker.is_at_loop = false;
@@ -229,6 +230,7 @@ void LiveWire::Impl::change_metrics(std::shared_ptr<Metrics> to) {
     worker.solving.request_stop();
     worker.error = nullptr;
   }
+  workers.front().dropped.push_back(std::move(to));  // the former ones
   changed.notify_all();
 }
 

@@ -40,9 +40,9 @@ struct LiveWire::Impl {
     std::shared_ptr<const Solved> solved;  // of the newest seed; of a former metric where solved_for is not `request`
     std::int64_t solved_for = -1;
     std::shared_ptr<const Preview> preview;
-    std::vector<std::shared_ptr<const Solved>> dropped;  // to be freed here: that takes long for a large field
-    std::int64_t handled = -1;                           // the request that was answered, or failed, last
-    std::exception_ptr error;                            // why it failed
+    std::vector<std::shared_ptr<const void>> dropped;  // to be freed here, without the lock: that takes long
+    std::int64_t handled = -1;                         // the request that was answered, or failed, last
+    std::exception_ptr error;                          // why it failed
     EdgeChain loop;
     std::int64_t loop_handled = 0;
     std::stop_source preparing, solving;  // of the running work
@@ -57,7 +57,7 @@ struct LiveWire::Impl {
   Impl& operator=(const Impl&) = delete;
 
   const Surface& surface() const { return *ground->surface; }
-  void work(std::size_t which);
+  void work(std::size_t which, const std::stop_token& quit);
   void work_on_seed(std::size_t which, std::unique_lock<std::mutex>& lock);
   void work_on_loop(std::size_t which, std::unique_lock<std::mutex>& lock);
   std::shared_ptr<const Solved> find_field(std::size_t which, const std::shared_ptr<const Prepared>& prepared,
@@ -94,8 +94,7 @@ struct LiveWire::Impl {
   const double loop_turning;
 
   mutable std::mutex mutex;  // guards what follows, but for the fractions
-  mutable std::condition_variable changed;
-  bool quit = false;
+  mutable std::condition_variable_any changed;
   std::shared_ptr<Metrics> metrics;
   std::int64_t request = 0;  // grows with each seed and each change of the metric
   std::optional<Pick> seed;
@@ -106,7 +105,7 @@ struct LiveWire::Impl {
   Edge loop_edge = {-1, -1};  // of the newest loop asked for
   std::array<Worker, 2> workers;
 
-  std::array<std::jthread, 2> threads;  // last, so that they end first
+  std::array<std::jthread, 2> threads;  // last, so that they end first, also where the second cannot be made
 };
 
 }  // namespace seamwire

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "live_workers.hpp"
+#include "text.hpp"
 
 namespace seamwire {
 namespace {
@@ -39,7 +40,7 @@ void check_options(const LiveWireOptions& options) {
   check_metric(options.family, options.strength);
   for (const double turning : {options.turning, options.loop_turning.value_or(0.0)}) {
     if (!(std::isfinite(turning) && turning >= 0)) {
-      throw InvalidInput("turning is " + std::to_string(turning) + ", not a finite number of at least 0");
+      throw InvalidInput("turning is " + text(turning) + ", not a finite number of at least 0");
     }
   }
 }
@@ -69,10 +70,11 @@ void LiveWire::set_metric(MetricFamily family, const Strength& strength) {
 }
 
 void LiveWire::set_scribbles(std::vector<Scribble> scribbles) {
-  const std::shared_ptr<Metrics> now = impl_->metrics_now();
+  std::shared_ptr<Metrics> now = impl_->metrics_now();
   if (scribbles == now->scribbles) return;
   auto to = std::make_shared<Metrics>(now->family, now->strength, std::move(scribbles));
   to->go_on_from(*now);
+  now = nullptr;  // before the workers may free it, so that this is not the thread that does
   impl_->change_metrics(std::move(to));
 }
 
@@ -126,6 +128,14 @@ LiveWires LiveWire::wires(const Pick& target) const {
     }
   }
   result.shorter = result.wires[1].length < result.wires[0].length ? 1 : 0;
+  // What a worker has dropped meanwhile is freed by it, not here.
+  const std::scoped_lock lock(impl_->mutex);
+  for (std::size_t which = 0; which < kFollow.size(); ++which) {
+    Impl::Worker& worker = impl_->workers[which];
+    if (!solved[which] || solved[which] == worker.solved) continue;
+    worker.dropped.push_back(std::move(solved[which]));
+    impl_->changed.notify_all();
+  }
   return result;
 }
 

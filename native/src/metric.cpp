@@ -6,6 +6,9 @@
 #include <limits>
 #include <string>
 
+#include "metric_check.hpp"
+#include "text.hpp"
+
 namespace seamwire {
 namespace {
 
@@ -18,8 +21,6 @@ constexpr double kSmallestBeta = 1e-12;
 
 // Normals whose sum is shorter than this have no direction in the middle.
 constexpr double kOpposite = 1e-6;
-
-std::string number(double x) { return std::to_string(x); }
 
 void check_sizes(const Surface& surface, const Curvature& curvature) {
   const std::size_t n = surface.vertex_count();
@@ -89,9 +90,9 @@ Metric aligned_metric(const Curvature& curvature, Follow follow, const Eigenvalu
   for (std::size_t v = 0; v < n; ++v) {
     if (!has_normal(curvature, v)) continue;
     const auto [l1, l2] = at(v);
-    if (!(std::isfinite(l1) && l2 > 0)) {
+    if (!(l1 <= kLargestEigenvalue && l2 > 0)) {
       throw InvalidInput("the metric at vertex " + std::to_string(v) + " is too strong: its eigenvalues are " +
-                         number(l1) + " and " + number(l2));
+                         text(l1) + " and " + text(l2));
     }
     const Vector& e1 = follow == Follow::kMin ? curvature.d1[v] : curvature.d2[v];
     const Vector& e2 = follow == Follow::kMin ? curvature.d2[v] : curvature.d1[v];
@@ -143,15 +144,27 @@ void check_strength(const Strength& strength, double smallest_parameter) {
     throw InvalidInput("a metric needs either its parameter or a maximum anisotropy");
   }
   if (strength.parameter && !(std::isfinite(*strength.parameter) && *strength.parameter >= smallest_parameter)) {
-    throw InvalidInput("parameter of the metric is " + number(*strength.parameter) +
-                       ", not a finite number of at least " + number(smallest_parameter));
+    throw InvalidInput("parameter of the metric is " + text(*strength.parameter) +
+                       ", not a finite number of at least " + text(smallest_parameter));
   }
   if (strength.max_anisotropy && !(std::isfinite(*strength.max_anisotropy) && *strength.max_anisotropy >= 1)) {
-    throw InvalidInput("maximum anisotropy is " + number(*strength.max_anisotropy) +
+    throw InvalidInput("maximum anisotropy is " + text(*strength.max_anisotropy) +
                        ", not a finite number of at least 1");
   }
   if (strength.clamp_percentile && !(*strength.clamp_percentile > 0 && *strength.clamp_percentile <= 100)) {
-    throw InvalidInput("percentile to clamp at is " + number(*strength.clamp_percentile) + ", not in (0, 100]");
+    throw InvalidInput("percentile to clamp at is " + text(*strength.clamp_percentile) + ", not in (0, 100]");
+  }
+}
+
+void check_finite(const Metric& metric) {
+  for (std::size_t v = 0; v < metric.size(); ++v) {
+    if (!metric.tensors[v].allFinite() || !metric.normals[v].allFinite()) {
+      throw InvalidInput("the metric at vertex " + std::to_string(v) + " is not finite");
+    }
+    if (metric.tensors[v].cwiseAbs().maxCoeff() > kLargestEigenvalue) {
+      throw InvalidInput("the metric at vertex " + std::to_string(v) +
+                         " is too strong: its tensor has an entry above " + text(kLargestEigenvalue));
+    }
   }
 }
 

@@ -249,6 +249,7 @@ void Refinement::bisect(std::int32_t h) {
   points_.emplace_back((node(a).point + node(b).point) / 2);
   new_nodes_.push_back(node_of(points_.back(), tensors_.back().normal, tensors_.back().tensor));
   const auto count = static_cast<std::int32_t>(mesh_.corners.size());
+  if (watches_unfit_) note_unfit(h, o, false);
   halve(h, middle);
   if (o >= 0) {
     halve(o, middle);
@@ -260,12 +261,41 @@ void Refinement::bisect(std::int32_t h) {
   // Edges around the middle: the halves of the old one, and one on each side.
   for (const std::int32_t e : {h, 3 * count, 3 * count + 2}) set_length(e, measure(e));
   if (o >= 0) set_length(3 * (count + 1) + 2, measure(3 * (count + 1) + 2));
+  if (watches_unfit_) note_unfit(h, o, true);
   consider(h / 3);
   consider(count);
   if (o >= 0) {
     consider(o / 3);
     consider(count + 1);
   }
+}
+
+std::size_t Refinement::count_unfit() const {
+  std::size_t count = 0;
+  for (std::int32_t f = 0; index(f) < mesh_.corners.size(); ++f) count += is_unfit(f) ? 1 : 0;
+  return count;
+}
+
+void Refinement::watch_unfit() {
+  watches_unfit_ = true;
+  unfit_ = least_unfit_ = count_unfit();
+  least_unfit_at_ = faces_added_;
+}
+
+// Before and after the bisection of the triangle of h, and of that of `beyond`, if it has one.
+void Refinement::note_unfit(std::int32_t h, std::int32_t beyond, bool are_new) {
+  const auto count = static_cast<std::int32_t>(mesh_.corners.size());
+  std::size_t unfit = is_unfit(h / 3) ? 1 : 0;
+  if (beyond >= 0) unfit += is_unfit(beyond / 3) ? 1 : 0;
+  if (!are_new) {
+    unfit_ -= unfit;
+    return;
+  }
+  for (std::int32_t f = beyond < 0 ? count - 1 : count - 2; f < count; ++f) unfit += is_unfit(f) ? 1 : 0;
+  unfit_ += unfit;
+  if (unfit_ >= least_unfit_) return;
+  least_unfit_ = unfit_;
+  least_unfit_at_ = faces_added_;
 }
 
 bool Refinement::run(const Task& task, std::size_t most, double& progress) {
@@ -309,6 +339,8 @@ Embedding Refinement::result() && {
   out.faces_added = faces_added_;
   out.hit_cap = hit_cap_;
   out.newest_bisections = newest_bisections_;
+  out.clamped_edges = clamped_edges_;
+  out.worst_clamp = worst_clamp_;
   IntrinsicMesh& mesh = out.mesh;
   mesh.vertex_count = static_cast<std::int32_t>(points_.size());
   const auto faces = static_cast<std::int32_t>(mesh_.corners.size());

@@ -79,6 +79,13 @@ class Refinement {
   /// Whether an invalid part of a face with an area has become so flat that it cannot be bisected on.
   bool has_decayed() const { return has_decayed_; }
   std::size_t faces_added() const { return faces_added_; }
+  bool hit_cap() const { return hit_cap_; }
+  /// Triangles that fit() has left, or would look at.
+  std::size_t count_unfit() const;
+  /// From here on, remember when there were fewest of them, and how many triangles had been added by then.
+  void watch_unfit();
+  std::size_t least_unfit() const { return least_unfit_; }
+  std::size_t least_unfit_at() const { return least_unfit_at_; }
   Embedding result() &&;
 
  private:
@@ -129,6 +136,7 @@ class Refinement {
   double fitted(std::int32_t h, double half, double next_side, double last_side) const;
   void halve(std::int32_t h, std::int32_t middle);
   void set_length(std::int32_t h, double length);
+  void note_unfit(std::int32_t h, std::int32_t beyond, bool are_new);
   std::vector<std::int32_t> changed_faces(const Metric& former) const;
   void reset(const std::vector<std::int32_t>& seeds);
   bool enter(std::int32_t face);
@@ -167,6 +175,10 @@ class Refinement {
   std::size_t faces_added_ = 0;
   std::size_t newest_bisections_ = 0;
   bool hit_cap_ = false;
+  std::size_t clamped_edges_ = 0;
+  double worst_clamp_ = 1.0;
+  bool watches_unfit_ = false;
+  std::size_t unfit_ = 0, least_unfit_ = 0, least_unfit_at_ = 0;
 };
 
 // Used in the innermost loops, and so inline.

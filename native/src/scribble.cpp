@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "text.hpp"
+
 namespace seamwire {
 namespace {
 
@@ -31,8 +33,6 @@ constexpr double kInside = 1e-6;
 constexpr double kNoDirection = 1e-6;
 
 std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-std::string number(double x) { return std::to_string(x); }
 
 std::string name(std::size_t scribble) { return "scribble " + std::to_string(scribble); }
 
@@ -246,7 +246,7 @@ void Scribbler::check(const Scribble& scribble, std::size_t number_of_scribble) 
     }
   }
   if (!(std::isfinite(scribble.eta) && scribble.eta >= 1)) {
-    throw InvalidInput("eta of " + name(number_of_scribble) + " is " + number(scribble.eta) +
+    throw InvalidInput("eta of " + name(number_of_scribble) + " is " + text(scribble.eta) +
                        ", not a finite number of at least 1");
   }
   if (scribble.rings < 1) {
@@ -254,7 +254,7 @@ void Scribbler::check(const Scribble& scribble, std::size_t number_of_scribble) 
                        ", not at least 1");
   }
   if (scribble.radius && !(std::isfinite(*scribble.radius) && *scribble.radius > 0)) {
-    throw InvalidInput("radius of " + name(number_of_scribble) + " is " + number(*scribble.radius) +
+    throw InvalidInput("radius of " + name(number_of_scribble) + " is " + text(*scribble.radius) +
                        ", not a finite number above 0");
   }
   for (std::size_t i = 0; i < count; ++i) {
@@ -280,7 +280,7 @@ void Scribbler::check(const Scribble& scribble, std::size_t number_of_scribble) 
       off = distance_to_triangle(p, point(a), point(b), point(c));
     }
     if (!(off * surface_.scale() <= kOffMesh)) {
-      fail("is off the mesh: " + number(off) + " away from " + (vertex >= 0 ? "vertex " : "face ") +
+      fail("is off the mesh: " + text(off) + " away from " + (vertex >= 0 ? "vertex " : "face ") +
            std::to_string(vertex >= 0 ? vertex : face));
     }
   }

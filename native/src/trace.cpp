@@ -193,9 +193,9 @@ class Tracer {
 namespace {
 
 /// Where records lead nowhere: not found on any mesh tried, but stretched windows promise nothing.
-IntrinsicPath chain_of_steps(const GeodesicMesh& mesh, std::int32_t seed, std::int32_t vertex) {
+IntrinsicPath chain_of_steps(const GeodesicMesh& mesh, std::int32_t seed, std::int32_t vertex, const Task& task) {
   EdgeDistances distances(mesh, seed);
-  distances.reach(vertex, {});
+  distances.reach(vertex, task);
   return distances.chain(vertex);
 }
 
@@ -252,7 +252,7 @@ DistanceField::DistanceField(std::shared_ptr<const GeodesicMesh> mesh, std::int3
       records_(std::move(records)),
       is_exact_(is_exact) {}
 
-IntrinsicPath DistanceField::trace(std::int32_t vertex) const {
+IntrinsicPath DistanceField::trace(std::int32_t vertex, const Task& task) const {
   if (vertex < 0 || static_cast<std::size_t>(vertex) >= distances_.size()) {
     throw InvalidInput("vertex " + std::to_string(vertex) + " is out of range, there are " +
                        std::to_string(distances_.size()));
@@ -261,8 +261,9 @@ IntrinsicPath DistanceField::trace(std::int32_t vertex) const {
   std::optional<IntrinsicPath> path = trace_records(*mesh_, distances_, records_, mesh_->own_vertex(vertex));
   if (!is_exact_) {
     MeshCutter cutter(*mesh_);
-    path = shorten(*mesh_, cutter,
-                   path ? *path : chain_of_steps(*mesh_, mesh_->own_vertex(seed_), mesh_->own_vertex(vertex)), {});
+    path =
+        shorten(*mesh_, cutter,
+                path ? *path : chain_of_steps(*mesh_, mesh_->own_vertex(seed_), mesh_->own_vertex(vertex), task), task);
   } else if (!path) {
     throw std::logic_error("the path to vertex " + std::to_string(vertex) + " lost its way");
   }

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <span>
@@ -91,7 +92,8 @@ class Wavefront {
       status_[index(v)] = Status::kFront;
       queue_.lower(v, distance);
     } else if ((mesh_.bends_paths(v) || v == seed_) && distance < before * (1 - kLeastGain)) {
-      sources_again_.push_back(v);
+      sources_again_.emplace_back(distance, v);
+      std::push_heap(sources_again_.begin(), sources_again_.end(), std::greater<>());
     }
   }
 
@@ -248,19 +250,33 @@ class Wavefront {
       const std::int32_t h = going_on_[i];
       gathered_[index(h)] = Gathered::kNothing;
       propagate(h);
-      while (!sources_again_.empty()) {
-        const std::int32_t v = sources_again_.back();
-        sources_again_.pop_back();
-        send_out(v);
-      }
+      send_out_again();
     }
     going_on_.clear();
+  }
+
+  /// Nearest first, so that of those that lie behind each other each goes once; in another order one that is lowered by
+  /// many others in turn would lower as many behind it each time, and so on.
+  void send_out_again() {
+    while (!sources_again_.empty()) {
+      std::pop_heap(sources_again_.begin(), sources_again_.end(), std::greater<>());
+      const auto [distance_then, v] = sources_again_.back();
+      sources_again_.pop_back();
+      if (distance_then != distance(v)) continue;  // it is there once more, nearer
+      send_out(v);
+      look_up(mesh_.out(v).size() + mesh_.loose(v).size());
+    }
   }
 
   void count(std::size_t windows) {
     ++result_.counters.lists;
     result_.counters.windows += windows;
-    work_ += windows + kWorkOfAList;
+    look_up(windows + kWorkOfAList);
+  }
+
+  /// Looks at the task once in a while, after so much more work.
+  void look_up(std::size_t work) {
+    work_ += work;
     if (work_ < kWorkBetweenChecks) return;
     work_ = 0;
     task_.check(static_cast<double>(vertices_done_) / static_cast<double>(mesh_.vertex_count()));
@@ -447,7 +463,8 @@ class Wavefront {
   WindowBlocks blocks_;
   std::vector<WindowList> lists_;
   std::vector<Gathered> gathered_;
-  std::vector<std::int32_t> going_on_, sources_again_, fan_;
+  std::vector<std::int32_t> going_on_, fan_;
+  std::vector<std::pair<double, std::int32_t>> sources_again_;  ///< a heap: at which distance, and which
   const WindowKernels& kernels_ = window_kernels();
   Scratch<double> feet_, ways_, pairs_, children_;
   Scratch<std::int64_t> flags_;

@@ -36,11 +36,41 @@ bool straight(const Vector& a, const Vector& b, const Vector& c) {
   return u.dot(v) > 0 && u.cross(v).norm() <= kCollinear * u.norm() * v.norm();
 }
 
+void check_embedding(const Surface& surface, const Embedding& embedding) {
+  const std::size_t vertices = surface.vertex_count();
+  if (embedding.points.size() < vertices ||
+      (vertices > 0 && (embedding.points.front() != surface.points().front() ||
+                        embedding.points[vertices - 1] != surface.points().back()))) {
+    throw InvalidInput("the embedding is of another surface");
+  }
+}
+
+void check_path(const Surface& surface, const Embedding& embedding, const IntrinsicPath& path) {
+  const auto check = [](bool is_there) {
+    if (!is_there) throw InvalidInput("the path is of another embedding");
+  };
+  check(path.faces.size() + 1 == path.points.size());
+  for (const PathPoint& point : path.points) {
+    if (point.half_edge < 0) {
+      check(point.vertex >= 0 && index(point.vertex) < embedding.points.size());
+    } else {
+      check(index(point.half_edge / 3) < embedding.source_face.size());
+    }
+  }
+  for (const std::int32_t face : path.faces) {
+    if (face < 0) continue;
+    check(index(face) < embedding.source_face.size());
+    check(index(embedding.source_face[index(face)]) < surface.face_count());
+  }
+}
+
 }  // namespace
 
 Wire map_wire(const Surface& surface, const Embedding& embedding, const IntrinsicPath& path) {
   Wire wire;
+  check_embedding(surface, embedding);
   if (path.points.empty()) return wire;
+  check_path(surface, embedding, path);
   wire.length = path.length;
   for (std::size_t i = 0; i < path.points.size(); ++i) {
     const PathPoint& at = path.points[i];
@@ -56,7 +86,7 @@ Wire map_wire(const Surface& surface, const Embedding& embedding, const Intrinsi
         continue;
       }
       const std::size_t n = wire.points.size();
-      if (free_end && face >= 0 && wire.faces.back() == face &&
+      if (n > 1 && free_end && face >= 0 && wire.faces.back() == face &&
           straight(wire.points[n - 2], wire.points[n - 1], point)) {
         wire.points.back() = point;
         wire.vertices.back() = vertex;
@@ -76,13 +106,18 @@ Wire map_wire(const Surface& surface, const Embedding& embedding, const Intrinsi
   return wire;
 }
 
-Wire trace_wire(const Surface& surface, const Embedding& embedding, const DistanceField& field, std::int32_t vertex) {
+Wire trace_wire(const Surface& surface, const Embedding& embedding, const DistanceField& field, std::int32_t vertex,
+                const Task& task) {
   if (vertex < 0 || index(vertex) >= surface.vertex_count()) {
     throw InvalidInput("vertex " + std::to_string(vertex) + " is out of range: the surface has " +
                        std::to_string(surface.vertex_count()) + " vertices");
   }
-  Wire wire = map_wire(surface, embedding, field.trace(vertex));
-  wire.from = field.seed();
+  if (field.distances().size() != embedding.points.size()) {
+    throw InvalidInput("the field is of another embedding: it has " + std::to_string(field.distances().size()) +
+                       " vertices, the embedding " + std::to_string(embedding.points.size()));
+  }
+  Wire wire = map_wire(surface, embedding, field.trace(vertex, task));
+  wire.from = index(field.seed()) < surface.vertex_count() ? field.seed() : -1;
   wire.to = vertex;
   return wire;
 }
@@ -572,6 +607,11 @@ void check_wire(const Surface& surface, const Wire& wire) {
 std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire) {
   if (wire.points.empty()) return {};
   check_wire(surface, wire);
+  if (graph.data().polygon_of_face.size() != surface.face_count() ||
+      graph.data().first_edge.size() != surface.vertex_count() + 1 ||
+      index(graph.data().first_edge.back()) != surface.edges().size()) {
+    throw InvalidInput("what to snap to is of another surface");
+  }
   if (wire.from == wire.to) return {wire.from};
   Band band(surface, graph.data());
   band.add(wire);

@@ -311,6 +311,16 @@ TEST(EdgeWires, RefuseWrongInputWithItsNumbers) {
   Metric metric = plain_metric(surface);
   metric.tensors.pop_back();
   EXPECT_TRUE(contains(message_of([&] { make_edge_graph(surface, metric); }), "8 tensors"));
+  const auto fans = make_edge_fans(shapes::quad_grid(3).surface());
+  EXPECT_TRUE(contains(message_of([&] { make_edge_graph(surface, plain_metric(surface), fans); }), "another surface"));
+  EXPECT_TRUE(contains(message_of([&] { edge_wires(graph, {0, 1}, -1e-9); }), "not -1e-09"));
+}
+
+TEST(EdgeWires, RefuseAMetricTooStrongForItsLengthsToBeNumbers) {
+  const Surface surface = shapes::quad_grid(2).surface();
+  Metric metric = plain_metric(surface);
+  metric.tensors[4] *= 1e160;  // the square of which is no number
+  EXPECT_TRUE(contains(message_of([&] { make_edge_graph(surface, metric); }), "the metric at vertex 4 is too strong"));
 }
 
 TEST(EdgeWires, StopWhenToldTo) {

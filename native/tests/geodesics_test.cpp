@@ -432,6 +432,65 @@ TEST(Geodesics, ProgressRisesAndCancelEndsTheWork) {
   EXPECT_THROW(geodesics.solve(0, task), Cancelled);
 }
 
+/// A strip of needles over the seed, 0, with a chain of loose edges above it that the front has passed before it meets
+/// the first vertex of the chain, 4, from below: straight over the needles it is at 2, and was taken to be at 3. From
+/// each vertex of the chain two ways lead to the next, which are nearly as long.
+struct ChainOverNeedles {
+  static constexpr int kLinks = 34, kLeaves = 20'000;
+  IntrinsicMesh mesh;
+  std::int32_t last = 4;  ///< of the chain
+
+  ChainOverNeedles() {
+    const shapes::Mesh needles{{{0, 0, 0}, {-100, 1, 0}, {100, 1, 0}, {100, 1.5, 0}, {0, 2, 0}, {-1, 1, 0}},
+                               {{0, 2, 1}, {1, 2, 3}, {1, 3, 4}}};
+    mesh = intrinsic(needles);
+    mesh.loose_edges = {{0, 5, 1.5}, {5, 4, 1.5}};
+    std::int32_t next = 6;
+    double more = 0.5;
+    for (int i = 0; i < kLinks; ++i, more /= 2) {
+      const std::int32_t one = next++, two = next++, end = next++;
+      mesh.loose_edges.insert(mesh.loose_edges.end(),
+                              {{last, one, 1}, {last, two, 1}, {one, end, 1}, {two, end, 1 + more}});
+      last = end;
+    }
+    for (int i = 0; i < kLeaves; ++i) mesh.loose_edges.push_back({4, next++, 1});
+    mesh.vertex_count = next;
+  }
+};
+
+// Vertices that become nearer after the front has passed them send out anew. Last in, first out, the end of the chain
+// would do so 2^34 times.
+TEST(Geodesics, WhatIsFoundNearerLaterIsHandedOnNearestFirst) {
+  const ChainOverNeedles chain;
+  const DistanceField field = ExactGeodesics(chain.mesh).solve(0);
+  EXPECT_NEAR(field.distances()[4], 2, 1e-12);
+  EXPECT_NEAR(field.distances()[index(chain.last)], 2 + 2 * ChainOverNeedles::kLinks, 1e-9);
+  EXPECT_NEAR(field.distances().back(), 3, 1e-12);
+}
+
+TEST(Geodesics, CancelIsHeardWhileThatIsHandedOn) {
+  const ChainOverNeedles chain;
+  const ExactGeodesics geodesics(chain.mesh);
+  int asked = 0;
+  const Task counting{.stop = {}, .progress = [&](double) { return ++asked > 0; }};
+  geodesics.solve(0, counting);
+  EXPECT_GT(asked, 3) << "at the start, at the end, and for each 8192 vertices of the 20 000 that are nearer";
+  int more = 2;
+  const Task cancelled{.stop = {}, .progress = [&](double) { return --more > 0; }};
+  EXPECT_THROW(geodesics.solve(0, cancelled), Cancelled);
+}
+
+TEST(Geodesics, TracesOfABoundedFieldCanBeCancelled) {
+  const ExactGeodesics geodesics(intrinsic(shapes::bumpy(shapes::icosphere(4), 0.1)));
+  std::stop_source stop;
+  const Task task{.stop = stop.get_token(), .progress = {}};
+  const DistanceField bounded = geodesics.solve_bounded(0, 2), exact = geodesics.solve(0);
+  EXPECT_EQ(bounded.trace(100, task).length, bounded.trace(100).length);
+  stop.request_stop();
+  EXPECT_THROW(bounded.trace(100, task), Cancelled);
+  EXPECT_NO_THROW(exact.trace(100, task));
+}
+
 void expect_invalid(const IntrinsicMesh& mesh, const std::string& part_of_message) {
   try {
     const ExactGeodesics geodesics(mesh);
@@ -455,6 +514,8 @@ TEST(Geodesics, WrongInputIsNamed) {
   bad = good;
   bad.lengths[0] *= 9;
   expect_invalid(bad, "triangle 0");
+  bad = intrinsic(shapes::grid(1), [](int a, int b) { return a == 0 && b == 3 ? 2 + 1e-9 : 1; });
+  expect_invalid(bad, "2.000000001");
   bad = good;
   bad.twins[2] = 7;
   expect_invalid(bad, "half-edge 2 ");

@@ -518,6 +518,18 @@ TEST(LiveWire, RefusesWhatIsNotPartOfTheSurface) {
   EXPECT_THROW(across.loop({0, 1}), InvalidInput);
 }
 
+TEST(LiveWire, TakesAnAnisotropyBeyondAllSense) {
+  const auto surface = shared(shapes::bumpy(shapes::torus(20, 10), 0.05));
+  for (const Along along : {Along::kSurface, Along::kEdges}) {
+    const LiveWires wires = fresh_wires(surface, {.along = along, .strength = {.max_anisotropy = 1e100}}, {0}, {100});
+    for (const LiveCandidate& wire : wires.wires) {
+      EXPECT_TRUE(wire.final);
+      EXPECT_TRUE(std::isfinite(wire.length) && wire.length > 0) << wire.length;
+      EXPECT_FALSE(wire.vertices.empty());
+    }
+  }
+}
+
 TEST(LiveWire, RefusesWrongOptions) {
   const auto surface = shared(shapes::grid(4));
   EXPECT_THROW(LiveWire(surface, {.strength = {}}), InvalidInput);

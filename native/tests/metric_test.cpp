@@ -197,6 +197,36 @@ TEST(Metrics, RefuseWhatMakesNoSense) {
   EXPECT_THROW(pottmann_kovacs_metric(patch.surface, patch.curvature, Follow::kMin, {.parameter = -0.5}), InvalidInput);
 }
 
+TEST(Metrics, RefuseEigenvaluesWhoseSquaresAreNoNumbers) {
+  const Patch patch = rising();
+  const auto too_strong = [&](auto family, const Strength& strength) {
+    return message([&] { family(patch.surface, patch.curvature, Follow::kMin, strength); });
+  };
+  EXPECT_NE(too_strong(pottmann_kovacs_metric, {.parameter = 1e160}).find("too strong"), std::string::npos);
+  EXPECT_NE(too_strong(campen_metric, {.parameter = 1e160}).find("1e+160"), std::string::npos);
+  EXPECT_NE(too_strong(campen_metric, {.max_anisotropy = 1e100}).find("too strong"), std::string::npos);
+  // Whatever is let through has lengths.
+  for (const Metric& metric :
+       {pottmann_kovacs_metric(patch.surface, patch.curvature, Follow::kMin, {.parameter = 1e149}),
+        feature_metric(patch.surface, patch.curvature, Follow::kMin, {.max_anisotropy = 1e100})}) {
+    for (const auto& [a, b] : patch.surface.edges()) {
+      const double length = edge_length(patch.surface, metric, a, b);
+      EXPECT_TRUE(std::isfinite(length) && length > 0) << length;
+    }
+  }
+}
+
+TEST(Metrics, SayNumbersInMessagesWithTheDigitsThatTellThemApart) {
+  const Patch patch = rising();
+  const auto said = [&](auto family, const Strength& strength) {
+    return message([&] { family(patch.surface, patch.curvature, Follow::kMin, strength); });
+  };
+  EXPECT_NE(said(feature_metric, {.parameter = -1e-9}).find("-1e-09, not a finite number of at least 0"),
+            std::string::npos);
+  EXPECT_NE(said(feature_metric, {.max_anisotropy = 1 - 1e-16}).find("0.99999999999999989,"), std::string::npos);
+  EXPECT_NE(said(campen_metric, {.parameter = 0.1}).find("is 0.1, not"), std::string::npos);
+}
+
 TEST(Metrics, NameTheVertexWhoseCurvatureIsNotFinite) {
   Patch patch = rising();
   patch.curvature.k2[11] = kNan;

@@ -178,5 +178,32 @@ TEST(QuickPaths, CancelledOnesCanBeAskedAgain) {
   EXPECT_EQ(quick.path(10000).length, QuickPaths(geodesics, 0).path(10000).length);
 }
 
+// Steps are in single precision; lengths may be larger and smaller than that goes.
+TEST(QuickPaths, LengthsBeyondSinglePrecision) {
+  for (const double scale : {1e39, 1e70, 1e-39, 1e-70}) {
+    SCOPED_TRACE(scale);
+    IntrinsicMesh mesh = intrinsic(shapes::grid(20, 0.2));
+    for (double& length : mesh.lengths) length *= scale;
+    const ExactGeodesics geodesics(mesh);
+    const DistanceField field = geodesics.solve(0);
+    QuickPaths quick(geodesics, 0);
+    for (const std::int32_t to : {1, 21, 220, 440}) {
+      const double distance = field.distances()[index(to)];
+      EXPECT_NEAR(quick.path(to).length, distance, 1e-9 * distance);
+    }
+  }
+}
+
+TEST(QuickPaths, AreTheSameInAnyUnitThatIsAPowerOfTwo) {
+  const IntrinsicMesh mesh = intrinsic(shapes::grid(20, 0.2));
+  IntrinsicMesh larger = mesh;
+  for (double& length : larger.lengths) length *= 0x1p130;
+  const ExactGeodesics geodesics(mesh), of_larger(larger);
+  QuickPaths quick(geodesics, 0), quick_over_larger(of_larger, 0);
+  for (std::int32_t to = 1; to < mesh.vertex_count; to += 7) {
+    EXPECT_EQ(quick_over_larger.path(to).length, quick.path(to).length * 0x1p130);
+  }
+}
+
 }  // namespace
 }  // namespace seamwire

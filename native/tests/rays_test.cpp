@@ -106,6 +106,48 @@ TEST(Rays, leave_out_what_has_no_area_or_is_not_finite) {
   }
 }
 
+/// Corners in line but for rounding: what is computed of a hit is rounding too, and must not depend on when one asks.
+TEST(Rays, over_triangles_whose_corners_are_in_line_are_the_same_before_and_after) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> place(-1, 1);
+  shapes::Mesh mesh;
+  std::vector<std::pair<Vector, Vector>> rays;
+  for (std::int32_t t = 0; t < 20'000; ++t) {
+    const Vector from(place(random), place(random), place(random));
+    const Vector along(place(random), place(random), place(random));
+    const std::array<double, 3> steps = {0, place(random), place(random)};
+    for (const double step : steps) mesh.points.emplace_back(from + step * along);
+    mesh.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    // Many rays go through the line, where a hit is likely.
+    if (t % 10 == 0) rays.emplace_back(Vector(0, 0, 3), from + 0.1 * along - Vector(0, 0, 3));
+  }
+  const RayTree tree(mesh.points, mesh.triangles);
+  tree.wait();
+  std::size_t met = 0;
+  for (const auto& [origin, direction] : rays) {
+    // One by one, without a tree: a tree of one triangle is that triangle.
+    const RayHit hit = tree.first_hit(origin, direction);
+    met += hit.triangle >= 0;
+    if (hit.triangle < 0) continue;
+    const Vector at = origin + hit.distance * direction;
+    const Vector &a = mesh.points[3 * static_cast<std::size_t>(hit.triangle)],
+                 &b = mesh.points[3 * static_cast<std::size_t>(hit.triangle) + 1],
+                 &c = mesh.points[3 * static_cast<std::size_t>(hit.triangle) + 2];
+    const Vector low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+    EXPECT_LE((low - at).maxCoeff(), 1e-8) << "a hit outside of the triangle's box";
+    EXPECT_LE((at - high).maxCoeff(), 1e-8);
+  }
+  for (int round = 0; round < 4; ++round) {
+    const RayTree unbuilt(mesh.points, mesh.triangles);
+    for (std::size_t i = static_cast<std::size_t>(round); i < rays.size() && !unbuilt.ready(); i += 4) {
+      const RayHit early = unbuilt.first_hit(rays[i].first, rays[i].second);
+      const RayHit late = tree.first_hit(rays[i].first, rays[i].second);
+      EXPECT_EQ(early.triangle, late.triangle);
+      EXPECT_EQ(early.distance, late.distance);
+    }
+  }
+}
+
 TEST(Rays, take_the_smaller_number_of_two_that_lie_in_one_place) {
   const std::vector<Vector> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   const RayTree tree(points, {{1, 2, 0}, {0, 1, 2}, {2, 1, 0}});

@@ -187,6 +187,37 @@ TEST(TraceWire, IsTheSeedAloneOrNothingWhereThereIsNoPath) {
   EXPECT_THROW(trace_wire(two, embedding, field, -1), InvalidInput);
 }
 
+TEST(TraceWire, MayStartAtANewVertexOfTheEmbedding) {
+  const Bisected on;
+  const DistanceField field = ExactGeodesics(on.embedding.mesh).solve(3);
+  for (const std::int32_t to : {0, 1, 2}) {
+    const Wire wire = trace_wire(on.surface, on.embedding, field, to);
+    EXPECT_EQ(wire.points, (std::vector<Vector>{{1, 0, 0}, on.surface.points()[index(to)]}));
+    EXPECT_EQ(wire.vertices, (std::vector<std::int32_t>{-1, to}));
+    EXPECT_EQ(wire.faces, (std::vector<std::int32_t>{0}));
+    EXPECT_EQ(wire.from, -1);
+    EXPECT_EQ(wire.to, to);
+    EXPECT_EQ(wire.length, 1);
+  }
+}
+
+TEST(TraceWire, RefusesWhatDoesNotBelongTogether) {
+  const Bisected on;
+  const DistanceField field = ExactGeodesics(on.embedding.mesh).solve(0);
+  const Surface other = shapes::grid(3).surface();
+  const Embedding of_other = embed_euclidean(other);
+  EXPECT_THROW(trace_wire(other, on.embedding, field, 1), InvalidInput) << "a surface of more vertices";
+  EXPECT_THROW(trace_wire(Surface({{0, 1, 0}, {2, 0, 0}, {1, 1, 0}}, {{0, 1, 2}}), on.embedding, field, 1),
+               InvalidInput)
+      << "of vertices elsewhere";
+  EXPECT_THROW(trace_wire(on.surface, on.embedding, ExactGeodesics(of_other.mesh).solve(0), 1), InvalidInput);
+  const auto map = [&](const IntrinsicPath& path) { return map_wire(on.surface, on.embedding, path); };
+  EXPECT_THROW(map({.points = {{.vertex = 0}, {.vertex = 4}}, .faces = {0}}), InvalidInput) << "a vertex too far";
+  EXPECT_THROW(map({.points = {{.vertex = 0}, {.half_edge = 6, .t = 0.5}}, .faces = {0}}), InvalidInput) << "an edge";
+  EXPECT_THROW(map({.points = {{.vertex = 0}, {.vertex = 3}}, .faces = {2}}), InvalidInput) << "a face";
+  EXPECT_THROW(map({.points = {{.vertex = 0}, {.vertex = 3}}, .faces = {}}), InvalidInput) << "no faces";
+}
+
 TEST(TraceWire, OnAPlaneIsTheStraightLine) {
   const Surface surface = shapes::grid(12, 0.3).surface();
   const Embedding embedding = embed_euclidean(surface);
@@ -393,6 +424,13 @@ TEST(SnapToEdges, RefusesAWireOfAnotherSurface) {
     spoil(wrong);
     EXPECT_THROW(snap_to_edges(surface, graph, wrong), InvalidInput);
   }
+}
+
+TEST(SnapToEdges, RefusesAGraphOfAnotherSurface) {
+  const Surface surface = shapes::grid(4).surface(), other = shapes::grid(5).surface();
+  const Embedding embedding = embed_euclidean(surface);
+  const Wire wire = trace_wire(surface, embedding, ExactGeodesics(embedding.mesh).solve(0), 24);
+  EXPECT_THROW(snap_to_edges(surface, SnapGraph(other), wire), InvalidInput);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ struct EmbedOptions {
   /// left).
   double sigma = 0.0;
   Perimeter perimeter = Perimeter::kMetric;
-  /// At most this many triangles are added; what is invalid then becomes a hole.
+  /// At most this many triangles are added; what is invalid then becomes a hole. With a larger cap no more is left.
   std::size_t max_faces_added = 4'000'000;
 };
 
@@ -35,17 +35,21 @@ struct Embedding {
   std::size_t newest_bisections = 0;  ///< of newest-vertex bisection, where the other schemes are left for it
   std::size_t invalid_left = 0;       ///< holes: faces without an area, smaller ones than sigma, or what the cap leaves
   bool hit_cap = false;               ///< max_faces_added ended the subdivision
-  bool is_local = false;              ///< re_embed() can go on from it: see there
+  /// Edges whose length is not what the metric says, so that triangles be valid that bisection left; and the largest
+  /// factor, up or down, between the two lengths.
+  std::size_t clamped_edges = 0;
+  double worst_clamp = 1.0;
+  bool is_local = false;  ///< re_embed() can go on from it: see there
   std::vector<std::int32_t>
       unreachable;  ///< the caller's vertices in a face, but in no valid triangle and on no edge to run along
 };
 
 /// Bisects invalid triangles, largest perimeter first, at the midpoint of their longest edge in the metric, until none
-/// is left. Where that takes more than four times the surface's triangles, and 20 000, it begins anew and bisects the
-/// neighbour behind the edge first, until that edge is the neighbour's longest too, and from a depth on opposite the
-/// newest vertex; what takes too many triangles even so is bisected once more with lengths that make it valid. That
-/// ends, with at most one and a half times the triangles of the first scheme where that does (docs/method.md). Lengths
-/// are those of the ambient reading (metric.hpp).
+/// is left. Where that takes more than four times the surface's triangles, and 20 000, or the cap, it begins anew and
+/// bisects the neighbour behind the edge first, until that edge is the neighbour's longest too, and from a depth on
+/// opposite the newest vertex; what takes too many triangles even so is bisected once more with lengths that make it
+/// valid. That ends, with at most one and a half times the triangles of the first scheme where that does
+/// (docs/method.md). Lengths are those of the ambient reading (metric.hpp).
 ///
 /// Where the surface is cut open each side is bisected on its own. Triangles without an area cannot be bisected away:
 /// they are taken away before, by merging corners at the same place (one of the two vertices then has no triangle, but

@@ -50,8 +50,9 @@ class DistanceField {
   /// The shortest path from the seed to a vertex, in time proportional to the triangles it crosses. Its length is the
   /// distance to rounding. Where the field is not exact, it is a real path all the same, with its true length, the
   /// shortest one within the triangles around the way that the field tells; it may be longer than the geodesic, but not
-  /// shorter. Throws InvalidInput for a vertex out of range.
-  IntrinsicPath trace(std::int32_t vertex) const;
+  /// shorter. Throws InvalidInput for a vertex out of range; Cancelled, where the field is not exact: only then it
+  /// takes long enough for `task` to be looked at.
+  IntrinsicPath trace(std::int32_t vertex, const Task& task = {}) const;
 
  private:
   std::shared_ptr<const GeodesicMesh> mesh_;

@@ -9,6 +9,9 @@
 
 namespace seamwire {
 
+/// Larger eigenvalues of a tensor are refused: the square of a triangle's area would not be a finite number.
+inline constexpr double kLargestEigenvalue = 1e150;
+
 /// An anisotropic metric: at each of the caller's vertices a tensor on the tangent plane (eq. 1), in coordinates of the
 /// model scaled to the unit cube. Lengths scale by the square roots of its eigenvalues.
 struct Metric {

@@ -192,3 +192,12 @@ def test_polygons_are_cut_into_triangles() -> None:
         sw.cut_polygons(points, [0, 1, 2], [4])
     with pytest.raises(ValueError, match=r"^points: expected real numbers of shape \(n, 3\)"):
         sw.cut_polygons([(0.0, 0.0)], [0, 1, 2], [3])
+
+
+@pytest.mark.parametrize("edge", [np.array(3), np.array(3.5), np.array("ab"), np.array([1]), 5, "abc", None, [1, 2, 3]])
+def test_what_is_no_edge_is_said(surface: sw.Surface, metric: sw.Metric, edge: object) -> None:
+    """An array without dimensions is a sequence to Python, but has no length."""
+    live = sw.LiveWire(surface, along="edges")
+    for call in (lambda: sw.edge_loop(surface, metric, edge), lambda: live.loop(edge), lambda: live.strip(edge)):
+        with pytest.raises(ValueError, match="edge: expected an edge as two vertex numbers"):
+            call()

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gil.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <mutex>
+#include <thread>
+
+namespace seamwire::python {
+namespace {
+
+namespace py = pybind11;
+
+/// How long the end of the interpreter waits for threads inside the library. Work that can be stopped stops within
+/// milliseconds; what cannot, such as building a Surface of a million faces, is left behind.
+constexpr std::chrono::seconds kPatience{1};
+
+enum class Phase {
+  kRunning,
+  kEnding,  ///< work is to stop; threads still come back to Python
+  kEnded,   ///< nobody comes back any more
+};
+
+/// The threads inside the library.
+struct Calls {
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::atomic<Phase> phase = Phase::kRunning;  // changed with the mutex
+  std::atomic<std::thread::id> ending_thread;  // set before the phase
+  std::size_t inside = 0;                      // without the GIL, or in a callback
+  std::size_t returning = 0;                   // of these, on the way to the GIL
+};
+
+/// Never freed: threads may outlive the module and main().
+Calls& calls() {
+  static Calls& kept = *new Calls;
+  return kept;
+}
+
+/// Takes the GIL back unless `last` is reached; whether it did.
+bool take(PyThreadState* state, Phase last) {
+  Calls& all = calls();
+  {
+    const std::scoped_lock lock(all.mutex);
+    if (is_cut_off() && all.phase >= last) return false;
+    ++all.returning;
+  }
+  PyEval_RestoreThread(state);
+  const std::scoped_lock lock(all.mutex);
+  --all.returning;
+  all.changed.notify_all();
+  return true;
+}
+
+void leave() {
+  Calls& all = calls();
+  const std::scoped_lock lock(all.mutex);
+  --all.inside;
+  all.changed.notify_all();
+}
+
+/// The atexit handler.
+void end_calls() {
+  Calls& all = calls();
+  {
+    const std::scoped_lock lock(all.mutex);
+    if (all.phase != Phase::kRunning) return;
+    all.ending_thread = std::this_thread::get_id();
+    all.phase = Phase::kEnding;
+  }
+  PyThreadState* const state = PyEval_SaveThread();
+  {
+    std::unique_lock lock(all.mutex);
+    all.changed.wait_for(lock, kPatience, [&] { return all.inside == 0; });
+    all.phase = Phase::kEnded;
+    // They have been let through, and the GIL is free for them.
+    all.changed.wait(lock, [&] { return all.returning == 0; });
+  }
+  PyEval_RestoreThread(state);
+}
+
+}  // namespace
+
+GilRelease::GilRelease() {
+  if (is_cut_off()) return;
+  Calls& all = calls();
+  {
+    const std::scoped_lock lock(all.mutex);
+    ++all.inside;
+  }
+  state_ = PyEval_SaveThread();
+}
+
+GilRelease::~GilRelease() {
+  if (state_ == nullptr) return;
+  if (!take(state_, Phase::kEnded)) sleep_for_ever();
+  leave();
+}
+
+bool GilRelease::take_for_callback() const { return take(state_, Phase::kEnding); }
+
+void GilRelease::sleep_for_ever() {
+  leave();
+  while (true) std::this_thread::sleep_for(std::chrono::hours(1));
+}
+
+bool is_cut_off() {
+  const Calls& all = calls();
+  return all.phase != Phase::kRunning && all.ending_thread.load() != std::this_thread::get_id();
+}
+
+void leave_if_cut_off() {
+  if (!is_cut_off()) return;
+  PyErr_SetNone(PyExc_SystemExit);
+  throw py::error_already_set();
+}
+
+void heed_interpreter_exit() { py::module_::import("atexit").attr("register")(py::cpp_function(end_calls)); }
+
+}  // namespace seamwire::python

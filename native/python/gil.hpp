@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace seamwire::python {
+
+/// Lets other Python threads run for as long as it lives, as pybind11's gil_scoped_release does, but survives the end
+/// of the interpreter.
+///
+/// Up to Python 3.13 a thread that wants the GIL while the interpreter is being finalized is ended by pthread_exit,
+/// which unwinds its stack through our frames, and the process aborts. So the threads that are inside the library are
+/// counted, and a Python `atexit` handler (heed_interpreter_exit) tells running work to stop, waits for these threads
+/// for a bounded time, and from then on lets none of them back: a thread that returns later sleeps until the process
+/// ends. The thread that ends the interpreter is never held up.
+class GilRelease {
+ public:
+  /// With the GIL. Keeps it on other threads once the interpreter is ending: there is no way back then.
+  GilRelease();
+  ~GilRelease();
+  GilRelease(const GilRelease&) = delete;
+  GilRelease& operator=(const GilRelease&) = delete;
+
+  /// Runs work() with the GIL; false where the interpreter is ending, and nothing was run. Python may end the thread in
+  /// the middle of work(), which must call C functions only and not throw: what comes out of it is taken for that end.
+  template <class Work>
+  bool with_gil(const Work& work) const {
+    if (state_ == nullptr) return false;
+    if (!take_for_callback()) return false;
+    try {
+      work();
+    } catch (...) {
+      sleep_for_ever();
+    }
+    PyEval_SaveThread();
+    return true;
+  }
+
+ private:
+  bool take_for_callback() const;
+  [[noreturn]] static void sleep_for_ever();
+
+  PyThreadState* state_ = nullptr;  ///< null: the GIL was kept
+};
+
+/// Whether the interpreter is ending and this is another thread than the one that ends it. Needs no GIL.
+bool is_cut_off();
+
+/// With the GIL: raises SystemExit where is_cut_off(), which ends a Python thread without a word.
+void leave_if_cut_off();
+
+/// Registers with Python's `atexit`, when the module is imported.
+void heed_interpreter_exit();
+
+}  // namespace seamwire::python
