@@ -180,7 +180,8 @@ def test_whatever_is_pressed_seams_and_network_agree_and_nothing_else_changes(
     cone: Desk, seed: int, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # Where there is no wire, X and the right button are Blender's: its menus offer nothing here.
-    for menu in (bpy.types.VIEW3D_MT_edit_mesh_delete, bpy.types.VIEW3D_MT_edit_mesh_context_menu):
+    names = ("edit_mesh_delete", "edit_mesh_context_menu", "object_context_menu")
+    for menu in (getattr(bpy.types, f"VIEW3D_MT_{name}") for name in names):
         monkeypatch.setattr(menu, "draw", lambda self, _context: self.layout.label(text="Nothing"))
     monkey = Monkey(cone, seed)
     bpy.ops.ed.undo_push(message="Before")

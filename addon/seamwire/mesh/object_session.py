@@ -82,8 +82,8 @@ class ObjectSession:
         A mesh object in edit mode.
     along
         How wires run at first.
-    make_live
-        Makes live wires of a surface; None: on threads of their own, as the tool needs it.
+    make_maker
+        Makes of the mesh what makes live wires; None: on threads of their own, as the tool needs it.
 
     Attributes
     ----------
@@ -99,14 +99,17 @@ class ObjectSession:
     """
 
     def __init__(
-        self, obj: bpy.types.Object, along: Along = "EDGES", make_live: Callable[[Along], LiveWire] | None = None
+        self,
+        obj: bpy.types.Object,
+        along: Along = "EDGES",
+        make_maker: Callable[[edit_mesh.Arrays], Callable[[Along], LiveWire]] | None = None,
     ) -> None:
         self.obj = obj
         self.cage: edit_mesh.Cage | edit_mesh.StoredMesh = edit_mesh.Cage(obj)
         self.arrays = edit_mesh.read(obj)
-        self.surface = None if make_live is not None else eventual_surface(self.arrays)
+        self.surface = None if make_maker is not None else eventual_surface(self.arrays)
         self.session = Session(
-            make_live or maker_on(self.surface),
+            maker_on(self.surface) if make_maker is None else make_maker(self.arrays),
             self.arrays.points,
             along,
             edges=self.arrays.edges,

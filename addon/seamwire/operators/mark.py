@@ -130,12 +130,11 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
 
     def _draw(self, obj: bpy.types.Object, prefix: str) -> tuple[ObjectSession, list[str]]:
         """Draw on one object; return its session, and what could not be done, in words that begin with a prefix."""
-        from ..mesh.edit_mesh import read
         from ..mesh.object_session import ObjectSession, live_maker
         from . import seed_text
 
         try:
-            mesh = ObjectSession(obj, self.along, live_maker(read(obj)))
+            mesh = ObjectSession(obj, self.along, live_maker)
             seeds, loops, strokes = self._read(mesh)
         except ValueError as error:
             raise ValueError(f"{prefix}{error}") from error
