@@ -161,9 +161,11 @@ def test_an_object_flattened_to_nothing_is_not_picked() -> None:
     assert find.pick(view, Matrix.Diagonal((1.0, 0.0, 1.0, 1.0)), (200.0, 200.0), vertices_only=False) is None
 
 
-def test_a_mesh_without_faces_can_be_looked_at() -> None:
+def test_edges_without_faces_are_picked_too() -> None:
     find = picker(add_object([(0, 0, 0), (1, 0, 0)], [], [(0, 1)]))
-    assert find.pick(from_above(), Matrix(), (200.0, 200.0), vertices_only=False) is None
+    assert find.pick(from_above(), Matrix(), (200.0, 200.0), vertices_only=False) == 0
+    assert find.pick(from_above(), Matrix(), (280.0, 205.0), vertices_only=False) == (0, 1)
+    assert find.pick(from_above(), Matrix(), (280.0, 240.0), vertices_only=False) is None
 
 
 def test_the_nearest_segment_is_found_and_its_end_near_the_end() -> None:

@@ -398,7 +398,7 @@ def test_wires_of_the_first_version_are_taken_over(monkeypatch: pytest.MonkeyPat
 
 def test_wires_of_the_second_version_are_read(monkeypatch: pytest.MonkeyPatch) -> None:
     obj = add_grid(9)
-    column = (4, 5, 14, 23, 32, 31)  # a stroke leads it
+    column = (4, 13, 22, 31)
     lines = (FIXTURES / "wires-version-2.txt").read_text(encoding="utf-8").splitlines()
     labels = {tuple(map(int, line.split()[:2])): int(line.split()[2]) for line in lines[1:]}
     for edge in obj.data.edges:
@@ -437,7 +437,7 @@ def test_what_a_newer_version_wrote_stays_byte_by_byte_and_is_said(
     assert obj.data.seamwire_wires == NEWER
 
 
-@pytest.mark.parametrize("text", ["seamwire 2 not base64", "seamwire 2 AAAA", "nonsense", "seamwire two AAAA", "{"])
+@pytest.mark.parametrize("text", ["seamwire 2 not base64", "seamwire 2 AAAA", "nonsense", "{"])
 def test_what_cannot_be_read_is_said_and_the_seams_stay(
     drawn: bpy.types.Object, text: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

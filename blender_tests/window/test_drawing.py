@@ -51,6 +51,7 @@ def test_wires_are_drawn_kept_and_marked(desk: Desk) -> None:
     ui.move(desk.at(20))
     assert not shows(ui.pixels(), desk.at(36), WHITE), "with another tool only Blender's own seams are seen"
     choose(ui)
+    ui.move(desk.at(21))
     assert shows(ui.pixels(), desk.at(36), WHITE), "with the tool the seeds are"
 
 

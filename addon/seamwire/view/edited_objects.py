@@ -7,6 +7,7 @@ What was prepared for a mesh stays until its geometry changes, from one chain to
 from __future__ import annotations
 
 import sys
+import time
 from typing import TYPE_CHECKING
 
 import bpy
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 
 _RHYTHM = 0.05
 """Seconds between two looks at running work: redraws stay below what the eye takes for a stop."""
+_PAUSE = 0.2
+"""Seconds after which a mesh that Blender has changed is read anew: while it is being moved, it changes all the time."""
 _KEPT = 8
 """So many objects stay prepared while they are not edited."""
 
@@ -194,6 +197,9 @@ class EditedObjects:
         for view in self._views.values():
             if not view.stale and any(view.shows(update) for update in depsgraph.updates):
                 view.stale, view.wrote = not view.wrote, False
+                if view.stale and not self.chain:
+                    self._changed = time.monotonic()
+                    self.watch()
 
     def on_undo(self) -> None:
         """Follow Blender's undo or redo: all edit meshes are others now."""
@@ -215,8 +221,15 @@ class EditedObjects:
     def _tick(self) -> float | None:
         if self.chain:
             return _RHYTHM  # the chain looks after them
+        stale = any(view.stale for view in self.views()) and _tool_is_shown()
+        if stale and time.monotonic() - self._changed > _PAUSE:
+            self.refresh()
+            self.redraw()
+            stale = False
         self.poll()
-        return _RHYTHM if any(view.busy for view in self.views()) else None
+        return _RHYTHM if stale or any(view.busy for view in self.views()) else None
+
+    _changed = 0.0
 
     # What is seen
 
@@ -282,6 +295,13 @@ class EditedObjects:
             current = view.mesh.alive() and (self.chain or not view.stale)
             if current and name in shown and view.obj.visible_in_viewport_get(context.space_data):
                 yield view
+
+
+def _tool_is_shown() -> bool:
+    """Whether the tool is the active one of edit mode in a window's workspace."""
+    spaces = (window.workspace for window in bpy.context.window_manager.windows)
+    tools = (space.tools.from_space_view3d_mode("EDIT_MESH", create=False) for space in spaces)
+    return any(tool is not None and tool.idname == chosen.TOOL for tool in tools)
 
 
 def _in_edit_mode() -> list[bpy.types.Object]:
