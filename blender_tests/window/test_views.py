@@ -8,7 +8,7 @@ import bpy
 import pytest
 import ui as driver
 from desk import ORANGE, WHITE, Desk, choose, draw, leave, shows
-from scene import add_grid, chain, seams
+from scene import add_grid, chain, edit, seams
 from seamwire.operators.report import running
 from seamwire.ui import status_bar
 from seamwire.view.edited_objects import edited
@@ -90,26 +90,28 @@ def test_what_the_clipping_border_hides_is_neither_picked_nor_drawn(desk: Desk) 
 
 
 def test_drawing_is_on_the_shape_that_is_seen(ui: driver.Ui) -> None:
-    obj = add_grid(9)
-    obj.shape_key_add(name="Basis")
-    key = obj.shape_key_add(name="Lifted")
-    for number, point in enumerate(key.data):
-        point.co.x *= 0.5
-        point.co.z = 0.2 * (number % 9)
-    key.value = 1.0
-    obj.active_shape_key_index = 1
-    desk = Desk(ui, obj)
+    desk = Desk(ui, add_grid(9))
     try:
-        session = desk.choose()
+        bpy.ops.object.mode_set(mode="OBJECT")
+        obj = desk.obj
+        key = obj.shape_key_add(name="Narrow", from_mix=False)
+        for number, point in enumerate(key.data):
+            point.co.x = (number % 9 - 4) / 8.0
+            point.co.z = 0.2 * (number % 9)
+        key.value = 1.0
+        obj.active_shape_key_index = len(obj.data.shape_keys.key_blocks) - 1
+        with ui.override():
+            edit()
         bm = bmesh.from_edit_mesh(obj.data)
         bm.verts.ensure_lookup_table()
         assert abs(bm.verts[8].co.x - 0.5) < 1e-6
+        session = desk.choose()
         ui.move(desk.at(44))
         assert session.target.pick == 44
         draw(desk, 36, 44)
-        assert not running
         assert seams(desk.obj) == ROW
-        assert [tuple(point.co) for point in obj.data.shape_keys.key_blocks["Basis"].data][8][0] == 1.0
+        bpy.ops.object.mode_set(mode="OBJECT")
+        assert desk.obj.data.shape_keys.key_blocks[0].data[8].co.x == 1.0
     finally:
         leave(ui)
 

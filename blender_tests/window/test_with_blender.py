@@ -13,6 +13,7 @@ import ui as driver
 from desk import ORANGE, Desk, choose, dismiss, draw, shows, undo_steps
 from scene import ADDON, chain, edit, seams
 from seamwire.core.session import Session
+from seamwire.mesh import edit_mesh
 from seamwire.operators.report import running
 from seamwire.view.edited_objects import edited
 
@@ -161,6 +162,25 @@ def test_what_is_prepared_is_kept_from_one_chain_to_the_next(desk: Desk) -> None
     draw(desk, 0, 8)
     assert desk.session is session
     assert session._engine() is engine
+
+
+def test_a_mesh_is_read_once_until_it_changes(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Though Blender tells of a change where a mesh with shape keys, as this one, is read."""
+    read, reads = edit_mesh.read, []
+    monkeypatch.setattr(edit_mesh, "read", lambda obj: (reads.append(obj.name), read(obj))[1])
+    desk.choose()
+    assert desk.obj.data.shape_keys is not None
+    for vertex in (21, 22, 30, 31):
+        desk.ui.move(desk.at(vertex))
+    desk.ui.wait(20)
+    assert len(reads) == 1
+    bm = bmesh.from_edit_mesh(desk.obj.data)
+    bm.verts.ensure_lookup_table()
+    bm.verts[80].co.x += 0.1
+    bmesh.update_edit_mesh(desk.obj.data)
+    desk.ui.wait_until(lambda: len(reads) > 1)
+    desk.ui.wait(20)
+    assert len(reads) <= 3, "read anew when it rests"
 
 
 def test_saved_and_reopened_the_network_is_there(desk: Desk, tmp_path: Path) -> None:

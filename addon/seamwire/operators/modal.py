@@ -151,7 +151,7 @@ class Chain:
             return "The object was removed"
         if not view.mesh.follow_change(obj):
             return reason or "The mesh was changed"
-        view.stale = False
+        view.was_read()
         view.renew()
         return reason
 

@@ -99,6 +99,9 @@ class EditedObjects:
 
     def take_stock(self) -> None:
         """Read anew what has changed, and let one of the objects that are edited be in front."""
+        for view in self.views():
+            # Of these Blender's word is not heard each time, see `ObjectView.was_read`.
+            view.stale |= view.mesh.cage.mesh.shape_keys is not None
         self.refresh()
         if self.front is None or not self.front.mesh.alive():
             self.front = self.of(bpy.context.active_object)

@@ -83,8 +83,7 @@ class ObjectView:
         )
         self._strength: NDArray[np.float64] | None = None
         self.name = obj.name_full
-        self.stale = False
-        self.wrote = False
+        self.was_read()
         self.mesh.look_for_symmetry()
 
     @property
@@ -105,9 +104,15 @@ class ObjectView:
         """Take over what the mesh holds now; return False where it is another one, see `ObjectSession.refresh`."""
         if not self.mesh.refresh(obj):
             return False
-        self.stale = False
+        self.was_read()
         self.renew()
         return True
+
+    def was_read(self) -> None:
+        """Take note that the mesh is known as it is now."""
+        self.stale = False
+        # Reading a mesh with shape keys is a change of it, as Blender tells.
+        self.wrote = self.obj.data.shape_keys is not None
 
     def renew(self) -> None:
         """Let picker and overlay follow the mesh that was read, or written."""
