@@ -182,11 +182,11 @@ def undo_steps(capfd: pytest.CaptureFixture[str]) -> list[str]:
 
 
 def near(pixels: NDArray[np.float32], at: tuple[float, float], radius: int = 2) -> NDArray[np.float32]:
-    """Return the colours around a position."""
+    """Return the colors around a position."""
     x, y = round(at[0]), round(at[1])
     return pixels[y - radius : y + radius + 1, x - radius : x + radius + 1, :3].reshape(-1, 3)
 
 
-def shows(pixels: NDArray[np.float32], at: tuple[float, float], colour: tuple[float, float, float]) -> bool:
-    """Whether a pixel within two of a position has a colour, up to what antialiasing and blending take from it."""
-    return bool((np.abs(near(pixels, at) - colour).max(axis=1) < 0.12).any())
+def shows(pixels: NDArray[np.float32], at: tuple[float, float], color: tuple[float, float, float]) -> bool:
+    """Whether a pixel within two of a position has a color, up to what antialiasing and blending take from it."""
+    return bool((np.abs(near(pixels, at) - color).max(axis=1) < 0.12).any())

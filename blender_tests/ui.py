@@ -181,7 +181,7 @@ class Ui:
         self.look((1.0, 0.0, 0.0, 0.0), centre, distance)
 
     def pixels(self) -> NDArray[np.float32]:
-        """Return what is drawn over the viewport's objects: (height, width, 4), bottom row first, colours as the screen gets them."""
+        """Return what is drawn over the viewport's objects: (height, width, 4), bottom row first, colors as the screen gets them."""
         taken: list[NDArray[np.float32]] = []
 
         def read() -> None:
@@ -209,10 +209,10 @@ class Ui:
 def display() -> NDArray[np.float32]:
     """Return what is on the virtual display: (height, width, 3), bottom row first."""
     data = Path(os.environ["SEAMWIRE_SCREEN"]).read_bytes()
-    # An X window dump: 25 numbers, the window's name, the colour map, then rows of blue, green, red and a byte without meaning.
+    # An X window dump: 25 numbers, the window's name, the color map, then rows of blue, green, red and a byte without meaning.
     header = struct.unpack(">25I", data[:100])
-    size, width, height, row, colours = header[0], header[4], header[5], header[12], header[19]
-    pixels = np.frombuffer(data, dtype=np.uint8, offset=size + 12 * colours, count=row * height)
+    size, width, height, row, colors = header[0], header[4], header[5], header[12], header[19]
+    pixels = np.frombuffer(data, dtype=np.uint8, offset=size + 12 * colors, count=row * height)
     pixels = pixels.reshape(height, row)[::-1, : 4 * width].reshape(height, width, 4)
     return pixels[..., 2::-1].astype(np.float32) / 255.0
 

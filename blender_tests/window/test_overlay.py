@@ -187,14 +187,14 @@ def profile(pixels: NDArray[np.float32], one: tuple[float, float], two: tuple[fl
 
 def width(pixels: NDArray[np.float32], way: tuple[tuple[float, float], tuple[float, float]]) -> int:
     """Return how many pixels on a way are not what its first one is: the mesh may change from picture to picture."""
-    colours = profile(pixels, *way)
-    return int(np.count_nonzero(np.abs(colours - colours[0]).max(axis=1) > 0.1))
+    colors = profile(pixels, *way)
+    return int(np.count_nonzero(np.abs(colors - colors[0]).max(axis=1) > 0.1))
 
 
-@pytest.mark.parametrize("colours", ["DARK", "LIGHT"])
+@pytest.mark.parametrize("colors", ["DARK", "LIGHT"])
 @pytest.mark.parametrize("name", show.SHADINGS)
-def test_the_active_wire_stands_out_from_the_other_and_from_the_mesh(sight: Sight, name: str, colours: str) -> None:
-    show.theme(colours)
+def test_the_active_wire_stands_out_from_the_other_and_from_the_mesh(sight: Sight, name: str, colors: str) -> None:
+    show.theme(colors)
     show.shading(sight.ui, name)
     try:
         empty = sight.pixels()
@@ -202,13 +202,13 @@ def test_the_active_wire_stands_out_from_the_other_and_from_the_mesh(sight: Sigh
         for vertex in range(38, 42):
             place = sight.at(vertex, vertex + 1)
             assert has(seen, place, "orange"), f"the active wire at {vertex}"
-            assert not has(empty, place, "orange"), "nothing of that colour was there before"
+            assert not has(empty, place, "orange"), "nothing of that color was there before"
         beside = sight.at(64, 65)
         assert not has(seen, beside, "orange")
         assert has(seen, beside, "blue", chroma=0.25)
         wide = width(seen, crossing(sight, 39, 40))
         thin = width(seen, crossing(sight, 64, 65))
-        assert wide >= thin + 2, "the active one is wider too, for those who see no colours"
+        assert wide >= thin + 2, "the active one is wider too, for those who see no colors"
     finally:
         show.shading(sight.ui, "SOLID")
         show.theme("DARK")
@@ -220,7 +220,7 @@ def crossing(sight: Sight, one: int, two: int) -> tuple[tuple[float, float], tup
     return (x + 4.0, y - 12.0), (x + 4.0, y + 12.0)
 
 
-def test_a_kept_wire_has_the_seam_colour_of_the_theme(sight: Sight) -> None:
+def test_a_kept_wire_has_the_seam_color_of_the_theme(sight: Sight) -> None:
     view = bpy.context.preferences.themes[0].view_3d
     name = "seam" if hasattr(view, "seam") else "edge_seam"
     before = tuple(getattr(view, name))
@@ -233,10 +233,10 @@ def test_a_kept_wire_has_the_seam_colour_of_the_theme(sight: Sight) -> None:
         setattr(view, name, before)
 
 
-def test_colours_and_width_come_from_the_preferences(sight: Sight) -> None:
+def test_colors_and_width_come_from_the_preferences(sight: Sight) -> None:
     class Preferences:
         line_width = 1.0
-        active_colour = (0.1, 0.9, 0.4)
+        active_color = (0.1, 0.9, 0.4)
 
     def width(seen: NDArray[np.float32]) -> int:
         angle, chroma = hue_and_strength(profile(seen, *crossing(sight, 39, 40)))
@@ -284,7 +284,7 @@ def gaps(line: NDArray[np.float32]) -> int:
     return int(np.count_nonzero(light[:-1] & ~light[1:]))
 
 
-def test_a_wire_that_clears_seams_is_dashed_and_not_in_the_colour_of_seams(sight: Sight) -> None:
+def test_a_wire_that_clears_seams_is_dashed_and_not_in_the_color_of_seams(sight: Sight) -> None:
     seen = sight.pixels(wires=(sight.wire(*range(36, 45), marks=False),))
     for vertex in range(37, 43):
         assert not has(seen, sight.at(vertex, vertex + 1), "red")
@@ -432,7 +432,7 @@ def test_strokes_are_soft_bands_and_those_that_repel_are_barred(sight: Sight) ->
     assert 0.0 < side < 0.8 * middle, "fading towards its sides"
     repelling = sight.pixels(scribbles=(Drawn(line, attracts=False),))
     bars = changed(repelling)
-    assert np.count_nonzero(bars[:-1] & ~bars[1:]) >= 5, "told apart without colours"
+    assert np.count_nonzero(bars[:-1] & ~bars[1:]) >= 5, "told apart without colors"
     (angle, _), (other, _) = (
         hue_and_strength(profile(seen - empty + 0.3, *ends).max(axis=0)[None]) for seen in (attracting, repelling)
     )
@@ -544,7 +544,7 @@ def test_the_table_of_keys_is_laid_over_a_dark_ground(sight: Sight) -> None:
 def test_styles_are_told_apart_by_more_than_their_hue() -> None:
     looks = Looks.of()
     styles: list[Style] = [looks.active, looks.other, looks.kept, looks.clear, looks.mirrored, looks.loop]
-    told = {(round(sum(style.colour[:3]), 1), style.width, style.dash) for style in styles}
+    told = {(round(sum(style.color[:3]), 1), style.width, style.dash) for style in styles}
     assert len(told) == len(styles)
     assert looks.widened(2.0).active.width == 2.0 * looks.active.width
 

@@ -103,7 +103,7 @@ def test_mirrored_wires_are_drawn_live(desk: Desk) -> None:
     pixels, there = ui.pixels(), desk.at(15, 16)
     assert not shows(pixels, desk.at(24, 25), ORANGE)
     around = pixels[round(there[1]) - 3 : round(there[1]) + 4, round(there[0]), :3]
-    assert (around[:, 0] - around[:, 2]).max() > 0.2, "its image, in the live wire's colour"
+    assert (around[:, 0] - around[:, 2]).max() > 0.2, "its image, in the live wire's color"
     ui.click(desk.at(12))
     ui.wait_until(lambda: len(session.wires) == 1)
     ui.key("RET")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The demo's pictures: wires on the model, segments in colours, a checked texture, the UV layout. Rendered by Cycles, no display needed."""
+"""The demo's pictures: wires on the model, segments in colors, a checked texture, the UV layout. Rendered by Cycles, no display needed."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ class Scene:
         self._radius = float(np.linalg.norm(used - np.array(self._centre), axis=1).max())
         segments = np.zeros(len(self._mesh.polygons), dtype=np.int64)
         segments[polygon_of] = network.segments
-        self._colours = np.array(PALETTE)[_colouring(network, triangles)][segments]
+        self._colors = np.array(PALETTE)[_coloring(network, triangles)][segments]
         self._paint()
         self._smooth()
         self._wires = self._make_wires(network)
@@ -98,7 +98,7 @@ class Scene:
             tell(str(folder / f"{name}{'-' if tile else ''}{tile}.png"))
 
     def clean(self) -> None:
-        """Leave the model in its segments' colours with its wires, ready to be worked on."""
+        """Leave the model in its segments' colors with its wires, ready to be worked on."""
         self._show(self._segment_material(), True)
         for item in self._made:
             bpy.data.objects.remove(item)
@@ -108,9 +108,9 @@ class Scene:
     def _paint(self) -> None:
         attribute = self._mesh.color_attributes.new("Segments", "FLOAT_COLOR", "CORNER")
         sides = np.array([polygon.loop_total for polygon in self._mesh.polygons])
-        colours = np.ones((int(sides.sum()), 4), dtype=np.float32)
-        colours[:, :3] = _linear(np.repeat(self._colours, sides, axis=0))
-        attribute.data.foreach_set("color", colours.ravel())
+        colors = np.ones((int(sides.sum()), 4), dtype=np.float32)
+        colors[:, :3] = _linear(np.repeat(self._colors, sides, axis=0))
+        attribute.data.foreach_set("color", colors.ravel())
 
     def _smooth(self) -> None:
         self._mesh.polygons.foreach_set("use_smooth", np.ones(len(self._mesh.polygons), dtype=bool))
@@ -236,7 +236,7 @@ class Scene:
         bpy.context.scene.render.filepath = str(path)
         bpy.ops.render.render(write_still=True)
         picture = _load(path)
-        # The pixels' colours are already multiplied by their alpha when Blender reads a straight PNG as premultiplied; blend either way.
+        # The pixels' colors are already multiplied by their alpha when Blender reads a straight PNG as premultiplied; blend either way.
         flat = picture[:, :, :3] * picture[:, :, 3:] + np.array(BACKDROP) * (1 - picture[:, :, 3:])
         _save(flat, path)
         return flat
@@ -253,9 +253,9 @@ class Scene:
         corners = [tuple(polygon.loop_indices) for polygon in mesh.polygons]
         sheet.from_pydata(np.concatenate([flat, np.zeros((len(flat), 1))], axis=1).tolist(), [], corners)
         attribute = sheet.color_attributes.new("Segments", "FLOAT_COLOR", "CORNER")
-        colours = np.ones((len(sheet.loops), 4), dtype=np.float32)
-        colours[:, :3] = _linear(np.repeat(self._colours, [len(corner) for corner in corners], axis=0))
-        attribute.data.foreach_set("color", colours.ravel())
+        colors = np.ones((len(sheet.loops), 4), dtype=np.float32)
+        colors[:, :3] = _linear(np.repeat(self._colors, [len(corner) for corner in corners], axis=0))
+        attribute.data.foreach_set("color", colors.ravel())
         material = bpy.data.materials.new("Flat")
         material.use_nodes = True
         nodes, links = material.node_tree.nodes, material.node_tree.links
@@ -289,8 +289,8 @@ class Scene:
         return picture
 
 
-def _colouring(network: Network, triangles: NDArray[np.int32]) -> NDArray[np.int64]:
-    """Choose for each segment a colour of the palette that none of its neighbours has, where there is one."""
+def _coloring(network: Network, triangles: NDArray[np.int32]) -> NDArray[np.int64]:
+    """Choose for each segment a color of the palette that none of its neighbours has, where there is one."""
     sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
     owner = np.tile(network.segments, 3)
     order = np.lexsort((sides[:, 1], sides[:, 0]))
@@ -300,29 +300,29 @@ def _colouring(network: Network, triangles: NDArray[np.int32]) -> NDArray[np.int
     for a, b in np.stack([owner[:-1][same], owner[1:][same]], axis=1).tolist():
         neighbours.setdefault(a, set()).add(b)
         neighbours.setdefault(b, set()).add(a)
-    colours = np.zeros(int(network.segments.max()) + 1, dtype=np.int64)
+    colors = np.zeros(int(network.segments.max()) + 1, dtype=np.int64)
     used = [0] * len(PALETTE)
     done: set[int] = set()
-    for segment in range(len(colours)):
-        taken = {int(colours[other]) for other in neighbours.get(segment, set()) & done}
-        colours[segment] = min(range(len(PALETTE)), key=lambda colour: (colour in taken, used[colour]))
-        used[colours[segment]] += 1
+    for segment in range(len(colors)):
+        taken = {int(colors[other]) for other in neighbours.get(segment, set()) & done}
+        colors[segment] = min(range(len(PALETTE)), key=lambda color: (color in taken, used[color]))
+        used[colors[segment]] += 1
         done.add(segment)
-    return colours
+    return colors
 
 
-def _linear(colour: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Turn screen colours (sRGB) into the linear ones that Blender computes with."""
-    return np.where(colour <= 0.04045, colour / 12.92, ((colour + 0.055) / 1.055) ** 2.4)
+def _linear(color: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Turn screen colors (sRGB) into the linear ones that Blender computes with."""
+    return np.where(color <= 0.04045, color / 12.92, ((color + 0.055) / 1.055) ** 2.4)
 
 
-def _material(name: str, colour: tuple[float, float, float], roughness: float) -> bpy.types.Material:
+def _material(name: str, color: tuple[float, float, float], roughness: float) -> bpy.types.Material:
     material = bpy.data.materials.new(name)
     material.use_nodes = True
     shader = material.node_tree.nodes["Principled BSDF"]
-    shader.inputs["Base Color"].default_value = (*_linear(np.array(colour)), 1.0)
+    shader.inputs["Base Color"].default_value = (*_linear(np.array(color)), 1.0)
     shader.inputs["Roughness"].default_value = roughness
-    material.diffuse_color = (*colour, 1.0)
+    material.diffuse_color = (*color, 1.0)
     return material
 
 

@@ -2,7 +2,7 @@
 """Makes the tool's icon, addon/seamwire/icons/seamwire.draw.dat: ``python3 scripts/lib/make_icon.py``.
 
 The format is that of Blender's own toolbar icons: "VCO", a zero, width and height (255), two bytes for where it starts, then the corners of
-all triangles, a byte for x and y each, y upwards, then a colour of four bytes for each corner. As theirs, it is a cube of grey lines with
+all triangles, a byte for x and y each, y upwards, then a color of four bytes for each corner. As theirs, it is a cube of grey lines with
 what the tool does in green: a wire that runs over the cube's edge from one seed to another.
 """
 
@@ -19,7 +19,7 @@ LINE, WIRE, SEED, GAP = 9.0, 14.0, 17.0, 11.0
 Triangles = list[tuple[NDArray[np.float64], tuple[int, int, int, int]]]
 
 
-def stroke(points: NDArray[np.float64], width: float, colour: tuple[int, int, int, int]) -> Triangles:
+def stroke(points: NDArray[np.float64], width: float, color: tuple[int, int, int, int]) -> Triangles:
     """Return a line through points, mitred at the corners."""
     along = np.diff(points, axis=0)
     along /= np.linalg.norm(along, axis=1, keepdims=True)
@@ -31,16 +31,16 @@ def stroke(points: NDArray[np.float64], width: float, colour: tuple[int, int, in
     left, right = points + joint * length[:, None], points - joint * length[:, None]
     found: Triangles = []
     for i in range(len(points) - 1):
-        found.append((np.array([left[i], right[i], right[i + 1]]), colour))
-        found.append((np.array([left[i], right[i + 1], left[i + 1]]), colour))
+        found.append((np.array([left[i], right[i], right[i + 1]]), color))
+        found.append((np.array([left[i], right[i + 1], left[i + 1]]), color))
     return found
 
 
-def disc(centre: NDArray[np.float64], radius: float, colour: tuple[int, int, int, int]) -> Triangles:
+def disc(centre: NDArray[np.float64], radius: float, color: tuple[int, int, int, int]) -> Triangles:
     """Return a disc."""
     angles = np.linspace(0.0, 2.0 * np.pi, 17)
     rim = centre + radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    return [(np.array([centre, rim[i], rim[i + 1]]), colour) for i in range(16)]
+    return [(np.array([centre, rim[i], rim[i + 1]]), color) for i in range(16)]
 
 
 def away_from(line: NDArray[np.float64], wire: NDArray[np.float64], gap: float) -> list[NDArray[np.float64]]:
@@ -88,9 +88,9 @@ def main() -> None:
     """Write it."""
     triangles = icon()
     corners = np.array([corner for corner, _ in triangles]).round().clip(0, 255).astype(np.uint8)
-    colours = np.array([[colour] * 3 for _, colour in triangles], dtype=np.uint8)
+    colors = np.array([[color] * 3 for _, color in triangles], dtype=np.uint8)
     PATH.parent.mkdir(exist_ok=True)
-    PATH.write_bytes(b"VCO\x00\xff\xff\x00\x00" + corners.tobytes() + colours.tobytes())
+    PATH.write_bytes(b"VCO\x00\xff\xff\x00\x00" + corners.tobytes() + colors.tobytes())
 
 
 if __name__ == "__main__":

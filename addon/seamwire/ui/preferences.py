@@ -11,7 +11,7 @@ from ..operators.bindings import Action
 from . import toolbar
 
 
-def _colour(name: str, description: str, default: tuple[float, float, float, float]) -> object:
+def _color(name: str, description: str, default: tuple[float, float, float, float]) -> object:
     return bpy.props.FloatVectorProperty(
         name=name, description=description, subtype="COLOR_GAMMA", size=4, min=0.0, max=1.0, default=default
     )
@@ -32,15 +32,15 @@ class SeamwirePreferences(bpy.types.AddonPreferences):
         max=5.0,
         soft_max=3.0,
     )
-    theme_colours: bpy.props.BoolProperty(
-        name="Use Theme Colors", description="Draw kept wires in the theme's colour of seams", default=True
+    theme_colors: bpy.props.BoolProperty(
+        name="Use Theme Colors", description="Draw kept wires in the theme's color of seams", default=True
     )
-    active_colour: _colour("Live Wire", "The wire that a click keeps", (1.0, 0.72, 0.05, 1.0))
-    other_colour: _colour("Next Candidate", "The next candidate", (0.45, 0.8, 1.0, 0.9))
-    kept_colour: _colour("Kept Wires", "Wires whose edges become seams", (1.0, 0.2, 0.1, 1.0))
-    clear_colour: _colour("Cleared Seams", "Wires whose edges cease to be seams", (0.82, 0.86, 0.95, 1.0))
-    loop_colour: _colour("Loop", "The loop that a click takes", (0.3, 1.0, 0.55, 1.0))
-    seed_colour: _colour("Seeds", "Seeds, and what is under the cursor", (1.0, 1.0, 1.0, 1.0))
+    active_color: _color("Live Wire", "The wire that a click keeps", (1.0, 0.72, 0.05, 1.0))
+    other_color: _color("Next Candidate", "The next candidate", (0.45, 0.8, 1.0, 0.9))
+    kept_color: _color("Kept Wires", "Wires whose edges become seams", (1.0, 0.2, 0.1, 1.0))
+    clear_color: _color("Cleared Seams", "Wires whose edges cease to be seams", (0.82, 0.86, 0.95, 1.0))
+    loop_color: _color("Loop", "The loop that a click takes", (0.3, 1.0, 0.55, 1.0))
+    seed_color: _color("Seeds", "Seeds, and what is under the cursor", (1.0, 1.0, 1.0, 1.0))
     tint: bpy.props.FloatProperty(
         name="Island Tint",
         description="How strongly the islands that seams make are tinted; 0: not at all",
@@ -63,11 +63,11 @@ class SeamwirePreferences(bpy.types.AddonPreferences):
         column.prop(self, "tint")
         column.prop(self, "show_text")
         column = layout.column(heading="Colors")
-        column.prop(self, "theme_colours")
+        column.prop(self, "theme_colors")
         kept = column.row()
-        kept.enabled = not self.theme_colours
-        kept.prop(self, "kept_colour")
-        for name in ("active_colour", "other_colour", "clear_colour", "loop_colour", "seed_colour"):
+        kept.enabled = not self.theme_colors
+        kept.prop(self, "kept_color")
+        for name in ("active_color", "other_color", "clear_color", "loop_color", "seed_color"):
             column.prop(self, name)
         layout.use_property_split = False
         draw_keys(layout, context)

@@ -13,7 +13,7 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix
 
-from .theme import HALO, Colour, Style
+from .theme import HALO, Color, Style
 from .viewport import clipping_planes
 
 if TYPE_CHECKING:
@@ -165,15 +165,15 @@ class Lines:
                 self._shader.uniform_float("lineWidth", (style.width + style.halo) * eye.scale)
                 self._shader.uniform_float("color", (*HALO[:3], HALO[3] * opacity))
                 self._ground.draw(self._shader)
-            for colour, width in layers(style, opacity, rim):
+            for color, width in layers(style, opacity, rim):
                 self._shader.uniform_float("lineWidth", width * eye.scale)
-                self._shader.uniform_float("color", colour)
+                self._shader.uniform_float("color", color)
                 self._batch.draw(self._shader)
 
 
-def layers(style: Style, opacity: float, rim: bool) -> list[tuple[Colour, float]]:
-    """Return colours and widths to draw one over the other: a dark rim, a ring, the line or the dot itself."""
-    *rgb, alpha = style.colour
+def layers(style: Style, opacity: float, rim: bool) -> list[tuple[Color, float]]:
+    """Return colors and widths to draw one over the other: a dark rim, a ring, the line or the dot itself."""
+    *rgb, alpha = style.color
     if style.soft:
         return [((*rgb, alpha * opacity * share), style.width * part) for part, share in _SOFT]
     found = []
@@ -234,9 +234,9 @@ def draw_dots(style: Style, places: NDArray[np.float64], eye: Eye, opacity: floa
     with gpu.matrix.push_pop():
         gpu.matrix.load_matrix(Matrix.Identity(4))
         shader.bind()
-        for colour, width in layers(style, opacity, rim):
+        for color, width in layers(style, opacity, rim):
             radii = 0.5 * width * eye.scale * eye.pixel_sizes(centres[:, 2])
-            shader.uniform_float("color", colour)
+            shader.uniform_float("color", color)
             batch_for_shader(shader, "TRIS", {"pos": discs(centres, radii)}).draw(shader)
 
 
@@ -249,7 +249,7 @@ def discs(centres: NDArray[np.float64], radii: NDArray[np.float64]) -> NDArray[n
 
 
 class Faces:
-    """Triangles of one mesh, drawn in a few colours; the vertices are handed to the GPU once.
+    """Triangles of one mesh, drawn in a few colors; the vertices are handed to the GPU once.
 
     Parameters
     ----------
@@ -269,18 +269,18 @@ class Faces:
         """Forget the triangles, not the vertices."""
         self._batches = []
 
-    def add(self, colour: int, triangles: NDArray[np.int32]) -> None:
-        """Add triangles, (k, 3), in the colour of a number."""
+    def add(self, color: int, triangles: NDArray[np.int32]) -> None:
+        """Add triangles, (k, 3), in the color of a number."""
         indices = gpu.types.GPUIndexBuf(type="TRIS", seq=np.ascontiguousarray(triangles, dtype=np.uint32))
-        self._batches.append((colour, gpu.types.GPUBatch(type="TRIS", buf=self._points, elem=indices)))
+        self._batches.append((color, gpu.types.GPUBatch(type="TRIS", buf=self._points, elem=indices)))
 
-    def draw(self, eye: Eye, colours: Sequence[Colour], lift: float) -> None:
+    def draw(self, eye: Eye, colors: Sequence[Color], lift: float) -> None:
         """Draw them under the depth test that is set."""
         with gpu.matrix.push_pop():
             gpu.matrix.load_matrix(eye.lifted(lift))
             self._shader.bind()
             for number, batch in self._batches:
-                self._shader.uniform_float("color", colours[number])
+                self._shader.uniform_float("color", colors[number])
                 batch.draw(self._shader)
 
 
@@ -303,12 +303,12 @@ def text_width(text: str) -> float:
     return blf.dimensions(_FONT, text)[0]
 
 
-def draw_text(text: str, at: tuple[float, float], colour: Sequence[float], shadow: bool = True) -> None:
+def draw_text(text: str, at: tuple[float, float], color: Sequence[float], shadow: bool = True) -> None:
     """Draw one line of text from a place on its base line."""
-    blf.color(_FONT, *colour)
+    blf.color(_FONT, *color)
     if shadow:
         # As Blender's own text in the viewport: dark under light text, light under dark.
-        bright = sum(colour[:3]) > 1.2
+        bright = sum(color[:3]) > 1.2
         blf.enable(_FONT, blf.SHADOW)
         blf.shadow(_FONT, 5, *((0.0, 0.0, 0.0, 0.8) if bright else (1.0, 1.0, 1.0, 0.6)))
         blf.shadow_offset(_FONT, 1, -1)
@@ -317,7 +317,7 @@ def draw_text(text: str, at: tuple[float, float], colour: Sequence[float], shado
     blf.disable(_FONT, blf.SHADOW)
 
 
-def draw_rectangle(low: tuple[float, float], high: tuple[float, float], colour: Colour, round_by: float = 0.0) -> None:
+def draw_rectangle(low: tuple[float, float], high: tuple[float, float], color: Color, round_by: float = 0.0) -> None:
     """Fill a rectangle, its corners rounded by so many pixels."""
     shader = gpu.shader.from_builtin("UNIFORM_COLOR")
     (left, bottom), (right, top) = low, high
@@ -337,5 +337,5 @@ def draw_rectangle(low: tuple[float, float], high: tuple[float, float], colour: 
     middle = np.broadcast_to(((left + right) / 2, (bottom + top) / 2), rim.shape)
     fan = np.stack([middle, rim, np.roll(rim, -1, axis=0)], axis=1).reshape(-1, 2)
     shader.bind()
-    shader.uniform_float("color", colour)
+    shader.uniform_float("color", color)
     batch_for_shader(shader, "TRIS", {"pos": fan.astype(np.float32)}).draw(shader)

@@ -12,7 +12,7 @@ from mathutils import Matrix
 from ..core.network import edges_after
 from . import text_overlay
 from .gpu_draw import Eye, Faces, Lines, blended, draw_dots, sees_through, unseen
-from .theme import Looks, Style, hue_colours
+from .theme import Looks, Style, hue_colors
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -196,16 +196,16 @@ class Overlay:
             self._faces = Faces(self._points)
         if found.key != self._tinted:
             self._faces.clear()
-            # Without a cut the parts of a mesh are no news, and tinting them would only change its colours.
+            # Without a cut the parts of a mesh are no news, and tinting them would only change its colors.
             for hue, triangles in found.pieces if found.cut else ():
                 self._faces.add(hue, triangles)
             self._tinted = found.key
         if sees_through(bpy.context.space_data):
             # Else all layers of the mesh would be tinted, one over the other, and no wire would be seen to be hidden.
             with unseen():
-                self._faces.draw(eye, hue_colours(1.0), 0.0)
+                self._faces.draw(eye, hue_colors(1.0), 0.0)
         with blended("LESS_EQUAL"):
-            self._faces.draw(eye, hue_colours(self._looks.tint), TINT_LIFT)
+            self._faces.draw(eye, hue_colors(self._looks.tint), TINT_LIFT)
 
     def draw_on_screen(self) -> None:
         """Draw over the region: text and the table of keys."""

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from ..core.session import Session
-    from .theme import Colour
+    from .theme import Color
 
 _METRICS = {
     "feature": "",
@@ -57,7 +57,7 @@ def lines(session: Session, segments: int | None, xray: bool = False, features: 
     return [*found, said] if said else found
 
 
-def draw(text: Sequence[str], corner: tuple[float, float], scale: float, colour: Sequence[float]) -> None:
+def draw(text: Sequence[str], corner: tuple[float, float], scale: float, color: Sequence[float]) -> None:
     """Draw lines of text above a corner.
 
     Parameters
@@ -68,7 +68,7 @@ def draw(text: Sequence[str], corner: tuple[float, float], scale: float, colour:
         Left and bottom of where there is room, in pixels.
     scale
         Of the display.
-    colour
+    color
         Red, green, blue.
     """
     size = gpu_draw.text_size(scale)
@@ -76,17 +76,17 @@ def draw(text: Sequence[str], corner: tuple[float, float], scale: float, colour:
     x = corner[0] + 1.2 * size
     y = corner[1] + 1.1 * size
     for line in reversed(text):
-        gpu_draw.draw_text(line, (x, y), (*colour[:3], 1.0))
+        gpu_draw.draw_text(line, (x, y), (*color[:3], 1.0))
         y += 1.5 * size
 
 
 Row = tuple[str, str]
 """The keys as they are bound, and what they do. Without keys it is a heading."""
 
-BACKGROUND: Colour = (0.07, 0.07, 0.08, 0.98)
-_KEY: Colour = (1.0, 0.83, 0.35, 1.0)
-_WHAT: Colour = (0.93, 0.93, 0.93, 1.0)
-_HEADING: Colour = (1.0, 1.0, 1.0, 1.0)
+BACKGROUND: Color = (0.07, 0.07, 0.08, 0.98)
+_KEY: Color = (1.0, 0.83, 0.35, 1.0)
+_WHAT: Color = (0.93, 0.93, 0.93, 1.0)
+_HEADING: Color = (1.0, 1.0, 1.0, 1.0)
 
 
 @dataclass(frozen=True)

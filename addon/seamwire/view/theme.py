@@ -14,14 +14,14 @@ if TYPE_CHECKING:
 
     import bpy
 
-Colour = tuple[float, float, float, float]
+Color = tuple[float, float, float, float]
 
-HALO: Colour = (0.02, 0.02, 0.03, 0.75)
+HALO: Color = (0.02, 0.02, 0.03, 0.75)
 """The dark rim around lines and dots: what keeps them apart from bright meshes and from each other."""
 _BRIGHTNESS = 0.5
-"""Of the segments' colours."""
+"""Of the segments' colors."""
 HUES = 12
-"""How many colours segments are told apart by."""
+"""How many colors segments are told apart by."""
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Style:
 
     Parameters
     ----------
-    colour
+    color
         Red, green, blue, opacity.
     width
         Of the line, or of the dot.
@@ -43,18 +43,18 @@ class Style:
     dash
         Length of a dash and of the gap after it; 0: a plain line.
     ring
-        A ring of this width and colour around a dot, inside the rim.
+        A ring of this width and color around a dot, inside the rim.
     soft
         Drawn as a band that fades towards its sides.
     """
 
-    colour: Colour
+    color: Color
     width: float
     halo: float = 0.0
     hidden: float = 0.25
     lift: float = 4.0
     dash: float = 0.0
-    ring: tuple[float, Colour] | None = None
+    ring: tuple[float, Color] | None = None
     soft: bool = False
 
 
@@ -93,7 +93,7 @@ class Looks:
     attracting: Style
     """The band of a stroke that wires follow."""
     repelling: Style
-    """The band of one that they keep from: in cross bars, not in its colour alone."""
+    """The band of one that they keep from: in cross bars, not in its color alone."""
     tint: float
     """Opacity of segments."""
     text: bool
@@ -105,28 +105,28 @@ class Looks:
         Parameters
         ----------
         theme
-            Of the 3D view; without it the colours are those that fit Blender's default one.
+            Of the 3D view; without it the colors are those that fit Blender's default one.
         preferences
-            The add-on's: whatever of ``line_width``, ``active_colour``, ``other_colour``, ``kept_colour``,
-            ``clear_colour``, ``loop_colour``, ``seed_colour``, ``theme_colours``, ``tint`` and ``show_text`` it has.
+            The add-on's: whatever of ``line_width``, ``active_color``, ``other_color``, ``kept_color``,
+            ``clear_color``, ``loop_color``, ``seed_color``, ``theme_colors``, ``tint`` and ``show_text`` it has.
         """
 
-        def wish(name: str, default: Sequence[float]) -> Colour:
+        def wish(name: str, default: Sequence[float]) -> Color:
             found = tuple(getattr(preferences, name, default))
             return (*found, *tuple(default)[len(found) :])
 
         seam = (1.0, 0.2, 0.1, 1.0)
-        if theme is not None and getattr(preferences, "theme_colours", True):
+        if theme is not None and getattr(preferences, "theme_colors", True):
             # Blender 5 has shortened the name.
             seam = vivid(tuple(theme.seam if hasattr(theme, "seam") else theme.edge_seam))
             kept = seam
         else:
-            kept = wish("kept_colour", seam)
-        active = wish("active_colour", (1.0, 0.72, 0.05, 1.0))
-        other = wish("other_colour", (0.45, 0.8, 1.0, 0.9))
-        loop = wish("loop_colour", (0.3, 1.0, 0.55, 1.0))
-        clear = wish("clear_colour", (0.82, 0.86, 0.95, 1.0))
-        white = wish("seed_colour", (1.0, 1.0, 1.0, 1.0))
+            kept = wish("kept_color", seam)
+        active = wish("active_color", (1.0, 0.72, 0.05, 1.0))
+        other = wish("other_color", (0.45, 0.8, 1.0, 0.9))
+        loop = wish("loop_color", (0.3, 1.0, 0.55, 1.0))
+        clear = wish("clear_color", (0.82, 0.86, 0.95, 1.0))
+        white = wish("seed_color", (1.0, 1.0, 1.0, 1.0))
         attracts, repels = (0.15, 0.95, 0.75, 1.0), (1.0, 0.3, 0.75, 1.0)
         looks = cls(
             active=Style(active, 5.0, halo=2.5, lift=6.0),
@@ -171,26 +171,26 @@ class Looks:
         return replace(self, **styles)
 
 
-def faint(colour: Colour, opacity: float) -> Colour:
-    """Return a colour with a share of its opacity."""
-    return (*colour[:3], colour[3] * opacity)
+def faint(color: Color, opacity: float) -> Color:
+    """Return a color with a share of its opacity."""
+    return (*color[:3], color[3] * opacity)
 
 
-def mixed(one: Colour, two: Colour, share: float) -> Colour:
-    """Return a colour on the way from one to another."""
+def mixed(one: Color, two: Color, share: float) -> Color:
+    """Return a color on the way from one to another."""
     red, green, blue, opacity = (a + share * (b - a) for a, b in zip(one, two, strict=True))
     return red, green, blue, opacity
 
 
-def vivid(colour: Sequence[float]) -> Colour:
-    """Return a colour of the theme as bright as it can be in its hue: on a surface thin lines look darker than they are."""
-    hue, saturation, value = colorsys.rgb_to_hsv(*colour[:3])
+def vivid(color: Sequence[float]) -> Color:
+    """Return a color of the theme as bright as it can be in its hue: on a surface thin lines look darker than they are."""
+    hue, saturation, value = colorsys.rgb_to_hsv(*color[:3])
     red, green, blue = colorsys.hsv_to_rgb(hue, min(saturation, 0.85), 1.0 if saturation > 0.1 else value)
     return red, green, blue, 1.0
 
 
-def hue_colours(opacity: float) -> list[Colour]:
-    """Return the segments' colours; those next to each other in the list are far apart in hue.
+def hue_colors(opacity: float) -> list[Color]:
+    """Return the segments' colors; those next to each other in the list are far apart in hue.
 
     From yellow-green to pink: red and orange are left to wires and seams.
     """
@@ -200,7 +200,7 @@ def hue_colours(opacity: float) -> list[Colour]:
 
 
 def _light(hue: float) -> tuple[float, float, float]:
-    """Return a hue as bright as the others: blue in full would make a mesh dark, and its edges coloured."""
+    """Return a hue as bright as the others: blue in full would make a mesh dark, and its edges colored."""
     rgb = np.array(colorsys.hsv_to_rgb(hue, 0.85, 1.0))
     brightness = float(rgb @ (0.2126, 0.7152, 0.0722))
     white = max(0.0, (_BRIGHTNESS - brightness) / (1.0 - brightness))
