@@ -11,9 +11,9 @@ import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from paper_mesh import PaperMesh
-from seamwire.core.eventual import EventualLive, Eventually
 from seamwire.core.network import Edge, Network, Pick, Snap
 from seamwire.core.session import CLAMP_PERCENTILE, STRENGTHS, Session
+from seamwire.core.solver import EventualLive, Eventually
 from seamwire.core.wire_labels import Plan
 
 core = pytest.importorskip("seamwire_core")

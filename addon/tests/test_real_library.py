@@ -8,9 +8,9 @@ import pytest
 from fake_live import grid_edges
 from numpy.typing import NDArray
 from paper_mesh import PaperMesh
-from seamwire.core.eventual import EventualLive, Eventually
 from seamwire.core.network import Along, Snap
 from seamwire.core.session import CLAMP_PERCENTILE, STRENGTHS, Session
+from seamwire.core.solver import EventualLive, Eventually
 
 core = pytest.importorskip("seamwire_core")
 

@@ -136,7 +136,7 @@ def run(folder: Path, path: Path | None) -> None:
     if addon_utils.enable("seamwire", default_set=True) is None:
         raise DemoError("the add-on could not be enabled")
     from seamwire.core import native
-    from seamwire.core.engines import STRENGTHS
+    from seamwire.core.defaults import STRENGTHS
 
     bpy.data.batch_remove([*bpy.data.objects, *bpy.data.meshes])
     obj = suzanne() if path is None else load(path)

@@ -12,9 +12,8 @@ from .network import Network, Snap, Wire, name
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .engines import Engines
-    from .live import Candidate
     from .network import Along, Pick, Seed
+    from .solver import Candidate, Engines
 
 
 class Preview:

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from .live import LiveWire
     from .network import Edge, LoopKind, Network, Pick, Seed
+    from .solver import LiveWire
     from .symmetry import Symmetry
 
 

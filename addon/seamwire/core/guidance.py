@@ -7,15 +7,15 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from .engines import CLAMP_RANGE, STRENGTH_RANGE, STRENGTH_STEP
+from .defaults import CLAMP_RANGE, STRENGTH_RANGE, STRENGTH_STEP
 from .strokes import FOR_WIRES, OffMeshError, Scribble, drawn, through_vertices
 from .workings import Workings
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from .live import MetricName
     from .network import Along
+    from .solver import MetricName
     from .strokes import ActsOn
 
 

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 from .seed_drag import Courses, Leg
 
 if TYPE_CHECKING:
-    from .live import LiveWire
     from .network import Network, Wire
+    from .solver import LiveWire
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,8 +14,8 @@ from .network import Network, Snap, Wire, name, undirected, vertices_of
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .live import Candidate, LiveWire
     from .network import Along, Edge, End, Pick
+    from .solver import Candidate, LiveWire
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .candidates import only_vertices
+from .defaults import CLAMP_PERCENTILE, STRENGTHS
 from .edge_loops import Stops, taken
-from .engines import CLAMP_PERCENTILE, STRENGTHS
 from .guidance import Guidance
 from .network import Network, Seed, Snap, Wire, name, undirected
 from .seed_drag import Drag

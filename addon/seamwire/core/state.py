@@ -12,19 +12,19 @@ import numpy as np
 
 from .candidates import Preview
 from .edge_loops import LoopPreview, Stops
-from .engines import Engines
 from .history import History
 from .network import Network, Snap, Wire, net_effect, undirected
 from .retrace import Redraws
+from .solver import Engines
 from .strokes import for_library
 from .symmetry import Symmetry
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from .live import LiveWire, MetricName
     from .network import Along, Edge, LoopKind, Pick
     from .seed_drag import Drag
+    from .solver import LiveWire, MetricName
     from .strokes import Scribble
 
 

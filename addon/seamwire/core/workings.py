@@ -15,9 +15,9 @@ from .state import Queued, State
 from .strokes import FOR_WIRES
 
 if TYPE_CHECKING:
-    from .live import LiveWire, MetricName
     from .network import Along, Pick
     from .seed_drag import Courses
+    from .solver import LiveWire, MetricName
 
 
 class Workings(State):

@@ -12,11 +12,11 @@ import bpy
 import numpy as np
 
 from ..core import native, serialization, wire_labels
-from ..core.engines import CLAMP_PERCENTILE, STRENGTHS
-from ..core.eventual import EventualLive, Eventually
+from ..core.defaults import CLAMP_PERCENTILE, STRENGTHS
 from ..core.network import edges_after
 from ..core.serialization import Archive, UnreadableError
 from ..core.session import Session
+from ..core.solver import EventualLive, Eventually
 from ..core.strokes import on_mesh
 from ..core.wire_labels import EdgeLabels, Found, Places
 from . import edit_mesh
@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..core.live import LiveWire
     from ..core.network import Along, Network
+    from ..core.solver import LiveWire
     from .settings import SeamwireSettings
 
 FIRST_VERSION = "seamwire"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ..core.engines import CLAMP_PERCENTILE, CLAMP_RANGE, STRENGTH_RANGE, STRENGTHS
+from ..core.defaults import CLAMP_PERCENTILE, CLAMP_RANGE, STRENGTH_RANGE, STRENGTHS
 
 if TYPE_CHECKING:
     from collections.abc import Callable

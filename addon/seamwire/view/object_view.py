@@ -77,7 +77,7 @@ class ObjectView:
             arrays.points,
             arrays.to_object,
             triangles=arrays.triangles,
-            segments=self._islands,
+            islands=self._islands,
             seams=arrays.seams,
             preferences=chosen.preferences(),
         )

@@ -70,9 +70,9 @@ class Overlay:
     to_object
         (3, 3) takes those to object coordinates.
     triangles
-        (m, 3) the visible faces, for the tint of segments.
-    segments
-        Computes the segments of those triangles; None: they are not shown.
+        (m, 3) the visible faces, for the tint of islands.
+    islands
+        Computes the islands of those triangles; None: they are not shown.
     seams
         (s, 2) the edges that are seams.
     preferences
@@ -100,7 +100,7 @@ class Overlay:
         to_object: NDArray[np.float64],
         *,
         triangles: NDArray[np.int32] | None = None,
-        segments: IslandMaker | None = None,
+        islands: IslandMaker | None = None,
         seams: ArrayLike = (),
         preferences: object | None = None,
     ) -> None:
@@ -108,7 +108,7 @@ class Overlay:
         self._obj = obj
         self._points = points
         self._triangles = triangles
-        self._segments = segments
+        self._islands = islands
         self._seams = np.asarray(seams, dtype=np.int32).reshape(-1, 2)
         self._preferences = preferences
         self._to_object = Matrix(to_object.tolist()).to_4x4()
@@ -138,27 +138,27 @@ class Overlay:
 
     @property
     def busy(self) -> bool:
-        """Whether segments are being computed: `poll` is to be called now and then."""
-        return self._segments is not None and (self._segments.busy or self._stale)
+        """Whether islands are being computed: `poll` is to be called now and then."""
+        return self._islands is not None and (self._islands.busy or self._stale)
 
     @property
     def _stale(self) -> bool:
         return self._asked != (self._session.network_revision, self._seams_read)
 
     def poll(self) -> bool:
-        """Ask for the segments of a network that has changed.
+        """Ask for the islands of a network that has changed.
 
         Returns
         -------
         bool
             Whether there are new ones to be seen.
         """
-        if self._segments is None:
+        if self._islands is None:
             return False
         if self._stale:
             self._asked = (self._session.network_revision, self._seams_read)
-            self._segments.want(self._asked, cuts(self._session, self._seams))
-        newest = self._segments.newest
+            self._islands.want(self._asked, cuts(self._session, self._seams))
+        newest = self._islands.newest
         return newest is not None and newest.key != self._tinted
 
     # Drawing
@@ -189,7 +189,7 @@ class Overlay:
                         draw_dots(style, shown, eye, style.hidden if hidden else 1.0, rim=not hidden)
 
     def _draw_tint(self, eye: Eye) -> None:
-        found = None if self._segments is None else self._segments.newest
+        found = None if self._islands is None else self._islands.newest
         if found is None or self._looks.tint <= 0.0:
             return
         if self._faces is None:
@@ -217,7 +217,7 @@ class Overlay:
         scale = bpy.context.preferences.system.ui_scale
         with blended("NONE"):
             if self._looks.text:
-                found = None if self._segments is None else self._segments.newest
+                found = None if self._islands is None else self._islands.newest
                 lines = text_overlay.lines(
                     self._session, found.count if found is not None else None, xray=self.xray, features=self.features
                 )

@@ -24,14 +24,14 @@ _METRICS = {
 }
 
 
-def lines(session: Session, segments: int | None, xray: bool = False, features: bool = False) -> list[str]:
+def lines(session: Session, islands: int | None, xray: bool = False, features: bool = False) -> list[str]:
     """Return what is to be read, top line first.
 
     Parameters
     ----------
     session
         The drawing.
-    segments
+    islands
         How many there are; None where that is not known.
     xray, features
         Whether picking goes through the mesh, and whether seeds snap to features.
@@ -41,8 +41,8 @@ def lines(session: Session, segments: int | None, xray: bool = False, features: 
         offers = session.loop_offers
         which = f" ({offers.index(session.loop_choice) + 1} of {len(offers)})" if len(offers) > 1 else ""
         found.append(LOOP_NAMES[session.loop_choice].capitalize() + which)
-    if segments is not None:
-        found.append(f"{segments} segment" + ("s" if segments != 1 else ""))
+    if islands is not None:
+        found.append(f"{islands} island" + ("s" if islands != 1 else ""))
     way = "Along edges" if session.along == "EDGES" else "Across the surface"
     metric = _METRICS.get(session.metric, session.metric)
     strength = "" if session.metric == "euclidean" else f"strength {session.strength:.3g}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How wires, seeds and segments look: one table, made from the theme and the add-on's preferences."""
+"""How wires, seeds and islands look: one table, made from the theme and the add-on's preferences."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ Color = tuple[float, float, float, float]
 HALO: Color = (0.02, 0.02, 0.03, 0.75)
 """The dark rim around lines and dots: what keeps them apart from bright meshes and from each other."""
 _BRIGHTNESS = 0.5
-"""Of the segments' colors."""
+"""Of the islands' colors."""
 HUES = 12
-"""How many colors segments are told apart by."""
+"""How many colors islands are told apart by."""
 
 
 @dataclass(frozen=True)
@@ -95,7 +95,7 @@ class Looks:
     repelling: Style
     """The band of one that they keep from: in cross bars, not in its color alone."""
     tint: float
-    """Opacity of segments."""
+    """Opacity of islands."""
     text: bool
 
     @classmethod
@@ -190,7 +190,7 @@ def vivid(color: Sequence[float]) -> Color:
 
 
 def hue_colors(opacity: float) -> list[Color]:
-    """Return the segments' colors; those next to each other in the list are far apart in hue.
+    """Return the islands' colors; those next to each other in the list are far apart in hue.
 
     From yellow-green to pink: red and orange are left to wires and seams.
     """

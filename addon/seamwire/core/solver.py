@@ -1,20 +1,100 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Live wires that are made on a thread: at a million faces that takes most of a second, and nothing is to wait for it."""
+"""What computes wires: the library's live wires, made on threads, one for each way of running, with the metric they share."""
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Generic, Protocol, TypeVar
+from typing import TYPE_CHECKING, Generic, Literal, Protocol, TypeVar
 
 import numpy as np
+
+from .defaults import CLAMP_PERCENTILE, STRENGTHS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .live import Candidates, Chain, LiveWire, Loop, MetricName, Strip
-    from .network import Edge, Pick
+    from .network import Along, Edge, Pick
+    from .strokes import Scribble
+
+MetricName = Literal["feature", "campen", "pottmann_kovacs", "euclidean"]
+"""What draws wires to features, as the library calls it."""
+
+
+class Candidate(Protocol):
+    """One of the two wires from the seed to a target, as the library gives it."""
+
+    points: NDArray[np.float64]
+    vertices: NDArray[np.int32]
+    length: float
+    final: bool
+
+
+class Candidates(Protocol):
+    """Both wires and which of them is shorter in its own metric."""
+
+    wires: tuple[Candidate, Candidate]
+    shorter: int
+    final: bool
+
+
+class Chain(Protocol):
+    """A chain of edges."""
+
+    vertices: NDArray[np.int32]
+
+
+class Loop(Chain, Protocol):
+    """A closed chain of edges; no vertices where there is none, or where it is not `final` yet."""
+
+    final: bool
+
+
+class Strip(Chain, Protocol):
+    """A straight chain of edges; no vertices where it cannot be told yet."""
+
+    closed: bool
+
+
+class LiveWire(Protocol):
+    """What a session asks of ``seamwire_core.LiveWire``."""
+
+    def seed(self, pick: Pick, forward: bool = False) -> None:
+        """Start the wires from a pick."""
+
+    def wires(self, target: Pick) -> Candidates:
+        """Both wires to a target, as far as they are computed."""
+
+    def loop(self, edge: Edge) -> Loop:
+        """Return the closed chain through an edge, as far as it is computed."""
+
+    def run_on(self, edge: Edge, stops: Iterable[int]) -> Chain:
+        """Return the straight way on from the end of a directed edge until a stop, a boundary or itself."""
+
+    def strip(self, edge: Edge, stops: Iterable[int]) -> Strip:
+        """Return the straight chain through an edge, both ways, until a stop, a pole, a boundary or itself."""
+
+    def fork(self) -> LiveWire:
+        """Return live wires with a seed of their own and the same metric."""
+
+    def set_metric(
+        self, metric: MetricName, *, max_anisotropy: float | None = None, clamp_percentile: float | None = None
+    ) -> None:
+        """Compute with another metric from here on; the seed stays, and so do the wires until there are new ones."""
+
+    def set_scribbles(self, scribbles: Sequence[object]) -> None:
+        """Compute with these strokes instead of those before; the rest as `set_metric`."""
+
+    def feature_strength(self) -> NDArray[np.float64] | None:
+        """Return how strong the features are at the vertices; None as long as that is computed."""
+
+    def progress(self) -> float:
+        """Fraction of the running work that is done."""
+
+    def wait(self, seconds: float | None = None) -> bool:
+        """Wait for the running work."""
+
 
 T = TypeVar("T")
 Made = TypeVar("Made", covariant=True)
@@ -209,3 +289,58 @@ class _Fork:
 
     def get(self) -> LiveWire:
         return self.parent._adopt().fork()
+
+
+class Engines:
+    """Live wires, each made when it is first asked for.
+
+    Parameters
+    ----------
+    make
+        Makes those of one way, with that way's strength of `STRENGTHS` and `CLAMP_PERCENTILE`.
+    strengths
+        Largest anisotropy of the metric, where it is to be another one.
+    make_scribble
+        Makes of a stroke what the live wires take.
+    """
+
+    def __init__(
+        self,
+        make: Callable[[Along], LiveWire],
+        strengths: Mapping[Along, float],
+        make_scribble: Callable[[Scribble], object],
+    ) -> None:
+        self._make = make
+        self._lives: dict[Along, LiveWire] = {}
+        self.strengths: dict[Along, float] = {**STRENGTHS, **strengths}
+        self.metric: MetricName = "feature"
+        self.clamp = CLAMP_PERCENTILE
+        self._make_scribble = make_scribble
+        self._scribbles: list[object] = []
+
+    def get(self, along: Along) -> LiveWire:
+        """Return the live wires of one way."""
+        if along not in self._lives:
+            self._lives[along] = self._make(along)
+            if (self.metric, self.strengths[along], self.clamp) != ("feature", STRENGTHS[along], CLAMP_PERCENTILE):
+                self._tell_metric(along)
+            if self._scribbles:
+                self._lives[along].set_scribbles(self._scribbles)
+        return self._lives[along]
+
+    def use(self, metric: MetricName, strengths: Mapping[Along, float], clamp: float) -> None:
+        """Compute with another metric from here on; forks that were made before keep theirs."""
+        before = self.metric, self.strengths, self.clamp
+        self.metric, self.strengths, self.clamp = metric, dict(strengths), clamp
+        for along in self._lives:
+            if (metric, strengths[along], clamp) != (before[0], before[1][along], before[2]):
+                self._tell_metric(along)
+
+    def follow(self, scribbles: Sequence[Scribble]) -> None:
+        """Compute with other strokes from here on; forks that were made before keep theirs."""
+        self._scribbles = [self._make_scribble(scribble) for scribble in scribbles]
+        for live in self._lives.values():
+            live.set_scribbles(self._scribbles)
+
+    def _tell_metric(self, along: Along) -> None:
+        self._lives[along].set_metric(self.metric, max_anisotropy=self.strengths[along], clamp_percentile=self.clamp)

@@ -7,8 +7,8 @@ import threading
 
 import pytest
 from fake_live import FakeLive, grid_points
-from seamwire.core.eventual import EventualLive, Eventually
 from seamwire.core.session import Session
+from seamwire.core.solver import EventualLive, Eventually
 from table import SIZE
 
 

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The five packages: arrows run downwards only, no two modules need each other, and the core knows no Blender."""
+
+from __future__ import annotations
+
+import ast
+from graphlib import TopologicalSorter
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent / "seamwire"
+FLOORS = ("core", "mesh", "view", "operators", "ui")
+BLENDERS = {"bpy", "bmesh", "gpu", "blf", "mathutils", "bpy_extras", "gpu_extras"}
+
+
+def modules() -> list[Path]:
+    return [path for path in sorted(ROOT.rglob("*.py")) if path.parent != ROOT and path.name != "__init__.py"]
+
+
+def imported(path: Path, types_too: bool) -> tuple[set[str], set[str]]:
+    """Return the add-on's modules that one imports, as ``package.module``, and other top-level ones."""
+    own, others = set(), set()
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    typing_only = {
+        id(node)
+        for branch in ast.walk(tree)
+        if isinstance(branch, ast.If) and "TYPE_CHECKING" in ast.unparse(branch.test)
+        for node in ast.walk(branch)
+    }
+    for node in ast.walk(tree):
+        if id(node) in typing_only and not types_too:
+            continue
+        if isinstance(node, ast.Import):
+            others.update(name.name.split(".")[0] for name in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.level == 0:
+            others.add(node.module.split(".")[0])
+        elif isinstance(node, ast.ImportFrom):
+            package = [path.parent.name] if node.level == 1 else []
+            parts = package + (node.module.split(".") if node.module else [])
+            if len(parts) == 2:
+                own.add(".".join(parts))
+            else:
+                own.update(f"{parts[0]}.{name.name}" for name in node.names)
+    return own, others
+
+
+@pytest.mark.parametrize("path", modules(), ids=lambda path: f"{path.parent.name}.{path.stem}")
+def test_a_module_imports_from_its_own_package_and_those_below(path: Path) -> None:
+    own, others = imported(path, types_too=True)
+    floor = FLOORS.index(path.parent.name)
+    assert [name for name in own if FLOORS.index(name.split(".")[0]) > floor] == []
+    if path.parent.name == "core":
+        assert not others & BLENDERS
+
+
+def test_no_modules_need_each_other() -> None:
+    graph = {f"{path.parent.name}.{path.stem}": imported(path, types_too=False)[0] for path in modules()}
+    assert len(graph) > 30
+    TopologicalSorter(graph).prepare()  # raises CycleError
