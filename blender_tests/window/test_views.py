@@ -145,3 +145,17 @@ def test_blenders_undo_in_a_second_window_leaves_a_chain_its_wires(desk: Desk) -
     if obj is not None and obj.mode == "EDIT":
         assert seams(obj) in (ROW, []), "kept, or undone with all else"
         assert bool(edited.of(obj).session.wires) == bool(seams(obj))
+
+
+@pytest.mark.parametrize("name", ["show_gizmo", "show_gizmo_tool"])
+def test_what_a_click_takes_is_lit_where_gizmos_are_hidden_too(desk: Desk, name: str) -> None:
+    session = desk.choose()
+    setattr(desk.ui.space, name, False)
+    try:
+        desk.ui.wait(redraw=True)
+        for vertex in (20, 40, 60):
+            desk.ui.move(desk.at(vertex))
+            assert session.target.pick == vertex
+        assert not running
+    finally:
+        setattr(desk.ui.space, name, True)

@@ -110,6 +110,19 @@ class Film:
         self.settle()
         self.hold(2)
 
+    def peek(self, to: tuple[float, float], frames: int = 10) -> None:
+        """Point at an edge and hold Alt, which shows the loop that a click takes."""
+        self.go(to, frames)
+        self.ui.event("LEFT_ALT", "PRESS", self.at, alt=True)
+        self.ui.wait_until(lambda: session().loop_preview is not None)
+        self.settle()
+
+    def take(self) -> None:
+        """Take the loop that is shown, and let go of Alt."""
+        self.click(alt=True)
+        self.ui.event("LEFT_ALT", "RELEASE", self.at)
+        self.settle()
+
     def key(self, name: str) -> None:
         """Press a key."""
         self.ui.key(name)
@@ -279,23 +292,20 @@ def animation(film: Film) -> None:
     film.obj.data.use_mirror_x = True
     film.hold(7)
     film.say("Alt: the whole loop, before the click")
-    film.go(film.edge(EYE), 9)
-    film.go(film.edge(EYE), 2, alt=True)
+    film.peek(film.edge(EYE), 9)
     film.hold(6)
-    film.click(alt=True)
-    film.go(film.edge(EAR), 9)
-    film.go(film.edge(EAR), 2, alt=True)
+    film.take()
+    film.peek(film.edge(EAR), 9)
     film.hold(4)
-    film.click(alt=True)
+    film.take()
     film.say("Alt and the wheel: the strip up to the seams, past poles, the whole strip")
-    film.go(film.middle_edge(0.0, -0.45, 0.9), 10)
-    film.go(film.middle_edge(0.0, -0.45, 0.9), 2, alt=True)
+    film.peek(film.middle_edge(0.0, -0.45, 0.9), 10)
     film.hold(8)
     while session().loop_choice != "WHOLE":
         film.ui.wheel(up=True, alt=True)
         film.settle()
         film.hold(7)
-    film.click(alt=True)
+    film.take()
     film.say("The islands that the seams make are tinted")
     film.go(film.vertex(0.9, -0.4, -0.6), 6)
     film.hold(12)
@@ -374,16 +384,16 @@ def guide(film: Film) -> None:
     film.picture("drag")
     film.ui.event("LEFTMOUSE", "RELEASE", film.at)
     film.settle()
-    film.go(film.edge(EYE), alt=True)
+    film.peek(film.edge(EYE))
     film.picture("loop")
-    film.click(alt=True)
+    film.take()
     film.obj.data.use_mirror_x = True
-    film.go(film.edge(EAR), alt=True)
+    film.peek(film.edge(EAR))
     film.picture("mirror")
-    film.click(alt=True)
-    film.go(film.middle_edge(0.0, -0.45, 0.9), alt=True)
+    film.take()
+    film.peek(film.middle_edge(0.0, -0.45, 0.9))
     film.picture("strip")
-    film.click(alt=True)
+    film.take()
     film.go(film.vertex(0.9, -0.4, -0.6))
     film.picture("segments")
     film.click()
@@ -438,10 +448,10 @@ def looks(film: Film) -> None:
     film.click("RIGHTMOUSE")
     film.obj.data.use_mirror_x = True
     film.go(film.edge(EYE), alt=True)
-    film.click(alt=True)
+    film.take()
     settings().clear = True
     film.go(film.edge(EAR), alt=True)
-    film.click(alt=True)
+    film.take()
     settings().clear = False
     film.go(film.vertex(0.55, -0.40, -0.30))
     film.click()

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a click would take lights up while no operator runs: Blender asks a gizmo of the tool at each motion of the mouse."""
+"""What a click would take lights up while no operator runs.
+
+Blender asks a gizmo of the tool at each motion of the mouse. Where a view shows no gizmos, the tool's keymap has an operator
+that hears of the mouse and ends at once.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +15,43 @@ from ..mesh.settings import tool_is_active
 from .report import running
 
 GROUP = "SEAMWIRE_GGT_hover"
+OPERATOR = "mesh.seamwire_hover"
 _NOWHERE = -1
+
+
+def _hover(context: bpy.types.Context, location: tuple[int, int]) -> None:
+    # Not before the tool is used: Blender's start is not to wait for NumPy.
+    from ..view.edited_objects import edited
+    from ..view.viewport import place_in
+
+    if running:
+        return
+    try:
+        edited.hover(place_in(context.area, context.region, location))
+    except Exception:
+        # Whoever hears of the mouse and raises is asked again at each motion.
+        traceback.print_exc()
+        edited.pause()
+
+
+class MESH_OT_seamwire_hover(bpy.types.Operator):
+    """Light up what a click would take, in views that show no gizmos"""  # noqa: D400 - a tooltip
+
+    bl_idname = OPERATOR
+    bl_label = "Seamwire Hover"
+    bl_options = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Whether the mouse is over such a view, and the tool active."""
+        space = context.space_data
+        hidden = space is not None and space.type == "VIEW_3D" and not (space.show_gizmo and space.show_gizmo_tool)
+        return hidden and tool_is_active(context)
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Hear of the mouse."""
+        _hover(context, (event.mouse_region_x, event.mouse_region_y))
+        return {"PASS_THROUGH"}
 
 
 class SEAMWIRE_GT_hover(bpy.types.Gizmo):
@@ -24,18 +64,8 @@ class SEAMWIRE_GT_hover(bpy.types.Gizmo):
 
     def test_select(self, context: bpy.types.Context, location: tuple[int, int]) -> int:
         """Hear of the mouse, and be no gizmo under it."""
-        # Not before the tool is used: Blender's start is not to wait for NumPy.
-        from ..view.edited_objects import edited
-        from ..view.viewport import place_in
-
-        if running or context.area is None or context.area.type != "VIEW_3D":
-            return _NOWHERE
-        try:
-            edited.hover(place_in(context.area, context.region, location))
-        except Exception:
-            # A gizmo that raises is asked again at each motion.
-            traceback.print_exc()
-            edited.pause()
+        if context.area is not None and context.area.type == "VIEW_3D":
+            _hover(context, location)
         return _NOWHERE
 
 
@@ -58,7 +88,7 @@ class SEAMWIRE_GGT_hover(bpy.types.GizmoGroup):
         self.gizmos.new(SEAMWIRE_GT_hover.bl_idname)
 
 
-_CLASSES = (SEAMWIRE_GT_hover, SEAMWIRE_GGT_hover)
+_CLASSES = (MESH_OT_seamwire_hover, SEAMWIRE_GT_hover, SEAMWIRE_GGT_hover)
 
 
 def register() -> None:

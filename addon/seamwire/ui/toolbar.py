@@ -8,8 +8,8 @@ from pathlib import Path
 import bpy
 
 from ..mesh.settings import TOOL
+from ..operators import hover
 from ..operators.bindings import NAME
-from ..operators.hover import GROUP
 from . import keymap, properties
 
 OPERATOR = "mesh.seamwire_draw"
@@ -35,7 +35,7 @@ class SeamwireTool(bpy.types.WorkSpaceTool):
     )
     bl_icon = str(_ICON) if _ICON.with_suffix(".draw.dat").exists() else "ops.mesh.knife_tool"
     bl_cursor = "CROSSHAIR"
-    bl_widget = GROUP
+    bl_widget = hover.GROUP
     bl_keymap = (
         _key("CLICK"),
         _key("CLICK", ctrl=True),
@@ -46,6 +46,7 @@ class SeamwireTool(bpy.types.WorkSpaceTool):
         _key("REMOVE", "DEL"),
         _key("NEXT", "W"),
         _key("PEEK", "LEFT_ALT", any=True),
+        (hover.OPERATOR, {"type": "MOUSEMOVE", "value": "ANY", "any": True}, None),
     )
 
     @staticmethod
