@@ -475,7 +475,7 @@ def test_where_blender_shows_all_layers_the_nearest_is_tinted_and_hidden_wires_a
     sight = Sight(ui, add_object(lower + upper, [*quads, (count, count + 1, count + 2, count + 3)]))
     triangles = sight.arrays.triangles
     maker = IslandMaker(triangles, lambda cuts: (triangles >= count).any(axis=1).astype(np.int32))
-    sight.overlay = sight.make(triangles=triangles, segments=maker)
+    sight.overlay = sight.make(triangles=triangles, islands=maker)
     try:
         show.shading(ui, name)
         plain = sight.pixels()
@@ -499,7 +499,7 @@ def halves(triangles: NDArray[np.int32], cuts: NDArray[np.int32]) -> NDArray[np.
 def test_segments_are_tinted_apart_and_counted(sight: Sight) -> None:
     triangles = sight.arrays.triangles
     maker = IslandMaker(triangles, lambda cuts: halves(triangles, cuts))
-    sight.overlay = sight.make(triangles=triangles, segments=maker)
+    sight.overlay = sight.make(triangles=triangles, islands=maker)
     inside = [tuple(np.add(sight.at(v, v + 10), (0.0, 0.0))) for v in (19, 55)]
     plain = sight.pixels()
     cut = sight.pixels(wires=(sight.wire(*range(36, 45)),))
