@@ -232,6 +232,17 @@ def test_ctrl_s_saves_what_is_drawn_so_far_and_the_chain_goes_on(desk: Desk, tmp
     assert saved.seamwire_wires
 
 
+def test_what_was_saved_within_a_chain_and_then_taken_back_is_no_seam(desk: Desk, tmp_path: Path) -> None:
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "drawn.blend"))
+    live(desk)
+    bpy.ops.wm.save_mainfile()
+    assert seams(desk.obj) == ROW
+    desk.ui.key("BACK_SPACE")
+    desk.ui.key("ESC")
+    assert not desk.running
+    assert seams(desk.obj) == []
+
+
 @pytest.mark.parametrize(
     ("key", "held"), [("TAB", {}), ("H", {}), ("A", {}), ("F3", {}), ("I", {"ctrl": True}), ("THREE", {})]
 )

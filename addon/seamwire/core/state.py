@@ -148,6 +148,11 @@ class State:
         return self._network if self._drag is None else self._drag.network
 
     @property
+    def kept(self) -> Network:
+        """The same without what is being dragged."""
+        return self._network
+
+    @property
     def wires(self) -> tuple[Wire, ...]:
         """The kept wires, oldest first; those that follow a dragged seed as they run now."""
         return self.network.wires

@@ -302,7 +302,7 @@ class ObjectSession:
     def plan(self) -> wire_labels.Plan:
         """Return what the mesh's edges must be for the session's network."""
         return wire_labels.plan(
-            self.session.network,
+            self.session.kept,
             self._labels,
             self._found,
             _archive,

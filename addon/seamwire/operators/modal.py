@@ -60,6 +60,7 @@ class Chain:
         self._hold: Hold | None = None
         self._drawn: ObjectView | None = None
         self._before = Network()
+        self._saved = False
         self._ending = False
         self._begun = False
         self._peek = ""
@@ -175,13 +176,13 @@ class Chain:
         view, before = self._drawn, self._before
         title = self.done[0] if len(self.done) == 1 else "Draw Seamwires"
         self.done.clear()
-        if view is None or not _differs(view.session.network, before):
+        if view is None or not (self._saved or _differs(view.session.network, before)):
             self._drawn = None
             return
         known = {wire.id for wire in before.wires}
         wires = sum(wire.id not in known for wire in view.session.network.wires)
         marked, cleared = self._write(view, adopt=True)
-        self._drawn = None
+        self._drawn, self._saved = None, False
         if undo_step:
             if (marked or cleared) and context.mode == "EDIT_MESH":
                 edit_mesh.live_unwrap(context)
@@ -192,14 +193,16 @@ class Chain:
         """Write what is drawn so far to the mesh, so that Blender saves it; the chain goes on."""
         if self._drawn is not None:
             self._write(self._drawn, adopt=False)
+            self._saved = True
 
     @staticmethod
     def _write(view: ObjectView, adopt: bool) -> tuple[int, int]:
-        counts = view.mesh.write(view.mesh.plan(), adopt)
+        plan = view.mesh.plan()
+        counts = view.mesh.write(plan, adopt)
         if view.mesh.alive():
             view.renew()
             # Blender tells of this change as of any other.
-            view.stale, view.wrote = False, True
+            view.stale, view.wrote = False, bool(plan.mark or plan.clear or plan.labels)
         return counts
 
     def drop(self) -> None:
@@ -208,6 +211,8 @@ class Chain:
         view, self._drawn = self._drawn, None
         if view is not None and view.mesh.alive():
             view.mesh.drop_changes(self._before)
+            if self._saved:
+                self._write(view, adopt=True)
         self.close()
 
     # Events

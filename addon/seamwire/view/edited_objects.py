@@ -99,6 +99,7 @@ class EditedObjects:
 
     def take_stock(self) -> None:
         """Read anew what has changed, and let one of the objects that are edited be in front."""
+        self._error = None  # what could not be drawn before says nothing of now
         for view in self.views():
             # Of these Blender's word is not heard each time, see `ObjectView.was_read`.
             view.stale |= view.mesh.cage.mesh.shape_keys is not None
@@ -121,6 +122,7 @@ class EditedObjects:
             bpy.app.timers.unregister(self._tick)
         self.chain = False
         self.problem = ""
+        self._error = None
 
     # What is under the mouse
 
