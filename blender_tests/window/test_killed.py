@@ -50,9 +50,8 @@ def test_what_was_saved_of_two_hundred_wires_is_there_after_a_kill(ui: driver.Ui
         "SEAMWIRE_NAME": ADDON,
         "SEAMWIRE_FILE": str(path),
     }
-    program = os.environ.get("BLENDER", bpy.app.binary_path)
     blender = subprocess.Popen(
-        [program, "--background", "--factory-startup", "--python-exit-code", "3", "--python", str(script)],
+        [bpy.app.binary_path, "--background", "--factory-startup", "--python-exit-code", "3", "--python", str(script)],
         env=environment,
         stdout=subprocess.DEVNULL,
         stderr=sys.stderr,

@@ -212,7 +212,7 @@ def unselected(obj: bpy.types.Object) -> dict[str, object]:
         bpy.ops.mesh.select_all(action="DESELECT")
     found = snapshot(obj, with_seams=False)
     # M within a chain sets the mesh's mirror.
-    return {key: value for key, value in found.items() if key not in {"history", "mode", "mirror"}}
+    return {key: value for key, value in found.items() if key not in {"history", "mode", "mirror", "active face"}}
 
 
 def parts(one: object, two: object) -> list[tuple[object, object]]:

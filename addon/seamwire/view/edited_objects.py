@@ -200,11 +200,15 @@ class EditedObjects:
     def on_update(self, depsgraph: bpy.types.Depsgraph) -> None:
         """Take note of meshes that Blender says were changed."""
         for view in self._views.values():
-            if not view.stale and any(view.shows(update) for update in depsgraph.updates):
+            if not any(view.shows(update) for update in depsgraph.updates):
+                continue
+            now = time.monotonic()
+            if not view.stale:
                 view.stale, view.wrote = not view.wrote, False
-                if view.stale and not self.chain:
-                    self._changed = time.monotonic()
-                    self.watch()
+                self._stale_since = now
+            if view.stale and not self.chain:
+                self._changed = now
+                self.watch()
 
     def on_undo(self) -> None:
         """Follow Blender's undo or redo: all edit meshes are others now."""
@@ -234,7 +238,7 @@ class EditedObjects:
         self.poll()
         return _RHYTHM if stale or any(view.busy for view in self.views()) else None
 
-    _changed = 0.0
+    _changed = _stale_since = 0.0
 
     # What is seen
 
@@ -296,8 +300,9 @@ class EditedObjects:
             return
         shown = set(context.view_layer.objects.keys())
         for name, view in self._views.items():
-            # What was changed is shown when it was read anew.
-            current = view.mesh.alive() and (self.chain or not view.stale)
+            # What is being changed for long is shown when it was read anew.
+            recent = time.monotonic() - self._stale_since < 2.0 * _PAUSE
+            current = view.mesh.alive() and (self.chain or not view.stale or recent)
             if current and name in shown and view.obj.visible_in_viewport_get(context.space_data):
                 yield view
 
