@@ -42,7 +42,7 @@ void note(std::size_t size) noexcept {
   ++freed_by_workers;
   const std::int64_t before = answers;
   for (int i = 0; is_polling && answers < before + 2; ++i) {
-    if (i == 3000) {
+    if (i == 10'000) {
       ++freed_with_the_lock;
       return;
     }
@@ -113,7 +113,8 @@ void change_under_watch(LiveWire& live, const Change& change) {
   watches = is_polling = true;
   caller = std::this_thread::get_id();
   change();
-  for (int quiet = 0; quiet < 100;) {
+  // A machine with other work may let the workers wait: what they free is waited for, if not for ever.
+  for (int quiet = 0, turns = 0; quiet < 100 || (freed_by_workers == 0 && turns < 100'000); ++turns) {
     const std::int64_t freed = freed_by_workers;
     static_cast<void>(live.progress());
     ++answers;
