@@ -192,5 +192,7 @@ def test_what_a_key_means_is_read_from_the_users_keymap(desk: Desk) -> None:
         assert not desk.running
         assert seams(desk.obj) == chain(*range(36, 45))
     finally:
-        for item in own:
+        # Blender may have made the items anew.
+        keys = bpy.context.window_manager.keyconfigs.user.keymaps["3D View"].keymap_items
+        for item in [item for item in keys if item.type in {"F19", "F20"}]:
             keys.remove(item)

@@ -123,11 +123,9 @@ TEST(Rays, over_triangles_whose_corners_are_in_line_are_the_same_before_and_afte
   }
   const RayTree tree(mesh.points, mesh.triangles);
   tree.wait();
-  std::size_t met = 0;
   for (const auto& [origin, direction] : rays) {
     // One by one, without a tree: a tree of one triangle is that triangle.
     const RayHit hit = tree.first_hit(origin, direction);
-    met += hit.triangle >= 0;
     if (hit.triangle < 0) continue;
     const Vector at = origin + hit.distance * direction;
     const Vector &a = mesh.points[3 * static_cast<std::size_t>(hit.triangle)],
@@ -139,7 +137,7 @@ TEST(Rays, over_triangles_whose_corners_are_in_line_are_the_same_before_and_afte
   }
   for (int round = 0; round < 4; ++round) {
     const RayTree unbuilt(mesh.points, mesh.triangles);
-    for (std::size_t i = static_cast<std::size_t>(round); i < rays.size() && !unbuilt.ready(); i += 4) {
+    for (auto i = static_cast<std::size_t>(round); i < rays.size() && !unbuilt.ready(); i += 4) {
       const RayHit early = unbuilt.first_hit(rays[i].first, rays[i].second);
       const RayHit late = tree.first_hit(rays[i].first, rays[i].second);
       EXPECT_EQ(early.triangle, late.triangle);
