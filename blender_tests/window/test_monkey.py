@@ -23,7 +23,7 @@ SEEDS = range(1, 1 + int(os.environ.get("SEAMWIRE_MONKEYS", "1")))
 BATCH = 16
 """Events between two turns of Blender's loop: many come at once where a machine is slow."""
 OURS = ["W", "C", "F", "S", "E", "V", "M", "X", "BACK_SPACE", "RET", "ESC", "F1", "LEFT_ALT", "LEFT_SHIFT"]
-OURS_ALONE = {"F", "S", "E", "V", "M", "C", "F1"}
+OURS_ALONE = {"F", "S", "E", "V", "M", "C", "F1", "W"}
 BLENDERS = [
     "A",
     "H",
@@ -38,8 +38,6 @@ BLENDERS = [
     "PERIOD",
     "HOME",
     "L",
-    "N",
-    "T",
 ]
 BUTTONS = ["LEFTMOUSE"] * 8 + ["RIGHTMOUSE"] * 2 + ["MIDDLEMOUSE"]
 WHEELS = ["WHEELUPMOUSE", "WHEELDOWNMOUSE"]
@@ -121,8 +119,9 @@ class Monkey:
             held = {"alt": key == "W" and self.dice.random() < 0.3}
             if key in OURS_ALONE:
                 # Without a chain these are Blender's, and change the mesh: whether there is one must be known.
-                self.ui.wait(2)
-                if not running:
+                self.ui.wait(4)
+                live = running and running[0].session
+                if not live or live.seed is None or live.waiting_clicks or self.held:
                     return
             self.send(key, "PRESS", **held)
             self.send(key, "RELEASE")

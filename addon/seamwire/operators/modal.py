@@ -258,11 +258,10 @@ class Chain:
         if self._hold is not None and event.type == self._hold.button and event.value == "RELEASE":
             self._release(place)
             return False
-        if place is not None and self._hold is None and navigation.on_gizmo(place, context.preferences):
+        press = place is None and event.value == "PRESS"
+        button = event.type.endswith("MOUSE")
+        if button and place is not None and self._hold is None and navigation.on_gizmo(place, context.preferences):
             place = None
-            press = False
-        else:
-            press = place is None and event.value == "PRESS"
         self._set_cursor("CROSSHAIR" if place else "")
         if place is None:
             if press and not _in_tool_settings(self._window, event):

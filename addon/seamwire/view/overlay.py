@@ -186,7 +186,8 @@ class Overlay:
                     for style, places in sheet.dots:
                         inside = eye.shows(places)
                         shown = places if inside is None else places[inside]
-                        draw_dots(style, shown, eye, style.hidden if hidden else 1.0, rim=not hidden)
+                        if len(shown):
+                            draw_dots(style, shown, eye, style.hidden if hidden else 1.0, rim=not hidden)
 
     def _draw_tint(self, eye: Eye) -> None:
         found = None if self._islands is None else self._islands.newest
