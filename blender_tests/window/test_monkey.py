@@ -104,8 +104,11 @@ class Monkey:
                 self.send(button, "RELEASE", **self.modifiers())
             else:
                 self.held.append(button)
-                # Ctrl and the right button extrude, in Blender.
-                self.send(button, "PRESS", **({} if button == "RIGHTMOUSE" else self.modifiers()))
+                # Ctrl and the right button extrude, in Blender; Alt and others with the left one select and move.
+                held = {} if button == "RIGHTMOUSE" else self.modifiers()
+                if held.get("alt") and (held["ctrl"] or held["shift"]):
+                    held = {}
+                self.send(button, "PRESS", **held)
         elif kind < 0.8:
             self.send(self.dice.choice(WHEELS), "PRESS", **self.modifiers())
         elif kind < 0.82:
