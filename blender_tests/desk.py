@@ -169,6 +169,8 @@ def dismiss(ui: driver.Ui) -> None:
     for step in range(3):
         ui.move((ui.region.width - 150.0 + step, ui.region.height - 130.0))
         ui.wait(3)
+    ui.key("ESC")  # newer Blenders keep it open
+    ui.wait(3)
 
 
 def undo_steps(capfd: pytest.CaptureFixture[str]) -> list[str]:

@@ -151,7 +151,7 @@ void bind_live_wire(py::module_& module) {
 
   py::class_<LiveLoop>(module, "LiveLoop", "A closed chain of edges.")
       .def_property_readonly(
-          "vertices", [](py::object self) { return view(self.cast<const LiveLoop&>().vertices, self); },
+          "vertices", [](const py::object& self) { return view(self.cast<const LiveLoop&>().vertices, self); },
           "(k,) int32, the first one not given twice; no rows: there is none, or not yet.")
       .def_readonly("length", &LiveLoop::length, "In its metric, with the cost of turning.")
       .def_readonly("final", &LiveLoop::final, "False: it is still being computed.")
@@ -161,7 +161,7 @@ void bind_live_wire(py::module_& module) {
 
   py::class_<EdgeStrip>(module, "EdgeStrip", "A run of edges straight through a mesh.")
       .def_property_readonly(
-          "vertices", [](py::object self) { return view(self.cast<const EdgeStrip&>().vertices, self); },
+          "vertices", [](const py::object& self) { return view(self.cast<const EdgeStrip&>().vertices, self); },
           "(k,) int32, in order; where it is closed, the first one is not given twice.")
       .def_readonly("closed", &EdgeStrip::closed)
       .def("__repr__", [](const EdgeStrip& strip) {

@@ -292,14 +292,14 @@ The first vertices are those of the surface, with their numbers; new ones are mi
           "(t, 3) int32: the valid triangles.")
       .def_property_readonly(
           "edges",
-          [](py::object self) {
+          [](const py::object& self) {
             const auto& object = self.cast<const EmbeddingObject&>();
             return view(without_gil([&]() -> const auto* { return &object.edges(); })->vertices, self);
           },
           "(e, 2) int32: each edge once, those to run along without a triangle last.")
       .def_property_readonly(
           "lengths",
-          [](py::object self) {
+          [](const py::object& self) {
             const auto& object = self.cast<const EmbeddingObject&>();
             return view(without_gil([&]() -> const auto* { return &object.edges(); })->lengths, self);
           },
@@ -353,7 +353,7 @@ The first vertices are those of the surface, with their numbers; new ones are mi
       .def_property_readonly("is_exact", [](const FieldObject& f) { return f.field.is_exact(); })
       .def_property_readonly(
           "distances",
-          [](py::object self) {
+          [](const py::object& self) {
             const auto& object = self.cast<const FieldObject&>();
             const auto count = static_cast<py::ssize_t>(object.embedding->surface->vertex_count());
             return view(object.field.distances().data(), {count}, {sizeof(double)}, self);
