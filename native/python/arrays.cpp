@@ -21,6 +21,7 @@ std::string shape_of(const py::array& array) { return py::str(array.attr("shape"
 /// The value as an array of rows of `columns` numbers of one of the given kinds ("f", "i", "u": dtype.kind).
 py::array rows_from(py::handle value, py::ssize_t columns, const char* kinds, const char* what,
                     const std::string& name) {
+  const PythonCall calling;
   const std::string wanted = name + ": expected " + what + " of shape (n, " + std::to_string(columns) + ")";
   py::array array;
   try {
@@ -114,8 +115,11 @@ bool is_integer(py::handle value) {
 }  // namespace
 
 std::vector<Vector> points_from(py::handle value, const std::string& name) {
-  py::array array = rows_from(value, 3, "fiu", "real numbers", name);
-  if (!py::isinstance<py::array_t<double>>(array)) array = py::array(array.attr("astype")("float64"));
+  const py::array array = [&] {
+    const PythonCall calling;
+    const py::array given = rows_from(value, 3, "fiu", "real numbers", name);
+    return py::isinstance<py::array_t<double>>(given) ? given : py::array(given.attr("astype")("float64"));
+  }();
   const Layout from(array);
   const GilRelease released;
   std::vector<Vector> to(from.rows);
@@ -132,6 +136,7 @@ std::vector<Triangle> triangles_from(py::handle value, const std::string& name) 
 std::vector<Edge> edges_from(py::handle value, const std::string& name) { return indices_from<2>(value, name); }
 
 std::vector<std::int32_t> numbers_from(py::handle value, const std::string& name) {
+  const PythonCall calling;
   const py::array array = py::array(py::module_::import("numpy").attr("asarray")(value));
   if (array.ndim() != 1) throw InvalidInput(name + ": expected integers of shape (n,), got shape " + shape_of(array));
   std::vector<std::int32_t> to;
@@ -142,6 +147,7 @@ std::vector<std::int32_t> numbers_from(py::handle value, const std::string& name
 }
 
 std::int32_t vertex_from(py::handle value, std::size_t count, const std::string& name) {
+  const PythonCall calling;
   const auto number = py::reinterpret_steal<py::object>(is_integer(value) ? PyNumber_Index(value.ptr()) : nullptr);
   if (!number) {
     PyErr_Clear();

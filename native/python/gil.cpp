@@ -29,7 +29,7 @@ struct Calls {
   std::condition_variable changed;
   std::atomic<Phase> phase = Phase::kRunning;  // changed with the mutex
   std::atomic<std::thread::id> ending_thread;  // set before the phase
-  std::size_t inside = 0;                      // without the GIL, or in a callback
+  std::size_t inside = 0;                      // without the GIL, in a callback, or in a PythonCall
   std::size_t returning = 0;                   // of these, on the way to the GIL
 };
 
@@ -52,6 +52,12 @@ bool take(PyThreadState* state, Phase last) {
   --all.returning;
   all.changed.notify_all();
   return true;
+}
+
+void enter() {
+  Calls& all = calls();
+  const std::scoped_lock lock(all.mutex);
+  ++all.inside;
 }
 
 void leave() {
@@ -85,11 +91,7 @@ void end_calls() {
 
 GilRelease::GilRelease() {
   if (is_cut_off()) return;
-  Calls& all = calls();
-  {
-    const std::scoped_lock lock(all.mutex);
-    ++all.inside;
-  }
+  enter();
   state_ = PyEval_SaveThread();
 }
 
@@ -105,6 +107,13 @@ void GilRelease::sleep_for_ever() {
   leave();
   while (true) std::this_thread::sleep_for(std::chrono::hours(1));
 }
+
+PythonCall::PythonCall() {
+  leave_if_cut_off();
+  enter();
+}
+
+PythonCall::~PythonCall() { leave(); }
 
 bool is_cut_off() {
   const Calls& all = calls();

@@ -43,6 +43,17 @@ class GilRelease {
   PyThreadState* state_ = nullptr;  ///< null: the GIL was kept
 };
 
+/// A stretch of C++ that calls Python or NumPy, which may let go of the GIL in the middle: for as long as it lives the
+/// end of the interpreter waits for this thread as for those inside the library, or the thread would be ended in there.
+class PythonCall {
+ public:
+  /// With the GIL. Raises SystemExit where is_cut_off().
+  PythonCall();
+  ~PythonCall();
+  PythonCall(const PythonCall&) = delete;
+  PythonCall& operator=(const PythonCall&) = delete;
+};
+
 /// Whether the interpreter is ending and this is another thread than the one that ends it. Needs no GIL.
 bool is_cut_off();
 

@@ -12,6 +12,7 @@ import pytest
 PROGRAM = """
 import sys, threading, time
 import meshes
+import numpy as np
 import seamwire_core as sw
 
 def grid(n):
@@ -84,6 +85,24 @@ def test_a_callback_that_python_ends_in_the_middle() -> None:
     call = "sw.distance_field(e, 0, progress=lambda fraction: time.sleep(1.3))"
     ended = quit_during(prepare, call, delay=0.2, teardown=1.5)
     assert (ended.returncode, ended.stderr) == (0, "")
+
+
+NUMPY = {
+    "the first array of all": (
+        "p, t = meshes.grid(60); lib = np.lib; version = lib.NumpyVersion;"
+        " lib.NumpyVersion = lambda text: (time.sleep(0.3), version(text))[1]",
+        "sw.RayTree(p, t)",
+    ),
+    "numbers of another width": ("p, t = meshes.grid(300); p = p.astype('f4')", "sw.RayTree(p, t)"),
+}
+
+
+@pytest.mark.parametrize("name", NUMPY)
+def test_threads_that_hand_over_arrays(name: str) -> None:
+    """NumPy lets go of the GIL in between, and so does pybind11 when it looks for NumPy's functions."""
+    for _ in range(3):
+        ended = quit_during(*NUMPY[name], delay=0.05, teardown=0.5, threads=4)
+        assert (ended.returncode, ended.stderr) == (0, "")
 
 
 def test_work_that_returns_when_the_wait_for_it_is_over() -> None:
