@@ -9,7 +9,7 @@ import pytest
 import ui as driver
 from desk import Desk, choose, drag, draw, undo_steps
 from scene import chain, seams, snapshot
-from seamwire.mesh.settings import settings
+from seamwire.mesh.settings import preferences, settings
 from seamwire.operators import bindings
 from seamwire.ui import status_bar
 
@@ -118,6 +118,28 @@ def test_w_takes_the_next_candidate_and_the_wheel_zooms(cone: Desk) -> None:
     ui.click(cone.at(61))
     ui.wait_until(lambda: len(session.wires) == 1)
     assert session.wires[0].vertices == other
+
+
+def test_the_wheel_takes_the_next_candidate_where_it_is_given_to_it(cone: Desk) -> None:
+    preferences().wheel_switches = True
+    try:
+        session, ui = cone.start(), cone.ui
+        distance = ui.view.view_distance
+        ui.wheel(up=True, at=cone.at(20))
+        assert ui.view.view_distance < distance, "no wire is live"
+        ui.click(cone.at(20))
+        ui.move(cone.at(61))
+        ui.wait_until(lambda: session.other is not None)
+        other, distance = session.other.vertices, ui.view.view_distance
+        ui.wheel(up=True)
+        assert session.active.vertices == other
+        assert ui.view.view_distance == distance
+        ui.wheel(up=False, ctrl=True)
+        assert ui.view.view_distance > distance
+        ui.wheel(up=True, ctrl=True)
+        assert ui.view.view_distance == pytest.approx(distance)
+    finally:
+        preferences().property_unset("wheel_switches")
 
 
 def test_shift_and_the_wheel_change_the_strength_and_say_it(cone: Desk) -> None:

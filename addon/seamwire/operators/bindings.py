@@ -188,7 +188,7 @@ _ICONS = {
     "SPACE": "EVENT_SPACEKEY",
     "TAB": "EVENT_TAB",
 }
-_WHEEL = ("WHEELUPMOUSE", "WHEELDOWNMOUSE")
+WHEEL = ("WHEELUPMOUSE", "WHEELDOWNMOUSE")
 
 
 class Bindings:
@@ -228,9 +228,9 @@ class Bindings:
         merged = list(keys)
         # Both ways of the wheel are one thing to say.
         for key in keys:
-            if key.type == _WHEEL[0] and replace(key, type=_WHEEL[1]) in keys:
+            if key.type == WHEEL[0] and replace(key, type=WHEEL[1]) in keys:
                 merged[merged.index(key)] = replace(key, type="WHEEL")
-                merged.remove(replace(key, type=_WHEEL[1]))
+                merged.remove(replace(key, type=WHEEL[1]))
         return ", ".join(key.text for key in merged)
 
     def icon(self, action: Action, single: bool = True) -> tuple[str, str]:
@@ -249,7 +249,7 @@ class Bindings:
         key = next((key for key in keys if not single or key.value != "DOUBLE_CLICK"), keys[0])
         if not key.icon:
             return "", key.text
-        wheel = "Wheel" if key.type in _WHEEL else ""
+        wheel = "Wheel" if key.type in WHEEL else ""
         return key.icon, f"{key.modifiers} {wheel}".strip()
 
     def rows(self) -> list[tuple[str, str]]:

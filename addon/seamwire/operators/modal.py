@@ -283,9 +283,20 @@ class Chain:
             return True
         if navigation.emulates_middle_button(event, context.preferences.inputs):
             return True
-        return self._key(place, event, double)
+        return self._key(context, place, event, double)
 
-    def _key(self, place: Place, event: bpy.types.Event, double: bool) -> bool:
+    def _turns_wheel(self, context: bpy.types.Context, event: bpy.types.Event) -> bool:
+        """Whether the wheel is turned that was given to the candidates, alone or with Ctrl."""
+        alone = not (event.shift or event.alt or event.oskey)
+        given = chosen.preferences(context).wheel_switches and self.session.seed is not None
+        return given and alone and event.type in bindings.WHEEL
+
+    def _key(self, context: bpy.types.Context, place: Place, event: bpy.types.Event, double: bool) -> bool:
+        if self._turns_wheel(context, event):
+            if event.ctrl:
+                navigation.zoom(context, place, event)
+                return False
+            return self.act(Action.NEXT, place, event)
         action = self.keys.decode(event, double)
         if action is None:
             meaning = navigation.meaning(event, self._manager)

@@ -6,9 +6,9 @@ from __future__ import annotations
 from enum import Enum, auto
 from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    import bpy
+import bpy
 
+if TYPE_CHECKING:
     from ..view.viewport import Place
     from .bindings import Key
 
@@ -114,6 +114,14 @@ def on_gizmo(place: Place, preferences: bpy.types.Preferences) -> bool:
     if place.cursor[0] >= right - wide and place.cursor[1] >= top - (size + 2.0 * _GIZMO_MARGIN) * scale:
         return True
     return place.cursor[0] >= right - 2.0 * _GIZMO_BUTTON * scale and place.cursor[1] >= top - high
+
+
+def zoom(context: bpy.types.Context, place: Place, event: bpy.types.Event) -> None:
+    """Zoom by one notch of the wheel, as Blender does without Ctrl."""
+    inwards = (event.type == "WHEELUPMOUSE") != context.preferences.inputs.invert_zoom_wheel
+    x, y = (round(value) for value in place.cursor)
+    with context.temp_override(area=place.area, region=place.region):
+        bpy.ops.view3d.zoom(delta=1 if inwards else -1, mx=x, my=y, use_cursor_init=True)
 
 
 def emulates_middle_button(event: bpy.types.Event, inputs: bpy.types.PreferencesInput) -> bool:

@@ -24,6 +24,11 @@ class SeamwirePreferences(bpy.types.AddonPreferences):
 
     tool: bpy.props.PointerProperty(type=SeamwireSettings)
 
+    wheel_switches: bpy.props.BoolProperty(
+        name="Wheel Takes Next Candidate",
+        description="While a wire is live the wheel takes the next candidate, and Ctrl and the wheel zoom",
+        default=False,
+    )
     line_width: bpy.props.FloatProperty(
         name="Line Width",
         description="How much wider or thinner wires and seeds are drawn; Blender's display scale counts as well",
@@ -62,6 +67,7 @@ class SeamwirePreferences(bpy.types.AddonPreferences):
         column.prop(self, "line_width")
         column.prop(self, "tint")
         column.prop(self, "show_text")
+        layout.column(heading="Mouse").prop(self, "wheel_switches")
         column = layout.column(heading="Colors")
         column.prop(self, "theme_colors")
         kept = column.row()
