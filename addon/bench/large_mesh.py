@@ -19,6 +19,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [os.environ["SEAMWIRE_BLENDER_PACKAGES"], str(ROOT / "blender_tests")]
 
 import addon_utils
+import bmesh
 import bpy
 import numpy as np
 import ui as driver
@@ -68,7 +69,7 @@ class Holds:
             self.watch(Chain, name, "start")
         for name in ("handle", "trouble", "finish"):
             self.watch(Chain, name, "event")
-        for name in ("hover", "_tick"):
+        for name in ("hover", "on_update", "_tick"):
             self.watch(EditedObjects, name, "event")
         self.watch(EditedObjects, "_draw", "draw")
 
@@ -206,15 +207,41 @@ def measure(ui: driver.Ui, along: str, holds: Holds) -> dict[str, object]:
         _, found["move, ours, no tint"] = moves(ui, places[: MOVES // 2], holds)
     own.tint = before_tint
     found["memory at the end"] = memory() - before
-    with holds.during("keep"):
-        ui.click(tuple(places[-1]))
-        ui.wait_until(lambda: not session().computing and not overlay_busy(), SECONDS)
-    with holds.during("finish"):
+    with holds.during("keep and end"):
+        ui.click(tuple(places[3 * MOVES // 4]))
         start = time.perf_counter()
         ui.key("RET")
+        ui.wait_until(lambda: session() is None and not overlay_busy(), SECONDS)
+        found["end"] = time.perf_counter() - start
+    with holds.during("second chain"), ui.override():
+        start = time.perf_counter()
+        assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", along=along) == {"RUNNING_MODAL"}
+        ui.event("LEFTMOUSE", "PRESS", tuple(places[MOVES // 8]), ticks=1)
+        ui.event("LEFTMOUSE", "RELEASE", tuple(places[MOVES // 8]), ticks=1)
+        ui.event("MOUSEMOVE", "NOTHING", tuple(places[MOVES // 4]), ticks=1)
+        ui.wait_until(lambda: session().active is not None, SECONDS)
+        found["second chain, first wire"] = time.perf_counter() - start
+        ui.key("ESC")
+        ui.key("ESC")
         ui.wait_until(lambda: session() is None, SECONDS)
-        found["finish"] = time.perf_counter() - start
+    with holds.during("another tool's edit"):
+        change(bpy.context.edit_object)
+        ui.wait(4, redraw=True)
+        start = time.perf_counter()
+        with ui.override():
+            assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", along=along) == {"RUNNING_MODAL"}
+        found["start after an edit"] = time.perf_counter() - start
+        ui.key("ESC")
+        ui.wait_until(lambda: session() is None, SECONDS)
     return found
+
+
+def change(obj: bpy.types.Object) -> None:
+    """Move a vertex, as another tool would."""
+    mesh = bmesh.from_edit_mesh(obj.data)
+    mesh.verts.ensure_lookup_table()
+    mesh.verts[0].co.x += 1e-3
+    bmesh.update_edit_mesh(obj.data)
 
 
 def moves(ui: driver.Ui, places: NDArray[np.float64], holds: Holds) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
