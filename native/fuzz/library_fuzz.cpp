@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the library does with any mesh and any parameters: it refuses them with InvalidInput, or what it finds agrees
+// with itself. libFuzzer makes the bytes (scripts/fuzz); the test `fuzz_cases` runs those that once found something.
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "seamwire/curvature.hpp"
+#include "seamwire/edge_wire.hpp"
+#include "seamwire/embedding.hpp"
+#include "seamwire/errors.hpp"
+#include "seamwire/geodesics.hpp"
+#include "seamwire/metric.hpp"
+#include "seamwire/quick_paths.hpp"
+#include "seamwire/rays.hpp"
+#include "seamwire/scribble.hpp"
+#include "seamwire/segments.hpp"
+#include "seamwire/surface.hpp"
+#include "seamwire/task.hpp"
+#include "seamwire/wire.hpp"
+
+namespace seamwire {
+namespace {
+
+/// From when on one input's work is told to stop. Meshes of spikes take long; that they hear it is what is tested: what
+/// goes on all the same is a timeout of libFuzzer's.
+constexpr std::chrono::seconds kPatience{3};
+
+void require(bool holds, const char* what) {
+  if (holds) return;
+  std::fprintf(stderr, "does not hold: %s\n", what);
+  std::abort();
+}
+
+/// Takes decisions from bytes; zeros when they are used up.
+class Bytes {
+ public:
+  Bytes(const std::uint8_t* data, std::size_t size) : at_(data), end_(data + size) {}
+  std::uint8_t byte() { return at_ == end_ ? 0 : *at_++; }
+  /// In [0, count).
+  std::int32_t below(std::size_t count) { return static_cast<std::int32_t>(byte() % count); }
+  bool coin() { return (byte() & 1) != 0; }
+  /// Numbers as meshes and people have them, and as they should not.
+  double number() {
+    static constexpr std::array kNumbers{0.0,
+                                         1.0,
+                                         -1.0,
+                                         0.5,
+                                         2.0,
+                                         1.0 / 3.0,
+                                         1e-3,
+                                         1e-6,
+                                         1e-9,
+                                         1e-12,
+                                         1e3,
+                                         1e6,
+                                         1e9,
+                                         1e39,
+                                         1e-39,
+                                         1e150,
+                                         1e-150,
+                                         1e160,
+                                         -0.0,
+                                         1.0001,
+                                         -1e-7,
+                                         5e-8,
+                                         0.125,
+                                         std::numeric_limits<double>::infinity(),
+                                         std::numeric_limits<double>::quiet_NaN()};
+    const std::uint8_t which = byte();
+    return which < kNumbers.size() ? kNumbers[which] : (static_cast<double>(which) - 140.0) / 64.0;
+  }
+
+ private:
+  const std::uint8_t* at_;
+  const std::uint8_t* end_;
+};
+
+struct Mesh {
+  std::vector<Vector> points;
+  std::vector<Triangle> triangles;
+  std::optional<std::vector<Edge>> edges;
+};
+
+/// A grid of a few cells, bent by the numbers that follow.
+Mesh grid(Bytes& from) {
+  const std::int32_t columns = 2 + from.below(5);
+  const std::int32_t rows = 2 + from.below(5);
+  Mesh mesh;
+  for (std::int32_t y = 0; y < rows; ++y) {
+    for (std::int32_t x = 0; x < columns; ++x) mesh.points.emplace_back(x, y, from.number());
+  }
+  for (std::int32_t y = 0; y + 1 < rows; ++y) {
+    for (std::int32_t x = 0; x + 1 < columns; ++x) {
+      const std::int32_t a = y * columns + x;
+      mesh.triangles.push_back({a, a + 1, a + columns + 1});
+      mesh.triangles.push_back({a, a + columns + 1, a + columns});
+    }
+  }
+  return mesh;
+}
+
+/// Triangles around a point, closed or not.
+Mesh umbrella(Bytes& from) {
+  const std::int32_t spokes = 3 + from.below(30);
+  const double height = from.number();
+  Mesh mesh;
+  mesh.points.emplace_back(0.0, 0.0, height);
+  for (std::int32_t i = 0; i < spokes; ++i) {
+    const double turn = 6.283185307179586 * i / spokes;
+    const double radius = from.coin() ? 1.0 : std::abs(from.number());
+    mesh.points.emplace_back(radius * std::cos(turn), radius * std::sin(turn), 0.0);
+  }
+  const bool closed = from.coin();
+  for (std::int32_t i = 0; i + (closed ? 0 : 1) < spokes; ++i)
+    mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % spokes});
+  return mesh;
+}
+
+/// Any triangles between any points.
+Mesh soup(Bytes& from) {
+  const std::size_t count = 3 + static_cast<std::size_t>(from.below(20));
+  Mesh mesh;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = from.number();
+    const double y = from.number();
+    mesh.points.emplace_back(x, y, from.number());
+  }
+  const std::int32_t triangles = 1 + from.below(40);
+  for (std::int32_t i = 0; i < triangles; ++i) {
+    const std::int32_t a = from.below(count);
+    const std::int32_t b = from.below(count);
+    mesh.triangles.push_back({a, b, from.below(count)});
+  }
+  return mesh;
+}
+
+Mesh mesh_from(Bytes& from) {
+  const std::int32_t kind = from.below(4);
+  Mesh mesh = kind == 0 ? soup(from) : kind == 1 ? umbrella(from) : grid(from);
+  const std::size_t count = mesh.points.size();
+  for (std::int32_t left = from.below(4); left > 0; --left) {
+    mesh.points[static_cast<std::size_t>(from.below(count))][from.below(3)] = from.number();
+  }
+  for (std::int32_t left = from.below(3); left > 0; --left) {
+    mesh.triangles.push_back({from.below(count), from.below(count), from.below(count + 1)});
+  }
+  if (from.coin()) {
+    std::vector<Edge> edges;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      edges.push_back({a, b});
+      if (from.coin()) edges.push_back({b, c});
+    }
+    for (std::int32_t left = from.below(4); left > 0; --left) edges.push_back({from.below(count), from.below(count)});
+    mesh.edges = std::move(edges);
+  }
+  return mesh;
+}
+
+Metric metric_from(Bytes& from, const Surface& surface, const Curvature& curvature, Follow follow) {
+  Strength strength;
+  (from.coin() ? strength.parameter : strength.max_anisotropy) = from.number();
+  if (from.coin()) strength.clamp_percentile = 100.0 * from.number();
+  switch (from.below(4)) {
+    case 0:
+      return feature_metric(surface, curvature, follow, strength);
+    case 1:
+      return campen_metric(surface, curvature, follow, strength);
+    case 2:
+      return pottmann_kovacs_metric(surface, curvature, follow, strength);
+    default:
+      return euclidean_metric(surface, curvature);
+  }
+}
+
+Scribble scribble_from(Bytes& from, const Surface& surface) {
+  Scribble scribble;
+  for (std::int32_t left = from.below(6); left > 0; --left) {
+    const std::int32_t vertex = from.below(surface.vertex_count());
+    scribble.points.push_back(surface.points()[static_cast<std::size_t>(vertex)]);
+    scribble.vertices.push_back(vertex);
+  }
+  scribble.eta = std::abs(from.number());
+  scribble.rings = from.below(12);
+  if (from.coin()) scribble.radius = from.number();
+  scribble.attracts = from.coin();
+  return scribble;
+}
+
+/// Stops work on this input when it has taken long enough.
+class Patience {
+ public:
+  Task task() const {
+    Task task;
+    task.progress = [end = end_](double fraction) {
+      require(fraction >= 0.0 && fraction <= 1.0, "progress is a fraction");
+      return std::chrono::steady_clock::now() < end;
+    };
+    return task;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point end_ = std::chrono::steady_clock::now() + kPatience;
+};
+
+/// Distances are lengths of paths: none is longer than where its edges lead.
+void check_field(const IntrinsicMesh& mesh, const DistanceField& field) {
+  // The square of a length must be a number with all its digits.
+  if (std::ranges::any_of(mesh.lengths, [](double length) { return length < 1e-140; })) return;
+  const std::vector<double>& distances = field.distances();
+  const auto at = [&](std::int32_t vertex) { return distances[static_cast<std::size_t>(vertex)]; };
+  require(at(field.seed()) == 0.0, "the seed's distance is 0");
+  for (const double distance : distances) require(distance >= 0.0, "distances are not negative");
+  const auto along = [&](std::int32_t a, std::int32_t b, double length) {
+    require(std::isinf(at(a)) == std::isinf(at(b)), "what an edge joins is reached or not together");
+    if (std::isinf(at(a))) return;
+    require(std::abs(at(a) - at(b)) <= length * (1.0 + 1e-6) + 1e-9 * at(a), "no edge is a shorter way");
+  };
+  for (std::int32_t h = 0; h < static_cast<std::int32_t>(mesh.lengths.size()); ++h) {
+    along(mesh.tail(h), mesh.tip(h), mesh.lengths[static_cast<std::size_t>(h)]);
+  }
+  for (const LooseEdge& edge : mesh.loose_edges) along(edge.a, edge.b, edge.length);
+}
+
+void check_wires(Bytes& from, const Patience& patience, const Surface& surface, const Metric& metric) {
+  EmbedOptions options;
+  options.max_faces_added = static_cast<std::size_t>(from.byte()) * 40;
+  options.sigma = from.coin() ? 0.0 : from.number();
+  options.perimeter = from.coin() ? Perimeter::kMetric : Perimeter::kEuclidean;
+  const Embedding embedding = embed(surface, metric, options, patience.task());
+  require(embedding.worst_clamp >= 1.0, "a factor is one or more");
+  const ExactGeodesics solver(embedding.mesh);
+  const std::int32_t seed = from.below(surface.vertex_count());
+  const bool exact = from.coin();
+  const DistanceField field =
+      exact ? solver.solve(seed, patience.task())
+            : solver.solve_bounded(seed, 1 + static_cast<std::uint32_t>(from.below(8)), patience.task());
+  if (exact) check_field(embedding.mesh, field);
+  QuickPaths quick(solver, seed);
+  const SnapGraph graph(surface);
+  for (std::int32_t left = 1 + from.below(3); left > 0; --left) {
+    const std::int32_t target = from.below(surface.vertex_count());
+    const double distance = field.distances()[static_cast<std::size_t>(target)];
+    const Wire wire = trace_wire(surface, embedding, field, target, patience.task());
+    require(wire.points.empty() == std::isinf(distance), "what is reached has a wire");
+    if (wire.points.empty()) continue;
+    require(wire.from == seed && wire.to == target, "a wire leads from the seed to the target");
+    require(!exact || wire.length <= distance * 1.5 + 1e-9, "an exact wire is about as long as the distance");
+    const IntrinsicPath path = quick.path(target, patience.task());
+    require(!path.points.empty(), "what is reached has a path at once");
+    require(!exact || path.length >= distance * (1.0 - 1e-6) - 1e-12, "no path is shorter than the distance");
+    const std::vector<std::int32_t> chain = snap_to_edges(surface, graph, wire);
+    require(std::set(chain.begin(), chain.end()).size() == chain.size(), "a snapped wire repeats no vertex");
+  }
+}
+
+bool is_edge(const Surface& surface, std::int32_t a, std::int32_t b) {
+  return std::ranges::binary_search(surface.edges(), Edge{std::min(a, b), std::max(a, b)});
+}
+
+void check_chain(const Surface& surface, const std::vector<std::int32_t>& chain) {
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    require(is_edge(surface, chain[i - 1], chain[i]), "a chain runs along edges");
+  }
+}
+
+void check_edge_wires(Bytes& from, const Patience& patience, const Surface& surface, const Metric& metric,
+                      const std::vector<Scribble>& scribbles) {
+  const auto fans = make_edge_fans(surface, patience.task());
+  const auto graph = make_edge_graph(surface, metric, fans, patience.task(), scribbles);
+  const auto pick = [&]() -> Pick {
+    if (surface.edges().empty() || from.coin()) return {from.below(surface.vertex_count()), -1};
+    const Edge& edge = surface.edges()[static_cast<std::size_t>(from.below(surface.edges().size()))];
+    return from.coin() ? Pick{edge[0], edge[1]} : Pick{edge[1], edge[0]};
+  };
+  const double turning = from.coin() ? 3.0 : std::abs(from.number());
+  const EdgeWires wires = edge_wires(graph, pick(), turning, from.coin(), patience.task());
+  for (std::int32_t left = 1 + from.below(3); left > 0; --left) {
+    const Pick target = pick();
+    require(wires.is_final(target), "a search that has ended knows all");
+    check_chain(surface, wires.trace(target).vertices);
+  }
+  const Edge& edge = surface.edges()[static_cast<std::size_t>(from.below(surface.edges().size()))];
+  std::vector<std::int32_t> stops;
+  for (std::int32_t left = from.below(3); left > 0; --left) stops.push_back(from.below(surface.vertex_count()));
+  check_chain(surface, edge_strip(*fans, edge, stops).vertices);
+  check_chain(surface, run_on(*fans, edge, stops));
+  const std::vector<std::int32_t> loop = edge_loop(*graph, edge, turning, patience.task()).vertices;
+  check_chain(surface, loop);
+  require(loop.empty() || (loop.size() > 2 && is_edge(surface, loop.front(), loop.back())), "a loop is closed");
+}
+
+void check_rays(Bytes& from, const Mesh& mesh) {
+  const RayTree tree(mesh.points, mesh.triangles);
+  const Vector origin(from.number(), from.number(), from.number());
+  const Vector direction(from.number(), from.number(), from.number());
+  const RayHit before = tree.first_hit(origin, direction);
+  tree.wait();
+  const RayHit after = tree.first_hit(origin, direction);
+  require(before.triangle == after.triangle, "the tree finds what looking at all triangles does");
+}
+
+void check(Bytes& from) {
+  const Patience patience;
+  const Mesh mesh = mesh_from(from);
+  check_rays(from, mesh);
+  const Surface surface(mesh.points, mesh.triangles, mesh.edges);
+  const Curvature curvature = principal_curvatures(surface);
+  for (std::size_t v = 0; v < curvature.k1.size(); ++v) {
+    require(std::isfinite(curvature.k1[v]) && std::isfinite(curvature.k2[v]), "curvatures are finite");
+  }
+  face_segments(surface, surface.edges());
+  const Follow follow = from.coin() ? Follow::kMin : Follow::kMax;
+  Metric metric = metric_from(from, surface, curvature, follow);
+  std::vector<Scribble> scribbles;
+  for (std::int32_t left = from.below(3); left > 0; --left) scribbles.push_back(scribble_from(from, surface));
+  metric = apply_scribbles(surface, metric, scribbles);
+  check_edge_wires(from, patience, surface, metric, scribbles);
+  check_wires(from, patience, surface, metric);
+}
+
+}  // namespace
+}  // namespace seamwire
+
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer calls it so
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  seamwire::Bytes bytes(data, size);
+  try {
+    seamwire::check(bytes);
+  } catch (const seamwire::InvalidInput&) {
+  } catch (const seamwire::Cancelled&) {
+  }
+  return 0;
+}
