@@ -135,7 +135,7 @@ class Session(Guidance):
         if last is not None and last.kind == "click" and undirected(last.snap.pick) == undirected(edge):
             self._queue.pop()
         elif self._last_click == (undirected(edge), self._history.steps):
-            self._restore(self._history.forget_step())
+            self._restore(self._history.forget_step(self._network))
         self._last_click = None
 
     def end_chain(self) -> None:
@@ -330,7 +330,7 @@ class Session(Guidance):
         if self._redraws.drop_last():
             self.revision += 1
             return True
-        network = self._history.back(self._unmirrored())
+        network = self._history.back(self._network)
         if network is None:
             return self._refuse("Nothing to undo in this drawing")
         self._restore(network)
@@ -339,7 +339,7 @@ class Session(Guidance):
     def redo(self) -> bool:
         """Bring back what undo took."""
         self.drag_cancel()
-        network = self._history.forth(self._unmirrored())
+        network = self._history.forth(self._network)
         if network is None:
             return self._refuse("Nothing to redo in this drawing")
         self._restore(network)

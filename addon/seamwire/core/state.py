@@ -265,7 +265,7 @@ class State:
     @property
     def can_undo(self) -> bool:
         """Whether undo() has something to take back."""
-        return bool(self._queue or self._drag or self._redraws) or self._history.can_undo(self._unmirrored())
+        return bool(self._queue or self._drag or self._redraws) or self._history.can_undo(self._network)
 
     @property
     def can_redo(self) -> bool:
@@ -347,10 +347,6 @@ class State:
         return self._mirror.images(wire, wire.mirror if kept else self.mirror_axes)
 
     # For the deeds
-
-    def _unmirrored(self) -> Network:
-        """Return the network as the history knows it: the mirror is the mesh's, and no step of the drawing."""
-        return replace(self._network, mirror=())
 
     def _with_images(self, network: Network, among: Collection[Edge] | None = None) -> Network:
         """Return a network whose wires have found their images, all or those `among` some edges."""

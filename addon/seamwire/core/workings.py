@@ -112,7 +112,7 @@ class Workings(State):
         seed = network.seed
         if seed is not None and seed != self._network.seed and not self._sow(seed):
             return False
-        self._history.step(self._unmirrored())
+        self._history.step(self._network)
         self._set(self._with_images(network))
         self._settle()
         self._tell_one_sided()
@@ -129,8 +129,6 @@ class Workings(State):
     def _restore(self, network: Network) -> None:
         if network.seed is not None and network.seed != self._network.seed:
             self._sow(network.seed)
-        # The mirror is the mesh's, and no step of the drawing.
-        network = replace(network, mirror=self._network.mirror)
         back = [stroke.acts_on for stroke in network.scribbles if stroke not in self._network.scribbles]
         self._set(network)
         self._last_click = None
