@@ -10,8 +10,6 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from .candidates import only_vertices
 from .defaults import CLAMP_PERCENTILE, STRENGTHS
 from .edge_loops import Stops, taken
@@ -306,13 +304,11 @@ class Session(Guidance):
             (k, 2) the edges that are seams and no wires.
         """
         self._calm()
-        self._stops = Stops(seams, self._mirror)
+        self._stops = Stops(seams, self._symmetry)
         self._redraws.clear()
         self._history.forget()
-        if any(wire.images is None for wire in network.wires):
-            # Wires of the first version do not know their images: they are what is a seam of them still.
-            pairs = np.sort(np.asarray(seams, dtype=np.int64).reshape(-1, 2), axis=1)
-            network = self._with_images(network, set(map(tuple, pairs.tolist())))
+        # Wires of the first version do not know their images: they are what is a seam of them still.
+        network = self._images.complete(network, seams)
         seed = network.seed
         if seed is not None and seed != self._network.seed and not self._sow(seed):
             seed = None

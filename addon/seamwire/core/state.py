@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from enum import Enum, auto
 from typing import TYPE_CHECKING, Literal
 
@@ -13,7 +13,8 @@ import numpy as np
 from .candidates import Preview
 from .edge_loops import LoopPreview, Stops
 from .history import History
-from .network import Network, Snap, Wire, net_effect, undirected
+from .mirror_images import MirrorImages
+from .network import Network, Snap, Wire, undirected
 from .retrace import Redraws
 from .solver import Engines
 from .strokes import for_library
@@ -118,9 +119,9 @@ class State:
     ) -> None:
         self._points = points
         self._triangles = triangles
-        self._mirror = Symmetry(points, edges, to_object, topology, triangles)
-        self._told_one_sided = False
-        self._stops = Stops(seams, self._mirror)
+        self._symmetry = Symmetry(points, edges, to_object, topology, triangles)
+        self._images = MirrorImages(self._symmetry)
+        self._stops = Stops(seams, self._symmetry)
         self._engines = Engines(make_live, strength or {}, make_scribble)
         self._network = Network()
         self._history = History()
@@ -133,7 +134,6 @@ class State:
         self._last_click: tuple[Pick, int] | None = None
         # Made at once: what they compute first takes longest.
         self._progress = self._engines.get(along).progress()
-        self._effect: tuple[Network, list[Edge], list[Edge]] | None = None
         self.along: Along = along
         self.marking = True
         self.message = ""
@@ -304,7 +304,7 @@ class State:
     @property
     def symmetric_axes(self) -> tuple[int, ...]:
         """The axes over which the mesh is symmetric."""
-        return self._mirror.symmetric_axes
+        return self._symmetry.symmetric_axes
 
     @property
     def intent(self) -> Intent:
@@ -335,40 +335,20 @@ class State:
 
     def edges_to_mark(self) -> list[Edge]:
         """Return the edges that the wires make seams, each once, sorted, smaller vertex first."""
-        return self._net_effect()[0]
+        return self._images.net_effect(self.network)[0]
 
     def edges_to_clear(self) -> list[Edge]:
         """Return the edges that the wires make cease to be seams, each once, sorted, smaller vertex first."""
-        return self._net_effect()[1]
+        return self._images.net_effect(self.network)[1]
 
     def mirrored(self, wire: Wire) -> list[Wire]:
         """Return the images that a wire has, or would have if it were kept now, as far as the mesh has their edges."""
-        kept = wire.images is not None or self.network.find(wire) is not None
-        return self._mirror.images(wire, wire.mirror if kept else self.mirror_axes)
+        return self._images.of(wire, self.network)
 
     # For the deeds
-
-    def _with_images(self, network: Network, among: Collection[Edge] | None = None) -> Network:
-        """Return a network whose wires have found their images, all or those `among` some edges."""
-        if all(wire.images is not None for wire in network.wires):
-            return network
-        wires = (wire if wire.images is not None else self._with_own_images(wire, among) for wire in network.wires)
-        return replace(network, wires=tuple(wires))
-
-    def _with_own_images(self, wire: Wire, among: Collection[Edge] | None) -> Wire:
-        edges = dict.fromkeys(edge for image in self._mirror.images(wire, wire.mirror) for edge in image.edges())
-        return replace(wire, images=tuple(edge for edge in edges if among is None or edge in among))
 
     def _ending(self, target: Snap) -> Intent | None:
         """Return how a wire to a target ends the chain; None: it does not."""
         if self._network.closes(target):
             return Intent.CLOSE
         return Intent.JOIN if target.to in {"SEED", "WIRE", "SEAM"} else None
-
-    def _net_effect(self) -> tuple[list[Edge], list[Edge]]:
-        network = self.network
-        if self._effect is None or self._effect[0] is not network:
-            # Wires that follow a dragged seed have not found their images yet.
-            claims = ((edge, wire.marks) for wire in self._with_images(network).wires for edge in wire.claims())
-            self._effect = (network, *net_effect(claims))
-        return self._effect[1:]

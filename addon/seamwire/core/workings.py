@@ -113,18 +113,10 @@ class Workings(State):
         if seed is not None and seed != self._network.seed and not self._sow(seed):
             return False
         self._history.step(self._network)
-        self._set(self._with_images(network))
+        self._set(self._images.complete(network))
         self._settle()
-        self._tell_one_sided()
+        self.message = self._images.warning(self._network) or self.message
         return True
-
-    def _tell_one_sided(self) -> None:
-        """Say, once, that part of a mirrored wire stays alone."""
-        if not self._told_one_sided and self._network.wires:
-            wire = self._network.wires[-1]
-            if wire.mirror and self._mirror.one_sided(wire, wire.mirror):
-                self._told_one_sided = True
-                self.message = "Part of this wire has no mirror image: the mesh is not symmetric there"
 
     def _restore(self, network: Network) -> None:
         if network.seed is not None and network.seed != self._network.seed:
