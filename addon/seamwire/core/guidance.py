@@ -29,15 +29,15 @@ class Guidance(Workings):
         self._calm()
         before = self.along
         self.along = along
-        self._live.chosen = None
-        self._live.clear()
+        self._candidates.chosen = None
+        self._candidates.clear()
         self._loop.wanted = False
         self._loop.clear()
         if self._network.seed is not None and not self._sow(self._network.seed):
             self.along = before
             return False
         self.message = ""
-        self._aim(self._live.target, again=True)
+        self._aim(self._candidates.target, again=True)
         self.revision += 1
         return True
 
@@ -124,10 +124,10 @@ class Guidance(Workings):
             return self._refuse(str(error))
         self._last_click = None
         self.drag_cancel()
-        chosen = self._live.chosen
+        chosen = self._candidates.chosen
         if acts_on is None and self._network.seed is not None:
             # The wire that the stroke is for stays the active one, even where the other is shorter now.
-            chosen = self._live.active_index
+            chosen = self._candidates.active_index
             acts_on = FOR_WIRES[chosen]
         scribble = Scribble(*stroke, attracts=attracts, acts_on=acts_on or "both", radius=radius)
         return self._scribbled((*self._network.scribbles, scribble), chosen)
@@ -139,9 +139,9 @@ class Guidance(Workings):
             return self._refuse("This stroke is not there any more")
         self._last_click = None
         self.drag_cancel()
-        return self._scribbled(rest, self._live.chosen)
+        return self._scribbled(rest, self._candidates.chosen)
 
     def _scribbled(self, scribbles: tuple[Scribble, ...], chosen: int | None) -> bool:
         self._change(replace(self._network, scribbles=scribbles))
-        self._live.chosen = chosen
+        self._candidates.chosen = chosen
         return True

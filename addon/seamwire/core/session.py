@@ -80,10 +80,10 @@ class Session(Guidance):
         if self._queue:
             self._queue.append(Queued("click", target))
             return True
-        seen = self._live.active_final and target == self._live.target
+        seen = self._candidates.active_final and target == self._candidates.target
         self._aim(target)
         # What is seen is kept; where nothing is seen yet, the one that is there first must not win for that.
-        if not (self._live.decided or (seen and self._live.active_final)) and self._wires_computing:
+        if not (self._candidates.decided or (seen and self._candidates.active_final)) and self._wires_computing:
             self._queue.append(Queued("click", target))
             self.revision += 1
             return True
@@ -143,8 +143,8 @@ class Session(Guidance):
             return
         # No step of its own for undo: taking back the last wire after this brings the chain back to life.
         self._set(replace(self._network, seed=None))
-        self._live.chosen = None
-        self._aim(self._live.target, again=True)
+        self._candidates.chosen = None
+        self._aim(self._candidates.target, again=True)
 
     def close(self) -> bool:
         """Lead the live wire back to the chain's first seed, keep it and end the chain."""
@@ -158,10 +158,9 @@ class Session(Guidance):
         """Make the other of the two wires the active one, until it is kept; of what is offered for an edge, the next."""
         if self._loop.wanted:
             return self._next_offer()
-        if self.other is None:
-            same = self._live.final and self.active is not None
-            return self._refuse("Both wires run along the same edges here" if same else "There is no other wire yet")
-        self._live.chosen = 1 - self._live.active_index
+        why = self._candidates.swap()
+        if why:
+            return self._refuse(why)
         self.message = ""
         self._preview_end()
         self.revision += 1
@@ -223,7 +222,7 @@ class Session(Guidance):
         except ValueError as error:
             return self._refuse(str(error))
         self._read_progress()
-        self._live.clear()
+        self._candidates.clear()
         self._loop.clear()
         self._end.wire = None
         self._end.wanted = False
@@ -239,7 +238,7 @@ class Session(Guidance):
         if snap is None or drag.ending:
             return False
         before = (drag.target, drag.network, self.message)
-        self._live.target = Snap.of(snap)
+        self._candidates.target = Snap.of(snap)
         moved = drag.to(Snap.of(snap))
         self._read_progress()
         self.message = drag.message
@@ -258,7 +257,7 @@ class Session(Guidance):
         self.revision += 1
         if drag.message or drag.target is None:
             why = drag.message
-            self._aim(self._live.target, again=True)
+            self._aim(self._candidates.target, again=True)
             return self._refuse(why) if why else True
         return self._change(drag.network.joined(drag.target, self._points))
 
@@ -279,8 +278,8 @@ class Session(Guidance):
             self._end.wanted = True
             self._preview_end()
             return self._end.wire is not None or self.computing or self._refuse(self.message or _NOWHERE)
-        target = self._live.target
-        if self._queue or (target is not None and not self._live.active_final and self._wires_computing):
+        target = self._candidates.target
+        if self._queue or (target is not None and not self._candidates.active_final and self._wires_computing):
             if target is None:
                 return self._refuse(_NOWHERE)
             self._end.wanted = False
@@ -350,7 +349,7 @@ class Session(Guidance):
             Whether there is something new to be seen.
         """
         drag = self._drag
-        still = self._live.final and self._loop.final and (drag is None or drag.final)
+        still = self._candidates.final and self._loop.final and (drag is None or drag.final)
         if still and not self.computing and not self._queue and not self._redraws:
             return False
         before = (self.revision, round(self._progress, 2))
@@ -360,8 +359,8 @@ class Session(Guidance):
             self._poll_drag(drag)
         while self._queue and self._poll_queue():
             pass
-        if not self._queue and not self._live.final:
-            self._aim(self._live.target, again=True)
+        if not self._queue and not self._candidates.final:
+            self._aim(self._candidates.target, again=True)
         self._preview_loop()
         self._preview_end()
         return before != (self.revision, round(self._progress, 2))
@@ -381,7 +380,7 @@ class Session(Guidance):
     # How it is done
 
     def _keep(self, target: Snap) -> bool:
-        live = self._live
+        live = self._candidates
         wire = live.active
         seed = self._network.seed
         if wire is None:
@@ -426,7 +425,7 @@ class Session(Guidance):
         if head.kind in {"loop", "offer"}:
             waits = not self._find_offers(head.snap.pick) and self.computing
         else:
-            waits = not self._live.decided and self._wires_computing
+            waits = not self._candidates.decided and self._wires_computing
         if waits:
             return False
         del self._queue[0]

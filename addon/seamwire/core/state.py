@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from .candidates import Preview
+from .candidates import CandidateWires
 from .edge_loops import LoopPreview, Stops
 from .history import History
 from .mirror_images import MirrorImages
@@ -125,7 +125,7 @@ class State:
         self._engines = Engines(make_live, strength or {}, make_scribble)
         self._network = Network()
         self._history = History()
-        self._live = Preview(self._engines, points)
+        self._candidates = CandidateWires(self._engines, points)
         self._loop = LoopPreview()
         self._end = EndPreview()
         self._drag: Drag | None = None
@@ -172,22 +172,22 @@ class State:
     @property
     def target(self) -> Snap | None:
         """What is under the cursor, or what the oldest waiting click asked for."""
-        return self._live.target
+        return self._candidates.target
 
     @property
     def active(self) -> Wire | None:
         """The wire that a click would keep."""
-        return self._live.active
+        return self._candidates.active
 
     @property
     def other(self) -> Wire | None:
         """The wire that the wheel would bring forward; None where both run along the same edges."""
-        return self._live.other
+        return self._candidates.other
 
     @property
     def preliminary(self) -> bool:
         """Whether the active wire is still being computed: what is shown is not yet what a click would keep."""
-        return self.active is not None and not self._live.active_final
+        return self.active is not None and not self._candidates.active_final
 
     @property
     def loop_preview(self) -> Wire | None:
@@ -227,13 +227,13 @@ class State:
     @property
     def hovered_wire(self) -> Wire | None:
         """The kept wire under the cursor."""
-        target = self._live.target
+        target = self._candidates.target
         return None if target is None or target.to != "WIRE" else self.network.find(target.wire)
 
     @property
     def hovered_seed(self) -> Pick | None:
         """The seed of the network under the cursor."""
-        target = self._live.target
+        target = self._candidates.target
         return None if target is None or target.to != "SEED" else target.pick
 
     @property
@@ -309,7 +309,7 @@ class State:
     @property
     def intent(self) -> Intent:
         """What a click would do now."""
-        live, seed = self._live, self._network.seed
+        live, seed = self._candidates, self._network.seed
         if self._drag is not None:
             return Intent.MOVE
         if self._end.wire is not None:

@@ -49,21 +49,22 @@ class Workings(State):
         self._engines.use(metric, strengths, self.clamp if clamp is None else clamp)
         self.message = ""
         self._loop.clear()
-        self._aim(self._live.target, again=True)
+        self._aim(self._candidates.target, again=True)
         self._preview_loop()
         self.revision += 1
         return True
 
     def _sow(self, seed: Seed) -> bool:
         """Start the wires of a seed; on refusal the wires are those of the seed before."""
+        before = self._network.seed
         try:
-            forward = seed.forward and self.along == "EDGES"
-            self._engine().seed(seed.begins(self.along), forward=forward)
+            self._candidates.sow(seed, self.along)
         except ValueError as error:
-            if self._network.seed is not None and self._network.seed != seed:
-                self._sow(self._network.seed)
+            if before is not None and before != seed:
+                self._sow(before)
             return self._refuse(str(error))
-        self._read_progress()
+        finally:
+            self._read_progress()
         return True
 
     # How it is let go
@@ -73,7 +74,7 @@ class Workings(State):
         if self._drag is None:
             return False
         self._drag = None
-        self._aim(self._live.target, again=True)
+        self._aim(self._candidates.target, again=True)
         self.revision += 1
         return True
 
@@ -127,21 +128,21 @@ class Workings(State):
         self._settle()
         if network.seed is not None and back and back[-1] != "both":
             # As when it was drawn: the wire that a stroke is for is the active one.
-            self._live.chosen = FOR_WIRES.index(back[-1])
+            self._candidates.chosen = FOR_WIRES.index(back[-1])
 
     def _settle(self) -> None:
-        self._live.chosen = None
+        self._candidates.chosen = None
         self._loop.clear()
         self._end.wire = None
         self._end.wanted = False
         self.message = ""
-        self._aim(self._live.target, again=True)
+        self._aim(self._candidates.target, again=True)
 
     # How it is done: the live wire
 
     def _aim(self, target: Snap | None, again: bool = False) -> None:
         """Find both wires to a target; `again`: also where it is the same as before."""
-        live = self._live
+        live = self._candidates
         if target == live.target and not again and live.final and self._loop.final:
             return
         before = (live.shown, self.message)
@@ -204,7 +205,7 @@ class Workings(State):
         return next((wire for wire in reversed(self._network.wires) if wire.through == pair), None)
 
     def _preview_loop(self) -> None:
-        loop, target = self._loop, self._live.target
+        loop, target = self._loop, self._candidates.target
         if (loop.offers or not loop.wanted) and not any(queued.kind in {"loop", "offer"} for queued in self._queue):
             loop.final = True
         if loop.wanted and not loop.offers and target is not None:
