@@ -31,8 +31,8 @@ class Guidance(Workings):
         self.along = along
         self._candidates.chosen = None
         self._candidates.clear()
-        self._loop.wanted = False
-        self._loop.clear()
+        self._loops.wanted = False
+        self._loops.clear()
         if self._network.seed is not None and not self._sow(self._network.seed):
             self.along = before
             return False

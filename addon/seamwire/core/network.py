@@ -260,6 +260,11 @@ class Network:
         """Return the wire with another's number, as it runs in this network."""
         return None if wire is None else next((own for own in self.wires if own.id == wire.id), None)
 
+    def taken_through(self, edge: Pick) -> Wire | None:
+        """Return the newest wire that a click on an edge took."""
+        pair = undirected(edge)
+        return next((wire for wire in reversed(self.wires) if wire.through == pair), None)
+
     def at(self, pick: Pick) -> list[tuple[Wire, End]]:
         """Return the wires that begin or end at a pick, and which of their ends is there. Loops have no ends."""
         place = undirected(pick)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from .candidates import only_vertices
 from .defaults import CLAMP_PERCENTILE, STRENGTHS
-from .edge_loops import Stops, taken
+from .edge_loops import taken
 from .guidance import Guidance
 from .network import Network, Seed, Snap, Wire, name, undirected
 from .seed_drag import Drag
@@ -53,14 +53,9 @@ class Session(Guidance):
             return
         target = None if snap is None else Snap.of(snap)
         self._aim(target)
-        shown = self._loop
-        shown.wanted = loop and self.along == "EDGES" and target is not None and isinstance(target.pick, tuple)
-        if shown.edge is not None and not (
-            shown.wanted and target is not None and shown.edge == undirected(target.pick)
-        ):
-            self.revision += bool(shown.offers)
-            shown.clear()
-        self._preview_loop()
+        asked = loop and self.along == "EDGES" and target is not None and isinstance(target.pick, tuple)
+        self.revision += self._loops.aim(target.pick if asked else None)
+        self._show_offers()
 
     def click(self, snap: Snap | Pick) -> bool:
         """Place a seed; where a wire is live, keep it and go on from there.
@@ -69,9 +64,9 @@ class Session(Guidance):
         chain. While the way to the end or a loop is shown, that is kept. Before the wire is computed the click waits, see `poll`.
         """
         target = Snap.of(snap)
-        if self._end.wanted and not self._queue:
+        if self._extension.wanted and not self._queue:
             return self.run_to_end()
-        if self._loop.wire is not None and self._loop.edge == undirected(target.pick) and not self._queue:
+        if self._loops.wire is not None and self._loops.edge == undirected(target.pick) and not self._queue:
             return self.loop(target)
         self.drag_cancel()
         if self._network.seed is None and not self._queue:
@@ -111,10 +106,10 @@ class Session(Guidance):
         if self.along != "EDGES" or not isinstance(edge, tuple):
             return self._refuse("Loops are taken along edges: double-click on an edge")
         self.drag_cancel()
-        shown = self._loop
+        shown = self._loops
         choice = shown.choice if shown.edge == undirected(edge) else 0
         self._take_back_click(edge)
-        own = self._taken_through(edge)
+        own = self._network.taken_through(edge)
         if own is not None and own.marks == self.marking:
             # Of a double click, the first press took it already.
             return not choice or self._next_kept(own, choice)
@@ -151,28 +146,18 @@ class Session(Guidance):
         first = self.closing_point
         if first is None:
             return self._refuse("There is no chain to close: draw a wire first")
-        self._end.wanted = False
+        self._extension.wanted = False
         return self.click(Snap(first, "SEED"))
 
     def toggle(self) -> bool:
         """Make the other of the two wires the active one, until it is kept; of what is offered for an edge, the next."""
-        if self._loop.wanted:
-            return self._next_offer()
-        why = self._candidates.swap()
+        part = self._loops if self._loops.wanted else self._candidates
+        why = part.swap()
         if why:
             return self._refuse(why)
         self.message = ""
-        self._preview_end()
-        self.revision += 1
-        return True
-
-    def _next_offer(self) -> bool:
-        if not self._loop.offers:
-            return self._refuse("There is no loop yet")
-        if len(self._loop.offers) == 1:
-            return self._refuse("Nothing else runs through this edge")
-        self._loop.next()
-        self.message = ""
+        if part is self._candidates:
+            self._show_extension()
         self.revision += 1
         return True
 
@@ -223,9 +208,8 @@ class Session(Guidance):
             return self._refuse(str(error))
         self._read_progress()
         self._candidates.clear()
-        self._loop.clear()
-        self._end.wire = None
-        self._end.wanted = False
+        self._loops.clear()
+        self._extension.clear()
         self.message = ""
         self.revision += 1
         return True
@@ -275,21 +259,21 @@ class Session(Guidance):
             return self._refuse("Wires run on along edges, not across the surface")
         self.drag_cancel()
         if preview:
-            self._end.wanted = True
-            self._preview_end()
-            return self._end.wire is not None or self.computing or self._refuse(self.message or _NOWHERE)
+            self._extension.wanted = True
+            self._show_extension()
+            return self._extension.wire is not None or self.computing or self._refuse(self.message or _NOWHERE)
         target = self._candidates.target
         if self._queue or (target is not None and not self._candidates.active_final and self._wires_computing):
             if target is None:
                 return self._refuse(_NOWHERE)
-            self._end.wanted = False
+            self._extension.wanted = False
             self._queue.append(Queued("run", target))
             self.revision += 1
             return True
-        wire = self._find_end()
+        wire = self._find_extension()
         if wire is None:
             return self._refuse(self.message or _NOWHERE)
-        self._end.wanted = False
+        self._extension.wanted = False
         return self._change(replace(self._network, wires=(*self.wires, wire), seed=None))
 
     def adopt(self, network: Network, seams: ArrayLike) -> None:
@@ -303,7 +287,7 @@ class Session(Guidance):
             (k, 2) the edges that are seams and no wires.
         """
         self._calm()
-        self._stops = Stops(seams, self._symmetry)
+        self._stops.set_seams(seams)
         self._redraws.clear()
         self._history.forget()
         # Wires of the first version do not know their images: they are what is a seam of them still.
@@ -349,7 +333,7 @@ class Session(Guidance):
             Whether there is something new to be seen.
         """
         drag = self._drag
-        still = self._candidates.final and self._loop.final and (drag is None or drag.final)
+        still = self._candidates.final and self._loops.final and (drag is None or drag.final)
         if still and not self.computing and not self._queue and not self._redraws:
             return False
         before = (self.revision, round(self._progress, 2))
@@ -361,8 +345,8 @@ class Session(Guidance):
             pass
         if not self._queue and not self._candidates.final:
             self._aim(self._candidates.target, again=True)
-        self._preview_loop()
-        self._preview_end()
+        self._show_offers()
+        self._show_extension()
         return before != (self.revision, round(self._progress, 2))
 
     def wait(self) -> None:

@@ -11,12 +11,14 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from .candidates import CandidateWires
-from .edge_loops import LoopPreview, Stops
+from .edge_loops import LoopOffers
+from .extension import Extension
 from .history import History
 from .mirror_images import MirrorImages
 from .network import Network, Snap, Wire, undirected
 from .retrace import Redraws
 from .solver import Engines
+from .stops import Stops
 from .strokes import for_library
 from .symmetry import Symmetry
 
@@ -61,14 +63,6 @@ class Queued:
 
     kind: Literal["click", "loop", "run", "offer"]
     snap: Snap
-
-
-@dataclass
-class EndPreview:
-    """The way to the end that is shown, while it is asked for."""
-
-    wanted: bool = False
-    wire: Wire | None = None
 
 
 class State:
@@ -126,8 +120,8 @@ class State:
         self._network = Network()
         self._history = History()
         self._candidates = CandidateWires(self._engines, points)
-        self._loop = LoopPreview()
-        self._end = EndPreview()
+        self._loops = LoopOffers(self._engines, self._stops, points)
+        self._extension = Extension(self._engines, self._stops, points)
         self._drag: Drag | None = None
         self._redraws = Redraws()
         self._queue: list[Queued] = []
@@ -192,22 +186,22 @@ class State:
     @property
     def loop_preview(self) -> Wire | None:
         """What a click on the edge under the cursor takes as a whole, while that is asked for."""
-        return self._loop.wire
+        return self._loops.wire
 
     @property
     def loop_offers(self) -> tuple[LoopKind, ...]:
         """What such a click may take, each once, the default first: `toggle` goes from one to the next."""
-        return tuple(offer.kind for offer in self._loop.offers if offer.kind is not None)
+        return self._loops.kinds
 
     @property
     def loop_choice(self) -> LoopKind | None:
         """Which of them `loop_preview` is."""
-        return None if self._loop.wire is None else self._loop.wire.kind
+        return None if self._loops.wire is None else self._loops.wire.kind
 
     @property
     def end_preview(self) -> Wire | None:
         """The live wire with its way on to the end, while it is asked for."""
-        return self._end.wire
+        return self._extension.wire
 
     @property
     def dragging(self) -> bool:
@@ -244,7 +238,7 @@ class State:
     @property
     def computing(self) -> bool:
         """Whether the library still works on what is shown."""
-        return self._progress < 1.0 or not self._loop.final
+        return self._progress < 1.0 or not self._loops.final
 
     @property
     def _wires_computing(self) -> bool:
@@ -312,9 +306,9 @@ class State:
         live, seed = self._candidates, self._network.seed
         if self._drag is not None:
             return Intent.MOVE
-        if self._end.wire is not None:
+        if self._extension.wire is not None:
             return Intent.RUN
-        if self._loop.wire is not None:
+        if self._loops.wire is not None:
             return Intent.LOOP
         if live.target is None or (self.along == "SURFACE" and isinstance(live.target.pick, tuple)):
             return Intent.NOTHING

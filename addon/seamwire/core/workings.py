@@ -7,8 +7,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from .edge_loops import extension, find_offers, others
-from .network import Network, Seed, Snap, Wire, undirected
+from .network import Network, Seed, Snap, Wire
 from .retrace import Job, other_way, with_other_way
 from .seed_drag import Leg
 from .state import Queued, State
@@ -48,9 +47,9 @@ class Workings(State):
             return self._refuse("Finish moving the seed first")
         self._engines.use(metric, strengths, self.clamp if clamp is None else clamp)
         self.message = ""
-        self._loop.clear()
+        self._loops.clear()
         self._aim(self._candidates.target, again=True)
-        self._preview_loop()
+        self._show_offers()
         self.revision += 1
         return True
 
@@ -80,9 +79,9 @@ class Workings(State):
 
     def stop_preview(self) -> bool:
         """Stop showing the way to the end."""
-        if not self._end.wanted:
+        if not self._extension.wanted:
             return False
-        self._end.wanted, self._end.wire = False, None
+        self._extension.clear()
         self.revision += 1
         return True
 
@@ -132,9 +131,8 @@ class Workings(State):
 
     def _settle(self) -> None:
         self._candidates.chosen = None
-        self._loop.clear()
-        self._end.wire = None
-        self._end.wanted = False
+        self._loops.clear()
+        self._extension.clear()
         self.message = ""
         self._aim(self._candidates.target, again=True)
 
@@ -143,7 +141,7 @@ class Workings(State):
     def _aim(self, target: Snap | None, again: bool = False) -> None:
         """Find both wires to a target; `again`: also where it is the same as before."""
         live = self._candidates
-        if target == live.target and not again and live.final and self._loop.final:
+        if target == live.target and not again and live.final and self._loops.final:
             return
         before = (live.shown, self.message)
         self._read_progress()
@@ -152,45 +150,25 @@ class Workings(State):
         self.message = live.aim(target, network, self.along)
         # Asking again while nothing is ready shows nothing new, and must not cost a redraw each time.
         self.revision += before != (live.shown, self.message)
-        self._preview_end()
+        self._show_extension()
 
     # How it is done: loops and ends
 
     def _find_offers(self, pick: Pick, kept: Wire | None = None) -> tuple[Wire, ...]:
         """Return what a click on an edge may take, first what one has `kept`; nothing, too, while it is computed."""
-        self._loop.final = True
-        if not isinstance(pick, tuple):
-            return ()
-        own = kept or self._taken_through(pick)
-        if own is not None and own.offers:
-            return own.all_offers()
-        # Wires that were stored have lost their offers: they are those of a click made without them.
-        network, known = self._network, self._stops
-        if own is not None:
-            network = network.without(own)
-        # An edge that is taken already stops itself: what remains to be offered there is more than that.
-        stops = None if known.taken(network, pick) else known.of(network, None, pick)
+        self._read_progress()
         try:
-            offers, self._loop.final = find_offers(
-                self._engine("EDGES"),
-                pick,
-                stops,
-                self._points,
-                self._engines.strengths["EDGES"],
-                kept=known.kept(network),
-                last=next((wire.kind for wire in reversed(network.wires) if wire.kind is not None), None),
-            )
+            return self._loops.find(pick, self._network, kept)
         except ValueError as error:
             self.message = str(error)
             return ()
-        return offers if own is None or not self._loop.final else (replace(own, offers=()), *others(own, offers))
 
     def _next_kept(self, own: Wire, steps: int = 1) -> bool:
         """Let a wire that a click on an edge took be what that offers next, or some steps on."""
         assert own.through is not None
         if not own.offers:
             offers = self._find_offers(own.through, own)[1:]
-            if not self._loop.final:
+            if not self._loops.final:
                 self._queue.append(Queued("offer", Snap(own.through, "WIRE", own)))
                 self.revision += 1
                 return True
@@ -199,46 +177,25 @@ class Workings(State):
             own = replace(own, offers=offers)
         return self._change(self._network.with_wire(own).with_next_offer(own, steps))
 
-    def _taken_through(self, edge: Pick) -> Wire | None:
-        """Return the kept wire that a click on an edge took."""
-        pair = undirected(edge)
-        return next((wire for wire in reversed(self._network.wires) if wire.through == pair), None)
+    def _show_offers(self) -> None:
+        loops, target = self._loops, self._candidates.target
+        if not loops.missing and not any(queued.kind in {"loop", "offer"} for queued in self._queue):
+            loops.final = True
+        if loops.missing and target is not None:
+            self.revision += loops.show(target.pick, self._find_offers(target.pick))
 
-    def _preview_loop(self) -> None:
-        loop, target = self._loop, self._candidates.target
-        if (loop.offers or not loop.wanted) and not any(queued.kind in {"loop", "offer"} for queued in self._queue):
-            loop.final = True
-        if loop.wanted and not loop.offers and target is not None:
-            loop.edge, loop.offers = undirected(target.pick), self._find_offers(target.pick)
-            self.revision += bool(loop.offers)
+    def _show_extension(self) -> None:
+        if self._extension.wanted:
+            self.revision += self._extension.show(self._find_extension())
 
-    def _preview_end(self) -> None:
-        end = self._end
-        if not end.wanted:
-            return
-        before, end.wire = end.wire, self._find_end()
-        same = before is not None and end.wire is not None and before.like(end.wire)
-        self.revision += before is not end.wire and not same
-
-    def _find_end(self) -> Wire | None:
+    def _find_extension(self) -> Wire | None:
         """Return the live wire with its way on; None where there is no way, or no direction yet."""
-        seed, active = self._network.seed, self.active
-        if seed is None:
-            return None
-        if active is not None:
-            edge = active.last_edge
-        elif seed.forward and isinstance(seed.pick, tuple):
-            edge = seed.pick
-        else:
-            self.message = "Point where the wire is to run"
-            return None
-        stops = self._stops.of(self._network, active, edge[1:])
+        self._read_progress()
         try:
-            wire = extension(self._engine(), seed, active, edge, stops, self._points)
+            return self._extension.find(self._network, self.active, self.marking)
         except ValueError as error:
             self.message = str(error)
             return None
-        return wire and replace(wire, marks=self.marking, mirror=self._network.mirror, strength=self.strength)
 
     # How it is done: kept wires that take another course
 
