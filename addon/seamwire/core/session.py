@@ -15,7 +15,7 @@ from .defaults import CLAMP_PERCENTILE, STRENGTHS
 from .edge_loops import taken
 from .guidance import Guidance
 from .network import Network, Seed, Snap, Wire, name, undirected
-from .seed_drag import Drag
+from .seed_drag import SeedDrag
 from .state import Intent, Queued
 
 if TYPE_CHECKING:
@@ -173,7 +173,13 @@ class Session(Guidance):
             return self._refuse("A loop has no other way")
         if own.alternative is not None:
             return self._take_other_way(own, own.alternative)
-        return self._redraw(own)
+        try:
+            self._retraces.add(self._network, own)
+        except ValueError as error:
+            return self._refuse(str(error))
+        self._read_progress()
+        self._poll_retraces()
+        return not self.message
 
     def drop(self, wire: Wire) -> bool:
         """Remove a kept wire."""
@@ -199,11 +205,8 @@ class Session(Guidance):
         target = Snap.of(snap)
         self._calm()
         network = self._network.joined(target, self._points)
-        seed = network.seed
-        if not network.at(target.pick) and (seed is None or undirected(seed.place) != undirected(target.pick)):
-            return self._refuse(f"There is no seed to move at {name(target.pick)}")
         try:
-            self._drag = Drag(network, target.pick, self._fork, self._points)
+            self._drag = SeedDrag(self._engines, network, target.pick, self._points)
         except ValueError as error:
             return self._refuse(str(error))
         self._read_progress()
@@ -288,7 +291,7 @@ class Session(Guidance):
         """
         self._calm()
         self._stops.set_seams(seams)
-        self._redraws.clear()
+        self._retraces.clear()
         self._history.forget()
         # Wires of the first version do not know their images: they are what is a seam of them still.
         network = self._images.complete(network, seams)
@@ -306,7 +309,7 @@ class Session(Guidance):
             return True
         if self.drag_cancel():
             return True
-        if self._redraws.drop_last():
+        if self._retraces.drop_last():
             self.revision += 1
             return True
         network = self._history.back(self._network)
@@ -334,13 +337,16 @@ class Session(Guidance):
         """
         drag = self._drag
         still = self._candidates.final and self._loops.final and (drag is None or drag.final)
-        if still and not self.computing and not self._queue and not self._redraws:
+        if still and not self.computing and not self._queue and not self._retraces:
             return False
         before = (self.revision, round(self._progress, 2))
         self._read_progress()
-        self._poll_redraws()
-        if drag is not None and not drag.final and drag.target is not None:
-            self._poll_drag(drag)
+        self._poll_retraces()
+        if drag is not None and not drag.final:
+            self.revision += drag.poll()
+            self.message = drag.message
+            if drag.final and drag.ending:
+                self.drag_end()
         while self._queue and self._poll_queue():
             pass
         if not self._queue and not self._candidates.final:
@@ -358,7 +364,7 @@ class Session(Guidance):
                 except ValueError as error:  # what it is to compute cannot be computed
                     self._refuse(str(error))
             self.poll()
-            if not self._queue and not self._redraws and not self.computing:
+            if not self._queue and not self._retraces and not self.computing:
                 return
 
     # How it is done
@@ -392,15 +398,6 @@ class Session(Guidance):
             return False
         self._last_click = (undirected(target.pick), self._history.steps)
         return True
-
-    def _poll_drag(self, drag: Drag) -> None:
-        assert drag.target is not None
-        before = drag.network
-        drag.to(drag.target)
-        self.message = drag.message
-        self.revision += drag.network is not before
-        if drag.final and drag.ending:
-            self.drag_end()
 
     def _poll_queue(self) -> bool:
         """Do the oldest waiting click if its wire is there; returns whether it was done."""

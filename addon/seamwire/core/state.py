@@ -16,7 +16,7 @@ from .extension import Extension
 from .history import History
 from .mirror_images import MirrorImages
 from .network import Network, Snap, Wire, undirected
-from .retrace import Redraws
+from .retrace import Retraces
 from .solver import Engines
 from .stops import Stops
 from .strokes import for_library
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from .network import Along, Edge, LoopKind, Pick
-    from .seed_drag import Drag
+    from .seed_drag import SeedDrag
     from .solver import LiveWire, MetricName
     from .strokes import Scribble
 
@@ -122,8 +122,8 @@ class State:
         self._candidates = CandidateWires(self._engines, points)
         self._loops = LoopOffers(self._engines, self._stops, points)
         self._extension = Extension(self._engines, self._stops, points)
-        self._drag: Drag | None = None
-        self._redraws = Redraws()
+        self._drag: SeedDrag | None = None
+        self._retraces = Retraces(self._engines, points)
         self._queue: list[Queued] = []
         self._last_click: tuple[Pick, int] | None = None
         # Made at once: what they compute first takes longest.
@@ -254,12 +254,12 @@ class State:
     def waiting_clicks(self) -> int:
         """How many clicks and other deeds wait for their wires."""
         ending = self._drag is not None and self._drag.ending
-        return len(self._queue) + len(self._redraws) + ending
+        return len(self._queue) + len(self._retraces) + ending
 
     @property
     def can_undo(self) -> bool:
         """Whether undo() has something to take back."""
-        return bool(self._queue or self._drag or self._redraws) or self._history.can_undo(self._network)
+        return bool(self._queue or self._drag or self._retraces) or self._history.can_undo(self._network)
 
     @property
     def can_redo(self) -> bool:

@@ -8,14 +8,12 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from .network import Network, Seed, Snap, Wire
-from .retrace import Job, other_way, with_other_way
-from .seed_drag import Leg
+from .retrace import other_way, with_other_way
 from .state import Queued, State
 from .strokes import FOR_WIRES
 
 if TYPE_CHECKING:
     from .network import Along, Pick
-    from .seed_drag import Courses
     from .solver import LiveWire, MetricName
 
 
@@ -24,19 +22,11 @@ class Workings(State):
 
     # How it is done: the library
 
-    def _engine(self, along: Along | None = None) -> LiveWire:
-        live = self._engines.get(along or self.along)
-        self._read_progress()
-        return live
-
-    def _fork(self, along: Along) -> LiveWire:
-        return self._engine(along).fork()
-
     def _working(self) -> list[LiveWire]:
-        legs = self._drag.legs if self._drag else ()
+        drag = [] if self._drag is None else self._drag.lives()
         # What a click on an edge offers is found along edges, however wires run now.
         offers = [self._engines.get("EDGES")] if any(queued.kind == "offer" for queued in self._queue) else []
-        return [self._engines.get(self.along), *offers, *self._redraws.lives(), *(leg.live for leg in legs)]
+        return [self._engines.get(self.along), *offers, *self._retraces.lives(), *drag]
 
     def _read_progress(self) -> None:
         # Before wires are asked for: what is not final after the work is done stays so.
@@ -199,33 +189,16 @@ class Workings(State):
 
     # How it is done: kept wires that take another course
 
-    def _redraw(self, wire: Wire) -> bool:
-        """Let a kept wire take its other way, as soon as that is computed."""
-        try:
-            self._redraws.add(Job(Leg(self._fork(wire.along), self._network, wire, "end", self._points)))
-        except ValueError as error:
-            return self._refuse(str(error))
-        self._read_progress()
-        self._poll_redraws()
-        return not self.message
-
-    def _poll_redraws(self) -> None:
-        for job, courses in self._redraws.done():
+    def _poll_retraces(self) -> None:
+        for wire, courses in self._retraces.poll():
+            own = self._network.find(wire)
             if isinstance(courses, ValueError):
                 self._refuse(str(courses))
-            else:
-                self._toggle_computed(job.wire, courses)
+            elif own is not None:  # else it was dropped in the meantime
+                self._take_other_way(own, other_way(own, courses))
 
-    def _toggle_computed(self, wire: Wire, courses: Courses) -> None:
-        own = self._network.find(wire)
-        if own is None:
-            return  # it was dropped in the meantime
-        other = other_way(own, courses)
+    def _take_other_way(self, own: Wire, other: Wire | None) -> bool:
         if other is None:
-            self._refuse("Both wires run along the same edges here")
-        else:
-            self._take_other_way(own, other)
-
-    def _take_other_way(self, own: Wire, other: Wire) -> bool:
+            return self._refuse("Both wires run along the same edges here")
         network = with_other_way(self._network, own, other)
         return self._refuse("There is no other way to this seed") if network is None else self._change(network)
