@@ -325,6 +325,16 @@ class Network:
         """Return the network with a wire in place of the one with its number."""
         return replace(self, wires=tuple(wire if own.id == wire.id else own for own in self.wires))
 
+    def with_drawn(self, wire: Wire, target: Pick, ends: bool) -> Network:
+        """Return the network with a wire from its seed to a target as its newest; unless that `ends` it, the chain goes on."""
+        after = None
+        if not ends:
+            first = None if self.seed is None else self.seed.began
+            after = Seed(target, first=first)
+            if wire.along == "EDGES":
+                after = Seed(wire.last_edge, forward=True, clicked=target, first=first)
+        return replace(self, wires=(*self.wires, wire), seed=after)
+
     def with_next_offer(self, wire: Wire, steps: int = 1) -> Network:
         """Return the network with what a click on a wire's edge offered next. What went on from the wire stays."""
 

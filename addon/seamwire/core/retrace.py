@@ -72,14 +72,31 @@ class Retraces:
                 yield leg.wire, courses
 
 
-def with_other_way(network: Network, own: Wire, other: Wire) -> Network | None:
-    """Return a network where a wire runs another way; None where no way is left."""
+def retraced(network: Network, own: Wire, other: Wire | None) -> Network:
+    """Return a network where a wire runs another way.
+
+    Parameters
+    ----------
+    network
+        Has the wire.
+    own
+        The wire.
+    other
+        The other way; None: there is none.
+
+    Raises
+    ------
+    ValueError
+        Where no way is left; the text is a sentence for the artist.
+    """
+    if other is None:
+        raise ValueError("Both wires run along the same edges here")
     after = network.after(own)
     if after is not None and isinstance(own.end, tuple) and other.last_edge == own.last_edge[::-1]:
         # What goes on from the edge leaves it over this vertex: arriving there is enough.
         other = replace(other, vertices=other.vertices[:-1], points=other.points[:-1])
         if len(other.vertices) < 2:
-            return None
+            raise ValueError("There is no other way to this seed")
     return network.with_courses({own.id: replace(own, alternative=other).toggled()})
 
 

@@ -19,7 +19,7 @@ from .history import History
 from .intent import Intent
 from .mirror_images import MirrorImages
 from .network import Network, Seed, Snap, Wire, name, undirected
-from .retrace import Retraces, other_way, with_other_way
+from .retrace import Retraces, other_way, retraced
 from .seed_drag import SeedDrag
 from .solver import Engines
 from .stops import Stops
@@ -285,7 +285,7 @@ class Session:
         if own.closed:
             return self._refuse("A loop has no other way")
         if own.alternative is not None:
-            return self._take_other_way(own, own.alternative)
+            return self._retrace(own, own.alternative)
         try:
             self._retraces.add(self._network, own)
         except ValueError as error:
@@ -886,14 +886,8 @@ class Session:
             strength=self.strength,
             alternative=live.other if live.final else None,
         )
-        network = self._network.joined(target, self._points)
-        after = None
-        if ending is None:
-            first = None if seed is None else seed.began
-            after = Seed(target.pick, first=first)
-            if self.along == "EDGES":
-                after = Seed(wire.last_edge, forward=True, clicked=target.pick, first=first)
-        if not self._change(replace(network, wires=(*network.wires, wire), seed=after)):
+        network = self._network.joined(target, self._points).with_drawn(wire, target.pick, ending is not None)
+        if not self._change(network):
             return False
         self._last_click = (undirected(target.pick), self._history.steps)
         return True
@@ -955,13 +949,14 @@ class Session:
             if isinstance(courses, ValueError):
                 self._refuse(str(courses))
             elif own is not None:  # else it was dropped in the meantime
-                self._take_other_way(own, other_way(own, courses))
+                self._retrace(own, other_way(own, courses))
 
-    def _take_other_way(self, own: Wire, other: Wire | None) -> bool:
-        if other is None:
-            return self._refuse("Both wires run along the same edges here")
-        network = with_other_way(self._network, own, other)
-        return self._refuse("There is no other way to this seed") if network is None else self._change(network)
+    def _retrace(self, own: Wire, other: Wire | None) -> bool:
+        try:
+            network = retraced(self._network, own, other)
+        except ValueError as error:
+            return self._refuse(str(error))
+        return self._change(network)
 
     def _scribbled(self, scribbles: tuple[Scribble, ...], chosen: int | None) -> bool:
         self._change(replace(self._network, scribbles=scribbles))
