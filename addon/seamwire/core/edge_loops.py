@@ -81,6 +81,10 @@ class LoopOffers:
         """Show none, and forget what was chosen; what is asked for is asked for still."""
         self.edge, self.offers, self.choice, self.final = None, (), 0, True
 
+    def stop_waiting(self) -> None:
+        """Let nothing be computed any more, unless it is asked for and not there."""
+        self.final = self.final or not self.missing
+
     def aim(self, edge: Edge | None) -> bool:
         """Ask for the offers for an edge, or for none; return whether others vanish because of that."""
         self.wanted = edge is not None

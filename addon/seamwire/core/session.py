@@ -39,11 +39,14 @@ __all__ = ["CLAMP_PERCENTILE", "STRENGTHS", "Intent", "Session"]
 _NOWHERE = "The wire cannot run on from here"
 
 
+Waiting = Literal["click", "loop", "run", "offer"]
+
+
 @dataclass(frozen=True)
 class Queued:
-    """A click that came before its wire was computed."""
+    """A click that came before its wire was computed, or what else waits for one."""
 
-    kind: Literal["click", "loop", "run", "offer"]
+    kind: Waiting
     snap: Snap
 
 
@@ -155,13 +158,11 @@ class Session:
         if self._queue:
             self._queue.append(Queued("click", target))
             return True
-        seen = self._candidates.active_final and target == self._candidates.target
+        seen = self._candidates.active_final and target == self.target
         self._aim(target)
         # What is seen is kept; where nothing is seen yet, the one that is there first must not win for that.
         if not (self._candidates.decided or (seen and self._candidates.active_final)) and self._wires_computing:
-            self._queue.append(Queued("click", target))
-            self.revision += 1
-            return True
+            return self._postpone("click", target)
         return self._keep(target)
 
     def start(self, snap: Snap | Pick) -> bool:
@@ -196,9 +197,7 @@ class Session:
         offers = self._find_offers(edge)
         if not offers:
             if self.computing:
-                self._queue.append(Queued("loop", target))
-                self.revision += 1
-                return True
+                return self._postpone("loop", target)
             return self._refuse(self.message or f"No edges run on from {name(edge)}")
         wire = replace(taken(offers, min(choice, len(offers) - 1), self.marking), mirror=self._network.mirror)
         return self._change(replace(self._network, wires=(*self.wires, wire)))
@@ -240,14 +239,12 @@ class Session:
             self._extension.wanted = True
             self._show_extension()
             return self._extension.wire is not None or self.computing or self._refuse(self.message or _NOWHERE)
-        target = self._candidates.target
+        target = self.target
         if self._queue or (target is not None and not self._candidates.active_final and self._wires_computing):
             if target is None:
                 return self._refuse(_NOWHERE)
             self._extension.wanted = False
-            self._queue.append(Queued("run", target))
-            self.revision += 1
-            return True
+            return self._postpone("run", target)
         wire = self._find_extension()
         if wire is None:
             return self._refuse(self.message or _NOWHERE)
@@ -270,7 +267,7 @@ class Session:
         # No step of its own for undo: taking back the last wire after this brings the chain back to life.
         self._set(replace(self._network, seed=None))
         self._candidates.chosen = None
-        self._aim(self._candidates.target, again=True)
+        self._aim_again()
 
     # Changing kept wires
 
@@ -357,7 +354,7 @@ class Session:
         self.revision += 1
         if drag.message or drag.target is None:
             why = drag.message
-            self._aim(self._candidates.target, again=True)
+            self._aim_again()
             return self._refuse(why) if why else True
         return self._change(drag.network.joined(drag.target, self._points))
 
@@ -366,7 +363,7 @@ class Session:
         if self._drag is None:
             return False
         self._drag = None
-        self._aim(self._candidates.target, again=True)
+        self._aim_again()
         self.revision += 1
         return True
 
@@ -387,7 +384,7 @@ class Session:
             self.along = before
             return False
         self.message = ""
-        self._aim(self._candidates.target, again=True)
+        self._aim_again()
         self.revision += 1
         return True
 
@@ -541,7 +538,7 @@ class Session:
         self._set(replace(network, seed=seed, mirror=self._network.mirror))
         self._settle()
 
-    # Following the library
+    # Taking in what was computed
 
     def poll(self) -> bool:
         """Take in what the library has computed since, and do the clicks that waited for it.
@@ -566,7 +563,7 @@ class Session:
         while self._queue and self._poll_queue():
             pass
         if not self._queue and not self._candidates.final:
-            self._aim(self._candidates.target, again=True)
+            self._aim_again()
         self._show_offers()
         self._show_extension()
         return before != (self.revision, round(self._progress, 2))
@@ -830,7 +827,7 @@ class Session:
         self._loops.clear()
         self._extension.clear()
         self.message = ""
-        self._aim(self._candidates.target, again=True)
+        self._aim_again()
 
     def _calm(self) -> None:
         """Let go of all that is under way but the live wire."""
@@ -867,6 +864,10 @@ class Session:
         # Asking again while nothing is ready shows nothing new, and must not cost a redraw each time.
         self.revision += before != (live.shown, self.message)
         self._show_extension()
+
+    def _aim_again(self) -> None:
+        """Find the wires to the target once more: they may be others now."""
+        self._aim(self.target, again=True)
 
     def _keep(self, target: Snap) -> bool:
         live = self._candidates
@@ -910,11 +911,10 @@ class Session:
             return ()
 
     def _show_offers(self) -> None:
-        loops, target = self._loops, self._candidates.target
-        if not loops.missing and not any(queued.kind in {"loop", "offer"} for queued in self._queue):
-            loops.final = True
-        if loops.missing and target is not None:
-            self.revision += loops.show(target.pick, self._find_offers(target.pick))
+        if not any(queued.kind in {"loop", "offer"} for queued in self._queue):
+            self._loops.stop_waiting()
+        if self._loops.missing and self.target is not None:
+            self.revision += self._loops.show(self.target.pick, self._find_offers(self.target.pick))
 
     def _next_kept(self, own: Wire, steps: int = 1) -> bool:
         """Let a wire that a click on an edge took be what that offers next, or some steps on."""
@@ -922,9 +922,7 @@ class Session:
         if not own.offers:
             offers = self._find_offers(own.through, own)[1:]
             if not self._loops.final:
-                self._queue.append(Queued("offer", Snap(own.through, "WIRE", own)))
-                self.revision += 1
-                return True
+                return self._postpone("offer", Snap(own.through, "WIRE", own))
             if not offers:
                 return self._refuse(self.message or "Nothing else runs through this edge")
             own = replace(own, offers=offers)
@@ -963,7 +961,12 @@ class Session:
         self._candidates.chosen = chosen
         return True
 
-    # What waits, and what it waits for
+    # What waits until it is computed
+
+    def _postpone(self, kind: Waiting, snap: Snap) -> bool:
+        self._queue.append(Queued(kind, snap))
+        self.revision += 1
+        return True
 
     def _take_back_click(self, edge: Pick) -> None:
         last = self._queue[-1] if self._queue else None
@@ -1012,7 +1015,7 @@ class Session:
         self._engines.use(metric, strengths, self.clamp if clamp is None else clamp)
         self.message = ""
         self._loops.clear()
-        self._aim(self._candidates.target, again=True)
+        self._aim_again()
         self._show_offers()
         self.revision += 1
         return True
