@@ -811,6 +811,11 @@ class Session:
         self.message = self._images.warning(self._network) or self.message
         return True
 
+    def _scribbled(self, scribbles: tuple[Scribble, ...], chosen: int | None) -> bool:
+        self._change(replace(self._network, scribbles=scribbles))
+        self._candidates.chosen = chosen
+        return True
+
     def _restore(self, network: Network) -> None:
         if network.seed is not None and network.seed != self._network.seed:
             self._sow(network.seed)
@@ -868,6 +873,17 @@ class Session:
     def _aim_again(self) -> None:
         """Find the wires to the target once more: they may be others now."""
         self._aim(self.target, again=True)
+
+    def _use_metric(self, metric: MetricName, strengths: Mapping[Along, float], clamp: float | None = None) -> bool:
+        if self._drag is not None:
+            return self._refuse("Finish moving the seed first")
+        self._engines.use(metric, strengths, self.clamp if clamp is None else clamp)
+        self.message = ""
+        self._loops.clear()
+        self._aim_again()
+        self._show_offers()
+        self.revision += 1
+        return True
 
     def _keep(self, target: Snap) -> bool:
         live = self._candidates
@@ -956,11 +972,6 @@ class Session:
             return self._refuse(str(error))
         return self._change(network)
 
-    def _scribbled(self, scribbles: tuple[Scribble, ...], chosen: int | None) -> bool:
-        self._change(replace(self._network, scribbles=scribbles))
-        self._candidates.chosen = chosen
-        return True
-
     # What waits until it is computed
 
     def _postpone(self, kind: Waiting, snap: Snap) -> bool:
@@ -1008,14 +1019,3 @@ class Session:
     def _read_progress(self) -> None:
         # Before wires are asked for: what is not final after the work is done stays so.
         self._progress = min(live.progress() for live in self._working())
-
-    def _use_metric(self, metric: MetricName, strengths: Mapping[Along, float], clamp: float | None = None) -> bool:
-        if self._drag is not None:
-            return self._refuse("Finish moving the seed first")
-        self._engines.use(metric, strengths, self.clamp if clamp is None else clamp)
-        self.message = ""
-        self._loops.clear()
-        self._aim_again()
-        self._show_offers()
-        self.revision += 1
-        return True
