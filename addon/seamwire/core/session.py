@@ -40,6 +40,7 @@ _NOWHERE = "The wire cannot run on from here"
 
 
 Waiting = Literal["click", "loop", "run", "offer"]
+"""What waits: a click, a loop, a run to the end, the next offer for a kept wire."""
 
 
 @dataclass(frozen=True)
@@ -79,6 +80,10 @@ class Session:
 
     Notes
     -----
+    Each part (candidate wires, loop offers, extension, seed drag, retraces, history, mirror images) finds what is its own and
+    knows no session. The session tells the parts what is under the cursor, makes of what they found the next network, and
+    lets them follow that.
+
     Methods that do something return whether it was done; where it was not, `message` says why, in words for the
     artist. `revision` grows with every change of what is to be seen, `network_revision` with every change of the kept wires.
     """
@@ -788,11 +793,13 @@ class Session:
     # From one network to the next
 
     def _refuse(self, why: str) -> bool:
+        """Say why something is not done."""
         self.message = why
         self.revision += 1
         return False
 
     def _set(self, network: Network) -> None:
+        """Go on to a new network, without a step for undo."""
         before, self._network = self._network, network
         if before.scribbles != network.scribbles:
             self._engines.follow(network.scribbles)
@@ -817,6 +824,7 @@ class Session:
         return True
 
     def _restore(self, network: Network) -> None:
+        """Go back or on to a network that there was."""
         if network.seed is not None and network.seed != self._network.seed:
             self._sow(network.seed)
         back = [stroke.acts_on for stroke in network.scribbles if stroke not in self._network.scribbles]
@@ -828,6 +836,7 @@ class Session:
             self._candidates.chosen = FOR_WIRES.index(back[-1])
 
     def _settle(self) -> None:
+        """Let the parts follow a new network."""
         self._candidates.chosen = None
         self._loops.clear()
         self._extension.clear()
@@ -875,6 +884,7 @@ class Session:
         self._aim(self.target, again=True)
 
     def _use_metric(self, metric: MetricName, strengths: Mapping[Along, float], clamp: float | None = None) -> bool:
+        """Find the live wires by another metric; `clamp` None: the percentile stays."""
         if self._drag is not None:
             return self._refuse("Finish moving the seed first")
         self._engines.use(metric, strengths, self.clamp if clamp is None else clamp)
@@ -886,6 +896,7 @@ class Session:
         return True
 
     def _keep(self, target: Snap) -> bool:
+        """Keep the active wire, which leads to a target."""
         live = self._candidates
         wire = live.active
         seed = self._network.seed
@@ -927,6 +938,7 @@ class Session:
             return ()
 
     def _show_offers(self) -> None:
+        """Show what a click on the edge under the cursor may take, as soon as it is asked for and computed."""
         if not any(queued.kind in {"loop", "offer"} for queued in self._queue):
             self._loops.stop_waiting()
         if self._loops.missing and self.target is not None:
@@ -954,10 +966,12 @@ class Session:
             return None
 
     def _show_extension(self) -> None:
+        """Show the live wire with its way on, while that is asked for."""
         if self._extension.wanted:
             self.revision += self._extension.show(self._find_extension())
 
     def _poll_retraces(self) -> None:
+        """Let the kept wires whose other ways are computed take them."""
         for wire, courses in self._retraces.poll():
             own = self._network.find(wire)
             if isinstance(courses, ValueError):
@@ -975,11 +989,13 @@ class Session:
     # What waits until it is computed
 
     def _postpone(self, kind: Waiting, snap: Snap) -> bool:
+        """Do it when its wire is computed."""
         self._queue.append(Queued(kind, snap))
         self.revision += 1
         return True
 
     def _take_back_click(self, edge: Pick) -> None:
+        """Undo the last click where that was on an edge, and forget it."""
         last = self._queue[-1] if self._queue else None
         if last is not None and last.kind == "click" and undirected(last.snap.pick) == undirected(edge):
             self._queue.pop()
@@ -1011,11 +1027,12 @@ class Session:
         return True
 
     def _working(self) -> list[LiveWire]:
+        """Return the live wires that compute something for what is shown or waits."""
         drag = [] if self._drag is None else self._drag.lives()
         # What a click on an edge offers is found along edges, however wires run now.
         offers = [self._engines.get("EDGES")] if any(queued.kind == "offer" for queued in self._queue) else []
         return [self._engines.get(self.along), *offers, *self._retraces.lives(), *drag]
 
     def _read_progress(self) -> None:
-        # Before wires are asked for: what is not final after the work is done stays so.
+        """Look how much is computed; before wires are asked for: what is not final after the work is done stays so."""
         self._progress = min(live.progress() for live in self._working())
