@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fake_live import FakeLive, grid_edges, grid_points
-from seamwire.core.edge_loops import Stops
 from seamwire.core.network import Network, Snap, Wire
 from seamwire.core.session import Intent, Session
+from seamwire.core.stops import Stops
 from seamwire.core.symmetry import Symmetry
 from table import SIZE, Table, chain, paper
 

@@ -249,7 +249,7 @@ def test_the_strip_of_a_stored_network_can_be_moved() -> None:
         session.toggle()
     session.loop(edge)
     points = session._points
-    mesh = PaperMesh(points, session._mirror._edges)
+    mesh = PaperMesh(points, session._symmetry._edges)
     mesh.write(session)
     again = tube()
     mesh.open(again)

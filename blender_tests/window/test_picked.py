@@ -114,7 +114,7 @@ def test_escape_ends_work_that_takes_long(desk: Desk, monkeypatch: pytest.Monkey
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(36))
     ui.wait_until(lambda: not session.computing)
-    engine = session._engine()
+    engine = session._engines.get(session.along)
     nothing = type("Nothing", (), {"points": [], "vertices": [], "length": 0.0, "final": False})()
     answer = type("Wires", (), {"wires": (nothing, nothing), "shorter": 0, "final": False})()
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The live wires: both ways from the seed to what is under the cursor, until one of them is kept."""
+"""The candidate wires: both ways from the seed to what is under the cursor, until one of them is kept."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from .solver import Candidate, Engines
 
 
-class Preview:
-    """What is under the cursor, and the wires that lead there.
+class CandidateWires:
+    """What is under the cursor, and both wires that lead there from the seed.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ class Preview:
         self.finals = (True, True)
         self.shorter = 0
         self.chosen: int | None = None
-        """The one that toggle() brought forward."""
+        """The one that the artist brought forward."""
 
     @property
     def final(self) -> bool:
@@ -73,14 +73,32 @@ class Preview:
     @property
     def shown(self) -> tuple[object, ...]:
         """What changes when something else is to be seen."""
-        return self.target, self.shorter, self.finals, *(id(wire) for wire in self.wires)
+        return self.target, self.shorter, self.finals, self.wires
 
     def clear(self) -> None:
         """Show no wires, and what is under the cursor still."""
         self.wires, self.finals = (None, None), (True, True)
 
+    def sow(self, seed: Seed, along: Along) -> None:
+        """Let wires that run one way begin at a seed from here on.
+
+        Raises
+        ------
+        ValueError
+            Where the seed is not part of the surface.
+        """
+        self._engines.get(along).seed(seed.begins(along), forward=seed.forward and along == "EDGES")
+
+    def swap(self) -> str:
+        """Bring the other wire forward; return why that cannot be, else nothing."""
+        if self.other is None:
+            same = self.final and self.active is not None
+            return "Both wires run along the same edges here" if same else "There is no other wire yet"
+        self.chosen = 1 - self.active_index
+        return ""
+
     def aim(self, target: Snap | None, network: Network, along: Along) -> str:
-        """Find both wires from a network's seed to a target; return why there is none, where that is so."""
+        """Find both wires from a network's seed to a target; return why there is none, else nothing."""
         self.target = target
         self.clear()
         seed = network.seed

@@ -1,25 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Edge loops: what one click on an edge offers, where straight wires end, and how a wire is extended to its end."""
+"""Edge loops: what one click on an edge offers, closed loops, strips, and more."""
 
 from __future__ import annotations
 
-import itertools
-from dataclasses import dataclass
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .network import Wire, undirected
+from .stops import ranked
 from .symmetry import among
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Mapping, Sequence
+    from collections.abc import Collection, Mapping, Sequence
 
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import NDArray
 
-    from .network import Edge, LoopKind, Network, Pick, Seed
-    from .solver import LiveWire
-    from .symmetry import Symmetry
+    from .network import Edge, LoopKind, Network, Pick
+    from .solver import Engines, LiveWire
+    from .stops import Stops
 
 
 _BY_KIND: Mapping[LoopKind, float] = {"CLOSED": 0.0, "PAST": 0.2, "STRIP": 0.5, "WHOLE": 0.7}
@@ -34,42 +34,118 @@ _MOST_PIECES = 64
 """Straight pieces of a loop that are looked at: over triangles it may have as many as edges."""
 
 
-@dataclass
-class LoopPreview:
-    """The offers for the edge under the cursor, while they are asked for.
+class LoopOffers:
+    """What one click on the edge under the cursor may take, while that is asked for.
 
     Parameters
     ----------
-    wanted
-        Whether they are asked for.
-    edge
-        The edge that they are for, smaller vertex first.
-    offers
-        No two alike, the likeliest first; empty: not computed.
-    choice
-        The one that is shown.
-    final
-        Whether nothing is computed for them any more.
+    engines
+        Find it.
+    stops
+        Where strips end.
+    points
+        (n, 3) vertices of the mesh.
     """
 
-    wanted: bool = False
-    edge: Pick | None = None
-    offers: tuple[Wire, ...] = ()
-    choice: int = 0
-    final: bool = True
+    def __init__(self, engines: Engines, stops: Stops, points: NDArray[np.float64]) -> None:
+        self._engines = engines
+        self._stops = stops
+        self._points = points
+        self.wanted = False
+        """Whether the offers are asked for."""
+        self.edge: Pick | None = None
+        """What they are for, an edge with its smaller vertex first."""
+        self.offers: tuple[Wire, ...] = ()
+        """No two alike, the likeliest first; empty: not computed."""
+        self.choice = 0
+        """The one that is shown."""
+        self.final = True
+        """Whether nothing is computed for them any more."""
 
     @property
     def wire(self) -> Wire | None:
         """The offer that is shown."""
         return self.offers[self.choice] if self.offers else None
 
+    @property
+    def kinds(self) -> tuple[LoopKind, ...]:
+        """What the offers are."""
+        return tuple(offer.kind for offer in self.offers if offer.kind is not None)
+
+    @property
+    def missing(self) -> bool:
+        """Whether offers are asked for that are not there."""
+        return self.wanted and not self.offers
+
     def clear(self) -> None:
         """Show none, and forget what was chosen; what is asked for is asked for still."""
         self.edge, self.offers, self.choice, self.final = None, (), 0, True
 
-    def next(self) -> None:
-        """Show the next offer. There must be one."""
+    def stop_waiting(self) -> None:
+        """Let nothing be computed any more, unless it is asked for and not there."""
+        self.final = self.final or not self.missing
+
+    def aim(self, edge: Edge | None) -> bool:
+        """Ask for the offers for an edge, or for none; return whether others vanish because of that."""
+        self.wanted = edge is not None
+        if self.edge is None or (edge is not None and self.edge == undirected(edge)):
+            return False
+        vanish = bool(self.offers)
+        self.clear()
+        return vanish
+
+    def show(self, pick: Pick, offers: tuple[Wire, ...]) -> bool:
+        """Show what was found for a pick; return whether there is anything."""
+        self.edge, self.offers = undirected(pick), offers
+        return bool(offers)
+
+    def swap(self) -> str:
+        """Show the next offer; return why that cannot be, else nothing."""
+        if not self.offers:
+            return "There is no loop yet"
+        if len(self.offers) == 1:
+            return "Nothing else runs through this edge"
         self.choice = (self.choice + 1) % len(self.offers)
+        return ""
+
+    def find(self, pick: Pick, network: Network, kept: Wire | None = None) -> tuple[Wire, ...]:
+        """Return what a click on an edge may take; nothing, too, while it is computed, see `final`.
+
+        Parameters
+        ----------
+        pick
+            The edge; a vertex has no offers.
+        network
+            The wires that there are.
+        kept
+            The one of them that such a click took, which comes first then; None: the newest one that did.
+
+        Raises
+        ------
+        ValueError
+            Where the edge is not part of the surface.
+        """
+        self.final = True
+        if not isinstance(pick, tuple):
+            return ()
+        own = kept or network.taken_through(pick)
+        if own is not None and own.offers:
+            return own.all_offers()
+        # Wires that were stored have lost their offers: they are those of a click made without them.
+        if own is not None:
+            network = network.without(own)
+        # An edge that is taken already stops itself: what remains to be offered there is more than that.
+        stops = None if self._stops.taken(network, pick) else self._stops.of(network, None, pick)
+        offers, self.final = find_offers(
+            self._engines.get("EDGES"),
+            pick,
+            stops,
+            self._points,
+            self._engines.strengths["EDGES"],
+            kept=self._stops.kept(network),
+            last=next((wire.kind for wire in reversed(network.wires) if wire.kind is not None), None),
+        )
+        return offers if own is None or not self.final else (replace(own, offers=()), *others(own, offers))
 
 
 def taken(offers: tuple[Wire, ...], choice: int, marks: bool) -> Wire:
@@ -132,7 +208,7 @@ def find_offers(
     different = {frozenset(wire.edges()): wire for wire in reversed(found) if wire is not None}
     offers = [wire for wire in found if wire in different.values()]
     if len(offers) > 1:
-        kept = _ranked(_numbers(kept))
+        kept = ranked(kept)
         offers.sort(key=lambda wire: _unlikeliness(live, wire, points, kept, last or "CLOSED"))
     return tuple(offers), True
 
@@ -232,123 +308,3 @@ def _wire(
     return Wire(
         "EDGES", vertices, points[around], start, end, closed=closed, strength=strength, kind=kind, through=pair
     )
-
-
-class Stops:
-    """The vertices where wires that run straight on end: those of seams and of wires, and those on the mirror's plane.
-
-    Parameters
-    ----------
-    seams
-        (k, 2) the edges that are seams already.
-    mirror
-        Knows the images of wires, and what lies on the plane.
-    """
-
-    def __init__(self, seams: ArrayLike, mirror: Symmetry) -> None:
-        self._seams = _ranked(_keys(np.asarray(seams, dtype=np.int64).reshape(-1, 2)))
-        self._seam_vertices = _ranked(np.concatenate([self._seams >> _BITS, self._seams & _LOW]))
-        self._mirror = mirror
-        self._last: tuple[Network, NDArray[np.int64], frozenset[Edge]] | None = None
-        self._plane: tuple[tuple[int, ...], frozenset[int], NDArray[np.int64]] | None = None
-
-    def of(self, network: Network, live: Wire | None, begin: Iterable[int]) -> NDArray[np.int64]:
-        """Return the stops of a wire, in rising order.
-
-        Parameters
-        ----------
-        network
-            The kept wires and the mirror.
-        live
-            A wire that is not kept yet; None: no such one.
-        begin
-            The vertices that the wire has before it runs on. Where all lie on the mirror's plane, it runs along that.
-        """
-        stops = self._kept(network)[0]
-        if live is not None:
-            images = self._mirror.images(live, network.mirror)
-            stops = _joined(stops, itertools.chain(*(one.vertices for one in (live, *images))))
-        if not network.mirror:
-            return stops
-        if self._plane is None or self._plane[0] != network.mirror:
-            plane = self._mirror.on_plane(network.mirror)
-            self._plane = (network.mirror, plane, np.fromiter(plane, dtype=np.int64, count=len(plane)))
-        _, plane, vertices = self._plane
-        return stops if plane.issuperset(begin) else _ranked(np.concatenate([stops, vertices]))
-
-    def kept(self, network: Network) -> NDArray[np.int64]:
-        """Return the vertices of seams, of kept wires and of their images, in rising order."""
-        return self._kept(network)[0]
-
-    def taken(self, network: Network, edge: Edge) -> bool:
-        """Whether an edge belongs already to a seam, to a kept wire or to an image of one."""
-        if undirected(edge) in self._kept(network)[1]:
-            return True
-        key = _keys(np.array([edge], dtype=np.int64))
-        return bool(among(key, self._seams)[0])
-
-    def _kept(self, network: Network) -> tuple[NDArray[np.int64], frozenset[Edge]]:
-        """Return the vertices of seams, kept wires and their images, in rising order, and the edges of those wires."""
-        if self._last is None or self._last[0] is not network:
-            edges = frozenset(edge for wire in network.wires for edge in wire.claims())
-            vertices = _joined(self._seam_vertices, itertools.chain.from_iterable(edges))
-            self._last = (network, vertices, edges)
-        return self._last[1:]
-
-
-_BITS = 32
-_LOW = (1 << _BITS) - 1
-
-
-def _keys(edges: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return a number for each edge, (k, 2): its smaller vertex above its larger one."""
-    return (edges.min(axis=1) << _BITS) | edges.max(axis=1)
-
-
-def _numbers(vertices: Iterable[int]) -> NDArray[np.int64]:
-    return vertices if isinstance(vertices, np.ndarray) else np.fromiter(vertices, dtype=np.int64)
-
-
-def _ranked(numbers: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return numbers in rising order, each once."""
-    numbers = np.sort(numbers)
-    return numbers[np.diff(numbers, prepend=-1) > 0]
-
-
-def _joined(ranked: NDArray[np.int64], vertices: Iterable[int]) -> NDArray[np.int64]:
-    """Return numbers in rising order with a few more among them."""
-    more = _ranked(_numbers(vertices))
-    more = more[~among(more, ranked)]
-    return np.insert(ranked, np.searchsorted(ranked, more), more) if len(more) else ranked
-
-
-def extension(
-    live: LiveWire, seed: Seed, active: Wire | None, edge: Edge, stops: Iterable[int], points: NDArray[np.float64]
-) -> Wire | None:
-    """Return the way to the end from a directed edge; None: there is none.
-
-    Parameters
-    ----------
-    live
-        Of the way along edges.
-    seed
-        Where the wire begins.
-    active
-        The live wire, which `edge` is the last one of; None: the wire begins with the seed, which is that edge.
-    stops
-        The vertices where it ends; the edge's second one is none of them.
-    points
-        (n, 3) vertices of the mesh.
-
-    Raises
-    ------
-    ValueError
-        Where the edge is not part of the surface.
-    """
-    stops = _numbers(stops)
-    way = tuple(int(v) for v in live.run_on(edge, stops[stops != edge[1]]).vertices)
-    if len(way) < 2:
-        return None
-    vertices = way if active is None else active.vertices + way[1:]
-    heading = active.heading if active is not None else edge
-    return Wire("EDGES", vertices, points[list(vertices)], seed.place, vertices[-1], heading=heading)

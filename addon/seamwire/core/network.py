@@ -260,6 +260,11 @@ class Network:
         """Return the wire with another's number, as it runs in this network."""
         return None if wire is None else next((own for own in self.wires if own.id == wire.id), None)
 
+    def taken_through(self, edge: Pick) -> Wire | None:
+        """Return the newest wire that a click on an edge took."""
+        pair = undirected(edge)
+        return next((wire for wire in reversed(self.wires) if wire.through == pair), None)
+
     def at(self, pick: Pick) -> list[tuple[Wire, End]]:
         """Return the wires that begin or end at a pick, and which of their ends is there. Loops have no ends."""
         place = undirected(pick)
@@ -319,6 +324,16 @@ class Network:
     def with_wire(self, wire: Wire) -> Network:
         """Return the network with a wire in place of the one with its number."""
         return replace(self, wires=tuple(wire if own.id == wire.id else own for own in self.wires))
+
+    def with_drawn(self, wire: Wire, target: Pick, ends: bool) -> Network:
+        """Return the network with a wire from its seed to a target as its newest; unless that `ends` it, the chain goes on."""
+        after = None
+        if not ends:
+            first = None if self.seed is None else self.seed.began
+            after = Seed(target, first=first)
+            if wire.along == "EDGES":
+                after = Seed(wire.last_edge, forward=True, clicked=target, first=first)
+        return replace(self, wires=(*self.wires, wire), seed=after)
 
     def with_next_offer(self, wire: Wire, steps: int = 1) -> Network:
         """Return the network with what a click on a wire's edge offered next. What went on from the wire stays."""

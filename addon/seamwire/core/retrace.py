@@ -4,81 +4,99 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from .seed_drag import Courses, Leg
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from .network import Network, Wire
-    from .solver import LiveWire
+    from .solver import Engines, LiveWire
 
 
-@dataclass(frozen=True, eq=False)
-class Job:
-    """A wire that is to take its other way.
+class Retraces:
+    """The kept wires that are to take their other way, while that is computed.
 
     Parameters
     ----------
-    leg
-        Finds its courses.
+    engines
+        Have the live wires that those of the legs are forks of.
+    points
+        (n, 3) vertices of the mesh.
     """
 
-    leg: Leg
-
-    @property
-    def wire(self) -> Wire:
-        """The wire as it was."""
-        return self.leg.wire
-
-
-class Redraws:
-    """The wires that are drawn anew at present."""
-
-    def __init__(self) -> None:
-        self._jobs: list[Job] = []
+    def __init__(self, engines: Engines, points: NDArray[np.float64]) -> None:
+        self._engines = engines
+        self._points = points
+        self._legs: list[Leg] = []
 
     def __len__(self) -> int:
-        return len(self._jobs)
+        return len(self._legs)
 
-    def add(self, job: Job) -> None:
-        """Begin with one more."""
-        self._jobs.append(job)
+    def add(self, network: Network, wire: Wire) -> None:
+        """Begin with one more wire of a network, not a loop.
+
+        Raises
+        ------
+        ValueError
+            Where its start is not part of the surface.
+        """
+        self._legs.append(Leg(self._engines.get(wire.along).fork(), network, wire, "end", self._points))
 
     def drop_last(self) -> bool:
-        """Forget the last wire that was to take its other way; return whether there was one."""
-        return bool(self._jobs) and self._jobs.pop() is not None
+        """Forget the wire that was added last; return whether there was one."""
+        return bool(self._legs) and self._legs.pop() is not None
 
     def clear(self) -> None:
         """Forget all."""
-        self._jobs.clear()
+        self._legs.clear()
 
     def lives(self) -> list[LiveWire]:
         """Return what computes them."""
-        return [job.leg.live for job in self._jobs]
+        return [leg.live for leg in self._legs]
 
-    def done(self) -> Iterator[tuple[Job, Courses | ValueError]]:
-        """Yield those whose courses are there, or why there are none, and forget them."""
-        for job in list(self._jobs):
+    def poll(self) -> Iterator[tuple[Wire, Courses | ValueError]]:
+        """Yield the wires, as they were, whose courses are there, or why there are none, and forget them."""
+        for leg in list(self._legs):
             try:
-                courses = job.leg.trace(job.wire.end, job.wire.end)
+                courses = leg.trace(leg.wire.end, leg.wire.end)
             except ValueError as error:
-                self._jobs.remove(job)
-                yield job, error
+                self._legs.remove(leg)
+                yield leg.wire, error
                 continue
             if courses.final:
-                self._jobs.remove(job)
-                yield job, courses
+                self._legs.remove(leg)
+                yield leg.wire, courses
 
 
-def with_other_way(network: Network, own: Wire, other: Wire) -> Network | None:
-    """Return a network where a wire runs another way; None where no way is left."""
+def retraced(network: Network, own: Wire, other: Wire | None) -> Network:
+    """Return a network where a wire runs another way.
+
+    Parameters
+    ----------
+    network
+        Has the wire.
+    own
+        The wire.
+    other
+        The other way; None: there is none.
+
+    Raises
+    ------
+    ValueError
+        Where no way is left; the text is a sentence for the artist.
+    """
+    if other is None:
+        raise ValueError("Both wires run along the same edges here")
     after = network.after(own)
     if after is not None and isinstance(own.end, tuple) and other.last_edge == own.last_edge[::-1]:
         # What goes on from the edge leaves it over this vertex: arriving there is enough.
         other = replace(other, vertices=other.vertices[:-1], points=other.points[:-1])
         if len(other.vertices) < 2:
-            return None
+            raise ValueError("There is no other way to this seed")
     return network.with_courses({own.id: replace(own, alternative=other).toggled()})
 
 

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -14,8 +13,8 @@ from .network import Network, Snap, Wire, name, undirected, vertices_of
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .network import Along, Edge, End, Pick
-    from .solver import Candidate, LiveWire
+    from .network import Edge, End, Pick
+    from .solver import Candidate, Engines, LiveWire
 
 
 @dataclass(frozen=True)
@@ -118,29 +117,31 @@ def _fixed_seed(network: Network, wire: Wire, moving: End) -> tuple[Pick, bool, 
     return (after.vertices[1], after.vertices[0]), True, 1
 
 
-class Drag:
+class SeedDrag:
     """A seed of a network on its way to somewhere else.
 
     Parameters
     ----------
+    engines
+        Have the live wires that those of the legs are forks of.
     network
         As it was before.
     seed
         The seed that is dragged, a pick that wires of the network have as their end, or that of the live wire.
-    fork
-        Makes live wires for a leg.
     points
         (n, 3) vertices of the mesh.
 
     Raises
     ------
     ValueError
-        Where a wire's other end is not part of the surface.
+        Where there is no seed, or a wire's other end is not part of the surface; the text is a sentence for the artist.
     """
 
-    def __init__(
-        self, network: Network, seed: Pick, fork: Callable[[Along], LiveWire], points: NDArray[np.float64]
-    ) -> None:
+    def __init__(self, engines: Engines, network: Network, seed: Pick, points: NDArray[np.float64]) -> None:
+        ends = network.at(seed)
+        live = network.seed
+        if not ends and (live is None or undirected(live.place) != undirected(seed)):
+            raise ValueError(f"There is no seed to move at {name(seed)}")
         self.before = network
         self.network = network
         self.seed = seed
@@ -148,7 +149,7 @@ class Drag:
         self.final = True
         self.ending = False
         self.message = ""
-        self.legs = [Leg(fork(wire.along), network, wire, end, points) for wire, end in network.at(seed)]
+        self.legs = [Leg(engines.get(wire.along).fork(), network, wire, end, points) for wire, end in ends]
 
     @property
     def place(self) -> Pick:
@@ -161,9 +162,17 @@ class Drag:
         own = {leg.wire.id for leg in self.legs}
         return tuple(wire for wire in self.network.wires if wire.id in own)
 
-    def progress(self) -> float:
-        """Fraction of the work on the legs that is done."""
-        return min((leg.live.progress() for leg in self.legs), default=1.0)
+    def lives(self) -> list[LiveWire]:
+        """Return what computes the wires."""
+        return [leg.live for leg in self.legs]
+
+    def poll(self) -> bool:
+        """Take in what was computed since; return whether the wires run elsewhere now."""
+        if self.final or self.target is None:
+            return False
+        before = self.network
+        self.to(self.target)
+        return self.network is not before
 
     def to(self, target: Snap) -> bool:
         """Lead the wires to another place; where that cannot be, say why in `message` and leave them as they were."""

@@ -7,39 +7,125 @@ shows and what it marks is decided here and nowhere else.
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Literal
 
-import numpy as np
-
-from .candidates import only_vertices
-from .defaults import CLAMP_PERCENTILE, STRENGTHS
-from .edge_loops import Stops, taken
-from .guidance import Guidance
+from .candidates import CandidateWires, only_vertices
+from .defaults import CLAMP_PERCENTILE, CLAMP_RANGE, STRENGTH_RANGE, STRENGTH_STEP, STRENGTHS
+from .edge_loops import LoopOffers, taken
+from .extension import Extension
+from .history import History
+from .intent import Intent
+from .mirror_images import MirrorImages
 from .network import Network, Seed, Snap, Wire, name, undirected
-from .seed_drag import Drag
-from .state import Intent, Queued
+from .retrace import Retraces, other_way, retraced
+from .seed_drag import SeedDrag
+from .solver import Engines
+from .stops import Stops
+from .strokes import FOR_WIRES, OffMeshError, Scribble, drawn, for_library, through_vertices
+from .symmetry import Symmetry
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
 
-    from .network import Pick
+    from .network import Along, Edge, LoopKind, Pick
+    from .solver import LiveWire, MetricName
+    from .strokes import ActsOn
 
 __all__ = ["CLAMP_PERCENTILE", "STRENGTHS", "Intent", "Session"]
 
 _NOWHERE = "The wire cannot run on from here"
 
 
-class Session(Guidance):
-    """One drawing session on one mesh: what can be done with it. See `State` for what it is made with, and shows.
+Waiting = Literal["click", "loop", "run", "offer"]
+"""What waits: a click, a loop, a run to the end, the next offer for a kept wire."""
+
+
+@dataclass(frozen=True)
+class Queued:
+    """A click that came before its wire was computed, or what else waits for one."""
+
+    kind: Waiting
+    snap: Snap
+
+
+class Session:
+    """One drawing session on one mesh.
+
+    Parameters
+    ----------
+    make_live
+        Makes the live wires for one way of running; called once for each way that is used.
+    points
+        (n, 3) coordinates of the mesh's vertices.
+    along
+        The way to begin with.
+    edges
+        (e, 2) the visible edges; None: whatever two vertices a mirrored edge would have, they have an edge.
+    seams
+        The edges, by their vertices, that are seams and no wires: wires that run straight on end there.
+    strength
+        Largest anisotropy of the metric for each way; `make_live` is to make its live wires with the ones of
+        `STRENGTHS`.
+    to_object
+        (3, 3) takes `points` to object coordinates, where mirroring happens; None: they are such.
+    triangles
+        (m, 3) those that the surface was made of; None: strokes run through vertices only.
+    make_scribble
+        Makes of a stroke what the live wires take.
+    topology
+        Whether what is mirrored to what is found by how the mesh hangs together, see `Symmetry`.
 
     Notes
     -----
+    Each part (candidate wires, loop offers, extension, seed drag, retraces, history, mirror images) finds what is its own and
+    knows no session. The session tells the parts what is under the cursor, makes of what they found the next network, and
+    lets them follow that.
+
     Methods that do something return whether it was done; where it was not, `message` says why, in words for the
-    artist.
+    artist. `revision` grows with every change of what is to be seen, `network_revision` with every change of the kept wires.
     """
 
-    # What can be done
+    def __init__(
+        self,
+        make_live: Callable[[Along], LiveWire],
+        points: NDArray[np.float64],
+        along: Along = "EDGES",
+        *,
+        edges: NDArray[np.int32] | None = None,
+        seams: ArrayLike = (),
+        strength: Mapping[Along, float] | None = None,
+        to_object: NDArray[np.float64] | None = None,
+        triangles: NDArray[np.int32] | None = None,
+        make_scribble: Callable[[Scribble], object] = for_library,
+        topology: bool = False,
+    ) -> None:
+        self._points = points
+        self._triangles = triangles
+        self._symmetry = Symmetry(points, edges, to_object, topology, triangles)
+        self._images = MirrorImages(self._symmetry)
+        self._stops = Stops(seams, self._symmetry)
+        self._engines = Engines(make_live, strength or {}, make_scribble)
+        self._network = Network()
+        self._history = History()
+        self._candidates = CandidateWires(self._engines, points)
+        self._loops = LoopOffers(self._engines, self._stops, points)
+        self._extension = Extension(self._engines, self._stops, points)
+        self._drag: SeedDrag | None = None
+        self._retraces = Retraces(self._engines, points)
+        self._queue: list[Queued] = []
+        self._last_click: tuple[Pick, int] | None = None
+        # Made at once: what they compute first takes longest.
+        self._progress = self._engines.get(along).progress()
+        self.along: Along = along
+        self.marking = True
+        self.message = ""
+        self.revision = 0
+        self.network_revision = 0
+
+    # Drawing wires
 
     def hover(self, snap: Snap | Pick | None, loop: bool = False) -> None:
         """Move the free end of the live wire.
@@ -55,14 +141,9 @@ class Session(Guidance):
             return
         target = None if snap is None else Snap.of(snap)
         self._aim(target)
-        shown = self._loop
-        shown.wanted = loop and self.along == "EDGES" and target is not None and isinstance(target.pick, tuple)
-        if shown.edge is not None and not (
-            shown.wanted and target is not None and shown.edge == undirected(target.pick)
-        ):
-            self.revision += bool(shown.offers)
-            shown.clear()
-        self._preview_loop()
+        asked = loop and self.along == "EDGES" and target is not None and isinstance(target.pick, tuple)
+        self.revision += self._loops.aim(target.pick if asked else None)
+        self._show_offers()
 
     def click(self, snap: Snap | Pick) -> bool:
         """Place a seed; where a wire is live, keep it and go on from there.
@@ -71,9 +152,9 @@ class Session(Guidance):
         chain. While the way to the end or a loop is shown, that is kept. Before the wire is computed the click waits, see `poll`.
         """
         target = Snap.of(snap)
-        if self._end.wanted and not self._queue:
+        if self._extension.wanted and not self._queue:
             return self.run_to_end()
-        if self._loop.wire is not None and self._loop.edge == undirected(target.pick) and not self._queue:
+        if self._loops.wire is not None and self._loops.edge == undirected(target.pick) and not self._queue:
             return self.loop(target)
         self.drag_cancel()
         if self._network.seed is None and not self._queue:
@@ -82,13 +163,11 @@ class Session(Guidance):
         if self._queue:
             self._queue.append(Queued("click", target))
             return True
-        seen = self._live.active_final and target == self._live.target
+        seen = self._candidates.active_final and target == self.target
         self._aim(target)
         # What is seen is kept; where nothing is seen yet, the one that is there first must not win for that.
-        if not (self._live.decided or (seen and self._live.active_final)) and self._wires_computing:
-            self._queue.append(Queued("click", target))
-            self.revision += 1
-            return True
+        if not (self._candidates.decided or (seen and self._candidates.active_final)) and self._wires_computing:
+            return self._postpone("click", target)
         return self._keep(target)
 
     def start(self, snap: Snap | Pick) -> bool:
@@ -113,30 +192,77 @@ class Session(Guidance):
         if self.along != "EDGES" or not isinstance(edge, tuple):
             return self._refuse("Loops are taken along edges: double-click on an edge")
         self.drag_cancel()
-        shown = self._loop
+        shown = self._loops
         choice = shown.choice if shown.edge == undirected(edge) else 0
         self._take_back_click(edge)
-        own = self._taken_through(edge)
+        own = self._network.taken_through(edge)
         if own is not None and own.marks == self.marking:
             # Of a double click, the first press took it already.
             return not choice or self._next_kept(own, choice)
         offers = self._find_offers(edge)
         if not offers:
             if self.computing:
-                self._queue.append(Queued("loop", target))
-                self.revision += 1
-                return True
+                return self._postpone("loop", target)
             return self._refuse(self.message or f"No edges run on from {name(edge)}")
         wire = replace(taken(offers, min(choice, len(offers) - 1), self.marking), mirror=self._network.mirror)
         return self._change(replace(self._network, wires=(*self.wires, wire)))
 
-    def _take_back_click(self, edge: Pick) -> None:
-        last = self._queue[-1] if self._queue else None
-        if last is not None and last.kind == "click" and undirected(last.snap.pick) == undirected(edge):
-            self._queue.pop()
-        elif self._last_click == (undirected(edge), self._history.steps):
-            self._restore(self._history.forget_step())
-        self._last_click = None
+    def toggle(self) -> bool:
+        """Make the other of the two wires the active one, until it is kept; of what is offered for an edge, the next."""
+        part = self._loops if self._loops.wanted else self._candidates
+        why = part.swap()
+        if why:
+            return self._refuse(why)
+        self.message = ""
+        if part is self._candidates:
+            self._show_extension()
+        self.revision += 1
+        return True
+
+    def close(self) -> bool:
+        """Lead the live wire back to the chain's first seed, keep it and end the chain."""
+        first = self.closing_point
+        if first is None:
+            return self._refuse("There is no chain to close: draw a wire first")
+        self._extension.wanted = False
+        return self.click(Snap(first, "SEED"))
+
+    def run_to_end(self, preview: bool = False) -> bool:
+        """Let the live wire run straight on until it meets a seam, a wire, the boundary, the mirror or itself.
+
+        Parameters
+        ----------
+        preview
+            Show it, for wherever the cursor goes; a click, or this without `preview`, keeps it. `stop_preview` ends that.
+        """
+        if self._network.seed is None:
+            return self._refuse("Nothing runs on: place a seed first")
+        if self.along == "SURFACE":
+            return self._refuse("Wires run on along edges, not across the surface")
+        self.drag_cancel()
+        if preview:
+            self._extension.wanted = True
+            self._show_extension()
+            return self._extension.wire is not None or self.computing or self._refuse(self.message or _NOWHERE)
+        target = self.target
+        if self._queue or (target is not None and not self._candidates.active_final and self._wires_computing):
+            if target is None:
+                return self._refuse(_NOWHERE)
+            self._extension.wanted = False
+            return self._postpone("run", target)
+        wire = self._find_extension()
+        if wire is None:
+            return self._refuse(self.message or _NOWHERE)
+        self._extension.wanted = False
+        return self._change(replace(self._network, wires=(*self.wires, wire), seed=None))
+
+    def stop_preview(self) -> bool:
+        """Stop showing the way to the end."""
+        if not self._extension.wanted:
+            return False
+        self._extension.clear()
+        self.revision += 1
+        return True
 
     def end_chain(self) -> None:
         """Let go of the live wire, or of a dragged seed; the kept wires stay."""
@@ -145,39 +271,10 @@ class Session(Guidance):
             return
         # No step of its own for undo: taking back the last wire after this brings the chain back to life.
         self._set(replace(self._network, seed=None))
-        self._live.chosen = None
-        self._aim(self._live.target, again=True)
+        self._candidates.chosen = None
+        self._aim_again()
 
-    def close(self) -> bool:
-        """Lead the live wire back to the chain's first seed, keep it and end the chain."""
-        first = self.closing_point
-        if first is None:
-            return self._refuse("There is no chain to close: draw a wire first")
-        self._end.wanted = False
-        return self.click(Snap(first, "SEED"))
-
-    def toggle(self) -> bool:
-        """Make the other of the two wires the active one, until it is kept; of what is offered for an edge, the next."""
-        if self._loop.wanted:
-            return self._next_offer()
-        if self.other is None:
-            same = self._live.final and self.active is not None
-            return self._refuse("Both wires run along the same edges here" if same else "There is no other wire yet")
-        self._live.chosen = 1 - self._live.active_index
-        self.message = ""
-        self._preview_end()
-        self.revision += 1
-        return True
-
-    def _next_offer(self) -> bool:
-        if not self._loop.offers:
-            return self._refuse("There is no loop yet")
-        if len(self._loop.offers) == 1:
-            return self._refuse("Nothing else runs through this edge")
-        self._loop.next()
-        self.message = ""
-        self.revision += 1
-        return True
+    # Changing kept wires
 
     def toggle_kept(self, wire: Wire) -> bool:
         """Let a kept wire take its other way, that of the other metric; one from a click on an edge, what is next there."""
@@ -190,8 +287,14 @@ class Session(Guidance):
         if own.closed:
             return self._refuse("A loop has no other way")
         if own.alternative is not None:
-            return self._take_other_way(own, own.alternative)
-        return self._redraw(own)
+            return self._retrace(own, own.alternative)
+        try:
+            self._retraces.add(self._network, own)
+        except ValueError as error:
+            return self._refuse(str(error))
+        self._read_progress()
+        self._poll_retraces()
+        return not self.message
 
     def drop(self, wire: Wire) -> bool:
         """Remove a kept wire."""
@@ -217,18 +320,14 @@ class Session(Guidance):
         target = Snap.of(snap)
         self._calm()
         network = self._network.joined(target, self._points)
-        seed = network.seed
-        if not network.at(target.pick) and (seed is None or undirected(seed.place) != undirected(target.pick)):
-            return self._refuse(f"There is no seed to move at {name(target.pick)}")
         try:
-            self._drag = Drag(network, target.pick, self._fork, self._points)
+            self._drag = SeedDrag(self._engines, network, target.pick, self._points)
         except ValueError as error:
             return self._refuse(str(error))
         self._read_progress()
-        self._live.clear()
-        self._loop.clear()
-        self._end.wire = None
-        self._end.wanted = False
+        self._candidates.clear()
+        self._loops.clear()
+        self._extension.clear()
         self.message = ""
         self.revision += 1
         return True
@@ -241,7 +340,7 @@ class Session(Guidance):
         if snap is None or drag.ending:
             return False
         before = (drag.target, drag.network, self.message)
-        self._live.target = Snap.of(snap)
+        self._candidates.target = Snap.of(snap)
         moved = drag.to(Snap.of(snap))
         self._read_progress()
         self.message = drag.message
@@ -260,40 +359,167 @@ class Session(Guidance):
         self.revision += 1
         if drag.message or drag.target is None:
             why = drag.message
-            self._aim(self._live.target, again=True)
+            self._aim_again()
             return self._refuse(why) if why else True
         return self._change(drag.network.joined(drag.target, self._points))
 
-    def run_to_end(self, preview: bool = False) -> bool:
-        """Let the live wire run straight on until it meets a seam, a wire, the boundary, the mirror or itself.
+    def drag_cancel(self) -> bool:
+        """Let the dragged seed go back to where it was."""
+        if self._drag is None:
+            return False
+        self._drag = None
+        self._aim_again()
+        self.revision += 1
+        return True
+
+    # What leads the wires that are drawn from here on; kept wires stay as they are
+
+    def switch(self, along: Along) -> bool:
+        """Run wires along edges or across the surface from here on; kept wires stay as they are."""
+        if along == self.along:
+            return True
+        self._calm()
+        before = self.along
+        self.along = along
+        self._candidates.chosen = None
+        self._candidates.clear()
+        self._loops.wanted = False
+        self._loops.clear()
+        if self._network.seed is not None and not self._sow(self._network.seed):
+            self.along = before
+            return False
+        self.message = ""
+        self._aim_again()
+        self.revision += 1
+        return True
+
+    def toggle_marking(self) -> bool:
+        """Let the wires that are kept from here on clear seams instead of marking them, or mark again."""
+        self.marking = not self.marking
+        self.message = ""
+        self.revision += 1
+        return True
+
+    def change_strength(self, steps: int) -> bool:
+        """Draw wires more or less strongly to features, a quarter a step; kept wires stay as they are."""
+        low, high = STRENGTH_RANGE
+        strength = min(max(self.strength * STRENGTH_STEP**steps, low), high)
+        if strength == self.strength:
+            return self._refuse(
+                f"The strength is {strength:g} already, the {'most' if steps > 0 else 'least'} there is"
+            )
+        return self._use_metric(self.metric, {**self._engines.strengths, self.along: strength})
+
+    def set_strength(self, along: Along, strength: float) -> bool:
+        """Draw wires that run one way so strongly to features; kept wires stay as they are."""
+        low, high = STRENGTH_RANGE
+        strength = min(max(strength, low), high)
+        # What comes from Blender's properties is of single precision.
+        if abs(strength - self._engines.strengths[along]) <= 1e-4 * strength:
+            return True
+        return self._use_metric(self.metric, {**self._engines.strengths, along: strength})
+
+    def set_metric(self, metric: MetricName) -> bool:
+        """Draw wires by another metric; kept wires stay as they are."""
+        return metric == self.metric or self._use_metric(metric, self._engines.strengths)
+
+    def set_clamp(self, percentile: float) -> bool:
+        """Let another percentile of feature strengths count as the strongest; kept wires stay as they are."""
+        low, high = CLAMP_RANGE
+        percentile = min(max(percentile, low), high)
+        if abs(percentile - self.clamp) <= 1e-4:
+            return True
+        return self._use_metric(self.metric, self._engines.strengths, percentile)
+
+    def set_mirror(self, axes: Iterable[int]) -> bool:
+        """Mirror the wires that are kept from here on over axes, 0 to 2; none: not at all."""
+        mirror = tuple(sorted(set(axes)))
+        if mirror != self._network.mirror:
+            self._set(replace(self._network, mirror=mirror))
+        return True
+
+    def scribble(
+        self,
+        points: ArrayLike | None = None,
+        faces: ArrayLike | None = None,
+        *,
+        vertices: ArrayLike | None = None,
+        attracts: bool = True,
+        acts_on: ActsOn | None = None,
+        radius: float | None = None,
+    ) -> bool:
+        """Draw a stroke that live wires follow, or keep from; kept wires stay as they are.
 
         Parameters
         ----------
-        preview
-            Show it, for wherever the cursor goes; a click, or this without `preview`, keeps it. `stop_preview` ends that.
+        points
+            (n, 3) as a hand drew them on the surface, to be smoothed a little.
+        faces
+            (n,) the triangle of the surface that each lies in.
+        vertices
+            (n,) instead of both: the vertices that the stroke runs through.
+        attracts
+            Whether wires follow it; else crossing it is short, and following it long.
+        acts_on
+            Which of the two wires it is meant for; None: the active one while a wire is live, else both.
+        radius
+            How far it reaches, in the points' units; None: ten rings of vertices.
         """
-        if self._network.seed is None:
-            return self._refuse("Nothing runs on: place a seed first")
-        if self.along == "SURFACE":
-            return self._refuse("Wires run on along edges, not across the surface")
+        try:
+            if vertices is not None:
+                stroke = through_vertices(vertices, self._points)
+            elif points is None or faces is None or self._triangles is None:
+                raise ValueError("a stroke needs points and the triangles that they lie in, or vertices")
+            else:
+                stroke = drawn(points, faces, self._points, self._triangles)
+        except OffMeshError as error:
+            return self._refuse(str(error))
+        self._last_click = None
         self.drag_cancel()
-        if preview:
-            self._end.wanted = True
-            self._preview_end()
-            return self._end.wire is not None or self.computing or self._refuse(self.message or _NOWHERE)
-        target = self._live.target
-        if self._queue or (target is not None and not self._live.active_final and self._wires_computing):
-            if target is None:
-                return self._refuse(_NOWHERE)
-            self._end.wanted = False
-            self._queue.append(Queued("run", target))
+        chosen = self._candidates.chosen
+        if acts_on is None and self._network.seed is not None:
+            # The wire that the stroke is for stays the active one, even where the other is shorter now.
+            chosen = self._candidates.active_index
+            acts_on = FOR_WIRES[chosen]
+        scribble = Scribble(*stroke, attracts=attracts, acts_on=acts_on or "both", radius=radius)
+        return self._scribbled((*self._network.scribbles, scribble), chosen)
+
+    def erase(self, scribble: Scribble) -> bool:
+        """Remove a stroke."""
+        rest = tuple(own for own in self._network.scribbles if own.id != scribble.id)
+        if len(rest) == len(self._network.scribbles):
+            return self._refuse("This stroke is not there any more")
+        self._last_click = None
+        self.drag_cancel()
+        return self._scribbled(rest, self._candidates.chosen)
+
+    # Undo and redo
+
+    def undo(self) -> bool:
+        """Take back the last step: a wire, a loop, a seed, a move, whatever was done; first what still waits."""
+        if self._queue:
+            self._queue.pop()
             self.revision += 1
             return True
-        wire = self._find_end()
-        if wire is None:
-            return self._refuse(self.message or _NOWHERE)
-        self._end.wanted = False
-        return self._change(replace(self._network, wires=(*self.wires, wire), seed=None))
+        if self.drag_cancel():
+            return True
+        if self._retraces.drop_last():
+            self.revision += 1
+            return True
+        network = self._history.back(self._network)
+        if network is None:
+            return self._refuse("Nothing to undo in this drawing")
+        self._restore(network)
+        return True
+
+    def redo(self) -> bool:
+        """Bring back what undo took."""
+        self.drag_cancel()
+        network = self._history.forth(self._network)
+        if network is None:
+            return self._refuse("Nothing to redo in this drawing")
+        self._restore(network)
+        return True
 
     def adopt(self, network: Network, seams: ArrayLike) -> None:
         """Go on with what the mesh has now; what was done before is not for `undo` any more.
@@ -306,44 +532,18 @@ class Session(Guidance):
             (k, 2) the edges that are seams and no wires.
         """
         self._calm()
-        self._stops = Stops(seams, self._mirror)
-        self._redraws.clear()
+        self._stops.set_seams(seams)
+        self._retraces.clear()
         self._history.forget()
-        if any(wire.images is None for wire in network.wires):
-            # Wires of the first version do not know their images: they are what is a seam of them still.
-            pairs = np.sort(np.asarray(seams, dtype=np.int64).reshape(-1, 2), axis=1)
-            network = self._with_images(network, set(map(tuple, pairs.tolist())))
+        # Wires of the first version do not know their images: they are what is a seam of them still.
+        network = self._images.complete(network, seams)
         seed = network.seed
         if seed is not None and seed != self._network.seed and not self._sow(seed):
             seed = None
         self._set(replace(network, seed=seed, mirror=self._network.mirror))
         self._settle()
 
-    def undo(self) -> bool:
-        """Take back the last step: a wire, a loop, a seed, a move, whatever was done; first what still waits."""
-        if self._queue:
-            self._queue.pop()
-            self.revision += 1
-            return True
-        if self.drag_cancel():
-            return True
-        if self._redraws.drop_last():
-            self.revision += 1
-            return True
-        network = self._history.back(self._unmirrored())
-        if network is None:
-            return self._refuse("Nothing to undo in this drawing")
-        self._restore(network)
-        return True
-
-    def redo(self) -> bool:
-        """Bring back what undo took."""
-        self.drag_cancel()
-        network = self._history.forth(self._unmirrored())
-        if network is None:
-            return self._refuse("Nothing to redo in this drawing")
-        self._restore(network)
-        return True
+    # Taking in what was computed
 
     def poll(self) -> bool:
         """Take in what the library has computed since, and do the clicks that waited for it.
@@ -354,20 +554,23 @@ class Session(Guidance):
             Whether there is something new to be seen.
         """
         drag = self._drag
-        still = self._live.final and self._loop.final and (drag is None or drag.final)
-        if still and not self.computing and not self._queue and not self._redraws:
+        still = self._candidates.final and self._loops.final and (drag is None or drag.final)
+        if still and not self.computing and not self._queue and not self._retraces:
             return False
         before = (self.revision, round(self._progress, 2))
         self._read_progress()
-        self._poll_redraws()
-        if drag is not None and not drag.final and drag.target is not None:
-            self._poll_drag(drag)
+        self._poll_retraces()
+        if drag is not None and not drag.final:
+            self.revision += drag.poll()
+            self.message = drag.message
+            if drag.final and drag.ending:
+                self.drag_end()
         while self._queue and self._poll_queue():
             pass
-        if not self._queue and not self._live.final:
-            self._aim(self._live.target, again=True)
-        self._preview_loop()
-        self._preview_end()
+        if not self._queue and not self._candidates.final:
+            self._aim_again()
+        self._show_offers()
+        self._show_extension()
         return before != (self.revision, round(self._progress, 2))
 
     def wait(self) -> None:
@@ -379,13 +582,322 @@ class Session(Guidance):
                 except ValueError as error:  # what it is to compute cannot be computed
                     self._refuse(str(error))
             self.poll()
-            if not self._queue and not self._redraws and not self.computing:
+            if not self._queue and not self._retraces and not self.computing:
                 return
 
-    # How it is done
+    # What is there to be seen
+
+    @property
+    def network(self) -> Network:
+        """The kept wires, the seed and the mirror, as they are shown; to be stored with the mesh."""
+        return self._network if self._drag is None else self._drag.network
+
+    @property
+    def kept(self) -> Network:
+        """The same without what is being dragged."""
+        return self._network
+
+    @property
+    def wires(self) -> tuple[Wire, ...]:
+        """The kept wires, oldest first; those that follow a dragged seed as they run now."""
+        return self.network.wires
+
+    @property
+    def seed(self) -> Pick | None:
+        """Where the live wire begins; None between chains."""
+        seed = self._network.seed
+        return None if seed is None else seed.begins(self.along)
+
+    @property
+    def seed_place(self) -> Pick | None:
+        """Where that seed is shown, as `seeds` has it."""
+        seed = self._network.seed
+        return None if seed is None else undirected(seed.shown(self.along))
+
+    @property
+    def target(self) -> Snap | None:
+        """What is under the cursor, or what the oldest waiting click asked for."""
+        return self._candidates.target
+
+    @property
+    def active(self) -> Wire | None:
+        """The wire that a click would keep."""
+        return self._candidates.active
+
+    @property
+    def other(self) -> Wire | None:
+        """The wire that the wheel would bring forward; None where both run along the same edges."""
+        return self._candidates.other
+
+    @property
+    def preliminary(self) -> bool:
+        """Whether the active wire is still being computed: what is shown is not yet what a click would keep."""
+        return self.active is not None and not self._candidates.active_final
+
+    @property
+    def loop_preview(self) -> Wire | None:
+        """What a click on the edge under the cursor takes as a whole, while that is asked for."""
+        return self._loops.wire
+
+    @property
+    def loop_offers(self) -> tuple[LoopKind, ...]:
+        """What such a click may take, each once, the default first: `toggle` goes from one to the next."""
+        return self._loops.kinds
+
+    @property
+    def loop_choice(self) -> LoopKind | None:
+        """Which of them `loop_preview` is."""
+        return None if self._loops.wire is None else self._loops.wire.kind
+
+    @property
+    def end_preview(self) -> Wire | None:
+        """The live wire with its way on to the end, while it is asked for."""
+        return self._extension.wire
+
+    @property
+    def dragging(self) -> bool:
+        """Whether a seed is being moved."""
+        return self._drag is not None
+
+    @property
+    def moved(self) -> tuple[Wire, ...]:
+        """The wires that follow the dragged seed, as they run now."""
+        return () if self._drag is None else self._drag.moved
+
+    @property
+    def dragged_seed(self) -> Pick | None:
+        """The seed that is being moved, where it is now."""
+        return None if self._drag is None else undirected(self._drag.place)
+
+    @property
+    def hovered_wire(self) -> Wire | None:
+        """The kept wire under the cursor."""
+        target = self._candidates.target
+        return None if target is None or target.to != "WIRE" else self.network.find(target.wire)
+
+    @property
+    def hovered_seed(self) -> Pick | None:
+        """The seed of the network under the cursor."""
+        target = self._candidates.target
+        return None if target is None or target.to != "SEED" else target.pick
+
+    @property
+    def closing_point(self) -> Pick | None:
+        """Where the chain began, while a wire may lead back there."""
+        return self._network.closing_point
+
+    @property
+    def computing(self) -> bool:
+        """Whether the library still works on what is shown."""
+        return self._progress < 1.0 or not self._loops.final
+
+    @property
+    def _wires_computing(self) -> bool:
+        """Whether it works on wires: a loop that waits behind a click must not keep that waiting."""
+        return self._progress < 1.0
+
+    @property
+    def progress(self) -> float:
+        """Fraction of that work that is done."""
+        return self._progress
+
+    @property
+    def waiting_clicks(self) -> int:
+        """How many clicks and other deeds wait for their wires."""
+        ending = self._drag is not None and self._drag.ending
+        return len(self._queue) + len(self._retraces) + ending
+
+    @property
+    def can_undo(self) -> bool:
+        """Whether undo() has something to take back."""
+        return bool(self._queue or self._drag or self._retraces) or self._history.can_undo(self._network)
+
+    @property
+    def can_redo(self) -> bool:
+        """Whether redo() has something to bring back."""
+        return self._history.can_redo
+
+    @property
+    def strength(self) -> float:
+        """How strongly wires are drawn to features: the metric's largest anisotropy, for the way they run now."""
+        return self._engines.strengths[self.along]
+
+    def feature_strength(self) -> NDArray[np.float64] | None:
+        """Return how strong the feature is at each vertex; None while that is computed."""
+        return self._engines.get(self.along).feature_strength()
+
+    @property
+    def clamp(self) -> float:
+        """The percentile of feature strengths that counts as the strongest: single noisy vertices are not to decide."""
+        return self._engines.clamp
+
+    @property
+    def metric(self) -> MetricName:
+        """What draws wires to features."""
+        return self._engines.metric
+
+    @property
+    def scribbles(self) -> tuple[Scribble, ...]:
+        """The strokes that live wires follow or keep from, oldest first."""
+        return self.network.scribbles
+
+    @property
+    def mirror_axes(self) -> tuple[int, ...]:
+        """The axes, 0 to 2, over which wires are mirrored."""
+        return self.network.mirror
+
+    @property
+    def symmetric_axes(self) -> tuple[int, ...]:
+        """The axes over which the mesh is symmetric."""
+        return self._symmetry.symmetric_axes
+
+    @property
+    def intent(self) -> Intent:
+        """What a click would do now."""
+        live, seed = self._candidates, self._network.seed
+        if self._drag is not None:
+            return Intent.MOVE
+        if self._extension.wire is not None:
+            return Intent.RUN
+        if self._loops.wire is not None:
+            return Intent.LOOP
+        if live.target is None or (self.along == "SURFACE" and isinstance(live.target.pick, tuple)):
+            return Intent.NOTHING
+        if seed is None:
+            return {"SEED": Intent.CONTINUE, "WIRE": Intent.BRANCH}.get(live.target.to, Intent.SEED)
+        if live.active_final:
+            return self._ending(live.target) or Intent.KEEP
+        waits = self.computing and not seed.at(live.target.pick, self.along)
+        return Intent.WAIT if waits else Intent.NOTHING
+
+    def seeds(self) -> list[Pick]:
+        """Return every seed of the network, each once, in the order they were placed."""
+        seed = self.network.seed
+        ends = self.network.seeds()
+        if seed is not None:
+            ends.append(seed.shown(self.along))
+        return list({undirected(pick): None for pick in ends})
+
+    def edges_to_mark(self) -> list[Edge]:
+        """Return the edges that the wires make seams, each once, sorted, smaller vertex first."""
+        return self._images.net_effect(self.network)[0]
+
+    def edges_to_clear(self) -> list[Edge]:
+        """Return the edges that the wires make cease to be seams, each once, sorted, smaller vertex first."""
+        return self._images.net_effect(self.network)[1]
+
+    def mirrored(self, wire: Wire) -> list[Wire]:
+        """Return the images that a wire has, or would have if it were kept now, as far as the mesh has their edges."""
+        return self._images.of(wire, self.network)
+
+    # From one network to the next
+
+    def _refuse(self, why: str) -> bool:
+        """Say why something is not done."""
+        self.message = why
+        self.revision += 1
+        return False
+
+    def _set(self, network: Network) -> None:
+        """Go on to a new network, without a step for undo."""
+        before, self._network = self._network, network
+        if before.scribbles != network.scribbles:
+            self._engines.follow(network.scribbles)
+            self._read_progress()
+        self.revision += 1
+        self.network_revision += before.wires != network.wires or before.mirror != network.mirror
+
+    def _change(self, network: Network) -> bool:
+        """Go on to a new network, with a step for undo."""
+        seed = network.seed
+        if seed is not None and seed != self._network.seed and not self._sow(seed):
+            return False
+        self._history.step(self._network)
+        self._set(self._images.complete(network))
+        self._settle()
+        self.message = self._images.warning(self._network) or self.message
+        return True
+
+    def _scribbled(self, scribbles: tuple[Scribble, ...], chosen: int | None) -> bool:
+        self._change(replace(self._network, scribbles=scribbles))
+        self._candidates.chosen = chosen
+        return True
+
+    def _restore(self, network: Network) -> None:
+        """Go back or on to a network that there was."""
+        if network.seed is not None and network.seed != self._network.seed:
+            self._sow(network.seed)
+        back = [stroke.acts_on for stroke in network.scribbles if stroke not in self._network.scribbles]
+        self._set(network)
+        self._last_click = None
+        self._settle()
+        if network.seed is not None and back and back[-1] != "both":
+            # As when it was drawn: the wire that a stroke is for is the active one.
+            self._candidates.chosen = FOR_WIRES.index(back[-1])
+
+    def _settle(self) -> None:
+        """Let the parts follow a new network."""
+        self._candidates.chosen = None
+        self._loops.clear()
+        self._extension.clear()
+        self.message = ""
+        self._aim_again()
+
+    def _calm(self) -> None:
+        """Let go of all that is under way but the live wire."""
+        self._queue.clear()
+        self._last_click = None
+        self.drag_cancel()
+        self.stop_preview()
+
+    # The live wire
+
+    def _sow(self, seed: Seed) -> bool:
+        """Start the wires of a seed; on refusal the wires are those of the seed before."""
+        before = self._network.seed
+        try:
+            self._candidates.sow(seed, self.along)
+        except ValueError as error:
+            if before is not None and before != seed:
+                self._sow(before)
+            return self._refuse(str(error))
+        finally:
+            self._read_progress()
+        return True
+
+    def _aim(self, target: Snap | None, again: bool = False) -> None:
+        """Find both wires to a target; `again`: also where it is the same as before."""
+        live = self._candidates
+        if target == live.target and not again and live.final and self._loops.final:
+            return
+        before = (live.shown, self.message)
+        self._read_progress()
+        # A seed that is dragged has no live wire.
+        network = self._network if self._drag is None else replace(self._network, seed=None)
+        self.message = live.aim(target, network, self.along)
+        # Asking again while nothing is ready shows nothing new, and must not cost a redraw each time.
+        self.revision += before != (live.shown, self.message)
+        self._show_extension()
+
+    def _aim_again(self) -> None:
+        """Find the wires to the target once more: they may be others now."""
+        self._aim(self.target, again=True)
+
+    def _use_metric(self, metric: MetricName, strengths: Mapping[Along, float], clamp: float | None = None) -> bool:
+        """Find the live wires by another metric; `clamp` None: the percentile stays."""
+        if self._drag is not None:
+            return self._refuse("Finish moving the seed first")
+        self._engines.use(metric, strengths, self.clamp if clamp is None else clamp)
+        self.message = ""
+        self._loops.clear()
+        self._aim_again()
+        self._show_offers()
+        self.revision += 1
+        return True
 
     def _keep(self, target: Snap) -> bool:
-        live = self._live
+        """Keep the active wire, which leads to a target."""
+        live = self._candidates
         wire = live.active
         seed = self._network.seed
         if wire is None:
@@ -402,26 +914,94 @@ class Session(Guidance):
             strength=self.strength,
             alternative=live.other if live.final else None,
         )
-        network = self._network.joined(target, self._points)
-        after = None
-        if ending is None:
-            first = None if seed is None else seed.began
-            after = Seed(target.pick, first=first)
-            if self.along == "EDGES":
-                after = Seed(wire.last_edge, forward=True, clicked=target.pick, first=first)
-        if not self._change(replace(network, wires=(*network.wires, wire), seed=after)):
+        network = self._network.joined(target, self._points).with_drawn(wire, target.pick, ending is not None)
+        if not self._change(network):
             return False
         self._last_click = (undirected(target.pick), self._history.steps)
         return True
 
-    def _poll_drag(self, drag: Drag) -> None:
-        assert drag.target is not None
-        before = drag.network
-        drag.to(drag.target)
-        self.message = drag.message
-        self.revision += drag.network is not before
-        if drag.final and drag.ending:
-            self.drag_end()
+    def _ending(self, target: Snap) -> Intent | None:
+        """Return how a wire to a target ends the chain; None: it does not."""
+        if self._network.closes(target):
+            return Intent.CLOSE
+        return Intent.JOIN if target.to in {"SEED", "WIRE", "SEAM"} else None
+
+    # Offers, extension, other ways
+
+    def _find_offers(self, pick: Pick, kept: Wire | None = None) -> tuple[Wire, ...]:
+        """Return what a click on an edge may take, first what one has `kept`; nothing, too, while it is computed."""
+        self._read_progress()
+        try:
+            return self._loops.find(pick, self._network, kept)
+        except ValueError as error:
+            self.message = str(error)
+            return ()
+
+    def _show_offers(self) -> None:
+        """Show what a click on the edge under the cursor may take, as soon as it is asked for and computed."""
+        if not any(queued.kind in {"loop", "offer"} for queued in self._queue):
+            self._loops.stop_waiting()
+        if self._loops.missing and self.target is not None:
+            self.revision += self._loops.show(self.target.pick, self._find_offers(self.target.pick))
+
+    def _next_kept(self, own: Wire, steps: int = 1) -> bool:
+        """Let a wire that a click on an edge took be what that offers next, or some steps on."""
+        assert own.through is not None
+        if not own.offers:
+            offers = self._find_offers(own.through, own)[1:]
+            if not self._loops.final:
+                return self._postpone("offer", Snap(own.through, "WIRE", own))
+            if not offers:
+                return self._refuse(self.message or "Nothing else runs through this edge")
+            own = replace(own, offers=offers)
+        return self._change(self._network.with_wire(own).with_next_offer(own, steps))
+
+    def _find_extension(self) -> Wire | None:
+        """Return the live wire with its way on; None where there is no way, or no direction yet."""
+        self._read_progress()
+        try:
+            return self._extension.find(self._network, self.active, self.marking)
+        except ValueError as error:
+            self.message = str(error)
+            return None
+
+    def _show_extension(self) -> None:
+        """Show the live wire with its way on, while that is asked for."""
+        if self._extension.wanted:
+            self.revision += self._extension.show(self._find_extension())
+
+    def _poll_retraces(self) -> None:
+        """Let the kept wires whose other ways are computed take them."""
+        for wire, courses in self._retraces.poll():
+            own = self._network.find(wire)
+            if isinstance(courses, ValueError):
+                self._refuse(str(courses))
+            elif own is not None:  # else it was dropped in the meantime
+                self._retrace(own, other_way(own, courses))
+
+    def _retrace(self, own: Wire, other: Wire | None) -> bool:
+        try:
+            network = retraced(self._network, own, other)
+        except ValueError as error:
+            return self._refuse(str(error))
+        return self._change(network)
+
+    # What waits until it is computed
+
+    def _postpone(self, kind: Waiting, snap: Snap) -> bool:
+        """Do it when its wire is computed."""
+        self._queue.append(Queued(kind, snap))
+        self.revision += 1
+        return True
+
+    def _take_back_click(self, edge: Pick) -> None:
+        """Undo the last click where that was on an edge, and forget it."""
+        last = self._queue[-1] if self._queue else None
+        if last is not None and last.kind == "click" and undirected(last.snap.pick) == undirected(edge):
+            self._queue.pop()
+        elif self._last_click == (undirected(edge), self._history.steps):
+            self._restore(self._history.forget_step(self._network))
+        self._last_click = None
 
     def _poll_queue(self) -> bool:
         """Do the oldest waiting click if its wire is there; returns whether it was done."""
@@ -430,7 +1010,7 @@ class Session(Guidance):
         if head.kind in {"loop", "offer"}:
             waits = not self._find_offers(head.snap.pick) and self.computing
         else:
-            waits = not self._live.decided and self._wires_computing
+            waits = not self._candidates.decided and self._wires_computing
         if waits:
             return False
         del self._queue[0]
@@ -445,3 +1025,14 @@ class Session(Guidance):
             self.click(head.snap)
         self._queue += rest
         return True
+
+    def _working(self) -> list[LiveWire]:
+        """Return the live wires that compute something for what is shown or waits."""
+        drag = [] if self._drag is None else self._drag.lives()
+        # What a click on an edge offers is found along edges, however wires run now.
+        offers = [self._engines.get("EDGES")] if any(queued.kind == "offer" for queued in self._queue) else []
+        return [self._engines.get(self.along), *offers, *self._retraces.lives(), *drag]
+
+    def _read_progress(self) -> None:
+        """Look how much is computed; before wires are asked for: what is not final after the work is done stays so."""
+        self._progress = min(live.progress() for live in self._working())

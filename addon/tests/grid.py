@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the parts of a session are made with, on a grid of SIZE x SIZE vertices; vertex y * SIZE + x lies at (x, y)."""
+
+from __future__ import annotations
+
+from fake_live import FakeLive, grid_edges, grid_points
+from seamwire.core.network import Along, Wire
+from seamwire.core.solver import Engines
+from seamwire.core.symmetry import Symmetry
+
+SIZE = 6
+POINTS = grid_points(SIZE)
+
+
+class Grid:
+    """Engines on a grid, with the live wires they have made."""
+
+    def __init__(self, **options: object) -> None:
+        self.lives: dict[str, FakeLive] = {}
+
+        def make(way: Along) -> FakeLive:
+            self.lives[way] = FakeLive(SIZE, way, **options)
+            return self.lives[way]
+
+        self.engines = Engines(make, {}, lambda stroke: stroke)
+
+
+def wire(*vertices: int, **options: object) -> Wire:
+    """Return a wire along edges."""
+    return Wire("EDGES", vertices, POINTS[list(vertices)], vertices[0], vertices[-1], **options)
+
+
+def symmetry() -> Symmetry:
+    """Return the symmetry of a grid with its middle at the origin."""
+    points = POINTS.copy()
+    points[:, :2] -= (SIZE - 1) / 2
+    return Symmetry(points, grid_edges(SIZE))

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Both wires from a seed to what is under the cursor."""
+
+from __future__ import annotations
+
+import pytest
+from grid import POINTS, SIZE, Grid
+from seamwire.core.candidates import CandidateWires
+from seamwire.core.network import Network, Seed, Snap
+
+
+def aimed(at: int, **options: object) -> tuple[CandidateWires, str]:
+    """Return the wires from vertex 0 to another, and what was said."""
+    candidates = CandidateWires(Grid(**options).engines, POINTS)
+    candidates.sow(Seed(0), "EDGES")
+    return candidates, candidates.aim(Snap(at), Network(seed=Seed(0)), "EDGES")
+
+
+def test_the_shorter_one_is_active_until_the_other_is_brought_forward() -> None:
+    candidates, _ = aimed(8, shorter=1)
+    assert candidates.active.vertices == (0, 6, 7, 8)
+    assert candidates.swap() == ""
+    assert candidates.active.vertices == (0, 1, 2, 8)
+    assert candidates.other.vertices == (0, 6, 7, 8)
+
+
+def test_there_is_no_other_where_both_run_alike_or_nothing_is_computed() -> None:
+    assert aimed(3)[0].swap() == "Both wires run along the same edges here"
+    assert aimed(8, ready=(False, False))[0].swap() == "There is no other wire yet"
+
+
+def test_the_one_that_is_there_is_shown_while_the_other_is_computed() -> None:
+    candidates, _ = aimed(8, ready=(False, True))
+    assert candidates.active.follow == 1
+    assert candidates.active_final
+    assert not candidates.decided, "the shorter one is not there yet"
+
+
+def test_what_no_wire_reaches_is_said() -> None:
+    candidates, message = aimed(8, islands=(8,))
+    assert candidates.active is None
+    assert message == "No wire reaches vertex 8"
+
+
+def test_a_seed_that_is_not_there_is_refused() -> None:
+    candidates, _ = aimed(8)
+    with pytest.raises(ValueError, match="not part of the surface"):
+        candidates.sow(Seed(SIZE**2), "EDGES")
