@@ -55,7 +55,11 @@ class Strip(Chain, Protocol):
 
 
 class LiveWire(Protocol):
-    """What a session asks of ``seamwire_core.LiveWire``."""
+    """What a session asks of ``seamwire_core.LiveWire``.
+
+    Only `wait` waits. Until the library has built its surface, the others answer that nothing is there yet and nothing
+    final; where it cannot be built, all raise ValueError.
+    """
 
     def seed(self, pick: Pick, forward: bool = False) -> None:
         """Start the wires from a pick."""
