@@ -8,12 +8,12 @@ import pytest
 from scene import Edge, seams
 from seamwire.core.serialization import Archive
 from seamwire.mesh import object_session
-from seamwire.mesh.object_session import ObjectSession, live_maker
+from seamwire.mesh.object_session import ObjectSession
 
 
 def session_on(obj: bpy.types.Object) -> ObjectSession:
-    """Return a session on an object in edit mode that computes its wires while it is asked for them."""
-    return ObjectSession(obj, "EDGES", live_maker)
+    """Return a session on an object in edit mode."""
+    return ObjectSession(obj)
 
 
 def write(mesh: ObjectSession) -> tuple[int, int]:

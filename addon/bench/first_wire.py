@@ -54,7 +54,7 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     """
     from seamwire.core import session
     from seamwire.mesh import edit_mesh
-    from seamwire.mesh.object_session import eventual_surface, maker_on
+    from seamwire.mesh.object_session import LiveMaker
     from seamwire.view import picking, viewport
 
     steps = {}
@@ -62,7 +62,7 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     cage = edit_mesh.Cage(obj)
     arrays = edit_mesh.read(obj)
     steps["read"] = watch.lap()
-    wires = session.Session(maker_on(eventual_surface(arrays)), arrays.points, along)
+    wires = session.Session(LiveMaker(arrays), arrays.points, along)
     picking.Picker(cage.bm, arrays).depth(viewport.View(1.0, 1.0, np.eye(4)), obj.matrix_world, (0.5, 0.5))
     steps["begun"] = watch.lap()
     wires.wait()

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from paper_mesh import PaperMesh
 from seamwire.core.network import Edge, Network, Pick, Snap
 from seamwire.core.session import CLAMP_PERCENTILE, STRENGTHS, Session
-from seamwire.core.solver import EventualLive, Eventually
 from seamwire.core.wire_labels import Plan
 
 core = pytest.importorskip("seamwire_core")
@@ -36,15 +35,15 @@ class Monkey:
     def __init__(self, seed: int) -> None:
         self.dice = random.Random(seed)
         self.points = hills()
-        surface = core.Surface(self.points, grid_triangles(SIZE), EDGES)
 
         def live(along: str) -> object:
+            mesh = self.points, grid_triangles(SIZE), EDGES
             return core.LiveWire(
-                surface, along=along.lower(), max_anisotropy=STRENGTHS[along], clamp_percentile=CLAMP_PERCENTILE
+                *mesh, along=along.lower(), max_anisotropy=STRENGTHS[along], clamp_percentile=CLAMP_PERCENTILE
             )
 
         self.session = Session(
-            lambda along: EventualLive(Eventually(lambda: live(along))),
+            live,
             self.points,
             edges=EDGES,
             seams=[(40, 41), (41, 53)],

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from paper_mesh import PaperMesh
 from seamwire.core.network import Along, Snap
 from seamwire.core.session import CLAMP_PERCENTILE, STRENGTHS, Session
-from seamwire.core.solver import EventualLive, Eventually
 
 core = pytest.importorskip("seamwire_core")
 
@@ -34,17 +33,14 @@ def at(x: int, y: int) -> int:
     return (y + SIZE // 2) * SIZE + x + SIZE // 2
 
 
-def draw(along: Along = "EDGES", eventual: bool = False) -> Session:
+def draw(along: Along = "EDGES", ready: bool = True) -> Session:
+    """Return a session on the ridge; not `ready`: its live wires build their surfaces themselves."""
     points = ridge()
 
     def make(way: Along) -> object:
-        def live() -> object:
-            surface = core.Surface(points, triangles(), grid_edges(SIZE))
-            return core.LiveWire(
-                surface, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE
-            )
-
-        return EventualLive(Eventually(live)) if eventual else live()
+        mesh = points, triangles(), grid_edges(SIZE)
+        on = (core.Surface(*mesh),) if ready else mesh
+        return core.LiveWire(*on, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE)
 
     return Session(make, points, along, edges=grid_edges(SIZE))
 
@@ -59,9 +55,9 @@ def click(session: Session, *picks: object) -> None:
         session.wait()
 
 
-@pytest.mark.parametrize("eventual", [False, True])
-def test_a_wire_along_the_ridge_is_kept(eventual: bool) -> None:
-    session = draw(eventual=eventual)
+@pytest.mark.parametrize("ready", [False, True])
+def test_a_wire_along_the_ridge_is_kept(ready: bool) -> None:
+    session = draw(ready=ready)
     session.click(at(0, -8))
     session.click(at(0, 8))
     session.wait()

@@ -13,7 +13,6 @@ from paper_mesh import PaperMesh
 from seamwire.core.edge_loops import corners
 from seamwire.core.network import Along
 from seamwire.core.session import CLAMP_PERCENTILE, STRENGTHS, Session
-from seamwire.core.solver import EventualLive, Eventually
 
 core = pytest.importorskip("seamwire_core")
 
@@ -26,18 +25,14 @@ def session_on(
     points: NDArray[np.float64],
     triangles: NDArray[np.int32],
     edges: NDArray[np.int32] | None = None,
-    eventual: bool = False,
+    ready: bool = True,
     **options: object,
 ) -> Session:
     surface = core.Surface(points, triangles, edges)
 
     def make(way: Along) -> object:
-        def live() -> object:
-            return core.LiveWire(
-                surface, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE
-            )
-
-        return EventualLive(Eventually(live)) if eventual else live()
+        on = (surface,) if ready else (points, triangles, edges)
+        return core.LiveWire(*on, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE)
 
     return Session(make, points, edges=surface.edges if edges is None else edges, triangles=triangles, **options)
 
@@ -158,9 +153,9 @@ def test_along_a_tube_the_strip_runs_from_rim_to_rim() -> None:
     assert not session.computing
 
 
-@pytest.mark.parametrize("eventual", [False, True])
-def test_a_double_click_on_a_ball_takes_the_meridian_between_the_poles(eventual: bool) -> None:
-    session = ball(eventual=eventual)
+@pytest.mark.parametrize("ready", [False, True])
+def test_a_double_click_on_a_ball_takes_the_meridian_between_the_poles(ready: bool) -> None:
+    session = ball(ready=ready)
     edge = (3 * AROUND + 2, 4 * AROUND + 2)
     session.click(edge)
     session.loop(edge)
@@ -303,9 +298,9 @@ def wire_between(session: Session, along: Along) -> NDArray[np.float64]:
     return points
 
 
-@pytest.mark.parametrize("eventual", [False, True])
-def test_a_wire_follows_a_stroke_and_is_what_it_was_without(eventual: bool) -> None:
-    session = grid(eventual=eventual)
+@pytest.mark.parametrize("ready", [False, True])
+def test_a_wire_follows_a_stroke_and_is_what_it_was_without(ready: bool) -> None:
+    session = grid(ready=ready)
     before = wire_between(session, "SURFACE")
     assert np.abs(before[:, 1] - 15.0).max() < 1e-6
     assert session.scribble(bow(), faces_under(bow()))
@@ -318,9 +313,9 @@ def test_a_wire_follows_a_stroke_and_is_what_it_was_without(eventual: bool) -> N
     assert np.array_equal(after, before)
 
 
-@pytest.mark.parametrize("eventual", [False, True])
-def test_along_edges_a_wire_follows_a_stroke_that_edges_can_follow(eventual: bool) -> None:
-    session = grid(eventual=eventual)
+@pytest.mark.parametrize("ready", [False, True])
+def test_along_edges_a_wire_follows_a_stroke_that_edges_can_follow(ready: bool) -> None:
+    session = grid(ready=ready)
     session.scribble(gate(), faces_under(gate()))
     assert set(map(tuple, wire_between(session, "EDGES")[:, :2])) == GATE
 
@@ -407,12 +402,12 @@ def test_any_stroke_on_the_mesh_leaves_wires_that_can_be_drawn(points: NDArray[n
     assert session.message == ""
 
 
-@pytest.mark.parametrize("eventual", [False, True])
-def test_what_the_library_refuses_is_said_and_undone_without_a_loss(eventual: bool) -> None:
+@pytest.mark.parametrize("ready", [False, True])
+def test_what_the_library_refuses_is_said_and_undone_without_a_loss(ready: bool) -> None:
     def off_mesh(scribble: object) -> object:
         return core.Scribble(scribble.points + np.array([0.0, 0.0, 40.0]), faces=scribble.faces)
 
-    session = grid(eventual=eventual, make_scribble=off_mesh)
+    session = grid(ready=ready, make_scribble=off_mesh)
     session.click(LEFT)
     session.click(RIGHT)
     session.wait()

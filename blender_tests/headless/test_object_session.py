@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One object that is drawn on: how its session, its seams and what its mesh keeps go together."""
 
+import math
+
 import bmesh
 import bpy
 import numpy as np
@@ -8,7 +10,7 @@ import pytest
 from mathutils import Matrix
 from scene import add_grid, add_layers, chain, edit, seams, snapshot
 from seamwire.mesh import edit_mesh
-from seamwire.mesh.object_session import ObjectSession
+from seamwire.mesh.object_session import LiveMaker, ObjectSession
 from stored import agree, chains, forget, session_on, wired, write
 
 ROW = tuple(range(36, 45))
@@ -41,6 +43,36 @@ def set_seams(obj: bpy.types.Object, *pairs: tuple[int, int], seam: bool = True)
 
 def has_labels(obj: bpy.types.Object) -> bool:
     return LAYER in bmesh.from_edit_mesh(obj.data).edges.layers.int
+
+
+# What computes its wires
+
+
+def test_both_ways_run_on_one_surface_which_islands_are_told_apart_on(grid: bpy.types.Object) -> None:
+    arrays = edit_mesh.read(grid)
+    make = LiveMaker(arrays)
+    lives = [make("EDGES"), make("SURFACE")]
+    assert [str(live).split(" of ")[0] for live in lives] == ["<LiveWire: along edges", "<LiveWire: across the surface"]
+    surface = make.wait()
+    assert all(live.wait() for live in lives)
+    assert all(np.array_equal(live.surface.edges, surface.edges) for live in lives)
+    assert np.array_equal(surface.edges, np.unique(np.sort(arrays.edges, axis=1), axis=0))
+    labels = make.face_segments(np.array([(v, v + 1) for v in ROW[:-1]]))
+    assert np.bincount(labels).tolist() == [64, 64]
+
+
+def test_what_wires_cannot_run_on_is_said(grid: bpy.types.Object) -> None:
+    bm = bmesh.from_edit_mesh(grid.data)
+    bm.verts.ensure_lookup_table()
+    bm.verts[7].co.x = math.nan
+    make = LiveMaker(edit_mesh.read(grid))
+    live = make("EDGES")
+    with pytest.raises(ValueError, match="vertex 7 has a coordinate that is not finite"):
+        make.wait()
+    with pytest.raises(ValueError, match="vertex 7"):
+        live.progress()
+    with pytest.raises(RuntimeError, match="vertex 7"):
+        bpy.ops.mesh.seamwire_mark(chains="0 8")
 
 
 # What is written

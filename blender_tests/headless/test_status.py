@@ -7,7 +7,7 @@ from scene import add_grid, edit
 from seamwire.core.network import Snap
 from seamwire.core.session import Session
 from seamwire.mesh import edit_mesh
-from seamwire.mesh.object_session import live_maker
+from seamwire.mesh.object_session import LiveMaker
 from seamwire.operators.bindings import Action, Bindings, Key
 from seamwire.ui.status_bar import Status, hints
 
@@ -17,7 +17,7 @@ def session() -> Session:
     obj = add_grid(9)
     edit()
     arrays = edit_mesh.read(obj)
-    session = Session(live_maker(arrays), arrays.points)
+    session = Session(LiveMaker(arrays), arrays.points)
     session.wait()
     return session
 

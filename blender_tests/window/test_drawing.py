@@ -208,8 +208,8 @@ def test_wires_that_are_being_computed_come_when_they_are_ready(desk: Desk, monk
             nothing = type("Nothing", (), {"points": [], "vertices": [], "length": math.inf, "final": False})()
             return type("Wires", (), {"wires": (nothing, nothing), "shorter": 0, "final": False})()
 
-    make = object_session.maker_on
-    monkeypatch.setattr(object_session, "maker_on", lambda surface: lambda along: Slow(make(surface)(along)))
+    make = object_session.LiveMaker
+    monkeypatch.setattr(make, "__call__", lambda self, along, call=make.__call__: Slow(call(self, along)))
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(36), ctrl=True)
     ui.click(desk.at(44))

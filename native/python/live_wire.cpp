@@ -21,22 +21,24 @@ namespace seamwire::python {
 
 namespace {
 
+using OptionalNumber = std::optional<double>;
+using SharedSurface = std::shared_ptr<SurfaceObject>;
+
 struct LiveWireObject {
-  LiveWireObject(std::shared_ptr<const Surface> on, const LiveWireOptions& with)
-      : vertex_count(on->vertex_count()), along(with.along), live(std::make_unique<LiveWire>(std::move(on), with)) {}
-  /// A fork.
-  explicit LiveWireObject(const LiveWireObject& of, LiveWire fork)
-      : vertex_count(of.vertex_count), along(of.along), live(std::make_unique<LiveWire>(std::move(fork))) {}
+  LiveWireObject(std::size_t vertices, Along how, std::unique_ptr<LiveWire> made, SharedSurface on = nullptr)
+      : vertex_count(vertices), along(how), live(std::move(made)), surface(std::move(on)) {}
   LiveWireObject(const LiveWireObject&) = delete;
   LiveWireObject& operator=(const LiveWireObject&) = delete;
   ~LiveWireObject() {
     const GilRelease released;  // joins threads
     live.reset();
+    surface.reset();
   }
 
   std::size_t vertex_count;
   Along along;
   std::unique_ptr<LiveWire> live;
+  SharedSurface surface;  ///< null until it is asked for, then the same object each time
 };
 
 using SharedWires = std::shared_ptr<const LiveWires>;
@@ -68,8 +70,8 @@ MetricFamily family_from(const std::string& name) {
 }
 
 /// With the defaults of each way of running.
-Strength strength_from(MetricFamily family, Along along, std::optional<double> gamma,
-                       std::optional<double> max_anisotropy, std::optional<double> clamp_percentile) {
+Strength strength_from(MetricFamily family, Along along, OptionalNumber gamma, OptionalNumber max_anisotropy,
+                       OptionalNumber clamp_percentile) {
   if (gamma && family != MetricFamily::kFeature) {
     throw InvalidInput("gamma: only the metric 'feature' has it; give max_anisotropy instead");
   }
@@ -90,21 +92,42 @@ Along along_from(const std::string& name) {
   throw InvalidInput("along: expected 'surface' or 'edges', got '" + name + "'");
 }
 
+LiveWireOptions options_from(OptionalNumber gamma, OptionalNumber max_anisotropy, OptionalNumber clamp_percentile,
+                             const std::string& along, double turning, OptionalNumber loop_turning,
+                             const std::string& metric) {
+  LiveWireOptions options{
+      .along = along_from(along), .family = family_from(metric), .turning = turning, .loop_turning = loop_turning};
+  options.strength = strength_from(options.family, options.along, gamma, max_anisotropy, clamp_percentile);
+  return options;
+}
+
+/// What options_from() takes, with its defaults.
+struct OptionArguments {
+  py::arg_v gamma = py::arg("gamma") = py::none();
+  py::arg_v max_anisotropy = py::arg("max_anisotropy") = py::none();
+  py::arg_v clamp_percentile = py::arg("clamp_percentile") = py::none();
+  py::arg_v along = py::arg("along") = "surface";
+  py::arg_v turning = py::arg("turning") = 3.0;
+  py::arg_v loop_turning = py::arg("loop_turning") = py::none();
+  py::arg_v metric = py::arg("metric") = "feature";
+};
+
 std::vector<std::int32_t> vertices_from(const py::iterable& stops, std::size_t vertex_count) {
   std::vector<std::int32_t> vertices;
   for (const py::handle stop : stops) vertices.push_back(vertex_from(stop, vertex_count, "stops"));
   return vertices;
 }
 
-/// Waits in slices, so that Ctrl-C is heard.
-bool wait_for(const LiveWire& live, std::optional<double> seconds) {
+/// Calls wait(seconds) in slices, so that Ctrl-C is heard.
+template <class Wait>
+bool wait_in_slices(OptionalNumber seconds, const Wait& wait) {
   using Seconds = std::chrono::duration<double>;
   constexpr double kSlice = 0.05;
   const auto start = std::chrono::steady_clock::now();
   const double total = seconds.value_or(std::numeric_limits<double>::infinity());
   while (true) {
     const double left = total - Seconds(std::chrono::steady_clock::now() - start).count();
-    const bool done = without_gil([&] { return live.wait(std::clamp(left, 0.0, kSlice)); });
+    const bool done = without_gil([&] { return wait(std::clamp(left, 0.0, kSlice)); });
     if (done || left <= kSlice) return done;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   }
@@ -113,6 +136,7 @@ bool wait_for(const LiveWire& live, std::optional<double> seconds) {
 }  // namespace
 
 void bind_live_wire(py::module_& module) {
+  const OptionArguments with;
   py::class_<CandidateObject>(module, "LiveCandidate", "One of the two wires from the seed to a target.")
       .def_property_readonly(
           "follow", [](const CandidateObject& c) { return name_of(c.get().follow); },
@@ -172,9 +196,16 @@ void bind_live_wire(py::module_& module) {
   py::class_<LiveWireObject>(module, "LiveWire",
                              R"(Two wires from a seed to any target, each metric computed on a thread of its own.
 
+``LiveWire(surface, ...)``, or ``LiveWire(points, triangles, edges=None, *, ...)``, which copies the arrays, returns at
+once and builds the surface on the live wire's own threads. Until it is there all methods but `wait` and
+`wait_for_surface` answer at once that nothing is there yet and nothing final, and what is asked for (seed, metric,
+strokes) is kept. Where the surface cannot be built, each method raises what `Surface` would have raised.
+
 Parameters
 ----------
 surface : Surface
+points, triangles, edges : array_like
+    (n, 3), (m, 3), (e, 2) or None, as of `Surface`.
 gamma, max_anisotropy, clamp_percentile : float, optional
     As in `feature_metric`. Neither gamma nor max_anisotropy: gamma = 0.1 across the surface, max_anisotropy = 10 and
     clamp_percentile = 99 along edges; max_anisotropy = 10 for the other metrics, which have no gamma.
@@ -190,25 +221,63 @@ metric : {'feature', 'campen', 'pottmann_kovacs', 'euclidean'}
 Raises
 ------
 ValueError
-    Where a parameter is wrong.
+    Where a parameter is wrong, or an array has the wrong shape or type.
 )")
-      .def(py::init([](const SurfaceObject& surface, std::optional<double> gamma, std::optional<double> max_anisotropy,
-                       std::optional<double> clamp_percentile, const std::string& along, double turning,
-                       std::optional<double> loop_turning, const std::string& metric) {
-             LiveWireOptions options{.along = along_from(along),
-                                     .family = family_from(metric),
-                                     .turning = turning,
-                                     .loop_turning = loop_turning};
-             options.strength = strength_from(options.family, options.along, gamma, max_anisotropy, clamp_percentile);
-             return without_gil([&] { return std::make_unique<LiveWireObject>(surface.surface, options); });
+      .def(py::init([](const SharedSurface& surface, OptionalNumber gamma, OptionalNumber max_anisotropy,
+                       OptionalNumber clamp_percentile, const std::string& along, double turning,
+                       OptionalNumber loop_turning, const std::string& metric) {
+             const LiveWireOptions options =
+                 options_from(gamma, max_anisotropy, clamp_percentile, along, turning, loop_turning, metric);
+             auto live = without_gil([&] { return std::make_unique<LiveWire>(surface->surface, options); });
+             return std::make_unique<LiveWireObject>(surface->surface->vertex_count(), options.along, std::move(live),
+                                                     surface);
            }),
-           py::arg("surface"), py::arg("gamma") = py::none(), py::arg("max_anisotropy") = py::none(),
-           py::arg("clamp_percentile") = py::none(), py::arg("along") = "surface", py::arg("turning") = 3.0,
-           py::arg("loop_turning") = py::none(), py::arg("metric") = "feature")
+           py::arg("surface"), with.gamma, with.max_anisotropy, with.clamp_percentile, with.along, with.turning,
+           with.loop_turning, with.metric)
+      .def(py::init([](const py::object& points, const py::object& triangles, const py::object& edges,
+                       OptionalNumber gamma, OptionalNumber max_anisotropy, OptionalNumber clamp_percentile,
+                       const std::string& along, double turning, OptionalNumber loop_turning,
+                       const std::string& metric) {
+             const LiveWireOptions options =
+                 options_from(gamma, max_anisotropy, clamp_percentile, along, turning, loop_turning, metric);
+             auto p = points_from(points, "points");
+             auto t = triangles_from(triangles, "triangles");
+             auto e = edges.is_none() ? std::nullopt : std::optional(edges_from(edges, "edges"));
+             const std::size_t vertex_count = p.size();
+             auto live = without_gil(
+                 [&] { return std::make_unique<LiveWire>(std::move(p), std::move(t), std::move(e), options); });
+             return std::make_unique<LiveWireObject>(vertex_count, options.along, std::move(live));
+           }),
+           py::arg("points"), py::arg("triangles"), py::arg("edges") = py::none(), py::kw_only(), with.gamma,
+           with.max_anisotropy, with.clamp_percentile, with.along, with.turning, with.loop_turning, with.metric)
+      .def_property_readonly(
+          "surface",
+          [](LiveWireObject& object) {
+            if (!object.surface) {
+              auto built = without_gil([&] { return object.live->surface(); });
+              if (built && !object.surface) object.surface = std::make_shared<SurfaceObject>(std::move(built));
+            }
+            return object.surface;
+          },
+          "Surface: the one that wires run on; None until it is built.")
+      .def(
+          "wait_for_surface",
+          [](const LiveWireObject& object, OptionalNumber seconds) {
+            return wait_in_slices(seconds, [&](double slice) { return object.live->wait_for_surface(slice); });
+          },
+          py::arg("seconds") = py::none(),
+          R"(Waits until the surface is built, at most that long (None: until it is); any thread may.
+
+Returns
+-------
+bool
+    Whether it is.
+)")
       .def(
           "fork",
           [](const LiveWireObject& object) {
-            return without_gil([&] { return std::make_unique<LiveWireObject>(object, object.live->fork()); });
+            auto live = without_gil([&] { return std::make_unique<LiveWire>(object.live->fork()); });
+            return std::make_unique<LiveWireObject>(object.vertex_count, object.along, std::move(live), object.surface);
           },
           R"(Another live wire with the same metrics, those still being computed too, and no seed.
 
@@ -219,9 +288,35 @@ Returns
 LiveWire
 )")
       .def(
+          "sibling",
+          [](const LiveWireObject& object, OptionalNumber gamma, OptionalNumber max_anisotropy,
+             OptionalNumber clamp_percentile, const std::string& along, double turning, OptionalNumber loop_turning,
+             const std::string& metric) {
+            const LiveWireOptions options =
+                options_from(gamma, max_anisotropy, clamp_percentile, along, turning, loop_turning, metric);
+            auto live = without_gil([&] { return std::make_unique<LiveWire>(object.live->sibling(options)); });
+            return std::make_unique<LiveWireObject>(object.vertex_count, options.along, std::move(live),
+                                                    object.surface);
+          },
+          py::kw_only(), with.gamma, with.max_anisotropy, with.clamp_percentile, with.along, with.turning,
+          with.loop_turning, with.metric,
+          R"(Another live wire on the same surface, which is built once; parameters as of the class.
+
+It has the curvatures in common with this one, metrics of its own, no strokes and no seed.
+
+Returns
+-------
+LiveWire
+
+Raises
+------
+ValueError
+    Where a parameter is wrong.
+)")
+      .def(
           "set_metric",
-          [](const LiveWireObject& object, const std::string& metric, std::optional<double> max_anisotropy,
-             std::optional<double> gamma, std::optional<double> clamp_percentile) {
+          [](const LiveWireObject& object, const std::string& metric, OptionalNumber max_anisotropy,
+             OptionalNumber gamma, OptionalNumber clamp_percentile) {
             const MetricFamily family = family_from(metric);
             const Strength strength = strength_from(family, object.along, gamma, max_anisotropy, clamp_percentile);
             without_gil([&] { object.live->set_metric(family, strength); });
@@ -270,7 +365,7 @@ forward : bool
 Raises
 ------
 ValueError
-    Where the pick is not part of the surface.
+    Where the pick is not part of the surface. An edge that is given before the surface is there is refused by `wires`.
 )")
       .def(
           "wires",
@@ -287,7 +382,7 @@ is computed for the target asked for last, and is there, not final, at one of th
 Raises
 ------
 ValueError
-    Where the target is not part of the surface, or there is no seed.
+    Where the target or the seed is not part of the surface, or there is no seed.
 )")
       .def(
           "loop",
@@ -390,10 +485,12 @@ Returns
 )")
       .def(
           "progress", [](const LiveWireObject& object) { return without_gil([&] { return object.live->progress(); }); },
-          "Fraction of the preparation and the seed's work that is done, 1 when all is.")
+          "Fraction of the preparation and the seed's work that is done; 0 until the surface is there, 1 when all is.")
       .def(
           "wait",
-          [](const LiveWireObject& object, std::optional<double> seconds) { return wait_for(*object.live, seconds); },
+          [](const LiveWireObject& object, OptionalNumber seconds) {
+            return wait_in_slices(seconds, [&](double slice) { return object.live->wait(slice); });
+          },
           py::arg("seconds") = py::none(),
           R"(Waits for all running work, loops too, at most that long (None: until it is done).
 

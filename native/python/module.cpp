@@ -116,7 +116,7 @@ void bind_surface(py::module_& module) {
         return text + ">";
       });
 
-  py::class_<SurfaceObject>(module, "Surface", R"(A triangle mesh as people have it.
+  py::class_<SurfaceObject, std::shared_ptr<SurfaceObject>>(module, "Surface", R"(A triangle mesh as people have it.
 
 Boundaries, several components, isolated vertices, zero-area faces, mixed orientation, edges with three or more faces
 and duplicate faces are all taken, and counted in `report`. Vertices and faces keep the caller's numbers.
@@ -142,7 +142,7 @@ ValueError
              auto t = triangles_from(triangles, "triangles");
              auto e = edges.is_none() ? std::nullopt : std::optional(edges_from(edges, "edges"));
              return without_gil([&] {
-               return std::make_unique<SurfaceObject>(
+               return std::make_shared<SurfaceObject>(
                    std::make_shared<const Surface>(std::move(p), std::move(t), std::move(e)));
              });
            }),

@@ -11,7 +11,7 @@ result hands out are read-only views of its memory.
 """
 
 from collections.abc import Callable, Iterable, Sequence
-from typing import Literal
+from typing import Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -139,6 +139,7 @@ class LiveWires:
     final: bool
 
 class LiveWire:
+    @overload
     def __init__(
         self,
         surface: Surface,
@@ -151,8 +152,39 @@ class LiveWire:
         metric: Literal["feature", "campen", "pottmann_kovacs", "euclidean"] = "feature",
     ) -> None:
         """Neither gamma nor max_anisotropy: gamma = 0.1 across the surface, max_anisotropy = 10 and clamp_percentile = 99 along edges."""
+    @overload
+    def __init__(
+        self,
+        points: ArrayLike,
+        triangles: ArrayLike,
+        edges: ArrayLike | None = None,
+        *,
+        gamma: float | None = None,
+        max_anisotropy: float | None = None,
+        clamp_percentile: float | None = None,
+        along: Literal["surface", "edges"] = "surface",
+        turning: float = 3.0,
+        loop_turning: float | None = None,
+        metric: Literal["feature", "campen", "pottmann_kovacs", "euclidean"] = "feature",
+    ) -> None:
+        """Copy the arrays, return at once and build the surface in the background; what that raises, the other methods raise."""
+    surface: Surface | None  # None until it is built
+    def wait_for_surface(self, seconds: float | None = None) -> bool:
+        """Return whether it is built; any thread may wait."""
     def fork(self) -> LiveWire:
         """Another with the same metrics, those still being computed too, and no seed; metrics set later are each one's own."""
+    def sibling(
+        self,
+        *,
+        gamma: float | None = None,
+        max_anisotropy: float | None = None,
+        clamp_percentile: float | None = None,
+        along: Literal["surface", "edges"] = "surface",
+        turning: float = 3.0,
+        loop_turning: float | None = None,
+        metric: Literal["feature", "campen", "pottmann_kovacs", "euclidean"] = "feature",
+    ) -> LiveWire:
+        """Another on the same surface, which is built once; metrics of its own, no strokes, no seed."""
     def set_metric(
         self,
         metric: Literal["feature", "campen", "pottmann_kovacs", "euclidean"] = "feature",

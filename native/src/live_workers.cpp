@@ -14,10 +14,16 @@ double loop_turning_for(std::size_t edges) { return std::max(20.0, std::sqrt(sta
 
 }  // namespace
 
+bool has_edge(const Surface& surface, const Edge& edge) {
+  const Edge sorted = {std::min(edge[0], edge[1]), std::max(edge[0], edge[1])};
+  return std::binary_search(surface.edges().begin(), surface.edges().end(), sorted);
+}
+
 LiveWire::Impl::Impl(std::shared_ptr<Ground> on, std::shared_ptr<Metrics> by, const LiveWireOptions& with)
     : ground(std::move(on)),
+      along(with.along),
       turning(with.turning),
-      loop_turning(with.loop_turning.value_or(loop_turning_for(ground->surface->edges().size()))),
+      loop_turning(with.loop_turning),
       metrics(std::move(by)) {
   for (std::size_t which = 0; which < kFollow.size(); ++which) {
     threads[which] = std::jthread([this, which](const std::stop_token& quit) { work(which, quit); });
@@ -28,7 +34,24 @@ LiveWire::Impl::~Impl() {
   for (std::jthread& thread : threads) thread.request_stop();  // both, before the first of them is joined
 }
 
+/// Builds the surface, or waits for the thread that does; false where there is none.
+bool LiveWire::Impl::await_surface(const std::stop_token& quit) {
+  std::exception_ptr error;
+  try {
+    ground->surface_now(quit);
+  } catch (const Cancelled&) {
+    return false;
+  } catch (...) {
+    error = std::current_exception();
+  }
+  const std::scoped_lock lock(mutex);
+  failure = error;
+  changed.notify_all();
+  return !failure;
+}
+
 void LiveWire::Impl::work(std::size_t which, const std::stop_token& quit) {
+  if (!await_surface(quit)) return;
   Worker& worker = workers[which];
   const std::stop_callback stop_work(quit, [&] {
     const std::scoped_lock lock(mutex);
@@ -80,14 +103,16 @@ void LiveWire::Impl::work_on_seed(std::size_t which, std::unique_lock<std::mutex
   std::exception_ptr error;
   try {
     const std::shared_ptr<const Prepared> prepared =
-        with->prepared[which]->get(preparing, [&] { return prepare(*ground, *with, which, preparing); });
+        with->prepared[which]->get(preparing, [&] { return prepare(*ground, along, *with, which, preparing); });
     with->forget_former(which);
+    const bool is_sown =
+        pick && (!pick->is_edge() || has_edge(surface(), {pick->a, pick->b}));  // wires() refuses others
     if (before && before->field && before->prepared == prepared) {
       solved = before;  // the other metric was changed
-    } else if (pick) {
+    } else if (is_sown) {
       task.check(0.0);
-      solved = ground->along == Along::kSurface ? find_field(which, prepared, pick->a, at, task)
-                                                : find_chains(which, prepared, *pick, is_forward, at, task);
+      solved = along == Along::kSurface ? find_field(which, prepared, pick->a, at, task)
+                                        : find_chains(which, prepared, *pick, is_forward, at, task);
     }
   } catch (const Cancelled&) {
     // By a newer request, or to quit.
@@ -122,7 +147,9 @@ void LiveWire::Impl::work_on_loop(std::size_t which, std::unique_lock<std::mutex
   std::exception_ptr error;
   bool is_cancelled = false;
   try {
-    if (prepared) loop = edge_loop(*prepared->graph, edge, loop_turning, task);
+    if (prepared && has_edge(surface(), edge)) {  // loop() refuses others
+      loop = edge_loop(*prepared->graph, edge, loop_turning.value_or(loop_turning_for(surface().edges().size())), task);
+    }
   } catch (const Cancelled&) {
     is_cancelled = true;  // by a newer loop, which counts then, or by a seed, which goes first
   } catch (...) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <exception>
@@ -17,6 +19,9 @@
 
 /// The two threads behind a LiveWire, and what they share with its caller.
 namespace seamwire {
+
+/// In either direction.
+bool has_edge(const Surface& surface, const Edge& edge);
 
 /// The wires of one metric from one seed. Along edges it may still be at work.
 struct Solved {
@@ -51,12 +56,15 @@ struct LiveWire::Impl {
     std::atomic<double> fraction = 0.0;
   };
 
+  /// `with`: but for the metrics.
   Impl(std::shared_ptr<Ground> on, std::shared_ptr<Metrics> by, const LiveWireOptions& with);
   ~Impl();
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  const Surface& surface() const { return *ground->surface; }
+  /// Once it is built, as in all that workers do.
+  const Surface& surface() const { return ground->surface(); }
+  bool await_surface(const std::stop_token& quit);
   void work(std::size_t which, const std::stop_token& quit);
   void work_on_seed(std::size_t which, std::unique_lock<std::mutex>& lock);
   void work_on_loop(std::size_t which, std::unique_lock<std::mutex>& lock);
@@ -70,18 +78,43 @@ struct LiveWire::Impl {
 
   /// With the lock.
   bool idle() const {
-    return std::ranges::all_of(workers,
-                               [&](const Worker& w) { return w.handled == request && w.loop_handled == loop_request; });
+    return failure || std::ranges::all_of(workers, [&](const Worker& w) {
+             return w.handled == request && w.loop_handled == loop_request;
+           });
+  }
+  void rethrow_failure() const {
+    if (failure) std::rethrow_exception(failure);
   }
   void rethrow() const {
+    rethrow_failure();
     for (const Worker& worker : workers) {
       if (worker.error) std::rethrow_exception(worker.error);
     }
   }
-  /// Without the lock.
+  /// Without the lock. Throws why there will be no surface.
+  void check_surface() const {
+    const std::scoped_lock lock(mutex);
+    rethrow_failure();
+  }
+  /// The same; null until the surface is built.
+  std::shared_ptr<const Surface> surface_if_built() const {
+    const std::scoped_lock lock(mutex);
+    rethrow_failure();
+    return ground->peek_surface();
+  }
   std::shared_ptr<Metrics> metrics_now() const {
     const std::scoped_lock lock(mutex);
     return metrics;
+  }
+  /// With the lock, which it gives up while it waits; at most `seconds`.
+  template <class Condition>
+  void wait_until(std::unique_lock<std::mutex>& lock, double seconds, const Condition& condition) const {
+    constexpr double kForever = 1e9;  // a longer time would overflow the clock
+    if (seconds >= kForever) {
+      changed.wait(lock, condition);
+    } else {
+      changed.wait_for(lock, std::chrono::duration<double>(std::max(0.0, seconds)), condition);
+    }
   }
   /// With the lock.
   void drop_loop() {
@@ -90,13 +123,15 @@ struct LiveWire::Impl {
   }
 
   const std::shared_ptr<Ground> ground;
+  const Along along;
   const double turning;
-  const double loop_turning;
+  const std::optional<double> loop_turning;
 
   mutable std::mutex mutex;  // guards what follows, but for the fractions
   mutable std::condition_variable_any changed;
   std::shared_ptr<Metrics> metrics;
-  std::int64_t request = 0;  // grows with each seed and each change of the metric
+  std::exception_ptr failure;  // why there is no surface, for good
+  std::int64_t request = 0;    // grows with each seed and each change of the metric
   std::optional<Pick> seed;
   bool forward = false;
   Pick target;                            // what wires were asked for last

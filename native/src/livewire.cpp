@@ -2,7 +2,6 @@
 #include "seamwire/livewire.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <span>
 #include <string>
@@ -14,21 +13,20 @@
 namespace seamwire {
 namespace {
 
-void check_edge(const Surface& surface, const Edge& edge) {
-  const Edge sorted = {std::min(edge[0], edge[1]), std::max(edge[0], edge[1])};
-  if (!std::binary_search(surface.edges().begin(), surface.edges().end(), sorted)) {
-    throw InvalidInput("the surface has no edge between the vertices " + std::to_string(edge[0]) + " and " +
-                       std::to_string(edge[1]));
-  }
+/// Where there is no surface yet any edge may be one.
+void check_edge(const Surface* surface, const Edge& edge) {
+  if (surface == nullptr || has_edge(*surface, edge)) return;
+  throw InvalidInput("the surface has no edge between the vertices " + std::to_string(edge[0]) + " and " +
+                     std::to_string(edge[1]));
 }
 
-void check_pick(const Surface& surface, Along along, const Pick& pick) {
+void check_pick(const Surface* surface, std::size_t vertex_count, Along along, const Pick& pick) {
   if (pick.is_edge()) {
     if (along == Along::kSurface) throw InvalidInput("across the surface wires lead from vertex to vertex, not edge");
     check_edge(surface, {pick.a, pick.b});
-  } else if (pick.a < 0 || static_cast<std::size_t>(pick.a) >= surface.vertex_count()) {
+  } else if (pick.a < 0 || static_cast<std::size_t>(pick.a) >= vertex_count) {
     throw InvalidInput("vertex " + std::to_string(pick.a) + " is out of range: the surface has " +
-                       std::to_string(surface.vertex_count()) + " vertices");
+                       std::to_string(vertex_count) + " vertices");
   }
 }
 
@@ -45,13 +43,22 @@ void check_options(const LiveWireOptions& options) {
   }
 }
 
+std::shared_ptr<Metrics> new_metrics(const LiveWireOptions& options) {
+  return std::make_shared<Metrics>(options.family, options.strength, std::vector<Scribble>());
+}
+
 }  // namespace
 
 LiveWire::LiveWire(std::shared_ptr<const Surface> surface, const LiveWireOptions& options) {
   check_options(options);
-  impl_ = std::make_unique<Impl>(std::make_shared<Ground>(std::move(surface), options.along),
-                                 std::make_shared<Metrics>(options.family, options.strength, std::vector<Scribble>()),
-                                 options);
+  impl_ = std::make_unique<Impl>(std::make_shared<Ground>(std::move(surface)), new_metrics(options), options);
+}
+
+LiveWire::LiveWire(std::vector<Vector> points, std::vector<Triangle> triangles, std::optional<std::vector<Edge>> edges,
+                   const LiveWireOptions& options) {
+  check_options(options);
+  impl_ = std::make_unique<Impl>(std::make_shared<Ground>(std::move(points), std::move(triangles), std::move(edges)),
+                                 new_metrics(options), options);
 }
 
 LiveWire::LiveWire(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -60,16 +67,28 @@ LiveWire& LiveWire::operator=(LiveWire&& other) noexcept = default;
 LiveWire::~LiveWire() = default;
 
 LiveWire LiveWire::fork() const {
-  const LiveWireOptions options{.turning = impl_->turning, .loop_turning = impl_->loop_turning};
+  impl_->check_surface();
+  const LiveWireOptions options{.along = impl_->along, .turning = impl_->turning, .loop_turning = impl_->loop_turning};
   return LiveWire(std::make_unique<Impl>(impl_->ground, impl_->metrics_now(), options));
 }
 
+LiveWire LiveWire::sibling(const LiveWireOptions& options) const {
+  check_options(options);
+  impl_->check_surface();
+  return LiveWire(std::make_unique<Impl>(impl_->ground, new_metrics(options), options));
+}
+
+std::shared_ptr<const Surface> LiveWire::surface() const { return impl_->surface_if_built(); }
+
 void LiveWire::set_metric(MetricFamily family, const Strength& strength) {
   check_metric(family, strength);
-  impl_->change_metrics(std::make_shared<Metrics>(family, strength, impl_->metrics_now()->scribbles));
+  impl_->check_surface();
+  auto to = std::make_shared<Metrics>(family, strength, impl_->metrics_now()->scribbles);
+  impl_->change_metrics(std::move(to));  // the former metric is held here no longer, so it is not freed here
 }
 
 void LiveWire::set_scribbles(std::vector<Scribble> scribbles) {
+  impl_->check_surface();
   std::shared_ptr<Metrics> now = impl_->metrics_now();
   if (scribbles == now->scribbles) return;
   auto to = std::make_shared<Metrics>(now->family, now->strength, std::move(scribbles));
@@ -79,7 +98,7 @@ void LiveWire::set_scribbles(std::vector<Scribble> scribbles) {
 }
 
 void LiveWire::seed(const Pick& pick, bool forward) {
-  check_pick(impl_->surface(), impl_->ground->along, pick);
+  check_pick(impl_->surface_if_built().get(), impl_->ground->vertex_count, impl_->along, pick);
   const std::scoped_lock lock(impl_->mutex);
   ++impl_->request;
   impl_->seed = pick;
@@ -95,19 +114,21 @@ void LiveWire::seed(const Pick& pick, bool forward) {
 }
 
 LiveWires LiveWire::wires(const Pick& target) const {
-  check_pick(impl_->surface(), impl_->ground->along, target);
+  const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
+  check_pick(surface.get(), impl_->ground->vertex_count, impl_->along, target);
   std::array<std::shared_ptr<const Solved>, 2> solved;
   std::array<std::shared_ptr<const Preview>, 2> previews;
   std::array<bool, 2> is_newest{};
   {
     const std::scoped_lock lock(impl_->mutex);
     if (!impl_->seed) throw InvalidInput("there is no seed that wires could start from");
+    check_pick(surface.get(), impl_->ground->vertex_count, impl_->along, *impl_->seed);
     impl_->rethrow();
     if (impl_->target != target) {
       impl_->target = target;
       ++impl_->targets;
     }
-    for (std::size_t which = 0; which < kFollow.size(); ++which) {
+    for (std::size_t which = 0; surface && which < kFollow.size(); ++which) {
       const Impl::Worker& worker = impl_->workers[which];
       solved[which] = worker.solved;
       is_newest[which] = worker.solved != nullptr && worker.solved_for == impl_->request;
@@ -140,8 +161,9 @@ LiveWires LiveWire::wires(const Pick& target) const {
 }
 
 LiveLoop LiveWire::loop(const Edge& edge) {
-  if (impl_->ground->along != Along::kEdges) throw InvalidInput("loops run along edges, not across the surface");
-  check_edge(impl_->surface(), edge);
+  if (impl_->along != Along::kEdges) throw InvalidInput("loops run along edges, not across the surface");
+  const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
+  check_edge(surface.get(), edge);
   const Edge sorted = {std::min(edge[0], edge[1]), std::max(edge[0], edge[1])};
   const std::scoped_lock lock(impl_->mutex);
   impl_->rethrow();
@@ -154,38 +176,41 @@ LiveLoop LiveWire::loop(const Edge& edge) {
     }
     impl_->changed.notify_all();
   }
-  if (!std::ranges::all_of(workers, [&](const auto& w) { return w.loop_handled == impl_->loop_request; })) return {};
+  const auto is_handled = [&](const Impl::Worker& w) { return w.loop_handled == impl_->loop_request; };
+  if (!surface || !std::ranges::all_of(workers, is_handled)) return {};
   const EdgeChain& cheaper = workers[1].loop.length < workers[0].loop.length ? workers[1].loop : workers[0].loop;
   return {.vertices = cheaper.vertices, .length = cheaper.length, .final = true};
 }
 
 EdgeChain LiveWire::run_on(const Edge& edge, std::span<const std::int32_t> stops) const {
-  check_edge(impl_->surface(), edge);
-  const auto fans = impl_->ground->fans.peek();
+  const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
+  check_edge(surface.get(), edge);
+  const auto fans = surface ? impl_->ground->fans.peek() : nullptr;
   if (!fans) return {};
   EdgeChain way{.vertices = seamwire::run_on(**fans, edge, stops), .length = 0.0};
-  const auto point = [&](std::int32_t v) -> const Vector& {
-    return impl_->surface().points()[static_cast<std::size_t>(v)];
-  };
+  const auto point = [&](std::int32_t v) -> const Vector& { return surface->points()[static_cast<std::size_t>(v)]; };
   for (std::size_t i = 1; i < way.vertices.size(); ++i) {
-    way.length += impl_->surface().scale() * (point(way.vertices[i]) - point(way.vertices[i - 1])).norm();
+    way.length += surface->scale() * (point(way.vertices[i]) - point(way.vertices[i - 1])).norm();
   }
   return way;
 }
 
 EdgeStrip LiveWire::strip(const Edge& edge, std::span<const std::int32_t> stops) const {
-  check_edge(impl_->surface(), edge);
-  const auto fans = impl_->ground->fans.peek();
+  const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
+  check_edge(surface.get(), edge);
+  const auto fans = surface ? impl_->ground->fans.peek() : nullptr;
   return fans ? edge_strip(**fans, edge, stops) : EdgeStrip{};
 }
 
 std::shared_ptr<const std::vector<double>> LiveWire::feature_strength() const {
+  impl_->check_surface();
   std::shared_ptr<const Curved> curved = impl_->ground->curved.peek();
   return curved ? std::shared_ptr<const std::vector<double>>(curved, &curved->difference) : nullptr;
 }
 
 double LiveWire::progress() const {
   const std::scoped_lock lock(impl_->mutex);
+  impl_->rethrow_failure();
   double sum = 0.0;
   for (std::size_t which = 0; which < kFollow.size(); ++which) {
     const Impl::Worker& worker = impl_->workers[which];
@@ -201,16 +226,18 @@ double LiveWire::progress() const {
 }
 
 bool LiveWire::wait(double seconds) const {
-  constexpr double kForever = 1e9;  // a longer time would overflow the clock
   std::unique_lock lock(impl_->mutex);
-  const auto idle = [&] { return impl_->idle(); };
-  if (seconds >= kForever) {
-    impl_->changed.wait(lock, idle);
-  } else {
-    impl_->changed.wait_for(lock, std::chrono::duration<double>(std::max(0.0, seconds)), idle);
-  }
+  impl_->wait_until(lock, seconds, [&] { return impl_->idle(); });
   impl_->rethrow();
   return impl_->idle();
+}
+
+bool LiveWire::wait_for_surface(double seconds) const {
+  std::unique_lock lock(impl_->mutex);
+  const auto built = [&] { return impl_->failure || impl_->ground->peek_surface() != nullptr; };
+  impl_->wait_until(lock, seconds, built);
+  impl_->rethrow_failure();
+  return built();
 }
 
 }  // namespace seamwire

@@ -38,6 +38,24 @@ bool are_same_for(Follow follow, const std::vector<Scribble>& these, const std::
 
 }  // namespace
 
+Ground::Ground(std::shared_ptr<const Surface> on) : vertex_count(on->vertex_count()) {
+  built_.get({}, [&] { return std::move(on); });
+}
+
+Ground::Ground(std::vector<Vector> points, std::vector<Triangle> triangles, std::optional<std::vector<Edge>> edges)
+    : vertex_count(points.size()),
+      input_(Input{.points = std::move(points), .triangles = std::move(triangles), .edges = std::move(edges)}) {}
+
+std::shared_ptr<const Surface> Ground::surface_now(const std::stop_token& stop) {
+  return *built_.get(stop, [&] {
+    // Copied: where this is stopped, another live wire may build the surface.
+    auto surface = std::make_shared<const Surface>(input_->points, input_->triangles, input_->edges,
+                                                   Task{.stop = stop, .progress = {}});
+    input_.reset();
+    return surface;
+  });
+}
+
 void Metrics::go_on_from(const Metrics& metrics) {
   for (std::size_t which = 0; which < former_.size(); ++which) {
     // In this order: what is former is forgotten only when the metric is prepared.
@@ -49,8 +67,9 @@ void Metrics::go_on_from(const Metrics& metrics) {
   }
 }
 
-Prepared prepare(Ground& ground, Metrics& metrics, std::size_t which, const std::stop_token& stop) {
-  const bool on_surface = ground.along == Along::kSurface;
+Prepared prepare(Ground& ground, Along along, Metrics& metrics, std::size_t which, const std::stop_token& stop) {
+  const bool on_surface = along == Along::kSurface;
+  const Surface& surface = ground.surface();
   std::atomic<double>& fraction = metrics.fractions[which];
   Prepared prepared;
   std::shared_ptr<const EdgeFans> fans;
@@ -63,10 +82,10 @@ Prepared prepare(Ground& ground, Metrics& metrics, std::size_t which, const std:
   if (which == 0) prepare_edges();
   Task task{.stop = stop, .progress = {}};
   task.check(0.0);
-  Metric metric = make_metric(*ground.surface, curved->curvature, kFollow[which], metrics);
+  Metric metric = make_metric(surface, curved->curvature, kFollow[which], metrics);
   task.check(0.0);
   if (!metrics.scribbles.empty()) {
-    metric = apply_scribbles(*ground.surface, metric, metrics.scribbles, kFollow[which]);
+    metric = apply_scribbles(surface, metric, metrics.scribbles, kFollow[which]);
   }
   fraction = kEmbedBegins / kSolveBegins;
   task.progress = [&fraction](double done) {
@@ -74,15 +93,15 @@ Prepared prepare(Ground& ground, Metrics& metrics, std::size_t which, const std:
     return true;
   };
   if (on_surface) {
-    const std::size_t most = std::max(kFacesAdded, kFacesAddedPerFace * ground.surface->face_count());
+    const std::size_t most = std::max(kFacesAdded, kFacesAddedPerFace * surface.face_count());
     const EmbedOptions options{.max_faces_added = most};
     const std::shared_ptr<const Prepared> former = metrics.former(which);
-    prepared.embedding = former ? re_embed(*ground.surface, former->metric, metric, *former->embedding, options, task)
-                                : embed(*ground.surface, metric, options, task);
+    prepared.embedding = former ? re_embed(surface, former->metric, metric, *former->embedding, options, task)
+                                : embed(surface, metric, options, task);
     prepared.geodesics.emplace(prepared.embedding->mesh);
     prepared.metric = std::move(metric);
   } else {
-    prepared.graph = make_edge_graph(*ground.surface, metric, std::move(fans), task, metrics.scribbles, kFollow[which]);
+    prepared.graph = make_edge_graph(surface, metric, std::move(fans), task, metrics.scribbles, kFollow[which]);
   }
   return prepared;
 }

@@ -28,30 +28,50 @@ struct Curved {
   std::vector<double> difference;
 };
 
-/// What the surface alone decides. Shared by all forks.
+/// The surface, and what it alone decides. Shared by forks and siblings.
 struct Ground {
-  Ground(std::shared_ptr<const Surface> on, Along how) : surface(std::move(on)), along(how) {}
+  explicit Ground(std::shared_ptr<const Surface> on);
+  /// Of a surface that is still to be built: the arguments of its constructor.
+  Ground(std::vector<Vector> points, std::vector<Triangle> triangles, std::optional<std::vector<Edge>> edges);
+
+  /// The surface, built if need be; throws what its constructor throws. The other functions need it built.
+  std::shared_ptr<const Surface> surface_now(const std::stop_token& stop);
+  /// Null until it is built.
+  std::shared_ptr<const Surface> peek_surface() const {
+    const auto held = built_.peek();
+    return held ? *held : nullptr;
+  }
+  const Surface& surface() const { return **built_.peek(); }
 
   std::shared_ptr<const Curved> curved_now(const std::stop_token& stop) {
     return curved.get(stop, [&] {
-      Curved made{.curvature = principal_curvatures(*surface), .difference = {}};
+      Curved made{.curvature = principal_curvatures(surface()), .difference = {}};
       made.difference = made.curvature.difference();
       return made;
     });
   }
   std::shared_ptr<const SnapGraph> snap_graph_now(const std::stop_token& stop) {
-    return snap_graph.get(stop, [&] { return SnapGraph(*surface); });
+    return snap_graph.get(stop, [&] { return SnapGraph(surface()); });
   }
   std::shared_ptr<const EdgeFans> fans_now(const std::stop_token& stop) {
-    const auto held = fans.get(stop, [&] { return make_edge_fans(*surface, {.stop = stop, .progress = {}}); });
+    const auto held = fans.get(stop, [&] { return make_edge_fans(surface(), {.stop = stop, .progress = {}}); });
     return *held;
   }
 
-  const std::shared_ptr<const Surface> surface;
-  const Along along;
+  const std::size_t vertex_count;
   ComputedOnce<Curved> curved;
   ComputedOnce<SnapGraph> snap_graph;
   ComputedOnce<std::shared_ptr<const EdgeFans>> fans;
+
+ private:
+  struct Input {
+    std::vector<Vector> points;
+    std::vector<Triangle> triangles;
+    std::optional<std::vector<Edge>> edges;
+  };
+
+  std::optional<Input> input_;  // until the surface is built; only what builds it looks at it
+  ComputedOnce<std::shared_ptr<const Surface>> built_;
 };
 
 /// What one metric needs for any seed: along edges the last, across the surface the others.
@@ -97,6 +117,6 @@ struct Metrics {
 
 /// Makes what one of the two metrics needs; throws Cancelled where `stop` tells it to. The metric's fractions of
 /// progress are told to `metrics`.
-Prepared prepare(Ground& ground, Metrics& metrics, std::size_t which, const std::stop_token& stop);
+Prepared prepare(Ground& ground, Along along, Metrics& metrics, std::size_t which, const std::stop_token& stop);
 
 }  // namespace seamwire

@@ -439,7 +439,8 @@ std::size_t count_components(const std::vector<bool>& used, std::initializer_lis
 
 }  // namespace
 
-Surface::Surface(std::vector<Vector> points, std::vector<Triangle> triangles, std::optional<std::vector<Edge>> edges)
+Surface::Surface(std::vector<Vector> points, std::vector<Triangle> triangles, std::optional<std::vector<Edge>> edges,
+                 const Task& task)
     : points_(std::move(points)), triangles_(std::move(triangles)) {
   check_points(points_);
   check_elements(triangles_, "triangle", points_.size());
@@ -448,17 +449,21 @@ Surface::Surface(std::vector<Vector> points, std::vector<Triangle> triangles, st
     check_edges(*edges);
   }
 
+  task.check(0.0);
   std::vector<Edge> stray_edges;
   Faces faces = proper_faces(triangles_, report_.degenerate_faces, stray_edges);
   ItemsByEdge by_edge = sides_by_edge(points_.size(), faces);
+  task.check(0.2);
   bool has_duplicates = false;
   const std::vector<bool> duplicate = find_duplicates(faces, by_edge, has_duplicates);
   if (has_duplicates) {
     remove_faces(faces, duplicate, report_.duplicate_faces);
     by_edge = sides_by_edge(points_.size(), faces);
   }
+  task.check(0.3);
   Gluing gluing = glue(faces, by_edge, report_);
 
+  task.check(0.35);
   stray_edges = sorted_unique(points_.size(), stray_edges);
   edges_ = edges ? sorted_unique(points_.size(), *edges) : merged(gluing.carried, stray_edges);
   // A polygon's triangulation may run through edges that are not real: those of faces left out connect all the same.
@@ -466,6 +471,7 @@ Surface::Surface(std::vector<Vector> points, std::vector<Triangle> triangles, st
   if (connecting.empty() && faces.corners.empty()) throw InvalidInput("the mesh is empty: it has no edge");
   std::ranges::set_difference(connecting, gluing.carried, std::back_inserter(loose_edges_));
 
+  task.check(0.4);
   const std::vector<bool> used = vertices_in_use(points_.size(), faces, connecting);
   scale_ = unit_cube_scale(points_, used);
   for (std::size_t v = 0; v < used.size(); ++v) {
@@ -473,7 +479,9 @@ Surface::Surface(std::vector<Vector> points, std::vector<Triangle> triangles, st
   }
   report_.components = count_components(used, {&gluing.carried, &connecting});
 
+  task.check(0.5);
   const std::vector<double> areas = face_areas(points_, faces, scale_);
+  task.check(0.55);
   const std::vector<bool> flipped = find_flips(faces, gluing.twin, areas);
   for (Index f = 0; f < faces.count(); ++f) {
     if (areas[f] == 0.0) report_.zero_area_faces.push_back(faces.source[f]);
@@ -481,8 +489,11 @@ Surface::Surface(std::vector<Vector> points, std::vector<Triangle> triangles, st
   }
   cut_unorientable(faces, flipped, gluing.twin, report_.unorientable_edges);
 
+  task.check(0.6);
   Fans fans = find_fans(points_.size(), faces, gluing.twin);
+  task.check(0.7);
   link_half_edges(points_, faces, gluing.twin, flipped, fans, mesh_);
+  task.check(0.9);
   list_faces(gluing.twin, flipped, fans, face_fans_, twins_);
   vertex_of_fan_ = std::move(fans.vertex);
   source_face_ = std::move(faces.source);

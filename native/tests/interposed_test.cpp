@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
+#include <limits>
 #include <new>
 #include <system_error>
 #include <thread>
@@ -23,6 +24,9 @@ using namespace std::chrono_literals;
 
 /// How many threads can still be made; negative: any number.
 std::atomic<int> threads_left = -1;
+
+/// More than this at once cannot be had.
+std::atomic<std::size_t> memory_left = std::numeric_limits<std::size_t>::max();
 
 /// Memory of this size is that of results, not of a call's small change.
 constexpr std::size_t kLarge = 32 * 1024;
@@ -65,6 +69,7 @@ extern "C" int make_thread(pthread_t* thread, const pthread_attr_t* attributes, 
 
 // Not inlined: GCC takes malloc() and delete, or new and free(), seen side by side, for a mistake.
 [[gnu::noinline]] void* operator new(std::size_t size) {
+  if (size > memory_left) throw std::bad_alloc();
   if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
   throw std::bad_alloc();
 }
@@ -87,8 +92,10 @@ extern "C" int make_thread(pthread_t* thread, const pthread_attr_t* attributes, 
 namespace seamwire {
 namespace {
 
+shapes::Mesh some_mesh() { return shapes::bumpy(shapes::torus(60, 40), 0.02); }
+
 std::shared_ptr<const Surface> some_surface() {
-  const shapes::Mesh mesh = shapes::bumpy(shapes::torus(60, 40), 0.02);
+  const shapes::Mesh mesh = some_mesh();
   return std::make_shared<const Surface>(mesh.points, mesh.triangles);
 }
 
@@ -107,6 +114,15 @@ TEST(WithoutThreads, ALiveWireThatCannotBeMadeSaysSo) {
   EXPECT_TRUE(live.wait());
 }
 
+TEST(WithoutMemory, ALiveWireThatBuildsItsSurfaceSaysSo) {
+  shapes::Mesh mesh = some_mesh();
+  memory_left = kLarge;
+  LiveWire live(std::move(mesh.points), std::move(mesh.triangles));
+  EXPECT_THROW(live.wait(), std::bad_alloc);
+  memory_left = std::numeric_limits<std::size_t>::max();
+  EXPECT_THROW(live.seed({0}), std::bad_alloc) << "for good";
+}
+
 /// Calls `change`, and asks for progress until all is done and what was dropped is freed.
 template <class Change>
 void change_under_watch(LiveWire& live, const Change& change) {
@@ -123,6 +139,16 @@ void change_under_watch(LiveWire& live, const Change& change) {
     quiet = is_done && freed_by_workers == freed ? quiet + 1 : 0;
   }
   watches = is_polling = false;
+}
+
+TEST(FreeingInput, OfASurfaceThatIsBuiltIsDoneByAWorkerWithoutTheLock) {
+  freed_by_caller = freed_by_workers = freed_with_the_lock = 0;
+  shapes::Mesh mesh = some_mesh();
+  LiveWire live(std::move(mesh.points), std::move(mesh.triangles));
+  change_under_watch(live, [&] { live.seed({7}); });
+  EXPECT_GT(freed_by_workers, 0);
+  EXPECT_EQ(freed_by_caller, 0);
+  EXPECT_EQ(freed_with_the_lock, 0);
 }
 
 class Freeing : public testing::TestWithParam<Along> {

@@ -375,6 +375,28 @@ TEST(Surface, CanBeCopiedAndMoved) {
   EXPECT_EQ(copy.edges(), moved.edges());
 }
 
+TEST(Surface, CanBeStoppedWhileItIsBuilt) {
+  const Mesh mesh = shapes::icosphere(1);
+  std::vector<double> fractions;
+  const auto build = [&](std::size_t checks) {
+    fractions.clear();
+    return Surface(mesh.points, mesh.triangles, std::nullopt, {.stop = {}, .progress = [&](double done) {
+                                                                 fractions.push_back(done);
+                                                                 return fractions.size() < checks;
+                                                               }});
+  };
+  expect_sound(build(1000));
+  const std::size_t all = fractions.size();
+  EXPECT_GT(all, 3u);
+  EXPECT_TRUE(std::ranges::is_sorted(fractions));
+  EXPECT_TRUE(fractions.front() >= 0 && fractions.back() <= 1);
+  for (std::size_t checks = 1; checks <= all; ++checks) EXPECT_THROW(build(checks), Cancelled);
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_THROW(Surface(mesh.points, mesh.triangles, std::nullopt, {.stop = stop.get_token(), .progress = {}}),
+               Cancelled);
+}
+
 TEST(Surface, NamesTheVertexThatIsNotFinite) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity(), 1e200}) {
     Mesh mesh = shapes::grid(3);

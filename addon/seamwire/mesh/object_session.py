@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -16,14 +15,12 @@ from ..core.defaults import CLAMP_PERCENTILE, STRENGTHS
 from ..core.network import edges_after
 from ..core.serialization import Archive, UnreadableError
 from ..core.session import Session
-from ..core.solver import EventualLive, Eventually
 from ..core.strokes import on_mesh
 from ..core.wire_labels import EdgeLabels, Found, Places
 from . import edit_mesh
 
 if TYPE_CHECKING:
-    from types import ModuleType
-
+    import seamwire_core
     from numpy.typing import NDArray
 
     from ..core.network import Along, Network
@@ -39,33 +36,47 @@ _archive = Archive()
 """All records that this Blender has seen: undo brings back labels whose records no mesh holds any more."""
 
 
-def live_maker(arrays: edit_mesh.Arrays) -> Callable[[Along], LiveWire]:
-    """Return what makes the live wires on a mesh for one way of running."""
-    core = native.load()
-    surface = core.Surface(arrays.points, arrays.triangles, arrays.edges)
-    return lambda along: _live(core, surface, along)
+class LiveMaker:
+    """Makes the library's live wires on a mesh, on one surface, which they build on threads of their own.
+
+    Parameters
+    ----------
+    arrays
+        The mesh.
+    """
+
+    def __init__(self, arrays: edit_mesh.Arrays) -> None:
+        self._core = native.load()
+        self._arrays = arrays
+        self._first: seamwire_core.LiveWire | None = None
+
+    def __call__(self, along: Along) -> LiveWire:
+        """Return live wires for one way of running."""
+        if self._first is not None:
+            return self._first.sibling(**_options(along))
+        arrays = self._arrays
+        self._first = self._core.LiveWire(arrays.points, arrays.triangles, arrays.edges, **_options(along))
+        return self._first
+
+    def wait(self) -> seamwire_core.Surface:
+        """Wait for the surface, once there are live wires, and return it; any thread may.
+
+        Raises
+        ------
+        ValueError
+            Where the mesh is none that wires can run on.
+        """
+        assert self._first is not None
+        self._first.wait_for_surface()
+        return self._first.surface
+
+    def face_segments(self, cuts: NDArray[np.int32]) -> NDArray[np.int32]:
+        """Return the island of each triangle where edges are cut; it waits for the surface."""
+        return self._core.face_segments(self.wait(), cuts)
 
 
-def eventual_surface(arrays: edit_mesh.Arrays) -> Eventually[object]:
-    """Return the library's surface, made on a thread: at a million faces it takes most of a second."""
-    core = native.load()
-    return Eventually(lambda: core.Surface(arrays.points, arrays.triangles, arrays.edges))
-
-
-def maker_on(surface: Eventually[object]) -> Callable[[Along], LiveWire]:
-    """Return what makes live wires on a surface, on threads."""
-    core = native.load()
-
-    def make(along: Along) -> LiveWire:
-        return EventualLive(Eventually(lambda: _live(core, surface.get(), along)))
-
-    return make
-
-
-def _live(core: ModuleType, surface: object, along: Along) -> LiveWire:
-    return core.LiveWire(
-        surface, along=along.lower(), max_anisotropy=STRENGTHS[along], clamp_percentile=CLAMP_PERCENTILE
-    )
+def _options(along: Along) -> dict[str, object]:
+    return {"along": along.lower(), "max_anisotropy": STRENGTHS[along], "clamp_percentile": CLAMP_PERCENTILE}
 
 
 def mirror_axes(mesh: bpy.types.Mesh) -> tuple[int, ...]:
@@ -82,8 +93,6 @@ class ObjectSession:
         A mesh object in edit mode.
     along
         How wires run at first.
-    make_maker
-        Makes of the mesh what makes live wires; None: on threads of their own, as the tool needs it.
 
     Attributes
     ----------
@@ -98,18 +107,13 @@ class ObjectSession:
         Where there is nothing to draw on.
     """
 
-    def __init__(
-        self,
-        obj: bpy.types.Object,
-        along: Along = "EDGES",
-        make_maker: Callable[[edit_mesh.Arrays], Callable[[Along], LiveWire]] | None = None,
-    ) -> None:
+    def __init__(self, obj: bpy.types.Object, along: Along = "EDGES") -> None:
         self.obj = obj
         self.cage: edit_mesh.Cage | edit_mesh.StoredMesh = edit_mesh.Cage(obj)
         self.arrays = edit_mesh.read(obj)
-        self.surface = None if make_maker is not None else eventual_surface(self.arrays)
+        self.make_live = LiveMaker(self.arrays)
         self.session = Session(
-            maker_on(self.surface) if make_maker is None else make_maker(self.arrays),
+            self.make_live,
             self.arrays.points,
             along,
             edges=self.arrays.edges,

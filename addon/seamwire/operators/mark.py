@@ -130,11 +130,12 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
 
     def _draw(self, obj: bpy.types.Object, prefix: str) -> tuple[ObjectSession, list[str]]:
         """Draw on one object; return its session, and what could not be done, in words that begin with a prefix."""
-        from ..mesh.object_session import ObjectSession, live_maker
+        from ..mesh.object_session import ObjectSession
         from . import seed_text
 
         try:
-            mesh = ObjectSession(obj, self.along, live_maker)
+            mesh = ObjectSession(obj, self.along)
+            mesh.make_live.wait()
             seeds, loops, strokes = self._read(mesh)
         except ValueError as error:
             raise ValueError(f"{prefix}{error}") from error

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ..core import islands, native
+from ..core import islands
 from ..mesh import settings as chosen
 from ..mesh.object_session import ObjectSession
 from .overlay import Overlay
@@ -65,11 +65,7 @@ class ObjectView:
         self.mesh = ObjectSession(obj, settings.along)
         self.mesh.follow(settings)
         arrays = self.mesh.arrays
-        core, surface = native.load(), self.mesh.surface
-        assert surface is not None
-        self._islands = islands.IslandMaker(
-            arrays.triangles, lambda cuts: core.face_segments(surface.get(), cuts), HUES
-        )
+        self._islands = islands.IslandMaker(arrays.triangles, self.mesh.make_live.face_segments, HUES)
         self._picker = Picker(self.mesh.cage.bm, arrays, self.mesh.plain_seams)
         self.overlay = Overlay(
             self.session,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -57,10 +58,19 @@ struct LiveLoop {
 };
 
 /// Both metrics for one surface, each computed on a thread of its own; seed, then the two wires to any target (Section
-/// 5). All members may be called from one thread at a time; none but wait() waits for the computation.
+/// 5). All members may be called from one thread at a time, surface() and wait_for_surface() from others meanwhile;
+/// none but wait() and wait_for_surface() waits for the computation.
+///
+/// Where the surface is still being built, the members keep what they are given and answer that nothing is there yet
+/// and nothing final; an edge that turns out not to be part of the surface is refused at a later call. Where it cannot
+/// be built, each member throws what the constructor of Surface threw.
 class LiveWire {
  public:
+  /// Throws InvalidInput for options that are not as said above and in metric.hpp.
   explicit LiveWire(std::shared_ptr<const Surface> surface, const LiveWireOptions& options = {});
+  /// Builds the surface on its own threads, from the arguments of Surface's constructor, and returns at once.
+  LiveWire(std::vector<Vector> points, std::vector<Triangle> triangles,
+           std::optional<std::vector<Edge>> edges = std::nullopt, const LiveWireOptions& options = {});
   LiveWire(LiveWire&& other) noexcept;
   LiveWire& operator=(LiveWire&& other) noexcept;
   ~LiveWire();  ///< stops the running work
@@ -68,6 +78,14 @@ class LiveWire {
   /// Another one with the same metrics, those still being computed too, and no seed. A later set_metric() of either
   /// does not change the other.
   LiveWire fork() const;
+  /// Another one on the same surface, which is built once, with the curvatures and whatever else does not depend on the
+  /// options. It has metrics of its own, no strokes and no seed. Throws InvalidInput as the constructors do.
+  LiveWire sibling(const LiveWireOptions& options) const;
+
+  /// Null until it is built.
+  std::shared_ptr<const Surface> surface() const;
+  /// Waits until the surface is built, at most `seconds`; whether it is.
+  bool wait_for_surface(double seconds = std::numeric_limits<double>::infinity()) const;
 
   /// Changes the metric in the background, and then seeds again: until then wires are those of the former metric, and
   /// not final. Throws InvalidInput where the strength is not as said in metric.hpp.
@@ -77,12 +95,13 @@ class LiveWire {
   void set_scribbles(std::vector<Scribble> scribbles);
 
   /// Starts the wires from a pick, dropping those of an earlier one. Across the surface the pick must be a vertex.
-  /// `forward` as in edge_wires(). Throws InvalidInput where the pick is not part of the surface.
+  /// `forward` as in edge_wires(). Throws InvalidInput where the pick is not part of the surface; an edge that is given
+  /// before the surface is there is refused by wires().
   void seed(const Pick& pick, bool forward = false);
   /// The wires from the seed to a target now, as far as they are computed: along edges those near the seed are final
   /// first; across the surface a path that may be a little longer than the shortest one is computed for the target
   /// asked for last, and is there at one of the next calls for it. Throws InvalidInput for a target that is not part of
-  /// the surface or where there is no seed.
+  /// the surface or where there is no seed that is.
   LiveWires wires(const Pick& target) const;
 
   /// The closed chain through an edge, the cheaper of the two metrics'; along edges only. The first call for an edge
@@ -95,7 +114,7 @@ class LiveWire {
   /// s of eq. 5 at each vertex; null while it is being computed.
   std::shared_ptr<const std::vector<double>> feature_strength() const;
 
-  /// Fraction of the preparation and the seed's work that is done, 1 when all is.
+  /// Fraction of the preparation and the seed's work that is done, 0 until the surface is there, 1 when all is.
   double progress() const;
   /// Waits for all running work, loops too, at most `seconds`; whether it is done.
   bool wait(double seconds = std::numeric_limits<double>::infinity()) const;

@@ -210,3 +210,146 @@ def test_scribbles_are_followed_and_forgotten(surface: sw.Surface) -> None:
     live.set_scribbles([])
     assert live.wait()
     assert live.wires(300).wires[0].length == before
+
+
+def building(n: int = 300, **options: object) -> sw.LiveWire:
+    """Return live wires that build the surface of a torus of 2 n^2 triangles themselves."""
+    return sw.LiveWire(*meshes.torus(n, n), **options)
+
+
+def test_it_builds_the_surface_itself(surface: sw.Surface) -> None:
+    for along in ("surface", "edges"):
+        live = sw.LiveWire(surface.points, surface.triangles, along=along)
+        fresh = sw.LiveWire(surface, along=along)
+        for one in (live, fresh):
+            one.seed(3)
+            assert one.wait()
+        for got, expected in zip(live.wires(500).wires, fresh.wires(500).wires, strict=True):
+            assert got.final
+            assert got.length == expected.length
+            np.testing.assert_array_equal(got.points, expected.points)
+            np.testing.assert_array_equal(got.vertices, expected.vertices)
+        assert fresh.surface is surface
+        assert live.surface is live.surface
+        np.testing.assert_array_equal(live.surface.edges, surface.edges)
+
+
+def test_the_arrays_may_change_as_soon_as_it_is_made() -> None:
+    points, triangles = meshes.torus(100, 80)
+    given, edges = (points.copy(), triangles.copy()), np.array([(0, 1), (1, 2)])
+    live = sw.LiveWire(*given, edges, along="edges")
+    for array in (*given, edges):
+        array[:] = 0
+    assert live.wait_for_surface()
+    np.testing.assert_array_equal(live.surface.points, points)
+    np.testing.assert_array_equal(live.surface.triangles, triangles)
+    assert live.surface.edges.tolist() == [[0, 1], [1, 2]]
+
+
+def test_until_the_surface_is_there_nothing_is_final() -> None:
+    live = building(along="edges")
+    live.seed(0)
+    answers = (
+        live.progress(),
+        live.wires(900).final,
+        live.loop((0, 1)).final,
+        len(live.run_on((0, 1)).vertices),
+        len(live.strip((0, 1)).vertices),
+        live.feature_strength(),
+    )
+    if live.surface is not None:
+        pytest.skip("this thread was kept away for so long that the surface is there")
+    assert answers == (0, False, False, 0, 0, None)
+    assert live.wait()
+    assert live.wires(900).final
+    assert live.loop((0, 1)).final
+
+
+def test_both_ways_share_a_surface() -> None:
+    live = building(60, along="edges")
+    across = live.sibling(along="surface", max_anisotropy=5)
+    fork = live.fork()
+    across.seed(3)
+    assert across.wait()
+    np.testing.assert_array_equal(across.surface.points, meshes.torus(60, 60)[0])
+    assert live.wait()
+    assert fork.wait()
+    fresh = sw.LiveWire(live.surface, max_anisotropy=5)
+    fresh.seed(3)
+    assert fresh.wait()
+    assert across.wires(900).wires[0].length == fresh.wires(900).wires[0].length
+    with pytest.raises(ValueError, match="along"):
+        live.sibling(along="nowhere")
+
+
+def test_it_may_go_while_the_surface_is_built() -> None:
+    for _ in range(3):
+        live = building(400)
+        live.seed(0)
+        started = time.monotonic()
+        del live
+        assert time.monotonic() - started < 5
+
+
+def test_every_call_raises_why_there_is_no_surface() -> None:
+    points, triangles = meshes.torus(40, 24)
+    triangles[7, 2] = len(points)
+    with pytest.raises(ValueError, match="triangle 7 refers to vertex 960") as why:
+        sw.Surface(points, triangles)
+    live = sw.LiveWire(points, triangles, along="edges")
+    for call in (
+        live.wait,
+        live.wait_for_surface,
+        live.progress,
+        live.fork,
+        live.sibling,
+        live.feature_strength,
+        lambda: live.surface,
+        lambda: live.seed(0),
+        lambda: live.wires(0),
+        lambda: live.loop((0, 1)),
+        lambda: live.run_on((0, 1)),
+        lambda: live.strip((0, 1)),
+        lambda: live.set_metric("euclidean"),
+        lambda: live.set_scribbles([]),
+    ):
+        with pytest.raises(ValueError, match="triangle 7") as raised:
+            call()
+        assert str(raised.value) == str(why.value)
+
+
+def test_a_seed_that_turns_out_to_be_none_is_refused_when_wires_are_asked_for() -> None:
+    live = building(along="edges")
+    try:
+        live.seed((0, 777))
+    except ValueError:
+        pytest.skip("this thread was kept away for so long that the surface is there")
+    assert live.wait()
+    assert live.progress() == 1
+    with pytest.raises(ValueError, match="no edge between the vertices 0 and 777"):
+        live.wires(5)
+    live.seed((0, 1))
+    assert live.wait()
+    assert live.wires(900).final
+
+
+def test_what_can_be_told_without_a_surface_is_refused_at_once() -> None:
+    points, triangles = meshes.torus(40, 24)
+    for wrong, what in (
+        ((points[:, :2], triangles), "points"),
+        ((points, triangles[:, :2]), "triangles"),
+        ((points, triangles, [0, 1]), "edges"),
+        ((points, triangles.astype(float)), "triangles"),
+        ((points, np.full((1, 3), 2**40)), "out of range"),
+    ):
+        with pytest.raises(ValueError, match=what):
+            sw.LiveWire(*wrong)
+    with pytest.raises(ValueError, match="anisotropy"):
+        sw.LiveWire(points, triangles, max_anisotropy=0.5)
+    with pytest.raises(TypeError):
+        sw.LiveWire(points)
+    live = building()
+    with pytest.raises(ValueError, match="out of range"):
+        live.seed(90_000)
+    with pytest.raises(ValueError, match="no seed"):
+        live.wires(0)

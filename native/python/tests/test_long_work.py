@@ -70,6 +70,7 @@ def test_other_threads_run_meanwhile(
         "edge_wires": lambda: sw.edge_wires(large, large_metric, 0),
         "live wire across": lambda: live("surface"),
         "live wire along": lambda: live("edges"),
+        "live wire that builds its surface": lambda: sw.LiveWire(points, triangles).wait_for_surface(),
     }
     for name, call in calls.items():
         # 1 if the lock were held; the system may stop the other thread for a while too, so the best of some counts.

@@ -18,11 +18,12 @@ FUNCTIONS = [node for node in STUB.body if isinstance(node, ast.FunctionDef)]
 METHODS = [(c, f) for c in CLASSES for f in c.body if isinstance(f, ast.FunctionDef)]
 
 
-def documented(function: object) -> list[tuple[str, str | None]]:
-    """Parameters and their defaults as the module has them."""
-    signature = re.match(r"\w+\((.*)\) -> ", function.__doc__).group(1)
-    pieces = re.split(r", (?=\w+: )", signature) if signature else []
-    parameters = [re.fullmatch(r"(\w+): .*?(?: = (.*))?", piece).groups() for piece in pieces]
+def documented(function: object, overload: int | None = None) -> list[tuple[str, str | None]]:
+    """Parameters and their defaults as the module has them; an asterisk where they go on by name only."""
+    before = "" if overload is None else rf"(?:.*\n)*{overload + 1}\. "
+    signature = re.match(rf"{before}\w+\((.*)\) -> ", function.__doc__).group(1)
+    pieces = re.split(r", (?=\w+: |\*)", signature) if signature else []
+    parameters = [re.fullmatch(r"(\w+|\*)(?:: .*?)?(?: = (.*))?", piece).groups() for piece in pieces]
     return [(name, default) for name, default in parameters if name != "self"]
 
 
@@ -32,7 +33,11 @@ def declared(function: ast.FunctionDef) -> list[tuple[str, str | None]]:
     defaults = [None] * (len(arguments) - len(function.args.defaults)) + [
         repr(ast.literal_eval(default)) for default in function.args.defaults
     ]
-    return [(a.arg, default) for a, default in zip(arguments, defaults, strict=True) if a.arg != "self"]
+    parameters = [(a.arg, default) for a, default in zip(arguments, defaults, strict=True) if a.arg != "self"]
+    if function.args.kwonlyargs:
+        by_name = zip(function.args.kwonlyargs, function.args.kw_defaults, strict=True)
+        parameters += [("*", None), *((a.arg, repr(ast.literal_eval(default))) for a, default in by_name)]
+    return parameters
 
 
 def test_names_are_those_of_the_stub() -> None:
@@ -46,7 +51,9 @@ def test_functions_are_those_of_the_stub(function: ast.FunctionDef) -> None:
 
 @pytest.mark.parametrize(("of", "method"), METHODS, ids=lambda node: node.name)
 def test_methods_are_those_of_the_stub(of: ast.ClassDef, method: ast.FunctionDef) -> None:
-    assert documented(getattr(getattr(sw, of.name), method.name)) == declared(method)
+    namesakes = [f for c, f in METHODS if c is of and f.name == method.name]
+    overload = namesakes.index(method) if len(namesakes) > 1 else None
+    assert documented(getattr(getattr(sw, of.name), method.name), overload) == declared(method)
 
 
 @pytest.mark.parametrize("stub", CLASSES, ids=lambda c: c.name)
@@ -155,6 +162,8 @@ def test_wrong_parameters_are_value_errors(surface: sw.Surface, curvature: sw.Cu
         lambda: sw.LiveWire(surface, gamma=-1),
         lambda: sw.LiveWire(surface, gamma=1, max_anisotropy=2),
         lambda: sw.LiveWire(surface, turning=nan),
+        lambda: sw.LiveWire(surface.points, surface.triangles, turning=nan),
+        lambda: sw.LiveWire(surface).sibling(turning=nan),
     ]
     for call in calls:
         with pytest.raises(ValueError, match=r"\w"):
