@@ -11,8 +11,8 @@
 #include <random>
 
 #include "mesh_input.hpp"
-#include "seamwire/geodesics.hpp"
-#include "seamwire/quick_paths.hpp"
+#include "seamwire/geodesics/corridor_paths.hpp"
+#include "seamwire/geodesics/exact_geodesics.hpp"
 
 namespace seamwire::bench {
 namespace {

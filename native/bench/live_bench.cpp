@@ -20,12 +20,12 @@
 #include <thread>
 
 #include "mesh_input.hpp"
-#include "seamwire/edge_wire.hpp"
-#include "seamwire/geodesics.hpp"
-#include "seamwire/livewire.hpp"
-#include "seamwire/quick_paths.hpp"
-#include "seamwire/scribble.hpp"
-#include "seamwire/wire.hpp"
+#include "seamwire/edges/edge_wires.hpp"
+#include "seamwire/geodesics/corridor_paths.hpp"
+#include "seamwire/geodesics/exact_geodesics.hpp"
+#include "seamwire/live/livewire.hpp"
+#include "seamwire/metric/scribble.hpp"
+#include "seamwire/wires/wire.hpp"
 
 namespace seamwire::bench {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "arrays.hpp"
 #include "objects.hpp"
-#include "seamwire/polygons.hpp"
-#include "seamwire/segments.hpp"
+#include "seamwire/surface/segments.hpp"
+#include "seamwire/surface/triangulate.hpp"
 #include "watch.hpp"
 
 namespace seamwire::python {

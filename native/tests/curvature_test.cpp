@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "seamwire/curvature.hpp"
+#include "seamwire/metric/curvature.hpp"
 
 #include <gtest/gtest.h>
 

@@ -17,7 +17,7 @@
 #include "embeddings.hpp"
 #include "intrinsic.hpp"
 #include "reference_geodesics.hpp"
-#include "seamwire/geodesics.hpp"
+#include "seamwire/geodesics/exact_geodesics.hpp"
 #include "shapes.hpp"
 
 namespace seamwire {

@@ -14,8 +14,8 @@
 
 #include "embeddings.hpp"
 #include "intrinsic.hpp"
-#include "seamwire/curvature.hpp"
-#include "seamwire/geodesics.hpp"
+#include "seamwire/geodesics/exact_geodesics.hpp"
+#include "seamwire/metric/curvature.hpp"
 
 namespace seamwire {
 namespace {

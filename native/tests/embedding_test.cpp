@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "seamwire/embedding.hpp"
+#include "seamwire/embedding/embedding.hpp"
 
 #include <gtest/gtest.h>
 

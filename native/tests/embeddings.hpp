@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "seamwire/embedding.hpp"
+#include "seamwire/embedding/embedding.hpp"
 
 /// What tests of embeddings share.
 namespace seamwire::embeddings {

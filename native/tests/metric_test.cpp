@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "seamwire/metric.hpp"
+#include "seamwire/metric/metric.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "embeddings.hpp"
-#include "seamwire/scribble.hpp"
+#include "seamwire/metric/scribble.hpp"
 #include "shapes.hpp"
 
 namespace seamwire {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "seamwire/surface.hpp"
+#include "seamwire/surface/surface.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 //
 // Each kernel against its plain twin: the same thing said by sampling points, without the kernel's formulas. And all
 // instruction sets give the same bits.
-#include "../src/window_kernels.hpp"
+#include "geodesics/window_kernels.hpp"
 
 #include <gtest/gtest.h>
 
