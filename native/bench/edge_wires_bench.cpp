@@ -17,7 +17,9 @@
 #include <string>
 #include <utility>
 
+#include "seamwire/edges/edge_loop.hpp"
 #include "seamwire/edges/edge_wires.hpp"
+#include "seamwire/edges/shortest_cycle.hpp"
 #include "seamwire/metric/curvature.hpp"
 
 namespace {
@@ -136,7 +138,7 @@ void register_case(const std::string& name, const Polygons& mesh) {
   });
   add("loop", [=](benchmark::State& state) {
     std::size_t i = 0, vertices = 0;
-    for (auto _ : state) vertices += edge_loop(*data->graph, data->edge(i++)).vertices.size();
+    for (auto _ : state) vertices += shortest_cycle(*data->graph, data->edge(i++)).vertices.size();
     count(state);
     state.counters["vertices"] = static_cast<double>(vertices) / static_cast<double>(std::max<std::size_t>(i, 1));
   });

@@ -14,6 +14,7 @@
 #include "seamwire/metric/curvature.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/surface/surface.hpp"
+#include "seamwire/wires/snap.hpp"
 #include "seamwire/wires/wire.hpp"
 
 /// What Python objects hold: a result of the library, and what is built from it once, when first needed.

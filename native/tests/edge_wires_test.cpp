@@ -292,7 +292,7 @@ TEST(EdgeWires, CrossEdgesOfLengthZeroAndTrianglesWithoutArea) {
 TEST(EdgeWires, RefuseWrongInputWithItsNumbers) {
   const Surface surface = shapes::quad_grid(2).surface();
   const auto graph = plain_graph(surface);
-  EXPECT_TRUE(contains(message_of([&] { edge_wires(graph, {9, -1}); }), "vertex 9 does not exist"));
+  EXPECT_TRUE(contains(message_of([&] { edge_wires(graph, {9, -1}); }), "vertex 9 is out of range"));
   EXPECT_TRUE(contains(message_of([&] { edge_wires(graph, {-3, -1}); }), "vertex -3"));
   EXPECT_TRUE(contains(message_of([&] { edge_wires(graph, {0, -2}); }), "vertex -2"));
   EXPECT_TRUE(contains(message_of([&] { edge_wires(graph, {0, 70}); }), "vertex 70"));
@@ -306,13 +306,14 @@ TEST(EdgeWires, RefuseWrongInputWithItsNumbers) {
   EXPECT_TRUE(contains(message_of([&] { edge_wires(graph, {0, 1}).trace({11, -1}); }), "vertex 11"));
   EXPECT_TRUE(contains(message_of([&] { edge_wires(graph, {0, 1}, -1.0); }), "-1"));
   EXPECT_TRUE(contains(message_of([&] { edge_wires(graph, {0, 1}, std::nan("")); }), "nan"));
-  EXPECT_TRUE(contains(message_of([&] { edge_loop(*graph, {0, 4}); }), "0 and 4"));
-  EXPECT_TRUE(contains(message_of([&] { edge_loop(*graph, {0, -1}); }), "vertex -1"));
+  EXPECT_TRUE(contains(message_of([&] { shortest_cycle(*graph, {0, 4}); }), "0 and 4"));
+  EXPECT_TRUE(contains(message_of([&] { shortest_cycle(*graph, {0, -1}); }), "vertex -1"));
   Metric metric = plain_metric(surface);
   metric.tensors.pop_back();
   EXPECT_TRUE(contains(message_of([&] { make_edge_graph(surface, metric); }), "8 tensors"));
-  const auto fans = make_edge_fans(shapes::quad_grid(3).surface());
-  EXPECT_TRUE(contains(message_of([&] { make_edge_graph(surface, plain_metric(surface), fans); }), "another surface"));
+  const auto adjacency = make_edge_adjacency(shapes::quad_grid(3).surface());
+  EXPECT_TRUE(
+      contains(message_of([&] { make_edge_graph(surface, plain_metric(surface), adjacency); }), "another surface"));
   EXPECT_TRUE(contains(message_of([&] { edge_wires(graph, {0, 1}, -1e-9); }), "not -1e-09"));
 }
 

@@ -3,6 +3,7 @@
 // Distances on embedded surfaces against closed forms, and against paths and distances found by other means.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -4,6 +4,7 @@
 // paper's own scheme ends.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <map>
 #include <numbers>
 #include <optional>

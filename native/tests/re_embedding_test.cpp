@@ -8,6 +8,7 @@
 
 #include "embeddings.hpp"
 #include "seamwire/metric/scribble.hpp"
+#include "seamwire/surface/half_edge_mesh.hpp"
 #include "shapes.hpp"
 
 namespace seamwire {

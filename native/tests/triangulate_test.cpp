@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -13,17 +14,17 @@ using Numbers = std::vector<std::int32_t>;
 
 const std::vector<Vector> kSquare = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 
-TEST(CutPolygons, KeepsTrianglesAndCutsQuadsFromTheFirstCornerToTheThird) {
-  const CutPolygons cut = cut_polygons(kSquare, Numbers{0, 1, 2, 0, 1, 2, 3, 1, 2, 3}, Numbers{3, 4, 3});
+TEST(Triangulation, KeepsTrianglesAndCutsQuadsFromTheFirstCornerToTheThird) {
+  const Triangulation cut = triangulate(kSquare, Numbers{0, 1, 2, 0, 1, 2, 3, 1, 2, 3}, Numbers{3, 4, 3});
   EXPECT_EQ(cut.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 1, 2}, {0, 2, 3}, {1, 2, 3}}));
   EXPECT_EQ(cut.polygons, (Numbers{0, 1, 1, 2}));
 }
 
-TEST(CutPolygons, CutsAQuadThatIsBentInAtThatCornerWhicheverItIs) {
+TEST(Triangulation, CutsAQuadThatIsBentInAtThatCornerWhicheverItIs) {
   for (std::size_t bent = 0; bent < 4; ++bent) {
     std::vector<Vector> points = kSquare;
     points[bent] = Vector(0.5, 0.5, 0) - 0.4 * (points[bent] - Vector(0.5, 0.5, 0));
-    const CutPolygons cut = cut_polygons(points, Numbers{0, 1, 2, 3}, Numbers{4});
+    const Triangulation cut = triangulate(points, Numbers{0, 1, 2, 3}, Numbers{4});
     double area = 0;
     for (const auto& [a, b, c] : cut.triangles) {
       const auto at = [&](std::int32_t v) { return points[static_cast<std::size_t>(v)]; };
@@ -35,15 +36,15 @@ TEST(CutPolygons, CutsAQuadThatIsBentInAtThatCornerWhicheverItIs) {
   }
 }
 
-TEST(CutPolygons, CutsASquareOfNoSizeAndNothingAtAll) {
-  EXPECT_EQ(cut_polygons(std::vector<Vector>(4, Vector::Zero()), Numbers{0, 1, 2, 3}, Numbers{4}).triangles.size(), 2);
-  EXPECT_TRUE(cut_polygons({}, {}, {}).triangles.empty());
+TEST(Triangulation, CutsASquareOfNoSizeAndNothingAtAll) {
+  EXPECT_EQ(triangulate(std::vector<Vector>(4, Vector::Zero()), Numbers{0, 1, 2, 3}, Numbers{4}).triangles.size(), 2);
+  EXPECT_TRUE(triangulate({}, {}, {}).triangles.empty());
 }
 
-TEST(CutPolygons, SaysWhatIsWrong) {
+TEST(Triangulation, SaysWhatIsWrong) {
   const auto said = [](const Numbers& corners, const Numbers& sizes) -> std::string {
     try {
-      cut_polygons(kSquare, corners, sizes);
+      triangulate(kSquare, corners, sizes);
     } catch (const InvalidInput& error) {
       return error.what();
     }

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "seamwire/metric/metric.hpp"
+#include "seamwire/wires/snap.hpp"
 #include "shapes.hpp"
 
 namespace seamwire {

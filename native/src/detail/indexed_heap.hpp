@@ -9,29 +9,36 @@
 
 namespace seamwire {
 
-/// Vertices by distance, least first; of equal ones the one with the lower number, so that the order is the same
-/// everywhere. A heap of four children a node, whose entries know their place: a vertex is in it once.
-class VertexQueue {
+/// A priority queue of numbers, each in it once at most: least key first; of equal keys, the lesser number, so that the
+/// order is the same everywhere. A heap of four children a node that knows where each number is.
+class IndexedHeap {
  public:
-  explicit VertexQueue(std::size_t vertex_count) : place_(vertex_count, -1) {}
+  /// For the numbers below `size`.
+  explicit IndexedHeap(std::size_t size) : place_(size, -1) {}
 
   bool empty() const { return heap_.empty(); }
 
   std::int32_t least() const { return heap_.front().second; }
+  double least_key() const { return heap_.front().first; }
 
-  /// Puts a vertex in, or moves it to a lesser distance than it has.
-  void lower(std::int32_t vertex, double distance) {
-    std::int32_t& place = place_[static_cast<std::size_t>(vertex)];
+  /// Puts a number in, or gives it a key that is not greater than the one it has.
+  void lower(std::int32_t number, double key) {
+    std::int32_t& place = place_[number];
     if (place < 0) {
       place = static_cast<std::int32_t>(heap_.size());
       heap_.emplace_back();
     }
-    rise(static_cast<std::size_t>(place), {distance, vertex});
+    rise(static_cast<std::size_t>(place), {key, number});
+  }
+
+  void clear() {
+    for (const Entry& entry : heap_) place_[entry.second] = -1;
+    heap_.clear();
   }
 
   std::int32_t pop() {
     const std::int32_t least = heap_.front().second;
-    place_[static_cast<std::size_t>(least)] = -1;
+    place_[least] = -1;
     const Entry last = heap_.back();
     heap_.pop_back();
     if (!heap_.empty()) sink(last);
@@ -43,7 +50,7 @@ class VertexQueue {
 
   void put(std::size_t at, const Entry& entry) {
     heap_[at] = entry;
-    place_[static_cast<std::size_t>(entry.second)] = static_cast<std::int32_t>(at);
+    place_[entry.second] = static_cast<std::int32_t>(at);
   }
   void rise(std::size_t at, const Entry& entry) {
     while (at > 0) {

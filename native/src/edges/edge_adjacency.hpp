@@ -7,22 +7,22 @@
 #include <cstdint>
 #include <vector>
 
-#include "seamwire/edges/edge_wires.hpp"
+#include "seamwire/edges/edge_adjacency.hpp"
 
 namespace seamwire {
 
-/// Flat rows: the directed edges that leave vertex v are numbered first[v] .. first[v + 1], by ascending head. A
-/// directed edge's number is also the number of the search's state "just arrived over this edge".
-class EdgeFans {
+/// The directed edges that leave vertex v are numbered from begin(v) to end(v), by ascending head. A directed edge's
+/// number is also that of the search's state "just arrived over this edge".
+class EdgeAdjacency {
  public:
-  EdgeFans(const Surface& surface, const Task& task);
+  EdgeAdjacency(const Surface& surface, const Task& task);
 
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(first_.size()) - 1; }
   std::size_t directed_count() const { return head_.size(); }
-  std::int32_t begin(std::int32_t v) const { return first_[at(v)]; }
-  std::int32_t end(std::int32_t v) const { return first_[at(v) + 1]; }
-  std::int32_t head(std::int32_t e) const { return head_[at(e)]; }
-  std::int32_t twin(std::int32_t e) const { return twin_[at(e)]; }
+  std::int32_t begin(std::int32_t v) const { return first_[v]; }
+  std::int32_t end(std::int32_t v) const { return first_[v + 1]; }
+  std::int32_t head(std::int32_t e) const { return head_[e]; }
+  std::int32_t twin(std::int32_t e) const { return twin_[e]; }
   std::int32_t tail(std::int32_t e) const { return head(twin(e)); }
 
   /// The directed edge from a to b; -1 if there is none.
@@ -30,45 +30,47 @@ class EdgeFans {
 
   /// 1 - cos kappa of a chain that arrives against `back` and leaves over `out`, both directed edges from one vertex.
   double turn(std::int32_t back, std::int32_t out) const {
-    const Direction &p = directions_[at(back)], &r = directions_[at(out)];
+    const Direction &p = directions_[back], &r = directions_[out];
     return std::max(0.0, 1.0 + p.x * r.x + p.y * r.y + p.z * r.z);
   }
 
   /// The directed edge that leaves the same vertex straight opposite, in a regular mesh of quads or of triangles and
   /// along a boundary; -1: the vertex is irregular there.
-  std::int32_t opposite(std::int32_t e) const { return opposite_[at(e)]; }
+  std::int32_t opposite(std::int32_t e) const { return opposite_[e]; }
 
-  /// Whether the faces at the vertex are one open fan; whether the directed edge is one of the two at its rim.
-  bool is_open(std::int32_t v) const { return is_open_[at(v)]; }
-  bool is_rim(std::int32_t e, std::int32_t v) const { return rims_[at(v)][0] == e || rims_[at(v)][1] == e; }
+  /// Whether the faces at the vertex are one open umbrella; whether the directed edge is one of the two at its
+  /// boundary.
+  bool is_open(std::int32_t v) const { return is_open_[v]; }
+  bool is_on_boundary(std::int32_t e, std::int32_t v) const {
+    return boundary_edges_[v][0] == e || boundary_edges_[v][1] == e;
+  }
 
  private:
   /// A vector for each directed edge such that the turn between two of a vertex is 1 plus their product:
-  /// - in a closed fan of total angle T, the edge at angle a is the unit vector at 2 pi a / T, since then
+  /// - in a closed umbrella of total angle T, the edge at angle a is the unit vector at 2 pi a / T, since then
   ///   -cos(2 pi (a - b) / T) = cos(pi |left - right| / T);
-  /// - in an open fan it is the unit vector at a itself: the turn is pi minus the angle between. The third components
+  /// - in an open umbrella it is the unit vector at a itself: the turn is pi minus the angle between. The third
+  /// components
   ///   of the two boundary edges make their own turn zero and are invisible to the other edges, which have none;
   /// - elsewhere it is the edge's direction in space.
   struct Direction {
     double x, y, z;
   };
-  struct Spoke {
+  struct StarEdge {
     std::int32_t edge;
     double angle;
     bool triangle;  // the face behind it is a triangle with three real edges
   };
 
-  static std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-  void set_fan(const Surface& surface, HalfEdgeMesh::VertexHandle fan);
-  void set_opposites(const std::vector<Spoke>& spokes);
+  void set_umbrella(const Surface& surface, std::int32_t fan);
+  void set_opposites(const std::vector<StarEdge>& star);
   void set_directions_in_space(const Surface& surface, std::int32_t v);
 
   std::vector<std::int32_t> first_, head_, twin_;
   std::vector<std::int32_t> opposite_;
   std::vector<Direction> directions_;
-  std::vector<bool> is_open_;                      // per vertex
-  std::vector<std::array<std::int32_t, 2>> rims_;  // per vertex; -1: none, or no real edge
+  std::vector<bool> is_open_;                                // per vertex
+  std::vector<std::array<std::int32_t, 2>> boundary_edges_;  // per vertex; -1: none, or not a real edge
 };
 
 }  // namespace seamwire

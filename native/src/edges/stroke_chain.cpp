@@ -10,6 +10,9 @@
 #include <span>
 #include <unordered_map>
 
+#include "detail/segment.hpp"
+#include "metric/scribble_points.hpp"
+
 namespace seamwire {
 namespace {
 
@@ -25,47 +28,36 @@ constexpr double kPointsPerEdge = 4.0;
 // Vertices looked at for one chain, so that a line from one component to another is not searched for long.
 constexpr std::size_t kMostLookedAt = 50'000;
 
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 double distance_to_line(const Vector& p, std::span<const Vector> line) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    const Vector e = line[i + 1] - line[i];
-    const double squared = e.squaredNorm();
-    const double t = squared > 0 ? std::clamp((p - line[i]).dot(e) / squared, 0.0, 1.0) : 0.0;
-    least = std::min(least, (p - (line[i] + t * e)).squaredNorm());
+    least = std::min(least, to_segment(p, line[i], line[i + 1]).squaredNorm());
   }
   return std::sqrt(least);
 }
 
 class StrokeChains {
  public:
-  StrokeChains(const Surface& surface, const EdgeFans& fans, const Scribble& scribble)
-      : surface_(surface), fans_(fans), scribble_(scribble) {}
+  StrokeChains(const Surface& surface, const EdgeAdjacency& adjacency, const Scribble& scribble)
+      : surface_(surface), adjacency_(adjacency), scribble_(scribble) {}
 
   std::vector<std::vector<std::int32_t>> find() const;
 
  private:
-  const Vector& point(std::int32_t v) const { return surface_.points()[index(v)]; }
-  std::int32_t nearest_vertex(std::size_t i) const;
+  const Vector& point(std::int32_t v) const { return surface_.points()[v]; }
   double mean_edge(std::int32_t v) const;
   std::vector<std::int32_t> join(std::int32_t from, std::int32_t to, std::span<const Vector> line) const;
 
   const Surface& surface_;
-  const EdgeFans& fans_;
+  const EdgeAdjacency& adjacency_;
   const Scribble& scribble_;
 };
 
-std::int32_t StrokeChains::nearest_vertex(std::size_t i) const {
-  if (!scribble_.vertices.empty() && scribble_.vertices[i] >= 0) return scribble_.vertices[i];
-  return *std::ranges::min_element(surface_.triangles()[index(scribble_.faces[i])], {},
-                                   [&](std::int32_t v) { return (point(v) - scribble_.points[i]).squaredNorm(); });
-}
-
 double StrokeChains::mean_edge(std::int32_t v) const {
   double sum = 0;
-  for (std::int32_t e = fans_.begin(v); e < fans_.end(v); ++e) sum += (point(fans_.head(e)) - point(v)).norm();
-  return sum / std::max(1, fans_.end(v) - fans_.begin(v));
+  for (std::int32_t e = adjacency_.begin(v); e < adjacency_.end(v); ++e)
+    sum += (point(adjacency_.head(e)) - point(v)).norm();
+  return sum / std::max(1, adjacency_.end(v) - adjacency_.begin(v));
 }
 
 // The chain from one vertex to another that stays nearest to a line, by A*; empty where none leads there.
@@ -96,8 +88,8 @@ std::vector<std::int32_t> StrokeChains::join(std::int32_t from, std::int32_t to,
       return chain;
     }
     const double cost = here.cost;
-    for (std::int32_t e = fans_.begin(v); e < fans_.end(v); ++e) {
-      const std::int32_t w = fans_.head(e);
+    for (std::int32_t e = adjacency_.begin(v); e < adjacency_.end(v); ++e) {
+      const std::int32_t w = adjacency_.head(e);
       const double length = (point(w) - point(v)).norm();
       const auto [known, is_new] = nodes.try_emplace(w, Node{v, std::numeric_limits<double>::infinity(), 0.0});
       Node& node = known->second;
@@ -118,7 +110,7 @@ std::vector<std::vector<std::int32_t>> StrokeChains::find() const {
   if (points.size() < 2) return chains;
   double total = 0;
   for (std::size_t i = 0; i + 1 < points.size(); ++i) total += (points[i + 1] - points[i]).norm();
-  std::int32_t from = nearest_vertex(0);
+  std::int32_t from = nearest_vertex(surface_, scribble_, 0);
   for (std::size_t i = 0; i + 1 < points.size();) {
     const double edge = mean_edge(from);
     // A line that closes falls into three parts at least: between two ends that are one there is nothing to find.
@@ -131,7 +123,7 @@ std::vector<std::vector<std::int32_t>> StrokeChains::find() const {
       const bool is_last = i + 1 == points.size() || !(length < most);
       if (is_last || (points[i] - line.back()).norm() * kPointsPerEdge > edge) line.push_back(points[i]);
     }
-    const std::int32_t to = nearest_vertex(i);
+    const std::int32_t to = nearest_vertex(surface_, scribble_, i);
     if (from != to) {
       const std::vector<std::int32_t> chain = join(from, to, line);
       if (!chains.empty() && !chain.empty() && chains.back().back() == from) {
@@ -147,9 +139,9 @@ std::vector<std::vector<std::int32_t>> StrokeChains::find() const {
 
 }  // namespace
 
-std::vector<std::vector<std::int32_t>> stroke_chains(const Surface& surface, const EdgeFans& fans,
+std::vector<std::vector<std::int32_t>> stroke_chains(const Surface& surface, const EdgeAdjacency& adjacency,
                                                      const Scribble& scribble) {
-  return StrokeChains(surface, fans, scribble).find();
+  return StrokeChains(surface, adjacency, scribble).find();
 }
 
 }  // namespace seamwire

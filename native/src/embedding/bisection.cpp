@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "embedding/bisection.hpp"
 
+#include <Eigen/Geometry>
 #include <numeric>
 #include <utility>
 
@@ -45,12 +46,12 @@ FlatMesh flattened(const HalfEdgeMesh& mesh) {
     std::size_t i = 0;
     for (const HalfedgeHandle h : {first, mesh.next_halfedge_handle(first), last}) {
       corners[i++] = mesh.from_vertex_handle(h).idx();
-      number[index(h.idx())] = static_cast<std::int32_t>(half_edges.size());
+      number[h.idx()] = static_cast<std::int32_t>(half_edges.size());
       half_edges.push_back(h.idx());
     }
     flat.corners.push_back(corners);
   }
-  for (const std::int32_t h : half_edges) flat.twins.push_back(number[index(h ^ 1)]);
+  for (const std::int32_t h : half_edges) flat.twins.push_back(number[h ^ 1]);
   return flat;
 }
 
@@ -91,7 +92,7 @@ Refinement::Refinement(const Surface& surface, const Metric& metric, const Embed
   for (std::int32_t fan = 0; index(fan) < fans_; ++fan) set_node(fan);
   if (has_mended_) {
     for (std::int32_t f = 0; index(f) < faces_; ++f) {
-      if (is_flat(f)) is_flat_origin_[index(origins_[index(f)])] = true;
+      if (is_flat(f)) is_flat_origin_[origins_[f]] = true;
     }
   }
   measure_all();
@@ -108,25 +109,25 @@ void Refinement::orient_normals(const HalfEdgeMesh& mesh) {
     std::size_t i = 0;
     for (const VertexHandle corner : mesh.fv_range(f)) v[i++] = corner;
     const Vector normal = (mesh.point(v[1]) - mesh.point(v[0])).cross(mesh.point(v[2]) - mesh.point(v[0]));
-    for (const VertexHandle corner : v) normals[index(corner.idx())] += normal;
+    for (const VertexHandle corner : v) normals[corner.idx()] += normal;
   }
   for (std::size_t fan = 0; fan < fans_; ++fan) {
     const std::int32_t v = vertex_of_fan_[fan];
     const bool is_shared =
         (fan > 0 && vertex_of_fan_[fan - 1] == v) || (fan + 1 < fans_ && vertex_of_fan_[fan + 1] == v);
-    is_turned_[fan] = is_shared && normals[fan].dot(metric_.normals[index(v)]) < 0;
+    is_turned_[fan] = is_shared && normals[fan].dot(metric_.normals[v]) < 0;
   }
 }
 
 void Refinement::set_node(std::int32_t fan) {
-  const std::size_t v = index(vertex_of_fan_[index(fan)]);
-  nodes_[index(fan)] = node_of(surface_.points()[v], metric_.normals[v], metric_.tensors[v]);
+  const std::size_t v = index(vertex_of_fan_[fan]);
+  nodes_[fan] = node_of(surface_.points()[v], metric_.normals[v], metric_.tensors[v]);
 }
 
 TensorAt Refinement::tensor_at(std::int32_t v) const {
   if (index(v) >= fans_) return tensors_[index(v) - fans_];
-  const std::size_t i = index(vertex_of_fan_[index(v)]);
-  const bool is_turned = !is_turned_.empty() && is_turned_[index(v)];
+  const std::size_t i = index(vertex_of_fan_[v]);
+  const bool is_turned = !is_turned_.empty() && is_turned_[v];
   return {is_turned ? Vector(-metric_.normals[i]) : metric_.normals[i], metric_.tensors[i]};
 }
 
@@ -137,15 +138,15 @@ void Refinement::measure_all() {
     if (const std::size_t ahead = index(h / 3) + kAhead; h % 3 == 0 && ahead < mesh_.corners.size()) {
       for (const std::int32_t v : mesh_.corners[ahead]) prefetch(&node(v));
     }
-    const std::int32_t twin = mesh_.twins[index(h)];
-    lengths_[index(h)] = twin >= 0 && twin < h ? lengths_[index(twin)] : measure(h);
+    const std::int32_t twin = mesh_.twins[h];
+    lengths_[h] = twin >= 0 && twin < h ? lengths_[twin] : measure(h);
   }
 }
 
 std::int32_t Refinement::longest(std::int32_t f) const {
   std::int32_t best = 3 * f;
   for (const std::int32_t h : {3 * f + 1, 3 * f + 2}) {
-    if (lengths_[index(h)] > lengths_[index(best)] * (1 + kEqual)) best = h;
+    if (lengths_[h] > lengths_[best] * (1 + kEqual)) best = h;
   }
   return best;
 }
@@ -153,16 +154,16 @@ std::int32_t Refinement::longest(std::int32_t f) const {
 void Refinement::consider(std::int32_t f) {
   if (is_valid(f)) return;
   if (is_flat(f)) {
-    has_decayed_ = has_decayed_ || is_flat_origin_.empty() || !is_flat_origin_[index(origins_[index(f)])];
+    has_decayed_ = has_decayed_ || is_flat_origin_.empty() || !is_flat_origin_[origins_[f]];
     return;
   }
   const double p = perimeter(f);
   if (p < options_.sigma) return;
-  if (scheme_ == Scheme::kFitAlone || (scheme_ == Scheme::kShallow && depth_[index(f)] >= kShallowDepth)) return;
-  if (scheme_ == Scheme::kPropagate && first_newest_ == 0 && depth_[index(f)] >= kNewestDepth) {
+  if (scheme_ == Scheme::kFitAlone || (scheme_ == Scheme::kShallow && depth_[f] >= kShallowDepth)) return;
+  if (scheme_ == Scheme::kPropagate && first_newest_ == 0 && depth_[f] >= kNewestDepth) {
     deferred_.push_back(f);
   } else {
-    const std::uint64_t place = std::uint64_t(origins_[index(f)]) << 32 | branch_[index(f)];
+    const std::uint64_t place = std::uint64_t(origins_[f]) << 32 | branch_[f];
     queue_.push({static_cast<float>(p), f, place});
   }
 }
@@ -183,13 +184,13 @@ void Refinement::begin_newest_vertex_bisection() {
 std::int32_t Refinement::refinement_edge(std::int32_t f) const {
   if (scheme_ == Scheme::kPaper) return longest(f);
   if (first_newest_ > 0) {
-    const Triangle& corners = mesh_.corners[index(f)];
+    const Triangle& corners = mesh_.corners[f];
     const auto newest = static_cast<std::int32_t>(std::ranges::max_element(corners) - corners.begin());
-    if (index(corners[index(newest)]) >= first_newest_) return next(3 * f + newest);
+    if (index(corners[newest]) >= first_newest_) return next(3 * f + newest);
   }
   const auto key = [&](std::int32_t h) {
-    const std::int32_t twin = mesh_.twins[index(h)];
-    return std::pair(static_cast<float>(lengths_[index(h)]), twin < 0 ? h : std::min(h, twin));
+    const std::int32_t twin = mesh_.twins[h];
+    return std::pair(static_cast<float>(lengths_[h]), twin < 0 ? h : std::min(h, twin));
   };
   std::int32_t best = 3 * f;
   for (const std::int32_t h : {3 * f + 1, 3 * f + 2}) {
@@ -202,17 +203,17 @@ std::int32_t Refinement::refinement_edge(std::int32_t f) const {
 bool Refinement::refine(std::int32_t f, std::size_t most) {
   chain_.assign(1, f);
   while (!chain_.empty()) {
-    const std::int32_t h = refinement_edge(chain_.back()), beyond = mesh_.twins[index(h)];
+    const std::int32_t h = refinement_edge(chain_.back()), beyond = mesh_.twins[h];
     if (scheme_ != Scheme::kPaper && beyond >= 0 && refinement_edge(beyond / 3) != beyond) {
       chain_.push_back(beyond / 3);
       continue;
     }
     if (faces_added_ + (beyond < 0 ? 1 : 2) > most) return false;
     newest_bisections_ += first_newest_ > 0;
-    if (states_.empty() || beyond < 0 || enter(origins_[index(beyond / 3)])) {
+    if (states_.empty() || beyond < 0 || enter(origins_[beyond / 3])) {
       bisect(h);
     } else {
-      conflicts_.insert(conflicts_.end(), {origins_[index(beyond / 3)], origins_[index(h / 3)]});
+      conflicts_.insert(conflicts_.end(), {origins_[beyond / 3], origins_[h / 3]});
     }
     chain_.pop_back();
   }
@@ -224,26 +225,26 @@ bool Refinement::refine(std::int32_t f, std::size_t most) {
 void Refinement::halve(std::int32_t h, std::int32_t middle) {
   const std::int32_t f = h / 3, h1 = next(h);
   const auto g = static_cast<std::int32_t>(mesh_.corners.size());
-  const std::int32_t b = mesh_.tip(h), c = mesh_.tip(h1), outer = mesh_.twins[index(h1)];
-  mesh_.corners[index(f)][index(h1 % 3)] = middle;
+  const std::int32_t b = mesh_.tip(h), c = mesh_.tip(h1), outer = mesh_.twins[h1];
+  mesh_.corners[f][h1 % 3] = middle;
   mesh_.corners.push_back({middle, b, c});
   mesh_.twins.insert(mesh_.twins.end(), {-1, outer, h1});
-  mesh_.twins[index(h1)] = 3 * g + 2;
-  if (outer >= 0) mesh_.twins[index(outer)] = 3 * g + 1;
-  lengths_.insert(lengths_.end(), {0.0, lengths_[index(h1)], 0.0});
-  origins_.push_back(origins_[index(f)]);
-  if (depth_[index(f)] < kNewestDepth) ++depth_[index(f)];
-  depth_.push_back(depth_[index(f)]);
+  mesh_.twins[h1] = 3 * g + 2;
+  if (outer >= 0) mesh_.twins[outer] = 3 * g + 1;
+  lengths_.insert(lengths_.end(), {0.0, lengths_[h1], 0.0});
+  origins_.push_back(origins_[f]);
+  if (depth_[f] < kNewestDepth) ++depth_[f];
+  depth_.push_back(depth_[f]);
   // Nodes deeper than 31 have no number left in 32 bits: they are mixed, and seldom equal.
-  const std::uint32_t branch = branch_[index(f)];
+  const std::uint32_t branch = branch_[f];
   const std::uint32_t first = branch < 0x8000'0000U ? 2 * branch : branch * 0x9E37'79B1U | 0x8000'0000U;
-  branch_[index(f)] = first;
+  branch_[f] = first;
   branch_.push_back(first ^ 1U);
   ++faces_added_;
 }
 
 void Refinement::bisect(std::int32_t h) {
-  const std::int32_t a = mesh_.tail(h), b = mesh_.tip(h), o = mesh_.twins[index(h)];
+  const std::int32_t a = mesh_.tail(h), b = mesh_.tip(h), o = mesh_.twins[h];
   const auto middle = static_cast<std::int32_t>(fans_ + new_nodes_.size());
   tensors_.push_back(midpoint_tensor(tensor_at(a), tensor_at(b)));
   points_.emplace_back((node(a).point + node(b).point) / 2);
@@ -253,10 +254,10 @@ void Refinement::bisect(std::int32_t h) {
   halve(h, middle);
   if (o >= 0) {
     halve(o, middle);
-    mesh_.twins[index(h)] = 3 * (count + 1);
-    mesh_.twins[index(3 * (count + 1))] = h;
-    mesh_.twins[index(o)] = 3 * count;
-    mesh_.twins[index(3 * count)] = o;
+    mesh_.twins[h] = 3 * (count + 1);
+    mesh_.twins[3 * (count + 1)] = h;
+    mesh_.twins[o] = 3 * count;
+    mesh_.twins[3 * count] = o;
   }
   // Edges around the middle: the halves of the old one, and one on each side.
   for (const std::int32_t e : {h, 3 * count, 3 * count + 2}) set_length(e, measure(e));
@@ -354,31 +355,31 @@ Embedding Refinement::result() && {
     for (Triangle& corners : mesh_.corners) {
       for (std::int32_t& v : corners) v = number(v);
     }
-    for (std::int32_t& f : origins_) f = surface_.face_of_half_edge_face()[index(f)];
+    for (std::int32_t& f : origins_) f = surface_.face_of_half_edge_face()[f];
   }
   // Each edge of holes alone, once.
   const auto is_hole = [&](std::int32_t f) { return std::binary_search(holes.begin(), holes.end(), f); };
   for (const std::int32_t f : holes) {
     for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
-      const std::int32_t twin = mesh_.twins[index(h)];
+      const std::int32_t twin = mesh_.twins[h];
       if (twin >= 0 && (twin < h || !is_hole(twin / 3))) continue;
-      mesh.loose_edges.push_back({mesh_.tail(h), mesh_.tip(h), lengths_[index(h)]});
+      mesh.loose_edges.push_back({mesh_.tail(h), mesh_.tip(h), lengths_[h]});
     }
   }
   if (!holes.empty()) {
     std::vector<std::int32_t> moved(index(faces), -1);
     std::int32_t to = 0;
     for (std::int32_t f = 0; f < faces; ++f) {
-      if (!is_hole(f)) moved[index(f)] = to++;
+      if (!is_hole(f)) moved[f] = to++;
     }
     for (std::int32_t f = 0; f < faces; ++f) {
-      if (moved[index(f)] < 0) continue;
-      const std::size_t g = index(moved[index(f)]);
-      mesh_.corners[g] = mesh_.corners[index(f)];
-      origins_[g] = origins_[index(f)];
+      if (moved[f] < 0) continue;
+      const std::size_t g = index(moved[f]);
+      mesh_.corners[g] = mesh_.corners[f];
+      origins_[g] = origins_[f];
       for (std::size_t i = 0; i < 3; ++i) {
         const std::int32_t twin = mesh_.twins[3 * index(f) + i];
-        const std::int32_t beyond = twin < 0 ? -1 : moved[index(twin / 3)];
+        const std::int32_t beyond = twin < 0 ? -1 : moved[twin / 3];
         mesh_.twins[3 * g + i] = beyond < 0 ? -1 : 3 * beyond + twin % 3;
         lengths_[3 * g + i] = lengths_[3 * index(f) + i];
       }
@@ -406,15 +407,15 @@ Embedding Refinement::result() && {
 std::vector<std::int32_t> Refinement::unreachable(const IntrinsicMesh& mesh) const {
   std::vector<bool> reached(index(mesh.vertex_count), false);
   for (const Triangle& triangle : mesh.triangles) {
-    for (const std::int32_t v : triangle) reached[index(v)] = true;
+    for (const std::int32_t v : triangle) reached[v] = true;
   }
-  for (const LooseEdge& edge : mesh.loose_edges) reached[index(edge.a)] = reached[index(edge.b)] = true;
+  for (const LooseEdge& edge : mesh.loose_edges) reached[edge.a] = reached[edge.b] = true;
   std::vector<std::int32_t> out;
   for (const Triangle& triangle : surface_.triangles()) {
     for (const std::int32_t v : triangle) {
-      if (reached[index(v)]) continue;
+      if (reached[v]) continue;
       out.push_back(v);
-      reached[index(v)] = true;
+      reached[v] = true;
     }
   }
   std::sort(out.begin(), out.end());

@@ -10,13 +10,12 @@
 #include <queue>
 #include <vector>
 
+#include "detail/index.hpp"
 #include "embedding/degenerate_faces.hpp"
 #include "seamwire/embedding/embedding.hpp"
 
 /// The subdivision of Section 4.1 of the paper, and what goes beyond it (docs/method.md, Section 4).
 namespace seamwire {
-
-inline std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// A triangle is valid where its longest edge is shorter than the others together by this fraction: exact geodesics
 /// unfold it, and the square root in the unfolding leaves half of its digits.
@@ -50,8 +49,8 @@ struct FlatMesh {
   std::vector<Triangle> corners;
   std::vector<std::int32_t> twins;
 
-  std::int32_t tail(std::int32_t h) const { return corners[index(h / 3)][index(h % 3)]; }
-  std::int32_t tip(std::int32_t h) const { return corners[index(h / 3)][index((h + 1) % 3)]; }
+  std::int32_t tail(std::int32_t h) const { return corners[h / 3][h % 3]; }
+  std::int32_t tip(std::int32_t h) const { return corners[h / 3][(h + 1) % 3]; }
 };
 
 /// The half-edge after h in its triangle.
@@ -108,12 +107,10 @@ class Refinement {
 
   void orient_normals(const HalfEdgeMesh& mesh);
   std::int32_t number(std::int32_t v) const {
-    if (index(v) < fans_) return vertex_of_fan_[index(v)];
+    if (index(v) < fans_) return vertex_of_fan_[v];
     return static_cast<std::int32_t>(index(v) - fans_ + surface_.vertex_count());
   }
-  const MetricNode& node(std::int32_t v) const {
-    return index(v) < fans_ ? nodes_[index(v)] : new_nodes_[index(v) - fans_];
-  }
+  const MetricNode& node(std::int32_t v) const { return index(v) < fans_ ? nodes_[v] : new_nodes_[index(v) - fans_]; }
   void set_node(std::int32_t fan);
   TensorAt tensor_at(std::int32_t v) const;
   Vector vector(std::int32_t h) const {
@@ -191,8 +188,8 @@ inline double Refinement::measure(std::int32_t h) const {
 }
 
 inline void Refinement::set_length(std::int32_t h, double length) {
-  lengths_[index(h)] = length;
-  if (const std::int32_t twin = mesh_.twins[index(h)]; twin >= 0) lengths_[index(twin)] = length;
+  lengths_[h] = length;
+  if (const std::int32_t twin = mesh_.twins[h]; twin >= 0) lengths_[twin] = length;
 }
 
 inline bool Refinement::is_valid(std::int32_t f) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "embedding/degenerate_faces.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <numeric>
 
@@ -19,8 +20,6 @@ constexpr double kFlat = 1e-9;
 constexpr double kEqual = 1e-9;
 // Times that all faces without an area are looked at, each time because some could be taken away the time before.
 constexpr int kMendingPasses = 64;
-
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
@@ -67,7 +66,7 @@ Mending::Mending(const Surface& surface, const Metric& metric) : surface_(surfac
 // Of the faces that are left, in their order.
 std::vector<std::int32_t> Mending::origins() const {
   std::vector<std::int32_t> left;
-  for (const FaceHandle f : mesh_.faces()) left.push_back(origins_[index(f.idx())]);
+  for (const FaceHandle f : mesh_.faces()) left.push_back(origins_[f.idx()]);
   return left;
 }
 
@@ -106,7 +105,7 @@ bool Mending::merge_ends(FaceHandle f) {
     const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
     // A second edge between the two would become a loop.
     if (std::ranges::count(mesh_.vv_range(from), to) != 1 || !mesh_.is_collapse_ok(h)) continue;
-    const std::int32_t a = surface_.vertex_of_fan()[index(from.idx())], b = surface_.vertex_of_fan()[index(to.idx())];
+    const std::int32_t a = surface_.vertex_of_fan()[from.idx()], b = surface_.vertex_of_fan()[to.idx()];
     merged_.push_back({a, b, edge_length(surface_, metric_, a, b)});
     mesh_.collapse(h);
     return true;
@@ -131,7 +130,7 @@ FaceHandle Mending::flip_longest(FaceHandle f) {
   const double flipped = (apex(opposite) - apex(h)).norm() * surface_.scale();
   if (is_flat(beyond) && !(flipped < vector(h).norm() * (1 - kEqual))) return FaceHandle();
   mesh_.flip(e);
-  origins_[index(f.idx())] = origins_[index(beyond.idx())];
+  origins_[f.idx()] = origins_[beyond.idx()];
   return beyond;
 }
 

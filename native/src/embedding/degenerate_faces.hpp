@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "seamwire/metric/metric.hpp"
+#include "seamwire/surface/half_edge_mesh.hpp"
 #include "seamwire/surface/intrinsic_mesh.hpp"
 #include "seamwire/surface/surface.hpp"
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "detail/index.hpp"
 #include "detail/text.hpp"
 #include "embedding/bisection.hpp"
 #include "metric/metric_check.hpp"
@@ -90,7 +91,7 @@ Embedding re_embed(const Surface& surface, const Metric& former, const Metric& m
   check_metric(surface, metric);
   const std::size_t faces = surface.face_count();
   const bool fits = old.points.size() >= surface.vertex_count() &&
-                    old.mesh.face_count() + old.invalid_left >= surface.half_edges().n_faces() + old.faces_added &&
+                    old.mesh.face_count() + old.invalid_left >= surface.face_fans().size() + old.faces_added &&
                     std::ranges::all_of(old.source_face, [&](std::int32_t f) { return f >= 0 && index(f) < faces; });
   if (!fits) throw InvalidInput("the former embedding is of another surface");
   if (!old.is_local || former.normals != metric.normals) return embed(surface, metric, options, task);

@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "detail/index.hpp"
 #include "embedding/bisection.hpp"
 
 namespace seamwire {
@@ -20,8 +21,8 @@ constexpr double kNeedle = 1e-8;
 // Edges are in one strict order, that of their lengths and then of their numbers.
 std::int32_t Refinement::fitting_edge(std::int32_t f) const {
   const auto key = [&](std::int32_t h) {
-    const std::int32_t twin = mesh_.twins[index(h)];
-    return std::pair(lengths_[index(h)], twin < 0 ? h : std::min(h, twin));
+    const std::int32_t twin = mesh_.twins[h];
+    return std::pair(lengths_[h], twin < 0 ? h : std::min(h, twin));
   };
   return std::ranges::max(std::array{3 * f, 3 * f + 1, 3 * f + 2}, {}, key);
 }
@@ -29,7 +30,7 @@ std::int32_t Refinement::fitting_edge(std::int32_t f) const {
 // Invalid, and neither left out for sigma nor a part of a face without an area.
 bool Refinement::is_unfit(std::int32_t f) const {
   if (is_valid(f) || perimeter(f) < options_.sigma) return false;
-  return is_flat_origin_.empty() || !is_flat_origin_[index(origins_[index(f)])];
+  return is_flat_origin_.empty() || !is_flat_origin_[origins_[f]];
 }
 
 bool Refinement::can_be_fitted(std::int32_t f) const {
@@ -55,7 +56,7 @@ bool Refinement::fit(const Task& task, double progress) {
     if (!can_be_fitted(todo[i])) continue;
     chain_.assign(1, todo[i]);
     while (!chain_.empty()) {
-      const std::int32_t h = fitting_edge(chain_.back()), o = mesh_.twins[index(h)];
+      const std::int32_t h = fitting_edge(chain_.back()), o = mesh_.twins[h];
       // An invalid neighbour can be fitted at its longest edge only, which is longer than this one.
       if (o >= 0 && can_be_fitted(o / 3) && fitting_edge(o / 3) != o) {
         chain_.push_back(o / 3);
@@ -67,9 +68,9 @@ bool Refinement::fit(const Task& task, double progress) {
       }
       const auto side = [&](std::int32_t from, int steps) {
         for (; steps > 0; --steps) from = next(from);
-        return lengths_[index(from)];
+        return lengths_[from];
       };
-      const double half = lengths_[index(h)] / 2, b = side(h, 1), c = side(h, 2);
+      const double half = lengths_[h] / 2, b = side(h, 1), c = side(h, 2);
       const double d = o < 0 ? 0.0 : side(o, 1), e = o < 0 ? 0.0 : side(o, 2);
       const auto count = static_cast<std::int32_t>(mesh_.corners.size());
       bisect(h);

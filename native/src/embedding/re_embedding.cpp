@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "detail/index.hpp"
 #include "embedding/bisection.hpp"
 
 namespace seamwire {
@@ -28,7 +29,7 @@ Refinement::Refinement(const Surface& surface, const Metric& metric, const Embed
       points_(std::move(old.points)),
       invalid_before_(old.invalid_before),
       faces_added_(mesh_.corners.size() - faces_) {
-  for (std::size_t f = faces_; f < origins_.size(); ++f) states_[index(origins_[f])] = State::kKept;
+  for (std::size_t f = faces_; f < origins_.size(); ++f) states_[origins_[f]] = State::kKept;
 }
 
 std::vector<std::int32_t> Refinement::changed_faces(const Metric& former) const {
@@ -46,10 +47,10 @@ std::vector<std::int32_t> Refinement::changed_faces(const Metric& former) const 
 
 // Ready to take part in this run; false for a face that was bisected before it and has to be made anew.
 bool Refinement::enter(std::int32_t face) {
-  State& state = states_[index(face)];
+  State& state = states_[face];
   if (state == State::kKept) return false;
   if (state == State::kOriginal) {
-    for (const std::int32_t fan : mesh_.corners[index(face)]) set_node(fan);
+    for (const std::int32_t fan : mesh_.corners[face]) set_node(fan);
     state = State::kRunning;
     running_.push_back(face);
   }
@@ -62,7 +63,7 @@ void Refinement::reset(const std::vector<std::int32_t>& seeds) {
   // The parts of each face but the first: of a face the last one made, and of a part the one before it.
   std::vector<std::int32_t> last_part(faces_, -1), part_before(origins_.size() - faces_);
   for (std::size_t f = faces_; f < origins_.size(); ++f) {
-    part_before[f - faces_] = std::exchange(last_part[index(origins_[f])], static_cast<std::int32_t>(f));
+    part_before[f - faces_] = std::exchange(last_part[origins_[f]], static_cast<std::int32_t>(f));
   }
 
   struct Outer {
@@ -72,13 +73,13 @@ void Refinement::reset(const std::vector<std::int32_t>& seeds) {
   std::vector<bool> is_reset(faces_, false);
   std::vector<std::int32_t> faces;
   const auto add = [&](std::int32_t face) {
-    if (!is_reset[index(face)]) faces.push_back(face);
-    is_reset[index(face)] = true;
+    if (!is_reset[face]) faces.push_back(face);
+    is_reset[face] = true;
   };
   for (const std::int32_t face : seeds) add(face);
   for (std::size_t done = 0; done < faces.size();) {  // add() makes it grow
     const std::int32_t face = faces[done++];
-    const Triangle& corners = surface_.face_fans()[index(face)];
+    const Triangle& corners = surface_.face_fans()[face];
     std::array<std::int32_t, 3> whole{-1, -1, -1};
     const auto look = [&](std::int32_t part) {
       for (std::int32_t h = 3 * part; h < 3 * part + 3; ++h) {
@@ -90,32 +91,31 @@ void Refinement::reset(const std::vector<std::int32_t>& seeds) {
       }
     };
     look(face);
-    for (std::int32_t part = last_part[index(face)]; part >= 0; part = part_before[index(part) - faces_]) look(part);
+    for (std::int32_t part = last_part[face]; part >= 0; part = part_before[index(part) - faces_]) look(part);
     for (std::size_t side = 0; side < 3; ++side) {
       if (whole[side] >= 0) {
-        sides.push_back({3 * face + static_cast<std::int32_t>(side), mesh_.twins[index(whole[side])]});
+        sides.push_back({3 * face + static_cast<std::int32_t>(side), mesh_.twins[whole[side]]});
       } else if (const std::int32_t twin = surface_.twins()[3 * index(face) + side]; twin >= 0) {
         add(twin / 3);
       }
     }
   }
-  std::erase_if(
-      sides, [&](const Outer& side) { return side.outside < 0 || is_reset[index(origins_[index(side.outside / 3)])]; });
+  std::erase_if(sides, [&](const Outer& side) { return side.outside < 0 || is_reset[origins_[side.outside / 3]]; });
   for (const std::int32_t face : faces) {
-    mesh_.corners[index(face)] = surface_.face_fans()[index(face)];
+    mesh_.corners[face] = surface_.face_fans()[face];
     std::copy_n(surface_.twins().begin() + std::ptrdiff_t{3} * face, 3, mesh_.twins.begin() + std::ptrdiff_t{3} * face);
-    branch_[index(face)] = 1;
-    states_[index(face)] = State::kOriginal;
+    branch_[face] = 1;
+    states_[face] = State::kOriginal;
   }
   for (const auto& [inside, outside] : sides) {
-    mesh_.twins[index(inside)] = outside;
-    mesh_.twins[index(outside)] = inside;
+    mesh_.twins[inside] = outside;
+    mesh_.twins[outside] = inside;
   }
 
   // The parts of those faces go.
   std::size_t to = faces_;
   for (std::size_t f = faces_; f < origins_.size(); ++f) {
-    if (is_reset[index(origins_[f])]) continue;
+    if (is_reset[origins_[f]]) continue;
     mesh_.corners[to] = mesh_.corners[f];
     origins_[to] = origins_[f];
     branch_[to] = branch_[f];
@@ -123,7 +123,7 @@ void Refinement::reset(const std::vector<std::int32_t>& seeds) {
       lengths_[3 * to + i] = lengths_[3 * f + i];
       const std::int32_t twin = mesh_.twins[3 * f + i];
       mesh_.twins[3 * to + i] = twin;
-      if (twin >= 0) mesh_.twins[index(twin)] = static_cast<std::int32_t>(3 * to + i);
+      if (twin >= 0) mesh_.twins[twin] = static_cast<std::int32_t>(3 * to + i);
     }
     ++to;
   }
@@ -139,12 +139,12 @@ void Refinement::reset(const std::vector<std::int32_t>& seeds) {
   std::vector<std::int32_t> kept;
   for (std::size_t f = faces_; f < origins_.size(); ++f) {
     const std::int32_t face = origins_[f];
-    if (std::exchange(last_part[index(face)], -1) >= 0) kept.push_back(face);
+    if (std::exchange(last_part[face], -1) >= 0) kept.push_back(face);
   }
   for (std::size_t f = faces_; f < to; ++f) kept.push_back(static_cast<std::int32_t>(f));
   std::vector<std::int32_t> renumbered(new_nodes_.size(), -1);
   for (const std::int32_t f : kept) {
-    for (const std::int32_t v : mesh_.corners[index(f)]) {
+    for (const std::int32_t v : mesh_.corners[f]) {
       if (index(v) >= fans_) renumbered[index(v) - fans_] = 0;
     }
   }
@@ -160,7 +160,7 @@ void Refinement::reset(const std::vector<std::int32_t>& seeds) {
   tensors_.resize(count);
   points_.resize(fans_ + count);
   for (const std::int32_t f : kept) {
-    for (std::int32_t& v : mesh_.corners[index(f)]) {
+    for (std::int32_t& v : mesh_.corners[f]) {
       if (index(v) >= fans_) v = renumbered[index(v) - fans_];
     }
   }
@@ -184,16 +184,16 @@ bool Refinement::run_changes(const Metric& former, const Task& task, std::size_t
     if (!work_off(task, most, progress)) return false;
     if (conflicts_.empty()) return true;
     // All else is done. What took part in a conflict begins anew, both sides of it together.
-    for (const std::int32_t face : running_) states_[index(face)] = State::kOriginal;
+    for (const std::int32_t face : running_) states_[face] = State::kOriginal;
     running_.clear();
-    for (std::size_t f = faces_; f < origins_.size(); ++f) states_[index(origins_[f])] = State::kKept;
+    for (std::size_t f = faces_; f < origins_.size(); ++f) states_[origins_[f]] = State::kKept;
     seeds = std::exchange(conflicts_, {});
   }
 }
 
 // Whether an original triangle is valid in a metric.
 bool Refinement::is_given_valid(std::int32_t face, const Metric& metric) const {
-  const auto [a, b, c] = surface_.face_fans()[index(face)];
+  const auto [a, b, c] = surface_.face_fans()[face];
   std::array lengths{edge_length(surface_, metric, a, b), edge_length(surface_, metric, b, c),
                      edge_length(surface_, metric, c, a)};
   std::ranges::sort(lengths);

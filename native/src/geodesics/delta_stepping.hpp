@@ -7,26 +7,26 @@
 #include <vector>
 
 #include "geodesics/geodesic_mesh.hpp"
-#include "seamwire/geodesics/exact_geodesics.hpp"
+#include "seamwire/geodesics/distance_field.hpp"
 #include "seamwire/task.hpp"
 
 namespace seamwire {
 
-/// Distances along steps from a seed, computed outwards as far as they are asked for: Dijkstra's algorithm with buckets
-/// of distances instead of a heap, in which vertices are settled in any order and, if need be, again (Meyer, Sanders,
-/// "Delta-stepping: a parallelizable shortest path algorithm", 2003). In single precision: they say where to look for
-/// a path, not how long it is.
-class EdgeDistances {
+/// Distances along hops (GeodesicMesh::hops) from a seed, computed outwards as far as they are asked for, by
+/// delta-stepping: buckets of distances instead of a heap, whose vertices are settled in any order and, if need be,
+/// again (Meyer, Sanders, "Delta-stepping: a parallelizable shortest path algorithm", 2003). In single precision: they
+/// say where to look for a path, not how long it is.
+class DeltaStepping {
  public:
-  EdgeDistances(const GeodesicMesh& mesh, std::int32_t seed);
+  DeltaStepping(const GeodesicMesh& mesh, std::int32_t seed);
 
   /// Goes on until the distance of `vertex` is final, or nothing is left to be reached.
   void reach(std::int32_t vertex, const Task& task);
 
   /// Final where it is below radius(), else an upper bound; infinite where nothing led yet.
-  float at(std::int32_t vertex) const { return reached_[static_cast<std::size_t>(vertex)].distance; }
-  /// The vertices of a shortest chain of steps from the seed to a vertex whose distance is final; no more than its
-  /// points.
+  float at(std::int32_t vertex) const { return reached_[vertex].distance; }
+  /// A shortest chain of hops from the seed to a vertex whose distance is final. Of the path only the points are set, a
+  /// vertex each.
   IntrinsicPath chain(std::int32_t vertex) const;
   float radius() const { return static_cast<float>(current_) * width_; }
 
@@ -42,12 +42,12 @@ class EdgeDistances {
 
   std::vector<Entry>& bucket(std::size_t number) { return buckets_[number % buckets_.size()]; }
   std::size_t bucket_of(float distance) const { return static_cast<std::size_t>(distance * per_width_); }
-  void lower(std::int32_t vertex, float distance, std::int32_t from);
-  void prefetch(std::int32_t vertex) const;
+  void relax(std::int32_t vertex, float distance, std::int32_t from);
+  void prefetch_vertex(std::int32_t vertex) const;
 
   const GeodesicMesh& mesh_;
   std::vector<Reached> reached_;
-  std::vector<std::vector<Entry>> buckets_;  ///< a ring: no edge is longer than all but one of them
+  std::vector<std::vector<Entry>> buckets_;  ///< a ring: no hop is longer than all but one of them
   float width_ = 1.0F, per_width_ = 1.0F;
   std::size_t current_ = 0,
               done_ = 0;     ///< the first bucket that may not be empty, and how many of its entries are done

@@ -4,36 +4,31 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <new>
 #include <numbers>
-#include <numeric>
 #include <string>
+#include <utility>
 
 #include "detail/text.hpp"
 
 namespace seamwire {
 namespace {
 
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-/// A vertex that is flat up to rounding must not count as one that bends paths: every one of them would send out
-/// windows that nothing needs. What is lost behind a vertex with 1e-7 too much is of second order, 1e-14 of the length.
+/// A vertex that is flat up to rounding must not be a pseudo-source: every one of them would emit windows that nothing
+/// needs. What is lost behind a vertex with 1e-7 too much is of second order, 1e-14 of the length.
 constexpr double kFlatness = 1e-7;
 
 /// Lengths computed from coordinates may miss the triangle inequality by rounding where the corners are in line.
 constexpr double kRounding = 1e-12;
 
-/// A step over an edge counts if it is shorter than this part of the way along two edges.
+/// There is a hop over an edge if it is shorter than this part of the path along two edges.
 constexpr double kShortcut = 0.95;
 
 using seamwire::text;
 std::string text(std::int32_t number) { return std::to_string(number); }
 
 void check_vertex(const IntrinsicMesh& mesh, std::int32_t vertex, const char* what, std::size_t number) {
-  if (vertex < 0 || vertex >= mesh.vertex_count) {
-    throw InvalidInput(std::string(what) + " " + std::to_string(number) + ": vertex " + text(vertex) +
-                       " is out of range, there are " + text(mesh.vertex_count));
-  }
+  if (is_index(vertex, index(mesh.vertex_count))) return;
+  check_index(vertex, index(mesh.vertex_count), std::string(what) + " " + std::to_string(number) + ": vertex");
 }
 
 void check(const IntrinsicMesh& mesh) {
@@ -49,13 +44,13 @@ void check(const IntrinsicMesh& mesh) {
   const auto count = static_cast<std::int32_t>(half_edge_count);
   for (std::int32_t h = 0; h < count; ++h) {
     const auto where = [&] { return "half-edge " + text(h) + " of triangle " + text(h / 3); };
-    const double length = mesh.lengths[index(h)];
+    const double length = mesh.lengths[h];
     if (!(length > 0) || !std::isfinite(length)) {
       throw InvalidInput(where() + ": its length must be positive and finite, not " + text(length));
     }
-    const std::int32_t twin = mesh.twins[index(h)];
+    const std::int32_t twin = mesh.twins[h];
     if (twin == -1) continue;
-    if (twin < 0 || twin >= count || twin == h || mesh.twins[index(twin)] != h) {
+    if (twin < 0 || twin >= count || twin == h || mesh.twins[twin] != h) {
       throw InvalidInput(where() + ": its twin, " + text(twin) + ", does not name it back");
     }
     if (twin < h) continue;  // the rest has been looked at from the other side
@@ -63,9 +58,9 @@ void check(const IntrinsicMesh& mesh) {
       throw InvalidInput(where() + ": its twin, " + text(twin) +
                          ", does not run the other way between the same vertices");
     }
-    if (mesh.lengths[index(twin)] != length) {
+    if (mesh.lengths[twin] != length) {
       throw InvalidInput(where() + ": it is " + text(length) + " long, its twin, " + text(twin) + ", " +
-                         text(mesh.lengths[index(twin)]));
+                         text(mesh.lengths[twin]));
     }
   }
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
@@ -107,39 +102,34 @@ double foot(double base, double left, double right) {
 /// Items that memory is asked for in advance.
 constexpr std::size_t kAhead = 8;
 
-/// Rows of an adjacency: for each i, where its items begin, given how many it has in counts[i + 1].
-void accumulate_rows(std::vector<std::int32_t>& counts) {
-  std::partial_sum(counts.begin(), counts.end(), counts.begin());
-}
-
 }  // namespace
 
 GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh) {
   check(mesh);
-  std::vector<std::int32_t> own_face(mesh.triangles.size(), -1);
-  renumber(mesh, own_face);
+  std::vector<std::int32_t> internal_face(mesh.triangles.size(), -1);
+  renumber(mesh, internal_face);
 
   const auto entered_over = [&](std::int32_t original) {
-    const std::int32_t twin = mesh.twins[index(original)];
-    return twin < 0 ? -1 : 3 * own_face[index(twin / 3)] + twin % 3;
+    const std::int32_t twin = mesh.twins[original];
+    return twin < 0 ? -1 : 3 * internal_face[twin / 3] + twin % 3;
   };
-  half_edges_.reserve(3 * original_face_.size());
-  angle_.reserve(3 * original_face_.size());
+  half_edges_.reserve(3 * external_face_.size());
+  angle_.reserve(3 * external_face_.size());
   std::vector<Triangle> corners;
-  corners.reserve(original_face_.size());
-  for (std::size_t f = 0; f < original_face_.size(); ++f) {
-    if (f + kAhead < original_face_.size()) {
-      const std::size_t ahead = index(original_face_[f + kAhead]);
+  corners.reserve(external_face_.size());
+  for (std::size_t f = 0; f < external_face_.size(); ++f) {
+    if (f + kAhead < external_face_.size()) {
+      const std::size_t ahead = index(external_face_[f + kAhead]);
       prefetch(&mesh.lengths[3 * ahead]);
       prefetch(&mesh.twins[3 * ahead]);
       prefetch(&mesh.triangles[ahead]);
     }
-    const std::int32_t face = original_face_[f];
+    const std::int32_t face = external_face_[f];
     const double* lengths = &mesh.lengths[3 * index(face)];
     const double areas = four_areas(lengths[0], lengths[1], lengths[2]);
-    const Triangle& triangle = mesh.triangles[index(face)];
-    const Triangle& own =
-        corners.emplace_back(Triangle{own_vertex(triangle[0]), own_vertex(triangle[1]), own_vertex(triangle[2])});
+    const Triangle& triangle = mesh.triangles[face];
+    const Triangle& own = corners.emplace_back(
+        Triangle{internal_vertex(triangle[0]), internal_vertex(triangle[1]), internal_vertex(triangle[2])});
     const std::array entered{entered_over(3 * face), entered_over(3 * face + 1), entered_over(3 * face + 2)};
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t after = (i + 1) % 3, before = (i + 2) % 3;
@@ -157,73 +147,61 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh) {
     }
   }
 
-  list_out(corners);
-
-  first_loose_.assign(vertex_count() + 1, 0);
-  for (const LooseEdge& edge : mesh.loose_edges) {
-    ++first_loose_[index(own_vertex(edge.a)) + 1];
-    ++first_loose_[index(own_vertex(edge.b)) + 1];
-  }
-  accumulate_rows(first_loose_);
-  loose_.resize(2 * mesh.loose_edges.size());
-  std::vector<std::int32_t> free_slot(first_loose_.begin(), first_loose_.end() - 1);
-  for (const LooseEdge& edge : mesh.loose_edges) {
-    const std::int32_t a = own_vertex(edge.a), b = own_vertex(edge.b);
-    loose_[index(free_slot[index(a)]++)] = {b, edge.length};
-    loose_[index(free_slot[index(b)]++)] = {a, edge.length};
-  }
-
-  list_steps();
-  find_bending_vertices();
+  out_ = leaving(vertex_count(), corners);
+  loose_ = Csr<Loose>(vertex_count(), [&](const auto& visit) {
+    for (const LooseEdge& edge : mesh.loose_edges) {
+      const std::int32_t a = internal_vertex(edge.a), b = internal_vertex(edge.b);
+      visit(a, {b, edge.length});
+      visit(b, {a, edge.length});
+    }
+  });
+  list_hops();
+  find_pseudo_sources();
 }
 
-void GeodesicMesh::list_out(const std::vector<Triangle>& corners) {
-  first_out_.assign(vertex_count() + 1, 0);
-  for (const Triangle& triangle : corners) {
-    for (const std::int32_t v : triangle) ++first_out_[index(v) + 1];
-  }
-  accumulate_rows(first_out_);
-  out_.resize(half_edges_.size());
-  std::vector<std::int32_t> free_slot(first_out_.begin(), first_out_.end() - 1);
-  std::int32_t h = 0;
-  for (const Triangle& triangle : corners) {
-    for (const std::int32_t v : triangle) out_[index(free_slot[index(v)]++)] = h++;
-  }
+/// For each vertex the half-edges that leave it.
+Csr<std::int32_t> GeodesicMesh::leaving(std::size_t vertex_count, const std::vector<Triangle>& corners) {
+  return Csr<std::int32_t>(vertex_count, [&](const auto& visit) {
+    std::int32_t h = 0;
+    for (const Triangle& triangle : corners) {
+      for (const std::int32_t v : triangle) visit(v, h++);
+    }
+  });
 }
 
-/// What lengths are multiplied by to be those of steps: a power of two, 1 unless sums of them might leave the range of
-/// single precision.
-double GeodesicMesh::unit_of_steps() const {
+/// What lengths are multiplied by to give those of hops: a power of two; 1, unless sums of them might leave the range
+/// of single precision.
+double GeodesicMesh::unit_of_hops() const {
   constexpr int kMostExponent = 80;  // 2^80 times the number of vertices is still far below 2^128
   double longest = 0.0;
   for (const HalfEdge& edge : half_edges_) longest = std::max(longest, edge.length);
-  for (const Loose& edge : loose_) longest = std::max(longest, edge.length);
+  for (const Loose& edge : loose_.items()) longest = std::max(longest, edge.length);
   if (longest == 0.0) return 1.0;
   const int exponent = std::ilogb(longest);
   return std::abs(exponent) > kMostExponent ? std::ldexp(1.0, -exponent) : 1.0;
 }
 
-void GeodesicMesh::list_steps() {
-  first_step_.assign(vertex_count() + 1, 0);
-  steps_.reserve(2 * half_edges_.size() + loose_.size());
+void GeodesicMesh::list_hops() {
+  hops_.reserve(vertex_count(), 2 * half_edges_.size() + loose_.items().size());
   double sum = 0.0;
-  std::size_t leaving = 0;  // in out_
-  const double unit = unit_of_steps();
+  const std::vector<std::int32_t>& all = out_.items();
+  std::size_t leaving = 0;  // of `all`, half-edges looked at
+  const double unit = unit_of_hops();
   const auto add = [&](std::int32_t to, double length) {
     const auto rounded = static_cast<float>(length * unit);
-    steps_.push_back({to, rounded});
+    hops_.push({to, rounded});
     sum += length * unit;
-    longest_step_ = std::max(longest_step_, rounded);
+    longest_hop_ = std::max(longest_hop_, rounded);
   };
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(vertex_count()); ++v) {
     for (const std::int32_t h : out(v)) {
-      if (++leaving + 2 * kAhead < out_.size()) {
-        prefetch(&half_edge(out_[leaving + 2 * kAhead]));
-        if (const std::int32_t over = half_edge(out_[leaving + kAhead]).right; over >= 0) prefetch(&half_edge(over));
+      if (++leaving + 2 * kAhead < all.size()) {
+        prefetch(&half_edge(all[leaving + 2 * kAhead]));
+        if (const std::int32_t over = half_edge(all[leaving + kAhead]).right; over >= 0) prefetch(&half_edge(over));
       }
       const HalfEdge& edge = half_edge(h);
       add(edge.tip, edge.length);
-      // On the boundary nobody leaves v along the edge that arrives here.
+      // On the boundary no half-edge leaves v along the edge that arrives here.
       if (edge.left < 0) add(edge.apex, half_edge(previous(h)).length);
       if (edge.right < 0) continue;
       // Over the opposite edge, from below it in the frame of the half-edge entered.
@@ -237,60 +215,55 @@ void GeodesicMesh::list_steps() {
       if (length < kShortcut * around) add(over.apex, length);
     }
     for (const auto& [to, length] : loose(v)) add(to, length);
-    first_step_[index(v) + 1] = static_cast<std::int32_t>(steps_.size());
+    hops_.end_row();
   }
-  if (!steps_.empty()) mean_step_ = static_cast<float>(sum / static_cast<double>(steps_.size()));
+  if (const std::size_t count = hops_.items().size(); count > 0) {
+    mean_hop_ = static_cast<float>(sum / static_cast<double>(count));
+  }
 }
 
 /// Breadth first over the triangles, a component after the other; a face gets its number with its first vertex.
-void GeodesicMesh::renumber(const IntrinsicMesh& mesh, std::vector<std::int32_t>& own_face) {
+void GeodesicMesh::renumber(const IntrinsicMesh& mesh, std::vector<std::int32_t>& internal_face) {
   const auto vertices = index(mesh.vertex_count);
-  std::vector<std::int32_t> first(vertices + 1, 0), corners(3 * mesh.triangles.size());
-  for (const Triangle& triangle : mesh.triangles) {
-    for (const std::int32_t v : triangle) ++first[index(v) + 1];
-  }
-  accumulate_rows(first);
-  std::vector<std::int32_t> free_slot(first.begin(), first.end() - 1);
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    for (const std::int32_t v : mesh.triangles[f]) corners[index(free_slot[index(v)]++)] = static_cast<std::int32_t>(f);
-  }
-
-  own_vertex_.assign(vertices, -1);
-  original_vertex_.reserve(vertices);
-  original_face_.reserve(mesh.triangles.size());
-  const auto number = [&](std::int32_t v) {
-    if (own_vertex_[index(v)] >= 0) return;
-    own_vertex_[index(v)] = static_cast<std::int32_t>(original_vertex_.size());
-    original_vertex_.push_back(v);
+  const Csr<std::int32_t> faces_of(vertices, [&](const auto& visit) {
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+      for (const std::int32_t v : mesh.triangles[f]) visit(v, static_cast<std::int32_t>(f));
+    }
+  });
+  internal_vertex_.assign(vertices, -1);
+  external_vertex_.reserve(vertices);
+  external_face_.reserve(mesh.triangles.size());
+  const auto give_number = [&](std::int32_t v) {
+    if (internal_vertex_[v] >= 0) return;
+    internal_vertex_[v] = static_cast<std::int32_t>(external_vertex_.size());
+    external_vertex_.push_back(v);
   };
   std::size_t done = 0;
   for (std::int32_t root = 0; root < mesh.vertex_count; ++root) {
-    number(root);
-    for (; done < original_vertex_.size(); ++done) {
-      const auto v = index(original_vertex_[done]);
-      for (auto i = index(first[v]); i < index(first[v + 1]); ++i) {
-        const std::int32_t face = corners[i];
-        if (own_face[index(face)] >= 0) continue;
-        own_face[index(face)] = static_cast<std::int32_t>(original_face_.size());
-        original_face_.push_back(face);
-        for (const std::int32_t corner : mesh.triangles[index(face)]) number(corner);
+    give_number(root);
+    for (; done < external_vertex_.size(); ++done) {
+      for (const std::int32_t face : faces_of[external_vertex_[done]]) {
+        if (internal_face[face] >= 0) continue;
+        internal_face[face] = static_cast<std::int32_t>(external_face_.size());
+        external_face_.push_back(face);
+        for (const std::int32_t corner : mesh.triangles[face]) give_number(corner);
       }
     }
   }
 }
 
-void GeodesicMesh::find_bending_vertices() {
-  bends_paths_.assign(vertex_count(), 0);
+void GeodesicMesh::find_pseudo_sources() {
+  is_pseudo_source_.assign(vertex_count(), 0);
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(vertex_count()); ++v) {
     const auto leaving = out(v);
     bool bends = !loose(v).empty();
     double angle = 0.0;
     for (const std::int32_t h : leaving) {
-      angle += angle_[index(h)];
+      angle += angle_[h];
       bends = bends || twin(h) < 0 || half_edge(h).left < 0;
     }
     if (!bends && !leaving.empty()) {
-      // Around one closed fan; whatever is not met belongs to another.
+      // Around one closed umbrella; whatever is not met belongs to another.
       std::size_t met = 0;
       std::int32_t h = leaving.front();
       do {
@@ -299,85 +272,8 @@ void GeodesicMesh::find_bending_vertices() {
       } while (h != leaving.front());
       bends = met != leaving.size();
     }
-    bends_paths_[index(v)] = bends || angle > 2 * std::numbers::pi + kFlatness;
+    is_pseudo_source_[v] = bends || angle > 2 * std::numbers::pi + kFlatness;
   }
-}
-
-MeshCutter::Numbers::Numbers(std::size_t count)
-    : memory_(static_cast<std::int32_t*>(std::calloc(std::max<std::size_t>(count, 1), sizeof(std::int32_t)))) {
-  if (!memory_) throw std::bad_alloc();
-}
-
-MeshPart MeshCutter::cut(std::span<const std::int32_t> vertices) {
-  for (const std::int32_t v : used_vertices_) part_vertex_[v] = 0;
-  for (const std::int32_t f : used_faces_) part_face_[f] = 0;
-  used_vertices_.clear();
-  used_faces_.clear();
-  const auto use = [](std::int32_t item, Numbers& number, std::vector<std::int32_t>& used) {
-    if (number[item] != 0) return;
-    number[item] = 1;
-    used.push_back(item);
-  };
-  for (const std::int32_t v : vertices) {
-    use(v, part_vertex_, used_vertices_);
-    for (const std::int32_t h : mesh_.out(v)) use(h / 3, part_face_, used_faces_);
-  }
-  // As in the whole mesh, so that what lies together there does so here.
-  std::sort(used_faces_.begin(), used_faces_.end());
-  for (std::size_t f = 0; f < used_faces_.size(); ++f) {
-    part_face_[used_faces_[f]] = static_cast<std::int32_t>(f) + 1;
-    for (const std::int32_t h : {3 * used_faces_[f], 3 * used_faces_[f] + 1, 3 * used_faces_[f] + 2}) {
-      use(mesh_.half_edge(h).tail, part_vertex_, used_vertices_);
-    }
-  }
-  std::sort(used_vertices_.begin(), used_vertices_.end());
-  for (std::size_t v = 0; v < used_vertices_.size(); ++v) {
-    part_vertex_[used_vertices_[v]] = static_cast<std::int32_t>(v) + 1;
-  }
-
-  const std::shared_ptr<GeodesicMesh> part(new GeodesicMesh);
-  const auto entered = [&](std::int32_t h) {
-    if (h < 0) return -1;
-    const std::int32_t face = part_face_[h / 3] - 1;
-    return face < 0 ? -1 : 3 * face + h % 3;
-  };
-  part->half_edges_.reserve(3 * used_faces_.size());
-  part->angle_.reserve(3 * used_faces_.size());
-  part->bends_paths_.resize(used_vertices_.size());
-  for (std::size_t v = 0; v < used_vertices_.size(); ++v) {
-    part->bends_paths_[v] = mesh_.bends_paths(used_vertices_[v]);
-  }
-  std::vector<Triangle> corners;
-  corners.reserve(used_faces_.size());
-  for (const std::int32_t face : used_faces_) {
-    for (const std::int32_t h : {3 * face, 3 * face + 1, 3 * face + 2}) {
-      GeodesicMesh::HalfEdge edge = mesh_.half_edge(h);
-      edge.tail = part_vertex(edge.tail);
-      edge.tip = part_vertex(edge.tip);
-      edge.apex = part_vertex(edge.apex);
-      edge.left = entered(edge.left);
-      edge.right = entered(edge.right);
-      if (edge.left < 0) part->bends_paths_[index(edge.tail)] = part->bends_paths_[index(edge.apex)] = 1;
-      part->half_edges_.push_back(edge);
-      part->angle_.push_back(mesh_.angle(h));
-    }
-    const auto* h = &part->half_edges_.back() - 2;
-    corners.push_back({h[0].tail, h[1].tail, h[2].tail});
-  }
-  part->original_vertex_.resize(used_vertices_.size());
-  std::iota(part->original_vertex_.begin(), part->original_vertex_.end(), 0);
-  part->own_vertex_ = part->original_vertex_;
-  part->original_face_.resize(used_faces_.size());
-  std::iota(part->original_face_.begin(), part->original_face_.end(), 0);
-  part->list_out(corners);
-  part->first_loose_.assign(used_vertices_.size() + 1, 0);
-  for (std::size_t v = 0; v < used_vertices_.size(); ++v) {
-    for (const auto& [to, length] : mesh_.loose(used_vertices_[v])) {
-      if (part_vertex(to) >= 0) part->loose_.push_back({part_vertex(to), length});
-    }
-    part->first_loose_[v + 1] = static_cast<std::int32_t>(part->loose_.size());
-  }
-  return {part, used_vertices_, used_faces_};
 }
 
 }  // namespace seamwire

@@ -8,17 +8,14 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
-#include "geodesics/delta_stepping.hpp"
 #include "geodesics/wavefront.hpp"
 
 namespace seamwire {
 namespace {
 
 using HalfEdge = GeodesicMesh::HalfEdge;
-using TraceRecord = DistanceField::TraceRecord;
 
 /// A line that passes a vertex this close (in parts of the triangle's base) may as well go through it, ...
 constexpr double kSnapWidth = 1e-7;
@@ -52,7 +49,7 @@ double crossing(const HalfEdge& h, const Point2& p, const Point2& q) {
   return std::clamp(p.x + (q.x - p.x) * (-p.y / (q.y - p.y)), 0.0, h.length);
 }
 
-/// Walks from a vertex back to the seed, and writes down what it passes.
+/// Walks from a vertex back to the seed, and lists what it passes.
 class Tracer {
  public:
   Tracer(const GeodesicMesh& mesh, const std::vector<double>& distances, const std::vector<TraceRecord>& records)
@@ -99,7 +96,7 @@ class Tracer {
     std::size_t points = 0;
   };
 
-  double at(std::int32_t vertex) const { return distances_[static_cast<std::size_t>(mesh_.original_vertex(vertex))]; }
+  double at(std::int32_t vertex) const { return distances_[static_cast<std::size_t>(mesh_.external_vertex(vertex))]; }
 
   void add_segment(std::int32_t half_edge, double length) {
     path_.faces.push_back(half_edge < 0 ? -1 : half_edge / 3);
@@ -190,23 +187,12 @@ class Tracer {
 
 }  // namespace
 
-namespace {
-
-/// Where records lead nowhere: not found on any mesh tried, but stretched windows promise nothing.
-IntrinsicPath chain_of_steps(const GeodesicMesh& mesh, std::int32_t seed, std::int32_t vertex, const Task& task) {
-  EdgeDistances distances(mesh, seed);
-  distances.reach(vertex, task);
-  return distances.chain(vertex);
-}
-
-}  // namespace
-
 std::optional<IntrinsicPath> trace_records(const GeodesicMesh& mesh, const std::vector<double>& distances,
                                            const std::vector<TraceRecord>& records, std::int32_t vertex) {
   return Tracer(mesh, distances, records).run(vertex);
 }
 
-IntrinsicPath shorten(const GeodesicMesh& mesh, MeshCutter& cutter, const IntrinsicPath& path, const Task& task) {
+IntrinsicPath shorten(const GeodesicMesh& mesh, SubmeshCutter& cutter, const IntrinsicPath& path, const Task& task) {
   std::vector<std::int32_t> vertices;
   for (const PathPoint& point : path.points) {
     if (point.vertex >= 0) vertices.push_back(point.vertex);
@@ -214,16 +200,16 @@ IntrinsicPath shorten(const GeodesicMesh& mesh, MeshCutter& cutter, const Intrin
     vertices.push_back(mesh.half_edge(point.half_edge).tail);
     vertices.push_back(mesh.half_edge(point.half_edge).tip);
   }
-  const MeshPart part = cutter.cut(vertices);
+  const Submesh part = cutter.cut(vertices);
   const WavefrontResult result = propagate_wavefront(*part.mesh, cutter.part_vertex(path.points.front().vertex), task);
   std::optional<IntrinsicPath> shorter =
       trace_records(*part.mesh, result.distances, result.records, cutter.part_vertex(path.points.back().vertex));
-  if (!shorter) throw std::logic_error("a path lost its way");
-  number_as_whole(part, *shorter);
+  if (!shorter) throw std::logic_error("a path cannot be traced");
+  to_whole_mesh(part, *shorter);
   return std::move(*shorter);
 }
 
-void number_as_whole(const MeshPart& part, IntrinsicPath& path) {
+void to_whole_mesh(const Submesh& part, IntrinsicPath& path) {
   for (PathPoint& point : path.points) {
     if (point.vertex >= 0) point.vertex = part.vertices[static_cast<std::size_t>(point.vertex)];
     if (point.half_edge < 0) continue;
@@ -234,41 +220,14 @@ void number_as_whole(const MeshPart& part, IntrinsicPath& path) {
   }
 }
 
-void number_as_caller(const GeodesicMesh& mesh, IntrinsicPath& path) {
+void to_external(const GeodesicMesh& mesh, IntrinsicPath& path) {
   for (PathPoint& point : path.points) {
-    if (point.vertex >= 0) point.vertex = mesh.original_vertex(point.vertex);
-    if (point.half_edge >= 0) point.half_edge = mesh.original_half_edge(point.half_edge);
+    if (point.vertex >= 0) point.vertex = mesh.external_vertex(point.vertex);
+    if (point.half_edge >= 0) point.half_edge = mesh.external_half_edge(point.half_edge);
   }
   for (std::int32_t& face : path.faces) {
-    if (face >= 0) face = mesh.original_half_edge(3 * face) / 3;
+    if (face >= 0) face = mesh.external_half_edge(3 * face) / 3;
   }
-}
-
-DistanceField::DistanceField(std::shared_ptr<const GeodesicMesh> mesh, std::int32_t seed, std::vector<double> distances,
-                             std::vector<TraceRecord> records, bool is_exact)
-    : mesh_(std::move(mesh)),
-      seed_(seed),
-      distances_(std::move(distances)),
-      records_(std::move(records)),
-      is_exact_(is_exact) {}
-
-IntrinsicPath DistanceField::trace(std::int32_t vertex, const Task& task) const {
-  if (vertex < 0 || static_cast<std::size_t>(vertex) >= distances_.size()) {
-    throw InvalidInput("vertex " + std::to_string(vertex) + " is out of range, there are " +
-                       std::to_string(distances_.size()));
-  }
-  if (std::isinf(distances_[static_cast<std::size_t>(vertex)])) return {};
-  std::optional<IntrinsicPath> path = trace_records(*mesh_, distances_, records_, mesh_->own_vertex(vertex));
-  if (!is_exact_) {
-    MeshCutter cutter(*mesh_);
-    path =
-        shorten(*mesh_, cutter,
-                path ? *path : chain_of_steps(*mesh_, mesh_->own_vertex(seed_), mesh_->own_vertex(vertex), task), task);
-  } else if (!path) {
-    throw std::logic_error("the path to vertex " + std::to_string(vertex) + " lost its way");
-  }
-  number_as_caller(*mesh_, *path);
-  return std::move(*path);
 }
 
 }  // namespace seamwire

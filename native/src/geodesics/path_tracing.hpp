@@ -6,22 +6,25 @@
 #include <vector>
 
 #include "geodesics/geodesic_mesh.hpp"
-#include "seamwire/geodesics/exact_geodesics.hpp"
+#include "geodesics/submesh.hpp"
+#include "geodesics/trace_record.hpp"
+#include "seamwire/geodesics/distance_field.hpp"
+#include "seamwire/task.hpp"
 
 namespace seamwire {
 
-/// The path that the records give, in the mesh's own numbers; nothing where they lead nowhere, which those of an exact
-/// field never do. `distances` are in the caller's numbers.
+/// The path to a vertex that the records tell, in internal numbers; nothing where following them fails, which those of
+/// an exact field never do. `distances` are in external numbers.
 std::optional<IntrinsicPath> trace_records(const GeodesicMesh& mesh, const std::vector<double>& distances,
-                                           const std::vector<DistanceField::TraceRecord>& records, std::int32_t vertex);
+                                           const std::vector<TraceRecord>& records, std::int32_t vertex);
 
 /// The shortest path within the triangles at the vertices of a path and at the ends of the edges it crosses; both in
-/// the mesh's own numbers. Of `path` only the points count.
-IntrinsicPath shorten(const GeodesicMesh& mesh, MeshCutter& cutter, const IntrinsicPath& path, const Task& task);
+/// internal numbers. Of `path` only the points count.
+IntrinsicPath shorten(const GeodesicMesh& mesh, SubmeshCutter& cutter, const IntrinsicPath& path, const Task& task);
 
-/// A path over a part in the whole mesh's own numbers, ...
-void number_as_whole(const MeshPart& part, IntrinsicPath& path);
-/// ... and a path in its own numbers in the caller's.
-void number_as_caller(const GeodesicMesh& mesh, IntrinsicPath& path);
+/// Renumbers a path over a submesh as one over the whole mesh, in internal numbers.
+void to_whole_mesh(const Submesh& part, IntrinsicPath& path);
+/// Renumbers a path from internal to external numbers.
+void to_external(const GeodesicMesh& mesh, IntrinsicPath& path);
 
 }  // namespace seamwire

@@ -47,9 +47,9 @@ SEAMWIRE_INLINE void compare_all(const Pairs& pairs, std::size_t count) {
   for (std::size_t k = 0; k < end; ++k) {
     // From here on the interval is [0, width].
     const double begin = pairs.begin[k], width = pairs.end[k] - begin;
-    const double xi = pairs.left_x[k] - begin, yi = pairs.left_y[k];
-    const double xj = pairs.right_x[k] - begin, yj = pairs.right_y[k];
-    const double gap = pairs.right_distance[k] - pairs.left_distance[k], gap2 = gap * gap;
+    const double xi = pairs.left.x[k] - begin, yi = pairs.left.y[k];
+    const double xj = pairs.right.x[k] - begin, yj = pairs.right.y[k];
+    const double gap = pairs.right.distance[k] - pairs.left.distance[k], gap2 = gap * gap;
     const double norm_i = xi * xi + yi * yi, norm_j = xj * xj + yj * yj;
     const double end_xi = xi - width, end_xj = xj - width;
     // By how much the left one, i, is farther than j, at both ends.
@@ -80,21 +80,22 @@ SEAMWIRE_INLINE void compare_all(const Pairs& pairs, std::size_t count) {
   }
 }
 
-SEAMWIRE_INLINE void find_ways_of(const Windows& w, std::size_t count, const Entered& triangle, double* feet,
-                                  double* ways) {
+SEAMWIRE_INLINE void apex_distances_of(const Windows& w, std::size_t count, const BaseTriangle& triangle,
+                                       double* projections, double* apex_distances) {
   const auto [base, apex_x, apex_y] = triangle;
   const double corner0 = kCornerWidth * base, corner1 = (1 - kCornerWidth) * base;
   const std::size_t end = padded(count);
   SEAMWIRE_VECTORIZE
   for (std::size_t i = 0; i < end; ++i) {
     const double x = w.x[i], y = w.y[i];
-    const double foot = x + (apex_x - x) * -y / (apex_y - y);
-    const double through = most(w.b0[i], least(foot, w.b1[i]));
+    const double projection = x + (apex_x - x) * -y / (apex_y - y);
+    const double through = most(w.b0[i], least(projection, w.b1[i]));
     const double below = through - x, above = through - apex_x;
-    const double way = w.distance[i] + std::sqrt(below * below + y * y) + std::sqrt(above * above + apex_y * apex_y);
-    const bool is_over_corner = (through != foot) & ((through < corner0) | (through > corner1));
-    feet[i] = foot;
-    ways[i] = is_over_corner ? std::numeric_limits<double>::infinity() : way;
+    const double apex_distance =
+        w.distance[i] + std::sqrt(below * below + y * y) + std::sqrt(above * above + apex_y * apex_y);
+    const bool is_over_corner = (through != projection) & ((through < corner0) | (through > corner1));
+    projections[i] = projection;
+    apex_distances[i] = is_over_corner ? std::numeric_limits<double>::infinity() : apex_distance;
   }
 }
 
@@ -106,22 +107,22 @@ SEAMWIRE_INLINE bool is_useless(const Side& side, double b0, double b1, double x
   return (over_tail < 0) | (over_tip < 0) | (over_tail * over_tail < square1) | (over_tip * over_tip < square0);
 }
 
-SEAMWIRE_INLINE std::size_t all_to_left(const Windows& w, std::size_t count, const double* feet, double split,
-                                        const Side& to, const Children& children) {
+SEAMWIRE_INLINE std::size_t all_to_left(const Windows& w, std::size_t count, const double* projections, double split,
+                                        const Side& to, const ChildWindows& children) {
   const Side side = to;
   std::int64_t made = 0;
   const std::size_t end = padded(count);
   SEAMWIRE_VECTORIZE
   for (std::size_t i = 0; i < end; ++i) {
-    const double b0 = w.b0[i], b1 = least(w.b1[i], split), x = w.x[i], y = w.y[i], foot = feet[i];
+    const double b0 = w.b0[i], b1 = least(w.b1[i], split), x = w.x[i], y = w.y[i], projection = projections[i];
     // Where the rays over b0 and b1 meet the side, from the tail. The further right a ray, the smaller its
     // denominator; where that is not positive, the ray never gets to the side.
     const double denominator0 = -y * side.cosine - side.sine * (b0 - x);
     const double denominator1 = -y * side.cosine - side.sine * (b1 - x);
     const double t0 = -y * b0 / denominator0, meets1 = least(-y * b1 / denominator1, side.length);
-    const double t1 = ((b1 < foot) & (denominator1 > 0)) ? meets1 : side.length;
+    const double t1 = ((b1 < projection) & (denominator1 > 0)) ? meets1 : side.length;
     const double child_x = x * side.cosine + y * side.sine, child_y = y * side.cosine - x * side.sine;
-    const bool is_alive = (i < count) & (b0 < b1) & (b0 < foot) & (denominator0 > 0) &
+    const bool is_alive = (i < count) & (b0 < b1) & (b0 < projection) & (denominator0 > 0) &
                           (t1 - t0 > kLeastWidth * side.length) & (child_y < 0) &
                           !is_useless(side, t0, t1, child_x, child_y, w.distance[i]);
     children.b0[i] = t0;
@@ -134,25 +135,25 @@ SEAMWIRE_INLINE std::size_t all_to_left(const Windows& w, std::size_t count, con
   return static_cast<std::size_t>(made);
 }
 
-SEAMWIRE_INLINE std::size_t all_to_right(const Windows& w, std::size_t count, const double* feet, double split,
-                                         const Entered& triangle, const Side& to, const Children& children) {
+SEAMWIRE_INLINE std::size_t all_to_right(const Windows& w, std::size_t count, const double* projections, double split,
+                                         const BaseTriangle& triangle, const Side& to, const ChildWindows& children) {
   const Side side = to;
   const auto [base, apex_x, apex_y] = triangle;
   std::int64_t made = 0;
   const std::size_t end = padded(count);
   SEAMWIRE_VECTORIZE
   for (std::size_t i = 0; i < end; ++i) {
-    const double b0 = most(w.b0[i], split), b1 = w.b1[i], x = w.x[i], y = w.y[i], foot = feet[i];
+    const double b0 = most(w.b0[i], split), b1 = w.b1[i], x = w.x[i], y = w.y[i], projection = projections[i];
     // As on the left, mirrored: distances from the tip.
     const double denominator0 = -y * side.cosine - side.sine * (b0 - x);
     const double denominator1 = -y * side.cosine - side.sine * (b1 - x);
     const double t1 = side.length - -y * (base - b1) / denominator1;
     const double meets0 = most(side.length - -y * (base - b0) / denominator0, 0.0);
-    const double t0 = ((b0 > foot) & (denominator0 > 0)) ? meets0 : 0.0;
+    const double t0 = ((b0 > projection) & (denominator0 > 0)) ? meets0 : 0.0;
     const double from_apex_x = x - apex_x, from_apex_y = y - apex_y;
     const double child_x = from_apex_x * side.cosine + from_apex_y * side.sine;
     const double child_y = from_apex_y * side.cosine - from_apex_x * side.sine;
-    const bool is_alive = (i < count) & (b0 < b1) & (foot < b1) & (denominator1 > 0) &
+    const bool is_alive = (i < count) & (b0 < b1) & (projection < b1) & (denominator1 > 0) &
                           (t1 - t0 > kLeastWidth * side.length) & (child_y < 0) &
                           !is_useless(side, t0, t1, child_x, child_y, w.distance[i]);
     children.b0[i] = t0;
@@ -166,24 +167,24 @@ SEAMWIRE_INLINE std::size_t all_to_right(const Windows& w, std::size_t count, co
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): an attribute
-#define SEAMWIRE_KERNELS_FOR(TARGET)                                                                       \
-  TARGET bool find_overlaps(const Windows& windows, std::size_t count, std::int64_t* overlaps) {           \
-    return find_overlaps_in(windows, count, overlaps);                                                     \
-  }                                                                                                        \
-  TARGET void compare(const Pairs& pairs, std::size_t count) { compare_all(pairs, count); }                \
-  TARGET void find_ways(const Windows& windows, std::size_t count, const Entered& triangle, double* feet,  \
-                        double* ways) {                                                                    \
-    find_ways_of(windows, count, triangle, feet, ways);                                                    \
-  }                                                                                                        \
-  TARGET std::size_t to_left(const Windows& windows, std::size_t count, const double* feet, double split,  \
-                             const Side& side, const Children& children) {                                 \
-    return all_to_left(windows, count, feet, split, side, children);                                       \
-  }                                                                                                        \
-  TARGET std::size_t to_right(const Windows& windows, std::size_t count, const double* feet, double split, \
-                              const Entered& triangle, const Side& side, const Children& children) {       \
-    return all_to_right(windows, count, feet, split, triangle, side, children);                            \
-  }                                                                                                        \
-  constexpr WindowKernels kKernels{find_overlaps, compare, find_ways, to_left, to_right};
+#define SEAMWIRE_KERNELS_FOR(TARGET)                                                                              \
+  TARGET bool find_overlaps(const Windows& windows, std::size_t count, std::int64_t* overlaps) {                  \
+    return find_overlaps_in(windows, count, overlaps);                                                            \
+  }                                                                                                               \
+  TARGET void compare(const Pairs& pairs, std::size_t count) { compare_all(pairs, count); }                       \
+  TARGET void find_apex_distances(const Windows& windows, std::size_t count, const BaseTriangle& triangle,        \
+                                  double* projections, double* apex_distances) {                                  \
+    apex_distances_of(windows, count, triangle, projections, apex_distances);                                     \
+  }                                                                                                               \
+  TARGET std::size_t to_left(const Windows& windows, std::size_t count, const double* projections, double split,  \
+                             const Side& side, const ChildWindows& children) {                                    \
+    return all_to_left(windows, count, projections, split, side, children);                                       \
+  }                                                                                                               \
+  TARGET std::size_t to_right(const Windows& windows, std::size_t count, const double* projections, double split, \
+                              const BaseTriangle& triangle, const Side& side, const ChildWindows& children) {     \
+    return all_to_right(windows, count, projections, split, triangle, side, children);                            \
+  }                                                                                                               \
+  constexpr WindowKernels kKernels{find_overlaps, compare, find_apex_distances, to_left, to_right};
 // NOLINTEND(bugprone-macro-parentheses)
 
 namespace plain {

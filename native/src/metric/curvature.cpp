@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "detail/prefetch.hpp"
+#include "metric/tangent_frame.hpp"
+#include "seamwire/surface/half_edge_mesh.hpp"
 
 namespace seamwire {
 namespace {
@@ -128,20 +130,6 @@ VertexNormals combine(const Surface& surface, const std::vector<Vector>& fans) {
   return result;
 }
 
-// A tangent plane by its normal and a unit vector u in it; v = normal x u.
-struct Frame {
-  Vector normal, u;
-
-  Vector v() const { return normal.cross(u); }
-};
-
-// Duff et al., "Building an Orthonormal Basis, Revisited", 2017.
-Frame frame_of(const Vector& n) {
-  const double sign = std::copysign(1.0, n.z());
-  const double a = -1.0 / (sign + n.z());
-  return {.normal = n, .u = {1.0 + sign * n.x() * n.x() * a, sign * n.x() * n.y() * a, -sign * n.x()}};
-}
-
 // The second fundamental form in a frame: (mean + difference) u^2 + 2 mixed u v + (mean - difference) v^2. Turning the
 // frame by an angle leaves the mean, and turns (difference, mixed) back by twice that angle.
 struct Form {
@@ -167,7 +155,7 @@ constexpr double kOpposite = 1e-12;
 struct SeenFrame {
   double normal_u, normal_v, normal_normal, u_u, u_v, u_normal;
 
-  SeenFrame(const Frame& frame, const Vector& u, const Vector& v, const Vector& normal)
+  SeenFrame(const TangentFrame& frame, const Vector& u, const Vector& v, const Vector& normal)
       : normal_u(frame.normal.dot(u)),
         normal_v(frame.normal.dot(v)),
         normal_normal(frame.normal.dot(normal)),
@@ -175,9 +163,8 @@ struct SeenFrame {
         u_v(frame.u.dot(v)),
         u_normal(frame.u.dot(normal)) {}
 
-  // A form of the other frame's plane, turned onto this one's by the least rotation. That rotation takes u to
-  // u - (u.m) / (1 + n.m) (n + m) in the other plane, n and m being the two normals. Where these are opposite any
-  // rotation is as good: leave u.
+  // A form of the other frame's plane, turned onto this one's by the least rotation (tangent_frame.hpp), which is
+  // applied to the components of u here. Where the normals are opposite any rotation is as good: leave u.
   Form carried(const Form& form) const {
     const double sum = 1.0 + normal_normal;
     const bool is_opposite = sum < kOpposite;
@@ -214,7 +201,8 @@ std::array<double, 3> corner_areas(const FaceShape& shape, const std::array<doub
 }
 
 // Adds to the corners of a face the form that fits the differences of their normals along its three edges best.
-void fit_face(const FaceShape& shape, const std::array<const Frame*, 3>& frames, const std::array<Fit*, 3>& fits) {
+void fit_face(const FaceShape& shape, const std::array<const TangentFrame*, 3>& frames,
+              const std::array<Fit*, 3>& fits) {
   // The face's frame: u along the longest edge, so that the equations are graded and need no pivots on slivers.
   const auto& l = shape.squared_lengths;
   const std::size_t i = l[0] >= l[1] ? (l[0] >= l[2] ? 0 : 2) : (l[1] >= l[2] ? 1 : 2);
@@ -252,7 +240,7 @@ void fit_face(const FaceShape& shape, const std::array<const Frame*, 3>& frames,
   }
 }
 
-std::vector<Fit> fit_fans(const Surface& surface, const std::vector<Frame>& frames) {
+std::vector<Fit> fit_fans(const Surface& surface, const std::vector<TangentFrame>& frames) {
   const std::vector<Triangle>& faces = surface.face_fans();
   const Vector* points = surface.half_edges().points();
   std::vector<Fit> fits(frames.size());
@@ -274,7 +262,7 @@ std::vector<Fit> fit_fans(const Surface& surface, const std::vector<Frame>& fram
 }
 
 // A fan's form as that of a plane with another normal, its own turned over where `side` is -1.
-Form seen_from(const Frame& fan, const Form& form, double side, const Frame& from) {
+Form seen_from(const TangentFrame& fan, const Form& form, double side, const TangentFrame& from) {
   if (side > 0.0) return SeenFrame(from, fan.u, fan.v(), fan.normal).carried(form);
   // Seen from the other side, curvatures change their sign, and u and v are no longer in the same order: with -v.
   const Vector v = -fan.v(), normal = -fan.normal;
@@ -283,7 +271,7 @@ Form seen_from(const Frame& fan, const Form& form, double side, const Frame& fro
 }
 
 // Curvatures and directions at a vertex.
-void decompose(const Frame& frame, const Form& form, std::size_t vertex, Curvature& curvature) {
+void decompose(const TangentFrame& frame, const Form& form, std::size_t vertex, Curvature& curvature) {
   const double d = form.difference, m = form.mixed, radius = std::sqrt(d * d + m * m);
   const double signed_radius = form.mean < 0.0 ? -radius : radius;
   curvature.k1[vertex] = form.mean + signed_radius;
@@ -310,9 +298,9 @@ std::vector<Vector> vertex_normals(const Surface& surface) { return combine(surf
 
 Curvature principal_curvatures(const Surface& surface) {
   const std::vector<Vector> fans = fan_normals(surface);
-  std::vector<Frame> frames;
+  std::vector<TangentFrame> frames;
   frames.reserve(fans.size());
-  for (const Vector& normal : fans) frames.push_back(frame_of(normal));
+  for (const Vector& normal : fans) frames.push_back(fast_tangent_frame(normal));
   const std::vector<Fit> fits = fit_fans(surface, frames);
   VertexNormals vertices = combine(surface, fans);
   const std::size_t count = surface.vertex_count();
@@ -328,7 +316,7 @@ Curvature principal_curvatures(const Surface& surface) {
     const std::int32_t vertex = vertex_of_fan[first];
     for (end = first + 1; end < fans.size() && vertex_of_fan[end] == vertex;) ++end;
     const Vector& normal = curvature.normals[vertex];
-    const Frame frame = end == first + 1 ? frames[first] : frame_of(normal);
+    const TangentFrame frame = end == first + 1 ? frames[first] : fast_tangent_frame(normal);
     Fit sum = fits[first];
     if (end > first + 1) {
       sum = {};

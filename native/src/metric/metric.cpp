@@ -8,6 +8,7 @@
 
 #include "detail/text.hpp"
 #include "metric/metric_check.hpp"
+#include "metric/tangent_frame.hpp"
 
 namespace seamwire {
 namespace {
@@ -20,7 +21,7 @@ constexpr double kNoDifference = 1e-9;
 constexpr double kSmallestBeta = 1e-12;
 
 // Normals whose sum is shorter than this have no direction in the middle.
-constexpr double kOpposite = 1e-6;
+constexpr double kNoDirection = 1e-6;
 
 void check_sizes(const Surface& surface, const Curvature& curvature) {
   const std::size_t n = surface.vertex_count();
@@ -107,34 +108,10 @@ struct PlaneTensor {
 };
 
 PlaneTensor in_plane(const TensorAt& at) {
-  // The axis least aligned with the normal is safely independent of it.
-  Eigen::Index axis = 0;
-  at.normal.cwiseAbs().minCoeff(&axis);
-  const Vector u = at.normal.cross(Vector::Unit(axis)).normalized();
-  const Vector v = at.normal.cross(u);
+  const TangentFrame frame = tangent_frame(at.normal);
+  const Vector &u = frame.u, v = frame.v();
   const Vector mu = at.tensor * u;
   return {u.dot(mu), v.dot(mu), v.dot(at.tensor * v)};
-}
-
-// The tensor after the least rotation that takes its normal to n.
-Eigen::Matrix3d turned(const TensorAt& at, const Vector& n) {
-  const double c = at.normal.dot(n);
-  if (n.isZero(0)) return at.tensor;
-  if (at.normal.isZero(0) || 1 + c < kOpposite) {
-    // No normal, or the opposite one, which has the same tangent plane.
-    const Eigen::Matrix3d onto = Eigen::Matrix3d::Identity() - n * n.transpose();
-    return onto * at.tensor * onto;
-  }
-  const Vector v = at.normal.cross(n);
-  Eigen::Matrix3d r = v * v.transpose() / (1 + c);
-  r.diagonal().array() += c;
-  r(0, 1) -= v.z();
-  r(1, 0) += v.z();
-  r(0, 2) += v.y();
-  r(2, 0) -= v.y();
-  r(1, 2) -= v.x();
-  r(2, 1) += v.x();
-  return r * at.tensor * r.transpose();
 }
 
 }  // namespace
@@ -255,8 +232,8 @@ double ambient_norm(const TensorAt& at, const Vector& e) {
 TensorAt midpoint_tensor(const TensorAt& a, const TensorAt& b) {
   Vector n = a.normal + b.normal;
   const double length = n.norm();
-  n = length > kOpposite ? Vector(n / length) : a.normal;
-  return {n, (turned(a, n) + turned(b, n)) / 2};
+  n = length > kNoDirection ? Vector(n / length) : a.normal;
+  return {n, (turned_by_least_rotation(a.tensor, a.normal, n) + turned_by_least_rotation(b.tensor, b.normal, n)) / 2};
 }
 
 double integrated_length(double norm_at_start, double norm_at_end) {

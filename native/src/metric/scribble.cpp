@@ -13,7 +13,12 @@
 #include <utility>
 #include <vector>
 
+#include "detail/epoch_map.hpp"
+#include "detail/segment.hpp"
 #include "detail/text.hpp"
+#include "metric/scribble_points.hpp"
+#include "metric/tangent_frame.hpp"
+#include "seamwire/surface/half_edge_mesh.hpp"
 
 namespace seamwire {
 namespace {
@@ -32,14 +37,12 @@ constexpr double kInside = 1e-6;
 // A direction shorter than this fraction of what it is projected from is none.
 constexpr double kNoDirection = 1e-6;
 
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 std::string name(std::size_t scribble) { return "scribble " + std::to_string(scribble); }
 
 /// What is around a vertex.
-class Neighbours {
+class Neighbors {
  public:
-  explicit Neighbours(const Surface& surface) : surface_(surface) {
+  explicit Neighbors(const Surface& surface) : surface_(surface) {
     for (const auto& [a, b] : surface.loose_edges()) loose_.insert(loose_.end(), {{a, b}, {b, a}});
     std::sort(loose_.begin(), loose_.end());
   }
@@ -48,7 +51,7 @@ class Neighbours {
   template <class Visit>
   void vertices(std::int32_t v, const Visit& visit) const {
     fans(v, [&](OpenMesh::VertexHandle fan) {
-      for (const auto other : surface_.half_edges().vv_range(fan)) visit(surface_.vertex_of_fan()[index(other.idx())]);
+      for (const auto other : surface_.half_edges().vv_range(fan)) visit(surface_.vertex_of_fan()[other.idx()]);
     });
     for (auto edge = std::lower_bound(loose_.begin(), loose_.end(), Edge{v, -1});
          edge != loose_.end() && (*edge)[0] == v; ++edge) {
@@ -63,7 +66,7 @@ class Neighbours {
       for (const auto face : mesh.vf_range(fan)) {
         Triangle triangle;
         std::size_t i = 0;
-        for (const auto corner : mesh.fv_range(face)) triangle[i++] = surface_.vertex_of_fan()[index(corner.idx())];
+        for (const auto corner : mesh.fv_range(face)) triangle[i++] = surface_.vertex_of_fan()[corner.idx()];
         visit(triangle);
       }
     });
@@ -84,18 +87,12 @@ class Neighbours {
 };
 
 double distance_to_triangle(const Vector& p, const Vector& a, const Vector& b, const Vector& c) {
-  const auto to_segment = [&p](const Vector& u, const Vector& v) {
-    const Vector e = v - u;
-    const double squared = e.squaredNorm();
-    const double t = squared > 0 ? std::clamp((p - u).dot(e) / squared, 0.0, 1.0) : 0.0;
-    return (p - (u + t * e)).norm();
-  };
   const Vector normal = (b - a).cross(c - a);
   const double height = normal.norm();
   const bool is_above = height > 0 && (b - a).cross(p - a).dot(normal) >= 0 && (c - b).cross(p - b).dot(normal) >= 0 &&
                         (a - c).cross(p - c).dot(normal) >= 0;
   if (is_above) return std::abs((p - a).dot(normal)) / height;
-  return std::min({to_segment(a, b), to_segment(b, c), to_segment(c, a)});
+  return std::min({to_segment(p, a, b).norm(), to_segment(p, b, c).norm(), to_segment(p, c, a).norm()});
 }
 
 // Whether a segment, seen from above a triangle and no further from it than it is wide, runs through its inside.
@@ -131,9 +128,9 @@ bool crosses(const std::array<Vector, 2>& segment, const std::array<Vector, 3>& 
 }
 
 /// The drawn line, by its length.
-class Polyline {
+class DrawnLine {
  public:
-  explicit Polyline(const std::vector<Vector>& points) : points_(points), at_(points.size(), 0.0) {
+  explicit DrawnLine(const std::vector<Vector>& points) : points_(points), at_(points.size(), 0.0) {
     for (std::size_t i = 1; i < points.size(); ++i) at_[i] = at_[i - 1] + (points[i] - points[i - 1]).norm();
     is_closed_ = points.size() > 2 && points.front() == points.back();
   }
@@ -147,10 +144,9 @@ class Polyline {
   std::size_t segment_count() const { return points_.empty() ? 0 : points_.size() - 1; }
   double length() const { return at_.empty() ? 0 : at_.back(); }
   Foot foot(const Vector& p, std::size_t segment) const {
-    const Vector e = points_[segment + 1] - points_[segment];
-    const double squared = e.squaredNorm();
-    const double t = squared > 0 ? std::clamp((p - points_[segment]).dot(e) / squared, 0.0, 1.0) : 0.0;
-    return {(p - (points_[segment] + t * e)).norm(), at_[segment] + t * (at_[segment + 1] - at_[segment]), segment};
+    const Vector &a = points_[segment], &b = points_[segment + 1];
+    const double t = nearest_on_segment(p, a, b);
+    return {(p - (a + t * (b - a))).norm(), at_[segment] + t * (at_[segment + 1] - at_[segment]), segment};
   }
   /// The nearest point near a segment: downhill from there.
   Foot foot_near(const Vector& p, std::size_t segment) const {
@@ -193,48 +189,30 @@ class Polyline {
 /// A vertex near the stroke.
 struct Reached {
   std::int32_t vertex;
-  Polyline::Foot foot;
+  DrawnLine::Foot foot;
   Vector direction;  // unit, tangent
-};
-
-/// Numbers for vertices that are forgotten all at once.
-class Marks {
- public:
-  explicit Marks(std::size_t size) : slots_(size) {}
-  void clear() { ++round_; }
-  bool has(std::int32_t v) const { return slots_[index(v)].round == round_; }
-  std::uint32_t at(std::int32_t v) const { return slots_[index(v)].value; }
-  void set(std::int32_t v, std::size_t value) { slots_[index(v)] = {round_, static_cast<std::uint32_t>(value)}; }
-
- private:
-  struct Slot {
-    std::uint32_t round = 0, value = 0;
-  };
-  std::vector<Slot> slots_;
-  std::uint32_t round_ = 1;
 };
 
 class Scribbler {
  public:
   Scribbler(const Surface& surface, Metric& metric)
-      : surface_(surface), metric_(metric), neighbours_(surface), marks_(surface.vertex_count()) {}
+      : surface_(surface), metric_(metric), neighbors_(surface), marks_(surface.vertex_count()) {}
 
   void check(const Scribble& scribble, std::size_t number) const;
   void apply(const Scribble& scribble);
 
  private:
-  const Vector& point(std::int32_t v) const { return surface_.points()[index(v)]; }
-  std::int32_t nearest_vertex(const Scribble& scribble, std::size_t i) const;
-  std::vector<std::int32_t> join(std::int32_t from, std::int32_t to, const Polyline& line, std::size_t segment);
-  std::vector<Reached> along(const Scribble& scribble, const Polyline& line);
-  bool direct(const Polyline& line, Reached& reached) const;
+  const Vector& point(std::int32_t v) const { return surface_.points()[v]; }
+  std::vector<std::int32_t> join(std::int32_t from, std::int32_t to, const DrawnLine& line, std::size_t segment);
+  std::vector<Reached> along(const Scribble& scribble, const DrawnLine& line);
+  bool direct(const DrawnLine& line, Reached& reached) const;
   void set(const Scribble& scribble, const Reached& reached, double weight);
-  std::vector<Reached> next_ring(const std::vector<Reached>& ring, const Polyline& line, std::size_t known);
+  std::vector<Reached> next_ring(const std::vector<Reached>& ring, const DrawnLine& line, std::size_t known);
 
   const Surface& surface_;
   Metric& metric_;
-  Neighbours neighbours_;
-  Marks marks_;
+  Neighbors neighbors_;
+  EpochMap marks_;  // of vertices: their positions in a list
 };
 
 void Scribbler::check(const Scribble& scribble, std::size_t number_of_scribble) const {
@@ -276,7 +254,7 @@ void Scribbler::check(const Scribble& scribble, std::size_t number_of_scribble) 
     if (vertex >= 0) {
       off = (p - point(vertex)).norm();
     } else {
-      const auto& [a, b, c] = surface_.triangles()[index(face)];
+      const auto& [a, b, c] = surface_.triangles()[face];
       off = distance_to_triangle(p, point(a), point(b), point(c));
     }
     if (!(off * surface_.scale() <= kOffMesh)) {
@@ -286,16 +264,9 @@ void Scribbler::check(const Scribble& scribble, std::size_t number_of_scribble) 
   }
 }
 
-std::int32_t Scribbler::nearest_vertex(const Scribble& scribble, std::size_t i) const {
-  if (!scribble.vertices.empty() && scribble.vertices[i] >= 0) return scribble.vertices[i];
-  const Triangle& corners = surface_.triangles()[index(scribble.faces[i])];
-  return *std::ranges::min_element(corners, {},
-                                   [&](std::int32_t v) { return (point(v) - scribble.points[i]).squaredNorm(); });
-}
-
 // The chain of vertices from one to another that stays nearest to a segment of the line, by A*; empty where none leads
 // there within the corridor.
-std::vector<std::int32_t> Scribbler::join(std::int32_t from, std::int32_t to, const Polyline& line,
+std::vector<std::int32_t> Scribbler::join(std::int32_t from, std::int32_t to, const DrawnLine& line,
                                           std::size_t segment) {
   if (from == to) return {from};
   struct Node {
@@ -341,7 +312,7 @@ std::vector<std::int32_t> Scribbler::join(std::int32_t from, std::int32_t to, co
       return chain;
     }
     const double cost = nodes[here].cost;
-    neighbours_.vertices(v, [&](std::int32_t w) {
+    neighbors_.vertices(v, [&](std::int32_t w) {
       const double length = (point(w) - point(v)).norm();
       const double off = line.foot(point(w), segment).distance;
       if (off > span + kCorridor * length) return;
@@ -354,17 +325,17 @@ std::vector<std::int32_t> Scribbler::join(std::int32_t from, std::int32_t to, co
 // The corners of the triangles that the stroke crosses, and the vertices it runs along, each once. All corners, not the
 // nearest ones alone: tensors that differ at the corners of one triangle make up a metric there that is neither's, and
 // the wire would leave the stroke by most of an edge.
-std::vector<Reached> Scribbler::along(const Scribble& scribble, const Polyline& line) {
+std::vector<Reached> Scribbler::along(const Scribble& scribble, const DrawnLine& line) {
   std::vector<Reached> reached;
   std::vector<std::pair<std::int32_t, std::size_t>> found;  // a vertex and the segment it was found for
   for (std::size_t i = 0; i < line.segment_count(); ++i) {
-    const std::int32_t from = nearest_vertex(scribble, i), to = nearest_vertex(scribble, i + 1);
+    const std::int32_t from = nearest_vertex(surface_, scribble, i), to = nearest_vertex(surface_, scribble, i + 1);
     std::vector<std::int32_t> chain = join(from, to, line, i);
     if (chain.empty()) chain = {from, to};
     const std::array segment{scribble.points[i], scribble.points[i + 1]};
     for (const std::int32_t v : chain) {
       found.emplace_back(v, i);
-      neighbours_.triangles(v, [&](const Triangle& t) {
+      neighbors_.triangles(v, [&](const Triangle& t) {
         if (!crosses(segment, {point(t[0]), point(t[1]), point(t[2])})) return;
         for (const std::int32_t corner : t) found.emplace_back(corner, i);
       });
@@ -372,7 +343,7 @@ std::vector<Reached> Scribbler::along(const Scribble& scribble, const Polyline& 
   }
   marks_.clear();
   for (const auto& [v, segment] : found) {
-    const Polyline::Foot foot = line.foot_near(point(v), segment);
+    const DrawnLine::Foot foot = line.foot_near(point(v), segment);
     if (!marks_.has(v)) {
       marks_.set(v, reached.size());
       reached.push_back({v, foot, Vector::Zero()});
@@ -385,12 +356,12 @@ std::vector<Reached> Scribbler::along(const Scribble& scribble, const Polyline& 
 }
 
 // The stroke's direction at a vertex, over a chord as long as two edges there; false where it has none.
-bool Scribbler::direct(const Polyline& line, Reached& reached) const {
-  const Vector& normal = metric_.normals[index(reached.vertex)];
+bool Scribbler::direct(const DrawnLine& line, Reached& reached) const {
+  const Vector& normal = metric_.normals[reached.vertex];
   if (normal.isZero(0)) return false;
   double sum = 0;
   int count = 0;
-  neighbours_.vertices(reached.vertex, [&](std::int32_t w) {
+  neighbors_.vertices(reached.vertex, [&](std::int32_t w) {
     sum += (point(w) - point(reached.vertex)).norm();
     ++count;
   });
@@ -404,33 +375,29 @@ bool Scribbler::direct(const Polyline& line, Reached& reached) const {
 
 // The vertices next to a ring, with the mean of the directions there, as lines without a sense, turned onto their own
 // tangent planes. marks_ numbers the `known` vertices of all rings so far.
-std::vector<Reached> Scribbler::next_ring(const std::vector<Reached>& ring, const Polyline& line, std::size_t known) {
+std::vector<Reached> Scribbler::next_ring(const std::vector<Reached>& ring, const DrawnLine& line, std::size_t known) {
   struct Sum {
-    Vector u, v;                    // an orthonormal basis of the tangent plane
+    Vector u, v;                    // basis of the tangent plane
     double uu = 0, uv = 0, vv = 0;  // sum of the directions' squares
   };
   std::vector<Reached> next;
   std::vector<Sum> sums;
   for (const Reached& from : ring) {
-    const Vector& m = metric_.normals[index(from.vertex)];
-    neighbours_.vertices(from.vertex, [&](std::int32_t w) {
-      const Vector& n = metric_.normals[index(w)];
+    const Vector& m = metric_.normals[from.vertex];
+    neighbors_.vertices(from.vertex, [&](std::int32_t w) {
+      const Vector& n = metric_.normals[w];
       if (n.isZero(0) || (marks_.has(w) && marks_.at(w) < known)) return;
-      const Polyline::Foot foot = line.foot_near(point(w), from.foot.segment);
+      const DrawnLine::Foot foot = line.foot_near(point(w), from.foot.segment);
       if (!marks_.has(w)) {
         marks_.set(w, known + next.size());
         next.push_back({w, foot, Vector::Zero()});
-        Eigen::Index axis = 0;  // the least aligned with the normal is safely independent of it
-        n.cwiseAbs().minCoeff(&axis);
-        const Vector u = n.cross(Vector::Unit(axis)).normalized();
-        sums.push_back({u, n.cross(u)});
+        const TangentFrame frame = tangent_frame(n);
+        sums.push_back({frame.u, frame.v()});
       }
       Reached& to = next[marks_.at(w) - known];
       Sum& sum = sums[marks_.at(w) - known];
       if (foot.distance < to.foot.distance) to.foot = foot;
-      // Turned by the least rotation from m to n; none is least where they are opposite: the planes are the same then.
-      const double c = 1 + m.dot(n);
-      const Vector d = c > kNoDirection ? Vector(from.direction - from.direction.dot(n) / c * (m + n)) : from.direction;
+      const Vector d = turned_by_least_rotation(from.direction, m, n);
       const double x = d.dot(sum.u), y = d.dot(sum.v);
       sum.uu += x * x;
       sum.uv += x * y;
@@ -446,15 +413,15 @@ std::vector<Reached> Scribbler::next_ring(const std::vector<Reached>& ring, cons
 
 void Scribbler::set(const Scribble& scribble, const Reached& reached, double weight) {
   const Vector& along = reached.direction;
-  const Vector across = metric_.normals[index(reached.vertex)].cross(along);
+  const Vector across = metric_.normals[reached.vertex].cross(along);
   const double l_along = scribble.attracts ? 1 / scribble.eta : scribble.eta;
   const Eigen::Matrix3d drawn = l_along * along * along.transpose() + 1 / l_along * across * across.transpose();
-  Eigen::Matrix3d& tensor = metric_.tensors[index(reached.vertex)];
+  Eigen::Matrix3d& tensor = metric_.tensors[reached.vertex];
   tensor = weight < 1 ? Eigen::Matrix3d(weight * drawn + (1 - weight) * tensor) : drawn;
 }
 
 void Scribbler::apply(const Scribble& scribble) {
-  const Polyline line(scribble.points);
+  const DrawnLine line(scribble.points);
   if (!(line.length() > 0)) return;
   std::vector<Reached> ring = along(scribble, line);
   marks_.clear();

@@ -11,9 +11,9 @@
 #include <cstddef>
 #include <limits>
 #include <stop_token>
-#include <string>
 #include <thread>
 #include <utility>
+#include "detail/index.hpp"
 
 namespace seamwire {
 
@@ -27,8 +27,6 @@ constexpr double kSlack = 1e-9;
 constexpr double kRounding = 1e-12;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// A box that a ray comes into wherever it meets the triangle: as far outside as it may pass the triangle, and as the
 /// divisions in FirstHit::intersectVolume may be off.
@@ -91,9 +89,9 @@ struct FirstHit {
 
   /// Takes the triangle if it is met before the best hit so far.
   void look_at(std::int32_t triangle) {
-    const auto& [a, b, c] = triangles[at(triangle)];
-    const Vector& corner = points[at(a)];
-    const Vector one = points[at(b)] - corner, two = points[at(c)] - corner;
+    const auto& [a, b, c] = triangles[triangle];
+    const Vector& corner = points[a];
+    const Vector one = points[b] - corner, two = points[c] - corner;
     const Vector across = direction.cross(two);
     const double volume = one.dot(across);
     if (!(std::abs(volume) > 0.0)) return;  // seen edgewise, without an area, or not finite
@@ -107,7 +105,7 @@ struct FirstHit {
     if (!(distance >= 0.0)) return;
     // Where corners are in line but for rounding, the numbers above are rounding too. A hit outside of the triangle's
     // box would be found or not as the order has it.
-    const auto [in, out] = inside(box_of(corner, points[at(b)], points[at(c)]), kInfinity);
+    const auto [in, out] = inside(box_of(corner, points[b], points[c]), kInfinity);
     const double room = (out - in) + kRounding * out;
     if (!(in <= out && distance >= in - room && distance <= out + room)) return;
     const double met = std::clamp(distance, in, out);
@@ -130,8 +128,8 @@ bool RayTree::Parts::make_nodes(const std::stop_token& stop) {
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     if (t % kWorkBetweenChecks == 0 && stop.stop_requested()) return false;
     const auto& [a, b, c] = triangles[t];
-    if (!points[at(a)].allFinite() || !points[at(b)].allFinite() || !points[at(c)].allFinite()) continue;
-    boxes[t] = box_of(points[at(a)], points[at(b)], points[at(c)]);
+    if (!points[a].allFinite() || !points[b].allFinite() || !points[c].allFinite()) continue;
+    boxes[t] = box_of(points[a], points[b], points[c]);
     middles[t] = boxes[t].min() / 2 + boxes[t].max() / 2;
     order.push_back(static_cast<std::int32_t>(t));
   }
@@ -143,15 +141,15 @@ bool RayTree::Parts::make_nodes(const std::stop_token& stop) {
     const auto begin = order.begin() + first, middle = begin + count / 2, end = begin + count;
     Box box, spread;
     for (auto t = begin; t != end; ++t) {
-      box.extend(boxes[at(*t)]);
-      spread.extend(middles[at(*t)]);
+      box.extend(boxes[*t]);
+      spread.extend(middles[*t]);
     }
     nodes[n].box = box;
     if (count <= kMostInANode) continue;
     Eigen::Index axis = 0;
     spread.sizes().maxCoeff(&axis);
     std::nth_element(begin, middle, end,
-                     [&](std::int32_t s, std::int32_t t) { return middles[at(s)][axis] < middles[at(t)][axis]; });
+                     [&](std::int32_t s, std::int32_t t) { return middles[s][axis] < middles[t][axis]; });
     nodes[n].first = static_cast<std::int32_t>(nodes.size());
     nodes[n].count = 0;
     nodes.push_back({.box = {}, .first = first, .count = count / 2});
@@ -172,12 +170,9 @@ void RayTree::Parts::build(const std::stop_token& stop) {
 }
 
 RayTree::RayTree(std::vector<Vector> points, std::vector<Triangle> triangles) : parts_(std::make_shared<Parts>()) {
-  const auto count = static_cast<std::int32_t>(points.size());
   for (const Triangle& triangle : triangles) {
     for (const std::int32_t v : triangle) {
-      if (v < 0 || v >= count) {
-        throw InvalidInput("triangles: there is no vertex " + std::to_string(v) + " of " + std::to_string(count));
-      }
+      check_index(v, points.size(), "triangles: vertex");
     }
   }
   parts_->points = std::move(points);
@@ -192,18 +187,18 @@ RayHit RayTree::first_hit(const Vector& origin, const Vector& direction) const {
     return search.best.triangle < 0 ? RayHit{} : search.best;
   }
   const auto comes_in_at = [&](std::int32_t node) {
-    const auto [in, out] = search.inside(parts_->nodes[at(node)].box, search.best.distance);
+    const auto [in, out] = search.inside(parts_->nodes[node].box, search.best.distance);
     return in <= out ? in : kInfinity;
   };
   // Halves are never empty, so the tree is no deeper than a number has bits, and a node waits at each depth.
   std::array<std::int32_t, 64> waiting{};
   std::size_t count = parts_->nodes.empty() ? 0 : 1;
   while (count > 0) {
-    const Parts::Node& node = parts_->nodes[at(waiting[--count])];
+    const Parts::Node& node = parts_->nodes[waiting[--count]];
     // Better hits may have been found since it was put there.
     const auto [in, out] = search.inside(node.box, search.best.distance);
     if (!(in <= out)) continue;
-    for (std::int32_t i = 0; i < node.count; ++i) search.look_at(parts_->order[at(node.first + i)]);
+    for (std::int32_t i = 0; i < node.count; ++i) search.look_at(parts_->order[node.first + i]);
     if (node.count > 0) continue;
     const bool second_is_nearer = comes_in_at(node.first + 1) < comes_in_at(node.first);
     waiting[count++] = node.first + (second_is_nearer ? 0 : 1);

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "seamwire/surface/surface.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <string>
 #include <utility>
+
+#include "detail/disjoint_sets.hpp"
+#include "detail/index.hpp"
+#include "seamwire/surface/half_edge_mesh.hpp"
 
 namespace seamwire {
 namespace {
@@ -55,9 +61,8 @@ void check_elements(const std::vector<std::array<Index, N>>& elements, const cha
   }
   for (std::size_t e = 0; e < elements.size(); ++e) {
     for (const Index v : elements[e]) {
-      if (v >= 0 && static_cast<std::size_t>(v) < vertex_count) continue;
-      throw InvalidInput(std::string(kind) + " " + std::to_string(e) + " refers to vertex " + std::to_string(v) +
-                         ", but there are " + std::to_string(vertex_count) + " vertices");
+      if (is_index(v, vertex_count)) continue;
+      check_index(v, vertex_count, std::string(kind) + " " + std::to_string(e) + ": vertex");
     }
   }
 }
@@ -418,21 +423,10 @@ std::vector<double> face_areas(const std::vector<Vector>& points, const Faces& f
 }
 
 std::size_t count_components(const std::vector<bool>& used, std::initializer_list<const std::vector<Edge>*> edges) {
-  std::vector<Index> parent(used.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](Index v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  DisjointSets sets(used.size());
   auto count = static_cast<std::size_t>(std::ranges::count(used, true));
   for (const std::vector<Edge>* list : edges) {
-    for (const auto& [a, b] : *list) {
-      const Index ra = root(a);
-      const Index rb = root(b);
-      if (ra == rb) continue;
-      parent[std::max(ra, rb)] = std::min(ra, rb);
-      --count;
-    }
+    for (const auto& [a, b] : *list) count -= sets.join(a, b) ? 1 : 0;
   }
   return count;
 }
@@ -482,7 +476,9 @@ Surface::Surface(std::vector<Vector> points, std::vector<Triangle> triangles, st
   cut_unorientable(faces, flipped, gluing.twin, report_.unorientable_edges);
 
   Fans fans = find_fans(points_.size(), faces, gluing.twin);
-  link_half_edges(points_, faces, gluing.twin, flipped, fans, mesh_);
+  auto mesh = std::make_shared<HalfEdgeMesh>();
+  link_half_edges(points_, faces, gluing.twin, flipped, fans, *mesh);
+  mesh_ = std::move(mesh);
   list_faces(gluing.twin, flipped, fans, face_fans_, twins_);
   vertex_of_fan_ = std::move(fans.vertex);
   source_face_ = std::move(faces.source);

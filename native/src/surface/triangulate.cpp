@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "seamwire/surface/triangulate.hpp"
 
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <string>
-#include <utility>
 
+#include "detail/index.hpp"
 #include "seamwire/errors.hpp"
 
 namespace seamwire {
@@ -18,12 +19,10 @@ bool is_folded(const Vector& a, const Vector& b, const Vector& c, const Vector& 
 
 }  // namespace
 
-CutPolygons cut_polygons(std::span<const Vector> points, std::span<const std::int32_t> corners,
-                         std::span<const std::int32_t> sizes) {
+Triangulation triangulate(std::span<const Vector> points, std::span<const std::int32_t> corners,
+                          std::span<const std::int32_t> sizes) {
   for (const std::int32_t v : corners) {
-    if (v >= 0 && std::cmp_less(v, points.size())) continue;
-    throw InvalidInput("corners: vertex " + std::to_string(v) + " is out of range: there are " +
-                       std::to_string(points.size()) + " points");
+    check_index(v, points.size(), "corners: vertex", "points");
   }
   std::size_t total = 0;
   for (std::size_t p = 0; p < sizes.size(); ++p) {
@@ -36,25 +35,24 @@ CutPolygons cut_polygons(std::span<const Vector> points, std::span<const std::in
     throw InvalidInput("sizes: they add up to " + std::to_string(total) + ", but there are " +
                        std::to_string(corners.size()) + " corners");
   }
-  CutPolygons cut;
-  cut.triangles.reserve(total - 2 * sizes.size());
-  cut.polygons.reserve(total - 2 * sizes.size());
-  const auto at = [&](std::int32_t v) -> const Vector& { return points[static_cast<std::size_t>(v)]; };
+  Triangulation out;
+  out.triangles.reserve(total - 2 * sizes.size());
+  out.polygons.reserve(total - 2 * sizes.size());
   const std::int32_t* corner = corners.data();
   for (std::size_t p = 0; p < sizes.size(); corner += sizes[p++]) {
     const std::int32_t a = corner[0], b = corner[1], c = corner[2];
     if (sizes[p] == 3) {
-      cut.triangles.push_back({a, b, c});
-    } else if (const std::int32_t d = corner[3]; is_folded(at(a), at(b), at(c), at(d))) {
-      cut.triangles.push_back({a, b, d});
-      cut.triangles.push_back({b, c, d});
+      out.triangles.push_back({a, b, c});
+    } else if (const std::int32_t d = corner[3]; is_folded(points[a], points[b], points[c], points[d])) {
+      out.triangles.push_back({a, b, d});
+      out.triangles.push_back({b, c, d});
     } else {
-      cut.triangles.push_back({a, b, c});
-      cut.triangles.push_back({a, c, d});
+      out.triangles.push_back({a, b, c});
+      out.triangles.push_back({a, c, d});
     }
-    cut.polygons.resize(cut.triangles.size(), static_cast<std::int32_t>(p));
+    out.polygons.resize(out.triangles.size(), static_cast<std::int32_t>(p));
   }
-  return cut;
+  return out;
 }
 
 }  // namespace seamwire

@@ -10,9 +10,9 @@
 
 namespace seamwire {
 
-struct QuickPathOptions {
-  /// Vertices of the corridor that is searched for a path. 0: 1000, and eight times the
-  /// root of the mesh's number of vertices.
+struct CorridorPathOptions {
+  /// Vertices of the corridor that is searched for a path. 0: 1000, and eight times the root of the mesh's number of
+  /// vertices.
   std::size_t corridor_vertices = 0;
   /// Windows of a list that go on within it, as ExactGeodesics::solve()'s; 0: all, which finds the shortest path there.
   std::uint32_t windows = 8;
@@ -25,13 +25,13 @@ struct QuickPathOptions {
 ///
 /// Distances along edges are computed outwards from the seed, only as far as the targets asked for, and kept. One
 /// thread at a time; several objects may share an ExactGeodesics.
-class QuickPaths {
+class CorridorPaths {
  public:
   /// Throws InvalidInput for a seed out of range.
-  QuickPaths(const ExactGeodesics& geodesics, std::int32_t seed, const QuickPathOptions& options = {});
-  ~QuickPaths();
-  QuickPaths(QuickPaths&&) noexcept;
-  QuickPaths& operator=(QuickPaths&&) noexcept;
+  CorridorPaths(const ExactGeodesics& geodesics, std::int32_t seed, const CorridorPathOptions& options = {});
+  ~CorridorPaths();
+  CorridorPaths(CorridorPaths&&) noexcept;
+  CorridorPaths& operator=(CorridorPaths&&) noexcept;
 
   std::int32_t seed() const;
   /// A path as DistanceField::trace() gives one. Throws InvalidInput for a target out of range; Cancelled, after which

@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "seamwire/edges/edge_wires.hpp"
+#include "seamwire/live/former_names.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/metric/scribble.hpp"
 #include "seamwire/surface/surface.hpp"
+#include "seamwire/wires/snap.hpp"
 #include "seamwire/wires/wire.hpp"
 
 namespace seamwire {

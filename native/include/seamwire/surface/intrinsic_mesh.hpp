@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "seamwire/surface/surface.hpp"
+#include "seamwire/surface/types.hpp"
 
 namespace seamwire {
 

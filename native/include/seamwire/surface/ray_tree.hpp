@@ -5,7 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "seamwire/surface/surface.hpp"
+#include "seamwire/errors.hpp"
+#include "seamwire/surface/types.hpp"
+#include "seamwire/surface/vector.hpp"
 
 namespace seamwire {
 

@@ -1,45 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
-
-// A property of Eigen vectors is grown by values that Eigen leaves uninitialised, on purpose.
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
-
-// EigenVectorT.hh specialises what the headers above it declare.
-#include <OpenMesh/Core/Geometry/EigenVectorT.hh>
-
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "seamwire/errors.hpp"
+#include "seamwire/surface/types.hpp"
+#include "seamwire/surface/vector.hpp"
 
 namespace seamwire {
 
-using Vector = Eigen::Vector3d;
-using Triangle = std::array<std::int32_t, 3>;
-using Edge = std::array<std::int32_t, 2>;  ///< two vertex numbers, the smaller one first where it is not directed
-
-struct HalfEdgeTraits : OpenMesh::DefaultTraits {
-  using Point = Vector;
-  using Normal = Vector;
-  VertexAttributes(0);
-  HalfedgeAttributes(0);  // no previous half-edge: triangles do not need it
-  EdgeAttributes(0);
-  FaceAttributes(0);
-};
-using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits>;
+struct HalfEdgeMesh;  // surface/half_edge_mesh.hpp
 
 /// What was odd about the input. Nothing here is an error: the surface was built all the same.
 struct SurfaceReport {
@@ -81,7 +55,7 @@ class Surface {
   /// the longest side of the bounding box of the vertices in use; 1 where that is zero.
   double scale() const { return scale_; }
 
-  const HalfEdgeMesh& half_edges() const { return mesh_; }
+  const HalfEdgeMesh& half_edges() const { return *mesh_; }
   /// Number of the caller's vertex for each vertex (corner fan) of half_edges(), ascending, and of the caller's face
   /// for each of its faces, ascending; both are the identity on a clean mesh. A face's vertices are listed from the
   /// caller's first corner on. A caller's vertex without a face has no fan. Two edges may join the same two fans (a
@@ -109,7 +83,7 @@ class Surface {
   std::vector<Triangle> face_fans_;
   std::vector<std::int32_t> twins_;
   double scale_ = 1.0;
-  HalfEdgeMesh mesh_;
+  std::shared_ptr<const HalfEdgeMesh> mesh_;  // immutable, so copies of a surface share it
   SurfaceReport report_;
 };
 
