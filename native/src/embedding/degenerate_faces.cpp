@@ -3,7 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <utility>
 
 namespace seamwire {
 
@@ -14,92 +16,105 @@ using HalfedgeHandle = HalfEdgeMesh::HalfedgeHandle;
 using EdgeHandle = HalfEdgeMesh::EdgeHandle;
 using FaceHandle = HalfEdgeMesh::FaceHandle;
 
-// A face lower than this fraction of its longest edge has no area. Bisecting it never ends: its parts have none either.
-constexpr double kFlat = 1e-9;
+// A face lower than this fraction of its longest edge is degenerate. Bisecting it never ends: so are its parts.
+constexpr double kDegenerate = 1e-9;
 // Lengths that differ by less than this fraction are equal: rounding depends on the scale of the input.
 constexpr double kEqual = 1e-9;
-// Times that all faces without an area are looked at, each time because some could be taken away the time before.
-constexpr int kMendingPasses = 64;
+// Passes over the degenerate faces, each because some could be removed in the one before.
+constexpr int kMostPasses = 64;
 
 }  // namespace
 
-bool lacks_area(const Vector& a, const Vector& b, const Vector& c) {
-  return !(a.cross(b).norm() > kFlat * std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm()}));
+bool is_degenerate(const Vector& a, const Vector& b, const Vector& c) {
+  return !(a.cross(b).norm() > kDegenerate * std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm()}));
 }
 
-Mending::Mending(const Surface& surface, const Metric& metric) : surface_(surface), metric_(metric) {
-  const HalfEdgeMesh& given = surface.half_edges();
-  const double scale = surface.scale();
-  std::vector<FaceHandle> flat;
-  for (const FaceHandle f : given.faces()) {
-    const HalfedgeHandle h = given.halfedge_handle(f);
-    const Vector &p = given.point(given.from_vertex_handle(h)), &q = given.point(given.to_vertex_handle(h)),
-                 &r = given.point(given.to_vertex_handle(given.next_halfedge_handle(h)));
-    if (lacks_area((q - p) * scale, (r - q) * scale, (p - r) * scale)) flat.push_back(f);
+namespace {
+
+/// Removes degenerate faces from a mesh.
+class DegenerateFaces {
+ public:
+  DegenerateFaces(const Surface& surface, const Metric& metric)
+      : surface_(surface), metric_(metric), mesh_(surface.half_edges()), origins_(mesh_.n_faces()) {
+    std::iota(origins_.begin(), origins_.end(), 0);
   }
-  found_any_ = !flat.empty();
-  if (!found_any_) return;
-  mesh_ = given;
-  origins_.resize(mesh_.n_faces());
-  std::iota(origins_.begin(), origins_.end(), 0);
-  const auto mended = [&](FaceHandle f) { return is_gone(f) || !is_flat(f); };
-  const std::size_t before = flat.size();
+
+  /// The faces given, in ascending order, and others that become degenerate.
+  CleanMesh remove(std::vector<FaceHandle> degenerate);
+
+ private:
+  std::array<HalfedgeHandle, 3> sides(FaceHandle f) const;
+  Vector vector(HalfedgeHandle h) const;
+  bool is_degenerate(FaceHandle f) const;
+  bool is_removed(FaceHandle f) const { return has_collapsed_ && mesh_.status(f).deleted(); }
+  bool collapse_needle(FaceHandle f);
+  FaceHandle flip_cap(FaceHandle f);
+
+  const Surface& surface_;
+  const Metric& metric_;
+  HalfEdgeMesh mesh_;
+  std::vector<std::int32_t> origins_;
+  std::vector<LooseEdge> merged_;
+  bool has_collapsed_ = false;
+};
+
+CleanMesh DegenerateFaces::remove(std::vector<FaceHandle> degenerate) {
+  const auto is_done = [&](FaceHandle f) { return is_removed(f) || !is_degenerate(f); };
+  const std::size_t before = degenerate.size();
   bool progress = before > 0;
-  for (int pass = 0; progress && pass < kMendingPasses; ++pass) {
+  for (int pass = 0; progress && pass < kMostPasses; ++pass) {
     progress = false;
-    for (std::size_t i = 0, count = flat.size(); i < count; ++i) {
-      if (mended(flat[i])) continue;
-      if (merge_ends(flat[i])) {
+    for (std::size_t i = 0, count = degenerate.size(); i < count; ++i) {
+      if (is_done(degenerate[i])) continue;
+      if (collapse_needle(degenerate[i])) {
         progress = true;
-      } else if (const FaceHandle beyond = flip_longest(flat[i]); beyond.is_valid()) {
+      } else if (const FaceHandle beyond = flip_cap(degenerate[i]); beyond.is_valid()) {
         progress = true;
-        flat.push_back(beyond);
+        degenerate.push_back(beyond);
       }
     }
-    std::erase_if(flat, mended);
-    std::sort(flat.begin(), flat.end());
-    flat.erase(std::unique(flat.begin(), flat.end()), flat.end());
+    std::erase_if(degenerate, is_done);
+    std::sort(degenerate.begin(), degenerate.end());
+    degenerate.erase(std::unique(degenerate.begin(), degenerate.end()), degenerate.end());
   }
-  taken_away_ = before - std::min(before, flat.size());
-}
-
-// Of the faces that are left, in their order.
-std::vector<std::int32_t> Mending::origins() const {
-  std::vector<std::int32_t> left;
-  for (const FaceHandle f : mesh_.faces()) left.push_back(origins_[f.idx()]);
-  return left;
+  CleanMesh clean;
+  for (const FaceHandle f : mesh_.faces()) clean.origins.push_back(origins_[f.idx()]);
+  clean.merged = std::move(merged_);
+  clean.removed = before - std::min(before, degenerate.size());
+  clean.mesh = std::move(mesh_);
+  return clean;
 }
 
 // From the face's first corner on, as OpenMesh lists its vertices.
-std::array<HalfedgeHandle, 3> Mending::sides(FaceHandle f) const {
+std::array<HalfedgeHandle, 3> DegenerateFaces::sides(FaceHandle f) const {
   const HalfedgeHandle a = mesh_.halfedge_handle(f), b = mesh_.next_halfedge_handle(a);
   return {b, mesh_.next_halfedge_handle(b), a};
 }
 
 // A half-edge in the unit cube.
-Vector Mending::vector(HalfedgeHandle h) const {
+Vector DegenerateFaces::vector(HalfedgeHandle h) const {
   return (mesh_.point(mesh_.to_vertex_handle(h)) - mesh_.point(mesh_.from_vertex_handle(h))) * surface_.scale();
 }
 
-bool Mending::is_flat(FaceHandle f) const {
+bool DegenerateFaces::is_degenerate(FaceHandle f) const {
   const auto [a, b, c] = sides(f);
-  return lacks_area(vector(a), vector(b), vector(c));
+  return seamwire::is_degenerate(vector(a), vector(b), vector(c));
 }
 
-// Merges the ends of the shortest edge if it is the reason why the face has no area.
-bool Mending::merge_ends(FaceHandle f) {
+// Collapses the shortest edge of a needle; false for other faces, and where that is impossible.
+bool DegenerateFaces::collapse_needle(FaceHandle f) {
   const auto by_length = [&](HalfedgeHandle a, HalfedgeHandle b) {
     return vector(a).squaredNorm() < vector(b).squaredNorm();
   };
   const auto all = sides(f);
   const auto [shortest, longest] = std::minmax_element(all.begin(), all.end(), by_length);
-  if (vector(*shortest).norm() > kFlat * vector(*longest).norm()) return false;
-  if (!has_merged_) {
+  if (vector(*shortest).norm() > kDegenerate * vector(*longest).norm()) return false;
+  if (!has_collapsed_) {
     mesh_.request_vertex_status();
     mesh_.request_halfedge_status();
     mesh_.request_edge_status();
     mesh_.request_face_status();
-    has_merged_ = true;
+    has_collapsed_ = true;
   }
   for (const HalfedgeHandle h : {*shortest, mesh_.opposite_halfedge_handle(*shortest)}) {
     const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
@@ -113,9 +128,9 @@ bool Mending::merge_ends(FaceHandle f) {
   return false;
 }
 
-// Flips the longest edge if that leaves fewer faces without an area, or shorter edges; then, and only then, returns the
-// face that was beyond it.
-FaceHandle Mending::flip_longest(FaceHandle f) {
+// Flips the longest edge of a cap if that leaves fewer degenerate faces, or shorter edges. Returns the face that was
+// beyond it; an invalid handle where nothing was flipped.
+FaceHandle DegenerateFaces::flip_cap(FaceHandle f) {
   HalfedgeHandle h = sides(f)[0];
   for (const HalfedgeHandle side : sides(f)) {
     if (vector(side).squaredNorm() > vector(h).squaredNorm()) h = side;
@@ -128,10 +143,26 @@ FaceHandle Mending::flip_longest(FaceHandle f) {
     return mesh_.point(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(side)));
   };
   const double flipped = (apex(opposite) - apex(h)).norm() * surface_.scale();
-  if (is_flat(beyond) && !(flipped < vector(h).norm() * (1 - kEqual))) return FaceHandle();
+  if (is_degenerate(beyond) && !(flipped < vector(h).norm() * (1 - kEqual))) return FaceHandle();
   mesh_.flip(e);
   origins_[f.idx()] = origins_[beyond.idx()];
   return beyond;
+}
+
+}  // namespace
+
+std::optional<CleanMesh> remove_degenerate_faces(const Surface& surface, const Metric& metric) {
+  const HalfEdgeMesh& mesh = surface.half_edges();
+  const double scale = surface.scale();
+  std::vector<FaceHandle> degenerate;
+  for (const FaceHandle f : mesh.faces()) {
+    const HalfedgeHandle h = mesh.halfedge_handle(f);
+    const Vector &p = mesh.point(mesh.from_vertex_handle(h)), &q = mesh.point(mesh.to_vertex_handle(h)),
+                 &r = mesh.point(mesh.to_vertex_handle(mesh.next_halfedge_handle(h)));
+    if (is_degenerate((q - p) * scale, (r - q) * scale, (p - r) * scale)) degenerate.push_back(f);
+  }
+  if (degenerate.empty()) return std::nullopt;
+  return DegenerateFaces(surface, metric).remove(std::move(degenerate));
 }
 
 }  // namespace seamwire
