@@ -11,8 +11,8 @@
 #include <random>
 
 #include "mesh_input.hpp"
-#include "seamwire/geodesics.hpp"
-#include "seamwire/quick_paths.hpp"
+#include "seamwire/geodesics/corridor_paths.hpp"
+#include "seamwire/geodesics/exact_geodesics.hpp"
 
 namespace seamwire::bench {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 struct Options {
   int loop = 0, targets = 40, seeds = 5;
   std::size_t corridor = 0;
-  std::uint32_t windows = QuickPathOptions{}.windows;
+  std::uint32_t windows = CorridorPathOptions{}.windows;
   std::string metric = "euclidean";
   double anisotropy = 20.0;
 };
@@ -31,7 +31,7 @@ void measure(const std::string& file, const Options& options) {
   const ExactGeodesics geodesics(embedding.mesh);
   std::mt19937 random(1);
   std::uniform_int_distribution<std::int32_t> any(0, static_cast<std::int32_t>(surface.vertex_count()) - 1);
-  const QuickPathOptions quick{.corridor_vertices = options.corridor, .windows = options.windows};
+  const CorridorPathOptions quick{.corridor_vertices = options.corridor, .windows = options.windows};
   std::vector<double> first, next, excess;
   double sum = 0.0, worst = 0.0;
   for (int s = 0; s < options.seeds; ++s) {
@@ -42,13 +42,13 @@ void measure(const std::string& file, const Options& options) {
       const double d = field.distances()[static_cast<std::size_t>(v)];
       if (std::isfinite(d) && d > field.distances()[static_cast<std::size_t>(farthest)]) farthest = v;
     }
-    QuickPaths kept(geodesics, seed, quick);
+    CorridorPaths kept(geodesics, seed, quick);
     for (int t = 0; t < options.targets; ++t) {
       const std::int32_t target = t == 0 ? farthest : any(random);
       const double exact = field.distances()[static_cast<std::size_t>(target)];
       if (target == seed || std::isinf(exact)) continue;
       IntrinsicPath path;
-      const double taken = seconds([&] { path = QuickPaths(geodesics, seed, quick).path(target); });
+      const double taken = seconds([&] { path = CorridorPaths(geodesics, seed, quick).path(target); });
       first.push_back(taken);
       next.push_back(seconds([&] { path = kept.path(target); }));
       excess.push_back(path.length / exact - 1);

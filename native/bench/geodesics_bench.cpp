@@ -12,7 +12,7 @@
 #include <random>
 
 #include "mesh_input.hpp"
-#include "seamwire/geodesics.hpp"
+#include "seamwire/geodesics/exact_geodesics.hpp"
 
 namespace seamwire::bench {
 namespace {

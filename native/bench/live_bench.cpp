@@ -20,12 +20,13 @@
 #include <thread>
 
 #include "mesh_input.hpp"
-#include "seamwire/edge_wire.hpp"
-#include "seamwire/geodesics.hpp"
-#include "seamwire/livewire.hpp"
-#include "seamwire/quick_paths.hpp"
-#include "seamwire/scribble.hpp"
-#include "seamwire/wire.hpp"
+#include "seamwire/edges/edge_wires.hpp"
+#include "seamwire/geodesics/corridor_paths.hpp"
+#include "seamwire/geodesics/exact_geodesics.hpp"
+#include "seamwire/live/livewire.hpp"
+#include "seamwire/metric/scribble.hpp"
+#include "seamwire/surface/half_edge_mesh.hpp"
+#include "seamwire/wires/wire.hpp"
 
 namespace seamwire::bench {
 namespace {
@@ -220,7 +221,7 @@ void measure(const std::string& file, const Options& options) {
       embedding_again.push_back(seconds([&] { old = re_embed(*surface, metrics[0], drawn, std::move(old)); }));
       std::unique_ptr<ExactGeodesics> geodesics;
       solver.push_back(seconds([&] { geodesics = std::make_unique<ExactGeodesics>(old.mesh); }));
-      path.push_back(seconds([&] { QuickPaths(*geodesics, from, {}).path(to); }));
+      path.push_back(seconds([&] { CorridorPaths(*geodesics, from, {}).path(to); }));
       until_wire.push_back(drawing.back() + embedding_again.back() + solver.back() + path.back());
     }
     std::printf(

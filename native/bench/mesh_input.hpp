@@ -18,9 +18,9 @@
 #include <utility>
 #include <vector>
 
-#include "seamwire/curvature.hpp"
-#include "seamwire/embedding.hpp"
-#include "seamwire/metric.hpp"
+#include "seamwire/embedding/embedding.hpp"
+#include "seamwire/metric/curvature.hpp"
+#include "seamwire/metric/metric.hpp"
 
 /// What the benchmarks on files share.
 namespace seamwire::bench {

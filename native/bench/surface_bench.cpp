@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-#include "seamwire/embedding.hpp"
+#include "seamwire/embedding/embedding.hpp"
 
 namespace {
 

@@ -17,19 +17,22 @@
 #include <utility>
 #include <vector>
 
-#include "seamwire/curvature.hpp"
-#include "seamwire/edge_wire.hpp"
-#include "seamwire/embedding.hpp"
+#include "seamwire/edges/edge_loop.hpp"
+#include "seamwire/edges/edge_wires.hpp"
+#include "seamwire/edges/shortest_cycle.hpp"
+#include "seamwire/embedding/embedding.hpp"
 #include "seamwire/errors.hpp"
-#include "seamwire/geodesics.hpp"
-#include "seamwire/metric.hpp"
-#include "seamwire/quick_paths.hpp"
-#include "seamwire/rays.hpp"
-#include "seamwire/scribble.hpp"
-#include "seamwire/segments.hpp"
-#include "seamwire/surface.hpp"
+#include "seamwire/geodesics/corridor_paths.hpp"
+#include "seamwire/geodesics/exact_geodesics.hpp"
+#include "seamwire/metric/curvature.hpp"
+#include "seamwire/metric/metric.hpp"
+#include "seamwire/metric/scribble.hpp"
+#include "seamwire/surface/ray_tree.hpp"
+#include "seamwire/surface/segments.hpp"
+#include "seamwire/surface/surface.hpp"
 #include "seamwire/task.hpp"
-#include "seamwire/wire.hpp"
+#include "seamwire/wires/snap.hpp"
+#include "seamwire/wires/wire.hpp"
 
 namespace seamwire {
 namespace {
@@ -248,7 +251,7 @@ void check_wires(Bytes& from, const Patience& patience, const Surface& surface, 
       exact ? solver.solve(seed, patience.task())
             : solver.solve_bounded(seed, 1 + static_cast<std::uint32_t>(from.below(8)), patience.task());
   if (exact) check_field(embedding.mesh, field);
-  QuickPaths quick(solver, seed);
+  CorridorPaths quick(solver, seed);
   const SnapGraph graph(surface);
   for (std::int32_t left = 1 + from.below(3); left > 0; --left) {
     const std::int32_t target = from.below(surface.vertex_count());
@@ -278,8 +281,8 @@ void check_chain(const Surface& surface, const std::vector<std::int32_t>& chain)
 
 void check_edge_wires(Bytes& from, const Patience& patience, const Surface& surface, const Metric& metric,
                       const std::vector<Scribble>& scribbles) {
-  const auto fans = make_edge_fans(surface, patience.task());
-  const auto graph = make_edge_graph(surface, metric, fans, patience.task(), scribbles);
+  const auto adjacency = make_edge_adjacency(surface, patience.task());
+  const auto graph = make_edge_graph(surface, metric, adjacency, patience.task(), scribbles);
   const auto pick = [&]() -> Pick {
     if (surface.edges().empty() || from.coin()) return {from.below(surface.vertex_count()), -1};
     const Edge& edge = surface.edges()[static_cast<std::size_t>(from.below(surface.edges().size()))];
@@ -295,9 +298,9 @@ void check_edge_wires(Bytes& from, const Patience& patience, const Surface& surf
   const Edge& edge = surface.edges()[static_cast<std::size_t>(from.below(surface.edges().size()))];
   std::vector<std::int32_t> stops;
   for (std::int32_t left = from.below(3); left > 0; --left) stops.push_back(from.below(surface.vertex_count()));
-  check_chain(surface, edge_strip(*fans, edge, stops).vertices);
-  check_chain(surface, run_on(*fans, edge, stops));
-  const std::vector<std::int32_t> loop = edge_loop(*graph, edge, turning, patience.task()).vertices;
+  check_chain(surface, edge_loop(*adjacency, edge, stops).vertices);
+  check_chain(surface, extend_straight(*adjacency, edge, stops));
+  const std::vector<std::int32_t> loop = shortest_cycle(*graph, edge, turning, patience.task()).vertices;
   check_chain(surface, loop);
   require(loop.empty() || (loop.size() > 2 && is_edge(surface, loop.front(), loop.back())), "a loop is closed");
 }

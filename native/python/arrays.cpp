@@ -78,8 +78,8 @@ std::vector<std::array<std::int32_t, N>> copy_indices(const Layout& from, const 
     for (std::size_t column = 0; column < N; ++column) {
       const auto value = load<From>(from.at(row, column));
       if (!std::in_range<std::int32_t>(value)) {
-        throw InvalidInput(name + ": row " + std::to_string(row) + " refers to vertex " + std::to_string(value) +
-                           ", which is out of range");
+        throw InvalidInput(name + ": row " + std::to_string(row) + ": vertex " + std::to_string(value) +
+                           " is out of range");
       }
       to[row][column] = static_cast<std::int32_t>(value);
     }

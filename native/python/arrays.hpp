@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "seamwire/edge_wire.hpp"
-#include "seamwire/surface.hpp"
+#include "seamwire/edges/edge_wires.hpp"
+#include "seamwire/surface/surface.hpp"
 
 /// Between NumPy's arrays and the library's vectors.
 namespace seamwire::python {

@@ -7,8 +7,8 @@
 
 #include "arrays.hpp"
 #include "objects.hpp"
-#include "seamwire/polygons.hpp"
-#include "seamwire/segments.hpp"
+#include "seamwire/surface/segments.hpp"
+#include "seamwire/surface/triangulate.hpp"
 #include "watch.hpp"
 
 namespace seamwire::python {
@@ -44,7 +44,7 @@ ValueError
         const std::vector<Vector> own_points = points_from(points, "points");
         const std::vector<std::int32_t> own_corners = numbers_from(corners, "corners");
         const std::vector<std::int32_t> own_sizes = numbers_from(sizes, "sizes");
-        CutPolygons cut = without_gil([&] { return cut_polygons(own_points, own_corners, own_sizes); });
+        Triangulation cut = without_gil([&] { return triangulate(own_points, own_corners, own_sizes); });
         return py::make_tuple(handed_over(std::move(cut.triangles)), handed_over(std::move(cut.polygons)));
       },
       py::arg("points"), py::arg("corners"), py::arg("sizes"),

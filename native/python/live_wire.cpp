@@ -14,7 +14,7 @@
 
 #include "arrays.hpp"
 #include "objects.hpp"
-#include "seamwire/livewire.hpp"
+#include "seamwire/live/livewire.hpp"
 #include "watch.hpp"
 
 namespace seamwire::python {

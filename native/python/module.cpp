@@ -12,6 +12,7 @@
 #include "arrays.hpp"
 #include "gil.hpp"
 #include "objects.hpp"
+#include "seamwire/edges/shortest_cycle.hpp"
 #include "seamwire/errors.hpp"
 #include "watch.hpp"
 
@@ -550,7 +551,7 @@ Cancelled
         const Edge through = edge_from(edge, surface.surface->vertex_count(), "edge");
         check_size("metric", metric.metric.size(), *surface.surface);
         return Watch(py::none()).run([&](const Task& task) {
-          return edge_loop(*metric.edge_graph(surface.surface), through, turning, task);
+          return shortest_cycle(*metric.edge_graph(surface.surface), through, turning, task);
         });
       },
       py::arg("surface"), py::arg("metric"), py::arg("edge"), py::arg("turning") = 20.0,

@@ -8,13 +8,14 @@
 #include <utility>
 #include <vector>
 
-#include "seamwire/curvature.hpp"
-#include "seamwire/edge_wire.hpp"
-#include "seamwire/embedding.hpp"
-#include "seamwire/geodesics.hpp"
-#include "seamwire/metric.hpp"
-#include "seamwire/surface.hpp"
-#include "seamwire/wire.hpp"
+#include "seamwire/edges/edge_wires.hpp"
+#include "seamwire/embedding/embedding.hpp"
+#include "seamwire/geodesics/exact_geodesics.hpp"
+#include "seamwire/metric/curvature.hpp"
+#include "seamwire/metric/metric.hpp"
+#include "seamwire/surface/surface.hpp"
+#include "seamwire/wires/snap.hpp"
+#include "seamwire/wires/wire.hpp"
 
 /// What Python objects hold: a result of the library, and what is built from it once, when first needed.
 namespace seamwire::python {

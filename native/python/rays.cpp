@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "seamwire/rays.hpp"
+#include "seamwire/surface/ray_tree.hpp"
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>

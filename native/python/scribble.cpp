@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "seamwire/scribble.hpp"
+#include "seamwire/metric/scribble.hpp"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>

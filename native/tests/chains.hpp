@@ -13,7 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "seamwire/edge_wire.hpp"
+#include "seamwire/edges/edge_loop.hpp"
+#include "seamwire/edges/edge_wires.hpp"
+#include "seamwire/edges/shortest_cycle.hpp"
 
 /// What tests of wires along edges share: a metric of plain lengths, so that answers are known without curvatures, and
 /// chains found by other means than the library's.

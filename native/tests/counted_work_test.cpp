@@ -9,9 +9,9 @@
 #include <string>
 
 #include "intrinsic.hpp"
-#include "seamwire/curvature.hpp"
-#include "seamwire/embedding.hpp"
-#include "seamwire/geodesics.hpp"
+#include "seamwire/embedding/embedding.hpp"
+#include "seamwire/geodesics/exact_geodesics.hpp"
+#include "seamwire/metric/curvature.hpp"
 
 namespace seamwire {
 namespace {

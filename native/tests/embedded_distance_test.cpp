@@ -3,6 +3,7 @@
 // Distances on embedded surfaces against closed forms, and against paths and distances found by other means.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +18,7 @@
 #include "embeddings.hpp"
 #include "intrinsic.hpp"
 #include "reference_geodesics.hpp"
-#include "seamwire/geodesics.hpp"
+#include "seamwire/geodesics/exact_geodesics.hpp"
 #include "shapes.hpp"
 
 namespace seamwire {

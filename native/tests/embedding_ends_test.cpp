@@ -4,6 +4,7 @@
 // paper's own scheme ends.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -14,8 +15,8 @@
 
 #include "embeddings.hpp"
 #include "intrinsic.hpp"
-#include "seamwire/curvature.hpp"
-#include "seamwire/geodesics.hpp"
+#include "seamwire/geodesics/exact_geodesics.hpp"
+#include "seamwire/metric/curvature.hpp"
 
 namespace seamwire {
 namespace {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -10,7 +11,7 @@
 #include <random>
 #include <vector>
 
-#include "seamwire/embedding.hpp"
+#include "seamwire/embedding/embedding.hpp"
 
 /// What tests of embeddings share.
 namespace seamwire::embeddings {

@@ -16,7 +16,7 @@
 #include "intrinsic.hpp"
 #include "paths.hpp"
 #include "reference_geodesics.hpp"
-#include "seamwire/geodesics.hpp"
+#include "seamwire/geodesics/exact_geodesics.hpp"
 
 namespace seamwire {
 namespace {

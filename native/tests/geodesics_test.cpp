@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "seamwire/geodesics.hpp"
+#include "seamwire/geodesics/exact_geodesics.hpp"
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <chrono>
 #include <cmath>
 #include <set>
@@ -12,9 +13,9 @@
 #include "intrinsic.hpp"
 #include "paths.hpp"
 #include "reference_geodesics.hpp"
-#include "seamwire/curvature.hpp"
-#include "seamwire/embedding.hpp"
-#include "seamwire/metric.hpp"
+#include "seamwire/embedding/embedding.hpp"
+#include "seamwire/metric/curvature.hpp"
+#include "seamwire/metric/metric.hpp"
 
 namespace seamwire {
 namespace {

@@ -15,7 +15,7 @@
 #include <system_error>
 #include <thread>
 
-#include "seamwire/livewire.hpp"
+#include "seamwire/live/livewire.hpp"
 #include "shapes.hpp"
 
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "seamwire/intrinsic_mesh.hpp"
+#include "seamwire/surface/intrinsic_mesh.hpp"
 #include "shapes.hpp"
 
 /// Meshes known by their edge lengths, made from shapes.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "seamwire/livewire.hpp"
+#include "seamwire/live/livewire.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,9 +14,9 @@
 #include <thread>
 #include <vector>
 
-#include "../src/prepared_metrics.hpp"
-#include "seamwire/embedding.hpp"
-#include "seamwire/geodesics.hpp"
+#include "live/prepared_metrics.hpp"
+#include "seamwire/embedding/embedding.hpp"
+#include "seamwire/geodesics/exact_geodesics.hpp"
 #include "shapes.hpp"
 
 namespace seamwire {

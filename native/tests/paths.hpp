@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "seamwire/geodesics.hpp"
+#include "seamwire/geodesics/exact_geodesics.hpp"
 
 /// What a path over an intrinsic mesh is, found out without the solver's help.
 namespace seamwire::paths {

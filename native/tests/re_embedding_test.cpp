@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "embeddings.hpp"
-#include "seamwire/scribble.hpp"
+#include "seamwire/metric/scribble.hpp"
+#include "seamwire/surface/half_edge_mesh.hpp"
 #include "shapes.hpp"
 
 namespace seamwire {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "seamwire/intrinsic_mesh.hpp"
+#include "seamwire/surface/intrinsic_mesh.hpp"
 
 /// Exact distances the plain way, to compare with. A shortest path is a chain of straight lines that bends at vertices
 /// only. So: Dijkstra over the vertices, where from each vertex at which a path may bend all straight lines are

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "seamwire/scribble.hpp"
+#include "seamwire/metric/scribble.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "seamwire/embedding.hpp"
-#include "seamwire/geodesics.hpp"
-#include "seamwire/wire.hpp"
+#include "seamwire/embedding/embedding.hpp"
+#include "seamwire/geodesics/exact_geodesics.hpp"
+#include "seamwire/wires/wire.hpp"
 #include "shapes.hpp"
 
 namespace seamwire {

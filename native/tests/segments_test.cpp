@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "seamwire/segments.hpp"
+#include "seamwire/surface/segments.hpp"
 
 #include <gtest/gtest.h>
 

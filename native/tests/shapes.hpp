@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "seamwire/surface.hpp"
+#include "seamwire/surface/surface.hpp"
 
 /// Meshes with known answers, made on the spot.
 namespace seamwire::shapes {

@@ -10,8 +10,8 @@
 #include <optional>
 #include <vector>
 
-#include "seamwire/edge_wire.hpp"
-#include "seamwire/scribble.hpp"
+#include "seamwire/edges/edge_wires.hpp"
+#include "seamwire/metric/scribble.hpp"
 #include "shapes.hpp"
 
 namespace seamwire {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "seamwire/surface.hpp"
+#include "seamwire/surface/surface.hpp"
+#include "seamwire/surface/half_edge_mesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -408,11 +409,11 @@ TEST(Surface, NamesTheVertexThatIsNotFinite) {
 TEST(Surface, NamesTheTriangleAndTheIndexOutOfRange) {
   Mesh mesh = shapes::grid(3);
   mesh.triangles[7][2] = 16;
-  EXPECT_PRED2(says, message_of([&] { mesh.surface(); }), "triangle 7 ");
-  EXPECT_PRED2(says, message_of([&] { mesh.surface(); }), "vertex 16,");
+  EXPECT_PRED2(says, message_of([&] { mesh.surface(); }), "triangle 7: ");
+  EXPECT_PRED2(says, message_of([&] { mesh.surface(); }), "vertex 16 ");
   mesh.triangles[7][2] = -1;
-  EXPECT_PRED2(says, message_of([&] { mesh.surface(); }), "triangle 7 ");
-  EXPECT_PRED2(says, message_of([&] { mesh.surface(); }), "vertex -1,");
+  EXPECT_PRED2(says, message_of([&] { mesh.surface(); }), "triangle 7: ");
+  EXPECT_PRED2(says, message_of([&] { mesh.surface(); }), "vertex -1 ");
 }
 
 TEST(Surface, NamesTheEdgeThatIsWrong) {
@@ -420,8 +421,8 @@ TEST(Surface, NamesTheEdgeThatIsWrong) {
   const auto with = [&](Edge edge) {
     return message_of([&] { Surface(mesh.points, mesh.triangles, std::vector<Edge>{{0, 1}, edge}); });
   };
-  EXPECT_PRED2(says, with({2, 99}), "edge 1 ");
-  EXPECT_PRED2(says, with({2, 99}), "vertex 99,");
+  EXPECT_PRED2(says, with({2, 99}), "edge 1: ");
+  EXPECT_PRED2(says, with({2, 99}), "vertex 99 ");
   EXPECT_PRED2(says, with({5, 5}), "edge 1 ");
   EXPECT_PRED2(says, with({5, 5}), "vertex 5 ");
 }

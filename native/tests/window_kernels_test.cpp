@@ -2,7 +2,7 @@
 //
 // Each kernel against its plain twin: the same thing said by sampling points, without the kernel's formulas. And all
 // instruction sets give the same bits.
-#include "../src/window_kernels.hpp"
+#include "geodesics/window_kernels.hpp"
 
 #include <gtest/gtest.h>
 
@@ -63,7 +63,7 @@ struct List {
   Point at(std::size_t i) const { return {x[i], y[i]}; }
 };
 
-Entered any_triangle(std::mt19937& random) {
+BaseTriangle any_triangle(std::mt19937& random) {
   return {uniform(random, 0.5, 1.5), uniform(random, -0.3, 1.3), uniform(random, 0.1, 1)};
 }
 
@@ -74,8 +74,8 @@ struct Made {
   std::size_t stride;
 
   explicit Made(std::size_t size)
-      : memory(Children::kColumns * (size + kPadding), 0.0), alive(size + kPadding, 0), stride(size + kPadding) {}
-  Children children() { return Children::in(memory.data(), stride, alive.data()); }
+      : memory(ChildWindows::kColumns * (size + kPadding), 0.0), alive(size + kPadding, 0), stride(size + kPadding) {}
+  ChildWindows children() { return ChildWindows::in(memory.data(), stride, alive.data()); }
 };
 
 class WindowKernelsOn : public testing::TestWithParam<const WindowKernels* (*)()> {
@@ -113,28 +113,28 @@ TEST_P(WindowKernelsOn, WindowsAreCutToWhereTheyAreNearer) {
     for (std::size_t k = 0; k < count; ++k) {
       pairs.begin[k] = uniform(random, 0, 0.5);
       pairs.end[k] = uniform(random, 0.5, 1);
-      pairs.left_x[k] = uniform(random, -0.5, 1.5);
-      pairs.left_y[k] = -uniform(random, 0.01, 1);
-      pairs.left_distance[k] = uniform(random, 0, 0.5);
+      pairs.left.x[k] = uniform(random, -0.5, 1.5);
+      pairs.left.y[k] = -uniform(random, 0.01, 1);
+      pairs.left.distance[k] = uniform(random, 0, 0.5);
       // Often in line with the left one and a point of the base: there the difference of the distances turns.
-      pairs.right_x[k] = uniform(random, -0.5, 1.5);
-      pairs.right_y[k] = -uniform(random, 0.01, 1);
+      pairs.right.x[k] = uniform(random, -0.5, 1.5);
+      pairs.right.y[k] = -uniform(random, 0.01, 1);
       if (k % 2 == 0) {
         const Point source =
-            between({uniform(random, 0, 1), 0.0}, {pairs.left_x[k], pairs.left_y[k]}, uniform(random, 0.3, 2));
-        pairs.right_x[k] = source.x;
-        pairs.right_y[k] = source.y;
+            between({uniform(random, 0, 1), 0.0}, {pairs.left.x[k], pairs.left.y[k]}, uniform(random, 0.3, 2));
+        pairs.right.x[k] = source.x;
+        pairs.right.y[k] = source.y;
       }
-      const Point left{pairs.left_x[k], pairs.left_y[k]}, right{pairs.right_x[k], pairs.right_y[k]}, middle{0.5, 0};
-      pairs.right_distance[k] =
-          pairs.left_distance[k] + distance(left, middle) - distance(right, middle) + uniform(random, -0.1, 0.1);
+      const Point left{pairs.left.x[k], pairs.left.y[k]}, right{pairs.right.x[k], pairs.right.y[k]}, middle{0.5, 0};
+      pairs.right.distance[k] =
+          pairs.left.distance[k] + distance(left, middle) - distance(right, middle) + uniform(random, -0.1, 0.1);
     }
     kernels.compare(pairs, count);
     for (std::size_t k = 0; k < count; ++k) {
-      const Point left{pairs.left_x[k], pairs.left_y[k]}, right{pairs.right_x[k], pairs.right_y[k]};
+      const Point left{pairs.left.x[k], pairs.left.y[k]}, right{pairs.right.x[k], pairs.right.y[k]};
       const double begin = pairs.begin[k], end = pairs.end[k];
       const auto more = [&](double b) {  // by how much the left one is farther
-        return pairs.left_distance[k] + distance(left, {b, 0}) - pairs.right_distance[k] - distance(right, {b, 0});
+        return pairs.left.distance[k] + distance(left, {b, 0}) - pairs.right.distance[k] - distance(right, {b, 0});
       };
       double most = -1, least = 1;
       for (int s = 0; s <= kSamples; ++s) {
@@ -171,45 +171,45 @@ TEST_P(WindowKernelsOn, WindowsAreCutToWhereTheyAreNearer) {
 
 TEST_P(WindowKernelsOn, TheWayToTheApexIsTheShortestThroughTheWindow) {
   for (int round = 0; round < 100; ++round) {
-    const Entered triangle = any_triangle(random);
+    const BaseTriangle triangle = any_triangle(random);
     const Point apex{triangle.apex_x, triangle.apex_y};
     List list(random, 1 + random() % 20, triangle.base);
-    std::vector<double> feet(list.count + kPadding), ways(list.count + kPadding);
-    kernels.find_ways(list.windows(), list.count, triangle, feet.data(), ways.data());
+    std::vector<double> projections(list.count + kPadding), apex_distances(list.count + kPadding);
+    kernels.find_apex_distances(list.windows(), list.count, triangle, projections.data(), apex_distances.data());
     for (std::size_t i = 0; i < list.count; ++i) {
-      EXPECT_NEAR(feet[i], on_base(list.at(i), apex), kTolerance);
+      EXPECT_NEAR(projections[i], on_base(list.at(i), apex), kTolerance);
       double shortest = std::numeric_limits<double>::infinity();
       for (int s = 0; s <= kSamples; ++s) {
         const Point through{list.b0[i] + (list.b1[i] - list.b0[i]) * s / kSamples, 0};
         shortest = std::min(shortest, list.distance[i] + distance(list.at(i), through) + distance(through, apex));
       }
-      EXPECT_LE(ways[i], shortest + kTolerance);
+      EXPECT_LE(apex_distances[i], shortest + kTolerance);
       // The nearest sample is half a step off; a way's second derivative there is below 1 / 0.05 + 1 / 0.1.
       const double half = (list.b1[i] - list.b0[i]) / kSamples / 2;
-      EXPECT_GE(ways[i], shortest - 15 * half * half - kTolerance);
+      EXPECT_GE(apex_distances[i], shortest - 15 * half * half - kTolerance);
     }
   }
 }
 
 TEST_P(WindowKernelsOn, WaysOverACornerAreLeftToTheCorner) {
-  const Entered triangle{1.0, 0.5, 0.5};
+  const BaseTriangle triangle{1.0, 0.5, 0.5};
   List list(random, 3, 1.0);
   for (std::size_t i = 0; i < 3; ++i) list.b0[i] = 0.0, list.b1[i] = 1.0, list.y[i] = -0.1;
   list.x[0] = -3.0;  // the straight line passes left of the base
   list.x[1] = 3.0;
   list.x[2] = 0.5;
-  std::vector<double> feet(3 + kPadding), ways(3 + kPadding);
-  kernels.find_ways(list.windows(), 3, triangle, feet.data(), ways.data());
-  EXPECT_EQ(ways[0], std::numeric_limits<double>::infinity());
-  EXPECT_EQ(ways[1], std::numeric_limits<double>::infinity());
-  EXPECT_NEAR(ways[2], list.distance[2] + 0.6, kTolerance);
+  std::vector<double> projections(3 + kPadding), apex_distances(3 + kPadding);
+  kernels.find_apex_distances(list.windows(), 3, triangle, projections.data(), apex_distances.data());
+  EXPECT_EQ(apex_distances[0], std::numeric_limits<double>::infinity());
+  EXPECT_EQ(apex_distances[1], std::numeric_limits<double>::infinity());
+  EXPECT_NEAR(apex_distances[2], list.distance[2] + 0.6, kTolerance);
 }
 
 /// Whether a child covers what the window sees of a side, and only dies where it does not matter.
 void expect_children(const List& list, const std::vector<double>& begins, const std::vector<double>& ends,
-                     const Entered& triangle, const Point& tail, const Point& tip, const Side& side, Made& made,
+                     const BaseTriangle& triangle, const Point& tail, const Point& tip, const Side& side, Made& made,
                      std::size_t count_made) {
-  const Children children = made.children();
+  const ChildWindows children = made.children();
   std::size_t alive = 0;
   for (std::size_t i = 0; i < list.count; ++i) {
     const Point source = list.at(i);
@@ -249,12 +249,12 @@ void expect_children(const List& list, const std::vector<double>& begins, const 
 TEST_P(WindowKernelsOn, ChildrenAreWhatWindowsSeeOfASide) {
   std::size_t alive = 0, all = 0;
   for (int round = 0; round < 100; ++round) {
-    const Entered triangle = any_triangle(random);
+    const BaseTriangle triangle = any_triangle(random);
     const Point apex{triangle.apex_x, triangle.apex_y}, tail{0, 0}, tip{triangle.base, 0};
     List list(random, 1 + random() % 20, triangle.base);
     const double split = uniform(random, 0, triangle.base);
-    std::vector<double> feet(list.count + kPadding), ways(list.count + kPadding);
-    kernels.find_ways(list.windows(), list.count, triangle, feet.data(), ways.data());
+    std::vector<double> projections(list.count + kPadding), apex_distances(list.count + kPadding);
+    kernels.find_apex_distances(list.windows(), list.count, triangle, projections.data(), apex_distances.data());
     const double at_apex = uniform(random, 0.2, 2), at_tail = uniform(random, 0.2, 2), at_tip = uniform(random, 0.2, 2);
     const auto side = [&](const Point& from, const Point& to, double at_from, double at_to) {
       const double length = distance(from, to);
@@ -264,12 +264,14 @@ TEST_P(WindowKernelsOn, ChildrenAreWhatWindowsSeeOfASide) {
     for (std::size_t i = 0; i < list.count; ++i) ends[i] = std::min(ends[i], split);
     Made left(list.count), right(list.count);
     const Side left_side = side(tail, apex, at_tail, at_apex), right_side = side(apex, tip, at_apex, at_tip);
-    std::size_t made = kernels.to_left(list.windows(), list.count, feet.data(), split, left_side, left.children());
+    std::size_t made =
+        kernels.to_left(list.windows(), list.count, projections.data(), split, left_side, left.children());
     expect_children(list, begins, ends, triangle, tail, apex, left_side, left, made);
     alive += made;
     ends = list.b1;
     for (std::size_t i = 0; i < list.count; ++i) begins[i] = std::max(begins[i], split);
-    made = kernels.to_right(list.windows(), list.count, feet.data(), split, triangle, right_side, right.children());
+    made =
+        kernels.to_right(list.windows(), list.count, projections.data(), split, triangle, right_side, right.children());
     expect_children(list, begins, ends, triangle, apex, tip, right_side, right, made);
     alive += made;
     all += 2 * list.count;
@@ -284,40 +286,40 @@ INSTANTIATE_TEST_SUITE_P(WindowKernels, WindowKernelsOn,
 TEST(WindowKernels, AllGiveTheSameBits) {
   std::mt19937 random(3);
   for (int round = 0; round < 200; ++round) {
-    const Entered triangle = any_triangle(random);
+    const BaseTriangle triangle = any_triangle(random);
     List list(random, 1 + random() % 40, triangle.base);
     const double split = uniform(random, 0, triangle.base);
     const Side side{1.0, 0.6, 0.8, uniform(random, 0, 2), uniform(random, 0, 2)};
     const auto results = [&](const WindowKernels& kernels) {
       const std::size_t size = list.count, stride = size + kPadding;
       std::vector<double> out(2 * stride);
-      kernels.find_ways(list.windows(), size, triangle, out.data(), out.data() + stride);
-      const std::vector<double> feet(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(stride));
-      std::vector<double> kept(feet.begin(), feet.begin() + static_cast<std::ptrdiff_t>(size));
+      kernels.find_apex_distances(list.windows(), size, triangle, out.data(), out.data() + stride);
+      const std::vector<double> projections(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(stride));
+      std::vector<double> kept(projections.begin(), projections.begin() + static_cast<std::ptrdiff_t>(size));
       kept.insert(kept.end(), out.begin() + static_cast<std::ptrdiff_t>(stride),
                   out.begin() + static_cast<std::ptrdiff_t>(stride + size));
       const auto keep = [&](Made& made) {
-        for (std::size_t column = 0; column < Children::kColumns; ++column) {
+        for (std::size_t column = 0; column < ChildWindows::kColumns; ++column) {
           for (std::size_t i = 0; i < size; ++i) {
             if (made.alive[i] != 0) kept.push_back(made.memory[column * made.stride + i]);
           }
         }
       };
       Made left(size), right(size);
-      kernels.to_left(list.windows(), size, feet.data(), split, side, left.children());
+      kernels.to_left(list.windows(), size, projections.data(), split, side, left.children());
       keep(left);
-      kernels.to_right(list.windows(), size, feet.data(), split, triangle, side, right.children());
+      kernels.to_right(list.windows(), size, projections.data(), split, triangle, side, right.children());
       keep(right);
       std::vector<double> room(Pairs::kColumns * stride, 0.0);
       const Pairs pairs = Pairs::in(room.data(), stride);
       for (std::size_t i = 0; i + 1 < size; ++i) {
         pairs.end[i] = 1.0;
-        pairs.left_x[i] = list.x[i];
-        pairs.left_y[i] = list.y[i];
-        pairs.left_distance[i] = list.distance[i];
-        pairs.right_x[i] = list.x[i + 1];
-        pairs.right_y[i] = list.y[i + 1];
-        pairs.right_distance[i] = list.distance[i + 1];
+        pairs.left.x[i] = list.x[i];
+        pairs.left.y[i] = list.y[i];
+        pairs.left.distance[i] = list.distance[i];
+        pairs.right.x[i] = list.x[i + 1];
+        pairs.right.y[i] = list.y[i + 1];
+        pairs.right.distance[i] = list.distance[i + 1];
       }
       kernels.compare(pairs, size - 1);
       for (std::size_t i = 0; i + 1 < size; ++i) {

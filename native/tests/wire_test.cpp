@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "seamwire/wire.hpp"
+#include "seamwire/wires/wire.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,8 @@
 #include <queue>
 #include <set>
 
-#include "seamwire/metric.hpp"
+#include "seamwire/metric/metric.hpp"
+#include "seamwire/wires/snap.hpp"
 #include "shapes.hpp"
 
 namespace seamwire {

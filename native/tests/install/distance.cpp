@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdio>
-#include <seamwire/wire.hpp>
+#include <seamwire/wires/wire.hpp>
 
 int main() {
   const seamwire::Surface square({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 3}, {1, 2, 3}});

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "seamwire/edges/edge_adjacency.hpp"
+#include "seamwire/surface/types.hpp"
+
+namespace seamwire {
+
+/// A run of edges straight through a mesh.
+struct EdgeLoop {
+  std::vector<std::int32_t> vertices;  ///< in order; where it is closed, the first one is not given twice
+  bool closed = false;
+};
+
+/// The edge loop through an edge, as modellers select it: in both directions on over the opposite edge, at a vertex of
+/// four edges whose faces are not all triangles, and of six whose faces all are; from an edge of the boundary along the
+/// boundary. It ends at other vertices (poles, boundaries, corners of a single face, where faces are no single
+/// umbrella), at a vertex of `stops` (an end of the edge itself too), and where it meets itself: closed where its ends
+/// are one vertex; where it crosses itself, its first or last vertex is also an inner one.
+///
+/// `edge`: two vertices in either order; the loop has this direction. Throws InvalidInput where there is no such edge.
+EdgeLoop edge_loop(const EdgeAdjacency& adjacency, const Edge& edge, std::span<const std::int32_t> stops);
+
+/// The straight extension of a chain whose last edge runs from edge[0] to edge[1]: at each vertex over the edge that
+/// turns least. It ends at a vertex of `stops` (edge[1] itself is none), at a boundary (a chain along a boundary goes
+/// on along it), at a vertex it has visited, edge[0] among them, and where every turn is 60 degrees or more.
+///
+/// Returns the vertices from edge[1] on; only the last one may be a repeated one. Throws InvalidInput where there is no
+/// such edge.
+std::vector<std::int32_t> extend_straight(const EdgeAdjacency& adjacency, const Edge& edge,
+                                          std::span<const std::int32_t> stops);
+
+}  // namespace seamwire

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "seamwire/edges/edge_graph.hpp"
+#include "seamwire/task.hpp"
+
+namespace seamwire {
+
+/// What was picked: a vertex `a` (b = -1), or the edge between `a` and `b`.
+struct Pick {
+  std::int32_t a = -1;
+  std::int32_t b = -1;
+
+  bool is_edge() const { return b >= 0; }
+  friend bool operator==(const Pick&, const Pick&) = default;
+};
+
+/// The cheapest chains from one pick to every edge and vertex. While run() is at work on one thread, another may ask
+/// for those found so far. Copies share the search.
+class EdgeWires {
+ public:
+  /// `turning`: q, not negative. `forward`: the seed edge has just been drawn from seed.a to seed.b, so the chain
+  /// leaves it over b (a directed seed counts its turn there too). Throws InvalidInput where the seed is not a vertex
+  /// or an edge of the surface.
+  EdgeWires(std::shared_ptr<const EdgeGraph> graph, const Pick& seed, double turning = 3.0, bool forward = false);
+
+  /// Runs the search, nearest first; to be called once. Throws Cancelled: what was found until then can be asked for.
+  void run(const Task& task = {});
+
+  /// Whether trace() gives the cheapest chain already, or tells for sure that there is none. Throws InvalidInput where
+  /// the target is not a vertex or an edge of the surface.
+  bool is_final(const Pick& target) const;
+
+  /// The cheapest chain to a target, both picks included. A picked edge has no direction: the better of both. The seed
+  /// itself is a chain of its own. Behind a forward seed, a target at the seed's first vertex closes the chain there.
+  /// Takes time in proportion to the chain. Throws InvalidInput where the target is not a vertex or an edge of the
+  /// surface.
+  ///
+  /// The cheapest walk may cross itself, where it can turn more cheaply in a small circle of short edges than at once.
+  /// The chain is then another one, without repeated vertices, though not always the cheapest of those: that is
+  /// NP-hard.
+  EdgeChain trace(const Pick& target) const;
+
+ private:
+  struct Run;
+  std::shared_ptr<Run> run_;
+};
+
+/// An EdgeWires whose search has been run to its end. Throws what its constructor and run() throw.
+EdgeWires edge_wires(std::shared_ptr<const EdgeGraph> graph, const Pick& seed, double turning = 3.0,
+                     bool forward = false, const Task& task = {});
+
+}  // namespace seamwire

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "seamwire/edges/edge_wires.hpp"
+#include "seamwire/live/former_names.hpp"
+#include "seamwire/metric/metric.hpp"
+#include "seamwire/metric/scribble.hpp"
+#include "seamwire/surface/surface.hpp"
+#include "seamwire/wires/snap.hpp"
+#include "seamwire/wires/wire.hpp"
+
+namespace seamwire {
+
+/// Where wires run: across the surface, as exact geodesics, or along its real edges.
+enum class Along { kSurface, kEdges };
+
+/// Which of the metrics of metric.hpp wires are short in.
+enum class MetricFamily { kFeature, kCampen, kPottmannKovacs, kEuclidean };
+
+struct LiveWireOptions {
+  Along along = Along::kSurface;
+  MetricFamily family = MetricFamily::kFeature;
+  Strength strength = {.parameter = 0.1};  ///< of that metric; the Euclidean one has none
+  double turning = 3.0;                    ///< q of edge_wires()
+  /// q of edge_loop(). nullopt: 20, and a quarter of the root of the number of edges where that is more. A circle
+  /// around one quad costs four turns, 4 q edges, so with a fixed q a ring of a dense mesh, which may have as many
+  /// edges as that root, would be dearer.
+  std::optional<double> loop_turning = std::nullopt;
+};
+
+/// One of the two wires from the seed to a target. `vertices` are the ends of the edges that would be marked: along
+/// edges the wire itself, across the surface the chain it snaps to.
+struct LiveCandidate {
+  Follow follow = Follow::kMin;
+  std::vector<Vector> points;       ///< in the caller's coordinates; empty: no such wire
+  std::vector<std::int32_t> faces;  ///< per segment, across the surface only
+  std::vector<std::int32_t> vertices;
+  double length = std::numeric_limits<double>::infinity();
+  bool final = false;  ///< false: still being computed; what is here, if anything, will be replaced
+};
+
+struct LiveWires {
+  std::array<LiveCandidate, 2> wires;  ///< that of M_min, that of M_max
+  int shorter = 0;                     ///< the one shorter in its own metric (Section 5)
+  bool final() const { return wires[0].final && wires[1].final; }
+};
+
+/// A closed chain of edges.
+struct LiveLoop {
+  std::vector<std::int32_t> vertices;  ///< the first one is not given twice; empty: there is none, or not yet
+  double length = std::numeric_limits<double>::infinity();
+  bool final = false;  ///< false: still being computed
+};
+
+/// Both metrics for one surface, each computed on a thread of its own; seed, then the two wires to any target (Section
+/// 5). All members may be called from one thread at a time, surface() and wait_for_surface() from others meanwhile;
+/// none but wait() and wait_for_surface() waits for the computation.
+///
+/// Where the surface is still being built, the members keep what they are given and answer that nothing is there yet
+/// and nothing final; an edge that turns out not to be part of the surface is refused at a later call. Where it cannot
+/// be built, each member throws what the constructor of Surface threw.
+class LiveWire {
+ public:
+  /// Throws InvalidInput for options that are not as said above and in metric.hpp.
+  explicit LiveWire(std::shared_ptr<const Surface> surface, const LiveWireOptions& options = {});
+  /// Builds the surface on its own threads, from the arguments of Surface's constructor, and returns at once.
+  LiveWire(std::vector<Vector> points, std::vector<Triangle> triangles,
+           std::optional<std::vector<Edge>> edges = std::nullopt, const LiveWireOptions& options = {});
+  LiveWire(LiveWire&& other) noexcept;
+  LiveWire& operator=(LiveWire&& other) noexcept;
+  ~LiveWire();  ///< stops the running work
+
+  /// Another one with the same metrics, those still being computed too, and no seed. A later set_metric() of either
+  /// does not change the other.
+  LiveWire fork() const;
+  /// Another one on the same surface, which is built once, with the curvatures and whatever else does not depend on the
+  /// options. It has metrics of its own, no strokes and no seed. Throws InvalidInput as the constructors do.
+  LiveWire sibling(const LiveWireOptions& options) const;
+
+  /// Null until it is built.
+  std::shared_ptr<const Surface> surface() const;
+  /// Waits until the surface is built, at most `seconds`; whether it is.
+  bool wait_for_surface(double seconds = std::numeric_limits<double>::infinity()) const;
+
+  /// Changes the metric in the background, and then seeds again: until then wires are those of the former metric, and
+  /// not final. Throws InvalidInput where the strength is not as said in metric.hpp.
+  void set_metric(MetricFamily family, const Strength& strength);
+  /// The strokes that change the metric from here on, instead of those before; as set_metric(). What apply_scribbles()
+  /// throws for them comes out of the calls that ask for results.
+  void set_scribbles(std::vector<Scribble> scribbles);
+
+  /// Starts the wires from a pick, dropping those of an earlier one. Across the surface the pick must be a vertex.
+  /// `forward` as in edge_wires(). Throws InvalidInput where the pick is not part of the surface; an edge that is given
+  /// before the surface is there is refused by wires().
+  void seed(const Pick& pick, bool forward = false);
+  /// The wires from the seed to a target now, as far as they are computed: along edges those near the seed are final
+  /// first; across the surface a path that may be a little longer than the shortest one is computed for the target
+  /// asked for last, and is there at one of the next calls for it. Throws InvalidInput for a target that is not part of
+  /// the surface or where there is no seed that is.
+  LiveWires wires(const Pick& target) const;
+
+  /// The closed chain through an edge, the cheaper of the two metrics'; along edges only. The first call for an edge
+  /// starts the search, in place of that for another edge; ask again until the answer is final. A seed goes first.
+  LiveLoop loop(const Edge& edge);
+  /// run_on(), with the way's length in the unit cube; no vertices where it cannot be told yet.
+  EdgeChain run_on(const Edge& edge, std::span<const std::int32_t> stops) const;
+  /// edge_strip(); no vertices where it cannot be told yet.
+  EdgeStrip strip(const Edge& edge, std::span<const std::int32_t> stops) const;
+  /// s of eq. 5 at each vertex; null while it is being computed.
+  std::shared_ptr<const std::vector<double>> feature_strength() const;
+
+  /// Fraction of the preparation and the seed's work that is done, 0 until the surface is there, 1 when all is.
+  double progress() const;
+  /// Waits for all running work, loops too, at most `seconds`; whether it is done.
+  bool wait(double seconds = std::numeric_limits<double>::infinity()) const;
+
+ private:
+  struct Impl;
+  explicit LiveWire(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace seamwire

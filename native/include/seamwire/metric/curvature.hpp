@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "seamwire/surface/surface.hpp"
+
+namespace seamwire {
+
+/// Principal curvatures at the caller's vertices, of the model scaled to the unit cube (unit: 1 / side of the cube).
+/// Never infinite or NaN. Triangles lower than 2^-22 of the cube (corners in line but for 32-bit rounding) are skipped;
+/// a vertex with no other has curvature 0, and a zero normal if none has any area. A vertex of several corner fans
+/// takes the side of its first fan: fans that face the other way count turned over, each fitted with its own normals.
+struct Curvature {
+  std::vector<double> k1, k2;   ///< |k1| >= |k2|
+  std::vector<Vector> d1, d2;   ///< their directions: unit, orthogonal, in the tangent plane; any without a normal
+  std::vector<Vector> normals;  ///< unit
+
+  /// s of eq. 5: |k1| - |k2|, the strength of a ridge or valley.
+  std::vector<double> difference() const;
+};
+
+/// Vertex normals weighted as in Max, "Weights for Computing Vertex Normals from Facet Normals" (1999).
+std::vector<Vector> vertex_normals(const Surface& surface);
+
+/// Rusinkiewicz, "Estimating Curvatures and Their Derivatives on Triangle Meshes" (2004), on vertex_normals().
+Curvature principal_curvatures(const Surface& surface);
+
+}  // namespace seamwire

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "seamwire/metric/curvature.hpp"
+
+namespace seamwire {
+
+/// Larger eigenvalues of a tensor are refused: the square of a triangle's area would not be a finite number.
+inline constexpr double kLargestEigenvalue = 1e150;
+
+/// An anisotropic metric: at each of the caller's vertices a tensor on the tangent plane (eq. 1), in coordinates of the
+/// model scaled to the unit cube. Lengths scale by the square roots of its eigenvalues.
+struct Metric {
+  std::vector<Vector> normals;           ///< unit; zero at vertices without a face, where the metric is Euclidean
+  std::vector<Eigen::Matrix3d> tensors;  ///< symmetric, l1 e1 e1^T + l2 e2 e2^T; maps the normal to zero
+
+  std::size_t size() const { return tensors.size(); }
+};
+
+/// Which principal direction paths shall follow: that of the minimal curvature (M_min: along ridges and valleys) or of
+/// the maximal (M_max).
+enum class Follow { kMin, kMax };
+
+/// How strong a metric is: by its own parameter, or such that its maximum anisotropy, sup sqrt(l1 / l2), is the one
+/// given. Exactly one of the two is set. Both must be finite; parameter >= 0 (Campen: >= 1), max_anisotropy >= 1; else
+/// InvalidInput.
+struct Strength {
+  std::optional<double> parameter = std::nullopt;
+  std::optional<double> max_anisotropy = std::nullopt;
+  /// s above this percentile (0 < p <= 100) of its values counts as that value, so that single noisy vertices do not
+  /// decide.
+  std::optional<double> clamp_percentile = std::nullopt;
+};
+
+/// Throws InvalidInput where a strength is not as said there; `smallest_parameter`: 1 for Campen.
+void check_strength(const Strength& strength, double smallest_parameter = 0.0);
+
+/// Eq. 5, the paper's metric: l1 = 1 + gamma s, l2 = 1 / l1. Parameter: gamma; max_anisotropy A means gamma =
+/// (A - 1) / max s, or 0 where max s is but rounding (planes, spheres).
+Metric feature_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Strength& strength);
+/// Eq. 3, Campen et al.: l1 = alpha, l2 = 1. Parameter: alpha; max_anisotropy A means alpha = A^2. Nothing to clamp.
+Metric campen_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Strength& strength);
+/// Eq. 4, Pottmann et al., Kovacs et al.: l1 = k1^2 + beta, l2 = k2^2 + beta. Parameter: beta; at least 1e-12 of the
+/// largest k1^2 is taken, so that the norm is nowhere zero. max_anisotropy 1, and flat surfaces, give the Euclidean
+/// one.
+Metric pottmann_kovacs_metric(const Surface& surface, const Curvature& curvature, Follow follow,
+                              const Strength& strength);
+/// The identity.
+Metric euclidean_metric(const Surface& surface, const Curvature& curvature);
+
+/// A tensor with its normal, and the norm it gives to any vector: g(e)^2 = e^T M e + sqrt(l1 l2) (n.e)^2, the "ambient"
+/// reading of the norm of an edge, which need not be tangent (docs/method.md says why).
+struct TensorAt {
+  Vector normal;
+  Eigen::Matrix3d tensor;
+};
+double ambient_norm(const TensorAt& at, const Vector& e);
+/// sqrt(l1 l2), which the norm above gives to the normal.
+double normal_weight(const Eigen::Matrix3d& m);
+/// sqrt(l1 / l2); 1 where the normal is zero.
+double anisotropy(const TensorAt& at);
+/// The largest over the vertices.
+double max_anisotropy(const Metric& metric);
+/// In the middle between two: the mean of the normals, normalised (of opposite ones, the first), and of the tensors,
+/// each turned by the least rotation onto that normal. Its anisotropy is at most that of the ends.
+TensorAt midpoint_tensor(const TensorAt& a, const TensorAt& b);
+/// Length of a straight edge along which the quadratic form varies linearly, so that its squared norm runs from a^2 to
+/// b^2: (2/3) (a^2 + a b + b^2) / (a + b); 0 where both are 0.
+double integrated_length(double norm_at_start, double norm_at_end);
+/// Length of the straight edge between two of the surface's vertices, which must be in range; symmetric to the last
+/// bit.
+double edge_length(const Surface& surface, const Metric& metric, std::int32_t a, std::int32_t b);
+
+}  // namespace seamwire

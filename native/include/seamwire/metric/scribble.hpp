@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "seamwire/metric/metric.hpp"
+#include "seamwire/surface/surface.hpp"
+
+namespace seamwire {
+
+/// A stroke drawn on a surface: wires near it run as it does (Section 5 of the paper).
+struct Scribble {
+  /// In the caller's coordinates, in drawing order; the first again at the end: closed. Each lies in the triangle of
+  /// `faces` or at the vertex of `vertices` (the caller's numbers, one a point; where one is -1, or all are left out,
+  /// the other counts).
+  std::vector<Vector> points;
+  std::vector<std::int32_t> faces;
+  std::vector<std::int32_t> vertices;
+  double eta = 20;                              ///< the eigenvalues along the stroke are eta and 1 / eta; >= 1
+  int rings = 10;                               ///< k: from the k-th ring of vertices around it on nothing changes
+  std::optional<double> radius = std::nullopt;  ///< instead of `rings`: from this distance on, caller's units
+  bool attracts = true;                         ///< false: crossing becomes short, and following long
+  bool acts_on_min = true, acts_on_max = true;  ///< which of the two metrics it is meant for
+
+  bool acts_on(Follow follow) const { return follow == Follow::kMin ? acts_on_min : acts_on_max; }
+  friend bool operator==(const Scribble&, const Scribble&) = default;
+};
+
+/// The metric after the scribbles, applied in their order: at the vertices that follow a stroke most closely the tensor
+/// has the eigenvalues (eta, 1 / eta), the minor eigenvector along the drawn line. That tensor is carried on, ring by
+/// ring, turned by the least rotation from normal to normal, and blended with what was there with the weight 1 - r / k
+/// (r: the ring; with a radius: 1 - distance / radius, but 1 along the stroke). So of two strokes that cross, the later
+/// one wins along its own line, and without scribbles the result is `metric`, bit for bit.
+///
+/// Points further apart than a triangle are joined along the vertices nearest to the straight line between them; where
+/// none lead there (another component, the far side of a hole) the stroke has a gap. A stroke that crosses itself takes
+/// at each vertex the direction of its nearest part, of equal ones the later. A stroke without movement has no
+/// direction and changes nothing, and vertices without a normal are left as they are. `follow`: takes only the
+/// scribbles meant for that metric.
+///
+/// Throws InvalidInput, naming scribble and point, for a point that is not finite, without a face or vertex, with one
+/// out of range, or off the mesh: further from its face or vertex than a twentieth of the model's longest side; for
+/// lists that differ in length, eta, rings or a radius that is out of range, and a metric of another size.
+Metric apply_scribbles(const Surface& surface, const Metric& metric, std::span<const Scribble> scribbles,
+                       std::optional<Follow> follow = std::nullopt);
+
+}  // namespace seamwire

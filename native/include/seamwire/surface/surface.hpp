@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "seamwire/errors.hpp"
+#include "seamwire/surface/types.hpp"
+#include "seamwire/surface/vector.hpp"
+#include "seamwire/task.hpp"
+
+namespace seamwire {
+
+struct HalfEdgeMesh;  // surface/half_edge_mesh.hpp
+
+/// What was odd about the input. Nothing here is an error: the surface was built all the same.
+struct SurfaceReport {
+  std::vector<Edge> nonmanifold_edges;      ///< edges with three or more faces: the surface is cut open there
+  std::vector<Edge> unorientable_edges;     ///< cut open because the faces could not be oriented alike (Moebius strip)
+  std::vector<std::int32_t> flipped_faces;  ///< turned over to agree with their neighbours
+  std::vector<std::int32_t> zero_area_faces;    ///< three different corners in line: kept
+  std::vector<std::int32_t> degenerate_faces;   ///< two corners are one vertex: left out, their edges stay
+  std::vector<std::int32_t> duplicate_faces;    ///< same three vertices as an earlier face: left out
+  std::vector<std::int32_t> isolated_vertices;  ///< in no face and no edge
+  std::size_t boundary_edges = 0;               ///< edges with one face
+  std::size_t components = 0;                   ///< connected by edges; isolated vertices are not counted
+};
+
+/// A triangle mesh as people have it: boundaries, several components, isolated vertices, zero-area faces, mixed
+/// orientation, edges with three or more faces, duplicate faces. Keeps the caller's numbers of vertices and faces.
+///
+/// The half-edge mesh inside is manifold and consistently oriented: where the input is not, it is cut open, and a
+/// vertex whose faces form several fans is a half-edge vertex for each of them (a `corner fan`). To a path the fans are
+/// one vertex.
+class Surface {
+ public:
+  /// `points`: finite. `triangles`: vertex numbers in [0, points.size()). `edges`: the real edges where faces are
+  /// polygons that have been triangulated, and edges without a face; nullopt: every edge of a triangle. Throws
+  /// InvalidInput, naming the element, for a coordinate that is not finite or above 1e150 in size, an index out of
+  /// range, an edge from a vertex to itself, or a mesh without any edge; Cancelled where `task` tells it to, within
+  /// about a tenth of a second at a million faces.
+  Surface(std::vector<Vector> points, std::vector<Triangle> triangles,
+          std::optional<std::vector<Edge>> edges = std::nullopt, const Task& task = {});
+
+  std::size_t vertex_count() const { return points_.size(); }
+  std::size_t face_count() const { return triangles_.size(); }
+
+  /// The caller's coordinates, triangles (as given, not turned) and real edges (unique, smaller vertex first, sorted).
+  const std::vector<Vector>& points() const { return points_; }
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+  const std::vector<Edge>& edges() const { return edges_; }
+
+  /// Multiply the caller's coordinates by this to fit the model into the unit cube (Section 3 of the paper): one over
+  /// the longest side of the bounding box of the vertices in use; 1 where that is zero.
+  double scale() const { return scale_; }
+
+  const HalfEdgeMesh& half_edges() const { return *mesh_; }
+  /// Number of the caller's vertex for each vertex (corner fan) of half_edges(), ascending, and of the caller's face
+  /// for each of its faces, ascending; both are the identity on a clean mesh. A face's vertices are listed from the
+  /// caller's first corner on. A caller's vertex without a face has no fan. Two edges may join the same two fans (a
+  /// slit one edge long), so find half-edges by walking, never by their end points.
+  const std::vector<std::int32_t>& vertex_of_fan() const { return vertex_of_fan_; }
+  const std::vector<std::int32_t>& face_of_half_edge_face() const { return source_face_; }
+  /// half_edges() in flat arrays, for passes over all of it: the fans at the corners of each face, from the caller's
+  /// first corner on; and for its half-edge 3 f + i, from corner i of face f to the next, the one on the other side of
+  /// the edge, -1 on the boundary.
+  const std::vector<Triangle>& face_fans() const { return face_fans_; }
+  const std::vector<std::int32_t>& twins() const { return twins_; }
+  /// Edges that no face of half_edges() carries, along which a path may run all the same: edges without faces, and
+  /// edges whose faces were all left out.
+  const std::vector<Edge>& loose_edges() const { return loose_edges_; }
+
+  const SurfaceReport& report() const { return report_; }
+
+ private:
+  std::vector<Vector> points_;
+  std::vector<Triangle> triangles_;
+  std::vector<Edge> edges_;
+  std::vector<Edge> loose_edges_;
+  std::vector<std::int32_t> vertex_of_fan_;
+  std::vector<std::int32_t> source_face_;
+  std::vector<Triangle> face_fans_;
+  std::vector<std::int32_t> twins_;
+  double scale_ = 1.0;
+  std::shared_ptr<const HalfEdgeMesh> mesh_;  // immutable, so copies of a surface share it
+  SurfaceReport report_;
+};
+
+}  // namespace seamwire

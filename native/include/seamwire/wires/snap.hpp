@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "seamwire/surface/surface.hpp"
+#include "seamwire/wires/wire.hpp"
+
+namespace seamwire {
+
+struct SnapData;  // snap.cpp
+
+/// What snapping needs to know of a surface: its polygons (triangles joined across what is not a real edge) and the
+/// real edges around them. Immutable, so wires may be snapped on several threads.
+class SnapGraph {
+ public:
+  explicit SnapGraph(const Surface& surface);
+
+ private:
+  friend std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire);
+
+  std::shared_ptr<const SnapData> data_;
+};
+
+/// The path of real edges (Surface::edges()) from wire.from to wire.to that stays closest to the wire: of all paths
+/// along the edges of the polygons that the wire crosses, and of the polygons that share an edge with those, the one
+/// with the least integral of its distance to the wire. Where these do not connect the ends, of the polygons around
+/// them, ring by ring. Connected, without a repeated vertex. Empty where the wire is, or where no path of edges leads.
+/// Takes time proportional to the faces crossed. Throws InvalidInput for a wire that is not on the surface, and a graph
+/// of a surface with other numbers of vertices, faces or edges.
+std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire);
+
+}  // namespace seamwire

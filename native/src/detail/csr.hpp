@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "detail/index.hpp"
+
+namespace seamwire {
+
+/// Rows of items, one row after the other in one array (compressed sparse rows).
+template <class T>
+class Csr {
+ public:
+  /// No rows; to be filled with push() and end_row().
+  Csr() : offsets_(1, 0) {}
+
+  /// `for_each(visit)` calls visit(row, item) for each item, and is called twice: once to count, once to fill. Items of
+  /// a row stay in the order in which they come.
+  template <class ForEach>
+  Csr(std::size_t row_count, const ForEach& for_each) : offsets_(row_count + 1, 0) {
+    for_each([&](std::int32_t row, const T&) { ++offsets_[row + 1]; });
+    std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
+    items_.resize(index(offsets_.back()));
+    std::vector<std::int32_t> next(offsets_.begin(), offsets_.end() - 1);
+    for_each([&](std::int32_t row, const T& item) { items_[next[row]++] = item; });
+  }
+
+  /// From pairs of a row and an item.
+  Csr(std::size_t row_count, const std::vector<std::pair<std::int32_t, T>>& pairs)
+      : Csr(row_count, [&pairs](const auto& visit) {
+          for (const auto& [row, item] : pairs) visit(row, item);
+        }) {}
+
+  std::span<const T> operator[](std::int32_t row) const {
+    return {items_.data() + offsets_[row], static_cast<std::size_t>(offsets_[row + 1] - offsets_[row])};
+  }
+  /// Where a row begins in items(); for the number of rows, where the last one ends.
+  std::int32_t offset(std::int32_t row) const { return offsets_[row]; }
+  std::size_t row_count() const { return offsets_.size() - 1; }
+  const std::vector<T>& items() const { return items_; }
+
+  void reserve(std::size_t row_count, std::size_t item_count) {
+    offsets_.reserve(row_count + 1);
+    items_.reserve(item_count);
+  }
+  void push(const T& item) { items_.push_back(item); }
+  void end_row() { offsets_.push_back(static_cast<std::int32_t>(items_.size())); }
+
+ private:
+  std::vector<std::int32_t> offsets_;
+  std::vector<T> items_;
+};
+
+}  // namespace seamwire

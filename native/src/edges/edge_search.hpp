@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The search behind wires along edges and shortest cycles: Dijkstra's over directed edges, so that the cost of a step
+// may depend on the step before (Caldwell, "On finding minimum routes in a network with turn penalties", 1961); with a
+// lower bound of the remaining cost it is the A* search of Hart, Nilsson and Raphael (1968).
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+#include <vector>
+
+#include "detail/bucket_queue.hpp"
+#include "detail/index.hpp"
+#include "detail/zeroed_array.hpp"
+#include "edges/edge_graph.hpp"
+#include "seamwire/task.hpp"
+
+namespace seamwire {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Edges settled between two looks at the task: well under a millisecond.
+inline constexpr std::size_t kStepsBetweenChecks = 1024;
+/// And between two times that a search tells other threads how far it is.
+inline constexpr std::size_t kStepsBetweenReports = 128;
+
+/// A search that goes in all directions alike.
+struct Unguided {
+  double operator()(std::int32_t) const { return 0.0; }
+};
+
+/// A directed edge in a search. All bits zero: no chain has reached it.
+struct EdgeState {
+  static constexpr std::int32_t kUnreached = 0, kFirst = 1, kBlocked = -1;
+
+  double cost;          // of the cheapest chain up to and with it
+  std::int32_t before;  // 2 + the directed edge before it in that chain; kFirst: none; or one of the others
+  std::int32_t head;    // as in the graph: a copy here makes following a chain back touch less memory
+
+  std::int32_t previous() const { return before - 2; }  // negative: it is the chain's first
+  double best() const { return before == kUnreached ? kInfinity : cost; }
+};
+
+/// Dijkstra's search over directed edges for chains that repeat no vertex.
+///
+/// The cheapest walk may cross itself: where edges are much shorter than the mean, going round a small circle is
+/// cheaper than a sharp turn. A step to a vertex that the chain has already visited is therefore refused, and the next
+/// best way into that directed edge is taken. The first chain to arrive at a vertex is never refused, and it goes on
+/// over all the vertex's other edges, so a chain to every edge in reach is found: the cheapest walk's where that has no
+/// repeated vertex, else one whose beginnings are the search's own chains (the cheapest of all simple chains is
+/// NP-hard).
+///
+/// One thread runs it; what is settled does not change any more, and others may read that meanwhile.
+class EdgeSearch {
+ public:
+  EdgeSearch(const EdgeGraph& graph, double turning)
+      : graph_(graph),
+        turn_cost_(turning * graph.mean_length()),
+        states_(graph.directed_count()),
+        settled_(graph.directed_count()),
+        arrival_(index(graph.vertex_count()), kInfinity),
+        queue_((1.0 + 2.0 * turning) * graph.mean_length()) {}
+
+  /// No chain may enter this vertex.
+  void block(std::int32_t v) {
+    for (std::int32_t e = graph_.begin(v); e < graph_.end(v); ++e) {
+      states_[graph_.twin(e)] = {kNothing, EdgeState::kBlocked, v};
+    }
+  }
+  /// Chains may enter this vertex, but not leave it; if `onto` is a directed edge from it, they pay for the turn onto
+  /// it.
+  void end_at(std::int32_t v, std::int32_t onto) {
+    end_ = v;
+    onto_ = onto;
+  }
+  /// Chains begin with this directed edge, or another one that is given so.
+  void start(std::int32_t e) {
+    states_[e] = {graph_.length(e), EdgeState::kFirst, graph_.head(e)};
+    roots_.push_back(e);
+  }
+
+  /// Settles directed edges by ascending cost + remaining(head) until `done(edge)`; returns that edge, or -1.
+  /// `remaining` must be a lower bound that no step lowers by more than its cost; infinity keeps chains out.
+  template <class Remaining, class Done>
+  std::int32_t run(const Remaining& remaining, const Done& done, const Task& task);
+
+  /// From any thread: what an unguided run() has settled costs what state() says, and everything that costs less than
+  /// settled_below() is settled.
+  bool is_settled(std::int32_t e) const { return settled_[e].load(std::memory_order_acquire) != 0; }
+  double settled_below() const { return floor_.load(std::memory_order_acquire); }
+  const EdgeState& state(std::int32_t e) const { return states_[e]; }
+
+ private:
+  static constexpr double kNothing = -1.0;  // below every cost, so nothing improves on it
+
+  double cost_of_step(std::int32_t from, std::int32_t to) const {
+    double turns = graph_.turn(graph_.twin(from), to);
+    if (onto_ >= 0 && graph_.head(to) == end_) turns += graph_.turn(graph_.twin(to), onto_);
+    return graph_.length(to) + turn_cost_ * turns;
+  }
+
+  bool has_settled(std::int32_t e) const { return settled_[e].load(std::memory_order_relaxed) != 0; }
+
+  /// Whether the chain that ends with `e` visits `v` (its very first vertex is not looked at). Costs rise along a
+  /// chain, so no part of it that is cheaper than the first arrival at v matters.
+  bool visits(std::int32_t e, std::int32_t v) const {
+    const double first = arrival_[v];
+    if (first == kInfinity) return false;
+    while (e >= 0) {
+      const EdgeState& state = states_[e];
+      if (state.cost < first) return false;
+      if (state.head == v) return true;
+      e = state.previous();
+    }
+    return false;
+  }
+
+  const EdgeGraph& graph_;
+  double turn_cost_;
+  std::int32_t end_ = -1, onto_ = -1;
+  ZeroedArray<EdgeState> states_;
+  std::vector<std::atomic<std::uint8_t>> settled_;
+  std::atomic<double> floor_ = -kInfinity;
+  std::vector<double> arrival_;  // cost of the first chain that arrived at each vertex
+  std::vector<std::int32_t> roots_;
+  BucketQueue queue_;
+};
+
+template <class Remaining, class Done>
+std::int32_t EdgeSearch::run(const Remaining& remaining, const Done& done, const Task& task) {
+  const auto least = [&](std::int32_t e) {
+    return std::is_same_v<Remaining, Unguided> ? graph_.length(e) : 0.0;  // a guide may take back all of a step
+  };
+  const auto relax = [&](std::int32_t from, std::int32_t to) {
+    const double cost = states_[from].cost + cost_of_step(from, to);
+    EdgeState& state = states_[to];
+    if (!(cost < state.best())) return;
+    const std::int32_t head = graph_.head(to);
+    const double key = cost + remaining(head);
+    if (key == kInfinity) return;
+    state = {cost, from + 2, head};
+    queue_.push(key, to, least(to));
+  };
+  for (const std::int32_t e : roots_) queue_.push(states_[e].cost + remaining(graph_.head(e)), e, least(e));
+  for (std::size_t count = 0; !queue_.empty();) {
+    const auto [key, e, in_order] = queue_.pop();
+    EdgeState& state = states_[e];
+    const std::int32_t v = state.head;
+    if (has_settled(e) || key != state.cost + remaining(v)) continue;  // a better one came in between
+    if (state.previous() >= 0 && visits(state.previous(), v)) {
+      state.cost = kInfinity;
+      const std::int32_t u = graph_.tail(e);
+      for (std::int32_t back = graph_.begin(u); back < graph_.end(u); ++back) {
+        const std::int32_t other = graph_.twin(back);
+        if (has_settled(other) && back != e && !visits(other, v)) relax(other, e);
+      }
+      continue;
+    }
+    settled_[e].store(1, std::memory_order_release);
+    arrival_[v] = std::min(arrival_[v], state.cost);
+    if (done(e)) return e;
+    if (++count % kStepsBetweenReports == 0) floor_.store(queue_.floor(), std::memory_order_release);
+    if (count % kStepsBetweenChecks == 0) {
+      task.check(static_cast<double>(count) / static_cast<double>(graph_.directed_count()));
+    }
+    if (v == end_) continue;
+    const std::int32_t back = graph_.twin(e);
+    for (std::int32_t to = graph_.begin(v); to < back; ++to) relax(e, to);
+    for (std::int32_t to = back + 1; to < graph_.end(v); ++to) relax(e, to);
+  }
+  floor_.store(kInfinity, std::memory_order_release);
+  return -1;
+}
+
+/// The chain that ends with `e`, which is settled.
+inline EdgeChain chain_to(const EdgeGraph& graph, const EdgeSearch& search, std::int32_t e) {
+  EdgeChain chain{{}, search.state(e).cost};
+  std::int32_t first = e;
+  for (; e >= 0; e = search.state(e).previous()) {
+    chain.vertices.push_back(search.state(e).head);
+    first = e;
+  }
+  chain.vertices.push_back(graph.tail(first));
+  std::ranges::reverse(chain.vertices);
+  return chain;
+}
+
+}  // namespace seamwire

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "seamwire/edges/shortest_cycle.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "detail/bucket_queue.hpp"
+#include "detail/index.hpp"
+#include "edges/edge_search.hpp"
+
+namespace seamwire {
+namespace {
+
+/// What the closed chain a -> b -> c (-> d) -> a costs at the least, over all c and d: where the search for a
+/// cycle may stop.
+double cheapest_small_cycle(const EdgeGraph& graph, std::int32_t ab, double turn_cost) {
+  const std::int32_t a = graph.tail(ab), b = graph.head(ab);
+  const auto turn = [&](std::int32_t from, std::int32_t to) { return turn_cost * graph.turn(graph.twin(from), to); };
+  double best = kInfinity;
+  for (std::int32_t bc = graph.begin(b); bc < graph.end(b); ++bc) {
+    const std::int32_t c = graph.head(bc);
+    if (c == a) continue;
+    const double up_to_c = graph.length(ab) + turn(ab, bc) + graph.length(bc);
+    if (const std::int32_t ca = graph.find(c, a); ca >= 0) {
+      best = std::min(best, up_to_c + turn(bc, ca) + graph.length(ca) + turn(ca, ab));
+    }
+    for (std::int32_t cd = graph.begin(c); cd < graph.end(c); ++cd) {
+      const std::int32_t d = graph.head(cd);
+      const std::int32_t da = d == a || d == b ? -1 : graph.find(d, a);
+      if (da < 0) continue;
+      best = std::min(best, up_to_c + turn(bc, cd) + graph.length(cd) + turn(cd, da) + graph.length(da) + turn(da, ab));
+    }
+  }
+  return best;
+}
+
+/// Metric distance along edges to `target`, without turns; infinity beyond `radius`.
+std::vector<double> distances(const EdgeGraph& graph, std::int32_t target, double radius, const Task& task) {
+  std::vector<double> distance(index(graph.vertex_count()), kInfinity);
+  BucketQueue queue(graph.mean_length());
+  distance[target] = 0.0;
+  queue.push(0.0, target, 0.0);
+  std::size_t count = 0;
+  while (!queue.empty()) {
+    const auto [d, v, in_order] = queue.pop();
+    if (d != distance[v]) continue;
+    if (++count % kStepsBetweenChecks == 0) task.check(0.0);
+    for (std::int32_t e = graph.begin(v); e < graph.end(v); ++e) {
+      const double there = d + graph.length(e);
+      if (!(there <= radius && there < distance[graph.head(e)])) continue;
+      distance[graph.head(e)] = there;
+      queue.push(there, graph.head(e), 0.0);
+    }
+  }
+  return distance;
+}
+
+}  // namespace
+
+EdgeChain shortest_cycle(const EdgeGraph& graph, const Edge& edge, double turning, const Task& task) {
+  check_edge(graph, edge[0], edge[1], "cycle");
+  check_turning(turning);
+  const std::int32_t a = std::min(edge[0], edge[1]), b = std::max(edge[0], edge[1]);
+  const std::int32_t ab = graph.find(a, b);
+
+  // No vertex of the cycle is further from a than half its length. A little room for rounding.
+  const double bound = (1.0 + 1e-9) * cheapest_small_cycle(graph, ab, turning * graph.mean_length());
+  const std::vector<double> way_back = distances(graph, a, 0.5 * bound, task);
+  EdgeSearch search(graph, turning);
+  search.block(b);
+  search.end_at(a, ab);
+  search.start(ab);
+  const std::int32_t last =
+      search.run([&](std::int32_t v) { return way_back[v]; }, [&](std::int32_t e) { return graph.head(e) == a; }, task);
+  if (last < 0) return {};
+  EdgeChain cycle = chain_to(graph, search, last);
+  cycle.vertices.pop_back();  // a, once more
+  return cycle;
+}
+
+}  // namespace seamwire

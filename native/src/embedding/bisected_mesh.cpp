@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "embedding/bisected_mesh.hpp"
+
+#include <Eigen/Geometry>
+#include <numeric>
+#include <utility>
+
+#include "detail/prefetch.hpp"
+#include "embedding/degenerate_faces.hpp"
+
+namespace seamwire {
+namespace {
+
+using HalfedgeHandle = OpenMesh::HalfedgeHandle;
+using FaceHandle = OpenMesh::FaceHandle;
+
+// Faces whose corners memory is asked for in advance.
+constexpr std::size_t kAhead = 8;
+
+// OpenMesh's faces in their order but for deleted ones, each from its first corner on, as OpenMesh lists them.
+void flatten(const HalfEdgeMesh& mesh, BisectedMesh& flat) {
+  flat.corners.reserve(mesh.n_faces());
+  flat.twins.reserve(3 * mesh.n_faces());
+  std::vector<std::int32_t> number(mesh.n_halfedges(), -1);
+  std::vector<std::int32_t> half_edges;
+  half_edges.reserve(3 * mesh.n_faces());
+  for (const FaceHandle f : mesh.faces()) {
+    const HalfedgeHandle last = mesh.halfedge_handle(f), first = mesh.next_halfedge_handle(last);
+    Triangle corners;
+    std::size_t i = 0;
+    for (const HalfedgeHandle h : {first, mesh.next_halfedge_handle(first), last}) {
+      corners[i++] = mesh.from_vertex_handle(h).idx();
+      number[h.idx()] = static_cast<std::int32_t>(half_edges.size());
+      half_edges.push_back(h.idx());
+    }
+    flat.corners.push_back(corners);
+  }
+  for (const std::int32_t h : half_edges) flat.twins.push_back(number[h ^ 1]);
+}
+
+}  // namespace
+
+bool keeps_numbers(const Surface& surface) {
+  const auto& vertex_of_fan = surface.vertex_of_fan();
+  return vertex_of_fan.size() == surface.vertex_count() && surface.half_edges().n_faces() == surface.face_count() &&
+         std::adjacent_find(vertex_of_fan.begin(), vertex_of_fan.end()) == vertex_of_fan.end();
+}
+
+BisectedMesh::BisectedMesh(const Surface& on, const Metric& by)
+    : surface(on), metric(by), vertex_of_fan_(on.vertex_of_fan()), fans_(vertex_of_fan_.size()), points_(on.points()) {
+  std::optional<CleanMesh> clean = remove_degenerate_faces(surface, metric);
+  is_cleaned_ = clean.has_value();
+  if (clean) {
+    flatten(clean->mesh, *this);
+    origins = std::move(clean->origins);
+    merged_ = std::move(clean->merged);
+    degenerate_faces_removed = clean->removed;
+  } else {
+    corners = surface.face_fans();
+    twins = surface.twins();
+    origins.resize(corners.size());
+    std::iota(origins.begin(), origins.end(), 0);
+  }
+  given_faces_ = corners.size();
+  orient_normals();
+  branches.assign(given_faces_, 1);
+  depths.assign(given_faces_, 0);
+  nodes_ = std::make_unique_for_overwrite<MetricNode[]>(fans_);
+  for (std::int32_t fan = 0; index(fan) < fans_; ++fan) set_node(fan);
+  if (is_cleaned_) {
+    is_degenerate_origin_.assign(surface.face_fans().size(), false);
+    for (std::int32_t f = 0; index(f) < given_faces_; ++f) {
+      if (is_degenerate(f)) is_degenerate_origin_[origins[f]] = true;
+    }
+  }
+  measure_all();
+}
+
+BisectedMesh::BisectedMesh(const Surface& on, const Metric& by, Embedding&& old)
+    : surface(on),
+      metric(by),
+      corners(std::move(old.mesh.triangles)),
+      twins(std::move(old.mesh.twins)),
+      lengths(std::move(old.mesh.lengths)),
+      origins(std::move(old.source_face)),
+      branches(corners.size(), 1),
+      depths(corners.size(), 0),
+      vertex_of_fan_(on.vertex_of_fan()),
+      fans_(vertex_of_fan_.size()),
+      given_faces_(on.face_count()),
+      nodes_(std::make_unique_for_overwrite<MetricNode[]>(fans_)),
+      new_nodes_(old.points.size() - fans_),
+      tensors_(new_nodes_.size()),
+      points_(std::move(old.points)) {}
+
+BisectedMesh::MetricNode BisectedMesh::node_of(const Vector& point, const Vector& n, const Eigen::Matrix3d& m) {
+  const double w = normal_weight(m);
+  return {point,
+          {m(0, 0) + w * n.x() * n.x(), m(1, 1) + w * n.y() * n.y(), m(2, 2) + w * n.z() * n.z(),
+           2 * (m(0, 1) + w * n.x() * n.y()), 2 * (m(0, 2) + w * n.x() * n.z()), 2 * (m(1, 2) + w * n.y() * n.z())}};
+}
+
+// A vertex has one normal, but its fans need not agree on which side of the surface is outside: where a one-sided
+// surface is cut they cannot. Normals in the middle of edges are means, so they must be of one side.
+void BisectedMesh::orient_normals() {
+  if (std::adjacent_find(vertex_of_fan_.begin(), vertex_of_fan_.end()) == vertex_of_fan_.end()) return;  // ascending
+  is_turned_.assign(fans_, false);
+  std::vector<Vector> normals(fans_, Vector::Zero());
+  for (const Triangle& fans : corners) {
+    const auto point = [&](std::size_t i) -> const Vector& { return surface.points()[vertex_of_fan_[fans[i]]]; };
+    const Vector normal = (point(1) - point(0)).cross(point(2) - point(0));
+    for (const std::int32_t fan : fans) normals[fan] += normal;
+  }
+  for (std::size_t fan = 0; fan < fans_; ++fan) {
+    const std::int32_t v = vertex_of_fan_[fan];
+    const bool is_shared =
+        (fan > 0 && vertex_of_fan_[fan - 1] == v) || (fan + 1 < fans_ && vertex_of_fan_[fan + 1] == v);
+    is_turned_[fan] = is_shared && normals[fan].dot(metric.normals[v]) < 0;
+  }
+}
+
+void BisectedMesh::set_node(std::int32_t fan) {
+  const std::size_t v = index(vertex_of_fan_[fan]);
+  nodes_[fan] = node_of(surface.points()[v], metric.normals[v], metric.tensors[v]);
+}
+
+TensorAt BisectedMesh::tensor_at(std::int32_t v) const {
+  if (index(v) >= fans_) return tensors_[index(v) - fans_];
+  const std::size_t i = index(vertex_of_fan_[v]);
+  const bool is_turned = !is_turned_.empty() && is_turned_[v];
+  return {is_turned ? Vector(-metric.normals[i]) : metric.normals[i], metric.tensors[i]};
+}
+
+void BisectedMesh::measure_all() {
+  const auto count = static_cast<std::int32_t>(twins.size());
+  lengths.resize(twins.size());
+  for (std::int32_t h = 0; h < count; ++h) {
+    if (const std::size_t ahead = index(h / 3) + kAhead; h % 3 == 0 && ahead < corners.size()) {
+      for (const std::int32_t v : corners[ahead]) prefetch(&node(v));
+    }
+    const std::int32_t twin = twins[h];
+    lengths[h] = twin >= 0 && twin < h ? lengths[twin] : measure(h);
+  }
+}
+
+bool BisectedMesh::is_degenerate(std::int32_t f) const {
+  return seamwire::is_degenerate(vector(3 * f), vector(3 * f + 1), vector(3 * f + 2));
+}
+
+std::int32_t BisectedMesh::external_vertex(std::int32_t v) const {
+  return index(v) < fans_ ? vertex_of_fan_[v] : static_cast<std::int32_t>(index(v) - fans_ + surface.vertex_count());
+}
+
+// The triangle of a half-edge from a to b keeps its half at a; that at b becomes a new triangle, whose first half-edge
+// runs from the middle to b.
+void BisectedMesh::halve(std::int32_t h, std::int32_t middle) {
+  const std::int32_t f = h / 3, h1 = next(h);
+  const auto g = static_cast<std::int32_t>(corners.size());
+  const std::int32_t b = tip(h), c = tip(h1), outer = twins[h1];
+  corners[f][h1 % 3] = middle;
+  corners.push_back({middle, b, c});
+  twins.insert(twins.end(), {-1, outer, h1});
+  twins[h1] = 3 * g + 2;
+  if (outer >= 0) twins[outer] = 3 * g + 1;
+  lengths.insert(lengths.end(), {0.0, lengths[h1], 0.0});
+  origins.push_back(origins[f]);
+  if (depths[f] < kMostDepth) ++depths[f];
+  depths.push_back(depths[f]);
+  // Nodes deeper than 31 have no number left in 32 bits: they are mixed, and seldom equal.
+  const std::uint32_t branch = branches[f];
+  const std::uint32_t first = branch < 0x8000'0000U ? 2 * branch : branch * 0x9E37'79B1U | 0x8000'0000U;
+  branches[f] = first;
+  branches.push_back(first ^ 1U);
+}
+
+void BisectedMesh::bisect(std::int32_t h) {
+  const std::int32_t a = tail(h), b = tip(h), o = twins[h];
+  const auto middle = static_cast<std::int32_t>(fans_ + new_nodes_.size());
+  tensors_.push_back(midpoint_tensor(tensor_at(a), tensor_at(b)));
+  points_.emplace_back((node(a).point + node(b).point) / 2);
+  new_nodes_.push_back(node_of(points_.back(), tensors_.back().normal, tensors_.back().tensor));
+  const auto count = static_cast<std::int32_t>(corners.size());
+  halve(h, middle);
+  if (o >= 0) {
+    halve(o, middle);
+    twins[h] = 3 * (count + 1);
+    twins[3 * (count + 1)] = h;
+    twins[o] = 3 * count;
+    twins[3 * count] = o;
+  }
+  // Edges around the middle: the halves of the old one, and one on each side.
+  for (const std::int32_t e : {h, 3 * count, 3 * count + 2}) set_length(e, measure(e));
+  if (o >= 0) set_length(3 * (count + 1) + 2, measure(3 * (count + 1) + 2));
+}
+
+std::vector<std::int32_t> BisectedMesh::undo(const std::vector<std::int32_t>& seeds) {
+  // The parts of each face but the first: of a face the last one made, and of a part the one before it.
+  std::vector<std::int32_t> last_part(given_faces_, -1), part_before(origins.size() - given_faces_);
+  for (std::size_t f = given_faces_; f < origins.size(); ++f) {
+    part_before[f - given_faces_] = std::exchange(last_part[origins[f]], static_cast<std::int32_t>(f));
+  }
+
+  struct Outer {
+    std::int32_t inside, outside;
+  };
+  std::vector<Outer> sides;  // every unbisected side of a face to undo, and what is beyond it
+  std::vector<bool> is_undone(given_faces_, false);
+  std::vector<std::int32_t> faces;
+  const auto add = [&](std::int32_t face) {
+    if (!is_undone[face]) faces.push_back(face);
+    is_undone[face] = true;
+  };
+  for (const std::int32_t face : seeds) add(face);
+  for (std::size_t done = 0; done < faces.size();) {  // add() makes it grow
+    const std::int32_t face = faces[done++];
+    const Triangle& given = surface.face_fans()[face];
+    std::array<std::int32_t, 3> whole{-1, -1, -1};
+    const auto look = [&](std::int32_t part) {
+      for (std::int32_t h = 3 * part; h < 3 * part + 3; ++h) {
+        for (std::size_t side = 0; side < 3; ++side) {
+          if (tail(h) == given[side] && tip(h) == given[(side + 1) % 3]) {
+            whole[side] = h;
+          }
+        }
+      }
+    };
+    look(face);
+    for (std::int32_t part = last_part[face]; part >= 0; part = part_before[index(part) - given_faces_]) look(part);
+    for (std::size_t side = 0; side < 3; ++side) {
+      if (whole[side] >= 0) {
+        sides.push_back({3 * face + static_cast<std::int32_t>(side), twins[whole[side]]});
+      } else if (const std::int32_t twin = surface.twins()[3 * index(face) + side]; twin >= 0) {
+        add(twin / 3);
+      }
+    }
+  }
+  std::erase_if(sides, [&](const Outer& side) { return side.outside < 0 || is_undone[origins[side.outside / 3]]; });
+  for (const std::int32_t face : faces) {
+    corners[face] = surface.face_fans()[face];
+    std::copy_n(surface.twins().begin() + std::ptrdiff_t{3} * face, 3, twins.begin() + std::ptrdiff_t{3} * face);
+    branches[face] = 1;
+  }
+  for (const auto& [inside, outside] : sides) {
+    twins[inside] = outside;
+    twins[outside] = inside;
+  }
+  remove_parts(is_undone);
+  remove_unused_vertices();
+  return faces;
+}
+
+// Removes the triangles, but the first ones, of some faces of the surface.
+void BisectedMesh::remove_parts(const std::vector<bool>& is_undone) {
+  std::size_t to = given_faces_;
+  for (std::size_t f = given_faces_; f < origins.size(); ++f) {
+    if (is_undone[origins[f]]) continue;
+    corners[to] = corners[f];
+    origins[to] = origins[f];
+    branches[to] = branches[f];
+    for (std::size_t i = 0; i < 3; ++i) {
+      lengths[3 * to + i] = lengths[3 * f + i];
+      const std::int32_t twin = twins[3 * f + i];
+      twins[3 * to + i] = twin;
+      if (twin >= 0) twins[twin] = static_cast<std::int32_t>(3 * to + i);
+    }
+    ++to;
+  }
+  corners.resize(to);
+  twins.resize(3 * to);
+  lengths.resize(3 * to);
+  origins.resize(to);
+  branches.resize(to);
+  depths.resize(to);
+}
+
+void BisectedMesh::remove_unused_vertices() {
+  std::vector<std::int32_t> kept;  // all triangles of bisected faces; the first part of a face has the face's number
+  std::vector<bool> has_parts(given_faces_, false);
+  for (std::size_t f = given_faces_; f < origins.size(); ++f) {
+    kept.push_back(static_cast<std::int32_t>(f));
+    if (!has_parts[origins[f]]) kept.push_back(origins[f]);
+    has_parts[origins[f]] = true;
+  }
+  std::vector<std::int32_t> renumbered(new_nodes_.size(), -1);
+  for (const std::int32_t f : kept) {
+    for (const std::int32_t v : corners[f]) {
+      if (index(v) >= fans_) renumbered[index(v) - fans_] = 0;
+    }
+  }
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < renumbered.size(); ++v) {
+    if (renumbered[v] < 0) continue;
+    renumbered[v] = static_cast<std::int32_t>(fans_ + count);
+    new_nodes_[count] = new_nodes_[v];
+    tensors_[count] = tensors_[v];
+    points_[fans_ + count++] = points_[fans_ + v];
+  }
+  new_nodes_.resize(count);
+  tensors_.resize(count);
+  points_.resize(fans_ + count);
+  for (const std::int32_t f : kept) {
+    for (std::int32_t& v : corners[f]) {
+      if (index(v) >= fans_) v = renumbered[index(v) - fans_];
+    }
+  }
+}
+
+Embedding BisectedMesh::to_embedding(bool is_scheme_local) && {
+  Embedding out;
+  out.faces_added = faces_added();
+  IntrinsicMesh& mesh = out.mesh;
+  mesh.vertex_count = static_cast<std::int32_t>(points_.size());
+  std::vector<std::int32_t> holes;
+  for (std::int32_t f = 0; index(f) < corners.size(); ++f) {
+    if (!is_valid(f)) holes.push_back(f);
+  }
+  out.invalid_left = holes.size();
+  const bool is_plain = keeps_numbers(surface);
+  if (!is_plain) {
+    for (Triangle& triangle : corners) {
+      for (std::int32_t& v : triangle) v = external_vertex(v);
+    }
+    for (std::int32_t& f : origins) f = surface.face_of_half_edge_face()[f];
+  }
+  // Each edge of holes alone, once.
+  const auto is_hole = [&](std::int32_t f) { return std::binary_search(holes.begin(), holes.end(), f); };
+  for (const std::int32_t f : holes) {
+    for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
+      const std::int32_t twin = twins[h];
+      if (twin >= 0 && (twin < h || !is_hole(twin / 3))) continue;
+      mesh.loose_edges.push_back({tail(h), tip(h), lengths[h]});
+    }
+  }
+  if (!holes.empty()) remove_triangles(holes);
+  mesh.triangles = std::move(corners);
+  mesh.twins = std::move(twins);
+  mesh.lengths = std::move(lengths);
+  out.source_face = std::move(origins);
+  out.points = std::move(points_);
+  mesh.loose_edges.insert(mesh.loose_edges.end(), merged_.begin(), merged_.end());
+  for (const auto& [a, b] : surface.loose_edges()) {
+    mesh.loose_edges.push_back({a, b, edge_length(surface, metric, a, b)});
+  }
+  out.is_local = is_scheme_local && is_plain && holes.empty() && !is_cleaned_;
+  if (!out.is_local) out.unreachable = unreachable(mesh);
+  return out;
+}
+
+// Those that are left keep their order.
+void BisectedMesh::remove_triangles(const std::vector<std::int32_t>& sorted) {
+  const auto count = static_cast<std::int32_t>(corners.size());
+  std::vector<std::int32_t> moved(corners.size(), 0);
+  for (const std::int32_t f : sorted) moved[f] = -1;
+  std::int32_t to = 0;
+  for (std::int32_t& f : moved) {
+    if (f == 0) f = to++;
+  }
+  for (std::int32_t f = 0; f < count; ++f) {
+    if (moved[f] < 0) continue;
+    const std::size_t g = index(moved[f]);
+    corners[g] = corners[f];
+    origins[g] = origins[f];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int32_t twin = twins[3 * index(f) + i];
+      const std::int32_t beyond = twin < 0 ? -1 : moved[twin / 3];
+      twins[3 * g + i] = beyond < 0 ? -1 : 3 * beyond + twin % 3;
+      lengths[3 * g + i] = lengths[3 * index(f) + i];
+    }
+  }
+  corners.resize(index(to));
+  origins.resize(index(to));
+  twins.resize(3 * index(to));
+  lengths.resize(3 * index(to));
+}
+// Vertices of a triangle that no path leads to.
+std::vector<std::int32_t> BisectedMesh::unreachable(const IntrinsicMesh& mesh) const {
+  std::vector<bool> reached(index(mesh.vertex_count), false);
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::int32_t v : triangle) reached[v] = true;
+  }
+  for (const LooseEdge& edge : mesh.loose_edges) reached[edge.a] = reached[edge.b] = true;
+  std::vector<std::int32_t> out;
+  for (const Triangle& triangle : surface.triangles()) {
+    for (const std::int32_t v : triangle) {
+      if (reached[v]) continue;
+      out.push_back(v);
+      reached[v] = true;
+    }
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+}  // namespace seamwire

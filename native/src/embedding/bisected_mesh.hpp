@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "detail/index.hpp"
+#include "seamwire/embedding/embedding.hpp"
+#include "seamwire/metric/metric.hpp"
+#include "seamwire/surface/surface.hpp"
+
+namespace seamwire {
+
+/// The half-edge after h in its triangle.
+inline std::int32_t next(std::int32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
+
+/// Whether vertices and faces have the same numbers in the half-edge mesh as in the surface.
+bool keeps_numbers(const Surface& surface);
+
+/// A surface's triangles, which are bisected in place, with the lengths of their edges in a metric. What is bisected,
+/// and in which order, is decided elsewhere (bisection.hpp, length_repair.hpp).
+///
+/// Half-edge 3 f + i runs from corner i of triangle f to the next corner. The first vertices are those of the surface's
+/// half-edge mesh (its corner fans), the others midpoints of edges in the order in which they are made. Of the halves
+/// of a bisected triangle one takes its place, the other becomes the last triangle.
+class BisectedMesh {
+ public:
+  /// The surface's triangles, without those degenerate ones that can be removed. Surface and metric must outlive it.
+  BisectedMesh(const Surface& surface, const Metric& metric);
+  /// The triangles of an embedding of the surface, which must be `is_local`. Points of the metric have to be set with
+  /// set_node() before they are used.
+  BisectedMesh(const Surface& surface, const Metric& metric, Embedding&& old);
+
+  std::size_t face_count() const { return corners.size(); }
+  std::size_t vertex_count() const { return fans_ + new_nodes_.size(); }
+  /// Vertices, and triangles, before the first bisection.
+  std::size_t fan_count() const { return fans_; }
+  std::size_t given_face_count() const { return given_faces_; }
+  std::size_t faces_added() const { return corners.size() - given_faces_; }
+
+  std::int32_t tail(std::int32_t h) const { return corners[h / 3][h % 3]; }
+  std::int32_t tip(std::int32_t h) const { return corners[h / 3][(h + 1) % 3]; }
+
+  /// The length of an edge in the metric, as the tensors at both of its ends have it.
+  double measure(std::int32_t h) const;
+  /// The length of an edge as set last.
+  double length(std::int32_t h) const { return lengths[h]; }
+  void set_length(std::int32_t h, double length);
+  double perimeter(std::int32_t f, Perimeter kind) const;
+  /// Whether the lengths fulfill the triangle inequality, with some room for rounding.
+  bool is_valid(std::int32_t f) const;
+  /// Whether a triangle is degenerate in space.
+  bool is_degenerate(std::int32_t f) const;
+  /// Whether it is a part of a face that was degenerate from the beginning.
+  bool is_of_degenerate_face(std::int32_t f) const {
+    return !is_degenerate_origin_.empty() && is_degenerate_origin_[origins[f]];
+  }
+
+  /// Bisects an edge from a to b, and with it the triangles on both sides. With n triangles before: half-edge h then
+  /// runs from a to the midpoint, 3 n from there to b, and 3 n + 2 from the apex of h's triangle to the midpoint. The
+  /// new half of the triangle beyond the edge, if there is one, is n + 1, and 3 n + 5 runs from its apex to the
+  /// midpoint.
+  void bisect(std::int32_t h);
+
+  /// Takes the metric of a vertex of the surface's half-edge mesh from the metric.
+  void set_node(std::int32_t fan);
+  /// Makes faces what they were before any bisection, and with them those that they were bisected together with, that
+  /// is those with which they have a bisected edge in common. Triangles and vertices move together. Returns all the
+  /// faces; their lengths have to be measured anew.
+  std::vector<std::int32_t> undo(const std::vector<std::int32_t>& seeds);
+
+  /// The embedding: invalid triangles become holes. All is set but the counters of the work. `is_scheme_local`: whether
+  /// what was done to a triangle depends on those alone that it was bisected together with.
+  Embedding to_embedding(bool is_scheme_local) &&;
+
+  const Surface& surface;
+  const Metric& metric;
+  std::vector<Triangle> corners;
+  std::vector<std::int32_t> twins;    ///< per half-edge; -1 on the boundary
+  std::vector<double> lengths;        ///< per half-edge
+  std::vector<std::int32_t> origins;  ///< per triangle: the face of the surface's half-edge mesh that it lies in
+  /// Per triangle: which part of that face it is, as the number of a node of a binary tree of bisections.
+  std::vector<std::uint32_t> branches;
+  /// Per triangle: bisections since the original face, up to kMostDepth.
+  std::vector<std::uint8_t> depths;
+  static constexpr std::uint8_t kMostDepth = 14;
+  std::size_t degenerate_faces_removed = 0;
+
+ private:
+  /// A point with the quadratic form of the ambient norm (metric.hpp) there, M + sqrt(l1 l2) n n^T.
+  struct MetricNode {
+    Vector point;                // in the caller's coordinates
+    std::array<double, 6> form;  // xx, yy, zz, 2 xy, 2 xz, 2 yz
+
+    double norm(const Vector& e) const {
+      const double x = e.x(), y = e.y(), z = e.z();
+      const double squared =
+          form[0] * x * x + form[1] * y * y + form[2] * z * z + form[3] * x * y + form[4] * x * z + form[5] * y * z;
+      return std::sqrt(std::max(0.0, squared));
+    }
+  };
+  static MetricNode node_of(const Vector& point, const Vector& normal, const Eigen::Matrix3d& tensor);
+
+  const MetricNode& node(std::int32_t v) const { return index(v) < fans_ ? nodes_[v] : new_nodes_[index(v) - fans_]; }
+  TensorAt tensor_at(std::int32_t v) const;
+  Vector vector(std::int32_t h) const { return (node(tip(h)).point - node(tail(h)).point) * surface.scale(); }
+  std::int32_t external_vertex(std::int32_t v) const;
+  void orient_normals();
+  void measure_all();
+  void halve(std::int32_t h, std::int32_t middle);
+  void remove_parts(const std::vector<bool>& is_undone);
+  void remove_unused_vertices();
+  void remove_triangles(const std::vector<std::int32_t>& sorted);
+  std::vector<std::int32_t> unreachable(const IntrinsicMesh& mesh) const;
+
+  const std::vector<std::int32_t>& vertex_of_fan_;
+  std::size_t fans_;
+  std::size_t given_faces_ = 0;
+  std::unique_ptr<MetricNode[]> nodes_;  // per fan
+  std::vector<MetricNode> new_nodes_;
+  std::vector<TensorAt> tensors_;  // of the new vertices
+  std::vector<Vector> points_;     // in the caller's coordinates, the caller's vertices first
+  std::vector<bool> is_turned_;    // per fan: its side is the other one than its vertex's normal's; empty: none
+  std::vector<LooseEdge> merged_;  // see CleanMesh
+  bool is_cleaned_ = false;
+  std::vector<bool> is_degenerate_origin_;  // per face of the surface's half-edge mesh; empty: none is
+};
+
+// Used in the innermost loops, and so inline.
+
+inline double BisectedMesh::measure(std::int32_t h) const {
+  const MetricNode &a = node(tail(h)), &b = node(tip(h));
+  const Vector e = (b.point - a.point) * surface.scale();
+  return integrated_length(a.norm(e), b.norm(e));
+}
+
+inline void BisectedMesh::set_length(std::int32_t h, double length) {
+  lengths[h] = length;
+  if (const std::int32_t twin = twins[h]; twin >= 0) lengths[twin] = length;
+}
+
+/// A triangle is valid where its longest edge is shorter than the others together by this fraction: exact geodesics
+/// unfold it, and the square root in the unfolding leaves half of its digits.
+inline constexpr double kValidityMargin = 1e-10;
+
+inline bool BisectedMesh::is_valid(std::int32_t f) const {
+  const double *l = &lengths[3 * index(f)], most = std::max({l[0], l[1], l[2]});
+  return most < (l[0] + l[1] + l[2] - most) * (1 - kValidityMargin);
+}
+
+inline double BisectedMesh::perimeter(std::int32_t f, Perimeter kind) const {
+  const double* l = &lengths[3 * index(f)];
+  if (kind == Perimeter::kMetric) return l[0] + l[1] + l[2];
+  return vector(3 * f).norm() + vector(3 * f + 1).norm() + vector(3 * f + 2).norm();
+}
+
+}  // namespace seamwire

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "embedding/bisection.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "embedding/length_repair.hpp"
+
+namespace seamwire {
+namespace {
+
+// Lengths that differ by less than this fraction are equal, so that rounding, which depends on the scale of the input,
+// does not choose which edge to bisect.
+constexpr double kEqual = 1e-9;
+// Bisections of an original face, one of a part of a part, until newest-vertex bisection begins.
+constexpr std::uint8_t kNewestDepth = BisectedMesh::kMostDepth;
+// Bisections of an original face where the rest is left to length repair: few enough that no edge gets too short for
+// it.
+constexpr std::uint8_t kShallowDepth = 8;
+
+}  // namespace
+
+ActiveFaces::ActiveFaces(const BisectedMesh& mesh) : states_(mesh.given_face_count(), State::kGiven) {
+  keep_bisected(mesh);
+}
+
+void ActiveFaces::keep_bisected(const BisectedMesh& mesh) {
+  for (std::size_t f = mesh.given_face_count(); f < mesh.face_count(); ++f) states_[mesh.origins[f]] = State::kKept;
+}
+
+bool ActiveFaces::activate(BisectedMesh& mesh, std::int32_t face) {
+  State& state = states_[face];
+  if (state == State::kKept) return false;
+  if (state == State::kGiven) {
+    for (const std::int32_t fan : mesh.corners[face]) mesh.set_node(fan);
+    state = State::kActive;
+    active_.push_back(face);
+  }
+  return true;
+}
+
+void ActiveFaces::reset(const std::vector<std::int32_t>& faces) {
+  for (const std::int32_t face : faces) states_[face] = State::kGiven;
+}
+
+void ActiveFaces::add_conflict(std::int32_t one, std::int32_t other) {
+  conflicts_.insert(conflicts_.end(), {one, other});
+}
+
+std::vector<std::int32_t> ActiveFaces::take_conflicts(const BisectedMesh& mesh) {
+  reset(active_);
+  active_.clear();
+  keep_bisected(mesh);
+  return std::exchange(conflicts_, {});
+}
+
+Bisection::Bisection(BisectedMesh mesh, const EmbedOptions& options, Scheme scheme, ActiveFaces* active)
+    : mesh_(std::move(mesh)),
+      options_(options),
+      scheme_(scheme),
+      active_(active),
+      invalid_before_(mesh_.degenerate_faces_removed) {}
+
+std::int32_t Bisection::longest_edge(std::int32_t f) const {
+  std::int32_t best = 3 * f;
+  for (const std::int32_t h : {3 * f + 1, 3 * f + 2}) {
+    if (mesh_.lengths[h] > mesh_.lengths[best] * (1 + kEqual)) best = h;
+  }
+  return best;
+}
+
+void Bisection::consider(std::int32_t f) {
+  if (mesh_.is_valid(f)) return;
+  if (mesh_.is_degenerate(f)) {
+    has_decayed_ = has_decayed_ || !mesh_.is_of_degenerate_face(f);
+    return;
+  }
+  const double perimeter = mesh_.perimeter(f, options_.perimeter);
+  if (perimeter < options_.sigma || scheme_ == Scheme::kNone) return;
+  if (scheme_ == Scheme::kShallowPropagation && mesh_.depths[f] >= kShallowDepth) return;
+  if (scheme_ == Scheme::kPropagation && first_newest_ == 0 && mesh_.depths[f] >= kNewestDepth) {
+    deferred_.push_back(f);
+  } else {
+    const std::uint64_t place = std::uint64_t(mesh_.origins[f]) << 32 | mesh_.branches[f];
+    queue_.push({static_cast<float>(perimeter), f, place});
+  }
+}
+
+// The mesh as it stands becomes the starting triangulation.
+void Bisection::begin_newest_vertex_bisection() {
+  first_newest_ = mesh_.vertex_count();
+  std::vector<std::int32_t> deferred;
+  deferred.swap(deferred_);
+  std::sort(deferred.begin(), deferred.end());
+  deferred.erase(std::unique(deferred.begin(), deferred.end()), deferred.end());
+  for (const std::int32_t f : deferred) consider(f);
+}
+
+// Where a triangle is to be bisected. Once newest-vertex bisection has begun: opposite its newest vertex; else, and for
+// triangles of the starting triangulation, at its longest edge. Edges are in one strict order, that of their rounded
+// lengths and then of their numbers, so a chain of neighbors with ever longer edges ends.
+std::int32_t Bisection::refinement_edge(std::int32_t f) const {
+  if (scheme_ == Scheme::kLongestEdge) return longest_edge(f);
+  if (first_newest_ > 0) {
+    const Triangle& corners = mesh_.corners[f];
+    const auto newest = static_cast<std::int32_t>(std::ranges::max_element(corners) - corners.begin());
+    if (index(corners[newest]) >= first_newest_) return next(3 * f + newest);
+  }
+  const auto key = [&](std::int32_t h) {
+    const std::int32_t twin = mesh_.twins[h];
+    return std::pair(static_cast<float>(mesh_.lengths[h]), twin < 0 ? h : std::min(h, twin));
+  };
+  std::int32_t best = 3 * f;
+  for (const std::int32_t h : {3 * f + 1, 3 * f + 2}) {
+    if (key(h) > key(best)) best = h;
+  }
+  return best;
+}
+
+// Bisects a face, and before it those that the scheme wants bisected first; false where that takes too many triangles.
+bool Bisection::refine(std::int32_t f, std::size_t most) {
+  chain_.assign(1, f);
+  while (!chain_.empty()) {
+    const std::int32_t h = refinement_edge(chain_.back()), beyond = mesh_.twins[h];
+    if (scheme_ != Scheme::kLongestEdge && beyond >= 0 && refinement_edge(beyond / 3) != beyond) {
+      chain_.push_back(beyond / 3);
+      continue;
+    }
+    if (mesh_.faces_added() + (beyond < 0 ? 1 : 2) > most) return false;
+    newest_bisections_ += first_newest_ > 0;
+    if (active_ == nullptr || beyond < 0 || active_->activate(mesh_, mesh_.origins[beyond / 3])) {
+      bisect(h);
+    } else {
+      active_->add_conflict(mesh_.origins[beyond / 3], mesh_.origins[h / 3]);
+    }
+    chain_.pop_back();
+  }
+  return true;
+}
+
+void Bisection::bisect(std::int32_t h) {
+  const std::int32_t beyond = mesh_.twins[h];
+  const auto count = static_cast<std::int32_t>(mesh_.face_count());
+  if (watches_unrepaired_) count_unrepaired(h, beyond, false);
+  mesh_.bisect(h);
+  if (watches_unrepaired_) count_unrepaired(h, beyond, true);
+  consider(h / 3);
+  consider(count);
+  if (beyond >= 0) {
+    consider(beyond / 3);
+    consider(count + 1);
+  }
+}
+
+void Bisection::watch_unrepaired() {
+  watches_unrepaired_ = true;
+  unrepaired_ = least_unrepaired_ = count_needing_repair(mesh_, options_);
+  least_unrepaired_at_ = mesh_.faces_added();
+}
+
+// Before and after the bisection of the triangle of h, and of that of `beyond`, if there is one.
+void Bisection::count_unrepaired(std::int32_t h, std::int32_t beyond, bool are_new) {
+  const auto needs = [&](std::int32_t f) -> std::size_t { return needs_length_repair(mesh_, options_, f) ? 1 : 0; };
+  const auto count = static_cast<std::int32_t>(mesh_.face_count());
+  std::size_t unrepaired = needs(h / 3);
+  if (beyond >= 0) unrepaired += needs(beyond / 3);
+  if (!are_new) {
+    unrepaired_ -= unrepaired;
+    return;
+  }
+  for (std::int32_t f = beyond < 0 ? count - 1 : count - 2; f < count; ++f) unrepaired += needs(f);
+  unrepaired_ += unrepaired;
+  if (unrepaired_ >= least_unrepaired_) return;
+  least_unrepaired_ = unrepaired_;
+  least_unrepaired_at_ = mesh_.faces_added();
+}
+
+bool Bisection::run(const Task& task, std::size_t most, double& progress) {
+  for (std::int32_t f = 0; index(f) < mesh_.given_face_count(); ++f) {
+    if (mesh_.is_valid(f)) continue;
+    ++invalid_before_;
+    consider(f);
+  }
+  task.check(progress);
+  return work_off(task, most, progress);
+}
+
+bool Bisection::work_off(const Task& task, std::size_t most, double& progress) {
+  for (std::size_t steps = 0;;) {
+    if (queue_.empty()) {
+      if (deferred_.empty()) return true;
+      begin_newest_vertex_bisection();
+      continue;
+    }
+    const Candidate next = queue_.top();
+    queue_.pop();
+    // A face changes when a neighbor is bisected, and is queued again if it is still invalid.
+    const auto perimeter = static_cast<float>(mesh_.perimeter(next.face, options_.perimeter));
+    if (perimeter != next.perimeter || mesh_.is_valid(next.face)) continue;
+    if (!refine(next.face, most)) {
+      queue_.push(next);
+      hit_cap_ = most == options_.max_faces_added;
+      return false;
+    }
+    if (++steps % kBisectionsBetweenChecks == 0) {
+      // How many are still to come is not known; each queued triangle needs one at least.
+      const auto done = static_cast<double>(steps);
+      progress = std::max(progress, done / (done + static_cast<double>(queue_.size())));
+      task.check(progress);
+    }
+  }
+}
+
+Embedding Bisection::to_embedding() && {
+  Embedding out = std::move(mesh_).to_embedding(scheme_ == Scheme::kLongestEdge);
+  out.invalid_before = invalid_before_;
+  out.hit_cap = hit_cap_;
+  out.newest_bisections = newest_bisections_;
+  return out;
+}
+
+}  // namespace seamwire

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "seamwire/embedding/embedding.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "detail/index.hpp"
+#include "detail/text.hpp"
+#include "embedding/bisection.hpp"
+#include "embedding/length_repair.hpp"
+#include "embedding/re_embedding.hpp"
+#include "metric/metric_check.hpp"
+
+namespace seamwire {
+namespace {
+
+// Longest-edge bisection, the paper's scheme, may add this many triangles for each of the surface's, and this many in
+// any case. Where it ends, it mostly ends below one for each.
+constexpr std::size_t kBudget = 4, kLeastBudget = 20'000;
+// And propagation and newest-vertex bisection this many. Nearly all that end at all end far below.
+constexpr std::size_t kLaterBudget = 16, kLeastLaterBudget = 200'000;
+
+void check_size(const Surface& surface, const Metric& metric) {
+  const std::size_t n = surface.vertex_count();
+  if (metric.tensors.size() != n || metric.normals.size() != n) {
+    throw InvalidInput("metric of " + std::to_string(metric.size()) + " vertices for a surface of " +
+                       std::to_string(n));
+  }
+}
+
+void check_metric(const Surface& surface, const Metric& metric) {
+  check_size(surface, metric);
+  check_finite(metric);
+}
+
+std::size_t budget(const Surface& surface) { return std::max(kLeastBudget, kBudget * surface.face_count()); }
+// Leaves room for length repair below the cap.
+std::size_t later_budget(const Surface& surface, std::size_t cap) {
+  return std::min(std::max(kLeastLaterBudget, kLaterBudget * surface.face_count()), cap / 4);
+}
+
+// The result of bisection, and of length repair after it.
+Embedding finished(Bisection&& bisection, const LengthRepair& repair, const Task& task) {
+  Embedding out = std::move(bisection).to_embedding();
+  out.hit_cap = out.hit_cap || repair.hit_cap;
+  out.clamped_edges = repair.clamped_edges;
+  out.worst_clamp = repair.worst_clamp;
+  task.check(1);
+  return out;
+}
+
+// Length repair alone; or longest-edge bisection as far as it leaves fewest invalid triangles, if these are fewer.
+Embedding embed_by_repair(const Surface& surface, const Metric& metric, const EmbedOptions& options, const Task& task,
+                          std::size_t first_most, double progress) {
+  Bisection none(BisectedMesh(surface, metric), options, Scheme::kNone);
+  none.run(task, 0, progress);
+  const LengthRepair repair = repair_lengths(none.mesh(), options, task, progress);
+  if (repair.is_complete) return finished(std::move(none), repair, task);
+  // Each bisection of length repair leaves fewer invalid triangles, those of the paper's scheme now more, now fewer. So
+  // that a larger cap never leaves more, what counts is when the latter has left fewest.
+  Bisection again(BisectedMesh(surface, metric), options, Scheme::kLongestEdge);
+  again.watch_unrepaired();
+  again.run(task, first_most, progress);
+  if (again.least_unrepaired() >= count_needing_repair(none.mesh(), options)) {
+    return finished(std::move(none), repair, task);
+  }
+  Bisection best(BisectedMesh(surface, metric), options, Scheme::kLongestEdge);
+  best.run(task, again.least_unrepaired_at(), progress);
+  Embedding out = finished(std::move(best), {}, task);
+  out.hit_cap = repair.hit_cap;
+  return out;
+}
+
+}  // namespace
+
+Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions& options, const Task& task) {
+  check_metric(surface, metric);
+  if (!(options.sigma >= 0)) throw InvalidInput("sigma is " + text(options.sigma) + ", not 0 or more");
+  task.check(0);
+  double progress = 0;
+  Bisection paper(BisectedMesh(surface, metric), options, Scheme::kLongestEdge);
+  const std::size_t first_most = std::min(budget(surface), options.max_faces_added);
+  const bool ends = paper.run(task, first_most, progress);
+  if (ends && !paper.has_decayed()) return finished(std::move(paper), {}, task);
+
+  const std::size_t most = later_budget(surface, options.max_faces_added);
+  for (const Scheme scheme : {Scheme::kPropagation, Scheme::kShallowPropagation}) {
+    Bisection bisection(BisectedMesh(surface, metric), options, scheme);
+    if (!bisection.run(task, most, progress)) continue;
+    const LengthRepair repair = repair_lengths(bisection.mesh(), options, task, progress);
+    if (!repair.is_complete) continue;
+    // It may take half as many triangles again as the paper's scheme, which, had it been let, might have ended by now.
+    const std::size_t papers_share = bisection.mesh().faces_added() * 2 / 3;
+    if (!ends && papers_share > first_most && paper.work_off(task, papers_share, progress) && !paper.has_decayed()) {
+      return finished(std::move(paper), {}, task);
+    }
+    return finished(std::move(bisection), repair, task);
+  }
+  return embed_by_repair(surface, metric, options, task, first_most, progress);
+}
+
+Embedding re_embed(const Surface& surface, const Metric& former, const Metric& metric, Embedding old,
+                   const EmbedOptions& options, const Task& task) {
+  check_size(surface, former);
+  check_metric(surface, metric);
+  const std::size_t faces = surface.face_count();
+  const bool is_of_surface =
+      old.points.size() >= surface.vertex_count() &&
+      old.mesh.face_count() + old.invalid_left >= surface.face_fans().size() + old.faces_added &&
+      std::ranges::all_of(old.source_face, [&](std::int32_t f) { return f >= 0 && index(f) < faces; });
+  if (!is_of_surface) throw InvalidInput("the former embedding is of another surface");
+  if (!old.is_local || former.normals != metric.normals) return embed(surface, metric, options, task);
+  task.check(0);
+  const std::size_t most = std::min(budget(surface), options.max_faces_added);
+  std::optional<Embedding> out = re_embed_locally(surface, former, metric, std::move(old), options, task, most);
+  if (!out) return embed(surface, metric, options, task);
+  task.check(1);
+  return std::move(*out);
+}
+
+}  // namespace seamwire

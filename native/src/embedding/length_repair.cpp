@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "embedding/length_repair.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "embedding/bisection.hpp"
+
+namespace seamwire {
+namespace {
+
+// Of the interval that the triangle inequality leaves for the length of a new edge, the part kept free at either end.
+constexpr double kMargin = 1.0 / 16;
+// A triangle whose shortest edge is shorter than this fraction of its longest one leaves no interval in double
+// precision.
+constexpr double kNeedle = 1e-8;
+
+bool is_repairable(const BisectedMesh& mesh, const EmbedOptions& options, std::int32_t f) {
+  const double *l = &mesh.lengths[3 * index(f)], least = std::min({l[0], l[1], l[2]});
+  return needs_length_repair(mesh, options, f) && least > kNeedle * std::max({l[0], l[1], l[2]});
+}
+
+// Edges are in one strict order, that of their lengths and then of their numbers.
+std::int32_t longest_edge(const BisectedMesh& mesh, std::int32_t f) {
+  const auto key = [&](std::int32_t h) {
+    const std::int32_t twin = mesh.twins[h];
+    return std::pair(mesh.lengths[h], twin < 0 ? h : std::min(h, twin));
+  };
+  return std::ranges::max(std::array{3 * f, 3 * f + 1, 3 * f + 2}, {}, key);
+}
+
+// Sets the length of the edge h from the middle of an edge to the apex: as measured, but within what the triangle
+// inequality leaves between the edge's halves and the other two sides.
+void set_clamped_length(BisectedMesh& mesh, std::int32_t h, double half, double next_side, double last_side,
+                        LengthRepair& repair) {
+  const double low = std::max(std::abs(half - next_side), std::abs(half - last_side));
+  const double high = half + std::min(next_side, last_side), margin = kMargin * (high - low);
+  const double measured = mesh.measure(h);
+  const double length = margin > 0 ? std::clamp(measured, low + margin, high - margin) : measured;
+  mesh.set_length(h, length);
+  if (length == measured) return;
+  ++repair.clamped_edges;
+  repair.worst_clamp = std::max({repair.worst_clamp, length / measured, measured / length});
+}
+
+}  // namespace
+
+bool needs_length_repair(const BisectedMesh& mesh, const EmbedOptions& options, std::int32_t f) {
+  if (mesh.is_valid(f) || mesh.perimeter(f, options.perimeter) < options.sigma) return false;
+  return !mesh.is_of_degenerate_face(f);
+}
+
+std::size_t count_needing_repair(const BisectedMesh& mesh, const EmbedOptions& options) {
+  std::size_t count = 0;
+  for (std::int32_t f = 0; index(f) < mesh.face_count(); ++f) count += needs_length_repair(mesh, options, f) ? 1 : 0;
+  return count;
+}
+
+LengthRepair repair_lengths(BisectedMesh& mesh, const EmbedOptions& options, const Task& task, double progress) {
+  LengthRepair repair;
+  std::vector<std::int32_t> todo;
+  for (std::int32_t f = 0; index(f) < mesh.face_count(); ++f) {
+    if (is_repairable(mesh, options, f)) todo.push_back(f);
+  }
+  std::vector<std::int32_t> chain;  // triangles to bisect, the last one first
+  for (std::size_t i = 0; i < todo.size(); ++i) {
+    if ((i + 1) % kBisectionsBetweenChecks == 0) task.check(progress);
+    if (!is_repairable(mesh, options, todo[i])) continue;
+    chain.assign(1, todo[i]);
+    while (!chain.empty()) {
+      const std::int32_t h = longest_edge(mesh, chain.back()), o = mesh.twins[h];
+      // An invalid neighbor can be repaired at its longest edge only, which is longer than this one.
+      if (o >= 0 && is_repairable(mesh, options, o / 3) && longest_edge(mesh, o / 3) != o) {
+        chain.push_back(o / 3);
+        continue;
+      }
+      if (mesh.faces_added() + 2 > options.max_faces_added) {
+        repair.is_complete = false;
+        repair.hit_cap = true;
+        return repair;
+      }
+      const auto next_side = [&](std::int32_t of) { return mesh.lengths[next(of)]; };
+      const auto last_side = [&](std::int32_t of) { return mesh.lengths[next(next(of))]; };
+      const double half = mesh.lengths[h] / 2, b = next_side(h), c = last_side(h);
+      const double d = o < 0 ? 0.0 : next_side(o), e = o < 0 ? 0.0 : last_side(o);
+      const auto count = static_cast<std::int32_t>(mesh.face_count());
+      mesh.bisect(h);
+      mesh.set_length(h, half);
+      mesh.set_length(3 * count, half);
+      set_clamped_length(mesh, 3 * count + 2, half, b, c, repair);
+      if (o >= 0) set_clamped_length(mesh, 3 * count + 5, half, d, e, repair);
+      // Rounding may leave one of them invalid.
+      for (const std::int32_t part : {h / 3, count, o < 0 ? count : o / 3, o < 0 ? count : count + 1}) {
+        if (is_repairable(mesh, options, part)) todo.push_back(part);
+      }
+      chain.pop_back();
+    }
+  }
+  for (std::int32_t f = 0; repair.is_complete && index(f) < mesh.face_count(); ++f) {
+    repair.is_complete = !needs_length_repair(mesh, options, f);
+  }
+  return repair;
+}
+
+}  // namespace seamwire

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "embedding/bisected_mesh.hpp"
+#include "seamwire/embedding/embedding.hpp"
+#include "seamwire/task.hpp"
+
+namespace seamwire {
+
+/// What length repair has done.
+struct LengthRepair {
+  bool is_complete = true;  ///< false: triangles that need repair are left, because of the cap or of rounding
+  bool hit_cap = false;
+  std::size_t clamped_edges = 0;  ///< whose length is not what the metric says
+  double worst_clamp = 1.0;       ///< the largest factor, up or down, between the two lengths
+};
+
+/// Whether a triangle is invalid, and is neither left out for sigma nor a part of a degenerate face.
+bool needs_length_repair(const BisectedMesh& mesh, const EmbedOptions& options, std::int32_t f);
+std::size_t count_needing_repair(const BisectedMesh& mesh, const EmbedOptions& options);
+
+/// Bisects each triangle that needs it once more, at its longest edge, and clamps the lengths of the new edges so that
+/// its parts are valid: docs/method.md, Section 4, "Why it ends". Throws Cancelled.
+LengthRepair repair_lengths(BisectedMesh& mesh, const EmbedOptions& options, const Task& task, double progress);
+
+}  // namespace seamwire

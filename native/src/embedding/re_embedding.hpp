@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "seamwire/embedding/embedding.hpp"
+
+namespace seamwire {
+
+/// re_embed() for an embedding that is local; normals of the two metrics must be equal. At most `most` triangles are
+/// added to the surface's. Nothing where that is not enough, or longest-edge bisection does not end well. Throws
+/// Cancelled.
+std::optional<Embedding> re_embed_locally(const Surface& surface, const Metric& former, const Metric& metric,
+                                          Embedding&& old, const EmbedOptions& options, const Task& task,
+                                          std::size_t most);
+
+}  // namespace seamwire

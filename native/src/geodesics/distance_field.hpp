@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "geodesics/geodesic_mesh.hpp"
+#include "geodesics/trace_record.hpp"
+#include "seamwire/geodesics/distance_field.hpp"
+
+namespace seamwire {
+
+struct DistanceField::Data {
+  std::shared_ptr<const GeodesicMesh> mesh;
+  std::int32_t seed;                 ///< external
+  std::vector<double> distances;     ///< in external numbers
+  std::vector<TraceRecord> records;  ///< in internal numbers
+  bool is_exact;
+};
+
+}  // namespace seamwire

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "detail/csr.hpp"
+#include "detail/prefetch.hpp"
+#include "seamwire/surface/intrinsic_mesh.hpp"
+
+namespace seamwire {
+
+/// The mesh as the wavefront reads it: every triangle unfolded into the frame of each of its half-edges, in one cache
+/// line each. Vertices and faces are renumbered breadth first, so that a front touches memory that lies together: they
+/// have an internal number here, and an external one in the IntrinsicMesh. All numbers are internal but where it is
+/// said.
+///
+/// The frame of a half-edge has its tail at the origin, its tip at (length, 0), its own triangle above and the triangle
+/// that paths come from below.
+class GeodesicMesh {
+ public:
+  struct alignas(64) HalfEdge {
+    double length;
+    double apex_x, apex_y;
+    double left_length, right_length;  ///< of tail-apex and of tip-apex
+    std::int32_t tail, tip, apex;
+    std::int32_t left, right;  ///< the half-edge a path enters next over tail-apex, over tip-apex; -1 on the boundary
+  };
+  static_assert(sizeof(HalfEdge) == 64);
+
+  struct Loose {
+    std::int32_t to;
+    double length;
+  };
+  /// A straight line to a vertex nearby, along an edge, or over one through two triangles. Lengths are in single
+  /// precision, and where those of the mesh are huge or tiny, in another unit: they say where to look for a path.
+  struct Hop {
+    std::int32_t to;
+    float length;
+  };
+
+  /// Throws as ExactGeodesics does.
+  explicit GeodesicMesh(const IntrinsicMesh& mesh);
+
+  std::size_t vertex_count() const { return external_vertex_.size(); }
+  const HalfEdge& half_edge(std::int32_t h) const { return half_edges_[h]; }
+  std::size_t half_edge_count() const { return half_edges_.size(); }
+  static std::int32_t next(std::int32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
+  static std::int32_t previous(std::int32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
+  /// The other half-edge of h's edge, -1 on the boundary.
+  std::int32_t twin(std::int32_t h) const { return half_edge(previous(h)).right; }
+
+  /// The angle at the tail of h in its triangle.
+  double angle(std::int32_t h) const { return angle_[h]; }
+
+  /// Half-edges that leave a vertex, of all its umbrellas.
+  std::span<const std::int32_t> out(std::int32_t vertex) const { return out_[vertex]; }
+  std::span<const Loose> loose(std::int32_t vertex) const { return loose_[vertex]; }
+  /// The hops from a vertex: along each of its edges, those without a face too, and over the edges opposite to it where
+  /// that is a shortcut. Without the latter, distances along hops on a regular mesh are up to 41 % too long.
+  std::span<const Hop> hops(std::int32_t vertex) const { return hops_[vertex]; }
+  float mean_hop() const { return mean_hop_; }
+  float longest_hop() const { return longest_hop_; }
+  /// Shortest paths may bend here: a total angle of more than 2 pi, a boundary, several umbrellas, or a loose edge.
+  bool is_pseudo_source(std::int32_t vertex) const { return is_pseudo_source_[vertex] != 0; }
+
+  /// From internal numbers to those of the IntrinsicMesh, and back.
+  std::int32_t external_vertex(std::int32_t v) const { return external_vertex_[v]; }
+  std::int32_t internal_vertex(std::int32_t external) const { return internal_vertex_[external]; }
+  std::int32_t external_half_edge(std::int32_t h) const { return 3 * external_face_[h / 3] + h % 3; }
+
+ private:
+  friend class SubmeshCutter;
+  GeodesicMesh() = default;
+  void renumber(const IntrinsicMesh& mesh, std::vector<std::int32_t>& internal_face);
+  static Csr<std::int32_t> leaving(std::size_t vertex_count, const std::vector<Triangle>& corners);
+  double unit_of_hops() const;
+  void list_hops();
+  void find_pseudo_sources();
+
+  std::vector<HalfEdge> half_edges_;
+  std::vector<double> angle_;
+  Csr<std::int32_t> out_;
+  Csr<Loose> loose_;
+  Csr<Hop> hops_;
+  float mean_hop_ = 0.0F, longest_hop_ = 0.0F;
+  std::vector<std::uint8_t> is_pseudo_source_;
+  std::vector<std::int32_t> external_vertex_, internal_vertex_, external_face_;
+};
+
+}  // namespace seamwire

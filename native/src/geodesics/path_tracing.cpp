@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Paths from one record a vertex. A record says over which half-edge the shortest path arrives, and where its source
+// lies when unfolded into that half-edge's frame. That is all a straight line needs: unfold triangle after triangle
+// towards the source and see on which side of the line each apex lies. At the source its own record takes over.
+#include "geodesics/path_tracing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "geodesics/wavefront.hpp"
+
+namespace seamwire {
+namespace {
+
+using HalfEdge = GeodesicMesh::HalfEdge;
+
+/// A line that passes a vertex this close (in parts of the triangle's base) may as well go through it, ...
+constexpr double kSnapWidth = 1e-7;
+/// ... if the distances say so, up to this part of the whole. The other side of such a vertex would be a guess.
+constexpr double kSnapDistance = 1e-11;
+/// How far (in parts of the triangle's longest side) unfolding may have moved the source from its vertex.
+constexpr double kSameVertex = 1e-6;
+
+struct Point2 {
+  double x, y;
+};
+
+double norm(const Point2& a) { return std::sqrt(a.x * a.x + a.y * a.y); }
+double distance(const Point2& a, const Point2& b) { return norm({a.x - b.x, a.y - b.y}); }
+double cross(const Point2& a, const Point2& b) { return a.x * b.y - a.y * b.x; }
+
+/// Into the frame of the half-edge entered over the left or the right side.
+Point2 to_left(const HalfEdge& h, const Point2& p) {
+  const double c = h.apex_x / h.left_length, s = h.apex_y / h.left_length;
+  return {p.x * c + p.y * s, p.y * c - p.x * s};
+}
+Point2 to_right(const HalfEdge& h, const Point2& p) {
+  const double c = (h.length - h.apex_x) / h.right_length, s = -h.apex_y / h.right_length;
+  const double x = p.x - h.apex_x, y = p.y - h.apex_y;
+  return {x * c + y * s, y * c - x * s};
+}
+Point2 to_twin(const HalfEdge& h, const Point2& p) { return {h.length - p.x, -p.y}; }
+
+/// Where the segment from p (below) to q (above) meets the base.
+double crossing(const HalfEdge& h, const Point2& p, const Point2& q) {
+  return std::clamp(p.x + (q.x - p.x) * (-p.y / (q.y - p.y)), 0.0, h.length);
+}
+
+/// Walks from a vertex back to the seed, and lists what it passes.
+class Tracer {
+ public:
+  Tracer(const GeodesicMesh& mesh, const std::vector<double>& distances, const std::vector<TraceRecord>& records)
+      : mesh_(mesh), distances_(distances), records_(records) {}
+
+  std::optional<IntrinsicPath> run(std::int32_t vertex) {
+    path_.length = 0.0;
+    path_.points.push_back({.vertex = vertex});
+    for (;;) {
+      const TraceRecord& record = records_[static_cast<std::size_t>(vertex)];
+      if (record.half_edge == TraceRecord::kNone) break;
+      if (record.half_edge >= 0) {
+        const auto length = path_.length;
+        const auto points = path_.points.size(), faces = path_.faces.size();
+        std::int32_t next = follow_line(vertex, record, Beside::kSkip);
+        if (next < 0) {
+          path_.points.resize(points);
+          path_.faces.resize(faces);
+          path_.length = length;
+          next = follow_line(vertex, record, Beside::kRemember);
+        }
+        if (next < 0) return std::nullopt;
+        vertex = next;
+      } else {
+        const bool is_loose = record.half_edge == TraceRecord::kLooseEdge;
+        add_vertex(record.source, is_loose ? -1 : ~record.half_edge, record.x);
+        vertex = record.source;
+      }
+    }
+    std::reverse(path_.points.begin(), path_.points.end());
+    std::reverse(path_.faces.begin(), path_.faces.end());
+    return std::move(path_);
+  }
+
+ private:
+  /// What to do about vertices beside the line. They are asked for rarely, and their distances lie all over memory.
+  enum class Beside : std::uint8_t { kSkip, kRemember };
+
+  /// A vertex beside the line, from which to go on if the line leads nowhere; with the path's state when it was passed.
+  struct Passed {
+    double length = std::numeric_limits<double>::infinity();
+    std::int32_t vertex = -1, half_edge = -1;
+    double segment = 0.0, path_length = 0.0;
+    std::size_t points = 0;
+  };
+
+  double at(std::int32_t vertex) const { return distances_[static_cast<std::size_t>(mesh_.external_vertex(vertex))]; }
+
+  void add_segment(std::int32_t half_edge, double length) {
+    path_.faces.push_back(half_edge < 0 ? -1 : half_edge / 3);
+    path_.length += length;
+  }
+  void add_vertex(std::int32_t vertex, std::int32_t half_edge, double length) {
+    add_segment(half_edge, length);
+    path_.points.push_back({.vertex = vertex});
+  }
+  void add_crossing(std::int32_t half_edge, double x, std::int32_t behind, double length) {
+    add_segment(behind, length);
+    path_.points.push_back({.half_edge = half_edge, .t = x / mesh_.half_edge(half_edge).length});
+  }
+
+  /// From `vertex` straight towards its source. Returns the vertex to go on from: the source, or one on the way; where
+  /// the line leads nowhere the best one beside it that was remembered, or -1.
+  std::int32_t follow_line(std::int32_t vertex, const TraceRecord& record, Beside beside) {
+    const HalfEdge& first = mesh_.half_edge(record.half_edge);
+    Point2 from{first.apex_x, first.apex_y}, source{record.x, record.y};
+    best_ = {};
+    for (const std::int32_t side : {0, 1}) {
+      const Point2 corner{side == 0 ? 0.0 : first.length, 0.0};
+      const std::int32_t u = side == 0 ? first.tail : first.tip;
+      if (passes(vertex, u, corner, from, source, from, record.half_edge, first.length, beside)) return take_best();
+    }
+
+    // `h` is the half-edge entered, `behind` the last one of the triangle left; `here` is the last point, in h's frame.
+    std::int32_t h = mesh_.twin(record.half_edge), behind = record.half_edge;
+    Point2 here = to_twin(first, from);
+    from = here;
+    source = to_twin(first, source);
+    // A straight line crosses no triangle twice unless it winds around a cone; this many crossings are a mistake.
+    std::size_t crossings_left = 16 * mesh_.half_edge_count();
+    while (h >= 0 && source.y > 0 && crossings_left-- > 0) {
+      const HalfEdge& edge = mesh_.half_edge(h);
+      if (edge.left >= 0) prefetch(&mesh_.half_edge(edge.left));
+      if (edge.right >= 0) prefetch(&mesh_.half_edge(edge.right));
+      const double x = crossing(edge, from, source);
+      add_crossing(h, x, behind, distance(here, {x, 0.0}));
+      here = {x, 0.0};
+      const Point2 apex{edge.apex_x, edge.apex_y};
+      if (edge.apex == record.source &&
+          distance(apex, source) <= kSameVertex * std::max(edge.length, edge.left_length)) {
+        add_vertex(edge.apex, h, distance(here, apex));
+        return edge.apex;
+      }
+      if (passes(vertex, edge.apex, apex, from, source, here, h, edge.length, beside)) return take_best();
+      const bool apex_is_left = cross({source.x - from.x, source.y - from.y}, {apex.x - from.x, apex.y - from.y}) > 0;
+      behind = h;
+      h = apex_is_left ? edge.right : edge.left;
+      const auto move = [&](const Point2& p) { return apex_is_left ? to_right(edge, p) : to_left(edge, p); };
+      from = move(from);
+      source = move(source);
+      here = move(here);
+    }
+    return beside == Beside::kSkip || best_.vertex < 0 ? -1 : take_best();
+  }
+
+  /// True if the line is as good as through the vertex u. Else u is remembered, if that is asked for and it is the best
+  /// so far.
+  bool passes(std::int32_t vertex, std::int32_t u, const Point2& at_u, const Point2& from, const Point2& source,
+              const Point2& here, std::int32_t half_edge, double base, Beside beside) {
+    const Point2 line{source.x - from.x, source.y - from.y}, aside{at_u.x - from.x, at_u.y - from.y};
+    const bool is_near = std::abs(cross(line, aside)) <= kSnapWidth * base * norm(line);
+    if ((!is_near && beside == Beside::kSkip) || !(at(u) < at(vertex))) return false;
+    const double length = at(u) + norm(aside);
+    const Passed candidate{length, u, half_edge, distance(here, at_u), path_.length, path_.points.size()};
+    if (length < best_.length) best_ = candidate;
+    if (!is_near || std::abs(length - at(vertex)) > kSnapDistance * at(vertex)) return false;
+    best_ = candidate;
+    return true;
+  }
+
+  std::int32_t take_best() {
+    path_.points.resize(best_.points);
+    path_.faces.resize(best_.points - 1);
+    path_.length = best_.path_length;
+    add_vertex(best_.vertex, best_.half_edge, best_.segment);
+    return best_.vertex;
+  }
+
+  const GeodesicMesh& mesh_;
+  const std::vector<double>& distances_;
+  const std::vector<TraceRecord>& records_;
+  IntrinsicPath path_;
+  Passed best_;
+};
+
+}  // namespace
+
+std::optional<IntrinsicPath> trace_records(const GeodesicMesh& mesh, const std::vector<double>& distances,
+                                           const std::vector<TraceRecord>& records, std::int32_t vertex) {
+  return Tracer(mesh, distances, records).run(vertex);
+}
+
+IntrinsicPath shorten(const GeodesicMesh& mesh, SubmeshCutter& cutter, const IntrinsicPath& path, const Task& task) {
+  std::vector<std::int32_t> vertices;
+  for (const PathPoint& point : path.points) {
+    if (point.vertex >= 0) vertices.push_back(point.vertex);
+    if (point.half_edge < 0) continue;
+    vertices.push_back(mesh.half_edge(point.half_edge).tail);
+    vertices.push_back(mesh.half_edge(point.half_edge).tip);
+  }
+  const Submesh part = cutter.cut(vertices);
+  const WavefrontResult result = propagate_wavefront(*part.mesh, cutter.part_vertex(path.points.front().vertex), task);
+  std::optional<IntrinsicPath> shorter =
+      trace_records(*part.mesh, result.distances, result.records, cutter.part_vertex(path.points.back().vertex));
+  if (!shorter) throw std::logic_error("a path cannot be traced");
+  to_whole_mesh(part, *shorter);
+  return std::move(*shorter);
+}
+
+void to_whole_mesh(const Submesh& part, IntrinsicPath& path) {
+  for (PathPoint& point : path.points) {
+    if (point.vertex >= 0) point.vertex = part.vertices[static_cast<std::size_t>(point.vertex)];
+    if (point.half_edge < 0) continue;
+    point.half_edge = 3 * part.faces[static_cast<std::size_t>(point.half_edge / 3)] + point.half_edge % 3;
+  }
+  for (std::int32_t& face : path.faces) {
+    if (face >= 0) face = part.faces[static_cast<std::size_t>(face)];
+  }
+}
+
+void to_external(const GeodesicMesh& mesh, IntrinsicPath& path) {
+  for (PathPoint& point : path.points) {
+    if (point.vertex >= 0) point.vertex = mesh.external_vertex(point.vertex);
+    if (point.half_edge >= 0) point.half_edge = mesh.external_half_edge(point.half_edge);
+  }
+  for (std::int32_t& face : path.faces) {
+    if (face >= 0) face = mesh.external_half_edge(3 * face) / 3;
+  }
+}
+
+}  // namespace seamwire

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geodesics/submesh.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace seamwire {
+
+Submesh SubmeshCutter::cut(std::span<const std::int32_t> vertices) {
+  for (const std::int32_t v : used_vertices_) part_vertex_[v] = 0;
+  for (const std::int32_t f : used_faces_) part_face_[f] = 0;
+  used_vertices_.clear();
+  used_faces_.clear();
+  const auto use = [](std::int32_t item, ZeroedArray<std::int32_t>& number, std::vector<std::int32_t>& used) {
+    if (number[item] != 0) return;
+    number[item] = 1;
+    used.push_back(item);
+  };
+  for (const std::int32_t v : vertices) {
+    use(v, part_vertex_, used_vertices_);
+    for (const std::int32_t h : mesh_.out(v)) use(h / 3, part_face_, used_faces_);
+  }
+  // As in the whole mesh, so that what lies together there does so here.
+  std::sort(used_faces_.begin(), used_faces_.end());
+  for (std::size_t f = 0; f < used_faces_.size(); ++f) {
+    part_face_[used_faces_[f]] = static_cast<std::int32_t>(f) + 1;
+    for (const std::int32_t h : {3 * used_faces_[f], 3 * used_faces_[f] + 1, 3 * used_faces_[f] + 2}) {
+      use(mesh_.half_edge(h).tail, part_vertex_, used_vertices_);
+    }
+  }
+  std::sort(used_vertices_.begin(), used_vertices_.end());
+  for (std::size_t v = 0; v < used_vertices_.size(); ++v) {
+    part_vertex_[used_vertices_[v]] = static_cast<std::int32_t>(v) + 1;
+  }
+
+  const std::shared_ptr<GeodesicMesh> part(new GeodesicMesh);
+  const auto entered = [&](std::int32_t h) {
+    if (h < 0) return -1;
+    const std::int32_t face = part_face_[h / 3] - 1;
+    return face < 0 ? -1 : 3 * face + h % 3;
+  };
+  part->half_edges_.reserve(3 * used_faces_.size());
+  part->angle_.reserve(3 * used_faces_.size());
+  part->is_pseudo_source_.resize(used_vertices_.size());
+  for (std::size_t v = 0; v < used_vertices_.size(); ++v) {
+    part->is_pseudo_source_[v] = mesh_.is_pseudo_source(used_vertices_[v]);
+  }
+  std::vector<Triangle> corners;
+  corners.reserve(used_faces_.size());
+  for (const std::int32_t face : used_faces_) {
+    for (const std::int32_t h : {3 * face, 3 * face + 1, 3 * face + 2}) {
+      GeodesicMesh::HalfEdge edge = mesh_.half_edge(h);
+      edge.tail = part_vertex(edge.tail);
+      edge.tip = part_vertex(edge.tip);
+      edge.apex = part_vertex(edge.apex);
+      edge.left = entered(edge.left);
+      edge.right = entered(edge.right);
+      if (edge.left < 0) part->is_pseudo_source_[edge.tail] = part->is_pseudo_source_[edge.apex] = 1;
+      part->half_edges_.push_back(edge);
+      part->angle_.push_back(mesh_.angle(h));
+    }
+    const auto* h = &part->half_edges_.back() - 2;
+    corners.push_back({h[0].tail, h[1].tail, h[2].tail});
+  }
+  part->external_vertex_.resize(used_vertices_.size());
+  std::iota(part->external_vertex_.begin(), part->external_vertex_.end(), 0);
+  part->internal_vertex_ = part->external_vertex_;
+  part->external_face_.resize(used_faces_.size());
+  std::iota(part->external_face_.begin(), part->external_face_.end(), 0);
+  part->out_ = GeodesicMesh::leaving(used_vertices_.size(), corners);
+  for (const std::int32_t v : used_vertices_) {
+    for (const auto& [to, length] : mesh_.loose(v)) {
+      if (part_vertex(to) >= 0) part->loose_.push({part_vertex(to), length});
+    }
+    part->loose_.end_row();
+  }
+  return {part, used_vertices_, used_faces_};
+}
+
+}  // namespace seamwire

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace seamwire {
+
+/// How the shortest path arrives at a vertex; in the numbers of the GeodesicMesh.
+struct TraceRecord {
+  double x = 0.0, y = 0.0;  ///< the source unfolded into the frame of `half_edge`; along an edge: x is its length
+  std::int32_t half_edge = kNone;  ///< crossed last (>= 0); ~h: straight along half-edge h; kNone: the seed, or none
+  std::int32_t source = -1;        ///< the vertex the path runs straight from
+
+  static constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::min();
+  static constexpr std::int32_t kLooseEdge = kNone + 1;  ///< straight along an edge without faces
+};
+
+}  // namespace seamwire

@@ -1,0 +1,527 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The triangle-oriented wavefront of Qin, Han, Yu, Yu, Zhang, "Fast and Exact Discrete Geodesic Computation Based on
+// Triangle-Oriented Wavefront Propagation" (2016), with the window filter of Xin, Wang, "Improving Chen and Han's
+// Algorithm on the Discrete Geodesic Problem" (2009).
+//
+// A window says: through the interval [b0, b1] of this half-edge the source (x, y) is seen in a straight line, when the
+// triangles in between are unfolded. The front carries lists of windows from triangle to triangle, vertex by vertex in
+// the order of their distance. A shortest path may bend at pseudo-sources only (GeodesicMesh::is_pseudo_source), which
+// emit windows themselves. Windows that no shortest path can come through are dropped. Those that stay may overlap:
+// only neighbors in a list are compared, and only on the edge itself. The arithmetic is in window_kernels.
+//
+// A path through what is dropped is longer than another path, or as long up to rounding. In the latter case a sliver
+// may be lost, next to a path of the same length.
+#include "geodesics/wavefront.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <utility>
+
+#include "detail/indexed_heap.hpp"
+#include "detail/prefetch.hpp"
+#include "geodesics/window_kernels.hpp"
+#include "geodesics/window_lists.hpp"
+
+namespace seamwire {
+namespace {
+
+using HalfEdge = GeodesicMesh::HalfEdge;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A path arrives at a vertex in a direction known up to this angle: ties, and gains too small to count, are within it.
+constexpr double kShadowMargin = 1e-3;
+/// A source whose distance falls by less than this part of it does not emit windows again: that is rounding.
+constexpr double kLeastGain = 1e-13;
+/// Windows (a list counts as some) between two looks at the task: a fraction of a millisecond.
+constexpr std::size_t kWorkBetweenChecks = 8192;
+constexpr std::size_t kWorkOfAList = 8;
+
+/// Of a vertex: not reached, reached, passed by the front.
+enum class Status : std::uint8_t { kUnreached, kOnFront, kPassed };
+/// Of a half-edge's list: it has no windows; its windows wait for the front; it is one of ready_lists_.
+enum class ListState : std::uint8_t { kEmpty, kWaiting, kReady };
+
+class Wavefront {
+ public:
+  Wavefront(const GeodesicMesh& mesh, std::int32_t seed, const Task& task, std::uint32_t windows_kept)
+      : mesh_(mesh),
+        task_(task),
+        seed_(seed),
+        windows_kept_(windows_kept),
+        status_(mesh.vertex_count(), Status::kUnreached),
+        queue_(mesh.vertex_count()),
+        lists_(mesh.half_edge_count()),
+        list_state_(mesh.half_edge_count(), ListState::kEmpty),
+        improved_sources_(mesh.vertex_count()) {
+    result_.distances.assign(mesh.vertex_count(), kInfinity);
+    result_.records.resize(mesh.vertex_count());
+  }
+
+  WavefrontResult run() {
+    task_.check(0.0);
+    relax(seed_, 0.0, {});
+    while (!queue_.empty()) {
+      const std::int32_t v = queue_.pop();
+      const auto next = queue_.empty() ? std::span<const std::int32_t>() : mesh_.out(queue_.least());
+      prefetch(next.data());
+      expand_vertex(v);
+      ++vertices_done_;
+      for (const std::int32_t h : next) prefetch(&mesh_.half_edge(h));
+      propagate_ready_lists();
+    }
+    task_.check(1.0);
+    return std::move(result_);
+  }
+
+ private:
+  double distance(std::int32_t v) const { return result_.distances[v]; }
+
+  /// A path to v was found; keeps it if it is shorter than what is known.
+  void relax(std::int32_t v, double distance, const TraceRecord& record) {
+    const double before = result_.distances[v];
+    if (!(distance < before)) return;
+    result_.distances[v] = distance;
+    result_.records[v] = record;
+    if (status_[v] != Status::kPassed) {
+      status_[v] = Status::kOnFront;
+      queue_.lower(v, distance);
+    } else if ((mesh_.is_pseudo_source(v) || v == seed_) && distance < before * (1 - kLeastGain)) {
+      improved_sources_.lower(v, distance);
+    }
+  }
+
+  /// The front passes the vertex v.
+  void expand_vertex(std::int32_t v) {
+    status_[v] = Status::kPassed;
+    const auto leaving = mesh_.out(v);
+    for (const std::int32_t h : leaving) {
+      const HalfEdge& edge = mesh_.half_edge(h);
+      if (status_[edge.tip] == Status::kUnreached) status_[edge.tip] = Status::kOnFront;
+      if (status_[edge.apex] == Status::kUnreached) status_[edge.apex] = Status::kOnFront;
+    }
+    if (mesh_.is_pseudo_source(v) || v == seed_) {
+      emit_windows(v);
+    } else if (windows_kept_ > 0) {
+      relax_neighbors(v);  // stretched windows need not cover everything; this bounds what is lost
+    }
+    for (const std::int32_t h : leaving) {
+      make_ready(h);
+      make_ready(GeodesicMesh::previous(h));
+      make_ready(GeodesicMesh::next(h));
+      const std::int32_t opposite = mesh_.half_edge(h).right;
+      if (opposite >= 0 && list_state_[opposite] == ListState::kWaiting &&
+          status_[mesh_.half_edge(opposite).apex] != Status::kUnreached) {
+        make_ready(opposite);
+      }
+    }
+  }
+
+  /// Relaxes the ends of the edges at v.
+  void relax_neighbors(std::int32_t v) {
+    const double from = distance(v);
+    for (const std::int32_t h : mesh_.out(v)) {
+      const HalfEdge& edge = mesh_.half_edge(h);
+      relax(edge.tip, from + edge.length, {.x = edge.length, .half_edge = ~h, .source = v});
+      if (edge.left >= 0) continue;  // the edge to the apex is that to the tip in the corner beside
+      const std::int32_t before = GeodesicMesh::previous(h);
+      relax(edge.apex, from + edge.left_length, {.x = edge.left_length, .half_edge = ~before, .source = v});
+    }
+    for (const auto& [to, length] : mesh_.loose(v)) {
+      relax(to, from + length, {.x = length, .half_edge = TraceRecord::kLooseEdge, .source = v});
+    }
+  }
+
+  /// Emits windows from v, a source: paths run from it along its edges, and straight over its triangles.
+  void emit_windows(std::int32_t v) {
+    relax_neighbors(v);
+    const auto [arrival, angle] = arrival_at(v);
+    std::size_t corners = 0;
+    if (arrival >= 0) corners = emit_shadow_windows(v, arrival, angle);
+    if (corners == mesh_.out(v).size()) return;
+    // All of the umbrellas that the path did not arrive in can be seen from v.
+    for (const std::int32_t h : mesh_.out(v)) {
+      if (corners == 0 || std::find(umbrella_.begin(), umbrella_.end(), h) == umbrella_.end()) {
+        emit_window(v, h, 0.0, mesh_.angle(h));
+      }
+    }
+  }
+
+  /// The corner in which the shortest path arrives at v, named by the half-edge that leaves v there, and its angle from
+  /// that half-edge; -1 at the seed and where it comes along a loose edge.
+  std::pair<std::int32_t, double> arrival_at(std::int32_t v) const {
+    const TraceRecord& record = result_.records[v];
+    if (record.half_edge >= 0) {
+      const HalfEdge& edge = mesh_.half_edge(record.half_edge);
+      const double x = record.x - edge.apex_x, y = record.y - edge.apex_y;
+      const double turn = std::atan2(edge.apex_y * x - edge.apex_x * y, -edge.apex_x * x - edge.apex_y * y);
+      const std::int32_t corner = GeodesicMesh::previous(record.half_edge);
+      return {corner, std::clamp(turn, 0.0, mesh_.angle(corner))};
+    }
+    if (record.half_edge == TraceRecord::kNone || record.half_edge == TraceRecord::kLooseEdge) return {-1, 0.0};
+    const std::int32_t along = ~record.half_edge;
+    const HalfEdge& edge = mesh_.half_edge(along);
+    if (edge.tail == edge.tip) return {-1, 0.0};
+    if (edge.tail == v) return {along, 0.0};
+    return {GeodesicMesh::next(along), mesh_.angle(GeodesicMesh::next(along))};
+  }
+
+  /// A shortest path that bends at v has an angle of at least pi on both sides. Emits windows where that is so, in the
+  /// umbrella of the corner where the path arrives; returns how many corners it has, and leaves them in umbrella_.
+  std::size_t emit_shadow_windows(std::int32_t v, std::int32_t arrival, double angle) {
+    constexpr double kShadow = std::numbers::pi - kShadowMargin;
+    umbrella_.clear();
+    double turned = -angle;
+    std::int32_t h = arrival;
+    do {
+      umbrella_.push_back(h);
+      turned += mesh_.angle(h);
+      h = mesh_.half_edge(h).left;
+    } while (h >= 0 && h != arrival);
+    const double shadow_end = h == arrival ? turned + angle - kShadow : std::numeric_limits<double>::infinity();
+    turned = -angle;
+    for (const std::int32_t corner : umbrella_) {
+      emit_window(v, corner, kShadow - turned, shadow_end - turned);
+      turned += mesh_.angle(corner);
+    }
+    if (h == arrival) return umbrella_.size();
+    // An open umbrella: the other way round to its other end.
+    turned = angle;
+    for (h = mesh_.twin(arrival); h >= 0; h = mesh_.twin(h)) {
+      h = GeodesicMesh::next(h);
+      umbrella_.push_back(h);
+      const double whole = mesh_.angle(h);
+      emit_window(v, h, -1.0, whole - (kShadow - turned));
+      turned += whole;
+    }
+    return umbrella_.size();
+  }
+
+  /// Emits a window from v over the corner between h and the edge on its left, for the directions from `begin` to
+  /// `end`, as angles from h.
+  void emit_window(std::int32_t v, std::int32_t h, double begin, double end) {
+    if (!(begin < end) || end <= 0 || begin >= mesh_.angle(h)) return;
+    const HalfEdge& edge = mesh_.half_edge(h);
+    if (edge.right < 0) return;
+    const double cosine = (edge.length - edge.apex_x) / edge.right_length;
+    const double sine = -edge.apex_y / edge.right_length;
+    const double x = -edge.apex_x * cosine - edge.apex_y * sine, y = edge.apex_x * sine - edge.apex_y * cosine;
+    if (!(y < 0)) return;
+    // Where the line from v in a direction meets the opposite edge, from its tip (the apex here).
+    const double length = edge.right_length;
+    const auto meets = [&](double direction) {
+      const double dx = std::cos(direction), dy = std::sin(direction);
+      const double rx = dx * cosine + dy * sine, ry = dy * cosine - dx * sine;
+      return ry > 0 ? std::clamp(x - y * rx / ry, 0.0, length) : rx < 0 ? 0.0 : length;
+    };
+    const double b0 = end < mesh_.angle(h) ? meets(end) : 0.0;
+    const double b1 = begin > 0 ? meets(begin) : length;
+    if (!(b1 - b0 > kLeastWidth * length)) return;
+    WindowList& list = lists_[edge.right];
+    list.reserve_back(1, blocks_).set(0, b0, b1, x, y, distance(v), v);
+    list.grew_back(1);
+    queue_list(edge.right, edge.apex, edge.tip);
+  }
+
+  void make_ready(std::int32_t h) {
+    if (list_state_[h] != ListState::kWaiting) return;
+    list_state_[h] = ListState::kReady;
+    ready_lists_.push_back(h);
+    prefetch(&mesh_.half_edge(h));
+    prefetch(&lists_[h]);
+  }
+  /// The list of h, from tail to tip, has got windows. It is ready to be propagated as soon as the front has passed an
+  /// end of its edge; until then it waits for more windows.
+  void queue_list(std::int32_t h, std::int32_t tail, std::int32_t tip) {
+    if (list_state_[h] == ListState::kEmpty) list_state_[h] = ListState::kWaiting;
+    if (status_[tail] == Status::kPassed || status_[tip] == Status::kPassed) make_ready(h);
+  }
+
+  /// First in, first out: a list that comes later has gathered more windows, and finds better distances.
+  void propagate_ready_lists() {
+    // NOLINTNEXTLINE(modernize-loop-convert): the list grows while it is read.
+    for (std::size_t i = 0; i < ready_lists_.size(); ++i) {
+      const std::int32_t h = ready_lists_[i];
+      list_state_[h] = ListState::kEmpty;
+      propagate(h);
+      emit_again();
+    }
+    ready_lists_.clear();
+  }
+
+  /// Nearest first, so that of sources that lie behind each other each emits once; in another order a source that is
+  /// relaxed by many others in turn would relax as many behind it each time, and so on.
+  void emit_again() {
+    while (!improved_sources_.empty()) {
+      const double distance_then = improved_sources_.least_key();
+      const std::int32_t v = improved_sources_.pop();
+      if (distance_then != distance(v)) continue;  // what it has gained since then is rounding
+      emit_windows(v);
+      check_task(mesh_.out(v).size() + mesh_.loose(v).size());
+    }
+  }
+
+  void count(std::size_t windows) {
+    ++result_.counters.lists;
+    result_.counters.windows += windows;
+    check_task(windows + kWorkOfAList);
+  }
+
+  /// Looks at the task now and then; `work` is what was done since the last call.
+  void check_task(std::size_t work) {
+    work_ += work;
+    if (work_ < kWorkBetweenChecks) return;
+    work_ = 0;
+    task_.check(static_cast<double>(vertices_done_) / static_cast<double>(mesh_.vertex_count()));
+  }
+
+  /// Sorts a list by the middles of its windows: those that came over different sides of a triangle are mixed, and
+  /// only neighbours are compared. Few are out of place.
+  static void sort(const Windows& w, std::size_t size) {
+    for (std::size_t i = 1; i < size; ++i) {
+      const double b0 = w.b0[i], b1 = w.b1[i], x = w.x[i], y = w.y[i], d = w.distance[i];
+      const std::int32_t source = w.source[i];
+      std::size_t to = i;
+      for (; to > 0 && w.b0[to - 1] + w.b1[to - 1] > b0 + b1; --to) {
+        w.set(to, w.b0[to - 1], w.b1[to - 1], w.x[to - 1], w.y[to - 1], w.distance[to - 1], w.source[to - 1]);
+      }
+      if (to < i) w.set(to, b0, b1, x, y, d, source);
+    }
+  }
+
+  /// Sorts a list in place, cuts windows back to where they are nearer than their neighbors, and drops those of which
+  /// nothing is left. Returns how many there still are. What is cut off is reached sooner by a path that exists,
+  /// whatever becomes of its window, so all pairs can be compared at once.
+  std::size_t prune(const Windows& w, std::size_t size, double length) {
+    const std::size_t count = list_overlapping_pairs(w, size);
+    if (count == 0) return size;
+    const std::size_t* lefts = lefts_.room_for(size);
+    const std::size_t stride = count + kPadding;
+    const Pairs pairs = Pairs::in(pairs_.room_for(Pairs::kColumns * stride), stride);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = lefts[k], j = i + 1;
+      pairs.begin[k] = std::max(w.b0[i], w.b0[j]);
+      pairs.end[k] = std::min(w.b1[i], w.b1[j]);
+      pairs.left.set(k, w, i);
+      pairs.right.set(k, w, j);
+    }
+    kernels_.compare(pairs, count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = lefts[k], j = i + 1;
+      if (pairs.left_until[k] < pairs.end[k] && w.b1[i] <= pairs.end[k]) w.b1[i] = pairs.left_until[k];
+      if (pairs.right_from[k] > pairs.begin[k] && w.b0[j] >= pairs.begin[k]) w.b0[j] = pairs.right_from[k];
+    }
+    const double narrow = kLeastWidth * length;
+    const auto is_left_over = [&](std::size_t i) { return w.b1[i] - w.b0[i] > narrow; };
+    bool are_all = true;
+    for (std::size_t k = 0; k < count; ++k) {
+      are_all &= is_left_over(lefts[k]);
+      are_all &= is_left_over(lefts[k] + 1);
+    }
+    if (are_all) return size;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      const bool is_kept = is_left_over(i);
+      w.set(kept, w.b0[i], w.b1[i], w.x[i], w.y[i], w.distance[i], w.source[i]);
+      kept += is_kept;
+    }
+    return kept;
+  }
+
+  /// Sorts a list in place and writes to lefts_ each window that overlaps the next one so much that comparing the two
+  /// pays; returns how many there are.
+  std::size_t list_overlapping_pairs(const Windows& w, std::size_t size) {
+    std::int64_t* overlaps = flags_.room_for(size);
+    if (!kernels_.find_overlaps(w, size, overlaps)) {
+      sort(w, size);
+      kernels_.find_overlaps(w, size, overlaps);
+    }
+    std::size_t* lefts = lefts_.room_for(size);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i + 1 < size; ++i) {
+      lefts[count] = i;
+      count += static_cast<std::size_t>(overlaps[i]);
+    }
+    return count;
+  }
+
+  /// The windows of a list on their way through the triangle that they enter.
+  struct Crossing {
+    std::int32_t half_edge;
+    const HalfEdge& edge;    ///< the triangle's base
+    double at_tail, at_tip;  ///< distances known at its ends
+    Windows windows;
+    std::size_t count;
+    const double* projections = nullptr;  ///< of the apex onto the base, from each window's source
+    /// Where the shortest path to the apex passes the base. No ray on its left reaches the right side first, none on
+    /// its right the left side ("one angle, two sides").
+    double split = 0.0;
+  };
+
+  /// The shortest path to the apex of a triangle over its base.
+  struct ApexPath {
+    double distance;
+    TraceRecord record;
+    std::size_t window;  ///< the one it comes through, or the one next to the end of the base that it comes over
+  };
+
+  /// Carries the list of h through the triangle it enters.
+  void propagate(std::int32_t h) {
+    const HalfEdge& edge = mesh_.half_edge(h);
+    const WindowList list = std::exchange(lists_[h], {});
+    if (edge.left >= 0) prefetch(&lists_[edge.left]);
+    if (edge.right >= 0) prefetch(&lists_[edge.right]);
+    count(list.size);
+    Crossing crossing{.half_edge = h,
+                      .edge = edge,
+                      .at_tail = distance(edge.tail),
+                      .at_tip = distance(edge.tip),
+                      .windows = list.windows(),
+                      .count = 0};
+    crossing.count = prune(crossing.windows, list.size, edge.length);
+    const ApexPath path = find_apex_path(crossing);
+    if (windows_kept_ > 0 && crossing.count > windows_kept_) keep_around(path.window, crossing);
+    relax(edge.apex, path.distance, path.record);
+    cross_side<true>(crossing);
+    cross_side<false>(crossing);
+    blocks_.give_back(list.block);
+  }
+
+  /// Finds the apex projections, the shortest path to the apex, along a side or through a window, and the split.
+  ApexPath find_apex_path(Crossing& c) {
+    const HalfEdge& edge = c.edge;
+    ApexPath best{
+        .distance = c.at_tail + edge.left_length,
+        .record = {.x = edge.left_length, .half_edge = ~GeodesicMesh::previous(c.half_edge), .source = edge.tail},
+        .window = 0};
+    if (const double over_tip = c.at_tip + edge.right_length; over_tip < best.distance) {
+      best = {.distance = over_tip,
+              .record = {.x = edge.right_length, .half_edge = ~GeodesicMesh::next(c.half_edge), .source = edge.tip},
+              .window = std::max<std::size_t>(c.count, 1) - 1};
+      c.split = edge.length;
+    }
+    double* projections = projections_.room_for(c.count);
+    double* apex_distances = apex_distances_.room_for(c.count);
+    kernels_.find_apex_distances(c.windows, c.count, {edge.length, edge.apex_x, edge.apex_y}, projections,
+                                 apex_distances);
+    c.projections = projections;
+    bool is_window = false;
+    for (std::size_t i = 0; i < c.count; ++i) {
+      if (apex_distances[i] < best.distance) [[unlikely]] {
+        best.distance = apex_distances[i];
+        best.window = i;
+        is_window = true;
+      }
+    }
+    if (is_window) {
+      const std::size_t i = best.window;
+      const Windows& w = c.windows;
+      c.split = std::clamp(projections[i], w.b0[i], w.b1[i]);
+      best.record = {.x = w.x[i], .y = w.y[i], .half_edge = c.half_edge, .source = w.source[i]};
+    }
+    return best;
+  }
+
+  /// Keeps windows_kept_ windows around one, the outer two stretched over what the others covered.
+  void keep_around(std::size_t window, Crossing& c) const {
+    const std::size_t before = window > windows_kept_ / 2 ? window - windows_kept_ / 2 : 0;
+    const std::size_t first = std::min(before, c.count - windows_kept_), last = first + windows_kept_ - 1;
+    const Windows& w = c.windows;
+    w.b0[first] = std::min(w.b0[first], w.b0[0]);
+    w.b1[last] = std::max(w.b1[last], w.b1[c.count - 1]);
+    c.windows = w + first;
+    c.projections += first;
+    c.count = windows_kept_;
+  }
+
+  /// Hands windows on over the left or the right side of the triangle. The distance of the apex must be known.
+  template <bool is_left>
+  void cross_side(const Crossing& c) {
+    const HalfEdge& edge = c.edge;
+    const std::int32_t entered = is_left ? edge.left : edge.right;
+    if (entered < 0 || !(is_left ? c.split > 0 : c.split < edge.length)) return;
+    // Windows behind the split and behind the apex projection do not reach the side; at the far end they are many.
+    std::size_t begin = 0, end = c.count;
+    if constexpr (is_left) {
+      while (end > 0 && !(c.windows.b0[end - 1] < std::min(c.split, c.projections[end - 1]))) --end;
+    } else {
+      while (begin < end && !(c.windows.b1[begin] > std::max(c.split, c.projections[begin]))) ++begin;
+    }
+    const Windows windows = c.windows + begin;
+    const double* projections = c.projections + begin;
+    const std::size_t count = end - begin, stride = c.count + kPadding;
+    const ChildWindows children =
+        ChildWindows::in(children_.room_for(ChildWindows::kColumns * stride), stride, flags_.room_for(c.count));
+    // The left side runs from the base's tail to the apex, the right one from the apex to the base's tip.
+    const std::int32_t tail = is_left ? edge.tail : edge.apex, tip = is_left ? edge.apex : edge.tip;
+    const double length = is_left ? edge.left_length : edge.right_length;
+    const Side side{.length = length,
+                    .cosine = (is_left ? edge.apex_x : edge.length - edge.apex_x) / length,
+                    .sine = (is_left ? edge.apex_y : -edge.apex_y) / length,
+                    .at_tail = is_left ? c.at_tail : distance(edge.apex),
+                    .at_tip = is_left ? distance(edge.apex) : c.at_tip};
+    std::size_t made = 0;
+    if constexpr (is_left) {
+      made = kernels_.to_left(windows, count, projections, c.split, side, children);
+    } else {
+      const BaseTriangle triangle{edge.length, edge.apex_x, edge.apex_y};
+      made = kernels_.to_right(windows, count, projections, c.split, triangle, side, children);
+    }
+    if (made == 0) return;
+    // In the list of the half-edge that they enter, these come before those from the other triangle, or after them.
+    WindowList& list = lists_[entered];
+    if constexpr (is_left) {
+      hand_on(windows, children, count, made, list.reserve_front(made, blocks_) - made);
+      list.grew_front(made);
+    } else {
+      hand_on(windows, children, count, made, list.reserve_back(made, blocks_));
+      list.grew_back(made);
+    }
+    queue_list(entered, tail, tip);
+  }
+
+  /// Writes those that are alive, `made` of `count`, side by side.
+  static void hand_on(const Windows& from, const ChildWindows& children, std::size_t count, std::size_t made,
+                      const Windows& to) {
+    if (made == count) {
+      copy({children.b0, children.b1, children.x, children.y, from.distance, from.source}, count, to);
+      return;
+    }
+    std::size_t written = 0;
+    for (std::size_t i = 0; written < made; ++i) {
+      to.set(written, children.b0[i], children.b1[i], children.x[i], children.y[i], from.distance[i], from.source[i]);
+      written += static_cast<std::size_t>(children.alive[i]);
+    }
+  }
+
+  const GeodesicMesh& mesh_;
+  const Task& task_;
+  std::int32_t seed_;
+  std::uint32_t windows_kept_;
+  WavefrontResult result_;
+  std::vector<Status> status_;
+  IndexedHeap queue_;  ///< vertices on the front
+  WindowBlocks blocks_;
+  std::vector<WindowList> lists_;
+  std::vector<ListState> list_state_;
+  std::vector<std::int32_t> ready_lists_, umbrella_;
+  IndexedHeap improved_sources_;  ///< passed by the front, and to emit windows once more
+  const WindowKernels& kernels_ = window_kernels();
+  Scratch<double> projections_, apex_distances_, pairs_, children_;
+  Scratch<std::int64_t> flags_;
+  Scratch<std::size_t> lefts_;
+  std::size_t vertices_done_ = 0, work_ = 0;
+};
+
+}  // namespace
+
+WavefrontResult propagate_wavefront(const GeodesicMesh& mesh, std::int32_t seed, const Task& task,
+                                    std::uint32_t windows_kept) {
+  return Wavefront(mesh, seed, task, windows_kept).run();
+}
+
+}  // namespace seamwire

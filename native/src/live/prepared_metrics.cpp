@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "live/prepared_metrics.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace seamwire {
+namespace {
+
+/// An artist waits for an embedding, and one that runs away is better cut short, with small holes: at most so many
+/// triangles are added, or so many times the surface's.
+constexpr std::size_t kFacesAdded = 200'000, kFacesAddedPerFace = 12;
+
+Metric make_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Metrics& metrics) {
+  switch (metrics.family) {
+    case MetricFamily::kFeature:
+      return feature_metric(surface, curvature, follow, metrics.strength);
+    case MetricFamily::kCampen:
+      return campen_metric(surface, curvature, follow, metrics.strength);
+    case MetricFamily::kPottmannKovacs:
+      return pottmann_kovacs_metric(surface, curvature, follow, metrics.strength);
+    case MetricFamily::kEuclidean:
+      break;
+  }
+  return euclidean_metric(surface, curvature);
+}
+
+bool are_same_for(Follow follow, const std::vector<Scribble>& these, const std::vector<Scribble>& those) {
+  const auto acts = [follow](const Scribble& scribble) { return scribble.acts_on(follow); };
+  auto other = those.begin();
+  for (const Scribble& scribble : these) {
+    if (!acts(scribble)) continue;
+    other = std::find_if(other, those.end(), acts);
+    if (other == those.end() || !(*other++ == scribble)) return false;
+  }
+  return std::none_of(other, those.end(), acts);
+}
+
+}  // namespace
+
+Ground::Ground(std::shared_ptr<const Surface> on) : vertex_count(on->vertex_count()) {
+  built_.get({}, [&] { return std::move(on); });
+}
+
+Ground::Ground(std::vector<Vector> points, std::vector<Triangle> triangles, std::optional<std::vector<Edge>> edges)
+    : vertex_count(points.size()),
+      input_(Input{.points = std::move(points), .triangles = std::move(triangles), .edges = std::move(edges)}) {}
+
+std::shared_ptr<const Surface> Ground::surface_now(const std::stop_token& stop) {
+  return *built_.get(stop, [&] {
+    // Copied: where this is stopped, another live wire may build the surface.
+    auto surface = std::make_shared<const Surface>(input_->points, input_->triangles, input_->edges,
+                                                   Task{.stop = stop, .progress = {}});
+    input_.reset();
+    return surface;
+  });
+}
+
+void Metrics::go_on_from(const Metrics& metrics) {
+  for (std::size_t which = 0; which < former_.size(); ++which) {
+    // In this order: what is former is forgotten only when the metric is prepared.
+    std::shared_ptr<const Prepared> from = metrics.former(which);
+    if (std::shared_ptr<const Prepared> made = metrics.prepared[which]->peek()) from = std::move(made);
+    if (are_same_for(kFollow[which], scribbles, metrics.scribbles)) prepared[which] = metrics.prepared[which];
+    const std::scoped_lock lock(mutex_);
+    former_[which] = std::move(from);
+  }
+}
+
+Prepared prepare(Ground& ground, Along along, Metrics& metrics, std::size_t which, const std::stop_token& stop) {
+  const bool on_surface = along == Along::kSurface;
+  const Surface& surface = ground.surface();
+  std::atomic<double>& fraction = metrics.fractions[which];
+  Prepared prepared;
+  std::shared_ptr<const EdgeFans> fans;
+  const auto prepare_edges = [&] {
+    if (on_surface) prepared.snap_graph = ground.snap_graph_now(stop);
+    fans = ground.fans_now(stop);
+  };
+  if (which == 1) prepare_edges();  // while the other thread is at the curvatures
+  const std::shared_ptr<const Curved> curved = ground.curved_now(stop);
+  if (which == 0) prepare_edges();
+  Task task{.stop = stop, .progress = {}};
+  task.check(0.0);
+  Metric metric = make_metric(surface, curved->curvature, kFollow[which], metrics);
+  task.check(0.0);
+  if (!metrics.scribbles.empty()) {
+    metric = apply_scribbles(surface, metric, metrics.scribbles, kFollow[which]);
+  }
+  fraction = kEmbedBegins / kSolveBegins;
+  task.progress = [&fraction](double done) {
+    fraction = (kEmbedBegins + (kSolveBegins - kEmbedBegins) * done) / kSolveBegins;
+    return true;
+  };
+  if (on_surface) {
+    const std::size_t most = std::max(kFacesAdded, kFacesAddedPerFace * surface.face_count());
+    const EmbedOptions options{.max_faces_added = most};
+    const std::shared_ptr<const Prepared> former = metrics.former(which);
+    prepared.embedding = former ? re_embed(surface, former->metric, metric, *former->embedding, options, task)
+                                : embed(surface, metric, options, task);
+    prepared.geodesics.emplace(prepared.embedding->mesh);
+    prepared.metric = std::move(metric);
+  } else {
+    prepared.graph = make_edge_graph(surface, metric, std::move(fans), task, metrics.scribbles, kFollow[which]);
+  }
+  return prepared;
+}
+
+}  // namespace seamwire

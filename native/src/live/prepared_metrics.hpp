@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <utility>
+#include <vector>
+
+#include "live/computed_once.hpp"
+#include "seamwire/embedding/embedding.hpp"
+#include "seamwire/geodesics/exact_geodesics.hpp"
+#include "seamwire/live/livewire.hpp"
+
+/// What a live wire computes before there is a seed, each part once, whoever asks for it first.
+namespace seamwire {
+
+inline constexpr std::array kFollow = {Follow::kMin, Follow::kMax};
+
+/// Fractions of the first seed's work, preparation included, at which its parts begin.
+inline constexpr double kEmbedBegins = 0.1, kSolveBegins = 0.5;
+
+struct Curved {
+  Curvature curvature;
+  std::vector<double> difference;
+};
+
+/// The surface, and what it alone decides. Shared by forks and siblings.
+struct Ground {
+  explicit Ground(std::shared_ptr<const Surface> on);
+  /// Of a surface that is still to be built: the arguments of its constructor.
+  Ground(std::vector<Vector> points, std::vector<Triangle> triangles, std::optional<std::vector<Edge>> edges);
+
+  /// The surface, built if need be; throws what its constructor throws. The other functions need it built.
+  std::shared_ptr<const Surface> surface_now(const std::stop_token& stop);
+  /// Null until it is built.
+  std::shared_ptr<const Surface> peek_surface() const {
+    const auto held = built_.peek();
+    return held ? *held : nullptr;
+  }
+  const Surface& surface() const { return **built_.peek(); }
+
+  std::shared_ptr<const Curved> curved_now(const std::stop_token& stop) {
+    return curved.get(stop, [&] {
+      Curved made{.curvature = principal_curvatures(surface()), .difference = {}};
+      made.difference = made.curvature.difference();
+      return made;
+    });
+  }
+  std::shared_ptr<const SnapGraph> snap_graph_now(const std::stop_token& stop) {
+    return snap_graph.get(stop, [&] { return SnapGraph(surface()); });
+  }
+  std::shared_ptr<const EdgeFans> fans_now(const std::stop_token& stop) {
+    const auto held = fans.get(stop, [&] { return make_edge_fans(surface(), {.stop = stop, .progress = {}}); });
+    return *held;
+  }
+
+  const std::size_t vertex_count;
+  ComputedOnce<Curved> curved;
+  ComputedOnce<SnapGraph> snap_graph;
+  ComputedOnce<std::shared_ptr<const EdgeFans>> fans;
+
+ private:
+  struct Input {
+    std::vector<Vector> points;
+    std::vector<Triangle> triangles;
+    std::optional<std::vector<Edge>> edges;
+  };
+
+  std::optional<Input> input_;  // until the surface is built; only what builds it looks at it
+  ComputedOnce<std::shared_ptr<const Surface>> built_;
+};
+
+/// What one metric needs for any seed: along edges the last, across the surface the others.
+struct Prepared {
+  Metric metric;
+  std::optional<Embedding> embedding;
+  std::optional<ExactGeodesics> geodesics;
+  std::shared_ptr<const SnapGraph> snap_graph;
+  std::shared_ptr<const EdgeGraph> graph;
+};
+
+/// The two metrics of one family and strength, after the scribbles. Shared by forks.
+struct Metrics {
+  Metrics(MetricFamily of, const Strength& with, std::vector<Scribble> after)
+      : family(of), strength(with), scribbles(std::move(after)) {}
+
+  /// After other scribbles than these metrics, of one family and strength: a metric for which they are the same is
+  /// shared. Embeddings of the other are made from those of `metrics`, or, where these are not there yet, from what
+  /// they would have been made from: scribbles change little.
+  void go_on_from(const Metrics& metrics);
+  std::shared_ptr<const Prepared> former(std::size_t which) const {
+    const std::scoped_lock lock(mutex_);
+    return former_[which];
+  }
+  /// Once the metric is prepared.
+  void forget_former(std::size_t which) {
+    std::shared_ptr<const Prepared> dropped;  // freed without the lock
+    const std::scoped_lock lock(mutex_);
+    dropped.swap(former_[which]);
+  }
+
+  const MetricFamily family;
+  const Strength strength;
+  const std::vector<Scribble> scribbles;
+  std::array<std::shared_ptr<ComputedOnce<Prepared>>, 2> prepared = {std::make_shared<ComputedOnce<Prepared>>(),
+                                                                     std::make_shared<ComputedOnce<Prepared>>()};
+  std::array<std::atomic<double>, 2> fractions = {};  // of the preparation
+
+ private:
+  mutable std::mutex mutex_;
+  std::array<std::shared_ptr<const Prepared>, 2> former_;
+};
+
+/// Makes what one of the two metrics needs; throws Cancelled where `stop` tells it to. The metric's fractions of
+/// progress are told to `metrics`.
+Prepared prepare(Ground& ground, Along along, Metrics& metrics, std::size_t which, const std::stop_token& stop);
+
+}  // namespace seamwire

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Rusinkiewicz, "Estimating Curvatures and Their Derivatives on Triangle Meshes", 3DPVT 2004.
+// Max, "Weights for Computing Vertex Normals from Facet Normals", Journal of Graphics Tools 4(2), 1999.
+// Meyer, Desbrun, Schroeder, Barr, "Discrete Differential-Geometry Operators for Triangulated 2-Manifolds", 2003.
+#include "seamwire/metric/curvature.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "detail/prefetch.hpp"
+#include "metric/tangent_frame.hpp"
+#include "seamwire/surface/half_edge_mesh.hpp"
+
+namespace seamwire {
+namespace {
+
+// A triangle lower than this, on the unit cube's scale, tells nothing of the surface's direction: so high does storing
+// coordinates as 32-bit floats make triangles whose corners are in line. Fits to them make curvatures of any size.
+constexpr double kLeastHeight = 0x1p-22;
+
+// Faces whose corners memory is asked for in advance.
+constexpr std::size_t kAhead = 8;
+
+struct FaceShape {
+  std::array<Vector, 3> edges;  // opposite the corners, in the face's direction
+  std::array<double, 3> squared_lengths;
+  Vector cross;  // along the normal, twice the area long
+  double squared_cross;
+
+  double longest_squared() const { return std::max({squared_lengths[0], squared_lengths[1], squared_lengths[2]}); }
+  bool is_usable() const {
+    return squared_cross > 0.0 && squared_cross >= kLeastHeight * kLeastHeight * longest_squared();
+  }
+};
+
+// Of the face whose corners are the given points.
+inline FaceShape face_shape(const Vector* points, const Triangle& fans, double scale) {
+  const Vector &a = points[fans[0]], &b = points[fans[1]], &c = points[fans[2]];
+  FaceShape shape;
+  shape.edges = {Vector(scale * (c - b)), Vector(scale * (a - c)), Vector(scale * (b - a))};
+  for (std::size_t i = 0; i < 3; ++i) shape.squared_lengths[i] = shape.edges[i].squaredNorm();
+  shape.cross = shape.edges[0].cross(shape.edges[1]);
+  shape.squared_cross = shape.cross.squaredNorm();
+  return shape;
+}
+
+Vector normalized_or_zero(const Vector& v) {
+  const double length = v.norm();
+  return length > 0.0 ? Vector(v / length) : Vector(Vector::Zero());
+}
+
+// Gives fans of none but flat triangles the direction of the widest of them.
+void complete(const Surface& surface, const std::vector<std::size_t>& flat, std::vector<Vector>& normals) {
+  struct Wide {
+    std::size_t face;
+    Vector cross;
+  };
+  std::vector<Wide> wide;
+  for (const std::size_t f : flat) {
+    const Vector cross = face_shape(surface.half_edges().points(), surface.face_fans()[f], surface.scale()).cross;
+    if (cross.norm() > 0.0) wide.push_back({f, cross});
+  }
+  std::ranges::stable_sort(wide, std::ranges::greater{}, [](const Wide& w) { return w.cross.norm(); });
+  for (const auto& [face, cross] : wide) {
+    for (const std::int32_t fan : surface.face_fans()[face]) {
+      if (normals[fan].isZero(0.0)) normals[fan] = normalized_or_zero(cross);
+    }
+  }
+}
+
+// The normals of the corner fans, each on its own side of the surface; zero where a fan has no area at all.
+std::vector<Vector> fan_normals(const Surface& surface) {
+  std::vector<Vector> normals(surface.vertex_of_fan().size(), Vector::Zero());
+  const std::vector<Triangle>& faces = surface.face_fans();
+  const Vector* points = surface.half_edges().points();
+  std::vector<std::size_t> flat;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (f + kAhead < faces.size()) {
+      for (const std::int32_t fan : faces[f + kAhead]) {
+        prefetch(&points[fan]);
+        prefetch(&normals[fan]);
+      }
+    }
+    const FaceShape shape = face_shape(points, faces[f], surface.scale());
+    if (!shape.is_usable()) {
+      flat.push_back(f);
+      continue;
+    }
+    // One over the squared lengths of the two edges at each corner.
+    const auto& [a, b, c] = shape.squared_lengths;
+    const Vector weighted = shape.cross / (a * b * c);
+    normals[faces[f][0]] += a * weighted;
+    normals[faces[f][1]] += b * weighted;
+    normals[faces[f][2]] += c * weighted;
+  }
+  for (Vector& normal : normals) normal = normalized_or_zero(normal);
+  if (!flat.empty()) complete(surface, flat, normals);
+  return normals;
+}
+
+// For each fan 1 or -1: fans of one vertex need not agree on which side of the surface is outside (where a one-sided
+// surface is cut they cannot), so the vertex takes the side of the first that has a normal.
+struct VertexNormals {
+  std::vector<Vector> normals;
+  std::vector<signed char> side_of_fan;
+};
+
+VertexNormals combine(const Surface& surface, const std::vector<Vector>& fans) {
+  const auto& vertex_of_fan = surface.vertex_of_fan();
+  VertexNormals result;
+  result.normals.assign(surface.vertex_count(), Vector::Zero());
+  result.side_of_fan.assign(fans.size(), 1);
+  for (std::size_t first = 0; first < fans.size();) {
+    std::size_t end = first;
+    while (end < fans.size() && vertex_of_fan[end] == vertex_of_fan[first]) ++end;
+    Vector& normal = result.normals[vertex_of_fan[first]];
+    Vector reference = Vector::Zero();
+    for (std::size_t fan = first; fan < end; ++fan) {
+      if (reference.isZero(0.0)) reference = fans[fan];
+      if (reference.dot(fans[fan]) < 0.0) result.side_of_fan[fan] = -1;
+      normal += result.side_of_fan[fan] * fans[fan];
+    }
+    if (end - first > 1) normal = normalized_or_zero(normal);
+    first = end;
+  }
+  return result;
+}
+
+// The second fundamental form in a frame: (mean + difference) u^2 + 2 mixed u v + (mean - difference) v^2. Turning the
+// frame by an angle leaves the mean, and turns (difference, mixed) back by twice that angle.
+struct Form {
+  double mean = 0.0, difference = 0.0, mixed = 0.0;
+};
+
+// Per fan, with the fan's own normal: sums of form times area, and of the areas.
+struct Fit {
+  Form form;
+  double area = 0.0;
+
+  void add(const Form& more, double factor) {
+    form.mean += factor * more.mean;
+    form.difference += factor * more.difference;
+    form.mixed += factor * more.mixed;
+  }
+};
+
+// Where the normals of two planes are opposite but for this, the least rotation from one to the other is not defined.
+constexpr double kOpposite = 1e-12;
+
+// A frame as seen from another one, whose own vectors are u, v and normal.
+struct SeenFrame {
+  double normal_u, normal_v, normal_normal, u_u, u_v, u_normal;
+
+  SeenFrame(const TangentFrame& frame, const Vector& u, const Vector& v, const Vector& normal)
+      : normal_u(frame.normal.dot(u)),
+        normal_v(frame.normal.dot(v)),
+        normal_normal(frame.normal.dot(normal)),
+        u_u(frame.u.dot(u)),
+        u_v(frame.u.dot(v)),
+        u_normal(frame.u.dot(normal)) {}
+
+  // A form of the other frame's plane, turned onto this one's by the least rotation (tangent_frame.hpp), which is
+  // applied to the components of u here. Where the normals are opposite any rotation is as good: leave u.
+  Form carried(const Form& form) const {
+    const double sum = 1.0 + normal_normal;
+    const bool is_opposite = sum < kOpposite;
+    const double part = is_opposite ? 0.0 : u_normal / sum;
+    const double c = u_u - part * normal_u, s = u_v - part * normal_v;
+    const double c2 = c * c - s * s, s2 = 2.0 * c * s;
+    return {.mean = form.mean,
+            .difference = c2 * form.difference + s2 * form.mixed,
+            .mixed = c2 * form.mixed - s2 * form.difference};
+  }
+};
+
+// The share of the face's area that is nearest to each corner (the Voronoi area of Meyer et al., exact for obtuse
+// triangles too). `dots`: of the two edges that leave each corner.
+std::array<double, 3> corner_areas(const FaceShape& shape, const std::array<double, 3>& dots, double twice_area) {
+  std::array<double, 3> areas;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (dots[i] > 0.0) continue;
+    // Obtuse at i: each other corner j keeps the right triangle cut off by the bisector of its edge to i, whose area
+    // is l^2 / 8 tan(angle at j).
+    const std::size_t j = (i + 1) % 3;
+    const std::size_t k = (i + 2) % 3;
+    areas[j] = shape.squared_lengths[k] / 8.0 * twice_area / dots[j];
+    areas[k] = shape.squared_lengths[j] / 8.0 * twice_area / dots[k];
+    areas[i] = 0.5 * twice_area - areas[j] - areas[k];
+    return areas;
+  }
+  // l^2 / 8 cot(opposite angle) on either side of each edge.
+  const double factor = 0.125 / twice_area;
+  std::array<double, 3> halves;
+  for (std::size_t i = 0; i < 3; ++i) halves[i] = shape.squared_lengths[i] * dots[i] * factor;
+  for (std::size_t i = 0; i < 3; ++i) areas[i] = halves[(i + 1) % 3] + halves[(i + 2) % 3];
+  return areas;
+}
+
+// Adds to the corners of a face the form that fits the differences of their normals along its three edges best.
+void fit_face(const FaceShape& shape, const std::array<const TangentFrame*, 3>& frames,
+              const std::array<Fit*, 3>& fits) {
+  // The face's frame: u along the longest edge, so that the equations are graded and need no pivots on slivers.
+  const auto& l = shape.squared_lengths;
+  const std::size_t i = l[0] >= l[1] ? (l[0] >= l[2] ? 0 : 2) : (l[1] >= l[2] ? 1 : 2);
+  const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+  const double twice_area = std::sqrt(shape.squared_cross), length = std::sqrt(l[i]), inverse = 1.0 / length;
+  const Vector normal = 1.0 / twice_area * shape.cross, u = inverse * shape.edges[i], v = normal.cross(u);
+  std::array<double, 3> dots;
+  for (std::size_t c = 0; c < 3; ++c) dots[c] = -shape.edges[(c + 1) % 3].dot(shape.edges[(c + 2) % 3]);
+  // The edges in that frame: (length, 0), (ju, height), (ku, -height).
+  const double ju = -dots[k] * inverse, ku = -dots[j] * inverse, height = twice_area * inverse;
+
+  const std::array<SeenFrame, 3> seen{SeenFrame(*frames[i], u, v, normal), SeenFrame(*frames[j], u, v, normal),
+                                      SeenFrame(*frames[k], u, v, normal)};
+  // Along edge i the normal turns from that of corner j to that of corner k, and so on.
+  const double iu_turn = seen[2].normal_u - seen[1].normal_u, iv_turn = seen[2].normal_v - seen[1].normal_v;
+  const double ju_turn = seen[0].normal_u - seen[2].normal_u, jv_turn = seen[0].normal_v - seen[2].normal_v;
+  const double ku_turn = seen[1].normal_u - seen[0].normal_u, kv_turn = seen[1].normal_v - seen[0].normal_v;
+  // The normal equations are those of the matrix (uu, uv, 0; uv, uu + vv, uv; 0, uv, vv), by L D L^T. No pivot comes
+  // near zero: |ju - ku| <= length and uu >= 3/2 length^2, so second >= 5/6 length^2 and last >= vv / 6.
+  const double uu = length * length + ju * ju + ku * ku, uv = (ju - ku) * height, vv = 2.0 * height * height;
+  const double r0 = iu_turn * length + ju_turn * ju + ku_turn * ku;
+  const double r1 = (ju_turn - ku_turn) * height + iv_turn * length + jv_turn * ju + kv_turn * ku;
+  const double r2 = (jv_turn - kv_turn) * height;
+  const double l1 = uv / uu, second = uu + vv - l1 * uv, l2 = uv / second, last = vv - l2 * uv;
+  const double y1 = r1 - l1 * r0, y2 = r2 - l2 * y1;
+  const double at_vv = y2 / last, at_uv = y1 / second - l2 * at_vv, at_uu = r0 / uu - l1 * at_uv;
+  const Form form{.mean = 0.5 * (at_uu + at_vv), .difference = 0.5 * (at_uu - at_vv), .mixed = at_uv};
+
+  const std::array<double, 3> areas = corner_areas(shape, dots, twice_area);
+  const std::array corners{i, j, k};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double area = areas[corners[c]];
+    fits[corners[c]]->add(seen[c].carried(form), area);
+    fits[corners[c]]->area += area;
+  }
+}
+
+std::vector<Fit> fit_fans(const Surface& surface, const std::vector<TangentFrame>& frames) {
+  const std::vector<Triangle>& faces = surface.face_fans();
+  const Vector* points = surface.half_edges().points();
+  std::vector<Fit> fits(frames.size());
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (f + kAhead < faces.size()) {
+      for (const std::int32_t fan : faces[f + kAhead]) {
+        prefetch(&points[fan]);
+        prefetch(&frames[fan]);
+        prefetch(&fits[fan]);
+      }
+    }
+    const Triangle& fans = faces[f];
+    const FaceShape shape = face_shape(points, fans, surface.scale());
+    if (!shape.is_usable()) continue;
+    fit_face(shape, {&frames[fans[0]], &frames[fans[1]], &frames[fans[2]]},
+             {&fits[fans[0]], &fits[fans[1]], &fits[fans[2]]});
+  }
+  return fits;
+}
+
+// A fan's form as that of a plane with another normal, its own turned over where `side` is -1.
+Form seen_from(const TangentFrame& fan, const Form& form, double side, const TangentFrame& from) {
+  if (side > 0.0) return SeenFrame(from, fan.u, fan.v(), fan.normal).carried(form);
+  // Seen from the other side, curvatures change their sign, and u and v are no longer in the same order: with -v.
+  const Vector v = -fan.v(), normal = -fan.normal;
+  return SeenFrame(from, fan.u, v, normal)
+      .carried({.mean = -form.mean, .difference = -form.difference, .mixed = form.mixed});
+}
+
+// Curvatures and directions at a vertex.
+void decompose(const TangentFrame& frame, const Form& form, std::size_t vertex, Curvature& curvature) {
+  const double d = form.difference, m = form.mixed, radius = std::sqrt(d * d + m * m);
+  const double signed_radius = form.mean < 0.0 ? -radius : radius;
+  curvature.k1[vertex] = form.mean + signed_radius;
+  curvature.k2[vertex] = form.mean - signed_radius;
+  if (!(radius > 0.0)) return;
+  // The direction of k1 is at half the angle of (d, m), or of (-d, -m) where the mean is negative.
+  const double along = form.mean < 0.0 ? -d : d, across = form.mean < 0.0 ? -m : m;
+  const double large = radius + std::abs(along), inverse = 1.0 / std::sqrt(2.0 * radius * large);
+  const double c = (along < 0.0 ? across : large) * inverse, s = (along < 0.0 ? large : across) * inverse;
+  const Vector v = frame.v();
+  curvature.d1[vertex] = c * frame.u + s * v;
+  curvature.d2[vertex] = c * v - s * frame.u;
+}
+
+}  // namespace
+
+std::vector<double> Curvature::difference() const {
+  std::vector<double> s(k1.size());
+  std::ranges::transform(k1, k2, s.begin(), [](double a, double b) { return std::abs(a) - std::abs(b); });
+  return s;
+}
+
+std::vector<Vector> vertex_normals(const Surface& surface) { return combine(surface, fan_normals(surface)).normals; }
+
+Curvature principal_curvatures(const Surface& surface) {
+  const std::vector<Vector> fans = fan_normals(surface);
+  std::vector<TangentFrame> frames;
+  frames.reserve(fans.size());
+  for (const Vector& normal : fans) frames.push_back(fast_tangent_frame(normal));
+  const std::vector<Fit> fits = fit_fans(surface, frames);
+  VertexNormals vertices = combine(surface, fans);
+  const std::size_t count = surface.vertex_count();
+  Curvature curvature;
+  curvature.normals = std::move(vertices.normals);
+  curvature.k1.assign(count, 0.0);
+  curvature.k2.assign(count, 0.0);
+  curvature.d1.assign(count, Vector::UnitX());
+  curvature.d2.assign(count, Vector::UnitY());
+
+  const auto& vertex_of_fan = surface.vertex_of_fan();
+  for (std::size_t first = 0, end = 0; first < fans.size(); first = end) {
+    const std::int32_t vertex = vertex_of_fan[first];
+    for (end = first + 1; end < fans.size() && vertex_of_fan[end] == vertex;) ++end;
+    const Vector& normal = curvature.normals[vertex];
+    const TangentFrame frame = end == first + 1 ? frames[first] : fast_tangent_frame(normal);
+    Fit sum = fits[first];
+    if (end > first + 1) {
+      sum = {};
+      for (std::size_t fan = first; fan < end; ++fan) {
+        sum.add(seen_from(frames[fan], fits[fan].form, vertices.side_of_fan[fan], frame), 1.0);
+        sum.area += fits[fan].area;
+      }
+    }
+    if (normal.isZero(0.0)) continue;
+    curvature.d1[vertex] = frame.u;
+    curvature.d2[vertex] = frame.v();
+    if (!(sum.area > 0.0)) continue;
+    const double inverse = 1.0 / sum.area;
+    const Form form{.mean = inverse * sum.form.mean,
+                    .difference = inverse * sum.form.difference,
+                    .mixed = inverse * sum.form.mixed};
+    if (std::isfinite(form.mean + form.difference + form.mixed)) decompose(frame, form, vertex, curvature);
+  }
+  return curvature;
+}
+
+}  // namespace seamwire

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "seamwire/metric/metric.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "detail/text.hpp"
+#include "metric/metric_check.hpp"
+#include "metric/tangent_frame.hpp"
+
+namespace seamwire {
+namespace {
+
+// Differences of curvature up to this fraction of the largest curvature (and of 1, the curvature of a sphere as wide as
+// the model is) are rounding: planes and spheres have no features to scale a metric by.
+constexpr double kNoDifference = 1e-9;
+
+// Smallest beta, as a fraction of the largest k1^2: where k1 = k2 = 0 the norm would vanish without it.
+constexpr double kSmallestBeta = 1e-12;
+
+// Normals whose sum is shorter than this have no direction in the middle.
+constexpr double kNoDirection = 1e-6;
+
+void check_sizes(const Surface& surface, const Curvature& curvature) {
+  const std::size_t n = surface.vertex_count();
+  for (const std::size_t size :
+       {curvature.k1.size(), curvature.k2.size(), curvature.d1.size(), curvature.d2.size(), curvature.normals.size()}) {
+    if (size != n) {
+      throw InvalidInput("curvature of " + std::to_string(size) + " vertices for a surface of " + std::to_string(n));
+    }
+  }
+  for (std::size_t v = 0; v < n; ++v) {
+    const bool finite = std::isfinite(curvature.k1[v]) && std::isfinite(curvature.k2[v]) &&
+                        curvature.d1[v].allFinite() && curvature.d2[v].allFinite() && curvature.normals[v].allFinite();
+    if (!finite) throw InvalidInput("curvature of vertex " + std::to_string(v) + " is not finite");
+  }
+}
+
+bool has_normal(const Curvature& curvature, std::size_t v) { return curvature.normals[v].squaredNorm() > 0; }
+
+// The percentile of values, interpolated linearly between the two nearest.
+double percentile(std::vector<double> values, double percent) {
+  const double position = percent / 100 * static_cast<double>(values.size() - 1);
+  const auto below = values.begin() + static_cast<std::ptrdiff_t>(position);
+  std::nth_element(values.begin(), below, values.end());
+  const double fraction = position - std::floor(position);
+  if (fraction == 0) return *below;
+  const double above = *std::min_element(below + 1, values.end());
+  return *below + fraction * (above - *below);
+}
+
+// Magnitudes of the curvatures with s = |k1| - |k2| clamped, and the largest of each; 0 at vertices without a normal.
+struct Features {
+  std::vector<double> s, k2;
+  double largest_s = 0, largest_k1 = 0;
+
+  double k1(std::size_t v) const { return k2[v] + s[v]; }
+};
+
+Features features(const Curvature& curvature, const Strength& strength) {
+  const std::size_t n = curvature.k1.size();
+  Features out{.s = std::vector<double>(n, 0.0), .k2 = std::vector<double>(n, 0.0)};
+  std::vector<double> used;
+  for (std::size_t v = 0; v < n; ++v) {
+    if (!has_normal(curvature, v)) continue;
+    out.k2[v] = std::abs(curvature.k2[v]);
+    out.s[v] = std::max(0.0, std::abs(curvature.k1[v]) - out.k2[v]);
+    if (strength.clamp_percentile) used.push_back(out.s[v]);
+  }
+  const double limit =
+      used.empty() ? std::numeric_limits<double>::infinity() : percentile(std::move(used), *strength.clamp_percentile);
+  for (std::size_t v = 0; v < n; ++v) {
+    out.s[v] = std::min(out.s[v], limit);
+    out.largest_s = std::max(out.largest_s, out.s[v]);
+    out.largest_k1 = std::max(out.largest_k1, out.k1(v));
+  }
+  return out;
+}
+
+struct Eigenvalues {
+  double l1, l2;
+};
+
+// The metric whose minor eigenvector has the direction to follow, with the eigenvalues that `at` gives for a vertex.
+template <class EigenvaluesAt>
+Metric aligned_metric(const Curvature& curvature, Follow follow, const EigenvaluesAt& at) {
+  const std::size_t n = curvature.normals.size();
+  Metric metric{.normals = curvature.normals, .tensors = std::vector<Eigen::Matrix3d>(n, Eigen::Matrix3d::Identity())};
+  for (std::size_t v = 0; v < n; ++v) {
+    if (!has_normal(curvature, v)) continue;
+    const auto [l1, l2] = at(v);
+    if (!(l1 <= kLargestEigenvalue && l2 > 0)) {
+      throw InvalidInput("the metric at vertex " + std::to_string(v) + " is too strong: its eigenvalues are " +
+                         text(l1) + " and " + text(l2));
+    }
+    const Vector& e1 = follow == Follow::kMin ? curvature.d1[v] : curvature.d2[v];
+    const Vector& e2 = follow == Follow::kMin ? curvature.d2[v] : curvature.d1[v];
+    metric.tensors[v] = l1 * e1 * e1.transpose() + l2 * e2 * e2.transpose();
+  }
+  return metric;
+}
+
+// The tensor as a 2 x 2 matrix (p, q; q, r) in an orthonormal basis of the tangent plane.
+struct PlaneTensor {
+  double p, q, r;
+};
+
+PlaneTensor in_plane(const TensorAt& at) {
+  const TangentFrame frame = tangent_frame(at.normal);
+  const Vector &u = frame.u, v = frame.v();
+  const Vector mu = at.tensor * u;
+  return {u.dot(mu), v.dot(mu), v.dot(at.tensor * v)};
+}
+
+}  // namespace
+
+void check_strength(const Strength& strength, double smallest_parameter) {
+  if (strength.parameter.has_value() == strength.max_anisotropy.has_value()) {
+    throw InvalidInput("a metric needs either its parameter or a maximum anisotropy");
+  }
+  if (strength.parameter && !(std::isfinite(*strength.parameter) && *strength.parameter >= smallest_parameter)) {
+    throw InvalidInput("parameter of the metric is " + text(*strength.parameter) +
+                       ", not a finite number of at least " + text(smallest_parameter));
+  }
+  if (strength.max_anisotropy && !(std::isfinite(*strength.max_anisotropy) && *strength.max_anisotropy >= 1)) {
+    throw InvalidInput("maximum anisotropy is " + text(*strength.max_anisotropy) +
+                       ", not a finite number of at least 1");
+  }
+  if (strength.clamp_percentile && !(*strength.clamp_percentile > 0 && *strength.clamp_percentile <= 100)) {
+    throw InvalidInput("percentile to clamp at is " + text(*strength.clamp_percentile) + ", not in (0, 100]");
+  }
+}
+
+void check_finite(const Metric& metric) {
+  for (std::size_t v = 0; v < metric.size(); ++v) {
+    if (!metric.tensors[v].allFinite() || !metric.normals[v].allFinite()) {
+      throw InvalidInput("the metric at vertex " + std::to_string(v) + " is not finite");
+    }
+    if (metric.tensors[v].cwiseAbs().maxCoeff() > kLargestEigenvalue) {
+      throw InvalidInput("the metric at vertex " + std::to_string(v) +
+                         " is too strong: its tensor has an entry above " + text(kLargestEigenvalue));
+    }
+  }
+}
+
+Metric feature_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Strength& strength) {
+  check_sizes(surface, curvature);
+  check_strength(strength, 0);
+  const Features f = features(curvature, strength);
+  const bool featureless = f.largest_s <= kNoDifference * std::max(1.0, f.largest_k1);
+  const double gamma = strength.parameter ? *strength.parameter
+                       : featureless      ? 0.0
+                                          : (*strength.max_anisotropy - 1) / f.largest_s;
+  return aligned_metric(curvature, follow, [&](std::size_t v) {
+    const double l1 = 1 + gamma * f.s[v];
+    return Eigenvalues{l1, 1 / l1};
+  });
+}
+
+Metric campen_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Strength& strength) {
+  check_sizes(surface, curvature);
+  check_strength(strength, 1);
+  const double alpha = strength.parameter ? *strength.parameter : *strength.max_anisotropy * *strength.max_anisotropy;
+  return aligned_metric(curvature, follow, [&](std::size_t) { return Eigenvalues{alpha, 1}; });
+}
+
+Metric pottmann_kovacs_metric(const Surface& surface, const Curvature& curvature, Follow follow,
+                              const Strength& strength) {
+  check_sizes(surface, curvature);
+  check_strength(strength, 0);
+  const Features f = features(curvature, strength);
+  double beta = 0;
+  if (strength.parameter) {
+    beta = *strength.parameter;
+  } else {
+    // Eq. 4 solved for beta at every vertex. As A goes to 1 beta grows without bound, and the metric, whose scale is
+    // arbitrary, becomes the Euclidean one.
+    const double a2 = *strength.max_anisotropy * *strength.max_anisotropy;
+    if (a2 == 1) return euclidean_metric(surface, curvature);
+    for (std::size_t v = 0; v < f.s.size(); ++v) {
+      beta = std::max(beta, (f.k1(v) * f.k1(v) - a2 * f.k2[v] * f.k2[v]) / (a2 - 1));
+    }
+  }
+  const double largest = f.largest_k1 * f.largest_k1;
+  beta = std::max(beta, kSmallestBeta * largest);
+  if (beta == 0 || (strength.max_anisotropy && f.largest_k1 <= kNoDifference)) {
+    return euclidean_metric(surface, curvature);
+  }
+  return aligned_metric(curvature, follow, [&](std::size_t v) {
+    return Eigenvalues{f.k1(v) * f.k1(v) + beta, f.k2[v] * f.k2[v] + beta};
+  });
+}
+
+Metric euclidean_metric(const Surface& surface, const Curvature& curvature) {
+  check_sizes(surface, curvature);
+  Metric metric{.normals = curvature.normals, .tensors = {}};
+  metric.tensors.reserve(metric.normals.size());
+  for (const Vector& n : metric.normals) metric.tensors.push_back(Eigen::Matrix3d::Identity() - n * n.transpose());
+  return metric;
+}
+
+double anisotropy(const TensorAt& at) {
+  if (at.normal.isZero(0)) return 1;
+  // hypot keeps what a root of trace^2 - 4 det would lose where the eigenvalues are almost equal.
+  const auto [p, q, r] = in_plane(at);
+  const double l1 = (p + r + std::hypot(p - r, 2 * q)) / 2;
+  return l1 / std::sqrt(p * r - q * q);
+}
+
+double max_anisotropy(const Metric& metric) {
+  double largest = 1;
+  for (std::size_t v = 0; v < metric.size(); ++v) {
+    largest = std::max(largest, anisotropy({metric.normals[v], metric.tensors[v]}));
+  }
+  return largest;
+}
+
+double normal_weight(const Eigen::Matrix3d& m) {
+  // The third eigenvalue is zero, so the sum of the principal minors is the product of the other two.
+  const double product = m(0, 0) * m(1, 1) - m(0, 1) * m(0, 1) + m(1, 1) * m(2, 2) - m(1, 2) * m(1, 2) +
+                         m(2, 2) * m(0, 0) - m(2, 0) * m(2, 0);
+  return std::sqrt(std::max(0.0, product));
+}
+
+double ambient_norm(const TensorAt& at, const Vector& e) {
+  const double out = at.normal.dot(e);
+  return std::sqrt(std::max(0.0, e.dot(at.tensor * e) + normal_weight(at.tensor) * out * out));
+}
+
+TensorAt midpoint_tensor(const TensorAt& a, const TensorAt& b) {
+  Vector n = a.normal + b.normal;
+  const double length = n.norm();
+  n = length > kNoDirection ? Vector(n / length) : a.normal;
+  return {n, (turned_by_least_rotation(a.tensor, a.normal, n) + turned_by_least_rotation(b.tensor, b.normal, n)) / 2};
+}
+
+double integrated_length(double norm_at_start, double norm_at_end) {
+  const double sum = norm_at_start + norm_at_end;
+  if (sum == 0) return 0;
+  return 2.0 / 3.0 * (sum - norm_at_start * norm_at_end / sum);
+}
+
+double edge_length(const Surface& surface, const Metric& metric, std::int32_t a, std::int32_t b) {
+  const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+  const Vector e = (surface.points()[j] - surface.points()[i]) * surface.scale();
+  return integrated_length(ambient_norm({metric.normals[i], metric.tensors[i]}, e),
+                           ambient_norm({metric.normals[j], metric.tensors[j]}, e));
+}
+
+}  // namespace seamwire

@@ -1,0 +1,462 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Section 5 of Zhuang, Zou, Carr, Ju, "Anisotropic geodesics for live-wire mesh segmentation" (2014).
+#include "seamwire/metric/scribble.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "detail/epoch_map.hpp"
+#include "detail/segment.hpp"
+#include "detail/text.hpp"
+#include "metric/scribble_points.hpp"
+#include "metric/tangent_frame.hpp"
+#include "seamwire/surface/half_edge_mesh.hpp"
+
+namespace seamwire {
+namespace {
+
+// A point may be this far from its face, as a fraction of the model's longest side: a smoothed stroke leaves the faces
+// a little, coordinates of another space are far off.
+constexpr double kOffMesh = 0.05;
+// How much dearer it is for the chain of vertices between two points to be off the line than to be long.
+constexpr double kOffLine = 4.0;
+// The chain may leave the line between two points by that line's length, and by this many edges.
+constexpr double kCorridor = 4.0;
+// Vertices looked at for one such chain, so that a stroke from one component to another is not searched for long.
+constexpr std::size_t kMostLookedAt = 50'000;
+// A segment that stays this close to a triangle's edge, in barycentric coordinates, is not inside.
+constexpr double kInside = 1e-6;
+// A direction shorter than this fraction of what it is projected from is none.
+constexpr double kNoDirection = 1e-6;
+
+std::string name(std::size_t scribble) { return "scribble " + std::to_string(scribble); }
+
+/// What is around a vertex.
+class Neighbors {
+ public:
+  explicit Neighbors(const Surface& surface) : surface_(surface) {
+    for (const auto& [a, b] : surface.loose_edges()) loose_.insert(loose_.end(), {{a, b}, {b, a}});
+    std::sort(loose_.begin(), loose_.end());
+  }
+
+  /// The vertices that an edge joins to it, of a triangle or without one.
+  template <class Visit>
+  void vertices(std::int32_t v, const Visit& visit) const {
+    fans(v, [&](OpenMesh::VertexHandle fan) {
+      for (const auto other : surface_.half_edges().vv_range(fan)) visit(surface_.vertex_of_fan()[other.idx()]);
+    });
+    for (auto edge = std::lower_bound(loose_.begin(), loose_.end(), Edge{v, -1});
+         edge != loose_.end() && (*edge)[0] == v; ++edge) {
+      visit((*edge)[1]);
+    }
+  }
+  /// The triangles of which it is a corner.
+  template <class Visit>
+  void triangles(std::int32_t v, const Visit& visit) const {
+    const HalfEdgeMesh& mesh = surface_.half_edges();
+    fans(v, [&](OpenMesh::VertexHandle fan) {
+      for (const auto face : mesh.vf_range(fan)) {
+        Triangle triangle;
+        std::size_t i = 0;
+        for (const auto corner : mesh.fv_range(face)) triangle[i++] = surface_.vertex_of_fan()[corner.idx()];
+        visit(triangle);
+      }
+    });
+  }
+
+ private:
+  template <class Visit>
+  void fans(std::int32_t v, const Visit& visit) const {
+    const auto& vertex_of_fan = surface_.vertex_of_fan();
+    const auto [first, last] = std::equal_range(vertex_of_fan.begin(), vertex_of_fan.end(), v);
+    for (auto fan = first; fan != last; ++fan) {
+      visit(OpenMesh::VertexHandle(static_cast<int>(fan - vertex_of_fan.begin())));
+    }
+  }
+
+  const Surface& surface_;
+  std::vector<Edge> loose_;
+};
+
+double distance_to_triangle(const Vector& p, const Vector& a, const Vector& b, const Vector& c) {
+  const Vector normal = (b - a).cross(c - a);
+  const double height = normal.norm();
+  const bool is_above = height > 0 && (b - a).cross(p - a).dot(normal) >= 0 && (c - b).cross(p - b).dot(normal) >= 0 &&
+                        (a - c).cross(p - c).dot(normal) >= 0;
+  if (is_above) return std::abs((p - a).dot(normal)) / height;
+  return std::min({to_segment(p, a, b).norm(), to_segment(p, b, c).norm(), to_segment(p, c, a).norm()});
+}
+
+// Whether a segment, seen from above a triangle and no further from it than it is wide, runs through its inside.
+bool crosses(const std::array<Vector, 2>& segment, const std::array<Vector, 3>& triangle) {
+  const Vector normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+  const double squared = normal.squaredNorm();
+  if (!(squared > 0)) return false;
+  // Barycentric coordinates of the segment's ends, and the part of it where none is negative.
+  std::array<std::array<double, 3>, 2> at;
+  for (std::size_t end = 0; end < 2; ++end) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector &a = triangle[(i + 1) % 3], &b = triangle[(i + 2) % 3];
+      at[end][i] = (b - a).cross(segment[end] - a).dot(normal) / squared;
+    }
+  }
+  double first = 0, last = 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double from = at[0][i], to = at[1][i];
+    if (from < 0 && to < 0) return false;
+    if (from < 0) first = std::max(first, from / (from - to));
+    if (to < 0) last = std::min(last, from / (from - to));
+  }
+  if (!(first < last)) return false;
+  const double middle = (first + last) / 2;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!((1 - middle) * at[0][i] + middle * at[1][i] > kInside)) return false;
+  }
+  const Vector p = (1 - middle) * segment[0] + middle * segment[1] - triangle[0];
+  const double wide = std::max({(triangle[1] - triangle[0]).squaredNorm(), (triangle[2] - triangle[1]).squaredNorm(),
+                                (triangle[0] - triangle[2]).squaredNorm()});
+  const double off = p.dot(normal);
+  return off * off <= wide * squared;
+}
+
+/// The drawn line, by its length.
+class DrawnLine {
+ public:
+  explicit DrawnLine(const std::vector<Vector>& points) : points_(points), at_(points.size(), 0.0) {
+    for (std::size_t i = 1; i < points.size(); ++i) at_[i] = at_[i - 1] + (points[i] - points[i - 1]).norm();
+    is_closed_ = points.size() > 2 && points.front() == points.back();
+  }
+
+  struct Foot {
+    double distance = std::numeric_limits<double>::infinity();
+    double at = 0;  ///< length along the line
+    std::size_t segment = 0;
+  };
+
+  std::size_t segment_count() const { return points_.empty() ? 0 : points_.size() - 1; }
+  double length() const { return at_.empty() ? 0 : at_.back(); }
+  Foot foot(const Vector& p, std::size_t segment) const {
+    const Vector &a = points_[segment], &b = points_[segment + 1];
+    const double t = nearest_on_segment(p, a, b);
+    return {(p - (a + t * (b - a))).norm(), at_[segment] + t * (at_[segment + 1] - at_[segment]), segment};
+  }
+  /// The nearest point near a segment: downhill from there.
+  Foot foot_near(const Vector& p, std::size_t segment) const {
+    Foot best = foot(p, segment);
+    for (const bool forward : {true, false}) {
+      const auto next = [&](std::size_t i) -> std::size_t {
+        if (forward) return i + 1 < segment_count() ? i + 1 : is_closed_ ? 0 : i;
+        return i > 0 ? i - 1 : is_closed_ ? segment_count() - 1 : i;
+      };
+      for (std::size_t i = next(segment); i != segment; i = next(i)) {
+        const Foot there = foot(p, i);
+        if (!(there.distance < best.distance)) break;
+        best = there;
+      }
+    }
+    return best;
+  }
+  /// From `half` before to `half` behind a point of the line: its direction there, without the hand's trembling.
+  Vector chord(double at, double half) const {
+    if (is_closed_) half = std::min(half, length() / 4);
+    return point(at + half) - point(at - half);
+  }
+
+ private:
+  Vector point(double at) const {
+    if (is_closed_ && at < 0) at += length();
+    if (is_closed_ && at > length()) at -= length();
+    at = std::clamp(at, 0.0, length());
+    const auto after = std::upper_bound(at_.begin(), at_.end(), at);
+    if (after == at_.end()) return points_.back();
+    const auto i = static_cast<std::size_t>(after - at_.begin());
+    return points_[i - 1] + (at - at_[i - 1]) / (at_[i] - at_[i - 1]) * (points_[i] - points_[i - 1]);
+  }
+
+  const std::vector<Vector>& points_;
+  std::vector<double> at_;  // length of the line up to each point
+  bool is_closed_ = false;
+};
+
+/// A vertex near the stroke.
+struct Reached {
+  std::int32_t vertex;
+  DrawnLine::Foot foot;
+  Vector direction;  // unit, tangent
+};
+
+class Scribbler {
+ public:
+  Scribbler(const Surface& surface, Metric& metric)
+      : surface_(surface), metric_(metric), neighbors_(surface), marks_(surface.vertex_count()) {}
+
+  void check(const Scribble& scribble, std::size_t number) const;
+  void apply(const Scribble& scribble);
+
+ private:
+  const Vector& point(std::int32_t v) const { return surface_.points()[v]; }
+  std::vector<std::int32_t> join(std::int32_t from, std::int32_t to, const DrawnLine& line, std::size_t segment);
+  std::vector<Reached> along(const Scribble& scribble, const DrawnLine& line);
+  bool direct(const DrawnLine& line, Reached& reached) const;
+  void set(const Scribble& scribble, const Reached& reached, double weight);
+  std::vector<Reached> next_ring(const std::vector<Reached>& ring, const DrawnLine& line, std::size_t known);
+
+  const Surface& surface_;
+  Metric& metric_;
+  Neighbors neighbors_;
+  EpochMap marks_;  // of vertices: their positions in a list
+};
+
+void Scribbler::check(const Scribble& scribble, std::size_t number_of_scribble) const {
+  const std::size_t count = scribble.points.size();
+  for (const auto* list : {&scribble.faces, &scribble.vertices}) {
+    if (!list->empty() && list->size() != count) {
+      throw InvalidInput(name(number_of_scribble) + " has " + std::to_string(count) + " points and " +
+                         std::to_string(list->size()) + " faces or vertices for them");
+    }
+  }
+  if (!(std::isfinite(scribble.eta) && scribble.eta >= 1)) {
+    throw InvalidInput("eta of " + name(number_of_scribble) + " is " + text(scribble.eta) +
+                       ", not a finite number of at least 1");
+  }
+  if (scribble.rings < 1) {
+    throw InvalidInput("rings of " + name(number_of_scribble) + " is " + std::to_string(scribble.rings) +
+                       ", not at least 1");
+  }
+  if (scribble.radius && !(std::isfinite(*scribble.radius) && *scribble.radius > 0)) {
+    throw InvalidInput("radius of " + name(number_of_scribble) + " is " + text(*scribble.radius) +
+                       ", not a finite number above 0");
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto fail = [&](const std::string& what) {
+      throw InvalidInput("point " + std::to_string(i) + " of " + name(number_of_scribble) + " " + what);
+    };
+    const Vector& p = scribble.points[i];
+    const std::int32_t vertex = scribble.vertices.empty() ? -1 : scribble.vertices[i];
+    const std::int32_t face = scribble.faces.empty() ? -1 : scribble.faces[i];
+    if (!p.allFinite()) fail("is not finite");
+    if (vertex < -1 || vertex >= static_cast<std::int64_t>(surface_.vertex_count())) {
+      fail("is at vertex " + std::to_string(vertex) + " of " + std::to_string(surface_.vertex_count()));
+    }
+    if (face < -1 || face >= static_cast<std::int64_t>(surface_.face_count())) {
+      fail("is in face " + std::to_string(face) + " of " + std::to_string(surface_.face_count()));
+    }
+    if (vertex < 0 && face < 0) fail("has neither a face nor a vertex");
+    double off = 0;
+    if (vertex >= 0) {
+      off = (p - point(vertex)).norm();
+    } else {
+      const auto& [a, b, c] = surface_.triangles()[face];
+      off = distance_to_triangle(p, point(a), point(b), point(c));
+    }
+    if (!(off * surface_.scale() <= kOffMesh)) {
+      fail("is off the mesh: " + text(off) + " away from " + (vertex >= 0 ? "vertex " : "face ") +
+           std::to_string(vertex >= 0 ? vertex : face));
+    }
+  }
+}
+
+// The chain of vertices from one to another that stays nearest to a segment of the line, by A*; empty where none leads
+// there within the corridor.
+std::vector<std::int32_t> Scribbler::join(std::int32_t from, std::int32_t to, const DrawnLine& line,
+                                          std::size_t segment) {
+  if (from == to) return {from};
+  struct Node {
+    std::int32_t vertex, before;
+    double cost;
+    bool is_done;
+  };
+  struct Open {
+    double bound;
+    std::int32_t vertex;
+    bool operator>(const Open& other) const {
+      return bound != other.bound ? bound > other.bound : vertex > other.vertex;
+    }
+  };
+  std::vector<Node> nodes;
+  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+  marks_.clear();
+  const Vector& target = point(to);
+  const double span = (target - point(from)).norm();
+  const auto reach = [&](std::int32_t v, std::int32_t before, double cost) {
+    if (!marks_.has(v)) {
+      marks_.set(v, nodes.size());
+      nodes.push_back({v, before, cost, false});
+    } else {
+      Node& node = nodes[marks_.at(v)];
+      if (node.is_done || !(cost < node.cost)) return;
+      node.cost = cost;
+      node.before = before;
+    }
+    open.push({cost + (target - point(v)).norm(), v});
+  };
+  reach(from, -1, 0);
+  while (!open.empty() && nodes.size() < kMostLookedAt) {
+    const std::int32_t v = open.top().vertex;
+    open.pop();
+    const std::uint32_t here = marks_.at(v);
+    if (nodes[here].is_done) continue;
+    nodes[here].is_done = true;
+    if (v == to) {
+      std::vector<std::int32_t> chain;
+      for (std::int32_t u = v; u >= 0; u = nodes[marks_.at(u)].before) chain.push_back(u);
+      std::reverse(chain.begin(), chain.end());
+      return chain;
+    }
+    const double cost = nodes[here].cost;
+    neighbors_.vertices(v, [&](std::int32_t w) {
+      const double length = (point(w) - point(v)).norm();
+      const double off = line.foot(point(w), segment).distance;
+      if (off > span + kCorridor * length) return;
+      reach(w, v, cost + length + kOffLine * off);
+    });
+  }
+  return {};
+}
+
+// The corners of the triangles that the stroke crosses, and the vertices it runs along, each once. All corners, not the
+// nearest ones alone: tensors that differ at the corners of one triangle make up a metric there that is neither's, and
+// the wire would leave the stroke by most of an edge.
+std::vector<Reached> Scribbler::along(const Scribble& scribble, const DrawnLine& line) {
+  std::vector<Reached> reached;
+  std::vector<std::pair<std::int32_t, std::size_t>> found;  // a vertex and the segment it was found for
+  for (std::size_t i = 0; i < line.segment_count(); ++i) {
+    const std::int32_t from = nearest_vertex(surface_, scribble, i), to = nearest_vertex(surface_, scribble, i + 1);
+    std::vector<std::int32_t> chain = join(from, to, line, i);
+    if (chain.empty()) chain = {from, to};
+    const std::array segment{scribble.points[i], scribble.points[i + 1]};
+    for (const std::int32_t v : chain) {
+      found.emplace_back(v, i);
+      neighbors_.triangles(v, [&](const Triangle& t) {
+        if (!crosses(segment, {point(t[0]), point(t[1]), point(t[2])})) return;
+        for (const std::int32_t corner : t) found.emplace_back(corner, i);
+      });
+    }
+  }
+  marks_.clear();
+  for (const auto& [v, segment] : found) {
+    const DrawnLine::Foot foot = line.foot_near(point(v), segment);
+    if (!marks_.has(v)) {
+      marks_.set(v, reached.size());
+      reached.push_back({v, foot, Vector::Zero()});
+    } else if (Reached& known = reached[marks_.at(v)]; foot.distance <= known.foot.distance) {
+      known.foot = foot;
+    }
+  }
+  std::erase_if(reached, [&](Reached& r) { return !direct(line, r); });
+  return reached;
+}
+
+// The stroke's direction at a vertex, over a chord as long as two edges there; false where it has none.
+bool Scribbler::direct(const DrawnLine& line, Reached& reached) const {
+  const Vector& normal = metric_.normals[reached.vertex];
+  if (normal.isZero(0)) return false;
+  double sum = 0;
+  int count = 0;
+  neighbors_.vertices(reached.vertex, [&](std::int32_t w) {
+    sum += (point(w) - point(reached.vertex)).norm();
+    ++count;
+  });
+  const Vector chord = line.chord(reached.foot.at, count > 0 ? sum / count : 0);
+  const Vector tangent = chord - chord.dot(normal) * normal;
+  const double length = tangent.norm();
+  if (!(length > kNoDirection * chord.norm())) return false;
+  reached.direction = tangent / length;
+  return true;
+}
+
+// The vertices next to a ring, with the mean of the directions there, as lines without a sense, turned onto their own
+// tangent planes. marks_ numbers the `known` vertices of all rings so far.
+std::vector<Reached> Scribbler::next_ring(const std::vector<Reached>& ring, const DrawnLine& line, std::size_t known) {
+  struct Sum {
+    Vector u, v;                    // basis of the tangent plane
+    double uu = 0, uv = 0, vv = 0;  // sum of the directions' squares
+  };
+  std::vector<Reached> next;
+  std::vector<Sum> sums;
+  for (const Reached& from : ring) {
+    const Vector& m = metric_.normals[from.vertex];
+    neighbors_.vertices(from.vertex, [&](std::int32_t w) {
+      const Vector& n = metric_.normals[w];
+      if (n.isZero(0) || (marks_.has(w) && marks_.at(w) < known)) return;
+      const DrawnLine::Foot foot = line.foot_near(point(w), from.foot.segment);
+      if (!marks_.has(w)) {
+        marks_.set(w, known + next.size());
+        next.push_back({w, foot, Vector::Zero()});
+        const TangentFrame frame = tangent_frame(n);
+        sums.push_back({frame.u, frame.v()});
+      }
+      Reached& to = next[marks_.at(w) - known];
+      Sum& sum = sums[marks_.at(w) - known];
+      if (foot.distance < to.foot.distance) to.foot = foot;
+      const Vector d = turned_by_least_rotation(from.direction, m, n);
+      const double x = d.dot(sum.u), y = d.dot(sum.v);
+      sum.uu += x * x;
+      sum.uv += x * y;
+      sum.vv += y * y;
+    });
+  }
+  for (std::size_t i = 0; i < next.size(); ++i) {
+    const double angle = std::atan2(2 * sums[i].uv, sums[i].uu - sums[i].vv) / 2;
+    next[i].direction = std::cos(angle) * sums[i].u + std::sin(angle) * sums[i].v;
+  }
+  return next;
+}
+
+void Scribbler::set(const Scribble& scribble, const Reached& reached, double weight) {
+  const Vector& along = reached.direction;
+  const Vector across = metric_.normals[reached.vertex].cross(along);
+  const double l_along = scribble.attracts ? 1 / scribble.eta : scribble.eta;
+  const Eigen::Matrix3d drawn = l_along * along * along.transpose() + 1 / l_along * across * across.transpose();
+  Eigen::Matrix3d& tensor = metric_.tensors[reached.vertex];
+  tensor = weight < 1 ? Eigen::Matrix3d(weight * drawn + (1 - weight) * tensor) : drawn;
+}
+
+void Scribbler::apply(const Scribble& scribble) {
+  const DrawnLine line(scribble.points);
+  if (!(line.length() > 0)) return;
+  std::vector<Reached> ring = along(scribble, line);
+  marks_.clear();
+  std::size_t known = 0;
+  for (const Reached& reached : ring) {
+    marks_.set(reached.vertex, known++);
+    set(scribble, reached, 1);
+  }
+  for (int r = 1; !ring.empty() && (scribble.radius || r < scribble.rings); ++r) {
+    ring = next_ring(ring, line, known);
+    known += ring.size();
+    if (scribble.radius) std::erase_if(ring, [&](const Reached& v) { return v.foot.distance >= *scribble.radius; });
+    for (const Reached& reached : ring) {
+      set(scribble, reached,
+          1 - (scribble.radius ? reached.foot.distance / *scribble.radius : static_cast<double>(r) / scribble.rings));
+    }
+  }
+}
+
+}  // namespace
+
+Metric apply_scribbles(const Surface& surface, const Metric& metric, std::span<const Scribble> scribbles,
+                       std::optional<Follow> follow) {
+  if (metric.normals.size() != surface.vertex_count() || metric.tensors.size() != surface.vertex_count()) {
+    throw InvalidInput("metric of " + std::to_string(metric.size()) + " vertices for a surface of " +
+                       std::to_string(surface.vertex_count()));
+  }
+  Metric result = metric;
+  if (scribbles.empty()) return result;
+  Scribbler scribbler(surface, result);
+  for (std::size_t i = 0; i < scribbles.size(); ++i) scribbler.check(scribbles[i], i);
+  for (const Scribble& scribble : scribbles) {
+    if (!follow || scribble.acts_on(*follow)) scribbler.apply(scribble);
+  }
+  return result;
+}
+
+}  // namespace seamwire

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include "seamwire/metric/scribble.hpp"
+#include "seamwire/surface/surface.hpp"
+
+namespace seamwire {
+
+/// The vertex at which a point of a scribble lies, or the nearest corner of its face.
+inline std::int32_t nearest_vertex(const Surface& surface, const Scribble& scribble, std::size_t i) {
+  if (!scribble.vertices.empty() && scribble.vertices[i] >= 0) return scribble.vertices[i];
+  return *std::ranges::min_element(surface.triangles()[scribble.faces[i]], {}, [&](std::int32_t v) {
+    return (surface.points()[v] - scribble.points[i]).squaredNorm();
+  });
+}
+
+}  // namespace seamwire

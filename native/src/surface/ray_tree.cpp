@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The triangle test is that of Moeller and Trumbore, "Fast, minimum storage ray-triangle intersection" (1997). The tree
+// parts triangles in halves by the middles of their boxes, along the axis on which these lie farthest apart.
+#include "seamwire/surface/ray_tree.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <stop_token>
+#include <thread>
+#include <utility>
+#include "detail/index.hpp"
+
+namespace seamwire {
+
+namespace {
+
+using Box = Eigen::AlignedBox3d;
+
+/// By how much a ray may pass a triangle, as part of its sides: else rounding would let it through between two.
+constexpr double kSlack = 1e-9;
+/// Of a distance along a ray, how much of it may be rounding.
+constexpr double kRounding = 1e-12;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A box that a ray comes into wherever it meets the triangle: as far outside as it may pass the triangle, and as the
+/// divisions in FirstHit::intersectVolume may be off.
+Box box_of(const Vector& a, const Vector& b, const Vector& c) {
+  Box box(a);
+  box.extend(b);
+  box.extend(c);
+  const double slack =
+      2.0 * kSlack * box.sizes().maxCoeff() + 1e-12 * box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
+  return {(box.min().array() - slack).matrix(), (box.max().array() + slack).matrix()};
+}
+
+}  // namespace
+
+struct RayTree::Parts {
+  enum class State { kBuilding, kBuilt, kFailed };
+
+  /// Its triangles, where they are few; else two nodes that hold them, side by side.
+  struct Node {
+    Box box;
+    std::int32_t first = 0;  ///< in `order`, or in `nodes` where `count` is 0
+    std::int32_t count = 0;
+  };
+
+  std::vector<Vector> points;
+  std::vector<Triangle> triangles;
+  std::vector<std::int32_t> order;  ///< the triangles, node by node; those that are not finite are left out
+  std::vector<Node> nodes;          ///< the first one holds all; none: there are no triangles
+  std::atomic<State> state = State::kBuilding;
+  std::jthread thread;  ///< last, so that it ends first
+
+  void build(const std::stop_token& stop);
+  bool make_nodes(const std::stop_token& stop);
+};
+
+namespace {
+
+/// One ray on its way through the triangles.
+struct FirstHit {
+  const std::vector<Vector>& points;
+  const std::vector<Triangle>& triangles;
+  Vector origin, direction;
+  RayHit best{-1, kInfinity};
+
+  /// From where to where the ray is in a box, as far as it is asked for; nowhere where the first is the greater.
+  std::array<double, 2> inside(const Box& box, double farthest) const {
+    double in = 0.0, out = farthest;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double low = box.min()[axis] - origin[axis], high = box.max()[axis] - origin[axis];
+      if (direction[axis] == 0.0) {
+        if (low > 0.0 || high < 0.0) return {1.0, 0.0};
+        continue;
+      }
+      const double one = low / direction[axis], two = high / direction[axis];
+      in = std::max(in, std::min(one, two));
+      out = std::min(out, std::max(one, two));
+    }
+    return {in, out};
+  }
+
+  /// Takes the triangle if it is met before the best hit so far.
+  void look_at(std::int32_t triangle) {
+    const auto& [a, b, c] = triangles[triangle];
+    const Vector& corner = points[a];
+    const Vector one = points[b] - corner, two = points[c] - corner;
+    const Vector across = direction.cross(two);
+    const double volume = one.dot(across);
+    if (!(std::abs(volume) > 0.0)) return;  // seen edgewise, without an area, or not finite
+    const Vector from = origin - corner;
+    const double u = from.dot(across) / volume;
+    if (!(u >= -kSlack && u <= 1.0 + kSlack)) return;
+    const Vector turned = from.cross(one);
+    const double v = direction.dot(turned) / volume;
+    if (!(v >= -kSlack && u + v <= 1.0 + kSlack)) return;
+    const double distance = two.dot(turned) / volume;
+    if (!(distance >= 0.0)) return;
+    // Where corners are in line but for rounding, the numbers above are rounding too. A hit outside of the triangle's
+    // box would be found or not as the order has it.
+    const auto [in, out] = inside(box_of(corner, points[b], points[c]), kInfinity);
+    const double room = (out - in) + kRounding * out;
+    if (!(in <= out && distance >= in - room && distance <= out + room)) return;
+    const double met = std::clamp(distance, in, out);
+    if (met < best.distance || (met == best.distance && triangle < best.triangle)) best = {triangle, met};
+  }
+};
+
+/// Triangles of a node that is not parted further.
+constexpr std::int32_t kMostInANode = 4;
+/// Triangles between two looks at the stop token.
+constexpr std::size_t kWorkBetweenChecks = 16384;
+
+}  // namespace
+
+/// False where it was stopped.
+bool RayTree::Parts::make_nodes(const std::stop_token& stop) {
+  std::vector<Box> boxes(triangles.size());
+  std::vector<Vector> middles(triangles.size());
+  order.reserve(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (t % kWorkBetweenChecks == 0 && stop.stop_requested()) return false;
+    const auto& [a, b, c] = triangles[t];
+    if (!points[a].allFinite() || !points[b].allFinite() || !points[c].allFinite()) continue;
+    boxes[t] = box_of(points[a], points[b], points[c]);
+    middles[t] = boxes[t].min() / 2 + boxes[t].max() / 2;
+    order.push_back(static_cast<std::int32_t>(t));
+  }
+  if (order.empty()) return true;
+  nodes.push_back({.box = {}, .first = 0, .count = static_cast<std::int32_t>(order.size())});
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (stop.stop_requested()) return false;
+    const std::int32_t first = nodes[n].first, count = nodes[n].count;
+    const auto begin = order.begin() + first, middle = begin + count / 2, end = begin + count;
+    Box box, spread;
+    for (auto t = begin; t != end; ++t) {
+      box.extend(boxes[*t]);
+      spread.extend(middles[*t]);
+    }
+    nodes[n].box = box;
+    if (count <= kMostInANode) continue;
+    Eigen::Index axis = 0;
+    spread.sizes().maxCoeff(&axis);
+    std::nth_element(begin, middle, end,
+                     [&](std::int32_t s, std::int32_t t) { return middles[s][axis] < middles[t][axis]; });
+    nodes[n].first = static_cast<std::int32_t>(nodes.size());
+    nodes[n].count = 0;
+    nodes.push_back({.box = {}, .first = first, .count = count / 2});
+    nodes.push_back({.box = {}, .first = first + count / 2, .count = count - count / 2});
+  }
+  return true;
+}
+
+void RayTree::Parts::build(const std::stop_token& stop) {
+  State reached = State::kFailed;  // every triangle is looked at for ever
+  try {
+    if (make_nodes(stop)) reached = State::kBuilt;
+  } catch (...) {
+    // There is no memory for it.
+  }
+  state.store(reached, std::memory_order_release);
+  state.notify_all();
+}
+
+RayTree::RayTree(std::vector<Vector> points, std::vector<Triangle> triangles) : parts_(std::make_shared<Parts>()) {
+  for (const Triangle& triangle : triangles) {
+    for (const std::int32_t v : triangle) {
+      check_index(v, points.size(), "triangles: vertex");
+    }
+  }
+  parts_->points = std::move(points);
+  parts_->triangles = std::move(triangles);
+  parts_->thread = std::jthread([parts = parts_.get()](const std::stop_token& stop) { parts->build(stop); });
+}
+
+RayHit RayTree::first_hit(const Vector& origin, const Vector& direction) const {
+  FirstHit search{parts_->points, parts_->triangles, origin, direction};
+  if (!ready()) {
+    for (std::size_t t = 0; t < parts_->triangles.size(); ++t) search.look_at(static_cast<std::int32_t>(t));
+    return search.best.triangle < 0 ? RayHit{} : search.best;
+  }
+  const auto comes_in_at = [&](std::int32_t node) {
+    const auto [in, out] = search.inside(parts_->nodes[node].box, search.best.distance);
+    return in <= out ? in : kInfinity;
+  };
+  // Halves are never empty, so the tree is no deeper than a number has bits, and a node waits at each depth.
+  std::array<std::int32_t, 64> waiting{};
+  std::size_t count = parts_->nodes.empty() ? 0 : 1;
+  while (count > 0) {
+    const Parts::Node& node = parts_->nodes[waiting[--count]];
+    // Better hits may have been found since it was put there.
+    const auto [in, out] = search.inside(node.box, search.best.distance);
+    if (!(in <= out)) continue;
+    for (std::int32_t i = 0; i < node.count; ++i) search.look_at(parts_->order[node.first + i]);
+    if (node.count > 0) continue;
+    const bool second_is_nearer = comes_in_at(node.first + 1) < comes_in_at(node.first);
+    waiting[count++] = node.first + (second_is_nearer ? 0 : 1);
+    waiting[count++] = node.first + (second_is_nearer ? 1 : 0);
+  }
+  return search.best.triangle < 0 ? RayHit{} : search.best;
+}
+
+bool RayTree::ready() const { return parts_->state.load(std::memory_order_acquire) == Parts::State::kBuilt; }
+
+void RayTree::wait() const { parts_->state.wait(Parts::State::kBuilding, std::memory_order_acquire); }
+
+}  // namespace seamwire

@@ -1,0 +1,498 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "seamwire/surface/surface.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "detail/disjoint_sets.hpp"
+#include "detail/index.hpp"
+#include "seamwire/surface/half_edge_mesh.hpp"
+
+namespace seamwire {
+namespace {
+
+using Index = std::int32_t;
+
+// A side is 3 f + i: of face f, from corner i to corner i + 1 (mod 3) in the caller's order. Corner 3 f + i is where it
+// starts.
+constexpr Index kNone = -1;
+
+Index next_in_face(Index side) { return side % 3 == 2 ? side - 2 : side + 1; }
+Index previous_in_face(Index side) { return side % 3 == 0 ? side + 2 : side - 1; }
+
+// Faces with three different corners, with the caller's numbers.
+struct Faces {
+  std::vector<Triangle> corners;
+  std::vector<Index> source;
+
+  Index count() const { return static_cast<Index>(corners.size()); }
+  Index side_count() const { return 3 * count(); }
+  Index vertex(Index corner) const { return corners[corner / 3][corner % 3]; }
+  Index tail(Index side) const { return vertex(side); }
+  Index tip(Index side) const { return vertex(next_in_face(side)); }
+  Index apex(Index side) const { return vertex(previous_in_face(side)); }
+};
+
+// Beyond this, squares of lengths overflow.
+constexpr double kLargestCoordinate = 1e150;
+
+void check_points(const std::vector<Vector>& points) {
+  if (points.size() > std::numeric_limits<Index>::max()) throw InvalidInput("too many vertices: at most 2^31 - 1");
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    const std::string name = "vertex " + std::to_string(v);
+    if (!points[v].allFinite()) throw InvalidInput(name + " has a coordinate that is not finite");
+    if (points[v].cwiseAbs().maxCoeff() > kLargestCoordinate) {
+      throw InvalidInput(name + " has a coordinate above 1e150 in size");
+    }
+  }
+}
+
+template <std::size_t N>
+void check_elements(const std::vector<std::array<Index, N>>& elements, const char* kind, std::size_t vertex_count) {
+  if (elements.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max() / 6)) {
+    throw InvalidInput("too many of: " + std::string(kind));
+  }
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    for (const Index v : elements[e]) {
+      if (is_index(v, vertex_count)) continue;
+      check_index(v, vertex_count, std::string(kind) + " " + std::to_string(e) + ": vertex");
+    }
+  }
+}
+
+void check_edges(const std::vector<Edge>& edges) {
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (edges[e][0] != edges[e][1]) continue;
+    throw InvalidInput("edge " + std::to_string(e) + " joins vertex " + std::to_string(edges[e][0]) + " to itself");
+  }
+}
+
+// Items that belong to edges, sorted by edge: buckets by the smaller vertex, sorted within by the larger one and then
+// by item. Linear in practice, where sorting all of them by comparisons would take most of the time.
+class ItemsByEdge {
+ public:
+  template <class EdgeOf>
+  ItemsByEdge(std::size_t vertex_count, Index item_count, const EdgeOf& edge_of) : first_(vertex_count + 1, 0) {
+    for (Index i = 0; i < item_count; ++i) ++first_[std::ranges::min(edge_of(i))];
+    std::exclusive_scan(first_.begin(), first_.end(), first_.begin(), 0);
+    keys_.resize(item_count);
+    std::vector<Index> end(first_);
+    for (Index i = 0; i < item_count; ++i) {
+      const auto [a, b] = std::ranges::minmax(edge_of(i));
+      keys_[end[a]++] = (static_cast<std::uint64_t>(b) << 32) | static_cast<std::uint64_t>(i);
+    }
+    for (std::size_t v = 0; v < vertex_count; ++v) std::sort(keys_.begin() + first_[v], keys_.begin() + first_[v + 1]);
+  }
+
+  // Calls visit(edge, items) for each edge in sorted order, with its items in ascending order.
+  template <class Visit>
+  void for_each_edge(const Visit& visit) const {
+    std::vector<Index> items;
+    for (std::size_t v = 0; v + 1 < first_.size(); ++v) {
+      for (Index k = first_[v]; k < first_[v + 1];) {
+        const auto w = static_cast<Index>(keys_[k] >> 32);
+        items.clear();
+        for (; k < first_[v + 1] && static_cast<Index>(keys_[k] >> 32) == w; ++k) {
+          items.push_back(static_cast<Index>(keys_[k] & 0xffffffff));
+        }
+        visit(Edge{static_cast<Index>(v), w}, std::span<const Index>(items));
+      }
+    }
+  }
+
+ private:
+  std::vector<Index> first_;
+  std::vector<std::uint64_t> keys_;
+};
+
+ItemsByEdge sides_by_edge(std::size_t vertex_count, const Faces& faces) {
+  return {vertex_count, faces.side_count(), [&](Index side) { return Edge{faces.tail(side), faces.tip(side)}; }};
+}
+
+std::vector<Edge> sorted_unique(std::size_t vertex_count, const std::vector<Edge>& edges) {
+  const ItemsByEdge by_edge(vertex_count, static_cast<Index>(edges.size()), [&](Index e) { return edges[e]; });
+  std::vector<Edge> unique;
+  unique.reserve(edges.size());
+  by_edge.for_each_edge([&](const Edge& edge, std::span<const Index>) { unique.push_back(edge); });
+  return unique;
+}
+
+std::vector<Edge> merged(const std::vector<Edge>& a, const std::vector<Edge>& b) {
+  std::vector<Edge> both;
+  both.reserve(a.size() + b.size());
+  std::ranges::set_union(a, b, std::back_inserter(both));
+  return both;
+}
+
+// Leaves out faces with less than three different corners; what edges they have go to `stray_edges`.
+Faces proper_faces(const std::vector<Triangle>& triangles, std::vector<Index>& degenerate,
+                   std::vector<Edge>& stray_edges) {
+  Faces faces;
+  faces.corners.reserve(triangles.size());
+  faces.source.reserve(triangles.size());
+  for (std::size_t f = 0; f < triangles.size(); ++f) {
+    const auto [a, b, c] = triangles[f];
+    if (a != b && b != c && c != a) {
+      faces.corners.push_back(triangles[f]);
+      faces.source.push_back(static_cast<Index>(f));
+      continue;
+    }
+    degenerate.push_back(static_cast<Index>(f));
+    if (a != b) {
+      stray_edges.push_back({a, b});
+    } else if (b != c) {
+      stray_edges.push_back({b, c});
+    }
+  }
+  return faces;
+}
+
+// Faces on the same three vertices as an earlier one: they meet it at every edge, so one edge's faces tell.
+std::vector<bool> find_duplicates(const Faces& faces, const ItemsByEdge& by_edge, bool& found) {
+  std::vector<bool> duplicate(faces.corners.size(), false);
+  std::vector<std::pair<Index, Index>> apexes;
+  found = false;
+  by_edge.for_each_edge([&](const Edge&, std::span<const Index> sides) {
+    if (sides.size() < 2) return;
+    apexes.clear();
+    for (const Index side : sides) apexes.emplace_back(faces.apex(side), side / 3);
+    std::ranges::sort(apexes);
+    for (std::size_t i = 1; i < apexes.size(); ++i) {
+      if (apexes[i].first != apexes[i - 1].first) continue;
+      duplicate[apexes[i].second] = found = true;
+    }
+  });
+  return duplicate;
+}
+
+void remove_faces(Faces& faces, const std::vector<bool>& remove, std::vector<Index>& removed) {
+  std::size_t kept = 0;
+  for (std::size_t f = 0; f < faces.corners.size(); ++f) {
+    if (remove[f]) {
+      removed.push_back(faces.source[f]);
+      continue;
+    }
+    faces.corners[kept] = faces.corners[f];
+    faces.source[kept++] = faces.source[f];
+  }
+  faces.corners.resize(kept);
+  faces.source.resize(kept);
+}
+
+// The side glued to each side; none at edges with one face, or with more than two.
+struct Gluing {
+  std::vector<Index> twin;
+  std::vector<Edge> carried;  // edges that faces have, sorted
+};
+
+Gluing glue(const Faces& faces, const ItemsByEdge& by_edge, SurfaceReport& report) {
+  Gluing gluing;
+  gluing.twin.assign(faces.side_count(), kNone);
+  gluing.carried.reserve(faces.corners.size() * 3 / 2);
+  by_edge.for_each_edge([&](const Edge& edge, std::span<const Index> sides) {
+    gluing.carried.push_back(edge);
+    if (sides.size() == 1) ++report.boundary_edges;
+    if (sides.size() > 2) report.nonmanifold_edges.push_back(edge);
+    if (sides.size() != 2) return;
+    gluing.twin[sides[0]] = sides[1];
+    gluing.twin[sides[1]] = sides[0];
+  });
+  return gluing;
+}
+
+// Which faces to turn over so that glued faces agree. Faces that agree as given are reached before others, so that
+// where the surface is one-sided it is cut along edges where the caller's orientation breaks already. Of a component
+// the orientation with more area is kept.
+std::vector<bool> find_flips(const Faces& faces, const std::vector<Index>& twin, const std::vector<double>& areas) {
+  const Index count = faces.count();
+  std::vector<bool> visited(count, false);
+  std::vector<bool> flipped(count, false);
+  std::vector<Index> component;
+  std::vector<Index> agreeing;     // stack of faces whose neighbours are to be looked at
+  std::vector<Index> disagreeing;  // sides to cross once no agreeing face is left
+  for (Index start = 0; start < count; ++start) {
+    if (visited[start]) continue;
+    component.clear();
+    disagreeing.clear();
+    double area[2] = {0.0, 0.0};
+    std::size_t number[2] = {0, 0};
+    const auto reach = [&](Index face, bool flip) {
+      visited[face] = true;
+      flipped[face] = flip;
+      area[flip] += areas[face];
+      ++number[flip];
+      component.push_back(face);
+      agreeing.push_back(face);
+    };
+    reach(start, false);
+    for (std::size_t next = 0;;) {
+      while (!agreeing.empty()) {
+        const Index face = agreeing.back();
+        agreeing.pop_back();
+        for (Index side = 3 * face; side < 3 * face + 3; ++side) {
+          const Index other = twin[side];
+          if (other == kNone || visited[other / 3]) continue;
+          if (faces.tail(side) == faces.tip(other)) {
+            reach(other / 3, flipped[face]);
+          } else {
+            disagreeing.push_back(side);
+          }
+        }
+      }
+      while (next < disagreeing.size() && visited[twin[disagreeing[next]] / 3]) ++next;
+      if (next == disagreeing.size()) break;
+      reach(twin[disagreeing[next]] / 3, !flipped[disagreeing[next] / 3]);
+    }
+    const bool even = std::abs(area[0] - area[1]) <= 1e-9 * (area[0] + area[1]);  // equal but for rounding
+    if (even ? number[1] > number[0] : area[1] > area[0]) {
+      for (const Index face : component) flipped[face] = !flipped[face];
+    }
+  }
+  return flipped;
+}
+
+// Cuts the glued pairs that the flips cannot make agree.
+void cut_unorientable(const Faces& faces, const std::vector<bool>& flipped, std::vector<Index>& twin,
+                      std::vector<Edge>& cut) {
+  for (Index side = 0; side < faces.side_count(); ++side) {
+    const Index other = twin[side];
+    if (other < side) continue;
+    const bool agree_as_given = faces.tail(side) == faces.tip(other);
+    if (agree_as_given == (flipped[side / 3] == flipped[other / 3])) continue;
+    const Index a = faces.tail(side);
+    const Index b = faces.tip(side);
+    cut.push_back({std::min(a, b), std::max(a, b)});
+    twin[side] = twin[other] = kNone;
+  }
+  std::ranges::sort(cut);
+}
+
+// Corners of one vertex whose faces are glued to each other around it, numbered in the order of their vertices, so
+// that on a clean mesh the numbers of fans and vertices are the same.
+struct Fans {
+  std::vector<Index> of_corner;
+  std::vector<Index> vertex;
+};
+
+Fans find_fans(std::size_t vertex_count, const Faces& faces, const std::vector<Index>& twin) {
+  Fans fans;
+  fans.of_corner.assign(faces.side_count(), kNone);
+  std::vector<Index> vertex_found;  // by order of discovery
+  for (Index start = 0; start < faces.side_count(); ++start) {
+    if (fans.of_corner[start] != kNone) continue;
+    const Index vertex = faces.vertex(start);
+    const auto fan = static_cast<Index>(vertex_found.size());
+    vertex_found.push_back(vertex);
+    fans.of_corner[start] = fan;
+    // A corner's vertex is on the side that starts there and on the one before: around it both ways.
+    for (Index leave : {start, previous_in_face(start)}) {
+      while (twin[leave] != kNone) {
+        const Index enter = twin[leave];
+        const bool at_tail = faces.tail(enter) == vertex;
+        const Index corner = at_tail ? enter : next_in_face(enter);
+        if (fans.of_corner[corner] != kNone) break;
+        fans.of_corner[corner] = fan;
+        leave = at_tail ? previous_in_face(enter) : corner;
+      }
+    }
+  }
+  std::vector<Index> number(vertex_count + 1, 0);
+  for (const Index v : vertex_found) ++number[v];
+  std::exclusive_scan(number.begin(), number.end(), number.begin(), 0);
+  std::vector<Index> renumbered(vertex_found.size());
+  fans.vertex.resize(vertex_found.size());
+  for (std::size_t fan = 0; fan < vertex_found.size(); ++fan) {
+    renumbered[fan] = number[vertex_found[fan]]++;
+    fans.vertex[renumbered[fan]] = vertex_found[fan];
+  }
+  for (Index& fan : fans.of_corner) fan = renumbered[fan];
+  return fans;
+}
+
+// Links the half-edges directly. OpenMesh's add_face() finds edges by their end points, so it would glue or refuse two
+// edges between the same two fans, which the slit along a cut edge has; half-edges as such hold them. Every fan is one
+// disk or half-disk by construction, so that nothing here can fail.
+void link_half_edges(const std::vector<Vector>& points, const Faces& faces, const std::vector<Index>& twin,
+                     const std::vector<bool>& flipped, const Fans& fans, HalfEdgeMesh& mesh) {
+  using OpenMesh::FaceHandle;
+  using OpenMesh::HalfedgeHandle;
+  using OpenMesh::VertexHandle;
+
+  std::vector<HalfedgeHandle> half_edge(faces.side_count());
+  Index edge_count = 0;
+  for (Index side = 0; side < faces.side_count(); ++side) {
+    const Index other = twin[side];
+    if (other != kNone && other < side) {
+      half_edge[side] = HalfedgeHandle(half_edge[other].idx() + 1);
+    } else {
+      half_edge[side] = HalfedgeHandle(2 * edge_count++);
+    }
+  }
+  mesh.resize(fans.vertex.size(), static_cast<std::size_t>(edge_count), faces.corners.size());
+  for (std::size_t fan = 0; fan < fans.vertex.size(); ++fan) {
+    mesh.set_point(VertexHandle(static_cast<int>(fan)), points[fans.vertex[fan]]);
+  }
+  for (Index side = 0; side < faces.side_count(); ++side) {
+    const bool flip = flipped[side / 3];
+    const Index tail = flip ? next_in_face(side) : side;
+    const Index tip = flip ? side : next_in_face(side);
+    const HalfedgeHandle h = half_edge[side];
+    const VertexHandle tail_fan(fans.of_corner[tail]);
+    mesh.set_vertex_handle(h, VertexHandle(fans.of_corner[tip]));
+    mesh.set_vertex_handle(mesh.opposite_halfedge_handle(h), tail_fan);
+    mesh.set_face_handle(h, FaceHandle(side / 3));
+    mesh.set_next_halfedge_handle(h, half_edge[flip ? previous_in_face(side) : next_in_face(side)]);
+    mesh.set_halfedge_handle(tail_fan, h);
+    // A face's vertices are listed from the tip of its half-edge on: from the caller's first corner.
+    if (tip % 3 == 0) mesh.set_halfedge_handle(FaceHandle(side / 3), h);
+  }
+  // OpenMesh wants a boundary vertex to know its outgoing boundary half-edge, of which each fan has one at most.
+  const auto boundary_half_edge = [&](Index side) { return mesh.opposite_halfedge_handle(half_edge[side]); };
+  for (Index side = 0; side < faces.side_count(); ++side) {
+    if (twin[side] != kNone) continue;
+    const HalfedgeHandle h = boundary_half_edge(side);
+    mesh.set_halfedge_handle(mesh.from_vertex_handle(h), h);
+  }
+  for (Index side = 0; side < faces.side_count(); ++side) {
+    if (twin[side] != kNone) continue;
+    const HalfedgeHandle h = boundary_half_edge(side);
+    mesh.set_next_halfedge_handle(h, mesh.halfedge_handle(mesh.to_vertex_handle(h)));
+  }
+}
+
+// The same in flat arrays. A face that is turned over has its sides in the other order.
+void list_faces(const std::vector<Index>& twin, const std::vector<bool>& flipped, const Fans& fans,
+                std::vector<Triangle>& face_fans, std::vector<Index>& twins) {
+  const auto turned_over = [&](Index side) { return flipped[side / 3] ? side / 3 * 3 + 2 - side % 3 : side; };
+  face_fans.resize(twin.size() / 3);
+  twins.resize(twin.size());
+  for (Index side = 0; side < static_cast<Index>(twin.size()); ++side) {
+    const Index tail = flipped[side / 3] ? next_in_face(side) : side;
+    face_fans[side / 3][turned_over(side) % 3] = fans.of_corner[tail];
+    twins[turned_over(side)] = twin[side] == kNone ? -1 : turned_over(twin[side]);
+  }
+}
+
+std::vector<bool> vertices_in_use(std::size_t vertex_count, const Faces& faces, const std::vector<Edge>& edges) {
+  std::vector<bool> used(vertex_count, false);
+  for (const Triangle& corners : faces.corners) {
+    for (const Index v : corners) used[v] = true;
+  }
+  for (const Edge& edge : edges) {
+    for (const Index v : edge) used[v] = true;
+  }
+  return used;
+}
+
+double unit_cube_scale(const std::vector<Vector>& points, const std::vector<bool>& used) {
+  Vector low = Vector::Constant(std::numeric_limits<double>::infinity());
+  Vector high = -low;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (!used[v]) continue;
+    low = low.cwiseMin(points[v]);
+    high = high.cwiseMax(points[v]);
+  }
+  const double side = (high - low).maxCoeff();
+  // One over a denormal number is infinite.
+  return side >= std::numeric_limits<double>::min() ? 1.0 / side : 1.0;
+}
+
+// Below this times its longest side, a triangle's height is nothing but rounding.
+constexpr double kZeroHeight = 1e-12;
+
+// Areas on the unit cube's scale; 0 where a triangle's corners are in line.
+std::vector<double> face_areas(const std::vector<Vector>& points, const Faces& faces, double scale) {
+  std::vector<double> areas;
+  areas.reserve(faces.corners.size());
+  for (const auto& [a, b, c] : faces.corners) {
+    const Vector ab = scale * (points[b] - points[a]);
+    const Vector bc = scale * (points[c] - points[b]);
+    const Vector ca = scale * (points[a] - points[c]);
+    const double longest = std::max({ab.squaredNorm(), bc.squaredNorm(), ca.squaredNorm()});
+    const double area = 0.5 * ab.cross(bc).norm();
+    areas.push_back(2.0 * area > kZeroHeight * longest ? area : 0.0);
+  }
+  return areas;
+}
+
+std::size_t count_components(const std::vector<bool>& used, std::initializer_list<const std::vector<Edge>*> edges) {
+  DisjointSets sets(used.size());
+  auto count = static_cast<std::size_t>(std::ranges::count(used, true));
+  for (const std::vector<Edge>* list : edges) {
+    for (const auto& [a, b] : *list) count -= sets.join(a, b) ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace
+
+Surface::Surface(std::vector<Vector> points, std::vector<Triangle> triangles, std::optional<std::vector<Edge>> edges,
+                 const Task& task)
+    : points_(std::move(points)), triangles_(std::move(triangles)) {
+  check_points(points_);
+  check_elements(triangles_, "triangle", points_.size());
+  if (edges) {
+    check_elements(*edges, "edge", points_.size());
+    check_edges(*edges);
+  }
+
+  task.check(0.0);
+  std::vector<Edge> stray_edges;
+  Faces faces = proper_faces(triangles_, report_.degenerate_faces, stray_edges);
+  ItemsByEdge by_edge = sides_by_edge(points_.size(), faces);
+  task.check(0.2);
+  bool has_duplicates = false;
+  const std::vector<bool> duplicate = find_duplicates(faces, by_edge, has_duplicates);
+  if (has_duplicates) {
+    remove_faces(faces, duplicate, report_.duplicate_faces);
+    by_edge = sides_by_edge(points_.size(), faces);
+  }
+  task.check(0.3);
+  Gluing gluing = glue(faces, by_edge, report_);
+
+  task.check(0.35);
+  stray_edges = sorted_unique(points_.size(), stray_edges);
+  edges_ = edges ? sorted_unique(points_.size(), *edges) : merged(gluing.carried, stray_edges);
+  // A polygon's triangulation may run through edges that are not real: those of faces left out connect all the same.
+  const std::vector<Edge> connecting = merged(edges_, stray_edges);
+  if (connecting.empty() && faces.corners.empty()) throw InvalidInput("the mesh is empty: it has no edge");
+  std::ranges::set_difference(connecting, gluing.carried, std::back_inserter(loose_edges_));
+
+  task.check(0.4);
+  const std::vector<bool> used = vertices_in_use(points_.size(), faces, connecting);
+  scale_ = unit_cube_scale(points_, used);
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    if (!used[v]) report_.isolated_vertices.push_back(static_cast<Index>(v));
+  }
+  report_.components = count_components(used, {&gluing.carried, &connecting});
+
+  task.check(0.5);
+  const std::vector<double> areas = face_areas(points_, faces, scale_);
+  task.check(0.55);
+  const std::vector<bool> flipped = find_flips(faces, gluing.twin, areas);
+  for (Index f = 0; f < faces.count(); ++f) {
+    if (areas[f] == 0.0) report_.zero_area_faces.push_back(faces.source[f]);
+    if (flipped[f]) report_.flipped_faces.push_back(faces.source[f]);
+  }
+  cut_unorientable(faces, flipped, gluing.twin, report_.unorientable_edges);
+
+  task.check(0.6);
+  Fans fans = find_fans(points_.size(), faces, gluing.twin);
+  task.check(0.7);
+  auto mesh = std::make_shared<HalfEdgeMesh>();
+  link_half_edges(points_, faces, gluing.twin, flipped, fans, *mesh);
+  mesh_ = std::move(mesh);
+  task.check(0.9);
+  list_faces(gluing.twin, flipped, fans, face_fans_, twins_);
+  vertex_of_fan_ = std::move(fans.vertex);
+  source_face_ = std::move(faces.source);
+}
+
+}  // namespace seamwire

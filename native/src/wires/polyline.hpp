@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "seamwire/surface/vector.hpp"
+
+namespace seamwire {
+
+/// A line of straight segments, which tells how far points and edges are from it, by a tree of boxes over its segments.
+class Polyline {
+ public:
+  /// At least one point.
+  explicit Polyline(const std::vector<Vector>& points);
+
+  /// Distance from p, which is known to be at most `bound`.
+  double distance(const Vector& p, double bound) const;
+
+  /// Integral of the distance along the edge from a to b, at which it is `at_a` and `at_b`.
+  double integral(const Vector& a, const Vector& b, double at_a, double at_b) const;
+
+  /// No more than integral() of an edge of that length.
+  static double least_integral(double length, double at_a, double at_b);
+
+ private:
+  struct Segment {
+    Vector from, along;
+    double per_length2;  // 0: it is a point
+  };
+  struct Node {
+    Eigen::AlignedBox3d box;
+    std::size_t begin, end;
+    std::int32_t left = -1, right = -1;
+  };
+
+  static double squared_distance(const Vector& p, const Segment& s);
+  std::int32_t build(const std::vector<Vector>& points, std::size_t begin, std::size_t end);
+
+  std::vector<Segment> segments_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace seamwire

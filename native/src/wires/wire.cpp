@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "seamwire/wires/wire.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "detail/index.hpp"
+
+namespace seamwire {
+
+namespace {
+
+/// Sine of the largest angle between pieces of one line. What is left out changes the length by its square, which is
+/// nothing in double precision.
+constexpr double kCollinear = 1e-11;
+
+Vector position(const Embedding& embedding, const PathPoint& point) {
+  if (point.half_edge < 0) return embedding.points[point.vertex];
+  const Vector& tail = embedding.points[embedding.mesh.tail(point.half_edge)];
+  const Vector& tip = embedding.points[embedding.mesh.tip(point.half_edge)];
+  return (1.0 - point.t) * tail + point.t * tip;
+}
+
+bool straight(const Vector& a, const Vector& b, const Vector& c) {
+  const Vector u = b - a, v = c - b;
+  return u.dot(v) > 0 && u.cross(v).norm() <= kCollinear * u.norm() * v.norm();
+}
+
+void check_embedding(const Surface& surface, const Embedding& embedding) {
+  const std::size_t vertices = surface.vertex_count();
+  if (embedding.points.size() < vertices ||
+      (vertices > 0 && (embedding.points.front() != surface.points().front() ||
+                        embedding.points[vertices - 1] != surface.points().back()))) {
+    throw InvalidInput("the embedding is of another surface");
+  }
+}
+
+void check_path(const Surface& surface, const Embedding& embedding, const IntrinsicPath& path) {
+  const auto check = [](bool is_there) {
+    if (!is_there) throw InvalidInput("the path is of another embedding");
+  };
+  check(path.faces.size() + 1 == path.points.size());
+  for (const PathPoint& point : path.points) {
+    if (point.half_edge < 0) {
+      check(point.vertex >= 0 && index(point.vertex) < embedding.points.size());
+    } else {
+      check(index(point.half_edge / 3) < embedding.source_face.size());
+    }
+  }
+  for (const std::int32_t face : path.faces) {
+    if (face < 0) continue;
+    check(index(face) < embedding.source_face.size());
+    check(index(embedding.source_face[face]) < surface.face_count());
+  }
+}
+
+}  // namespace
+
+Wire map_wire(const Surface& surface, const Embedding& embedding, const IntrinsicPath& path) {
+  Wire wire;
+  check_embedding(surface, embedding);
+  if (path.points.empty()) return wire;
+  check_path(surface, embedding, path);
+  wire.length = path.length;
+  for (std::size_t i = 0; i < path.points.size(); ++i) {
+    const PathPoint& at = path.points[i];
+    const Vector point = position(embedding, at);
+    const bool is_external = at.half_edge < 0 && index(at.vertex) < surface.vertex_count();
+    const std::int32_t vertex = is_external ? at.vertex : -1;
+    if (i > 0) {
+      const std::int32_t refined = path.faces[i - 1];
+      const std::int32_t face = refined < 0 ? -1 : embedding.source_face[refined];
+      const bool free_end = wire.vertices.back() < 0;  // not one of the caller's vertices, so it may go
+      if (point == wire.points.back() && (free_end || vertex < 0)) {
+        if (free_end) wire.vertices.back() = vertex;
+        continue;
+      }
+      const std::size_t n = wire.points.size();
+      if (n > 1 && free_end && face >= 0 && wire.faces.back() == face &&
+          straight(wire.points[n - 2], wire.points[n - 1], point)) {
+        wire.points.back() = point;
+        wire.vertices.back() = vertex;
+        continue;
+      }
+      wire.faces.push_back(face);
+    }
+    wire.points.push_back(point);
+    wire.vertices.push_back(vertex);
+  }
+  wire.from = wire.vertices.front();
+  wire.to = wire.vertices.back();
+  wire.euclidean_length = 0.0;
+  for (std::size_t i = 1; i < wire.points.size(); ++i) {
+    wire.euclidean_length += (wire.points[i] - wire.points[i - 1]).norm() * surface.scale();
+  }
+  return wire;
+}
+
+Wire trace_wire(const Surface& surface, const Embedding& embedding, const DistanceField& field, std::int32_t vertex,
+                const Task& task) {
+  check_index(vertex, surface.vertex_count(), "vertex");
+  if (field.distances().size() != embedding.points.size()) {
+    throw InvalidInput("the field is of another embedding: it has " + std::to_string(field.distances().size()) +
+                       " vertices, the embedding " + std::to_string(embedding.points.size()));
+  }
+  Wire wire = map_wire(surface, embedding, field.trace(vertex, task));
+  wire.from = index(field.seed()) < surface.vertex_count() ? field.seed() : -1;
+  wire.to = vertex;
+  return wire;
+}
+
+}  // namespace seamwire

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "seamwire/surface/triangulate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+namespace seamwire {
+namespace {
+
+using Numbers = std::vector<std::int32_t>;
+
+const std::vector<Vector> kSquare = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+
+TEST(Triangulation, KeepsTrianglesAndCutsQuadsFromTheFirstCornerToTheThird) {
+  const Triangulation cut = triangulate(kSquare, Numbers{0, 1, 2, 0, 1, 2, 3, 1, 2, 3}, Numbers{3, 4, 3});
+  EXPECT_EQ(cut.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 1, 2}, {0, 2, 3}, {1, 2, 3}}));
+  EXPECT_EQ(cut.polygons, (Numbers{0, 1, 1, 2}));
+}
+
+TEST(Triangulation, CutsAQuadThatIsBentInAtThatCornerWhicheverItIs) {
+  for (std::size_t bent = 0; bent < 4; ++bent) {
+    std::vector<Vector> points = kSquare;
+    points[bent] = Vector(0.5, 0.5, 0) - 0.4 * (points[bent] - Vector(0.5, 0.5, 0));
+    const Triangulation cut = triangulate(points, Numbers{0, 1, 2, 3}, Numbers{4});
+    double area = 0;
+    for (const auto& [a, b, c] : cut.triangles) {
+      const auto at = [&](std::int32_t v) { return points[static_cast<std::size_t>(v)]; };
+      const double part = 0.5 * (at(b) - at(a)).cross(at(c) - at(a)).z();
+      EXPECT_GT(part, 0) << "corner " << bent;
+      area += part;
+    }
+    EXPECT_NEAR(area, 0.3, 1e-12) << "corner " << bent;  // half the square, less 0.4 times as much
+  }
+}
+
+TEST(Triangulation, CutsASquareOfNoSizeAndNothingAtAll) {
+  EXPECT_EQ(triangulate(std::vector<Vector>(4, Vector::Zero()), Numbers{0, 1, 2, 3}, Numbers{4}).triangles.size(), 2);
+  EXPECT_TRUE(triangulate({}, {}, {}).triangles.empty());
+}
+
+TEST(Triangulation, SaysWhatIsWrong) {
+  const auto said = [](const Numbers& corners, const Numbers& sizes) -> std::string {
+    try {
+      triangulate(kSquare, corners, sizes);
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(said({0, 1, 2, 4}, {4}), "corners: vertex 4 is out of range: there are 4 points");
+  EXPECT_EQ(said({0, 1, -1}, {3}), "corners: vertex -1 is out of range: there are 4 points");
+  EXPECT_EQ(said({0, 1}, {2}), "sizes: polygon 0 has 2 corners, neither 3 nor 4");
+  EXPECT_EQ(said({0, 1, 2, 3, 0}, {3, -2, 4}), "sizes: polygon 1 has -2 corners, neither 3 nor 4");
+  EXPECT_EQ(said({0, 1, 2, 3}, {3}), "sizes: they add up to 3, but there are 4 corners");
+  EXPECT_EQ(said({0, 1, 2}, {3, 3}), "sizes: they add up to 6, but there are 3 corners");
+}
+
+}  // namespace
+}  // namespace seamwire
