@@ -77,7 +77,7 @@ void bind_surface(py::module_& module) {
       .def_property_readonly("flipped_faces", array_of<ReportObject>([](const auto& r) -> auto& {
                                return r.surface->report().flipped_faces;
                              }),
-                             "(k,) int32: turned over to agree with their neighbours.")
+                             "(k,) int32: turned over to agree with their neighbors.")
       .def_property_readonly("zero_area_faces", array_of<ReportObject>([](const auto& r) -> auto& {
                                return r.surface->report().zero_area_faces;
                              }),
@@ -468,7 +468,7 @@ Cancelled
       py::arg("surface"), py::arg("wire"),
       R"(The path of real edges that stays closest to a wire, from its start to its end.
 
-Of the paths along edges of the faces that the wire crosses and of their neighbours, the one with the least integral of
+Of the paths along edges of the faces that the wire crosses and of their neighbors, the one with the least integral of
 its distance to the wire.
 
 Returns

@@ -81,8 +81,8 @@ TEST(EdgeWires, ContainThePickedEdgesWhichHaveNoDirection) {
       const auto target = [&](std::int32_t a, std::int32_t b) { return turned ? Pick{b, a} : Pick{a, b}; };
       EXPECT_EQ(wires.trace(target(12, 13)).vertices, Chain({9, 10, 11, 12, 13}));
       EXPECT_EQ(wires.trace(target(7, 8)).vertices, Chain({10, 9, 8, 7}));
-      EXPECT_EQ(wires.trace(target(10, 17)).vertices, Chain({9, 10, 17})) << "neighbours";
-      EXPECT_EQ(wires.trace(target(8, 9)).vertices, Chain({10, 9, 8})) << "neighbours";
+      EXPECT_EQ(wires.trace(target(10, 17)).vertices, Chain({9, 10, 17})) << "neighbors";
+      EXPECT_EQ(wires.trace(target(8, 9)).vertices, Chain({10, 9, 8})) << "neighbors";
     }
     EXPECT_EQ(wires.trace({12, -1}).vertices, Chain({9, 10, 11, 12}));
     EXPECT_EQ(wires.trace({8, -1}).vertices, Chain({10, 9, 8}));

@@ -28,10 +28,10 @@ using shapes::Mesh;
 
 // Which vertices triangles and loose edges connect to the first.
 std::vector<bool> connected_to(const IntrinsicMesh& mesh, std::int32_t first) {
-  std::vector<std::vector<std::int32_t>> neighbours(at(mesh.vertex_count));
+  std::vector<std::vector<std::int32_t>> neighbors(at(mesh.vertex_count));
   const auto join = [&](std::int32_t a, std::int32_t b) {
-    neighbours[at(a)].push_back(b);
-    neighbours[at(b)].push_back(a);
+    neighbors[at(a)].push_back(b);
+    neighbors[at(b)].push_back(a);
   };
   for (const auto& [a, b, c] : mesh.triangles) join(a, b), join(b, c);
   for (const LooseEdge& edge : mesh.loose_edges) join(edge.a, edge.b);
@@ -41,7 +41,7 @@ std::vector<bool> connected_to(const IntrinsicMesh& mesh, std::int32_t first) {
   while (!todo.empty()) {
     const std::int32_t v = todo.back();
     todo.pop_back();
-    for (const std::int32_t w : neighbours[at(v)]) {
+    for (const std::int32_t w : neighbors[at(v)]) {
       if (!reached[at(w)]) todo.push_back(w);
       reached[at(w)] = true;
     }
@@ -192,7 +192,7 @@ TEST(Embed, SplitsLargestPerimeterFirst) {
   EXPECT_EQ(few.faces_added, 2U);
 }
 
-// Neighbours agree on their edges, and no vertex lies within an edge, also where a chain of neighbours was bisected.
+// Neighbors agree on their edges, and no vertex lies within an edge, also where a chain of neighbors was bisected.
 TEST(Embed, StaysConformingWhereItLeavesThePapersScheme) {
   const Surface surface = shapes::torus(24, 40).surface();
   const Embedding embedding =

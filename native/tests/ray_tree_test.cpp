@@ -30,7 +30,7 @@ TEST(Rays, pass_between_no_two_triangles_of_a_flat_grid) {
   const shapes::Mesh mesh = shapes::grid(16);
   const RayTree tree(mesh.points, mesh.triangles);
   tree.wait();
-  // Through every vertex and every middle of a side, where neighbours meet.
+  // Through every vertex and every middle of a side, where neighbors meet.
   for (int j = 0; j <= 32; ++j) {
     for (int i = 0; i <= 32; ++i) {
       const RayHit hit = tree.first_hit({i / 32.0, j / 32.0, 1.0}, {0, 0, -1});

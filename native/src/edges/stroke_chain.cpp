@@ -10,8 +10,8 @@
 #include <span>
 #include <unordered_map>
 
-#include "detail/segment.hpp"
 #include "metric/scribble_points.hpp"
+#include "surface/point_segment.hpp"
 
 namespace seamwire {
 namespace {

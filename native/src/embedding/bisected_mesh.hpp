@@ -31,10 +31,10 @@ bool keeps_numbers(const Surface& surface);
 class BisectedMesh {
  public:
   /// The surface's triangles, without those degenerate ones that can be removed. Surface and metric must outlive it.
-  BisectedMesh(const Surface& surface, const Metric& metric);
+  BisectedMesh(const Surface& on, const Metric& by);
   /// The triangles of an embedding of the surface, which must be `is_local`. Points of the metric have to be set with
   /// set_node() before they are used.
-  BisectedMesh(const Surface& surface, const Metric& metric, Embedding&& old);
+  BisectedMesh(const Surface& on, const Metric& by, Embedding&& old);
 
   std::size_t face_count() const { return corners.size(); }
   std::size_t vertex_count() const { return fans_ + new_nodes_.size(); }
@@ -104,7 +104,7 @@ class BisectedMesh {
       return std::sqrt(std::max(0.0, squared));
     }
   };
-  static MetricNode node_of(const Vector& point, const Vector& normal, const Eigen::Matrix3d& tensor);
+  static MetricNode node_of(const Vector& point, const Vector& n, const Eigen::Matrix3d& m);
 
   const MetricNode& node(std::int32_t v) const { return index(v) < fans_ ? nodes_[v] : new_nodes_[index(v) - fans_]; }
   TensorAt tensor_at(std::int32_t v) const;

@@ -5,7 +5,7 @@
 // 2. from the target back, the vertices v of the corridor, those of the least d(v) + (distance along hops to the
 //    target): Hart, Nilsson, Raphael, "A Formal Basis for the Heuristic Determination of Minimum Cost Paths" (A*,
 //    1968), whose estimate is exact here, so that no vertex is looked at but those of the corridor and their
-//    neighbours;
+//    neighbors;
 // 3. the exact wavefront over the triangles at those vertices, as a mesh of their own.
 #include "seamwire/geodesics/corridor_paths.hpp"
 

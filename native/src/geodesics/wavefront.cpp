@@ -280,7 +280,7 @@ class Wavefront {
   }
 
   /// Sorts a list by the middles of its windows: those that came over different sides of a triangle are mixed, and
-  /// only neighbours are compared. Few are out of place.
+  /// only neighbors are compared. Few are out of place.
   static void sort(const Windows& w, std::size_t size) {
     for (std::size_t i = 1; i < size; ++i) {
       const double b0 = w.b0[i], b1 = w.b1[i], x = w.x[i], y = w.y[i], d = w.distance[i];

@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "detail/epoch_map.hpp"
-#include "detail/segment.hpp"
 #include "detail/text.hpp"
 #include "metric/scribble_points.hpp"
 #include "metric/tangent_frame.hpp"
 #include "seamwire/surface/half_edge_mesh.hpp"
+#include "surface/point_segment.hpp"
 
 namespace seamwire {
 namespace {

@@ -215,7 +215,7 @@ std::vector<bool> find_flips(const Faces& faces, const std::vector<Index>& twin,
   std::vector<bool> visited(count, false);
   std::vector<bool> flipped(count, false);
   std::vector<Index> component;
-  std::vector<Index> agreeing;     // stack of faces whose neighbours are to be looked at
+  std::vector<Index> agreeing;     // stack of faces whose neighbors are to be looked at
   std::vector<Index> disagreeing;  // sides to cross once no agreeing face is left
   for (Index start = 0; start < count; ++start) {
     if (visited[start]) continue;

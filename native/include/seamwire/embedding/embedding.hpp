@@ -16,8 +16,8 @@ namespace seamwire {
 enum class Perimeter { kMetric, kEuclidean };
 
 struct EmbedOptions {
-  /// Subdivision stops once every invalid triangle left has a smaller perimeter (sigma of Section 4.1; 0: until none is
-  /// left).
+  /// Sigma of Section 4.1: bisection stops once every invalid triangle left has a smaller perimeter, of the model
+  /// scaled to the unit cube. 0: until none is left.
   double sigma = 0.0;
   Perimeter perimeter = Perimeter::kMetric;
   /// At most this many triangles are added; what is invalid then becomes a hole. With a larger cap no more is left.
@@ -35,8 +35,8 @@ struct Embedding {
   std::size_t newest_bisections = 0;  ///< of newest-vertex bisection, where the other schemes are left for it
   std::size_t invalid_left = 0;       ///< holes: faces without an area, smaller ones than sigma, or what the cap leaves
   bool hit_cap = false;               ///< max_faces_added ended the subdivision
-  /// Edges whose length is not what the metric says, so that triangles be valid that bisection left; and the largest
-  /// factor, up or down, between the two lengths.
+  /// Edges that length repair gave another length than the metric does; and the largest factor, up or down, between the
+  /// two lengths.
   std::size_t clamped_edges = 0;
   double worst_clamp = 1.0;
   bool is_local = false;  ///< re_embed() can go on from it: see there
@@ -44,32 +44,33 @@ struct Embedding {
       unreachable;  ///< the caller's vertices in a face, but in no valid triangle and on no edge to run along
 };
 
-/// Bisects invalid triangles, largest perimeter first, at the midpoint of their longest edge in the metric, until none
-/// is left. Where that takes more than four times the surface's triangles, and 20 000, or the cap, it begins anew and
-/// bisects the neighbour behind the edge first, until that edge is the neighbour's longest too, and from a depth on
-/// opposite the newest vertex; what takes too many triangles even so is bisected once more with lengths that make it
-/// valid. That ends, with at most one and a half times the triangles of the first scheme where that does
-/// (docs/method.md). Lengths are those of the ambient reading (metric.hpp).
+/// Embeds a surface in a metric (Section 4.1 of the paper): bisects invalid triangles, which fail the triangle
+/// inequality, at the midpoint of their longest edge in the metric, the largest perimeter first, until none is left.
+/// Lengths are those of the ambient reading of the norm (metric.hpp).
 ///
-/// Where the surface is cut open each side is bisected on its own. Triangles without an area cannot be bisected away:
-/// they are taken away before, by merging corners at the same place (one of the two vertices then has no triangle, but
-/// a loose edge of length 0 to the other) or flipping the longest edge; where neither is possible, they become holes.
-/// Every edge of a hole that no valid triangle has is a loose edge, so that what the input's edges connect stays
-/// connected.
+/// Where that takes more than four times the surface's triangles, and 20 000, or the cap, it begins anew with schemes
+/// that end: longest-edge propagation, newest-vertex bisection deep below a face, and length repair, which bisects an
+/// invalid triangle once more and gives its new edges lengths that make the parts valid. The result has at most one and
+/// a half times the triangles of the first scheme where that ends (docs/method.md, Section 4).
+///
+/// Where the surface is cut open each side is bisected on its own. Degenerate triangles, which have no area, are
+/// removed before: needles by collapsing their shortest edge (one of its ends then has no triangle, but a loose edge of
+/// length 0 to the other), caps by flipping their longest edge. Where neither is possible, they become holes. Every
+/// edge of a hole that no valid triangle has is a loose edge, so that what the input's edges connect stays connected.
 ///
 /// Throws InvalidInput where metric and surface differ in size, a tensor is not finite, or sigma is negative;
 /// Cancelled.
 Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions& options = {}, const Task& task = {});
 
-/// The embedding in another metric, made from that in a former one by doing again only what touches the vertices where
-/// the two differ. The same as embed(surface, metric, options), but for the numbers of new vertices and triangles: what
-/// the subdivision does to a triangle depends on those alone that it is bisected together with, in chains of bisected
-/// edges; chains with a changed triangle are made anew, and those that they then run into. Besides that it only
-/// compares the metrics, vertex by vertex.
+/// The embedding in another metric, made from that in a former one by bisecting anew only what touches the vertices
+/// where the two metrics differ. The result is that of embed(surface, metric, options), but for the numbers of new
+/// vertices and triangles: which bisections a triangle undergoes depends on those triangles alone with which it is
+/// bisected together. So these are made anew with it, and those that they then run into. All else costs is comparing
+/// the metrics, vertex by vertex.
 ///
-/// Where `old` is not local it is embed(): for surfaces with holes left, with faces taken away, cut open, or refined by
-/// propagation; also where normals differ. `old` must be of the same surface, the metric `former` and the same options;
-/// throws InvalidInput where it cannot be, and what embed() throws.
+/// Where `old` is not local this is embed(): for surfaces with holes left, with degenerate faces removed, cut open, or
+/// bisected by another scheme than the first; also where normals differ. `old` must be of the same surface, the metric
+/// `former` and the same options; throws InvalidInput where it cannot be, and what embed() throws.
 Embedding re_embed(const Surface& surface, const Metric& former, const Metric& metric, Embedding old,
                    const EmbedOptions& options = {}, const Task& task = {});
 

@@ -49,7 +49,7 @@ Metric campen_metric(const Surface& surface, const Curvature& curvature, Follow 
 /// one.
 Metric pottmann_kovacs_metric(const Surface& surface, const Curvature& curvature, Follow follow,
                               const Strength& strength);
-/// The identity.
+/// The Euclidean metric: the identity on every tangent plane.
 Metric euclidean_metric(const Surface& surface, const Curvature& curvature);
 
 /// A tensor with its normal, and the norm it gives to any vector: g(e)^2 = e^T M e + sqrt(l1 l2) (n.e)^2, the "ambient"

@@ -20,7 +20,7 @@ struct HalfEdgeMesh;  // surface/half_edge_mesh.hpp
 struct SurfaceReport {
   std::vector<Edge> nonmanifold_edges;      ///< edges with three or more faces: the surface is cut open there
   std::vector<Edge> unorientable_edges;     ///< cut open because the faces could not be oriented alike (Moebius strip)
-  std::vector<std::int32_t> flipped_faces;  ///< turned over to agree with their neighbours
+  std::vector<std::int32_t> flipped_faces;  ///< turned over to agree with their neighbors
   std::vector<std::int32_t> zero_area_faces;    ///< three different corners in line: kept
   std::vector<std::int32_t> degenerate_faces;   ///< two corners are one vertex: left out, their edges stay
   std::vector<std::int32_t> duplicate_faces;    ///< same three vertices as an earlier face: left out
