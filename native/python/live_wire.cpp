@@ -183,12 +183,12 @@ void bind_live_wire(py::module_& module) {
         return "<LiveLoop: " + (loop.final ? std::to_string(loop.vertices.size()) + " vertices>" : "not yet>");
       });
 
-  py::class_<EdgeStrip>(module, "EdgeStrip", "A run of edges straight through a mesh.")
+  py::class_<EdgeLoop>(module, "EdgeStrip", "A run of edges straight through a mesh.")
       .def_property_readonly(
-          "vertices", [](const py::object& self) { return view(self.cast<const EdgeStrip&>().vertices, self); },
+          "vertices", [](const py::object& self) { return view(self.cast<const EdgeLoop&>().vertices, self); },
           "(k,) int32, in order; where it is closed, the first one is not given twice.")
       .def_readonly("closed", &EdgeStrip::closed)
-      .def("__repr__", [](const EdgeStrip& strip) {
+      .def("__repr__", [](const EdgeLoop& strip) {
         return "<EdgeStrip: " + std::to_string(strip.vertices.size()) + " vertices" +
                (strip.closed ? ", closed>" : ">");
       });
@@ -440,7 +440,7 @@ ValueError
           [](const LiveWireObject& object, const py::object& edge, const py::iterable& stops) {
             const Edge through = edge_from(edge, object.vertex_count, "edge");
             const std::vector<std::int32_t> vertices = vertices_from(stops, object.vertex_count);
-            return without_gil([&] { return std::make_unique<EdgeStrip>(object.live->strip(through, vertices)); });
+            return without_gil([&] { return std::make_unique<EdgeLoop>(object.live->strip(through, vertices)); });
           },
           py::arg("edge"), py::arg("stops") = py::tuple(),
           R"(The strip of edges through an edge, both ways, as modellers select an edge loop.

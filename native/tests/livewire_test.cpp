@@ -598,7 +598,7 @@ TEST(LiveWireBuildingItsSurface, SaysUntilItIsThereThatNothingIsFinal) {
   const LiveWires wires = live.wires({900});
   const LiveLoop loop = live.loop({0, 1});
   const EdgeChain on = live.run_on({0, 1}, {});
-  const EdgeStrip strip = live.strip({0, 1}, {});
+  const EdgeLoop strip = live.strip({0, 1}, {});
   const auto strength = live.feature_strength();
   const double progress = live.progress();
   const bool was_idle = live.wait(0);

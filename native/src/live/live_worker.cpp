@@ -171,7 +171,7 @@ std::shared_ptr<const Solved> LiveWire::Impl::find_field(std::size_t which,
                                                          const std::shared_ptr<const Prepared>& prepared,
                                                          std::int32_t from, std::int64_t at, Task task) {
   Worker& worker = workers[which];
-  QuickPaths quick(*prepared->geodesics, from);
+  CorridorPaths quick(*prepared->geodesics, from);
   std::int64_t answered = -1;
   const auto answer = [&] {
     const std::int64_t asked = targets;

@@ -187,7 +187,7 @@ EdgeChain LiveWire::run_on(const Edge& edge, std::span<const std::int32_t> stops
   check_edge(surface.get(), edge);
   const auto fans = surface ? impl_->ground->fans.peek() : nullptr;
   if (!fans) return {};
-  EdgeChain way{.vertices = seamwire::run_on(**fans, edge, stops), .length = 0.0};
+  EdgeChain way{.vertices = extend_straight(**fans, edge, stops), .length = 0.0};
   const auto point = [&](std::int32_t v) -> const Vector& { return surface->points()[static_cast<std::size_t>(v)]; };
   for (std::size_t i = 1; i < way.vertices.size(); ++i) {
     way.length += surface->scale() * (point(way.vertices[i]) - point(way.vertices[i - 1])).norm();
@@ -195,11 +195,11 @@ EdgeChain LiveWire::run_on(const Edge& edge, std::span<const std::int32_t> stops
   return way;
 }
 
-EdgeStrip LiveWire::strip(const Edge& edge, std::span<const std::int32_t> stops) const {
+EdgeLoop LiveWire::strip(const Edge& edge, std::span<const std::int32_t> stops) const {
   const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
   check_edge(surface.get(), edge);
   const auto fans = surface ? impl_->ground->fans.peek() : nullptr;
-  return fans ? edge_strip(**fans, edge, stops) : EdgeStrip{};
+  return fans ? edge_loop(**fans, edge, stops) : EdgeLoop{};
 }
 
 std::shared_ptr<const std::vector<double>> LiveWire::feature_strength() const {

@@ -72,7 +72,7 @@ Prepared prepare(Ground& ground, Along along, Metrics& metrics, std::size_t whic
   const Surface& surface = ground.surface();
   std::atomic<double>& fraction = metrics.fractions[which];
   Prepared prepared;
-  std::shared_ptr<const EdgeFans> fans;
+  std::shared_ptr<const EdgeAdjacency> fans;
   const auto prepare_edges = [&] {
     if (on_surface) prepared.snap_graph = ground.snap_graph_now(stop);
     fans = ground.fans_now(stop);

@@ -53,15 +53,15 @@ struct Ground {
   std::shared_ptr<const SnapGraph> snap_graph_now(const std::stop_token& stop) {
     return snap_graph.get(stop, [&] { return SnapGraph(surface()); });
   }
-  std::shared_ptr<const EdgeFans> fans_now(const std::stop_token& stop) {
-    const auto held = fans.get(stop, [&] { return make_edge_fans(surface(), {.stop = stop, .progress = {}}); });
+  std::shared_ptr<const EdgeAdjacency> fans_now(const std::stop_token& stop) {
+    const auto held = fans.get(stop, [&] { return make_edge_adjacency(surface(), {.stop = stop, .progress = {}}); });
     return *held;
   }
 
   const std::size_t vertex_count;
   ComputedOnce<Curved> curved;
   ComputedOnce<SnapGraph> snap_graph;
-  ComputedOnce<std::shared_ptr<const EdgeFans>> fans;
+  ComputedOnce<std::shared_ptr<const EdgeAdjacency>> fans;
 
  private:
   struct Input {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "seamwire/edges/edge_wires.hpp"
-#include "seamwire/live/former_names.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/metric/scribble.hpp"
 #include "seamwire/surface/surface.hpp"
@@ -109,10 +108,10 @@ class LiveWire {
   /// The closed chain through an edge, the cheaper of the two metrics'; along edges only. The first call for an edge
   /// starts the search, in place of that for another edge; ask again until the answer is final. A seed goes first.
   LiveLoop loop(const Edge& edge);
-  /// run_on(), with the way's length in the unit cube; no vertices where it cannot be told yet.
+  /// extend_straight(), with the way's length in the unit cube; no vertices where it cannot be told yet.
   EdgeChain run_on(const Edge& edge, std::span<const std::int32_t> stops) const;
-  /// edge_strip(); no vertices where it cannot be told yet.
-  EdgeStrip strip(const Edge& edge, std::span<const std::int32_t> stops) const;
+  /// edge_loop(); no vertices where it cannot be told yet.
+  EdgeLoop strip(const Edge& edge, std::span<const std::int32_t> stops) const;
   /// s of eq. 5 at each vertex; null while it is being computed.
   std::shared_ptr<const std::vector<double>> feature_strength() const;
 
