@@ -10,7 +10,7 @@ namespace seamwire {
 
 /// How the caller of long work watches it and stops it. A default Task runs silently to its end.
 struct Task {
-  std::stop_token stop;
+  std::stop_token stop;  ///< cancels from another thread
   /// Called now and then with the fraction done, in [0, 1]; returning false cancels. May be empty.
   std::function<bool(double)> progress;
 

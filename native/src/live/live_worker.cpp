@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "seamwire/edges/shortest_cycle.hpp"
 #include "seamwire/geodesics/corridor_paths.hpp"
 
 namespace seamwire {
@@ -148,7 +149,8 @@ void LiveWire::Impl::work_on_loop(std::size_t which, std::unique_lock<std::mutex
   bool is_cancelled = false;
   try {
     if (prepared && has_edge(surface(), edge)) {  // loop() refuses others
-      loop = edge_loop(*prepared->graph, edge, loop_turning.value_or(loop_turning_for(surface().edges().size())), task);
+      loop = shortest_cycle(*prepared->graph, edge, loop_turning.value_or(loop_turning_for(surface().edges().size())),
+                            task);
     }
   } catch (const Cancelled&) {
     is_cancelled = true;  // by a newer loop, which counts then, or by a seed, which goes first

@@ -13,7 +13,7 @@ namespace seamwire {
 /// A run of edges straight through a mesh.
 struct EdgeLoop {
   std::vector<std::int32_t> vertices;  ///< in order; where it is closed, the first one is not given twice
-  bool closed = false;
+  bool closed = false;                 ///< its ends are one vertex
 };
 
 /// The edge loop through an edge, as modellers select it: in both directions on over the opposite edge, at a vertex of

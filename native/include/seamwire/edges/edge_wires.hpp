@@ -11,10 +11,12 @@ namespace seamwire {
 
 /// What was picked: a vertex `a` (b = -1), or the edge between `a` and `b`.
 struct Pick {
-  std::int32_t a = -1;
-  std::int32_t b = -1;
+  std::int32_t a = -1;  ///< the vertex, or one end of the edge
+  std::int32_t b = -1;  ///< the other end; -1: a vertex
 
+  /// Whether an edge was picked.
   bool is_edge() const { return b >= 0; }
+  /// Member by member; the direction of an edge counts.
   friend bool operator==(const Pick&, const Pick&) = default;
 };
 

@@ -15,11 +15,12 @@ namespace seamwire {
 /// What the priority of an invalid triangle, and sigma, are measured by.
 enum class Perimeter { kMetric, kEuclidean };
 
+/// How far the subdivision goes.
 struct EmbedOptions {
   /// Sigma of Section 4.1: bisection stops once every invalid triangle left has a smaller perimeter, of the model
   /// scaled to the unit cube. 0: until none is left.
   double sigma = 0.0;
-  Perimeter perimeter = Perimeter::kMetric;
+  Perimeter perimeter = Perimeter::kMetric;  ///< which triangle is bisected first, and what sigma is compared with
   /// At most this many triangles are added; what is invalid then becomes a hole. With a larger cap no more is left.
   std::size_t max_faces_added = 4'000'000;
 };
@@ -31,15 +32,15 @@ struct Embedding {
   std::vector<Vector> points;             ///< in the caller's coordinates, one a vertex of `mesh`
   std::vector<std::int32_t> source_face;  ///< the caller's face that each triangle of `mesh` lies in
   std::size_t invalid_before = 0;         ///< invalid triangles of the input, those without an area among them
-  std::size_t faces_added = 0;
-  std::size_t newest_bisections = 0;  ///< of newest-vertex bisection, where the other schemes are left for it
-  std::size_t invalid_left = 0;       ///< holes: faces without an area, smaller ones than sigma, or what the cap leaves
-  bool hit_cap = false;               ///< max_faces_added ended the subdivision
+  std::size_t faces_added = 0;            ///< by the subdivision
+  std::size_t newest_bisections = 0;      ///< of newest-vertex bisection, where the other schemes are left for it
+  std::size_t invalid_left = 0;  ///< holes: faces without an area, smaller ones than sigma, or what the cap leaves
+  bool hit_cap = false;          ///< max_faces_added ended the subdivision
   /// Edges that length repair gave another length than the metric does; and the largest factor, up or down, between the
   /// two lengths.
   std::size_t clamped_edges = 0;
-  double worst_clamp = 1.0;
-  bool is_local = false;  ///< re_embed() can go on from it: see there
+  double worst_clamp = 1.0;  ///< that factor, 1 or more
+  bool is_local = false;     ///< re_embed() can go on from it: see there
   std::vector<std::int32_t>
       unreachable;  ///< the caller's vertices in a face, but in no valid triangle and on no edge to run along
 };

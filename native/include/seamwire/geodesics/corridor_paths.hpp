@@ -10,6 +10,7 @@
 
 namespace seamwire {
 
+/// How much is looked at for a path.
 struct CorridorPathOptions {
   /// Vertices of the corridor that is searched for a path. 0: 1000, and eight times the root of the mesh's number of
   /// vertices.
@@ -30,10 +31,10 @@ class CorridorPaths {
   /// Throws InvalidInput for a seed out of range.
   CorridorPaths(const ExactGeodesics& geodesics, std::int32_t seed, const CorridorPathOptions& options = {});
   ~CorridorPaths();
-  CorridorPaths(CorridorPaths&&) noexcept;
-  CorridorPaths& operator=(CorridorPaths&&) noexcept;
+  CorridorPaths(CorridorPaths&&) noexcept;             ///< leaves one that may only be destroyed
+  CorridorPaths& operator=(CorridorPaths&&) noexcept;  ///< as moving
 
-  std::int32_t seed() const;
+  std::int32_t seed() const;  ///< the vertex that paths begin at
   /// A path as DistanceField::trace() gives one. Throws InvalidInput for a target out of range; Cancelled, after which
   /// the object can be used as before.
   IntrinsicPath path(std::int32_t target, const Task& task = {});

@@ -12,9 +12,9 @@ namespace seamwire {
 
 /// A point that a geodesic passes: a vertex (half_edge < 0), or a point on an edge.
 struct PathPoint {
-  std::int32_t vertex = -1;
-  std::int32_t half_edge = -1;
-  double t = 0.0;  ///< 0 at the tail of the half-edge, 1 at its tip
+  std::int32_t vertex = -1;     ///< -1: on an edge
+  std::int32_t half_edge = -1;  ///< -1: at a vertex
+  double t = 0.0;               ///< 0 at the tail of the half-edge, 1 at its tip
 };
 
 /// A geodesic over an IntrinsicMesh, from the seed to a target: straight in each triangle.
@@ -28,8 +28,8 @@ struct IntrinsicPath {
 /// bounded number of windows (ExactGeodesics makes both). Immutable; copies share the data.
 class DistanceField {
  public:
-  std::int32_t seed() const;
-  bool is_exact() const;
+  std::int32_t seed() const;  ///< the vertex that distances are from
+  bool is_exact() const;      ///< or from a bounded number of windows
   /// One a vertex; infinite where no path leads. Where the field is not exact they may be too long or too short.
   const std::vector<double>& distances() const;
 
@@ -43,6 +43,7 @@ class DistanceField {
   IntrinsicPath trace(std::int32_t vertex, const Task& task = {}) const;
 
   struct Data;  // the solver's own
+  /// By ExactGeodesics only.
   explicit DistanceField(std::shared_ptr<const Data> data);
 
  private:

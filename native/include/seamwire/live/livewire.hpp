@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "seamwire/edges/edge_loop.hpp"
 #include "seamwire/edges/edge_wires.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/metric/scribble.hpp"
@@ -23,11 +24,12 @@ enum class Along { kSurface, kEdges };
 /// Which of the metrics of metric.hpp wires are short in.
 enum class MetricFamily { kFeature, kCampen, kPottmannKovacs, kEuclidean };
 
+/// How live wires run.
 struct LiveWireOptions {
-  Along along = Along::kSurface;
-  MetricFamily family = MetricFamily::kFeature;
-  Strength strength = {.parameter = 0.1};  ///< of that metric; the Euclidean one has none
-  double turning = 3.0;                    ///< q of edge_wires()
+  Along along = Along::kSurface;                 ///< where
+  MetricFamily family = MetricFamily::kFeature;  ///< in which metric
+  Strength strength = {.parameter = 0.1};        ///< of that metric; the Euclidean one has none
+  double turning = 3.0;                          ///< q of edge_wires()
   /// q of edge_loop(). nullopt: 20, and a quarter of the root of the number of edges where that is more. A circle
   /// around one quad costs four turns, 4 q edges, so with a fixed q a ring of a dense mesh, which may have as many
   /// edges as that root, would be dearer.
@@ -37,25 +39,27 @@ struct LiveWireOptions {
 /// One of the two wires from the seed to a target. `vertices` are the ends of the edges that would be marked: along
 /// edges the wire itself, across the surface the chain it snaps to.
 struct LiveCandidate {
-  Follow follow = Follow::kMin;
-  std::vector<Vector> points;       ///< in the caller's coordinates; empty: no such wire
-  std::vector<std::int32_t> faces;  ///< per segment, across the surface only
-  std::vector<std::int32_t> vertices;
-  double length = std::numeric_limits<double>::infinity();
+  Follow follow = Follow::kMin;                             ///< whose metric it is the shortest in
+  std::vector<Vector> points;                               ///< in the caller's coordinates; empty: no such wire
+  std::vector<std::int32_t> faces;                          ///< per segment, across the surface only
+  std::vector<std::int32_t> vertices;                       ///< the chain of edges, as said above
+  double length = std::numeric_limits<double>::infinity();  ///< in its metric, of the model scaled to the unit cube
   bool final = false;  ///< false: still being computed; what is here, if anything, will be replaced
 };
 
+/// Both wires to a target.
 struct LiveWires {
   std::array<LiveCandidate, 2> wires;  ///< that of M_min, that of M_max
   int shorter = 0;                     ///< the one shorter in its own metric (Section 5)
+  /// Whether both are.
   bool final() const { return wires[0].final && wires[1].final; }
 };
 
 /// A closed chain of edges.
 struct LiveLoop {
   std::vector<std::int32_t> vertices;  ///< the first one is not given twice; empty: there is none, or not yet
-  double length = std::numeric_limits<double>::infinity();
-  bool final = false;  ///< false: still being computed
+  double length = std::numeric_limits<double>::infinity();  ///< as an EdgeChain has it
+  bool final = false;                                       ///< false: still being computed
 };
 
 /// Both metrics for one surface, each computed on a thread of its own; seed, then the two wires to any target (Section
@@ -72,9 +76,9 @@ class LiveWire {
   /// Builds the surface on its own threads, from the arguments of Surface's constructor, and returns at once.
   LiveWire(std::vector<Vector> points, std::vector<Triangle> triangles,
            std::optional<std::vector<Edge>> edges = std::nullopt, const LiveWireOptions& options = {});
-  LiveWire(LiveWire&& other) noexcept;
-  LiveWire& operator=(LiveWire&& other) noexcept;
-  ~LiveWire();  ///< stops the running work
+  LiveWire(LiveWire&& other) noexcept;             ///< leaves one that may only be destroyed
+  LiveWire& operator=(LiveWire&& other) noexcept;  ///< stops the work that was running
+  ~LiveWire();                                     ///< stops the running work
 
   /// Another one with the same metrics, those still being computed too, and no seed. A later set_metric() of either
   /// does not change the other.

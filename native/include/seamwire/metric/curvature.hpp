@@ -12,8 +12,10 @@ namespace seamwire {
 /// a vertex with no other has curvature 0, and a zero normal if none has any area. A vertex of several corner fans
 /// takes the side of its first fan: fans that face the other way count turned over, each fitted with its own normals.
 struct Curvature {
-  std::vector<double> k1, k2;   ///< |k1| >= |k2|
-  std::vector<Vector> d1, d2;   ///< their directions: unit, orthogonal, in the tangent plane; any without a normal
+  std::vector<double> k1;       ///< the one larger in size
+  std::vector<double> k2;       ///< the other one
+  std::vector<Vector> d1;       ///< direction of k1: unit, in the tangent plane; any without a normal
+  std::vector<Vector> d2;       ///< direction of k2, orthogonal to that of k1
   std::vector<Vector> normals;  ///< unit
 
   /// s of eq. 5: |k1| - |k2|, the strength of a ridge or valley.

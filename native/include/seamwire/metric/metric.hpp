@@ -18,6 +18,7 @@ struct Metric {
   std::vector<Vector> normals;           ///< unit; zero at vertices without a face, where the metric is Euclidean
   std::vector<Eigen::Matrix3d> tensors;  ///< symmetric, l1 e1 e1^T + l2 e2 e2^T; maps the normal to zero
 
+  /// The number of vertices.
   std::size_t size() const { return tensors.size(); }
 };
 
@@ -29,8 +30,8 @@ enum class Follow { kMin, kMax };
 /// given. Exactly one of the two is set. Both must be finite; parameter >= 0 (Campen: >= 1), max_anisotropy >= 1; else
 /// InvalidInput.
 struct Strength {
-  std::optional<double> parameter = std::nullopt;
-  std::optional<double> max_anisotropy = std::nullopt;
+  std::optional<double> parameter = std::nullopt;       ///< gamma, alpha or beta
+  std::optional<double> max_anisotropy = std::nullopt;  ///< A
   /// s above this percentile (0 < p <= 100) of its values counts as that value, so that single noisy vertices do not
   /// decide.
   std::optional<double> clamp_percentile = std::nullopt;
@@ -55,9 +56,10 @@ Metric euclidean_metric(const Surface& surface, const Curvature& curvature);
 /// A tensor with its normal, and the norm it gives to any vector: g(e)^2 = e^T M e + sqrt(l1 l2) (n.e)^2, the "ambient"
 /// reading of the norm of an edge, which need not be tangent (docs/method.md says why).
 struct TensorAt {
-  Vector normal;
-  Eigen::Matrix3d tensor;
+  Vector normal;           ///< unit, or zero
+  Eigen::Matrix3d tensor;  ///< as Metric::tensors
 };
+/// That norm of an edge.
 double ambient_norm(const TensorAt& at, const Vector& e);
 /// sqrt(l1 l2), which the norm above gives to the normal.
 double normal_weight(const Eigen::Matrix3d& m);

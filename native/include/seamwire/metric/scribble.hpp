@@ -17,15 +17,18 @@ struct Scribble {
   /// `faces` or at the vertex of `vertices` (the caller's numbers, one a point; where one is -1, or all are left out,
   /// the other counts).
   std::vector<Vector> points;
-  std::vector<std::int32_t> faces;
-  std::vector<std::int32_t> vertices;
+  std::vector<std::int32_t> faces;              ///< per point, or none at all
+  std::vector<std::int32_t> vertices;           ///< per point, or none at all
   double eta = 20;                              ///< the eigenvalues along the stroke are eta and 1 / eta; >= 1
   int rings = 10;                               ///< k: from the k-th ring of vertices around it on nothing changes
   std::optional<double> radius = std::nullopt;  ///< instead of `rings`: from this distance on, caller's units
   bool attracts = true;                         ///< false: crossing becomes short, and following long
-  bool acts_on_min = true, acts_on_max = true;  ///< which of the two metrics it is meant for
+  bool acts_on_min = true;                      ///< whether it is meant for M_min
+  bool acts_on_max = true;                      ///< whether it is meant for M_max
 
+  /// Whether it is meant for one of the two metrics.
   bool acts_on(Follow follow) const { return follow == Follow::kMin ? acts_on_min : acts_on_max; }
+  /// Member by member.
   friend bool operator==(const Scribble&, const Scribble&) = default;
 };
 

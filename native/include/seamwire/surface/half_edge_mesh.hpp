@@ -18,6 +18,7 @@
 
 namespace seamwire {
 
+/// \cond
 struct HalfEdgeTraits : OpenMesh::DefaultTraits {
   using Point = Vector;
   using Normal = Vector;
@@ -26,6 +27,7 @@ struct HalfEdgeTraits : OpenMesh::DefaultTraits {
   EdgeAttributes(0);
   FaceAttributes(0);
 };
+/// \endcond
 /// The half-edge mesh behind a Surface (Surface::half_edges()): manifold, consistently oriented, never changed.
 struct HalfEdgeMesh : OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {};
 

@@ -12,24 +12,29 @@ namespace seamwire {
 /// An edge without a face, along which a path may run. Its length is finite and not negative: it is 0 between vertices
 /// at the same place.
 struct LooseEdge {
-  std::int32_t a, b;
-  double length;
+  std::int32_t a;  ///< one end
+  std::int32_t b;  ///< the other one
+  double length;   ///< 0 or more
 };
 
 /// Triangles glued along edges, known by their edge lengths alone. Half-edge 3 f + i runs from corner i to corner i + 1
 /// (mod 3) of triangle f. A vertex may have any number of fans of triangles, or none; glued triangles are oriented
 /// alike.
 struct IntrinsicMesh {
-  std::int32_t vertex_count = 0;
-  std::vector<Triangle> triangles;
+  std::int32_t vertex_count = 0;    ///< in triangles or not
+  std::vector<Triangle> triangles;  ///< vertex numbers
   std::vector<std::int32_t> twins;  ///< per half-edge: the other half-edge of its edge, -1 on the boundary
   std::vector<double>
       lengths;  ///< per half-edge, positive, the same on both twins; each triangle fulfils the triangle inequality
-  std::vector<LooseEdge> loose_edges;
+  std::vector<LooseEdge> loose_edges;  ///< edges without a triangle
 
+  /// The number of triangles.
   std::size_t face_count() const { return triangles.size(); }
+  /// The vertex that a half-edge begins at.
   std::int32_t tail(std::int32_t half_edge) const { return corner(half_edge / 3, half_edge % 3); }
+  /// The vertex that a half-edge ends at.
   std::int32_t tip(std::int32_t half_edge) const { return corner(half_edge / 3, (half_edge % 3 + 1) % 3); }
+  /// The vertex opposite to a half-edge, in its triangle.
   std::int32_t apex(std::int32_t half_edge) const { return corner(half_edge / 3, (half_edge % 3 + 2) % 3); }
 
  private:

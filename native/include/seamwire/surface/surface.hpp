@@ -45,34 +45,42 @@ class Surface {
   Surface(std::vector<Vector> points, std::vector<Triangle> triangles,
           std::optional<std::vector<Edge>> edges = std::nullopt, const Task& task = {});
 
+  /// The number of points, used or not.
   std::size_t vertex_count() const { return points_.size(); }
+  /// The number of triangles, as given.
   std::size_t face_count() const { return triangles_.size(); }
 
   /// The caller's coordinates, triangles (as given, not turned) and real edges (unique, smaller vertex first, sorted).
   const std::vector<Vector>& points() const { return points_; }
+  /// As given, not turned.
   const std::vector<Triangle>& triangles() const { return triangles_; }
+  /// The real edges: unique, smaller vertex first, sorted.
   const std::vector<Edge>& edges() const { return edges_; }
 
   /// Multiply the caller's coordinates by this to fit the model into the unit cube (Section 3 of the paper): one over
   /// the longest side of the bounding box of the vertices in use; 1 where that is zero.
   double scale() const { return scale_; }
 
+  /// The manifold mesh inside; include surface/half_edge_mesh.hpp to use it.
   const HalfEdgeMesh& half_edges() const { return *mesh_; }
   /// Number of the caller's vertex for each vertex (corner fan) of half_edges(), ascending, and of the caller's face
   /// for each of its faces, ascending; both are the identity on a clean mesh. A face's vertices are listed from the
   /// caller's first corner on. A caller's vertex without a face has no fan. Two edges may join the same two fans (a
   /// slit one edge long), so find half-edges by walking, never by their end points.
   const std::vector<std::int32_t>& vertex_of_fan() const { return vertex_of_fan_; }
+  /// The caller's face of each face of half_edges().
   const std::vector<std::int32_t>& face_of_half_edge_face() const { return source_face_; }
   /// half_edges() in flat arrays, for passes over all of it: the fans at the corners of each face, from the caller's
   /// first corner on; and for its half-edge 3 f + i, from corner i of face f to the next, the one on the other side of
   /// the edge, -1 on the boundary.
   const std::vector<Triangle>& face_fans() const { return face_fans_; }
+  /// The half-edge on the other side, as said above.
   const std::vector<std::int32_t>& twins() const { return twins_; }
   /// Edges that no face of half_edges() carries, along which a path may run all the same: edges without faces, and
   /// edges whose faces were all left out.
   const std::vector<Edge>& loose_edges() const { return loose_edges_; }
 
+  /// What was odd about the input.
   const SurfaceReport& report() const { return report_; }
 
  private:

@@ -11,6 +11,7 @@
 
 namespace seamwire {
 
+/// Polygons as triangles.
 struct Triangulation {
   std::vector<Triangle> triangles;     ///< in the order of the polygons, turned the same way
   std::vector<std::int32_t> polygons;  ///< the polygon of each triangle

@@ -16,6 +16,7 @@ struct SnapData;  // snap.cpp
 /// real edges around them. Immutable, so wires may be snapped on several threads.
 class SnapGraph {
  public:
+  /// Takes time proportional to the surface.
   explicit SnapGraph(const Surface& surface);
 
  private:
