@@ -179,18 +179,19 @@ void BisectedMesh::bisect(std::int32_t h) {
   tensors_.push_back(midpoint_tensor(tensor_at(a), tensor_at(b)));
   points_.emplace_back((node(a).point + node(b).point) / 2);
   new_nodes_.push_back(node_of(points_.back(), tensors_.back().normal, tensors_.back().tensor));
-  const auto count = static_cast<std::int32_t>(corners.size());
+  const auto half = static_cast<std::int32_t>(3 * corners.size());  // from the middle to b
+  const std::int32_t beyond_half = half + 3;                        // from the middle to a, if there is a triangle
   halve(h, middle);
   if (o >= 0) {
     halve(o, middle);
-    twins[h] = 3 * (count + 1);
-    twins[3 * (count + 1)] = h;
-    twins[o] = 3 * count;
-    twins[3 * count] = o;
+    twins[h] = beyond_half;
+    twins[beyond_half] = h;
+    twins[o] = half;
+    twins[half] = o;
   }
   // Edges around the middle: the halves of the old one, and one on each side.
-  for (const std::int32_t e : {h, 3 * count, 3 * count + 2}) set_length(e, measure(e));
-  if (o >= 0) set_length(3 * (count + 1) + 2, measure(3 * (count + 1) + 2));
+  for (const std::int32_t e : {h, half, half + 2}) set_length(e, measure(e));
+  if (o >= 0) set_length(beyond_half + 2, measure(beyond_half + 2));
 }
 
 std::vector<std::int32_t> BisectedMesh::undo(const std::vector<std::int32_t>& seeds) {
