@@ -187,7 +187,7 @@ void bind_live_wire(py::module_& module) {
       .def_property_readonly(
           "vertices", [](const py::object& self) { return view(self.cast<const EdgeLoop&>().vertices, self); },
           "(k,) int32, in order; where it is closed, the first one is not given twice.")
-      .def_readonly("closed", &EdgeStrip::closed)
+      .def_readonly("closed", &EdgeLoop::closed)
       .def("__repr__", [](const EdgeLoop& strip) {
         return "<EdgeStrip: " + std::to_string(strip.vertices.size()) + " vertices" +
                (strip.closed ? ", closed>" : ">");

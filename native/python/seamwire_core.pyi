@@ -10,6 +10,8 @@ When the interpreter exits, long functions that other threads are in are told to
 result hands out are read-only views of its memory.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterable, Sequence
 from typing import Literal, overload
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "live/prepared_metrics.hpp"
+#include "seamwire/edges/shortest_cycle.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "shapes.hpp"
@@ -116,7 +117,7 @@ TEST(LiveWire, TheLoopIsTheCheaperOfBothMetrics) {
     double least = std::numeric_limits<double>::infinity();
     for (const Follow follow : {Follow::kMin, Follow::kMax}) {
       const auto graph = make_edge_graph(*surface, metric_of(*surface, follow, kAlongEdges.strength));
-      least = std::min(least, edge_loop(*graph, edge).length);
+      least = std::min(least, shortest_cycle(*graph, edge).length);
     }
     EXPECT_EQ(loop.length, least);
     EXPECT_GE(loop.vertices.size(), 3u);

@@ -294,7 +294,7 @@ def test_it_may_go_while_the_surface_is_built() -> None:
 def test_every_call_raises_why_there_is_no_surface() -> None:
     points, triangles = meshes.torus(40, 24)
     triangles[7, 2] = len(points)
-    with pytest.raises(ValueError, match="triangle 7 refers to vertex 960") as why:
+    with pytest.raises(ValueError, match="triangle 7: vertex 960 is out of range") as why:
         sw.Surface(points, triangles)
     live = sw.LiveWire(points, triangles, along="edges")
     for call in (
