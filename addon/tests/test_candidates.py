@@ -26,7 +26,7 @@ def test_the_shorter_one_is_active_until_the_other_is_brought_forward() -> None:
 
 def test_there_is_no_other_where_both_run_alike_or_nothing_is_computed() -> None:
     assert aimed(3)[0].swap() == "Both wires run along the same edges here"
-    assert aimed(8, ready=(False, False))[0].swap() == "There is no other wire yet"
+    assert aimed(8, ready=(False, False))[0].swap() == "There is no next candidate yet"
 
 
 def test_the_one_that_is_there_is_shown_while_the_other_is_computed() -> None:

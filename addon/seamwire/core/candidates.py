@@ -93,7 +93,7 @@ class CandidateWires:
         """Bring the other wire forward; return why that cannot be, else nothing."""
         if self.other is None:
             same = self.final and self.active is not None
-            return "Both wires run along the same edges here" if same else "There is no other wire yet"
+            return "Both wires run along the same edges here" if same else "There is no next candidate yet"
         self.chosen = 1 - self.active_index
         return ""
 
