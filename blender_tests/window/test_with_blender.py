@@ -183,6 +183,32 @@ def test_a_mesh_is_read_once_until_it_changes(desk: Desk, monkeypatch: pytest.Mo
     assert len(reads) <= 3, "read anew when it rests"
 
 
+@pytest.mark.parametrize("keys", [True, False], ids=["with shape keys", "without"])
+def test_a_chain_reads_its_mesh_when_it_begins_and_no_more(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch, keys: bool
+) -> None:
+    """Though Blender tells of a change whenever a mesh is read."""
+    if not keys:
+        with desk.ui.override():
+            bpy.ops.object.mode_set(mode="OBJECT")
+            desk.obj.shape_key_clear()
+            bpy.ops.object.mode_set(mode="EDIT")
+    assert (desk.obj.data.shape_keys is not None) == keys
+    read, reads = edit_mesh.read, []
+    monkeypatch.setattr(edit_mesh, "read", lambda obj: (reads.append(obj.name), read(obj))[1])
+    desk.choose()
+    draw(desk, 36, 40)
+    assert len(reads) <= 2
+    reads.clear()
+    desk.ui.click(desk.at(0))
+    for vertex in (21, 22, 30, 31, 8):
+        desk.ui.move(desk.at(vertex))
+    desk.ui.click(desk.at(8))
+    desk.ui.wait(20)
+    desk.ui.key("ESC")
+    assert len(reads) <= 1
+
+
 def test_saved_and_reopened_the_network_is_there(desk: Desk, tmp_path: Path) -> None:
     desk.choose()
     draw(desk, 36, 40, 76)

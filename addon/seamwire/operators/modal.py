@@ -201,8 +201,7 @@ class Chain:
         counts = view.mesh.write(plan, adopt)
         if view.mesh.alive():
             view.renew()
-            # Blender tells of this change as of any other.
-            view.stale, view.wrote = False, bool(plan.mark or plan.clear or plan.labels)
+            view.was_read()
         return counts
 
     def drop(self) -> None:

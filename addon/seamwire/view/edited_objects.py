@@ -100,9 +100,6 @@ class EditedObjects:
     def take_stock(self) -> None:
         """Read anew what has changed, and let one of the objects that are edited be in front."""
         self._error = None  # what could not be drawn before says nothing of now
-        for view in self.views():
-            # Of these Blender's word is not heard each time, see `ObjectView.was_read`.
-            view.stale |= view.mesh.cage.mesh.shape_keys is not None
         self.refresh()
         if self.front is None or not self.front.mesh.alive():
             self.front = self.of(bpy.context.active_object)
@@ -204,9 +201,9 @@ class EditedObjects:
                 continue
             now = time.monotonic()
             if not view.stale:
-                view.stale, view.wrote = not view.wrote, False
+                view.stale = True
                 self._stale_since = now
-            if view.stale and not self.chain:
+            if not self.chain:
                 self._changed = now
                 self.watch()
 

@@ -51,8 +51,6 @@ class ObjectView:
         The object's, when it was read.
     stale
         Whether Blender told of a change of the mesh since it was read.
-    wrote
-        Whether the next change that Blender tells of is our own.
 
     Raises
     ------
@@ -105,10 +103,11 @@ class ObjectView:
         return True
 
     def was_read(self) -> None:
-        """Take note that the mesh is known as it is now."""
+        """Take note that the mesh is known as it is now, after it was read or written."""
+        # Blender tells of both as of any change, with the next update: that is had now, and what is told later is news.
+        for layer in {window.view_layer for window in bpy.context.window_manager.windows} or {bpy.context.view_layer}:
+            layer.update()
         self.stale = False
-        # Reading a mesh with shape keys is a change of it, as Blender tells.
-        self.wrote = self.obj.data.shape_keys is not None
 
     def renew(self) -> None:
         """Let picker and overlay follow the mesh that was read, or written."""
