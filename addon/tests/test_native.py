@@ -13,12 +13,14 @@ from seamwire.core import native
 
 
 @pytest.fixture(autouse=True)
-def nothing_installed(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def nothing_installed() -> Iterator[None]:
     """Begin without the module, whatever is installed beside the tests; leave none behind."""
-    monkeypatch.delitem(sys.modules, native.NAME, raising=False)
-    monkeypatch.setattr(sys, "path", [entry for entry in sys.path if not list(Path(entry).glob(f"{native.NAME}*"))])
-    yield
-    sys.modules.pop(native.NAME, None)
+    # Not the tests' own monkeypatch: what it remembers of the path at its first syspath_prepend is the shortened one.
+    with pytest.MonkeyPatch.context() as patch:
+        patch.delitem(sys.modules, native.NAME, raising=False)
+        patch.setattr(sys, "path", [entry for entry in sys.path if not list(Path(entry).glob(f"{native.NAME}*"))])
+        yield
+        sys.modules.pop(native.NAME, None)
 
 
 def test_an_installed_module_comes_first(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -73,3 +75,15 @@ def test_an_extension_takes_what_blender_installed_and_puts_nothing_on_the_path(
     assert [path.name for path in tmp_path.iterdir()] == [f"{native.NAME}.py"], "nothing is unpacked"
     monkeypatch.syspath_prepend(tmp_path)
     assert Path(native.load().__file__).parent == tmp_path
+
+
+def test_a_fitting_wheel_that_blender_has_not_installed_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(native, "IS_EXTENSION", True)
+    system = sysconfig.get_platform().replace("-", "_").replace(".", "_")
+    python = f"cp{sys.version_info.major}{sys.version_info.minor}"
+    wheel = f"{native.NAME}-1.0-{python}-{python}-{system}.whl"
+    for name in (wheel, f"{native.NAME}-1.0-cp27-cp27-{system}.whl"):
+        (tmp_path / name).touch()
+    with pytest.raises(native.NativeError, match="disable and enable the add-on") as raised:
+        native.load(tmp_path / "none", tmp_path)
+    assert wheel in str(raised.value)

@@ -46,6 +46,12 @@ def load(folder: Path = FOLDER, wheels: Path = WHEELS) -> ModuleType:
     except ImportError as error:
         installed = error
     if IS_EXTENSION:
+        fitting = [wheel.name for wheel in wheels.glob("*.whl") if _fits(wheel)]
+        if fitting and _is_absent(installed):
+            raise NativeError(
+                f"Blender has not installed Seamwire's compiled part, {fitting[0]}, or has removed it since: "
+                "disable and enable the add-on"
+            ) from installed
         raise NativeError(_sentence(folder, wheels, installed, installed)) from installed
     place = _unpacked(folder, wheels)
     sys.path.insert(0, str(place))
@@ -114,13 +120,17 @@ def _runs_here(platform: str) -> bool:
     return platform == here
 
 
+def _is_absent(error: ImportError) -> bool:
+    # Only "No module named seamwire_core" means that there is none: anything else was found, and did not load.
+    return isinstance(error, ModuleNotFoundError) and error.name == NAME
+
+
 def _sentence(folder: Path, wheels: Path, installed: ImportError, own: ImportError) -> str:
     python = f"Python {sys.version_info.major}.{sys.version_info.minor} on {sysconfig.get_platform()}"
     found = sorted(path.name for path in folder.glob(f"{NAME}*") if path.suffix in {".so", ".pyd", ".dll"})
     found += sorted(path.name for path in wheels.glob("*.whl"))
     for error in (installed, own):
-        # Only "No module named seamwire_core" means that there is none: anything else was found, and did not load.
-        if not (isinstance(error, ModuleNotFoundError) and error.name == NAME):
+        if not _is_absent(error):
             return f"Seamwire's compiled part does not load in this Blender ({python}): {error}"
     if found:
         return (
