@@ -77,7 +77,9 @@ def test_an_extension_takes_what_blender_installed_and_puts_nothing_on_the_path(
     assert Path(native.load().__file__).parent == tmp_path
 
 
-def test_a_fitting_wheel_that_blender_has_not_installed_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_fitting_wheel_that_blender_has_not_installed_is_said(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(native, "IS_EXTENSION", True)
     system = sysconfig.get_platform().replace("-", "_").replace(".", "_")
     python = f"cp{sys.version_info.major}{sys.version_info.minor}"
