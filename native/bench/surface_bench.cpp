@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // From triangles to an embedding: one line a mesh and metric, with the milliseconds of each step, and the columns of
-// Fig. 8 of the paper: invalid triangles before, triangles added, and invalid ones left.
+// Fig. 8 of the paper: invalid triangles before, triangles added, and invalid ones left. Then the tree for rays: the
+// milliseconds of building it, and the microseconds of a ray.
 //   surface_bench [--anisotropy=A]... [MESH[+LEVELS]]... [Google Benchmark's options]
 // MESH is a file that OpenMesh reads; +2 subdivides it twice, after Loop. Without a mesh: a bumpy torus of 20 000
 // faces, and the same subdivided once. A is 20 if not given. --benchmark_counters_tabular=true makes it a table.
 #include <benchmark/benchmark.h>
 
+#include <Eigen/Geometry>
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Subdivider/Uniform/LoopT.hh>
@@ -16,12 +18,14 @@
 #include <iostream>
 #include <memory>
 #include <numbers>
+#include <random>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "seamwire/embedding/embedding.hpp"
+#include "seamwire/surface/ray_tree.hpp"
 
 namespace {
 
@@ -89,8 +93,8 @@ class Watch {
   std::clock_t last_ = std::clock();
 };
 
-void register_mesh(const std::string& name, Triangles&& mesh, const std::vector<double>& anisotropies) {
-  const auto data = std::make_shared<const Triangles>(std::move(mesh));
+void register_metrics(const std::string& name, const Triangles& mesh, const std::vector<double>& anisotropies) {
+  const auto data = std::make_shared<const Triangles>(mesh);
   for (const double a : anisotropies) {
     for (const Follow follow : {Follow::kMin, Follow::kMax}) {
       const std::string which = follow == Follow::kMin ? "/min/" : "/max/";
@@ -124,6 +128,41 @@ void register_mesh(const std::string& name, Triangles&& mesh, const std::vector<
           ->Unit(benchmark::kMillisecond);
     }
   }
+}
+
+void register_rays(const std::string& name, const Triangles& mesh) {
+  const auto run = [=](benchmark::State& state) {
+    constexpr std::size_t kRays = 100'000;
+    Eigen::AlignedBox3d box;
+    for (const Vector& p : mesh.points) box.extend(p);
+    double build_ms = 0, rays_ms = 0;
+    std::size_t hits = 0;
+    for (auto _ : state) {
+      Watch watch;
+      const RayTree tree(mesh.points, mesh.triangles);
+      tree.wait();
+      build_ms += watch.lap();
+      std::mt19937 dice(1);
+      std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
+      const auto draw = [&] { return Vector(coordinate(dice), coordinate(dice), coordinate(dice)); };
+      for (std::size_t ray = 0; ray < kRays; ++ray) {
+        const Vector origin = box.center() + draw().cwiseProduct(box.sizes());
+        if (tree.first_hit(origin, draw()).triangle >= 0) ++hits;
+      }
+      rays_ms += watch.lap();
+    }
+    using benchmark::Counter;
+    state.counters["faces"] = static_cast<double>(mesh.triangles.size());
+    state.counters["build_ms"] = Counter(build_ms, Counter::kAvgIterations);
+    state.counters["ray_us"] = Counter(1e3 * rays_ms / kRays, Counter::kAvgIterations);
+    state.counters["hits"] = Counter(static_cast<double>(hits) / kRays, Counter::kAvgIterations);
+  };
+  benchmark::RegisterBenchmark((name + "/rays").c_str(), run)->Unit(benchmark::kMillisecond);
+}
+
+void register_mesh(const std::string& name, const Triangles& mesh, const std::vector<double>& anisotropies) {
+  register_metrics(name, mesh, anisotropies);
+  register_rays(name, mesh);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ constexpr double kRounding = 1e-12;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A box that a ray comes into wherever it meets the triangle: as far outside as it may pass the triangle, and as the
-/// divisions in FirstHit::intersectVolume may be off.
+/// divisions in FirstHit::inside() may be off.
 Box box_of(const Vector& a, const Vector& b, const Vector& c) {
   Box box(a);
   box.extend(b);
@@ -122,38 +122,50 @@ constexpr std::size_t kWorkBetweenChecks = 16384;
 
 /// False where it was stopped.
 bool RayTree::Parts::make_nodes(const std::stop_token& stop) {
-  std::vector<Box> boxes(triangles.size());
-  std::vector<Vector> middles(triangles.size());
-  order.reserve(triangles.size());
+  // What moves when a node is parted lies in a row: most of the time here is waiting for memory.
+  struct Middle {
+    Vector at;
+    std::int32_t triangle;
+  };
+  std::vector<Middle> middles;
+  middles.reserve(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     if (t % kWorkBetweenChecks == 0 && stop.stop_requested()) return false;
     const auto& [a, b, c] = triangles[t];
     if (!points[a].allFinite() || !points[b].allFinite() || !points[c].allFinite()) continue;
-    boxes[t] = box_of(points[a], points[b], points[c]);
-    middles[t] = boxes[t].min() / 2 + boxes[t].max() / 2;
-    order.push_back(static_cast<std::int32_t>(t));
+    const Box box = box_of(points[a], points[b], points[c]);
+    middles.push_back({box.min() / 2 + box.max() / 2, static_cast<std::int32_t>(t)});
   }
-  if (order.empty()) return true;
-  nodes.push_back({.box = {}, .first = 0, .count = static_cast<std::int32_t>(order.size())});
+  if (middles.empty()) return true;
+  nodes.reserve(middles.size());
+  nodes.push_back({.box = {}, .first = 0, .count = static_cast<std::int32_t>(middles.size())});
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     if (stop.stop_requested()) return false;
     const std::int32_t first = nodes[n].first, count = nodes[n].count;
-    const auto begin = order.begin() + first, middle = begin + count / 2, end = begin + count;
-    Box box, spread;
-    for (auto t = begin; t != end; ++t) {
-      box.extend(boxes[*t]);
-      spread.extend(middles[*t]);
-    }
-    nodes[n].box = box;
     if (count <= kMostInANode) continue;
+    const auto begin = middles.begin() + first, middle = begin + count / 2, end = begin + count;
+    Box spread;
+    for (auto item = begin; item != end; ++item) spread.extend(item->at);
     Eigen::Index axis = 0;
     spread.sizes().maxCoeff(&axis);
-    std::nth_element(begin, middle, end,
-                     [&](std::int32_t s, std::int32_t t) { return middles[s][axis] < middles[t][axis]; });
+    std::nth_element(begin, middle, end, [&](const Middle& s, const Middle& t) { return s.at[axis] < t.at[axis]; });
     nodes[n].first = static_cast<std::int32_t>(nodes.size());
     nodes[n].count = 0;
     nodes.push_back({.box = {}, .first = first, .count = count / 2});
     nodes.push_back({.box = {}, .first = first + count / 2, .count = count - count / 2});
+  }
+  order.reserve(middles.size());
+  for (const Middle& item : middles) order.push_back(item.triangle);
+  // A node comes before the two that it is parted in.
+  for (std::size_t n = nodes.size(); n-- > 0;) {
+    Node& node = nodes[n];
+    if (n % kWorkBetweenChecks == 0 && stop.stop_requested()) return false;
+    for (std::int32_t i = 0; i < node.count; ++i) {
+      const auto& [a, b, c] = triangles[order[node.first + i]];
+      node.box.extend(box_of(points[a], points[b], points[c]));
+    }
+    if (node.count > 0) continue;
+    node.box = nodes[node.first].box.merged(nodes[node.first + 1].box);
   }
   return true;
 }
