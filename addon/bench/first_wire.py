@@ -5,7 +5,8 @@ A mesh is a file, or ``suzanne+N``: Blender's monkey subdivided N times.
 
 One line a mesh and a way of running: what the tool does before its first wire, step by step, in milliseconds (medians), and their sum;
 then what of each step is processor time of Blender's own thread, during which the interface stands, and what memory was taken in all.
-The steps are those of the tool in the viewport, but for the overlay and Blender's own redraw.
+The steps are those of the tool in the viewport, its wait between two looks at running work included, but for the overlay and Blender's
+own redraw.
 """
 
 import os
@@ -55,6 +56,7 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     from seamwire.core import session
     from seamwire.mesh import edit_mesh
     from seamwire.mesh.object_session import LiveMaker
+    from seamwire.operators.modal import TICK
     from seamwire.view import picking, viewport
 
     steps = {}
@@ -73,7 +75,7 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     wires.start(top)
     wires.hover(bottom)
     while wires.active is None and wires.computing:
-        time.sleep(0.001)
+        time.sleep(TICK)  # as the tool waits
         wires.poll()
     steps["shown"] = watch.lap()
     wires.wait()

@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from ..core.session import Session
     from ..view.object_view import ObjectView
 
-_TICK = 0.02
-"""Seconds between two looks at running work: a wire is drawn when it is there."""
+TICK = 0.008
+"""Seconds between two looks at running work, half of what a screen shows a picture for: a wire is drawn with the next one."""
 _CLICKS = frozenset({Action.CLICK, Action.NEW_CHAIN, Action.LOOP})
 _STROKES = frozenset({Action.GUIDE, Action.AVOID})
 _AXES = "XYZ"
@@ -559,7 +559,7 @@ class Chain:
 
     def _set_timer(self, wanted: bool) -> None:
         if wanted and self._timer is None:
-            self._timer = self._manager.event_timer_add(_TICK, window=self._window)
+            self._timer = self._manager.event_timer_add(TICK, window=self._window)
         elif not wanted and self._timer is not None:
             timer, self._timer = self._timer, None
             self._manager.event_timer_remove(timer)
