@@ -381,12 +381,12 @@ TEST(LiveWire, AStrokeForOneMetricLeavesWhatIsPreparedForTheOther) {
   Scribble one, two;
   one.acts_on_max = two.acts_on_max = false;
   two.rings = 3;
-  const auto after = [](const Metrics& before, const std::vector<Scribble>& scribbles) {
-    auto metrics = std::make_unique<Metrics>(MetricFamily::kFeature, Strength{}, scribbles);
+  const auto after = [](const MetricPair& before, const std::vector<Scribble>& scribbles) {
+    auto metrics = std::make_unique<MetricPair>(MetricFamily::kFeature, Strength{}, scribbles);
     metrics->go_on_from(before);
     return metrics;
   };
-  const Metrics none(MetricFamily::kFeature, {}, {});
+  const MetricPair none(MetricFamily::kFeature, {}, {});
   const auto with_one = after(none, {one}), with_both = after(*with_one, {one, two});
   EXPECT_EQ(with_one->prepared[1], none.prepared[1]);
   EXPECT_NE(with_one->prepared[0], none.prepared[0]);

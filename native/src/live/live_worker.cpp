@@ -20,8 +20,8 @@ bool has_edge(const Surface& surface, const Edge& edge) {
   return std::binary_search(surface.edges().begin(), surface.edges().end(), sorted);
 }
 
-LiveWire::Impl::Impl(std::shared_ptr<Ground> on, std::shared_ptr<Metrics> by, const LiveWireOptions& with)
-    : ground(std::move(on)),
+LiveWire::Impl::Impl(std::shared_ptr<SurfaceCache> on, std::shared_ptr<MetricPair> by, const LiveWireOptions& with)
+    : surface_cache(std::move(on)),
       along(with.along),
       turning(with.turning),
       loop_turning(with.loop_turning),
@@ -39,7 +39,7 @@ LiveWire::Impl::~Impl() {
 bool LiveWire::Impl::await_surface(const std::stop_token& quit) {
   std::exception_ptr error;
   try {
-    ground->surface_now(quit);
+    surface_cache->surface_now(quit);
   } catch (const Cancelled&) {
     return false;
   } catch (...) {
@@ -85,13 +85,13 @@ void LiveWire::Impl::work(std::size_t which, const std::stop_token& quit) {
 
 void LiveWire::Impl::work_on_seed(std::size_t which, std::unique_lock<std::mutex>& lock) {
   Worker& worker = workers[which];
-  std::shared_ptr<Metrics> with = metrics;
+  std::shared_ptr<MetricPair> with = metrics;
   const std::int64_t at = request;
   const std::optional<Pick> pick = seed;
   const bool is_forward = forward;
   const std::stop_token preparing = worker.preparing.get_token();
   // For this seed, if there is one: a new seed drops it.
-  std::shared_ptr<const Solved> before = worker.solved;
+  std::shared_ptr<const SeedSolution> before = worker.solution;
   worker.fraction = 0.0;
   worker.was_prepared = with->prepared[which]->peek() != nullptr;
   const Task task{.stop = worker.solving.get_token(), .progress = [&worker](double done) {
@@ -100,20 +100,20 @@ void LiveWire::Impl::work_on_seed(std::size_t which, std::unique_lock<std::mutex
                   }};
   lock.unlock();
 
-  std::shared_ptr<const Solved> solved;
+  std::shared_ptr<const SeedSolution> solution;
   std::exception_ptr error;
   try {
     const std::shared_ptr<const Prepared> prepared =
-        with->prepared[which]->get(preparing, [&] { return prepare(*ground, along, *with, which, preparing); });
+        with->prepared[which]->get(preparing, [&] { return prepare(*surface_cache, along, *with, which, preparing); });
     with->forget_former(which);
     const bool is_sown =
         pick && (!pick->is_edge() || has_edge(surface(), {pick->a, pick->b}));  // wires() refuses others
     if (before && before->field && before->prepared == prepared) {
-      solved = before;  // the other metric was changed
+      solution = before;  // the other metric was changed
     } else if (is_sown) {
       task.check(0.0);
-      solved = along == Along::kSurface ? find_field(which, prepared, pick->a, at, task)
-                                        : find_chains(which, prepared, *pick, is_forward, at, task);
+      solution = along == Along::kSurface ? find_field(which, prepared, pick->a, at, task)
+                                          : find_chains(which, prepared, *pick, is_forward, at, task);
     }
   } catch (const Cancelled&) {
     // By a newer request, or to quit.
@@ -125,13 +125,13 @@ void LiveWire::Impl::work_on_seed(std::size_t which, std::unique_lock<std::mutex
   lock.lock();
   worker.handled = at;
   if (at == request) {
-    if (worker.solved != solved) worker.dropped.push_back(std::exchange(worker.solved, solved));
-    worker.solved_for = at;
+    if (worker.solution != solution) worker.dropped.push_back(std::exchange(worker.solution, solution));
+    worker.solution_for = at;
     worker.preview = nullptr;
     worker.error = std::move(error);
   }
   lock.unlock();
-  before = solved = nullptr;
+  before = solution = nullptr;
   lock.lock();
 }
 
@@ -169,9 +169,9 @@ void LiveWire::Impl::work_on_loop(std::size_t which, std::unique_lock<std::mutex
 
 /// Between the steps of the search for the field it finds wires to the targets that are asked for meanwhile: on a
 /// thread of its own that would take turns with the search all the same.
-std::shared_ptr<const Solved> LiveWire::Impl::find_field(std::size_t which,
-                                                         const std::shared_ptr<const Prepared>& prepared,
-                                                         std::int32_t from, std::int64_t at, Task task) {
+std::shared_ptr<const SeedSolution> LiveWire::Impl::find_field(std::size_t which,
+                                                               const std::shared_ptr<const Prepared>& prepared,
+                                                               std::int32_t from, std::int64_t at, Task task) {
   Worker& worker = workers[which];
   CorridorPaths quick(*prepared->geodesics, from);
   std::int64_t answered = -1;
@@ -199,26 +199,28 @@ std::shared_ptr<const Solved> LiveWire::Impl::find_field(std::size_t which,
     return report(done);
   };
   DistanceField field = prepared->geodesics->solve(from, task);
-  return std::make_shared<const Solved>(Solved{.prepared = prepared, .field = std::move(field), .wires = std::nullopt});
+  return std::make_shared<const SeedSolution>(
+      SeedSolution{.prepared = prepared, .field = std::move(field), .wires = std::nullopt});
 }
 
 /// What is found can be seen from the beginning.
-std::shared_ptr<const Solved> LiveWire::Impl::find_chains(std::size_t which,
-                                                          const std::shared_ptr<const Prepared>& prepared,
-                                                          const Pick& from, bool is_forward, std::int64_t at,
-                                                          const Task& task) {
+std::shared_ptr<const SeedSolution> LiveWire::Impl::find_chains(std::size_t which,
+                                                                const std::shared_ptr<const Prepared>& prepared,
+                                                                const Pick& from, bool is_forward, std::int64_t at,
+                                                                const Task& task) {
   EdgeWires wires(prepared->graph, from, turning, is_forward);
-  auto solved = std::make_shared<const Solved>(Solved{.prepared = prepared, .field = std::nullopt, .wires = wires});
+  auto solution =
+      std::make_shared<const SeedSolution>(SeedSolution{.prepared = prepared, .field = std::nullopt, .wires = wires});
   {
     const std::scoped_lock lock(mutex);
     if (at == request) {
       Worker& worker = workers[which];
-      worker.dropped.push_back(std::exchange(worker.solved, solved));
-      worker.solved_for = at;
+      worker.dropped.push_back(std::exchange(worker.solution, solution));
+      worker.solution_for = at;
     }
   }
   wires.run(task);
-  return solved;
+  return solution;
 }
 
 LiveCandidate LiveWire::Impl::candidate_of(std::size_t which, const Prepared& prepared, Wire wire) const {
@@ -231,14 +233,14 @@ LiveCandidate LiveWire::Impl::candidate_of(std::size_t which, const Prepared& pr
   return candidate;
 }
 
-LiveCandidate LiveWire::Impl::candidate(std::size_t which, const Solved& solved, const Pick& target) const {
-  if (solved.field) {
-    const Prepared& prepared = *solved.prepared;
-    return candidate_of(which, prepared, trace_wire(surface(), *prepared.embedding, *solved.field, target.a));
+LiveCandidate LiveWire::Impl::candidate(std::size_t which, const SeedSolution& solution, const Pick& target) const {
+  if (solution.field) {
+    const Prepared& prepared = *solution.prepared;
+    return candidate_of(which, prepared, trace_wire(surface(), *prepared.embedding, *solution.field, target.a));
   }
   LiveCandidate candidate;
   candidate.follow = kFollow[which];
-  EdgeChain chain = solved.wires->trace(target);
+  EdgeChain chain = solution.wires->trace(target);
   candidate.length = chain.length;
   candidate.vertices = std::move(chain.vertices);
   candidate.points.reserve(candidate.vertices.size());
@@ -248,7 +250,7 @@ LiveCandidate LiveWire::Impl::candidate(std::size_t which, const Solved& solved,
   return candidate;
 }
 
-void LiveWire::Impl::change_metrics(std::shared_ptr<Metrics> to) {
+void LiveWire::Impl::change_metrics(std::shared_ptr<MetricPair> to) {
   const std::scoped_lock lock(mutex);
   metrics.swap(to);
   ++request;

@@ -24,7 +24,7 @@ namespace seamwire {
 bool has_edge(const Surface& surface, const Edge& edge);
 
 /// The wires of one metric from one seed. Along edges it may still be at work.
-struct Solved {
+struct SeedSolution {
   std::shared_ptr<const Prepared> prepared;
   std::optional<DistanceField> field;
   std::optional<EdgeWires> wires;
@@ -42,8 +42,9 @@ struct Preview {
 struct LiveWire::Impl {
   /// What one worker is at. Numbers of requests are those of Impl.
   struct Worker {
-    std::shared_ptr<const Solved> solved;  // of the newest seed; of a former metric where solved_for is not `request`
-    std::int64_t solved_for = -1;
+    // Of the newest seed; of a former metric where solution_for is not `request`.
+    std::shared_ptr<const SeedSolution> solution;
+    std::int64_t solution_for = -1;
     std::shared_ptr<const Preview> preview;
     std::vector<std::shared_ptr<const void>> dropped;  // to be freed here, without the lock: that takes long
     std::int64_t handled = -1;                         // the request that was answered, or failed, last
@@ -57,24 +58,24 @@ struct LiveWire::Impl {
   };
 
   /// `with`: but for the metrics.
-  Impl(std::shared_ptr<Ground> on, std::shared_ptr<Metrics> by, const LiveWireOptions& with);
+  Impl(std::shared_ptr<SurfaceCache> on, std::shared_ptr<MetricPair> by, const LiveWireOptions& with);
   ~Impl();
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
   /// Once it is built, as in all that workers do.
-  const Surface& surface() const { return ground->surface(); }
+  const Surface& surface() const { return surface_cache->surface(); }
   bool await_surface(const std::stop_token& quit);
   void work(std::size_t which, const std::stop_token& quit);
   void work_on_seed(std::size_t which, std::unique_lock<std::mutex>& lock);
   void work_on_loop(std::size_t which, std::unique_lock<std::mutex>& lock);
-  std::shared_ptr<const Solved> find_field(std::size_t which, const std::shared_ptr<const Prepared>& prepared,
-                                           std::int32_t from, std::int64_t at, Task task);
-  std::shared_ptr<const Solved> find_chains(std::size_t which, const std::shared_ptr<const Prepared>& prepared,
-                                            const Pick& from, bool is_forward, std::int64_t at, const Task& task);
+  std::shared_ptr<const SeedSolution> find_field(std::size_t which, const std::shared_ptr<const Prepared>& prepared,
+                                                 std::int32_t from, std::int64_t at, Task task);
+  std::shared_ptr<const SeedSolution> find_chains(std::size_t which, const std::shared_ptr<const Prepared>& prepared,
+                                                  const Pick& from, bool is_forward, std::int64_t at, const Task& task);
   LiveCandidate candidate_of(std::size_t which, const Prepared& prepared, Wire wire) const;
-  LiveCandidate candidate(std::size_t which, const Solved& solved, const Pick& target) const;
-  void change_metrics(std::shared_ptr<Metrics> to);
+  LiveCandidate candidate(std::size_t which, const SeedSolution& solution, const Pick& target) const;
+  void change_metrics(std::shared_ptr<MetricPair> to);
 
   /// With the lock.
   bool idle() const {
@@ -100,9 +101,9 @@ struct LiveWire::Impl {
   std::shared_ptr<const Surface> surface_if_built() const {
     const std::scoped_lock lock(mutex);
     rethrow_failure();
-    return ground->peek_surface();
+    return surface_cache->peek_surface();
   }
-  std::shared_ptr<Metrics> metrics_now() const {
+  std::shared_ptr<MetricPair> metrics_now() const {
     const std::scoped_lock lock(mutex);
     return metrics;
   }
@@ -122,14 +123,14 @@ struct LiveWire::Impl {
     for (Worker& worker : workers) worker.loop_handled = loop_request;
   }
 
-  const std::shared_ptr<Ground> ground;
+  const std::shared_ptr<SurfaceCache> surface_cache;
   const Along along;
   const double turning;
   const std::optional<double> loop_turning;
 
   mutable std::mutex mutex;  // guards what follows, but for the fractions
   mutable std::condition_variable_any changed;
-  std::shared_ptr<Metrics> metrics;
+  std::shared_ptr<MetricPair> metrics;
   std::exception_ptr failure;  // why there is no surface, for good
   std::int64_t request = 0;    // grows with each seed and each change of the metric
   std::optional<Pick> seed;

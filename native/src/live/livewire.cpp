@@ -43,22 +43,23 @@ void check_options(const LiveWireOptions& options) {
   }
 }
 
-std::shared_ptr<Metrics> new_metrics(const LiveWireOptions& options) {
-  return std::make_shared<Metrics>(options.family, options.strength, std::vector<Scribble>());
+std::shared_ptr<MetricPair> new_metrics(const LiveWireOptions& options) {
+  return std::make_shared<MetricPair>(options.family, options.strength, std::vector<Scribble>());
 }
 
 }  // namespace
 
 LiveWire::LiveWire(std::shared_ptr<const Surface> surface, const LiveWireOptions& options) {
   check_options(options);
-  impl_ = std::make_unique<Impl>(std::make_shared<Ground>(std::move(surface)), new_metrics(options), options);
+  impl_ = std::make_unique<Impl>(std::make_shared<SurfaceCache>(std::move(surface)), new_metrics(options), options);
 }
 
 LiveWire::LiveWire(std::vector<Vector> points, std::vector<Triangle> triangles, std::optional<std::vector<Edge>> edges,
                    const LiveWireOptions& options) {
   check_options(options);
-  impl_ = std::make_unique<Impl>(std::make_shared<Ground>(std::move(points), std::move(triangles), std::move(edges)),
-                                 new_metrics(options), options);
+  impl_ =
+      std::make_unique<Impl>(std::make_shared<SurfaceCache>(std::move(points), std::move(triangles), std::move(edges)),
+                             new_metrics(options), options);
 }
 
 LiveWire::LiveWire(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -69,13 +70,13 @@ LiveWire::~LiveWire() = default;
 LiveWire LiveWire::fork() const {
   impl_->check_surface();
   const LiveWireOptions options{.along = impl_->along, .turning = impl_->turning, .loop_turning = impl_->loop_turning};
-  return LiveWire(std::make_unique<Impl>(impl_->ground, impl_->metrics_now(), options));
+  return LiveWire(std::make_unique<Impl>(impl_->surface_cache, impl_->metrics_now(), options));
 }
 
 LiveWire LiveWire::sibling(const LiveWireOptions& options) const {
   check_options(options);
   impl_->check_surface();
-  return LiveWire(std::make_unique<Impl>(impl_->ground, new_metrics(options), options));
+  return LiveWire(std::make_unique<Impl>(impl_->surface_cache, new_metrics(options), options));
 }
 
 std::shared_ptr<const Surface> LiveWire::surface() const { return impl_->surface_if_built(); }
@@ -83,22 +84,22 @@ std::shared_ptr<const Surface> LiveWire::surface() const { return impl_->surface
 void LiveWire::set_metric(MetricFamily family, const Strength& strength) {
   check_metric(family, strength);
   impl_->check_surface();
-  auto to = std::make_shared<Metrics>(family, strength, impl_->metrics_now()->scribbles);
+  auto to = std::make_shared<MetricPair>(family, strength, impl_->metrics_now()->scribbles);
   impl_->change_metrics(std::move(to));  // the former metric is held here no longer, so it is not freed here
 }
 
 void LiveWire::set_scribbles(std::vector<Scribble> scribbles) {
   impl_->check_surface();
-  std::shared_ptr<Metrics> now = impl_->metrics_now();
+  std::shared_ptr<MetricPair> now = impl_->metrics_now();
   if (scribbles == now->scribbles) return;
-  auto to = std::make_shared<Metrics>(now->family, now->strength, std::move(scribbles));
+  auto to = std::make_shared<MetricPair>(now->family, now->strength, std::move(scribbles));
   to->go_on_from(*now);
   now = nullptr;  // before the workers may free it, so that this is not the thread that does
   impl_->change_metrics(std::move(to));
 }
 
 void LiveWire::seed(const Pick& pick, bool forward) {
-  check_pick(impl_->surface_if_built().get(), impl_->ground->vertex_count, impl_->along, pick);
+  check_pick(impl_->surface_if_built().get(), impl_->surface_cache->vertex_count, impl_->along, pick);
   const std::scoped_lock lock(impl_->mutex);
   ++impl_->request;
   impl_->seed = pick;
@@ -108,21 +109,21 @@ void LiveWire::seed(const Pick& pick, bool forward) {
     worker.solving.request_stop();
     worker.error = nullptr;
     worker.preview = nullptr;
-    if (worker.solved) worker.dropped.push_back(std::exchange(worker.solved, nullptr));
+    if (worker.solution) worker.dropped.push_back(std::exchange(worker.solution, nullptr));
   }
   impl_->changed.notify_all();
 }
 
 LiveWires LiveWire::wires(const Pick& target) const {
   const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
-  check_pick(surface.get(), impl_->ground->vertex_count, impl_->along, target);
-  std::array<std::shared_ptr<const Solved>, 2> solved;
+  check_pick(surface.get(), impl_->surface_cache->vertex_count, impl_->along, target);
+  std::array<std::shared_ptr<const SeedSolution>, 2> solution;
   std::array<std::shared_ptr<const Preview>, 2> previews;
   std::array<bool, 2> is_newest{};
   {
     const std::scoped_lock lock(impl_->mutex);
     if (!impl_->seed) throw InvalidInput("there is no seed that wires could start from");
-    check_pick(surface.get(), impl_->ground->vertex_count, impl_->along, *impl_->seed);
+    check_pick(surface.get(), impl_->surface_cache->vertex_count, impl_->along, *impl_->seed);
     impl_->rethrow();
     if (impl_->target != target) {
       impl_->target = target;
@@ -130,8 +131,8 @@ LiveWires LiveWire::wires(const Pick& target) const {
     }
     for (std::size_t which = 0; surface && which < kFollow.size(); ++which) {
       const Impl::Worker& worker = impl_->workers[which];
-      solved[which] = worker.solved;
-      is_newest[which] = worker.solved != nullptr && worker.solved_for == impl_->request;
+      solution[which] = worker.solution;
+      is_newest[which] = worker.solution != nullptr && worker.solution_for == impl_->request;
       const bool fits = worker.preview && worker.preview->request == impl_->request && worker.preview->target == target;
       if (!is_newest[which] && fits) previews[which] = worker.preview;
     }
@@ -142,9 +143,9 @@ LiveWires LiveWire::wires(const Pick& target) const {
     wire.follow = kFollow[which];
     if (previews[which]) {
       wire = previews[which]->candidate;
-    } else if (solved[which]) {
-      const bool is_final = is_newest[which] && solved[which]->is_final(target);  // before it is looked up
-      wire = impl_->candidate(which, *solved[which], target);
+    } else if (solution[which]) {
+      const bool is_final = is_newest[which] && solution[which]->is_final(target);  // before it is looked up
+      wire = impl_->candidate(which, *solution[which], target);
       wire.final = is_final;
     }
   }
@@ -153,8 +154,8 @@ LiveWires LiveWire::wires(const Pick& target) const {
   const std::scoped_lock lock(impl_->mutex);
   for (std::size_t which = 0; which < kFollow.size(); ++which) {
     Impl::Worker& worker = impl_->workers[which];
-    if (!solved[which] || solved[which] == worker.solved) continue;
-    worker.dropped.push_back(std::move(solved[which]));
+    if (!solution[which] || solution[which] == worker.solution) continue;
+    worker.dropped.push_back(std::move(solution[which]));
     impl_->changed.notify_all();
   }
   return result;
@@ -185,7 +186,7 @@ LiveLoop LiveWire::loop(const Edge& edge) {
 EdgeChain LiveWire::run_on(const Edge& edge, std::span<const std::int32_t> stops) const {
   const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
   check_edge(surface.get(), edge);
-  const auto fans = surface ? impl_->ground->fans.peek() : nullptr;
+  const auto fans = surface ? impl_->surface_cache->fans.peek() : nullptr;
   if (!fans) return {};
   EdgeChain way{.vertices = extend_straight(**fans, edge, stops), .length = 0.0};
   const auto point = [&](std::int32_t v) -> const Vector& { return surface->points()[static_cast<std::size_t>(v)]; };
@@ -198,14 +199,14 @@ EdgeChain LiveWire::run_on(const Edge& edge, std::span<const std::int32_t> stops
 EdgeLoop LiveWire::strip(const Edge& edge, std::span<const std::int32_t> stops) const {
   const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
   check_edge(surface.get(), edge);
-  const auto fans = surface ? impl_->ground->fans.peek() : nullptr;
+  const auto fans = surface ? impl_->surface_cache->fans.peek() : nullptr;
   return fans ? edge_loop(**fans, edge, stops) : EdgeLoop{};
 }
 
 std::shared_ptr<const std::vector<double>> LiveWire::feature_strength() const {
   impl_->check_surface();
-  std::shared_ptr<const Curved> curved = impl_->ground->curved.peek();
-  return curved ? std::shared_ptr<const std::vector<double>>(curved, &curved->difference) : nullptr;
+  std::shared_ptr<const CurvatureCache> curvatures = impl_->surface_cache->curvatures.peek();
+  return curvatures ? std::shared_ptr<const std::vector<double>>(curvatures, &curvatures->difference) : nullptr;
 }
 
 double LiveWire::progress() const {
@@ -234,7 +235,7 @@ bool LiveWire::wait(double seconds) const {
 
 bool LiveWire::wait_for_surface(double seconds) const {
   std::unique_lock lock(impl_->mutex);
-  const auto built = [&] { return impl_->failure || impl_->ground->peek_surface() != nullptr; };
+  const auto built = [&] { return impl_->failure || impl_->surface_cache->peek_surface() != nullptr; };
   impl_->wait_until(lock, seconds, built);
   impl_->rethrow_failure();
   return built();

@@ -23,16 +23,16 @@ inline constexpr std::array kFollow = {Follow::kMin, Follow::kMax};
 /// Fractions of the first seed's work, preparation included, at which its parts begin.
 inline constexpr double kEmbedBegins = 0.1, kSolveBegins = 0.5;
 
-struct Curved {
+struct CurvatureCache {
   Curvature curvature;
   std::vector<double> difference;
 };
 
 /// The surface, and what it alone decides. Shared by forks and siblings.
-struct Ground {
-  explicit Ground(std::shared_ptr<const Surface> on);
+struct SurfaceCache {
+  explicit SurfaceCache(std::shared_ptr<const Surface> on);
   /// Of a surface that is still to be built: the arguments of its constructor.
-  Ground(std::vector<Vector> points, std::vector<Triangle> triangles, std::optional<std::vector<Edge>> edges);
+  SurfaceCache(std::vector<Vector> points, std::vector<Triangle> triangles, std::optional<std::vector<Edge>> edges);
 
   /// The surface, built if need be; throws what its constructor throws. The other functions need it built.
   std::shared_ptr<const Surface> surface_now(const std::stop_token& stop);
@@ -43,9 +43,9 @@ struct Ground {
   }
   const Surface& surface() const { return **built_.peek(); }
 
-  std::shared_ptr<const Curved> curved_now(const std::stop_token& stop) {
-    return curved.get(stop, [&] {
-      Curved made{.curvature = principal_curvatures(surface()), .difference = {}};
+  std::shared_ptr<const CurvatureCache> curvatures_now(const std::stop_token& stop) {
+    return curvatures.get(stop, [&] {
+      CurvatureCache made{.curvature = principal_curvatures(surface()), .difference = {}};
       made.difference = made.curvature.difference();
       return made;
     });
@@ -59,7 +59,7 @@ struct Ground {
   }
 
   const std::size_t vertex_count;
-  ComputedOnce<Curved> curved;
+  ComputedOnce<CurvatureCache> curvatures;
   ComputedOnce<SnapGraph> snap_graph;
   ComputedOnce<std::shared_ptr<const EdgeAdjacency>> fans;
 
@@ -84,14 +84,14 @@ struct Prepared {
 };
 
 /// The two metrics of one family and strength, after the scribbles. Shared by forks.
-struct Metrics {
-  Metrics(MetricFamily of, const Strength& with, std::vector<Scribble> after)
+struct MetricPair {
+  MetricPair(MetricFamily of, const Strength& with, std::vector<Scribble> after)
       : family(of), strength(with), scribbles(std::move(after)) {}
 
   /// After other scribbles than these metrics, of one family and strength: a metric for which they are the same is
   /// shared. Embeddings of the other are made from those of `metrics`, or, where these are not there yet, from what
   /// they would have been made from: scribbles change little.
-  void go_on_from(const Metrics& metrics);
+  void go_on_from(const MetricPair& metrics);
   std::shared_ptr<const Prepared> former(std::size_t which) const {
     const std::scoped_lock lock(mutex_);
     return former_[which];
@@ -117,6 +117,7 @@ struct Metrics {
 
 /// Makes what one of the two metrics needs; throws Cancelled where `stop` tells it to. The metric's fractions of
 /// progress are told to `metrics`.
-Prepared prepare(Ground& ground, Along along, Metrics& metrics, std::size_t which, const std::stop_token& stop);
+Prepared prepare(SurfaceCache& surface_cache, Along along, MetricPair& metrics, std::size_t which,
+                 const std::stop_token& stop);
 
 }  // namespace seamwire
