@@ -58,12 +58,12 @@ std::shared_ptr<const Surface> SurfaceCache::surface_now(const std::stop_token& 
 }
 
 void MetricPair::go_on_from(const MetricPair& metrics) {
-  for (std::size_t which = 0; which < former_.size(); ++which) {
+  for (std::size_t which = 0; which < kFollow.size(); ++which) {
     // In this order: what is former is forgotten only when the metric is prepared.
     std::shared_ptr<const Prepared> from = metrics.former(which);
     if (std::shared_ptr<const Prepared> made = metrics.prepared[which]->peek()) from = std::move(made);
     if (are_same_for(kFollow[which], scribbles, metrics.scribbles)) prepared[which] = metrics.prepared[which];
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     former_[which] = std::move(from);
   }
 }

@@ -3,13 +3,14 @@
 
 #include <array>
 #include <atomic>
+#include <exception>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <stop_token>
 #include <utility>
 #include <vector>
 
+#include "detail/thread_safety.hpp"
 #include "live/computed_once.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
@@ -42,6 +43,12 @@ struct SurfaceCache {
     return held ? *held : nullptr;
   }
   const Surface& surface() const { return **built_.peek(); }
+  /// Throws why there will be no surface, where that is known.
+  void rethrow_failure() const {
+    if (const std::exception_ptr error = built_.error()) std::rethrow_exception(error);
+  }
+  /// Until the surface is there, or known to be impossible.
+  void wait_for_surface(const Deadline& deadline) const { built_.wait(deadline); }
 
   std::shared_ptr<const CurvatureCache> curvatures_now(const std::stop_token& stop) {
     return curvatures.get(stop, [&] {
@@ -93,13 +100,13 @@ struct MetricPair {
   /// they would have been made from: scribbles change little.
   void go_on_from(const MetricPair& metrics);
   std::shared_ptr<const Prepared> former(std::size_t which) const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return former_[which];
   }
   /// Once the metric is prepared.
   void forget_former(std::size_t which) {
     std::shared_ptr<const Prepared> dropped;  // freed without the lock
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     dropped.swap(former_[which]);
   }
 
@@ -111,8 +118,8 @@ struct MetricPair {
   std::array<std::atomic<double>, 2> fractions = {};  // of the preparation
 
  private:
-  mutable std::mutex mutex_;
-  std::array<std::shared_ptr<const Prepared>, 2> former_;
+  mutable Mutex mutex_;
+  std::array<std::shared_ptr<const Prepared>, 2> former_ SEAMWIRE_GUARDED_BY(mutex_);
 };
 
 /// Makes what one of the two metrics needs; throws Cancelled where `stop` tells it to. The metric's fractions of
