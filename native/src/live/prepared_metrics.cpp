@@ -11,18 +11,19 @@ namespace {
 /// triangles are added, or so many times the surface's.
 constexpr std::size_t kFacesAdded = 200'000, kFacesAddedPerFace = 12;
 
-Metric make_metric(const Surface& surface, const Curvature& curvature, Follow follow, const MetricPair& metrics) {
+Metric make_metric(const Surface& surface, const Curvature& curvature, Follow follow, const MetricPair& metrics,
+                   const Task& task) {
   switch (metrics.family) {
     case MetricFamily::kFeature:
-      return feature_metric(surface, curvature, follow, metrics.strength);
+      return feature_metric(surface, curvature, follow, metrics.strength, task);
     case MetricFamily::kCampen:
-      return campen_metric(surface, curvature, follow, metrics.strength);
+      return campen_metric(surface, curvature, follow, metrics.strength, task);
     case MetricFamily::kPottmannKovacs:
-      return pottmann_kovacs_metric(surface, curvature, follow, metrics.strength);
+      return pottmann_kovacs_metric(surface, curvature, follow, metrics.strength, task);
     case MetricFamily::kEuclidean:
       break;
   }
-  return euclidean_metric(surface, curvature);
+  return euclidean_metric(surface, curvature, task);
 }
 
 bool are_same_for(Follow follow, const std::vector<Scribble>& these, const std::vector<Scribble>& those) {
@@ -83,11 +84,9 @@ Prepared prepare(SurfaceCache& surface_cache, Along along, MetricPair& metrics, 
   const std::shared_ptr<const CurvatureCache> curvatures = surface_cache.curvatures_now(stop);
   if (which == 0) prepare_edges();
   Task task{.stop = stop, .progress = {}};
-  task.check(0.0);
-  Metric metric = make_metric(surface, curvatures->curvature, kFollow[which], metrics);
-  task.check(0.0);
+  Metric metric = make_metric(surface, curvatures->curvature, kFollow[which], metrics, task);
   if (!metrics.scribbles.empty()) {
-    metric = apply_scribbles(surface, metric, metrics.scribbles, kFollow[which]);
+    metric = apply_scribbles(surface, metric, metrics.scribbles, kFollow[which], task);
   }
   fraction = kEmbedBegins / kSolveBegins;
   task.progress = [&fraction](double done) {
@@ -100,7 +99,7 @@ Prepared prepare(SurfaceCache& surface_cache, Along along, MetricPair& metrics, 
     const std::shared_ptr<const Prepared> former = metrics.former(which);
     prepared.embedding = former ? re_embed(surface, former->metric, metric, *former->embedding, options, task)
                                 : embed(surface, metric, options, task);
-    prepared.geodesics.emplace(prepared.embedding->mesh);
+    prepared.geodesics.emplace(prepared.embedding->mesh, Task{.stop = stop, .progress = {}});
     prepared.metric = std::move(metric);
   } else {
     prepared.graph = make_edge_graph(surface, metric, std::move(fans), task, metrics.scribbles, kFollow[which]);

@@ -52,13 +52,14 @@ struct SurfaceCache {
 
   std::shared_ptr<const CurvatureCache> curvatures_now(const std::stop_token& stop) {
     return curvatures.get(stop, [&] {
-      CurvatureCache made{.curvature = principal_curvatures(surface()), .difference = {}};
+      CurvatureCache made{.curvature = principal_curvatures(surface(), {.stop = stop, .progress = {}}),
+                          .difference = {}};
       made.difference = made.curvature.difference();
       return made;
     });
   }
   std::shared_ptr<const SnapGraph> snap_graph_now(const std::stop_token& stop) {
-    return snap_graph.get(stop, [&] { return SnapGraph(surface()); });
+    return snap_graph.get(stop, [&] { return SnapGraph(surface(), {.stop = stop, .progress = {}}); });
   }
   std::shared_ptr<const EdgeAdjacency> fans_now(const std::stop_token& stop) {
     const auto held = fans.get(stop, [&] { return make_edge_adjacency(surface(), {.stop = stop, .progress = {}}); });
