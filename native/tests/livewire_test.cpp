@@ -511,6 +511,11 @@ TEST(LiveWire, RefusesWhatIsNotPartOfTheSurface) {
   EXPECT_THROW(across.wires({0}), InvalidInput) << "no seed";
   for (const Pick pick : {Pick{-1}, Pick{25}, Pick{0, 1}}) EXPECT_THROW(across.seed(pick), InvalidInput);
   for (const Pick pick : {Pick{-1}, Pick{25}, Pick{0, 2}, Pick{0, 99}}) EXPECT_THROW(along.seed(pick), InvalidInput);
+  try {
+    across.seed({25});
+  } catch (const InvalidInput& error) {
+    EXPECT_STREQ(error.what(), "vertex 25 is out of range: there are 25 vertices");
+  }
   across.seed({0});
   along.seed({0});
   EXPECT_THROW(across.wires({25}), InvalidInput);

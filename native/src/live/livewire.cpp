@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "detail/index.hpp"
 #include "detail/text.hpp"
 #include "detail/thread_safety.hpp"
 #include "live/deadline.hpp"
@@ -27,9 +28,8 @@ void check_pick(const Surface* surface, std::size_t vertex_count, Along along, c
   if (pick.is_edge()) {
     if (along == Along::kSurface) throw InvalidInput("across the surface wires lead from vertex to vertex, not edge");
     check_edge(surface, {pick.a, pick.b});
-  } else if (pick.a < 0 || static_cast<std::size_t>(pick.a) >= vertex_count) {
-    throw InvalidInput("vertex " + std::to_string(pick.a) + " is out of range: the surface has " +
-                       std::to_string(vertex_count) + " vertices");
+  } else {
+    check_index(pick.a, vertex_count, "vertex");
   }
 }
 

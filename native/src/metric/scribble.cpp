@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "detail/epoch_map.hpp"
+#include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "detail/text.hpp"
 #include "metric/scribble_points.hpp"
@@ -249,12 +250,11 @@ void Scribbler::check(const Scribble& scribble, std::size_t number_of_scribble) 
     const std::int32_t vertex = scribble.vertices.empty() ? -1 : scribble.vertices[i];
     const std::int32_t face = scribble.faces.empty() ? -1 : scribble.faces[i];
     if (!p.allFinite()) fail("is not finite");
-    if (vertex < -1 || vertex >= static_cast<std::int64_t>(surface_.vertex_count())) {
-      fail("is at vertex " + std::to_string(vertex) + " of " + std::to_string(surface_.vertex_count()));
-    }
-    if (face < -1 || face >= static_cast<std::int64_t>(surface_.face_count())) {
-      fail("is in face " + std::to_string(face) + " of " + std::to_string(surface_.face_count()));
-    }
+    const auto where = [&](const char* kind) {
+      return "point " + std::to_string(i) + " of " + name(number_of_scribble) + ": " + kind;
+    };
+    if (vertex != -1) check_index(vertex, surface_.vertex_count(), where("vertex"));
+    if (face != -1) check_index(face, surface_.face_count(), where("face"), "faces");
     if (vertex < 0 && face < 0) fail("has neither a face nor a vertex");
     double off = 0;
     if (vertex >= 0) {
