@@ -156,7 +156,7 @@ std::int32_t vertex_from(py::handle value, std::size_t count, const std::string&
   int overflow = 0;
   const long long vertex = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
   if (overflow != 0 || vertex < 0 || std::cmp_greater_equal(vertex, count)) {
-    throw InvalidInput(name + ": vertex " + std::string(py::str(number)) + " is out of range: the surface has " +
+    throw InvalidInput(name + ": vertex " + std::string(py::str(number)) + " is out of range: there are " +
                        std::to_string(count) + " vertices");
   }
   return static_cast<std::int32_t>(vertex);

@@ -52,7 +52,7 @@ void check_size(const char* what, std::size_t size, const Surface& surface) {
                      std::to_string(surface.vertex_count()));
 }
 
-using MetricFunction = Metric (*)(const Surface&, const Curvature&, Follow, const Strength&);
+using MetricFunction = Metric (*)(const Surface&, const Curvature&, Follow, const Strength&, const Task&);
 
 std::unique_ptr<MetricObject> make_metric(MetricFunction function, const SurfaceObject& surface,
                                           const CurvatureObject& curvature, const std::string& follow,
@@ -60,7 +60,7 @@ std::unique_ptr<MetricObject> make_metric(MetricFunction function, const Surface
   const Follow direction = follow_from(follow);
   check_size("curvature", curvature.curvature.k1.size(), *surface.surface);
   return without_gil([&] {
-    return std::make_unique<MetricObject>(function(*surface.surface, curvature.curvature, direction, strength));
+    return std::make_unique<MetricObject>(function(*surface.surface, curvature.curvature, direction, strength, Task{}));
   });
 }
 

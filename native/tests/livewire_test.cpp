@@ -381,12 +381,12 @@ TEST(LiveWire, AStrokeForOneMetricLeavesWhatIsPreparedForTheOther) {
   Scribble one, two;
   one.acts_on_max = two.acts_on_max = false;
   two.rings = 3;
-  const auto after = [](const Metrics& before, const std::vector<Scribble>& scribbles) {
-    auto metrics = std::make_unique<Metrics>(MetricFamily::kFeature, Strength{}, scribbles);
+  const auto after = [](const MetricPair& before, const std::vector<Scribble>& scribbles) {
+    auto metrics = std::make_unique<MetricPair>(MetricFamily::kFeature, Strength{}, scribbles);
     metrics->go_on_from(before);
     return metrics;
   };
-  const Metrics none(MetricFamily::kFeature, {}, {});
+  const MetricPair none(MetricFamily::kFeature, {}, {});
   const auto with_one = after(none, {one}), with_both = after(*with_one, {one, two});
   EXPECT_EQ(with_one->prepared[1], none.prepared[1]);
   EXPECT_NE(with_one->prepared[0], none.prepared[0]);
@@ -511,6 +511,11 @@ TEST(LiveWire, RefusesWhatIsNotPartOfTheSurface) {
   EXPECT_THROW(across.wires({0}), InvalidInput) << "no seed";
   for (const Pick pick : {Pick{-1}, Pick{25}, Pick{0, 1}}) EXPECT_THROW(across.seed(pick), InvalidInput);
   for (const Pick pick : {Pick{-1}, Pick{25}, Pick{0, 2}, Pick{0, 99}}) EXPECT_THROW(along.seed(pick), InvalidInput);
+  try {
+    across.seed({25});
+  } catch (const InvalidInput& error) {
+    EXPECT_STREQ(error.what(), "vertex 25 is out of range: there are 25 vertices");
+  }
   across.seed({0});
   along.seed({0});
   EXPECT_THROW(across.wires({25}), InvalidInput);

@@ -201,7 +201,7 @@ TEST(Metrics, RefuseWhatMakesNoSense) {
 TEST(Metrics, RefuseEigenvaluesWhoseSquaresAreNoNumbers) {
   const Patch patch = rising();
   const auto too_strong = [&](auto family, const Strength& strength) {
-    return message([&] { family(patch.surface, patch.curvature, Follow::kMin, strength); });
+    return message([&] { family(patch.surface, patch.curvature, Follow::kMin, strength, Task{}); });
   };
   EXPECT_NE(too_strong(pottmann_kovacs_metric, {.parameter = 1e160}).find("too strong"), std::string::npos);
   EXPECT_NE(too_strong(campen_metric, {.parameter = 1e160}).find("1e+160"), std::string::npos);
@@ -220,7 +220,7 @@ TEST(Metrics, RefuseEigenvaluesWhoseSquaresAreNoNumbers) {
 TEST(Metrics, SayNumbersInMessagesWithTheDigitsThatTellThemApart) {
   const Patch patch = rising();
   const auto said = [&](auto family, const Strength& strength) {
-    return message([&] { family(patch.surface, patch.curvature, Follow::kMin, strength); });
+    return message([&] { family(patch.surface, patch.curvature, Follow::kMin, strength, Task{}); });
   };
   EXPECT_NE(said(feature_metric, {.parameter = -1e-9}).find("-1e-09, not a finite number of at least 0"),
             std::string::npos);

@@ -520,12 +520,12 @@ TEST(Scribble, SaysWhatIsWrongWithIt) {
   expect_refused(bad, "point 4");
   bad = good;
   bad.faces[5] = 32;
-  expect_refused(bad, "face 32 of 32");
+  expect_refused(bad, "point 5 of scribble 1: face 32 is out of range: there are 32 faces");
   bad.faces[5] = -1;
   expect_refused(bad, "point 5 of scribble 1 has neither");
   bad.vertices.assign(10, -1);
   bad.vertices[5] = 25;
-  expect_refused(bad, "vertex 25 of 25");
+  expect_refused(bad, "point 5 of scribble 1: vertex 25 is out of range: there are 25 vertices");
   bad.vertices.pop_back();
   expect_refused(bad, "10 points and 9");
   for (const double eta : {0.5, nan}) {

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
 #include "seamwire/surface/half_edge_mesh.hpp"
 
 namespace seamwire {
@@ -28,14 +29,16 @@ EdgeAdjacency::EdgeAdjacency(const Surface& surface, const Task& task) {
     ++first_[b + 1];
   }
   for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
-  head_.resize(2 * edges.size());
-  twin_.resize(2 * edges.size());
-  directions_.resize(2 * edges.size());
+  resize(head_, 2 * edges.size(), task, 0.0);
+  resize(twin_, 2 * edges.size(), task, 0.0);
+  resize(directions_, 2 * edges.size(), task, 0.0);
   opposite_.assign(2 * edges.size(), -1);
   boundary_edges_.assign(surface.vertex_count(), {-1, -1});
   is_open_.assign(surface.vertex_count(), false);
   std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
+  Poll filling(task, 0.0, 0.0, edges.size());
   for (const auto& [a, b] : edges) {  // sorted, so each row is
+    filling.next();
     const std::int32_t there = next[a]++, back = next[b]++;
     head_[there] = b;
     head_[back] = a;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
 #include "detail/text.hpp"
 #include "edges/stroke_chain.hpp"
 #include "metric/metric_check.hpp"
@@ -31,7 +32,7 @@ EdgeGraph::EdgeGraph(const Surface& surface, const Metric& metric, std::shared_p
     throw InvalidInput("the adjacency are of another surface: they have " + std::to_string(vertex_count()) +
                        " vertices and " + std::to_string(directed_count() / 2) + " edges");
   }
-  lengths_.resize(directed_count());
+  resize(lengths_, directed_count(), task, 0.0);
   std::vector<std::int32_t> next(index(vertex_count()));
   for (std::int32_t v = 0; v < vertex_count(); ++v) next[v] = begin(v);
   std::size_t count = 0;

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "detail/poll.hpp"
 #include "detail/prefetch.hpp"
 #include "embedding/degenerate_faces.hpp"
 
@@ -46,9 +47,13 @@ bool keeps_numbers(const Surface& surface) {
          std::adjacent_find(vertex_of_fan.begin(), vertex_of_fan.end()) == vertex_of_fan.end();
 }
 
-BisectedMesh::BisectedMesh(const Surface& on, const Metric& by)
-    : surface(on), metric(by), vertex_of_fan_(on.vertex_of_fan()), fans_(vertex_of_fan_.size()), points_(on.points()) {
-  std::optional<CleanMesh> clean = remove_degenerate_faces(surface, metric);
+BisectedMesh::BisectedMesh(const Surface& on, const Metric& by, const Task& task, double progress)
+    : surface(on),
+      metric(by),
+      vertex_of_fan_(on.vertex_of_fan()),
+      fans_(vertex_of_fan_.size()),
+      points_(copied(on.points(), task, progress)) {
+  std::optional<CleanMesh> clean = remove_degenerate_faces(surface, metric, task, progress);
   is_cleaned_ = clean.has_value();
   if (clean) {
     flatten(clean->mesh, *this);
@@ -56,8 +61,8 @@ BisectedMesh::BisectedMesh(const Surface& on, const Metric& by)
     merged_ = std::move(clean->merged);
     degenerate_faces_removed = clean->removed;
   } else {
-    corners = surface.face_fans();
-    twins = surface.twins();
+    corners = copied(surface.face_fans(), task, progress);
+    twins = copied(surface.twins(), task, progress);
     origins.resize(corners.size());
     std::iota(origins.begin(), origins.end(), 0);
   }
@@ -66,14 +71,18 @@ BisectedMesh::BisectedMesh(const Surface& on, const Metric& by)
   branches.assign(given_faces_, 1);
   depths.assign(given_faces_, 0);
   nodes_ = std::make_unique_for_overwrite<MetricNode[]>(fans_);
-  for (std::int32_t fan = 0; index(fan) < fans_; ++fan) set_node(fan);
+  const Poll poll(task, progress, progress, fans_);
+  for (std::int32_t fan = 0; index(fan) < fans_; ++fan) {
+    poll.at(index(fan));
+    set_node(fan);
+  }
   if (is_cleaned_) {
     is_degenerate_origin_.assign(surface.face_fans().size(), false);
     for (std::int32_t f = 0; index(f) < given_faces_; ++f) {
       if (is_degenerate(f)) is_degenerate_origin_[origins[f]] = true;
     }
   }
-  measure_all();
+  measure_all(task, progress);
 }
 
 BisectedMesh::BisectedMesh(const Surface& on, const Metric& by, Embedding&& old)
@@ -131,10 +140,12 @@ TensorAt BisectedMesh::tensor_at(std::int32_t v) const {
   return {is_turned ? Vector(-metric.normals[i]) : metric.normals[i], metric.tensors[i]};
 }
 
-void BisectedMesh::measure_all() {
+void BisectedMesh::measure_all(const Task& task, double progress) {
   const auto count = static_cast<std::int32_t>(twins.size());
-  lengths.resize(twins.size());
+  resize(lengths, twins.size(), task, progress);
+  const Poll poll(task, progress, progress, twins.size());
   for (std::int32_t h = 0; h < count; ++h) {
+    poll.at(index(h));
     if (const std::size_t ahead = index(h / 3) + kAhead; h % 3 == 0 && ahead < corners.size()) {
       for (const std::int32_t v : corners[ahead]) prefetch(&node(v));
     }

@@ -13,6 +13,7 @@
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/surface/surface.hpp"
+#include "seamwire/task.hpp"
 
 namespace seamwire {
 
@@ -31,7 +32,8 @@ bool keeps_numbers(const Surface& surface);
 class BisectedMesh {
  public:
   /// The surface's triangles, without those degenerate ones that can be removed. Surface and metric must outlive it.
-  BisectedMesh(const Surface& on, const Metric& by);
+  /// The task is told `progress`; throws Cancelled.
+  BisectedMesh(const Surface& on, const Metric& by, const Task& task, double progress);
   /// The triangles of an embedding of the surface, which must be `is_local`. Points of the metric have to be set with
   /// set_node() before they are used.
   BisectedMesh(const Surface& on, const Metric& by, Embedding&& old);
@@ -111,7 +113,7 @@ class BisectedMesh {
   Vector vector(std::int32_t h) const { return (node(tip(h)).point - node(tail(h)).point) * surface.scale(); }
   std::int32_t external_vertex(std::int32_t v) const;
   void orient_normals();
-  void measure_all();
+  void measure_all(const Task& task, double progress);
   void halve(std::int32_t h, std::int32_t middle);
   void remove_parts(const std::vector<bool>& is_undone);
   void remove_unused_vertices();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "detail/poll.hpp"
 #include "embedding/length_repair.hpp"
 
 namespace seamwire {
@@ -176,7 +177,9 @@ void Bisection::count_unrepaired(std::int32_t h, std::int32_t beyond, bool are_n
 }
 
 bool Bisection::run(const Task& task, std::size_t most, double& progress) {
+  const Poll poll(task, progress, progress, mesh_.given_face_count());
   for (std::int32_t f = 0; index(f) < mesh_.given_face_count(); ++f) {
+    poll.at(index(f));
     if (mesh_.is_valid(f)) continue;
     ++invalid_before_;
     consider(f);

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "detail/poll.hpp"
+
 namespace seamwire {
 
 namespace {
@@ -151,11 +153,14 @@ FaceHandle DegenerateFaces::flip_cap(FaceHandle f) {
 
 }  // namespace
 
-std::optional<CleanMesh> remove_degenerate_faces(const Surface& surface, const Metric& metric) {
+std::optional<CleanMesh> remove_degenerate_faces(const Surface& surface, const Metric& metric, const Task& task,
+                                                 double progress) {
   const HalfEdgeMesh& mesh = surface.half_edges();
   const double scale = surface.scale();
   std::vector<FaceHandle> degenerate;
+  Poll poll(task, progress, progress, mesh.n_faces());
   for (const FaceHandle f : mesh.faces()) {
+    poll.next();
     const HalfedgeHandle h = mesh.halfedge_handle(f);
     const Vector &p = mesh.point(mesh.from_vertex_handle(h)), &q = mesh.point(mesh.to_vertex_handle(h)),
                  &r = mesh.point(mesh.to_vertex_handle(mesh.next_halfedge_handle(h)));

@@ -10,6 +10,7 @@
 #include "seamwire/surface/half_edge_mesh.hpp"
 #include "seamwire/surface/intrinsic_mesh.hpp"
 #include "seamwire/surface/surface.hpp"
+#include "seamwire/task.hpp"
 
 namespace seamwire {
 
@@ -27,7 +28,8 @@ struct CleanMesh {
 
 /// Removes degenerate faces, across which no path could go, on a copy of the half-edge mesh: needles, whose shortest
 /// edge has no length, by collapsing that edge; caps by flipping their longest edge. Faces of which neither is possible
-/// stay. Nothing where the surface has no degenerate face.
-std::optional<CleanMesh> remove_degenerate_faces(const Surface& surface, const Metric& metric);
+/// stay. Nothing where the surface has no degenerate face. The task is told `progress`.
+std::optional<CleanMesh> remove_degenerate_faces(const Surface& surface, const Metric& metric, const Task& task,
+                                                 double progress);
 
 }  // namespace seamwire

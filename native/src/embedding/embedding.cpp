@@ -54,19 +54,19 @@ Embedding finished(Bisection&& bisection, const LengthRepair& repair, const Task
 // Length repair alone; or longest-edge bisection as far as it leaves fewest invalid triangles, if these are fewer.
 Embedding embed_by_repair(const Surface& surface, const Metric& metric, const EmbedOptions& options, const Task& task,
                           std::size_t first_most, double progress) {
-  Bisection none(BisectedMesh(surface, metric), options, Scheme::kNone);
+  Bisection none(BisectedMesh(surface, metric, task, progress), options, Scheme::kNone);
   none.run(task, 0, progress);
   const LengthRepair repair = repair_lengths(none.mesh(), options, task, progress);
   if (repair.is_complete) return finished(std::move(none), repair, task);
   // Each bisection of length repair leaves fewer invalid triangles, those of the paper's scheme now more, now fewer. So
   // that a larger cap never leaves more, what counts is when the latter has left fewest.
-  Bisection again(BisectedMesh(surface, metric), options, Scheme::kLongestEdge);
+  Bisection again(BisectedMesh(surface, metric, task, progress), options, Scheme::kLongestEdge);
   again.watch_unrepaired();
   again.run(task, first_most, progress);
   if (again.least_unrepaired() >= count_needing_repair(none.mesh(), options)) {
     return finished(std::move(none), repair, task);
   }
-  Bisection best(BisectedMesh(surface, metric), options, Scheme::kLongestEdge);
+  Bisection best(BisectedMesh(surface, metric, task, progress), options, Scheme::kLongestEdge);
   best.run(task, again.least_unrepaired_at(), progress);
   Embedding out = finished(std::move(best), {}, task);
   out.hit_cap = repair.hit_cap;
@@ -80,14 +80,14 @@ Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions
   if (!(options.sigma >= 0)) throw InvalidInput("sigma is " + text(options.sigma) + ", not 0 or more");
   task.check(0);
   double progress = 0;
-  Bisection paper(BisectedMesh(surface, metric), options, Scheme::kLongestEdge);
+  Bisection paper(BisectedMesh(surface, metric, task, progress), options, Scheme::kLongestEdge);
   const std::size_t first_most = std::min(budget(surface), options.max_faces_added);
   const bool ends = paper.run(task, first_most, progress);
   if (ends && !paper.has_decayed()) return finished(std::move(paper), {}, task);
 
   const std::size_t most = later_budget(surface, options.max_faces_added);
   for (const Scheme scheme : {Scheme::kPropagation, Scheme::kShallowPropagation}) {
-    Bisection bisection(BisectedMesh(surface, metric), options, scheme);
+    Bisection bisection(BisectedMesh(surface, metric, task, progress), options, scheme);
     if (!bisection.run(task, most, progress)) continue;
     const LengthRepair repair = repair_lengths(bisection.mesh(), options, task, progress);
     if (!repair.is_complete) continue;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "detail/poll.hpp"
 #include "embedding/bisection.hpp"
 
 namespace seamwire {
@@ -62,7 +63,9 @@ std::size_t count_needing_repair(const BisectedMesh& mesh, const EmbedOptions& o
 LengthRepair repair_lengths(BisectedMesh& mesh, const EmbedOptions& options, const Task& task, double progress) {
   LengthRepair repair;
   std::vector<std::int32_t> todo;
+  const Poll poll(task, progress, progress, mesh.face_count());
   for (std::int32_t f = 0; index(f) < mesh.face_count(); ++f) {
+    poll.at(index(f));
     if (is_repairable(mesh, options, f)) todo.push_back(f);
   }
   std::vector<std::int32_t> chain;  // triangles to bisect, the last one first

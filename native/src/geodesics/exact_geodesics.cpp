@@ -10,7 +10,8 @@
 
 namespace seamwire {
 
-ExactGeodesics::ExactGeodesics(const IntrinsicMesh& mesh) : mesh_(std::make_shared<const GeodesicMesh>(mesh)) {}
+ExactGeodesics::ExactGeodesics(const IntrinsicMesh& mesh, const Task& task)
+    : mesh_(std::make_shared<const GeodesicMesh>(mesh, task)) {}
 
 DistanceField ExactGeodesics::solve(std::int32_t seed, const Task& task, GeodesicCounters* counters) const {
   return run(seed, 0, task, counters);

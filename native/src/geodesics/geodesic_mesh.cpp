@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "detail/poll.hpp"
 #include "detail/text.hpp"
 
 namespace seamwire {
@@ -31,18 +32,22 @@ void check_vertex(const IntrinsicMesh& mesh, std::int32_t vertex, const char* wh
   check_index(vertex, index(mesh.vertex_count), std::string(what) + " " + std::to_string(number) + ": vertex");
 }
 
-void check(const IntrinsicMesh& mesh) {
+void check(const IntrinsicMesh& mesh, const Task& task) {
   const auto half_edge_count = 3 * mesh.triangles.size();
   if (mesh.twins.size() != half_edge_count || mesh.lengths.size() != half_edge_count) {
     throw InvalidInput("twins and lengths must have 3 entries a triangle: " + std::to_string(mesh.triangles.size()) +
                        " triangles, " + std::to_string(mesh.twins.size()) + " twins, " +
                        std::to_string(mesh.lengths.size()) + " lengths");
   }
+  const Poll corners(task, 0.0, 0.02, mesh.triangles.size());
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    corners.at(f);
     for (const std::int32_t v : mesh.triangles[f]) check_vertex(mesh, v, "triangle", f);
   }
   const auto count = static_cast<std::int32_t>(half_edge_count);
+  const Poll half_edges(task, 0.02, 0.08, half_edge_count);
   for (std::int32_t h = 0; h < count; ++h) {
+    half_edges.at(index(h));
     const auto where = [&] { return "half-edge " + text(h) + " of triangle " + text(h / 3); };
     const double length = mesh.lengths[h];
     if (!(length > 0) || !std::isfinite(length)) {
@@ -63,7 +68,9 @@ void check(const IntrinsicMesh& mesh) {
                          text(mesh.lengths[twin]));
     }
   }
+  const Poll lengths(task, 0.08, 0.1, mesh.triangles.size());
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    lengths.at(f);
     const double a = mesh.lengths[3 * f], b = mesh.lengths[3 * f + 1], c = mesh.lengths[3 * f + 2];
     const double longest = std::max({a, b, c});
     if (longest - (a + b + c - longest) > kRounding * longest) {
@@ -104,10 +111,10 @@ constexpr std::size_t kAhead = 8;
 
 }  // namespace
 
-GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh) {
-  check(mesh);
+GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh, const Task& task) {
+  check(mesh, task);
   std::vector<std::int32_t> internal_face(mesh.triangles.size(), -1);
-  renumber(mesh, internal_face);
+  renumber(mesh, internal_face, task);
 
   const auto entered_over = [&](std::int32_t original) {
     const std::int32_t twin = mesh.twins[original];
@@ -117,7 +124,9 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh) {
   angle_.reserve(3 * external_face_.size());
   std::vector<Triangle> corners;
   corners.reserve(external_face_.size());
+  const Poll poll(task, 0.3, 0.6, external_face_.size());
   for (std::size_t f = 0; f < external_face_.size(); ++f) {
+    poll.at(f);
     if (f + kAhead < external_face_.size()) {
       const std::size_t ahead = index(external_face_[f + kAhead]);
       prefetch(&mesh.lengths[3 * ahead]);
@@ -147,7 +156,7 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh) {
     }
   }
 
-  out_ = leaving(vertex_count(), corners);
+  out_ = leaving(vertex_count(), corners, task);
   loose_ = Csr<Loose>(vertex_count(), [&](const auto& visit) {
     for (const LooseEdge& edge : mesh.loose_edges) {
       const std::int32_t a = internal_vertex(edge.a), b = internal_vertex(edge.b);
@@ -155,15 +164,18 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh) {
       visit(b, {a, edge.length});
     }
   });
-  list_hops();
-  find_pseudo_sources();
+  list_hops(task);
+  find_pseudo_sources(task);
 }
 
 /// For each vertex the half-edges that leave it.
-Csr<std::int32_t> GeodesicMesh::leaving(std::size_t vertex_count, const std::vector<Triangle>& corners) {
+Csr<std::int32_t> GeodesicMesh::leaving(std::size_t vertex_count, const std::vector<Triangle>& corners,
+                                        const Task& task) {
+  Poll poll(task, 0.6, 0.7, 2 * corners.size());
   return Csr<std::int32_t>(vertex_count, [&](const auto& visit) {
     std::int32_t h = 0;
     for (const Triangle& triangle : corners) {
+      poll.next();
       for (const std::int32_t v : triangle) visit(v, h++);
     }
   });
@@ -181,7 +193,7 @@ double GeodesicMesh::unit_of_hops() const {
   return std::abs(exponent) > kMostExponent ? std::ldexp(1.0, -exponent) : 1.0;
 }
 
-void GeodesicMesh::list_hops() {
+void GeodesicMesh::list_hops(const Task& task) {
   hops_.reserve(vertex_count(), 2 * half_edges_.size() + loose_.items().size());
   double sum = 0.0;
   const std::vector<std::int32_t>& all = out_.items();
@@ -193,7 +205,9 @@ void GeodesicMesh::list_hops() {
     sum += length * unit;
     longest_hop_ = std::max(longest_hop_, rounded);
   };
+  const Poll poll(task, 0.7, 0.9, vertex_count());
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(vertex_count()); ++v) {
+    poll.at(index(v));
     for (const std::int32_t h : out(v)) {
       if (++leaving + 2 * kAhead < all.size()) {
         prefetch(&half_edge(all[leaving + 2 * kAhead]));
@@ -223,10 +237,12 @@ void GeodesicMesh::list_hops() {
 }
 
 /// Breadth first over the triangles, a component after the other; a face gets its number with its first vertex.
-void GeodesicMesh::renumber(const IntrinsicMesh& mesh, std::vector<std::int32_t>& internal_face) {
+void GeodesicMesh::renumber(const IntrinsicMesh& mesh, std::vector<std::int32_t>& internal_face, const Task& task) {
   const auto vertices = index(mesh.vertex_count);
+  Poll listing(task, 0.1, 0.2, 2 * mesh.triangles.size());
   const Csr<std::int32_t> faces_of(vertices, [&](const auto& visit) {
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+      listing.next();
       for (const std::int32_t v : mesh.triangles[f]) visit(v, static_cast<std::int32_t>(f));
     }
   });
@@ -239,9 +255,11 @@ void GeodesicMesh::renumber(const IntrinsicMesh& mesh, std::vector<std::int32_t>
     external_vertex_.push_back(v);
   };
   std::size_t done = 0;
+  const Poll numbering(task, 0.2, 0.3, vertices);
   for (std::int32_t root = 0; root < mesh.vertex_count; ++root) {
     give_number(root);
     for (; done < external_vertex_.size(); ++done) {
+      numbering.at(done);
       for (const std::int32_t face : faces_of[external_vertex_[done]]) {
         if (internal_face[face] >= 0) continue;
         internal_face[face] = static_cast<std::int32_t>(external_face_.size());
@@ -252,9 +270,11 @@ void GeodesicMesh::renumber(const IntrinsicMesh& mesh, std::vector<std::int32_t>
   }
 }
 
-void GeodesicMesh::find_pseudo_sources() {
+void GeodesicMesh::find_pseudo_sources(const Task& task) {
   is_pseudo_source_.assign(vertex_count(), 0);
+  const Poll poll(task, 0.9, 1.0, vertex_count());
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(vertex_count()); ++v) {
+    poll.at(index(v));
     const auto leaving = out(v);
     bool bends = !loose(v).empty();
     double angle = 0.0;

@@ -9,6 +9,7 @@
 #include "detail/csr.hpp"
 #include "detail/prefetch.hpp"
 #include "seamwire/surface/intrinsic_mesh.hpp"
+#include "seamwire/task.hpp"
 
 namespace seamwire {
 
@@ -42,7 +43,7 @@ class GeodesicMesh {
   };
 
   /// Throws as ExactGeodesics does.
-  explicit GeodesicMesh(const IntrinsicMesh& mesh);
+  explicit GeodesicMesh(const IntrinsicMesh& mesh, const Task& task = {});
 
   std::size_t vertex_count() const { return external_vertex_.size(); }
   const HalfEdge& half_edge(std::int32_t h) const { return half_edges_[h]; }
@@ -74,11 +75,12 @@ class GeodesicMesh {
  private:
   friend class SubmeshCutter;
   GeodesicMesh() = default;
-  void renumber(const IntrinsicMesh& mesh, std::vector<std::int32_t>& internal_face);
-  static Csr<std::int32_t> leaving(std::size_t vertex_count, const std::vector<Triangle>& corners);
+  void renumber(const IntrinsicMesh& mesh, std::vector<std::int32_t>& internal_face, const Task& task);
+  static Csr<std::int32_t> leaving(std::size_t vertex_count, const std::vector<Triangle>& corners,
+                                   const Task& task = {});
   double unit_of_hops() const;
-  void list_hops();
-  void find_pseudo_sources();
+  void list_hops(const Task& task);
+  void find_pseudo_sources(const Task& task);
 
   std::vector<HalfEdge> half_edges_;
   std::vector<double> angle_;

@@ -22,6 +22,7 @@
 #include <utility>
 
 #include "detail/indexed_heap.hpp"
+#include "detail/poll.hpp"
 #include "detail/prefetch.hpp"
 #include "geodesics/window_kernels.hpp"
 #include "geodesics/window_lists.hpp"
@@ -55,11 +56,11 @@ class Wavefront {
         windows_kept_(windows_kept),
         status_(mesh.vertex_count(), Status::kUnreached),
         queue_(mesh.vertex_count()),
-        lists_(mesh.half_edge_count()),
         list_state_(mesh.half_edge_count(), ListState::kEmpty),
         improved_sources_(mesh.vertex_count()) {
     result_.distances.assign(mesh.vertex_count(), kInfinity);
-    result_.records.resize(mesh.vertex_count());
+    resize(result_.records, mesh.vertex_count(), task, 0.0);
+    resize(lists_, mesh.half_edge_count(), task, 0.0);
   }
 
   WavefrontResult run() {

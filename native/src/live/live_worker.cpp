@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "seamwire/edges/shortest_cycle.hpp"
-#include "seamwire/geodesics/corridor_paths.hpp"
 
 namespace seamwire {
 namespace {
@@ -20,210 +19,278 @@ bool has_edge(const Surface& surface, const Edge& edge) {
   return std::binary_search(surface.edges().begin(), surface.edges().end(), sorted);
 }
 
-LiveWire::Impl::Impl(std::shared_ptr<Ground> on, std::shared_ptr<Metrics> by, const LiveWireOptions& with)
-    : ground(std::move(on)),
-      along(with.along),
-      turning(with.turning),
-      loop_turning(with.loop_turning),
-      metrics(std::move(by)) {
-  for (std::size_t which = 0; which < kFollow.size(); ++which) {
-    threads[which] = std::jthread([this, which](const std::stop_token& quit) { work(which, quit); });
+LiveWorker::LiveWorker(std::size_t which, std::shared_ptr<SurfaceCache> surface_cache,
+                       std::shared_ptr<MetricPair> metrics, const LiveSettings& settings)
+    : which_(which),
+      surface_cache_(std::move(surface_cache)),
+      settings_(settings),
+      metrics_(std::move(metrics)),
+      thread_([this] { run(); }) {}
+
+LiveWorker::~LiveWorker() {
+  request_stop();
+  thread_.join();
+}
+
+void LiveWorker::request_stop() {
+  const MutexLock lock(mutex_);
+  quit_.request_stop();
+  preparing_.request_stop();
+  solving_.request_stop();
+  changed_.notify_all();
+}
+
+void LiveWorker::change_metric(std::shared_ptr<MetricPair> metrics) {
+  const MutexLock lock(mutex_);
+  metrics_.swap(metrics);
+  ++request_;
+  loop_edge_ = {-1, -1};
+  loop_handled_ = loop_request_;
+  if (metrics_->prepared[which_] != metrics->prepared[which_]) preparing_.request_stop();
+  solving_.request_stop();
+  error_ = nullptr;
+  dropped_.push_back(std::move(metrics));  // the former ones
+  changed_.notify_all();
+}
+
+void LiveWorker::seed(const Pick& pick, bool forward) {
+  const MutexLock lock(mutex_);
+  ++request_;
+  seed_ = pick;
+  is_forward_ = forward;
+  target_ = {};
+  solving_.request_stop();
+  error_ = nullptr;
+  preview_ = nullptr;
+  if (solution_) dropped_.push_back(std::exchange(solution_, nullptr));
+  changed_.notify_all();
+}
+
+LiveWorker::Snapshot LiveWorker::snapshot(const Pick& target) {
+  const MutexLock lock(mutex_);
+  if (target_ != target) {
+    target_ = target;
+    ++targets_;
+  }
+  Snapshot now{.solution = solution_, .is_newest = solution_ && solution_for_ == request_, .preview = nullptr};
+  if (!now.is_newest && preview_ && preview_->request == request_ && preview_->target == target) {
+    now.preview = {preview_, &preview_->candidate};
+  }
+  return now;
+}
+
+void LiveWorker::release(std::shared_ptr<const SeedSolution> solution) {
+  const MutexLock lock(mutex_);
+  if (solution == solution_) {
+    solution = nullptr;  // not the last one, as long as the mutex is held
+    return;
+  }
+  dropped_.push_back(std::move(solution));
+  changed_.notify_all();
+}
+
+void LiveWorker::find_loop(const Edge& edge) {
+  const MutexLock lock(mutex_);
+  if (loop_edge_ == edge) return;
+  ++loop_request_;
+  loop_edge_ = edge;
+  if (is_at_loop_) solving_.request_stop();
+  changed_.notify_all();
+}
+
+std::optional<EdgeChain> LiveWorker::loop() const {
+  const MutexLock lock(mutex_);
+  if (loop_handled_ != loop_request_) return std::nullopt;
+  return loop_;
+}
+
+double LiveWorker::progress() const {
+  const MutexLock lock(mutex_);
+  if (handled_ == request_) return 1.0;
+  const double solved = std::clamp(fraction_.load(), 0.0, 1.0);
+  const double prepared = std::clamp(metrics_->fractions[which_].load(), 0.0, 1.0);
+  return was_prepared_ ? solved : kSolveBegins * prepared + (1.0 - kSolveBegins) * solved;
+}
+
+std::exception_ptr LiveWorker::error() const {
+  const MutexLock lock(mutex_);
+  return error_;
+}
+
+bool LiveWorker::wait_until_idle(const Deadline& deadline) const {
+  MutexLock lock(mutex_);
+  while (!is_idle() && wait_once(changed_, lock, deadline)) continue;
+  return is_idle();
+}
+
+void LiveWorker::run() {
+  if (!build_surface()) return;
+  while (std::optional<Job> job = next_job()) {
+    if (auto* seed = std::get_if<SeedJob>(&*job)) work_on(std::move(*seed));
+    if (const auto* loop = std::get_if<LoopJob>(&*job)) work_on(*loop);
+    // Dropped: ends here.
   }
 }
 
-LiveWire::Impl::~Impl() {
-  for (std::jthread& thread : threads) thread.request_stop();  // both, before the first of them is joined
-}
-
-/// Builds the surface, or waits for the thread that does; false where there is none.
-bool LiveWire::Impl::await_surface(const std::stop_token& quit) {
-  std::exception_ptr error;
+/// Or waits for the thread that does; false where there is no surface, or no more time for it.
+bool LiveWorker::build_surface() {
   try {
-    ground->surface_now(quit);
-  } catch (const Cancelled&) {
+    surface_cache_->surface_now(quit_.get_token());
+    return true;
+  } catch (...) {
+    // Cancelled, to end; the cache has all else.
+    const MutexLock lock(mutex_);
+    has_failed_ = true;
+    changed_.notify_all();
     return false;
-  } catch (...) {
-    error = std::current_exception();
-  }
-  const std::scoped_lock lock(mutex);
-  failure = error;
-  changed.notify_all();
-  return !failure;
-}
-
-void LiveWire::Impl::work(std::size_t which, const std::stop_token& quit) {
-  if (!await_surface(quit)) return;
-  Worker& worker = workers[which];
-  const std::stop_callback stop_work(quit, [&] {
-    const std::scoped_lock lock(mutex);
-    worker.preparing.request_stop();
-    worker.solving.request_stop();
-  });
-  std::unique_lock lock(mutex);
-  while (true) {
-    changed.wait(lock, quit, [&] {
-      return worker.handled != request || worker.loop_handled != loop_request || !worker.dropped.empty();
-    });
-    if (quit.stop_requested()) return;
-    if (!worker.dropped.empty()) {
-      std::vector<std::shared_ptr<const void>> dropped = std::exchange(worker.dropped, {});
-      lock.unlock();
-      dropped.clear();
-      lock.lock();
-      continue;
-    }
-    worker.preparing = std::stop_source();
-    worker.solving = std::stop_source();
-    if (worker.handled != request) {
-      work_on_seed(which, lock);
-    } else {
-      work_on_loop(which, lock);
-    }
-    changed.notify_all();
   }
 }
 
-void LiveWire::Impl::work_on_seed(std::size_t which, std::unique_lock<std::mutex>& lock) {
-  Worker& worker = workers[which];
-  std::shared_ptr<Metrics> with = metrics;
-  const std::int64_t at = request;
-  const std::optional<Pick> pick = seed;
-  const bool is_forward = forward;
-  const std::stop_token preparing = worker.preparing.get_token();
-  // For this seed, if there is one: a new seed drops it.
-  std::shared_ptr<const Solved> before = worker.solved;
-  worker.fraction = 0.0;
-  worker.was_prepared = with->prepared[which]->peek() != nullptr;
-  const Task task{.stop = worker.solving.get_token(), .progress = [&worker](double done) {
-                    worker.fraction = done;
-                    return true;
-                  }};
-  lock.unlock();
+/// Waits for one; nullopt: to end.
+std::optional<LiveWorker::Job> LiveWorker::next_job() {
+  MutexLock lock(mutex_);
+  while (!has_job() && !quit_.stop_requested()) changed_.wait(lock);
+  if (quit_.stop_requested()) return std::nullopt;
+  if (!dropped_.empty()) return std::exchange(dropped_, {});
+  preparing_ = std::stop_source();
+  solving_ = std::stop_source();
+  is_at_loop_ = handled_ == request_;
+  if (is_at_loop_) {
+    return LoopJob{.request = loop_request_,
+                   .edge = loop_edge_,
+                   .prepared = metrics_->prepared[which_]->peek(),
+                   .solving = solving_.get_token()};
+  }
+  fraction_ = 0.0;
+  was_prepared_ = metrics_->prepared[which_]->peek() != nullptr;
+  return SeedJob{.request = request_,
+                 .metrics = metrics_,
+                 .pick = seed_,
+                 .is_forward = is_forward_,
+                 .before = solution_,  // for this seed, if there is one: a new seed drops it
+                 .preparing = preparing_.get_token(),
+                 .solving = solving_.get_token()};
+}
 
-  std::shared_ptr<const Solved> solved;
+void LiveWorker::work_on(SeedJob job) {
+  std::shared_ptr<const SeedSolution> solution;
   std::exception_ptr error;
   try {
-    const std::shared_ptr<const Prepared> prepared =
-        with->prepared[which]->get(preparing, [&] { return prepare(*ground, along, *with, which, preparing); });
-    with->forget_former(which);
-    const bool is_sown =
-        pick && (!pick->is_edge() || has_edge(surface(), {pick->a, pick->b}));  // wires() refuses others
-    if (before && before->field && before->prepared == prepared) {
-      solved = before;  // the other metric was changed
-    } else if (is_sown) {
-      task.check(0.0);
-      solved = along == Along::kSurface ? find_field(which, prepared, pick->a, at, task)
-                                        : find_chains(which, prepared, *pick, is_forward, at, task);
-    }
+    solution = solve(job);
   } catch (const Cancelled&) {
-    // By a newer request, or to quit.
+    // By a newer request, or to end.
   } catch (...) {
     error = std::current_exception();
   }
-  with = nullptr;  // without the lock: it may be the last to hold a former metric
+  job.metrics = nullptr;  // without the mutex: it may be the last to hold a former metric
 
-  lock.lock();
-  worker.handled = at;
-  if (at == request) {
-    if (worker.solved != solved) worker.dropped.push_back(std::exchange(worker.solved, solved));
-    worker.solved_for = at;
-    worker.preview = nullptr;
-    worker.error = std::move(error);
+  const MutexLock lock(mutex_);
+  handled_ = job.request;
+  if (job.request == request_) {
+    if (solution_ != solution) dropped_.push_back(std::exchange(solution_, solution));
+    solution_for_ = job.request;
+    preview_ = nullptr;
+    error_ = std::move(error);
   }
-  lock.unlock();
-  before = solved = nullptr;
-  lock.lock();
+  changed_.notify_all();
 }
 
-void LiveWire::Impl::work_on_loop(std::size_t which, std::unique_lock<std::mutex>& lock) {
-  Worker& worker = workers[which];
-  const std::int64_t at = loop_request;
-  const Edge edge = loop_edge;
-  std::shared_ptr<const Prepared> prepared = metrics->prepared[which]->peek();  // null: that failed
-  const Task task{.stop = worker.solving.get_token(), .progress = {}};
-  worker.is_at_loop = true;
-  lock.unlock();
-
+void LiveWorker::work_on(const LoopJob& job) {
   EdgeChain loop;
   std::exception_ptr error;
   bool is_cancelled = false;
   try {
-    if (prepared && has_edge(surface(), edge)) {  // loop() refuses others
-      loop = shortest_cycle(*prepared->graph, edge, loop_turning.value_or(loop_turning_for(surface().edges().size())),
-                            task);
+    if (job.prepared && has_edge(surface(), job.edge)) {  // LiveWire::loop() refuses others
+      const double turning = settings_.loop_turning.value_or(loop_turning_for(surface().edges().size()));
+      loop = shortest_cycle(*job.prepared->graph, job.edge, turning, {.stop = job.solving, .progress = {}});
     }
   } catch (const Cancelled&) {
     is_cancelled = true;  // by a newer loop, which counts then, or by a seed, which goes first
   } catch (...) {
     error = std::current_exception();
   }
-  prepared = nullptr;  // without the lock, as in work_on_seed()
 
-  lock.lock();
-  worker.is_at_loop = false;
-  if (is_cancelled || at != loop_request) return;
-  worker.loop_handled = at;
-  worker.loop = std::move(loop);
-  if (error) worker.error = std::move(error);
+  const MutexLock lock(mutex_);
+  is_at_loop_ = false;
+  changed_.notify_all();
+  if (is_cancelled || job.request != loop_request_) return;
+  loop_handled_ = job.request;
+  loop_ = std::move(loop);
+  if (error) error_ = std::move(error);
+}
+
+/// Null where there is no seed, or none that is part of the surface.
+std::shared_ptr<const SeedSolution> LiveWorker::solve(const SeedJob& job) {
+  const std::shared_ptr<const Prepared> prepared = job.metrics->prepared[which_]->get(
+      job.preparing, [&] { return prepare(*surface_cache_, settings_.along, *job.metrics, which_, job.preparing); });
+  job.metrics->forget_former(which_);
+  if (job.before && job.before->field && job.before->prepared == prepared) return job.before;  // the other was changed
+  if (!job.pick || (job.pick->is_edge() && !has_edge(surface(), {job.pick->a, job.pick->b}))) return nullptr;
+  const Task task{.stop = job.solving, .progress = [this](double done) {
+                    fraction_ = done;
+                    return true;
+                  }};
+  task.check(0.0);
+  return settings_.along == Along::kSurface ? find_field(job, prepared, task) : find_chains(job, prepared, task);
 }
 
 /// Between the steps of the search for the field it finds wires to the targets that are asked for meanwhile: on a
 /// thread of its own that would take turns with the search all the same.
-std::shared_ptr<const Solved> LiveWire::Impl::find_field(std::size_t which,
-                                                         const std::shared_ptr<const Prepared>& prepared,
-                                                         std::int32_t from, std::int64_t at, Task task) {
-  Worker& worker = workers[which];
-  CorridorPaths quick(*prepared->geodesics, from);
+std::shared_ptr<const SeedSolution> LiveWorker::find_field(const SeedJob& job,
+                                                           const std::shared_ptr<const Prepared>& prepared, Task task) {
+  CorridorPaths paths(*prepared->geodesics, job.pick->a);
   std::int64_t answered = -1;
-  const auto answer = [&] {
-    const std::int64_t asked = targets;
-    if (asked == answered) return;
-    Pick to;
-    {
-      const std::scoped_lock lock(mutex);
-      to = target;
-    }
-    answered = asked;
-    if (to.a < 0) return;
-    Wire wire = map_wire(surface(), *prepared->embedding, quick.path(to.a, {.stop = task.stop, .progress = {}}));
-    wire.from = from;
-    wire.to = to.a;
-    const auto preview =
-        std::make_shared<const Preview>(Preview{at, to, candidate_of(which, *prepared, std::move(wire))});
-    const std::scoped_lock lock(mutex);
-    if (at == request) worker.preview = preview;
-  };
-  answer();
+  make_preview(job, *prepared, paths, answered);
   task.progress = [&, report = std::move(task.progress)](double done) {
-    answer();
+    make_preview(job, *prepared, paths, answered);
     return report(done);
   };
-  DistanceField field = prepared->geodesics->solve(from, task);
-  return std::make_shared<const Solved>(Solved{.prepared = prepared, .field = std::move(field), .wires = std::nullopt});
+  DistanceField field = prepared->geodesics->solve(job.pick->a, task);
+  return std::make_shared<const SeedSolution>(
+      SeedSolution{.prepared = prepared, .field = std::move(field), .wires = std::nullopt});
+}
+
+/// `answered`: the value of targets_ at the last preview.
+void LiveWorker::make_preview(const SeedJob& job, const Prepared& prepared, CorridorPaths& paths,
+                              std::int64_t& answered) {
+  const std::int64_t asked = targets_;
+  if (asked == answered) return;
+  answered = asked;
+  Pick target;
+  {
+    const MutexLock lock(mutex_);
+    target = target_;
+  }
+  if (target.a < 0) return;
+  Wire wire = map_wire(surface(), *prepared.embedding, paths.path(target.a, {.stop = job.solving, .progress = {}}));
+  wire.from = job.pick->a;
+  wire.to = target.a;
+  auto preview = std::make_shared<const Preview>(Preview{job.request, target, candidate_of(prepared, std::move(wire))});
+  const MutexLock lock(mutex_);
+  if (job.request == request_) preview_.swap(preview);
 }
 
 /// What is found can be seen from the beginning.
-std::shared_ptr<const Solved> LiveWire::Impl::find_chains(std::size_t which,
-                                                          const std::shared_ptr<const Prepared>& prepared,
-                                                          const Pick& from, bool is_forward, std::int64_t at,
-                                                          const Task& task) {
-  EdgeWires wires(prepared->graph, from, turning, is_forward);
-  auto solved = std::make_shared<const Solved>(Solved{.prepared = prepared, .field = std::nullopt, .wires = wires});
+std::shared_ptr<const SeedSolution> LiveWorker::find_chains(const SeedJob& job,
+                                                            const std::shared_ptr<const Prepared>& prepared,
+                                                            const Task& task) {
+  EdgeWires wires(prepared->graph, *job.pick, settings_.turning, job.is_forward);
+  auto solution =
+      std::make_shared<const SeedSolution>(SeedSolution{.prepared = prepared, .field = std::nullopt, .wires = wires});
   {
-    const std::scoped_lock lock(mutex);
-    if (at == request) {
-      Worker& worker = workers[which];
-      worker.dropped.push_back(std::exchange(worker.solved, solved));
-      worker.solved_for = at;
+    const MutexLock lock(mutex_);
+    if (job.request == request_) {
+      dropped_.push_back(std::exchange(solution_, solution));
+      solution_for_ = job.request;
     }
   }
   wires.run(task);
-  return solved;
+  return solution;
 }
 
-LiveCandidate LiveWire::Impl::candidate_of(std::size_t which, const Prepared& prepared, Wire wire) const {
+LiveCandidate LiveWorker::candidate_of(const Prepared& prepared, Wire wire) const {
   LiveCandidate candidate;
-  candidate.follow = kFollow[which];
+  candidate.follow = kFollow[which_];
   candidate.vertices = snap_to_edges(surface(), *prepared.snap_graph, wire);
   candidate.length = wire.length;
   candidate.points = std::move(wire.points);
@@ -231,36 +298,19 @@ LiveCandidate LiveWire::Impl::candidate_of(std::size_t which, const Prepared& pr
   return candidate;
 }
 
-LiveCandidate LiveWire::Impl::candidate(std::size_t which, const Solved& solved, const Pick& target) const {
-  if (solved.field) {
-    const Prepared& prepared = *solved.prepared;
-    return candidate_of(which, prepared, trace_wire(surface(), *prepared.embedding, *solved.field, target.a));
+LiveCandidate LiveWorker::candidate(const SeedSolution& solution, const Pick& target) const {
+  if (solution.field) {
+    const Prepared& prepared = *solution.prepared;
+    return candidate_of(prepared, trace_wire(surface(), *prepared.embedding, *solution.field, target.a));
   }
   LiveCandidate candidate;
-  candidate.follow = kFollow[which];
-  EdgeChain chain = solved.wires->trace(target);
+  candidate.follow = kFollow[which_];
+  EdgeChain chain = solution.wires->trace(target);
   candidate.length = chain.length;
   candidate.vertices = std::move(chain.vertices);
   candidate.points.reserve(candidate.vertices.size());
-  for (const std::int32_t v : candidate.vertices) {
-    candidate.points.push_back(surface().points()[static_cast<std::size_t>(v)]);
-  }
+  for (const std::int32_t v : candidate.vertices) candidate.points.push_back(surface().points()[v]);
   return candidate;
-}
-
-void LiveWire::Impl::change_metrics(std::shared_ptr<Metrics> to) {
-  const std::scoped_lock lock(mutex);
-  metrics.swap(to);
-  ++request;
-  drop_loop();
-  for (std::size_t which = 0; which < workers.size(); ++which) {
-    Worker& worker = workers[which];
-    if (metrics->prepared[which] != to->prepared[which]) worker.preparing.request_stop();
-    worker.solving.request_stop();
-    worker.error = nullptr;
-  }
-  workers.front().dropped.push_back(std::move(to));  // the former ones
-  changed.notify_all();
 }
 
 }  // namespace seamwire

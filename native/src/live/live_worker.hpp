@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <stop_token>
 #include <thread>
+#include <variant>
 #include <vector>
 
+#include "detail/thread_safety.hpp"
+#include "live/deadline.hpp"
 #include "live/prepared_metrics.hpp"
+#include "seamwire/geodesics/corridor_paths.hpp"
 
-/// The two threads behind a LiveWire, and what they share with its caller.
 namespace seamwire {
 
 /// In either direction.
 bool has_edge(const Surface& surface, const Edge& edge);
 
 /// The wires of one metric from one seed. Along edges it may still be at work.
-struct Solved {
+struct SeedSolution {
   std::shared_ptr<const Prepared> prepared;
   std::optional<DistanceField> field;
   std::optional<EdgeWires> wires;
@@ -32,115 +32,141 @@ struct Solved {
   bool is_final(const Pick& target) const { return !wires || wires->is_final(target); }
 };
 
-/// A wire to one target, computed before there is a field.
-struct Preview {
-  std::int64_t request;
-  Pick target;
-  LiveCandidate candidate;
+/// How wires run, whatever the metric.
+struct LiveSettings {
+  Along along;
+  double turning;
+  std::optional<double> loop_turning;
 };
 
-struct LiveWire::Impl {
-  /// What one worker is at. Numbers of requests are those of Impl.
-  struct Worker {
-    std::shared_ptr<const Solved> solved;  // of the newest seed; of a former metric where solved_for is not `request`
-    std::int64_t solved_for = -1;
-    std::shared_ptr<const Preview> preview;
-    std::vector<std::shared_ptr<const void>> dropped;  // to be freed here, without the lock: that takes long
-    std::int64_t handled = -1;                         // the request that was answered, or failed, last
-    std::exception_ptr error;                          // why it failed
-    EdgeChain loop;
-    std::int64_t loop_handled = 0;
-    std::stop_source preparing, solving;  // of the running work
-    bool is_at_loop = false;
-    bool was_prepared = false;  // when it began
-    std::atomic<double> fraction = 0.0;
+/// One of the two threads behind a LiveWire, for one of the metrics. It builds the surface where nobody does yet,
+/// prepares the metric, then answers the newest seed and after it the newest loop; what it is at is stopped where it is
+/// no longer wanted. None of the members waits for that but wait_until_idle() and the destructor.
+///
+/// Freeing what belongs to a seed or a metric takes long. So that the caller does not do it, nor wait for the mutex
+/// while the thread does it, such memory is handed over to dropped_, from which the thread frees it without the mutex.
+class LiveWorker {
+ public:
+  LiveWorker(std::size_t which, std::shared_ptr<SurfaceCache> surface_cache, std::shared_ptr<MetricPair> metrics,
+             const LiveSettings& settings);
+  /// Waits until the thread has ended.
+  ~LiveWorker();
+  LiveWorker(const LiveWorker&) = delete;
+  LiveWorker& operator=(const LiveWorker&) = delete;
+
+  /// Tells the thread to end.
+  void request_stop();
+
+  /// The solution stays, as that of a former metric, until the same seed has one in this metric. The loop is forgotten.
+  void change_metric(std::shared_ptr<MetricPair> metrics);
+  /// Drops the solution of the former seed. The pick was checked, an edge where there is a surface.
+  void seed(const Pick& pick, bool forward);
+
+  /// What is there of the wires now.
+  struct Snapshot {
+    std::shared_ptr<const SeedSolution> solution;  ///< null: none yet
+    bool is_newest = false;                        ///< it is of the newest seed and metric
+    /// Of the newest seed and metric, to the target, where a solution is not.
+    std::shared_ptr<const LiveCandidate> preview;
+  };
+  /// `target` is where a preview leads to from now on. The solution has to be given back by release().
+  Snapshot snapshot(const Pick& target);
+  void release(std::shared_ptr<const SeedSolution> solution);
+  LiveCandidate candidate(const SeedSolution& solution, const Pick& target) const;
+
+  /// Searches the loop through an edge, `edge[0] < edge[1]`, unless it is the one searched for last.
+  void find_loop(const Edge& edge);
+  /// nullopt until it is found.
+  std::optional<EdgeChain> loop() const;
+
+  /// Fraction of the newest seed's work, preparation included, that is done.
+  double progress() const;
+  /// Why the newest request failed; null where it did not.
+  std::exception_ptr error() const;
+  /// Whether it has answered all requests, or will answer none for want of a surface.
+  bool wait_until_idle(const Deadline& deadline) const;
+
+ private:
+  struct SeedJob {
+    std::int64_t request;
+    std::shared_ptr<MetricPair> metrics;
+    std::optional<Pick> pick;
+    bool is_forward;
+    std::shared_ptr<const SeedSolution> before;
+    std::stop_token preparing, solving;
+  };
+  struct LoopJob {
+    std::int64_t request;
+    Edge edge;
+    std::shared_ptr<const Prepared> prepared;  // null: that failed
+    std::stop_token solving;
+  };
+  using Dropped = std::vector<std::shared_ptr<const void>>;
+  using Job = std::variant<Dropped, SeedJob, LoopJob>;
+
+  /// A wire to one target, computed before there is a field.
+  struct Preview {
+    std::int64_t request;
+    Pick target;
+    LiveCandidate candidate;
   };
 
-  /// `with`: but for the metrics.
-  Impl(std::shared_ptr<Ground> on, std::shared_ptr<Metrics> by, const LiveWireOptions& with);
-  ~Impl();
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
+  void run();
+  bool build_surface();
+  std::optional<Job> next_job();
+  void work_on(SeedJob job);
+  void work_on(const LoopJob& job);
+  std::shared_ptr<const SeedSolution> solve(const SeedJob& job);
+  std::shared_ptr<const SeedSolution> find_field(const SeedJob& job, const std::shared_ptr<const Prepared>& prepared,
+                                                 Task task);
+  std::shared_ptr<const SeedSolution> find_chains(const SeedJob& job, const std::shared_ptr<const Prepared>& prepared,
+                                                  const Task& task);
+  void make_preview(const SeedJob& job, const Prepared& prepared, CorridorPaths& paths, std::int64_t& answered);
+  LiveCandidate candidate_of(const Prepared& prepared, Wire wire) const;
+  const Surface& surface() const { return surface_cache_->surface(); }
 
-  /// Once it is built, as in all that workers do.
-  const Surface& surface() const { return ground->surface(); }
-  bool await_surface(const std::stop_token& quit);
-  void work(std::size_t which, const std::stop_token& quit);
-  void work_on_seed(std::size_t which, std::unique_lock<std::mutex>& lock);
-  void work_on_loop(std::size_t which, std::unique_lock<std::mutex>& lock);
-  std::shared_ptr<const Solved> find_field(std::size_t which, const std::shared_ptr<const Prepared>& prepared,
-                                           std::int32_t from, std::int64_t at, Task task);
-  std::shared_ptr<const Solved> find_chains(std::size_t which, const std::shared_ptr<const Prepared>& prepared,
-                                            const Pick& from, bool is_forward, std::int64_t at, const Task& task);
-  LiveCandidate candidate_of(std::size_t which, const Prepared& prepared, Wire wire) const;
-  LiveCandidate candidate(std::size_t which, const Solved& solved, const Pick& target) const;
-  void change_metrics(std::shared_ptr<Metrics> to);
-
-  /// With the lock.
-  bool idle() const {
-    return failure || std::ranges::all_of(workers, [&](const Worker& w) {
-             return w.handled == request && w.loop_handled == loop_request;
-           });
+  bool has_job() const SEAMWIRE_REQUIRES(mutex_) {
+    return handled_ != request_ || loop_handled_ != loop_request_ || !dropped_.empty();
   }
-  void rethrow_failure() const {
-    if (failure) std::rethrow_exception(failure);
-  }
-  void rethrow() const {
-    rethrow_failure();
-    for (const Worker& worker : workers) {
-      if (worker.error) std::rethrow_exception(worker.error);
-    }
-  }
-  /// Without the lock. Throws why there will be no surface.
-  void check_surface() const {
-    const std::scoped_lock lock(mutex);
-    rethrow_failure();
-  }
-  /// The same; null until the surface is built.
-  std::shared_ptr<const Surface> surface_if_built() const {
-    const std::scoped_lock lock(mutex);
-    rethrow_failure();
-    return ground->peek_surface();
-  }
-  std::shared_ptr<Metrics> metrics_now() const {
-    const std::scoped_lock lock(mutex);
-    return metrics;
-  }
-  /// With the lock, which it gives up while it waits; at most `seconds`.
-  template <class Condition>
-  void wait_until(std::unique_lock<std::mutex>& lock, double seconds, const Condition& condition) const {
-    constexpr double kForever = 1e9;  // a longer time would overflow the clock
-    if (seconds >= kForever) {
-      changed.wait(lock, condition);
-    } else {
-      changed.wait_for(lock, std::chrono::duration<double>(std::max(0.0, seconds)), condition);
-    }
-  }
-  /// With the lock.
-  void drop_loop() {
-    loop_edge = {-1, -1};
-    for (Worker& worker : workers) worker.loop_handled = loop_request;
+  bool is_idle() const SEAMWIRE_REQUIRES(mutex_) {
+    return has_failed_ || (handled_ == request_ && loop_handled_ == loop_request_);
   }
 
-  const std::shared_ptr<Ground> ground;
-  const Along along;
-  const double turning;
-  const std::optional<double> loop_turning;
+  const std::size_t which_;  // of kFollow
+  const std::shared_ptr<SurfaceCache> surface_cache_;
+  const LiveSettings settings_;
+  std::stop_source quit_;                  // its state guards itself
+  std::atomic<double> fraction_ = 0.0;     // of what the thread does for the newest seed once the metric is prepared
+  std::atomic<std::int64_t> targets_ = 0;  // how often target_ has become another one; grows with the mutex held
 
-  mutable std::mutex mutex;  // guards what follows, but for the fractions
-  mutable std::condition_variable_any changed;
-  std::shared_ptr<Metrics> metrics;
-  std::exception_ptr failure;  // why there is no surface, for good
-  std::int64_t request = 0;    // grows with each seed and each change of the metric
-  std::optional<Pick> seed;
-  bool forward = false;
-  Pick target;                            // what wires were asked for last
-  std::atomic<std::int64_t> targets = 0;  // how often that was another one
-  std::int64_t loop_request = 0;
-  Edge loop_edge = {-1, -1};  // of the newest loop asked for
-  std::array<Worker, 2> workers;
+  mutable Mutex mutex_;
+  mutable std::condition_variable_any changed_;  // what is asked for, and what has been answered
 
-  std::array<std::jthread, 2> threads;  // last, so that they end first, also where the second cannot be made
+  // What is asked for.
+  std::shared_ptr<MetricPair> metrics_ SEAMWIRE_GUARDED_BY(mutex_);
+  std::int64_t request_ SEAMWIRE_GUARDED_BY(mutex_) = 0;  // grows with each seed and each change of the metric
+  std::optional<Pick> seed_ SEAMWIRE_GUARDED_BY(mutex_);
+  bool is_forward_ SEAMWIRE_GUARDED_BY(mutex_) = false;
+  Pick target_ SEAMWIRE_GUARDED_BY(mutex_);  // of the preview
+  std::int64_t loop_request_ SEAMWIRE_GUARDED_BY(mutex_) = 0;
+  Edge loop_edge_ SEAMWIRE_GUARDED_BY(mutex_) = {-1, -1};
+  std::stop_source preparing_ SEAMWIRE_GUARDED_BY(mutex_);  // of the running job
+  std::stop_source solving_ SEAMWIRE_GUARDED_BY(mutex_);
+
+  // What has been answered.
+  std::int64_t handled_ SEAMWIRE_GUARDED_BY(mutex_) = -1;  // the request that was answered, or failed, last
+  std::shared_ptr<const SeedSolution> solution_ SEAMWIRE_GUARDED_BY(mutex_);
+  std::int64_t solution_for_ SEAMWIRE_GUARDED_BY(mutex_) = -1;  // the request that solution_ answers
+  std::shared_ptr<const Preview> preview_ SEAMWIRE_GUARDED_BY(mutex_);
+  std::exception_ptr error_ SEAMWIRE_GUARDED_BY(mutex_);
+  std::int64_t loop_handled_ SEAMWIRE_GUARDED_BY(mutex_) = 0;
+  EdgeChain loop_ SEAMWIRE_GUARDED_BY(mutex_);
+  bool has_failed_ SEAMWIRE_GUARDED_BY(mutex_) = false;    // there is no surface
+  bool is_at_loop_ SEAMWIRE_GUARDED_BY(mutex_) = false;    // the running job is one
+  bool was_prepared_ SEAMWIRE_GUARDED_BY(mutex_) = false;  // when the last SeedJob began
+  Dropped dropped_ SEAMWIRE_GUARDED_BY(mutex_);
+
+  std::jthread thread_;  // last, so that all else is there when it begins
 };
 
 }  // namespace seamwire

@@ -2,12 +2,16 @@
 #include "seamwire/live/livewire.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <string>
 #include <utility>
 
+#include "detail/index.hpp"
 #include "detail/text.hpp"
+#include "detail/thread_safety.hpp"
+#include "live/deadline.hpp"
 #include "live/live_worker.hpp"
 
 namespace seamwire {
@@ -24,9 +28,8 @@ void check_pick(const Surface* surface, std::size_t vertex_count, Along along, c
   if (pick.is_edge()) {
     if (along == Along::kSurface) throw InvalidInput("across the surface wires lead from vertex to vertex, not edge");
     check_edge(surface, {pick.a, pick.b});
-  } else if (pick.a < 0 || static_cast<std::size_t>(pick.a) >= vertex_count) {
-    throw InvalidInput("vertex " + std::to_string(pick.a) + " is out of range: the surface has " +
-                       std::to_string(vertex_count) + " vertices");
+  } else {
+    check_index(pick.a, vertex_count, "vertex");
   }
 }
 
@@ -43,22 +46,84 @@ void check_options(const LiveWireOptions& options) {
   }
 }
 
-std::shared_ptr<Metrics> new_metrics(const LiveWireOptions& options) {
-  return std::make_shared<Metrics>(options.family, options.strength, std::vector<Scribble>());
+std::shared_ptr<MetricPair> new_metrics(const LiveWireOptions& options) {
+  return std::make_shared<MetricPair>(options.family, options.strength, std::vector<Scribble>());
+}
+
+LiveSettings settings_of(const LiveWireOptions& options) {
+  return {.along = options.along, .turning = options.turning, .loop_turning = options.loop_turning};
 }
 
 }  // namespace
 
+/// What the members of a LiveWire have in common. The mutex is held only for a look at what it guards, never while a
+/// worker is asked, which has one of its own.
+struct LiveWire::Impl {
+  Impl(const std::shared_ptr<SurfaceCache>& on, const std::shared_ptr<MetricPair>& by, const LiveSettings& with)
+      : surface_cache(on),
+        settings(with),
+        metrics_(by),
+        workers{LiveWorker(0, on, by, with), LiveWorker(1, on, by, with)} {}
+  ~Impl() {
+    for (LiveWorker& worker : workers) worker.request_stop();  // both, before the first of them is waited for
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  /// Null until it is built. Throws why there will be none.
+  std::shared_ptr<const Surface> surface_if_built() const {
+    surface_cache->rethrow_failure();
+    return surface_cache->peek_surface();
+  }
+  void rethrow() const {
+    surface_cache->rethrow_failure();
+    for (const LiveWorker& worker : workers) {
+      if (const std::exception_ptr error = worker.error()) std::rethrow_exception(error);
+    }
+  }
+  std::shared_ptr<MetricPair> metrics() const {
+    const MutexLock lock(mutex_);
+    return metrics_;
+  }
+  void change_metrics(const std::shared_ptr<MetricPair>& to) {
+    {
+      const MutexLock lock(mutex_);
+      metrics_ = to;  // the workers have the former ones still, so they are not freed here
+    }
+    for (LiveWorker& worker : workers) worker.change_metric(to);
+  }
+  std::optional<Pick> seed() const {
+    const MutexLock lock(mutex_);
+    return seed_;
+  }
+  void set_seed(const Pick& pick) {
+    const MutexLock lock(mutex_);
+    seed_ = pick;
+  }
+
+  const std::shared_ptr<SurfaceCache> surface_cache;
+  const LiveSettings settings;
+
+ private:
+  mutable Mutex mutex_;
+  std::shared_ptr<MetricPair> metrics_ SEAMWIRE_GUARDED_BY(mutex_);
+  std::optional<Pick> seed_ SEAMWIRE_GUARDED_BY(mutex_);
+
+ public:
+  std::array<LiveWorker, 2> workers;  // last, so that they end first
+};
+
 LiveWire::LiveWire(std::shared_ptr<const Surface> surface, const LiveWireOptions& options) {
   check_options(options);
-  impl_ = std::make_unique<Impl>(std::make_shared<Ground>(std::move(surface)), new_metrics(options), options);
+  impl_ = std::make_unique<Impl>(std::make_shared<SurfaceCache>(std::move(surface)), new_metrics(options),
+                                 settings_of(options));
 }
 
 LiveWire::LiveWire(std::vector<Vector> points, std::vector<Triangle> triangles, std::optional<std::vector<Edge>> edges,
                    const LiveWireOptions& options) {
   check_options(options);
-  impl_ = std::make_unique<Impl>(std::make_shared<Ground>(std::move(points), std::move(triangles), std::move(edges)),
-                                 new_metrics(options), options);
+  auto cache = std::make_shared<SurfaceCache>(std::move(points), std::move(triangles), std::move(edges));
+  impl_ = std::make_unique<Impl>(cache, new_metrics(options), settings_of(options));
 }
 
 LiveWire::LiveWire(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -67,128 +132,95 @@ LiveWire& LiveWire::operator=(LiveWire&& other) noexcept = default;
 LiveWire::~LiveWire() = default;
 
 LiveWire LiveWire::fork() const {
-  impl_->check_surface();
-  const LiveWireOptions options{.along = impl_->along, .turning = impl_->turning, .loop_turning = impl_->loop_turning};
-  return LiveWire(std::make_unique<Impl>(impl_->ground, impl_->metrics_now(), options));
+  impl_->surface_cache->rethrow_failure();
+  return LiveWire(std::make_unique<Impl>(impl_->surface_cache, impl_->metrics(), impl_->settings));
 }
 
 LiveWire LiveWire::sibling(const LiveWireOptions& options) const {
   check_options(options);
-  impl_->check_surface();
-  return LiveWire(std::make_unique<Impl>(impl_->ground, new_metrics(options), options));
+  impl_->surface_cache->rethrow_failure();
+  return LiveWire(std::make_unique<Impl>(impl_->surface_cache, new_metrics(options), settings_of(options)));
 }
 
 std::shared_ptr<const Surface> LiveWire::surface() const { return impl_->surface_if_built(); }
 
 void LiveWire::set_metric(MetricFamily family, const Strength& strength) {
   check_metric(family, strength);
-  impl_->check_surface();
-  auto to = std::make_shared<Metrics>(family, strength, impl_->metrics_now()->scribbles);
-  impl_->change_metrics(std::move(to));  // the former metric is held here no longer, so it is not freed here
+  impl_->surface_cache->rethrow_failure();
+  auto to = std::make_shared<MetricPair>(family, strength, impl_->metrics()->scribbles);
+  impl_->change_metrics(to);  // the former metric is held here no longer, so it is not freed here
 }
 
 void LiveWire::set_scribbles(std::vector<Scribble> scribbles) {
-  impl_->check_surface();
-  std::shared_ptr<Metrics> now = impl_->metrics_now();
+  impl_->surface_cache->rethrow_failure();
+  std::shared_ptr<MetricPair> now = impl_->metrics();
   if (scribbles == now->scribbles) return;
-  auto to = std::make_shared<Metrics>(now->family, now->strength, std::move(scribbles));
+  auto to = std::make_shared<MetricPair>(now->family, now->strength, std::move(scribbles));
   to->go_on_from(*now);
   now = nullptr;  // before the workers may free it, so that this is not the thread that does
-  impl_->change_metrics(std::move(to));
+  impl_->change_metrics(to);
 }
 
 void LiveWire::seed(const Pick& pick, bool forward) {
-  check_pick(impl_->surface_if_built().get(), impl_->ground->vertex_count, impl_->along, pick);
-  const std::scoped_lock lock(impl_->mutex);
-  ++impl_->request;
-  impl_->seed = pick;
-  impl_->forward = forward;
-  impl_->target = {};
-  for (Impl::Worker& worker : impl_->workers) {
-    worker.solving.request_stop();
-    worker.error = nullptr;
-    worker.preview = nullptr;
-    if (worker.solved) worker.dropped.push_back(std::exchange(worker.solved, nullptr));
-  }
-  impl_->changed.notify_all();
+  check_pick(impl_->surface_if_built().get(), impl_->surface_cache->vertex_count, impl_->settings.along, pick);
+  impl_->set_seed(pick);
+  for (LiveWorker& worker : impl_->workers) worker.seed(pick, forward);
 }
 
 LiveWires LiveWire::wires(const Pick& target) const {
   const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
-  check_pick(surface.get(), impl_->ground->vertex_count, impl_->along, target);
-  std::array<std::shared_ptr<const Solved>, 2> solved;
-  std::array<std::shared_ptr<const Preview>, 2> previews;
-  std::array<bool, 2> is_newest{};
-  {
-    const std::scoped_lock lock(impl_->mutex);
-    if (!impl_->seed) throw InvalidInput("there is no seed that wires could start from");
-    check_pick(surface.get(), impl_->ground->vertex_count, impl_->along, *impl_->seed);
-    impl_->rethrow();
-    if (impl_->target != target) {
-      impl_->target = target;
-      ++impl_->targets;
-    }
-    for (std::size_t which = 0; surface && which < kFollow.size(); ++which) {
-      const Impl::Worker& worker = impl_->workers[which];
-      solved[which] = worker.solved;
-      is_newest[which] = worker.solved != nullptr && worker.solved_for == impl_->request;
-      const bool fits = worker.preview && worker.preview->request == impl_->request && worker.preview->target == target;
-      if (!is_newest[which] && fits) previews[which] = worker.preview;
-    }
-  }
+  const auto check = [&](const Pick& pick) {
+    check_pick(surface.get(), impl_->surface_cache->vertex_count, impl_->settings.along, pick);
+  };
+  check(target);
+  const std::optional<Pick> seed = impl_->seed();
+  if (!seed) throw InvalidInput("there is no seed that wires could start from");
+  check(*seed);
+  impl_->rethrow();
   LiveWires result;
   for (std::size_t which = 0; which < kFollow.size(); ++which) {
+    LiveWorker& worker = impl_->workers[which];
     LiveCandidate& wire = result.wires[which];
     wire.follow = kFollow[which];
-    if (previews[which]) {
-      wire = previews[which]->candidate;
-    } else if (solved[which]) {
-      const bool is_final = is_newest[which] && solved[which]->is_final(target);  // before it is looked up
-      wire = impl_->candidate(which, *solved[which], target);
+    auto [solution, is_newest, preview] = worker.snapshot(target);
+    if (!surface) {
+      // It may be there by now, but the target was not looked for on it.
+    } else if (preview) {
+      wire = *preview;
+    } else if (solution) {
+      const bool is_final = is_newest && solution->is_final(target);  // before it is looked up
+      wire = worker.candidate(*solution, target);
       wire.final = is_final;
     }
+    if (solution) worker.release(std::move(solution));
   }
   result.shorter = result.wires[1].length < result.wires[0].length ? 1 : 0;
-  // What a worker has dropped meanwhile is freed by it, not here.
-  const std::scoped_lock lock(impl_->mutex);
-  for (std::size_t which = 0; which < kFollow.size(); ++which) {
-    Impl::Worker& worker = impl_->workers[which];
-    if (!solved[which] || solved[which] == worker.solved) continue;
-    worker.dropped.push_back(std::move(solved[which]));
-    impl_->changed.notify_all();
-  }
   return result;
 }
 
 LiveLoop LiveWire::loop(const Edge& edge) {
-  if (impl_->along != Along::kEdges) throw InvalidInput("loops run along edges, not across the surface");
+  if (impl_->settings.along != Along::kEdges) throw InvalidInput("loops run along edges, not across the surface");
   const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
   check_edge(surface.get(), edge);
-  const Edge sorted = {std::min(edge[0], edge[1]), std::max(edge[0], edge[1])};
-  const std::scoped_lock lock(impl_->mutex);
   impl_->rethrow();
-  auto& workers = impl_->workers;
-  if (impl_->loop_edge != sorted) {
-    ++impl_->loop_request;
-    impl_->loop_edge = sorted;
-    for (Impl::Worker& worker : workers) {
-      if (worker.is_at_loop) worker.solving.request_stop();
-    }
-    impl_->changed.notify_all();
+  for (LiveWorker& worker : impl_->workers) worker.find_loop({std::min(edge[0], edge[1]), std::max(edge[0], edge[1])});
+  if (!surface) return {};
+  EdgeChain cheaper;
+  for (const LiveWorker& worker : impl_->workers) {
+    std::optional<EdgeChain> loop = worker.loop();
+    if (!loop) return {};
+    if (loop->length < cheaper.length) cheaper = std::move(*loop);
   }
-  const auto is_handled = [&](const Impl::Worker& w) { return w.loop_handled == impl_->loop_request; };
-  if (!surface || !std::ranges::all_of(workers, is_handled)) return {};
-  const EdgeChain& cheaper = workers[1].loop.length < workers[0].loop.length ? workers[1].loop : workers[0].loop;
-  return {.vertices = cheaper.vertices, .length = cheaper.length, .final = true};
+  return {.vertices = std::move(cheaper.vertices), .length = cheaper.length, .final = true};
 }
 
 EdgeChain LiveWire::run_on(const Edge& edge, std::span<const std::int32_t> stops) const {
   const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
   check_edge(surface.get(), edge);
-  const auto fans = surface ? impl_->ground->fans.peek() : nullptr;
+  const auto fans = surface ? impl_->surface_cache->fans.peek() : nullptr;
   if (!fans) return {};
   EdgeChain way{.vertices = extend_straight(**fans, edge, stops), .length = 0.0};
-  const auto point = [&](std::int32_t v) -> const Vector& { return surface->points()[static_cast<std::size_t>(v)]; };
+  const auto point = [&](std::int32_t v) -> const Vector& { return surface->points()[v]; };
   for (std::size_t i = 1; i < way.vertices.size(); ++i) {
     way.length += surface->scale() * (point(way.vertices[i]) - point(way.vertices[i - 1])).norm();
   }
@@ -198,46 +230,35 @@ EdgeChain LiveWire::run_on(const Edge& edge, std::span<const std::int32_t> stops
 EdgeLoop LiveWire::strip(const Edge& edge, std::span<const std::int32_t> stops) const {
   const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
   check_edge(surface.get(), edge);
-  const auto fans = surface ? impl_->ground->fans.peek() : nullptr;
+  const auto fans = surface ? impl_->surface_cache->fans.peek() : nullptr;
   return fans ? edge_loop(**fans, edge, stops) : EdgeLoop{};
 }
 
 std::shared_ptr<const std::vector<double>> LiveWire::feature_strength() const {
-  impl_->check_surface();
-  std::shared_ptr<const Curved> curved = impl_->ground->curved.peek();
-  return curved ? std::shared_ptr<const std::vector<double>>(curved, &curved->difference) : nullptr;
+  impl_->surface_cache->rethrow_failure();
+  std::shared_ptr<const CurvatureCache> curvatures = impl_->surface_cache->curvatures.peek();
+  return curvatures ? std::shared_ptr<const std::vector<double>>(curvatures, &curvatures->difference) : nullptr;
 }
 
 double LiveWire::progress() const {
-  const std::scoped_lock lock(impl_->mutex);
-  impl_->rethrow_failure();
+  impl_->surface_cache->rethrow_failure();
   double sum = 0.0;
-  for (std::size_t which = 0; which < kFollow.size(); ++which) {
-    const Impl::Worker& worker = impl_->workers[which];
-    if (worker.handled == impl_->request) {
-      sum += 1.0;
-      continue;
-    }
-    const double solved = std::clamp(worker.fraction.load(), 0.0, 1.0);
-    const double prepared = std::clamp(impl_->metrics->fractions[which].load(), 0.0, 1.0);
-    sum += worker.was_prepared ? solved : kSolveBegins * prepared + (1.0 - kSolveBegins) * solved;
-  }
+  for (const LiveWorker& worker : impl_->workers) sum += worker.progress();
   return sum / static_cast<double>(kFollow.size());
 }
 
 bool LiveWire::wait(double seconds) const {
-  std::unique_lock lock(impl_->mutex);
-  impl_->wait_until(lock, seconds, [&] { return impl_->idle(); });
+  const Deadline deadline = deadline_after(seconds);
+  // One after the other: what is idle stays so, as only the caller gives them something to do.
+  bool are_idle = true;
+  for (const LiveWorker& worker : impl_->workers) are_idle = worker.wait_until_idle(deadline) && are_idle;
   impl_->rethrow();
-  return impl_->idle();
+  return are_idle;
 }
 
 bool LiveWire::wait_for_surface(double seconds) const {
-  std::unique_lock lock(impl_->mutex);
-  const auto built = [&] { return impl_->failure || impl_->ground->peek_surface() != nullptr; };
-  impl_->wait_until(lock, seconds, built);
-  impl_->rethrow_failure();
-  return built();
+  impl_->surface_cache->wait_for_surface(deadline_after(seconds));
+  return impl_->surface_if_built() != nullptr;
 }
 
 }  // namespace seamwire

@@ -11,18 +11,19 @@ namespace {
 /// triangles are added, or so many times the surface's.
 constexpr std::size_t kFacesAdded = 200'000, kFacesAddedPerFace = 12;
 
-Metric make_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Metrics& metrics) {
+Metric make_metric(const Surface& surface, const Curvature& curvature, Follow follow, const MetricPair& metrics,
+                   const Task& task) {
   switch (metrics.family) {
     case MetricFamily::kFeature:
-      return feature_metric(surface, curvature, follow, metrics.strength);
+      return feature_metric(surface, curvature, follow, metrics.strength, task);
     case MetricFamily::kCampen:
-      return campen_metric(surface, curvature, follow, metrics.strength);
+      return campen_metric(surface, curvature, follow, metrics.strength, task);
     case MetricFamily::kPottmannKovacs:
-      return pottmann_kovacs_metric(surface, curvature, follow, metrics.strength);
+      return pottmann_kovacs_metric(surface, curvature, follow, metrics.strength, task);
     case MetricFamily::kEuclidean:
       break;
   }
-  return euclidean_metric(surface, curvature);
+  return euclidean_metric(surface, curvature, task);
 }
 
 bool are_same_for(Follow follow, const std::vector<Scribble>& these, const std::vector<Scribble>& those) {
@@ -38,15 +39,16 @@ bool are_same_for(Follow follow, const std::vector<Scribble>& these, const std::
 
 }  // namespace
 
-Ground::Ground(std::shared_ptr<const Surface> on) : vertex_count(on->vertex_count()) {
+SurfaceCache::SurfaceCache(std::shared_ptr<const Surface> on) : vertex_count(on->vertex_count()) {
   built_.get({}, [&] { return std::move(on); });
 }
 
-Ground::Ground(std::vector<Vector> points, std::vector<Triangle> triangles, std::optional<std::vector<Edge>> edges)
+SurfaceCache::SurfaceCache(std::vector<Vector> points, std::vector<Triangle> triangles,
+                           std::optional<std::vector<Edge>> edges)
     : vertex_count(points.size()),
       input_(Input{.points = std::move(points), .triangles = std::move(triangles), .edges = std::move(edges)}) {}
 
-std::shared_ptr<const Surface> Ground::surface_now(const std::stop_token& stop) {
+std::shared_ptr<const Surface> SurfaceCache::surface_now(const std::stop_token& stop) {
   return *built_.get(stop, [&] {
     // Copied: where this is stopped, another live wire may build the surface.
     auto surface = std::make_shared<const Surface>(input_->points, input_->triangles, input_->edges,
@@ -56,36 +58,35 @@ std::shared_ptr<const Surface> Ground::surface_now(const std::stop_token& stop) 
   });
 }
 
-void Metrics::go_on_from(const Metrics& metrics) {
-  for (std::size_t which = 0; which < former_.size(); ++which) {
+void MetricPair::go_on_from(const MetricPair& metrics) {
+  for (std::size_t which = 0; which < kFollow.size(); ++which) {
     // In this order: what is former is forgotten only when the metric is prepared.
     std::shared_ptr<const Prepared> from = metrics.former(which);
     if (std::shared_ptr<const Prepared> made = metrics.prepared[which]->peek()) from = std::move(made);
     if (are_same_for(kFollow[which], scribbles, metrics.scribbles)) prepared[which] = metrics.prepared[which];
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     former_[which] = std::move(from);
   }
 }
 
-Prepared prepare(Ground& ground, Along along, Metrics& metrics, std::size_t which, const std::stop_token& stop) {
+Prepared prepare(SurfaceCache& surface_cache, Along along, MetricPair& metrics, std::size_t which,
+                 const std::stop_token& stop) {
   const bool on_surface = along == Along::kSurface;
-  const Surface& surface = ground.surface();
+  const Surface& surface = surface_cache.surface();
   std::atomic<double>& fraction = metrics.fractions[which];
   Prepared prepared;
   std::shared_ptr<const EdgeAdjacency> fans;
   const auto prepare_edges = [&] {
-    if (on_surface) prepared.snap_graph = ground.snap_graph_now(stop);
-    fans = ground.fans_now(stop);
+    if (on_surface) prepared.snap_graph = surface_cache.snap_graph_now(stop);
+    fans = surface_cache.fans_now(stop);
   };
   if (which == 1) prepare_edges();  // while the other thread is at the curvatures
-  const std::shared_ptr<const Curved> curved = ground.curved_now(stop);
+  const std::shared_ptr<const CurvatureCache> curvatures = surface_cache.curvatures_now(stop);
   if (which == 0) prepare_edges();
   Task task{.stop = stop, .progress = {}};
-  task.check(0.0);
-  Metric metric = make_metric(surface, curved->curvature, kFollow[which], metrics);
-  task.check(0.0);
+  Metric metric = make_metric(surface, curvatures->curvature, kFollow[which], metrics, task);
   if (!metrics.scribbles.empty()) {
-    metric = apply_scribbles(surface, metric, metrics.scribbles, kFollow[which]);
+    metric = apply_scribbles(surface, metric, metrics.scribbles, kFollow[which], task);
   }
   fraction = kEmbedBegins / kSolveBegins;
   task.progress = [&fraction](double done) {
@@ -98,7 +99,7 @@ Prepared prepare(Ground& ground, Along along, Metrics& metrics, std::size_t whic
     const std::shared_ptr<const Prepared> former = metrics.former(which);
     prepared.embedding = former ? re_embed(surface, former->metric, metric, *former->embedding, options, task)
                                 : embed(surface, metric, options, task);
-    prepared.geodesics.emplace(prepared.embedding->mesh);
+    prepared.geodesics.emplace(prepared.embedding->mesh, Task{.stop = stop, .progress = {}});
     prepared.metric = std::move(metric);
   } else {
     prepared.graph = make_edge_graph(surface, metric, std::move(fans), task, metrics.scribbles, kFollow[which]);

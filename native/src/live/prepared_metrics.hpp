@@ -3,13 +3,14 @@
 
 #include <array>
 #include <atomic>
+#include <exception>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <stop_token>
 #include <utility>
 #include <vector>
 
+#include "detail/thread_safety.hpp"
 #include "live/computed_once.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
@@ -23,16 +24,16 @@ inline constexpr std::array kFollow = {Follow::kMin, Follow::kMax};
 /// Fractions of the first seed's work, preparation included, at which its parts begin.
 inline constexpr double kEmbedBegins = 0.1, kSolveBegins = 0.5;
 
-struct Curved {
+struct CurvatureCache {
   Curvature curvature;
   std::vector<double> difference;
 };
 
 /// The surface, and what it alone decides. Shared by forks and siblings.
-struct Ground {
-  explicit Ground(std::shared_ptr<const Surface> on);
+struct SurfaceCache {
+  explicit SurfaceCache(std::shared_ptr<const Surface> on);
   /// Of a surface that is still to be built: the arguments of its constructor.
-  Ground(std::vector<Vector> points, std::vector<Triangle> triangles, std::optional<std::vector<Edge>> edges);
+  SurfaceCache(std::vector<Vector> points, std::vector<Triangle> triangles, std::optional<std::vector<Edge>> edges);
 
   /// The surface, built if need be; throws what its constructor throws. The other functions need it built.
   std::shared_ptr<const Surface> surface_now(const std::stop_token& stop);
@@ -42,16 +43,23 @@ struct Ground {
     return held ? *held : nullptr;
   }
   const Surface& surface() const { return **built_.peek(); }
+  /// Throws why there will be no surface, where that is known.
+  void rethrow_failure() const {
+    if (const std::exception_ptr error = built_.error()) std::rethrow_exception(error);
+  }
+  /// Until the surface is there, or known to be impossible.
+  void wait_for_surface(const Deadline& deadline) const { built_.wait(deadline); }
 
-  std::shared_ptr<const Curved> curved_now(const std::stop_token& stop) {
-    return curved.get(stop, [&] {
-      Curved made{.curvature = principal_curvatures(surface()), .difference = {}};
+  std::shared_ptr<const CurvatureCache> curvatures_now(const std::stop_token& stop) {
+    return curvatures.get(stop, [&] {
+      CurvatureCache made{.curvature = principal_curvatures(surface(), {.stop = stop, .progress = {}}),
+                          .difference = {}};
       made.difference = made.curvature.difference();
       return made;
     });
   }
   std::shared_ptr<const SnapGraph> snap_graph_now(const std::stop_token& stop) {
-    return snap_graph.get(stop, [&] { return SnapGraph(surface()); });
+    return snap_graph.get(stop, [&] { return SnapGraph(surface(), {.stop = stop, .progress = {}}); });
   }
   std::shared_ptr<const EdgeAdjacency> fans_now(const std::stop_token& stop) {
     const auto held = fans.get(stop, [&] { return make_edge_adjacency(surface(), {.stop = stop, .progress = {}}); });
@@ -59,7 +67,7 @@ struct Ground {
   }
 
   const std::size_t vertex_count;
-  ComputedOnce<Curved> curved;
+  ComputedOnce<CurvatureCache> curvatures;
   ComputedOnce<SnapGraph> snap_graph;
   ComputedOnce<std::shared_ptr<const EdgeAdjacency>> fans;
 
@@ -84,22 +92,22 @@ struct Prepared {
 };
 
 /// The two metrics of one family and strength, after the scribbles. Shared by forks.
-struct Metrics {
-  Metrics(MetricFamily of, const Strength& with, std::vector<Scribble> after)
+struct MetricPair {
+  MetricPair(MetricFamily of, const Strength& with, std::vector<Scribble> after)
       : family(of), strength(with), scribbles(std::move(after)) {}
 
   /// After other scribbles than these metrics, of one family and strength: a metric for which they are the same is
   /// shared. Embeddings of the other are made from those of `metrics`, or, where these are not there yet, from what
   /// they would have been made from: scribbles change little.
-  void go_on_from(const Metrics& metrics);
+  void go_on_from(const MetricPair& metrics);
   std::shared_ptr<const Prepared> former(std::size_t which) const {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     return former_[which];
   }
   /// Once the metric is prepared.
   void forget_former(std::size_t which) {
     std::shared_ptr<const Prepared> dropped;  // freed without the lock
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
     dropped.swap(former_[which]);
   }
 
@@ -111,12 +119,13 @@ struct Metrics {
   std::array<std::atomic<double>, 2> fractions = {};  // of the preparation
 
  private:
-  mutable std::mutex mutex_;
-  std::array<std::shared_ptr<const Prepared>, 2> former_;
+  mutable Mutex mutex_;
+  std::array<std::shared_ptr<const Prepared>, 2> former_ SEAMWIRE_GUARDED_BY(mutex_);
 };
 
 /// Makes what one of the two metrics needs; throws Cancelled where `stop` tells it to. The metric's fractions of
 /// progress are told to `metrics`.
-Prepared prepare(Ground& ground, Along along, Metrics& metrics, std::size_t which, const std::stop_token& stop);
+Prepared prepare(SurfaceCache& surface_cache, Along along, MetricPair& metrics, std::size_t which,
+                 const std::stop_token& stop);
 
 }  // namespace seamwire

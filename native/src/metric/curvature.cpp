@@ -11,6 +11,7 @@
 #include <cmath>
 #include <utility>
 
+#include "detail/poll.hpp"
 #include "detail/prefetch.hpp"
 #include "metric/tangent_frame.hpp"
 #include "seamwire/surface/half_edge_mesh.hpp"
@@ -73,12 +74,14 @@ void complete(const Surface& surface, const std::vector<std::size_t>& flat, std:
 }
 
 // The normals of the corner fans, each on its own side of the surface; zero where a fan has no area at all.
-std::vector<Vector> fan_normals(const Surface& surface) {
+std::vector<Vector> fan_normals(const Surface& surface, const Task& task) {
   std::vector<Vector> normals(surface.vertex_of_fan().size(), Vector::Zero());
   const std::vector<Triangle>& faces = surface.face_fans();
   const Vector* points = surface.half_edges().points();
   std::vector<std::size_t> flat;
+  const Poll summing(task, 0.0, 0.2, faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f) {
+    summing.at(f);
     if (f + kAhead < faces.size()) {
       for (const std::int32_t fan : faces[f + kAhead]) {
         prefetch(&points[fan]);
@@ -97,7 +100,11 @@ std::vector<Vector> fan_normals(const Surface& surface) {
     normals[faces[f][1]] += b * weighted;
     normals[faces[f][2]] += c * weighted;
   }
-  for (Vector& normal : normals) normal = normalized_or_zero(normal);
+  Poll normalizing(task, 0.2, 0.25, normals.size());
+  for (Vector& normal : normals) {
+    normalizing.next();
+    normal = normalized_or_zero(normal);
+  }
   if (!flat.empty()) complete(surface, flat, normals);
   return normals;
 }
@@ -109,12 +116,14 @@ struct VertexNormals {
   std::vector<signed char> side_of_fan;
 };
 
-VertexNormals combine(const Surface& surface, const std::vector<Vector>& fans) {
+VertexNormals combine(const Surface& surface, const std::vector<Vector>& fans, const Task& task) {
   const auto& vertex_of_fan = surface.vertex_of_fan();
   VertexNormals result;
   result.normals.assign(surface.vertex_count(), Vector::Zero());
   result.side_of_fan.assign(fans.size(), 1);
+  Poll poll(task, 0.8, 0.85, fans.size());
   for (std::size_t first = 0; first < fans.size();) {
+    poll.next();
     std::size_t end = first;
     while (end < fans.size() && vertex_of_fan[end] == vertex_of_fan[first]) ++end;
     Vector& normal = result.normals[vertex_of_fan[first]];
@@ -240,11 +249,14 @@ void fit_face(const FaceShape& shape, const std::array<const TangentFrame*, 3>& 
   }
 }
 
-std::vector<Fit> fit_fans(const Surface& surface, const std::vector<TangentFrame>& frames) {
+std::vector<Fit> fit_fans(const Surface& surface, const std::vector<TangentFrame>& frames, const Task& task) {
   const std::vector<Triangle>& faces = surface.face_fans();
   const Vector* points = surface.half_edges().points();
-  std::vector<Fit> fits(frames.size());
+  std::vector<Fit> fits;
+  resize(fits, frames.size(), task, 0.3);
+  const Poll poll(task, 0.3, 0.8, faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f) {
+    poll.at(f);
     if (f + kAhead < faces.size()) {
       for (const std::int32_t fan : faces[f + kAhead]) {
         prefetch(&points[fan]);
@@ -294,25 +306,34 @@ std::vector<double> Curvature::difference() const {
   return s;
 }
 
-std::vector<Vector> vertex_normals(const Surface& surface) { return combine(surface, fan_normals(surface)).normals; }
+std::vector<Vector> vertex_normals(const Surface& surface) {
+  return combine(surface, fan_normals(surface, {}), {}).normals;
+}
 
-Curvature principal_curvatures(const Surface& surface) {
-  const std::vector<Vector> fans = fan_normals(surface);
+Curvature principal_curvatures(const Surface& surface, const Task& task) {
+  const std::vector<Vector> fans = fan_normals(surface, task);
   std::vector<TangentFrame> frames;
   frames.reserve(fans.size());
-  for (const Vector& normal : fans) frames.push_back(fast_tangent_frame(normal));
-  const std::vector<Fit> fits = fit_fans(surface, frames);
-  VertexNormals vertices = combine(surface, fans);
+  Poll framing(task, 0.25, 0.3, fans.size());
+  for (const Vector& normal : fans) {
+    framing.next();
+    frames.push_back(fast_tangent_frame(normal));
+  }
+  const std::vector<Fit> fits = fit_fans(surface, frames, task);
+  VertexNormals vertices = combine(surface, fans, task);
   const std::size_t count = surface.vertex_count();
   Curvature curvature;
   curvature.normals = std::move(vertices.normals);
   curvature.k1.assign(count, 0.0);
   curvature.k2.assign(count, 0.0);
+  task.check(0.85);
   curvature.d1.assign(count, Vector::UnitX());
   curvature.d2.assign(count, Vector::UnitY());
 
   const auto& vertex_of_fan = surface.vertex_of_fan();
+  Poll poll(task, 0.85, 1.0, fans.size());
   for (std::size_t first = 0, end = 0; first < fans.size(); first = end) {
+    poll.next();
     const std::int32_t vertex = vertex_of_fan[first];
     for (end = first + 1; end < fans.size() && vertex_of_fan[end] == vertex;) ++end;
     const Vector& normal = curvature.normals[vertex];

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "detail/poll.hpp"
 #include "detail/text.hpp"
 #include "metric/metric_check.hpp"
 #include "metric/tangent_frame.hpp"
@@ -23,7 +24,7 @@ constexpr double kSmallestBeta = 1e-12;
 // Normals whose sum is shorter than this have no direction in the middle.
 constexpr double kNoDirection = 1e-6;
 
-void check_sizes(const Surface& surface, const Curvature& curvature) {
+void check_curvature(const Surface& surface, const Curvature& curvature, const Task& task) {
   const std::size_t n = surface.vertex_count();
   for (const std::size_t size :
        {curvature.k1.size(), curvature.k2.size(), curvature.d1.size(), curvature.d2.size(), curvature.normals.size()}) {
@@ -31,7 +32,9 @@ void check_sizes(const Surface& surface, const Curvature& curvature) {
       throw InvalidInput("curvature of " + std::to_string(size) + " vertices for a surface of " + std::to_string(n));
     }
   }
+  const Poll poll(task, 0.0, 0.2, n);
   for (std::size_t v = 0; v < n; ++v) {
+    poll.at(v);
     const bool finite = std::isfinite(curvature.k1[v]) && std::isfinite(curvature.k2[v]) &&
                         curvature.d1[v].allFinite() && curvature.d2[v].allFinite() && curvature.normals[v].allFinite();
     if (!finite) throw InvalidInput("curvature of vertex " + std::to_string(v) + " is not finite");
@@ -59,11 +62,13 @@ struct Features {
   double k1(std::size_t v) const { return k2[v] + s[v]; }
 };
 
-Features features(const Curvature& curvature, const Strength& strength) {
+Features features(const Curvature& curvature, const Strength& strength, const Task& task) {
   const std::size_t n = curvature.k1.size();
   Features out{.s = std::vector<double>(n, 0.0), .k2 = std::vector<double>(n, 0.0)};
   std::vector<double> used;
+  const Poll reading(task, 0.2, 0.3, n);
   for (std::size_t v = 0; v < n; ++v) {
+    reading.at(v);
     if (!has_normal(curvature, v)) continue;
     out.k2[v] = std::abs(curvature.k2[v]);
     out.s[v] = std::max(0.0, std::abs(curvature.k1[v]) - out.k2[v]);
@@ -71,7 +76,9 @@ Features features(const Curvature& curvature, const Strength& strength) {
   }
   const double limit =
       used.empty() ? std::numeric_limits<double>::infinity() : percentile(std::move(used), *strength.clamp_percentile);
+  const Poll clamping(task, 0.3, 0.4, n);
   for (std::size_t v = 0; v < n; ++v) {
+    clamping.at(v);
     out.s[v] = std::min(out.s[v], limit);
     out.largest_s = std::max(out.largest_s, out.s[v]);
     out.largest_k1 = std::max(out.largest_k1, out.k1(v));
@@ -85,10 +92,14 @@ struct Eigenvalues {
 
 // The metric whose minor eigenvector has the direction to follow, with the eigenvalues that `at` gives for a vertex.
 template <class EigenvaluesAt>
-Metric aligned_metric(const Curvature& curvature, Follow follow, const EigenvaluesAt& at) {
+Metric aligned_metric(const Curvature& curvature, Follow follow, const Task& task, const EigenvaluesAt& at) {
   const std::size_t n = curvature.normals.size();
-  Metric metric{.normals = curvature.normals, .tensors = std::vector<Eigen::Matrix3d>(n, Eigen::Matrix3d::Identity())};
+  Metric metric{.normals = copied(curvature.normals, task, 0.4), .tensors = {}};
+  metric.tensors.reserve(n);
+  const Poll poll(task, 0.4, 1.0, n);
   for (std::size_t v = 0; v < n; ++v) {
+    poll.at(v);
+    metric.tensors.emplace_back(Eigen::Matrix3d::Identity());
     if (!has_normal(curvature, v)) continue;
     const auto [l1, l2] = at(v);
     if (!(l1 <= kLargestEigenvalue && l2 > 0)) {
@@ -145,32 +156,34 @@ void check_finite(const Metric& metric) {
   }
 }
 
-Metric feature_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Strength& strength) {
-  check_sizes(surface, curvature);
+Metric feature_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Strength& strength,
+                      const Task& task) {
+  check_curvature(surface, curvature, task);
   check_strength(strength, 0);
-  const Features f = features(curvature, strength);
+  const Features f = features(curvature, strength, task);
   const bool featureless = f.largest_s <= kNoDifference * std::max(1.0, f.largest_k1);
   const double gamma = strength.parameter ? *strength.parameter
                        : featureless      ? 0.0
                                           : (*strength.max_anisotropy - 1) / f.largest_s;
-  return aligned_metric(curvature, follow, [&](std::size_t v) {
+  return aligned_metric(curvature, follow, task, [&](std::size_t v) {
     const double l1 = 1 + gamma * f.s[v];
     return Eigenvalues{l1, 1 / l1};
   });
 }
 
-Metric campen_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Strength& strength) {
-  check_sizes(surface, curvature);
+Metric campen_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Strength& strength,
+                     const Task& task) {
+  check_curvature(surface, curvature, task);
   check_strength(strength, 1);
   const double alpha = strength.parameter ? *strength.parameter : *strength.max_anisotropy * *strength.max_anisotropy;
-  return aligned_metric(curvature, follow, [&](std::size_t) { return Eigenvalues{alpha, 1}; });
+  return aligned_metric(curvature, follow, task, [&](std::size_t) { return Eigenvalues{alpha, 1}; });
 }
 
 Metric pottmann_kovacs_metric(const Surface& surface, const Curvature& curvature, Follow follow,
-                              const Strength& strength) {
-  check_sizes(surface, curvature);
+                              const Strength& strength, const Task& task) {
+  check_curvature(surface, curvature, task);
   check_strength(strength, 0);
-  const Features f = features(curvature, strength);
+  const Features f = features(curvature, strength, task);
   double beta = 0;
   if (strength.parameter) {
     beta = *strength.parameter;
@@ -178,7 +191,7 @@ Metric pottmann_kovacs_metric(const Surface& surface, const Curvature& curvature
     // Eq. 4 solved for beta at every vertex. As A goes to 1 beta grows without bound, and the metric, whose scale is
     // arbitrary, becomes the Euclidean one.
     const double a2 = *strength.max_anisotropy * *strength.max_anisotropy;
-    if (a2 == 1) return euclidean_metric(surface, curvature);
+    if (a2 == 1) return euclidean_metric(surface, curvature, task);
     for (std::size_t v = 0; v < f.s.size(); ++v) {
       beta = std::max(beta, (f.k1(v) * f.k1(v) - a2 * f.k2[v] * f.k2[v]) / (a2 - 1));
     }
@@ -186,18 +199,22 @@ Metric pottmann_kovacs_metric(const Surface& surface, const Curvature& curvature
   const double largest = f.largest_k1 * f.largest_k1;
   beta = std::max(beta, kSmallestBeta * largest);
   if (beta == 0 || (strength.max_anisotropy && f.largest_k1 <= kNoDifference)) {
-    return euclidean_metric(surface, curvature);
+    return euclidean_metric(surface, curvature, task);
   }
-  return aligned_metric(curvature, follow, [&](std::size_t v) {
+  return aligned_metric(curvature, follow, task, [&](std::size_t v) {
     return Eigenvalues{f.k1(v) * f.k1(v) + beta, f.k2[v] * f.k2[v] + beta};
   });
 }
 
-Metric euclidean_metric(const Surface& surface, const Curvature& curvature) {
-  check_sizes(surface, curvature);
-  Metric metric{.normals = curvature.normals, .tensors = {}};
+Metric euclidean_metric(const Surface& surface, const Curvature& curvature, const Task& task) {
+  check_curvature(surface, curvature, task);
+  Metric metric{.normals = copied(curvature.normals, task, 0.4), .tensors = {}};
   metric.tensors.reserve(metric.normals.size());
-  for (const Vector& n : metric.normals) metric.tensors.push_back(Eigen::Matrix3d::Identity() - n * n.transpose());
+  Poll poll(task, 0.4, 1.0, metric.normals.size());
+  for (const Vector& n : metric.normals) {
+    poll.next();
+    metric.tensors.push_back(Eigen::Matrix3d::Identity() - n * n.transpose());
+  }
   return metric;
 }
 

@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "detail/epoch_map.hpp"
+#include "detail/index.hpp"
+#include "detail/poll.hpp"
 #include "detail/text.hpp"
 #include "metric/scribble_points.hpp"
 #include "metric/tangent_frame.hpp"
@@ -195,8 +197,12 @@ struct Reached {
 
 class Scribbler {
  public:
-  Scribbler(const Surface& surface, Metric& metric)
-      : surface_(surface), metric_(metric), neighbors_(surface), marks_(surface.vertex_count()) {}
+  Scribbler(const Surface& surface, Metric& metric, const Task& task)
+      : surface_(surface),
+        metric_(metric),
+        neighbors_(surface),
+        marks_(surface.vertex_count()),
+        poll_(task, 1.0, 1.0, 1, Poll::kFewSteps) {}
 
   void check(const Scribble& scribble, std::size_t number) const;
   void apply(const Scribble& scribble);
@@ -213,6 +219,7 @@ class Scribbler {
   Metric& metric_;
   Neighbors neighbors_;
   EpochMap marks_;  // of vertices: their positions in a list
+  Poll poll_;       // of vertices looked at
 };
 
 void Scribbler::check(const Scribble& scribble, std::size_t number_of_scribble) const {
@@ -243,12 +250,11 @@ void Scribbler::check(const Scribble& scribble, std::size_t number_of_scribble) 
     const std::int32_t vertex = scribble.vertices.empty() ? -1 : scribble.vertices[i];
     const std::int32_t face = scribble.faces.empty() ? -1 : scribble.faces[i];
     if (!p.allFinite()) fail("is not finite");
-    if (vertex < -1 || vertex >= static_cast<std::int64_t>(surface_.vertex_count())) {
-      fail("is at vertex " + std::to_string(vertex) + " of " + std::to_string(surface_.vertex_count()));
-    }
-    if (face < -1 || face >= static_cast<std::int64_t>(surface_.face_count())) {
-      fail("is in face " + std::to_string(face) + " of " + std::to_string(surface_.face_count()));
-    }
+    const auto where = [&](const char* kind) {
+      return "point " + std::to_string(i) + " of " + name(number_of_scribble) + ": " + kind;
+    };
+    if (vertex != -1) check_index(vertex, surface_.vertex_count(), where("vertex"));
+    if (face != -1) check_index(face, surface_.face_count(), where("face"), "faces");
     if (vertex < 0 && face < 0) fail("has neither a face nor a vertex");
     double off = 0;
     if (vertex >= 0) {
@@ -300,6 +306,7 @@ std::vector<std::int32_t> Scribbler::join(std::int32_t from, std::int32_t to, co
   };
   reach(from, -1, 0);
   while (!open.empty() && nodes.size() < kMostLookedAt) {
+    poll_.next();
     const std::int32_t v = open.top().vertex;
     open.pop();
     const std::uint32_t here = marks_.at(v);
@@ -334,6 +341,7 @@ std::vector<Reached> Scribbler::along(const Scribble& scribble, const DrawnLine&
     if (chain.empty()) chain = {from, to};
     const std::array segment{scribble.points[i], scribble.points[i + 1]};
     for (const std::int32_t v : chain) {
+      poll_.next();
       found.emplace_back(v, i);
       neighbors_.triangles(v, [&](const Triangle& t) {
         if (!crosses(segment, {point(t[0]), point(t[1]), point(t[2])})) return;
@@ -343,6 +351,7 @@ std::vector<Reached> Scribbler::along(const Scribble& scribble, const DrawnLine&
   }
   marks_.clear();
   for (const auto& [v, segment] : found) {
+    poll_.next();
     const DrawnLine::Foot foot = line.foot_near(point(v), segment);
     if (!marks_.has(v)) {
       marks_.set(v, reached.size());
@@ -383,6 +392,7 @@ std::vector<Reached> Scribbler::next_ring(const std::vector<Reached>& ring, cons
   std::vector<Reached> next;
   std::vector<Sum> sums;
   for (const Reached& from : ring) {
+    poll_.next();
     const Vector& m = metric_.normals[from.vertex];
     neighbors_.vertices(from.vertex, [&](std::int32_t w) {
       const Vector& n = metric_.normals[w];
@@ -444,16 +454,17 @@ void Scribbler::apply(const Scribble& scribble) {
 }  // namespace
 
 Metric apply_scribbles(const Surface& surface, const Metric& metric, std::span<const Scribble> scribbles,
-                       std::optional<Follow> follow) {
+                       std::optional<Follow> follow, const Task& task) {
   if (metric.normals.size() != surface.vertex_count() || metric.tensors.size() != surface.vertex_count()) {
     throw InvalidInput("metric of " + std::to_string(metric.size()) + " vertices for a surface of " +
                        std::to_string(surface.vertex_count()));
   }
-  Metric result = metric;
+  Metric result{.normals = copied(metric.normals, task, 0.0), .tensors = copied(metric.tensors, task, 0.5)};
   if (scribbles.empty()) return result;
-  Scribbler scribbler(surface, result);
+  Scribbler scribbler(surface, result, task);
   for (std::size_t i = 0; i < scribbles.size(); ++i) scribbler.check(scribbles[i], i);
   for (const Scribble& scribble : scribbles) {
+    task.check(1.0);
     if (!follow || scribble.acts_on(*follow)) scribbler.apply(scribble);
   }
   return result;

@@ -7,12 +7,14 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
 #include "seamwire/surface/half_edge_mesh.hpp"
 
 namespace seamwire {
@@ -43,9 +45,11 @@ struct Faces {
 // Beyond this, squares of lengths overflow.
 constexpr double kLargestCoordinate = 1e150;
 
-void check_points(const std::vector<Vector>& points) {
+void check_points(const std::vector<Vector>& points, const Task& task) {
   if (points.size() > std::numeric_limits<Index>::max()) throw InvalidInput("too many vertices: at most 2^31 - 1");
+  const Poll poll(task, 0.0, 0.0, points.size());
   for (std::size_t v = 0; v < points.size(); ++v) {
+    poll.at(v);
     const std::string name = "vertex " + std::to_string(v);
     if (!points[v].allFinite()) throw InvalidInput(name + " has a coordinate that is not finite");
     if (points[v].cwiseAbs().maxCoeff() > kLargestCoordinate) {
@@ -55,11 +59,14 @@ void check_points(const std::vector<Vector>& points) {
 }
 
 template <std::size_t N>
-void check_elements(const std::vector<std::array<Index, N>>& elements, const char* kind, std::size_t vertex_count) {
+void check_elements(const std::vector<std::array<Index, N>>& elements, const char* kind, std::size_t vertex_count,
+                    const Task& task) {
   if (elements.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max() / 6)) {
     throw InvalidInput("too many of: " + std::string(kind));
   }
+  const Poll poll(task, 0.0, 0.0, elements.size());
   for (std::size_t e = 0; e < elements.size(); ++e) {
+    poll.at(e);
     for (const Index v : elements[e]) {
       if (is_index(v, vertex_count)) continue;
       check_index(v, vertex_count, std::string(kind) + " " + std::to_string(e) + ": vertex");
@@ -79,23 +86,35 @@ void check_edges(const std::vector<Edge>& edges) {
 class ItemsByEdge {
  public:
   template <class EdgeOf>
-  ItemsByEdge(std::size_t vertex_count, Index item_count, const EdgeOf& edge_of) : first_(vertex_count + 1, 0) {
-    for (Index i = 0; i < item_count; ++i) ++first_[std::ranges::min(edge_of(i))];
+  ItemsByEdge(std::size_t vertex_count, Index item_count, const Task& task, double progress, const EdgeOf& edge_of)
+      : first_(vertex_count + 1, 0), task_(task) {
+    const Poll poll(task, progress, progress, 1);
+    for (Index i = 0; i < item_count; ++i) {
+      poll.at(index(i));
+      ++first_[std::ranges::min(edge_of(i))];
+    }
     std::exclusive_scan(first_.begin(), first_.end(), first_.begin(), 0);
-    keys_.resize(item_count);
+    resize(keys_, index(item_count), task, progress);
     std::vector<Index> end(first_);
     for (Index i = 0; i < item_count; ++i) {
+      poll.at(index(i));
       const auto [a, b] = std::ranges::minmax(edge_of(i));
       keys_[end[a]++] = (static_cast<std::uint64_t>(b) << 32) | static_cast<std::uint64_t>(i);
     }
-    for (std::size_t v = 0; v < vertex_count; ++v) std::sort(keys_.begin() + first_[v], keys_.begin() + first_[v + 1]);
+    for (std::size_t v = 0; v < vertex_count; ++v) {
+      poll.at(v);
+      std::sort(keys_.begin() + first_[v], keys_.begin() + first_[v + 1]);
+    }
   }
 
-  // Calls visit(edge, items) for each edge in sorted order, with its items in ascending order.
+  // Calls visit(edge, items) for each edge in sorted order, with its items in ascending order. The task is told
+  // `progress`.
   template <class Visit>
-  void for_each_edge(const Visit& visit) const {
+  void for_each_edge(double progress, const Visit& visit) const {
     std::vector<Index> items;
+    const Poll poll(task_, progress, progress, 1);
     for (std::size_t v = 0; v + 1 < first_.size(); ++v) {
+      poll.at(v);
       for (Index k = first_[v]; k < first_[v + 1];) {
         const auto w = static_cast<Index>(keys_[k] >> 32);
         items.clear();
@@ -110,17 +129,21 @@ class ItemsByEdge {
  private:
   std::vector<Index> first_;
   std::vector<std::uint64_t> keys_;
+  const Task& task_;
 };
 
-ItemsByEdge sides_by_edge(std::size_t vertex_count, const Faces& faces) {
-  return {vertex_count, faces.side_count(), [&](Index side) { return Edge{faces.tail(side), faces.tip(side)}; }};
+ItemsByEdge sides_by_edge(std::size_t vertex_count, const Faces& faces, const Task& task) {
+  return {vertex_count, faces.side_count(), task, 0.15, [&](Index side) {
+            return Edge{faces.tail(side), faces.tip(side)};
+          }};
 }
 
-std::vector<Edge> sorted_unique(std::size_t vertex_count, const std::vector<Edge>& edges) {
-  const ItemsByEdge by_edge(vertex_count, static_cast<Index>(edges.size()), [&](Index e) { return edges[e]; });
+std::vector<Edge> sorted_unique(std::size_t vertex_count, const std::vector<Edge>& edges, const Task& task) {
+  const ItemsByEdge by_edge(vertex_count, static_cast<Index>(edges.size()), task, 0.35,
+                            [&](Index e) { return edges[e]; });
   std::vector<Edge> unique;
   unique.reserve(edges.size());
-  by_edge.for_each_edge([&](const Edge& edge, std::span<const Index>) { unique.push_back(edge); });
+  by_edge.for_each_edge(0.35, [&](const Edge& edge, std::span<const Index>) { unique.push_back(edge); });
   return unique;
 }
 
@@ -133,11 +156,13 @@ std::vector<Edge> merged(const std::vector<Edge>& a, const std::vector<Edge>& b)
 
 // Leaves out faces with less than three different corners; what edges they have go to `stray_edges`.
 Faces proper_faces(const std::vector<Triangle>& triangles, std::vector<Index>& degenerate,
-                   std::vector<Edge>& stray_edges) {
+                   std::vector<Edge>& stray_edges, const Task& task) {
   Faces faces;
   faces.corners.reserve(triangles.size());
   faces.source.reserve(triangles.size());
+  const Poll poll(task, 0.0, 0.1, triangles.size());
   for (std::size_t f = 0; f < triangles.size(); ++f) {
+    poll.at(f);
     const auto [a, b, c] = triangles[f];
     if (a != b && b != c && c != a) {
       faces.corners.push_back(triangles[f]);
@@ -159,7 +184,7 @@ std::vector<bool> find_duplicates(const Faces& faces, const ItemsByEdge& by_edge
   std::vector<bool> duplicate(faces.corners.size(), false);
   std::vector<std::pair<Index, Index>> apexes;
   found = false;
-  by_edge.for_each_edge([&](const Edge&, std::span<const Index> sides) {
+  by_edge.for_each_edge(0.2, [&](const Edge&, std::span<const Index> sides) {
     if (sides.size() < 2) return;
     apexes.clear();
     for (const Index side : sides) apexes.emplace_back(faces.apex(side), side / 3);
@@ -196,7 +221,7 @@ Gluing glue(const Faces& faces, const ItemsByEdge& by_edge, SurfaceReport& repor
   Gluing gluing;
   gluing.twin.assign(faces.side_count(), kNone);
   gluing.carried.reserve(faces.corners.size() * 3 / 2);
-  by_edge.for_each_edge([&](const Edge& edge, std::span<const Index> sides) {
+  by_edge.for_each_edge(0.3, [&](const Edge& edge, std::span<const Index> sides) {
     gluing.carried.push_back(edge);
     if (sides.size() == 1) ++report.boundary_edges;
     if (sides.size() > 2) report.nonmanifold_edges.push_back(edge);
@@ -210,13 +235,15 @@ Gluing glue(const Faces& faces, const ItemsByEdge& by_edge, SurfaceReport& repor
 // Which faces to turn over so that glued faces agree. Faces that agree as given are reached before others, so that
 // where the surface is one-sided it is cut along edges where the caller's orientation breaks already. Of a component
 // the orientation with more area is kept.
-std::vector<bool> find_flips(const Faces& faces, const std::vector<Index>& twin, const std::vector<double>& areas) {
+std::vector<bool> find_flips(const Faces& faces, const std::vector<Index>& twin, const std::vector<double>& areas,
+                             const Task& task) {
   const Index count = faces.count();
   std::vector<bool> visited(count, false);
   std::vector<bool> flipped(count, false);
   std::vector<Index> component;
   std::vector<Index> agreeing;     // stack of faces whose neighbors are to be looked at
   std::vector<Index> disagreeing;  // sides to cross once no agreeing face is left
+  Poll poll(task, 0.55, 0.6, index(count));
   for (Index start = 0; start < count; ++start) {
     if (visited[start]) continue;
     component.clear();
@@ -234,6 +261,7 @@ std::vector<bool> find_flips(const Faces& faces, const std::vector<Index>& twin,
     reach(start, false);
     for (std::size_t next = 0;;) {
       while (!agreeing.empty()) {
+        poll.next();
         const Index face = agreeing.back();
         agreeing.pop_back();
         for (Index side = 3 * face; side < 3 * face + 3; ++side) {
@@ -281,11 +309,13 @@ struct Fans {
   std::vector<Index> vertex;
 };
 
-Fans find_fans(std::size_t vertex_count, const Faces& faces, const std::vector<Index>& twin) {
+Fans find_fans(std::size_t vertex_count, const Faces& faces, const std::vector<Index>& twin, const Task& task) {
   Fans fans;
   fans.of_corner.assign(faces.side_count(), kNone);
   std::vector<Index> vertex_found;  // by order of discovery
+  const Poll finding(task, 0.6, 0.65, index(faces.side_count()));
   for (Index start = 0; start < faces.side_count(); ++start) {
+    finding.at(index(start));
     if (fans.of_corner[start] != kNone) continue;
     const Index vertex = faces.vertex(start);
     const auto fan = static_cast<Index>(vertex_found.size());
@@ -312,7 +342,11 @@ Fans find_fans(std::size_t vertex_count, const Faces& faces, const std::vector<I
     renumbered[fan] = number[vertex_found[fan]]++;
     fans.vertex[renumbered[fan]] = vertex_found[fan];
   }
-  for (Index& fan : fans.of_corner) fan = renumbered[fan];
+  Poll renumbering(task, 0.65, 0.7, fans.of_corner.size());
+  for (Index& fan : fans.of_corner) {
+    renumbering.next();
+    fan = renumbered[fan];
+  }
   return fans;
 }
 
@@ -320,14 +354,16 @@ Fans find_fans(std::size_t vertex_count, const Faces& faces, const std::vector<I
 // edges between the same two fans, which the slit along a cut edge has; half-edges as such hold them. Every fan is one
 // disk or half-disk by construction, so that nothing here can fail.
 void link_half_edges(const std::vector<Vector>& points, const Faces& faces, const std::vector<Index>& twin,
-                     const std::vector<bool>& flipped, const Fans& fans, HalfEdgeMesh& mesh) {
+                     const std::vector<bool>& flipped, const Fans& fans, HalfEdgeMesh& mesh, const Task& task) {
   using OpenMesh::FaceHandle;
   using OpenMesh::HalfedgeHandle;
   using OpenMesh::VertexHandle;
 
   std::vector<HalfedgeHandle> half_edge(faces.side_count());
   Index edge_count = 0;
+  const Poll numbering(task, 0.7, 0.73, index(faces.side_count()));
   for (Index side = 0; side < faces.side_count(); ++side) {
+    numbering.at(index(side));
     const Index other = twin[side];
     if (other != kNone && other < side) {
       half_edge[side] = HalfedgeHandle(half_edge[other].idx() + 1);
@@ -335,11 +371,21 @@ void link_half_edges(const std::vector<Vector>& points, const Faces& faces, cons
       half_edge[side] = HalfedgeHandle(2 * edge_count++);
     }
   }
-  mesh.resize(fans.vertex.size(), static_cast<std::size_t>(edge_count), faces.corners.size());
+  // In steps, as detail/poll.hpp resizes vectors.
+  const std::size_t most = std::max({fans.vertex.size(), index(edge_count), faces.corners.size()});
+  mesh.reserve(fans.vertex.size(), index(edge_count), faces.corners.size());
+  for (std::size_t size = 0; size < most;) {
+    task.check(0.73);
+    size = std::min(most, size + 16 * Poll::kSteps);
+    mesh.resize(std::min(size, fans.vertex.size()), std::min(size, index(edge_count)),
+                std::min(size, faces.corners.size()));
+  }
   for (std::size_t fan = 0; fan < fans.vertex.size(); ++fan) {
     mesh.set_point(VertexHandle(static_cast<int>(fan)), points[fans.vertex[fan]]);
   }
+  const Poll linking(task, 0.75, 0.85, index(faces.side_count()));
   for (Index side = 0; side < faces.side_count(); ++side) {
+    linking.at(index(side));
     const bool flip = flipped[side / 3];
     const Index tail = flip ? next_in_face(side) : side;
     const Index tip = flip ? side : next_in_face(side);
@@ -369,11 +415,13 @@ void link_half_edges(const std::vector<Vector>& points, const Faces& faces, cons
 
 // The same in flat arrays. A face that is turned over has its sides in the other order.
 void list_faces(const std::vector<Index>& twin, const std::vector<bool>& flipped, const Fans& fans,
-                std::vector<Triangle>& face_fans, std::vector<Index>& twins) {
+                std::vector<Triangle>& face_fans, std::vector<Index>& twins, const Task& task) {
   const auto turned_over = [&](Index side) { return flipped[side / 3] ? side / 3 * 3 + 2 - side % 3 : side; };
-  face_fans.resize(twin.size() / 3);
-  twins.resize(twin.size());
+  resize(face_fans, twin.size() / 3, task, 0.9);
+  resize(twins, twin.size(), task, 0.9);
+  const Poll poll(task, 0.9, 1.0, twin.size());
   for (Index side = 0; side < static_cast<Index>(twin.size()); ++side) {
+    poll.at(index(side));
     const Index tail = flipped[side / 3] ? next_in_face(side) : side;
     face_fans[side / 3][turned_over(side) % 3] = fans.of_corner[tail];
     twins[turned_over(side)] = twin[side] == kNone ? -1 : turned_over(twin[side]);
@@ -408,10 +456,12 @@ double unit_cube_scale(const std::vector<Vector>& points, const std::vector<bool
 constexpr double kZeroHeight = 1e-12;
 
 // Areas on the unit cube's scale; 0 where a triangle's corners are in line.
-std::vector<double> face_areas(const std::vector<Vector>& points, const Faces& faces, double scale) {
+std::vector<double> face_areas(const std::vector<Vector>& points, const Faces& faces, double scale, const Task& task) {
   std::vector<double> areas;
   areas.reserve(faces.corners.size());
+  Poll poll(task, 0.5, 0.55, faces.corners.size());
   for (const auto& [a, b, c] : faces.corners) {
+    poll.next();
     const Vector ab = scale * (points[b] - points[a]);
     const Vector bc = scale * (points[c] - points[b]);
     const Vector ca = scale * (points[a] - points[c]);
@@ -422,11 +472,16 @@ std::vector<double> face_areas(const std::vector<Vector>& points, const Faces& f
   return areas;
 }
 
-std::size_t count_components(const std::vector<bool>& used, std::initializer_list<const std::vector<Edge>*> edges) {
+std::size_t count_components(const std::vector<bool>& used, std::initializer_list<const std::vector<Edge>*> edges,
+                             const Task& task) {
   DisjointSets sets(used.size());
   auto count = static_cast<std::size_t>(std::ranges::count(used, true));
   for (const std::vector<Edge>* list : edges) {
-    for (const auto& [a, b] : *list) count -= sets.join(a, b) ? 1 : 0;
+    Poll poll(task, 0.45, 0.45, list->size());
+    for (const auto& [a, b] : *list) {
+      poll.next();
+      count -= sets.join(a, b) ? 1 : 0;
+    }
   }
   return count;
 }
@@ -436,30 +491,30 @@ std::size_t count_components(const std::vector<bool>& used, std::initializer_lis
 Surface::Surface(std::vector<Vector> points, std::vector<Triangle> triangles, std::optional<std::vector<Edge>> edges,
                  const Task& task)
     : points_(std::move(points)), triangles_(std::move(triangles)) {
-  check_points(points_);
-  check_elements(triangles_, "triangle", points_.size());
+  check_points(points_, task);
+  check_elements(triangles_, "triangle", points_.size(), task);
   if (edges) {
-    check_elements(*edges, "edge", points_.size());
+    check_elements(*edges, "edge", points_.size(), task);
     check_edges(*edges);
   }
 
   task.check(0.0);
   std::vector<Edge> stray_edges;
-  Faces faces = proper_faces(triangles_, report_.degenerate_faces, stray_edges);
-  ItemsByEdge by_edge = sides_by_edge(points_.size(), faces);
+  Faces faces = proper_faces(triangles_, report_.degenerate_faces, stray_edges, task);
+  std::optional<ItemsByEdge> by_edge(sides_by_edge(points_.size(), faces, task));
   task.check(0.2);
   bool has_duplicates = false;
-  const std::vector<bool> duplicate = find_duplicates(faces, by_edge, has_duplicates);
+  const std::vector<bool> duplicate = find_duplicates(faces, *by_edge, has_duplicates);
   if (has_duplicates) {
     remove_faces(faces, duplicate, report_.duplicate_faces);
-    by_edge = sides_by_edge(points_.size(), faces);
+    by_edge.emplace(sides_by_edge(points_.size(), faces, task));
   }
   task.check(0.3);
-  Gluing gluing = glue(faces, by_edge, report_);
+  Gluing gluing = glue(faces, *by_edge, report_);
 
   task.check(0.35);
-  stray_edges = sorted_unique(points_.size(), stray_edges);
-  edges_ = edges ? sorted_unique(points_.size(), *edges) : merged(gluing.carried, stray_edges);
+  stray_edges = sorted_unique(points_.size(), stray_edges, task);
+  edges_ = edges ? sorted_unique(points_.size(), *edges, task) : merged(gluing.carried, stray_edges);
   // A polygon's triangulation may run through edges that are not real: those of faces left out connect all the same.
   const std::vector<Edge> connecting = merged(edges_, stray_edges);
   if (connecting.empty() && faces.corners.empty()) throw InvalidInput("the mesh is empty: it has no edge");
@@ -471,12 +526,12 @@ Surface::Surface(std::vector<Vector> points, std::vector<Triangle> triangles, st
   for (std::size_t v = 0; v < used.size(); ++v) {
     if (!used[v]) report_.isolated_vertices.push_back(static_cast<Index>(v));
   }
-  report_.components = count_components(used, {&gluing.carried, &connecting});
+  report_.components = count_components(used, {&gluing.carried, &connecting}, task);
 
   task.check(0.5);
-  const std::vector<double> areas = face_areas(points_, faces, scale_);
+  const std::vector<double> areas = face_areas(points_, faces, scale_, task);
   task.check(0.55);
-  const std::vector<bool> flipped = find_flips(faces, gluing.twin, areas);
+  const std::vector<bool> flipped = find_flips(faces, gluing.twin, areas, task);
   for (Index f = 0; f < faces.count(); ++f) {
     if (areas[f] == 0.0) report_.zero_area_faces.push_back(faces.source[f]);
     if (flipped[f]) report_.flipped_faces.push_back(faces.source[f]);
@@ -484,13 +539,13 @@ Surface::Surface(std::vector<Vector> points, std::vector<Triangle> triangles, st
   cut_unorientable(faces, flipped, gluing.twin, report_.unorientable_edges);
 
   task.check(0.6);
-  Fans fans = find_fans(points_.size(), faces, gluing.twin);
+  Fans fans = find_fans(points_.size(), faces, gluing.twin, task);
   task.check(0.7);
   auto mesh = std::make_shared<HalfEdgeMesh>();
-  link_half_edges(points_, faces, gluing.twin, flipped, fans, *mesh);
+  link_half_edges(points_, faces, gluing.twin, flipped, fans, *mesh, task);
   mesh_ = std::move(mesh);
   task.check(0.9);
-  list_faces(gluing.twin, flipped, fans, face_fans_, twins_);
+  list_faces(gluing.twin, flipped, fans, face_fans_, twins_, task);
   vertex_of_fan_ = std::move(fans.vertex);
   source_face_ = std::move(faces.source);
 }

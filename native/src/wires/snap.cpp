@@ -15,6 +15,7 @@
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/insertion_map.hpp"
+#include "detail/poll.hpp"
 #include "wires/polyline.hpp"
 
 namespace seamwire {
@@ -36,7 +37,7 @@ struct SnapData {
   }
 };
 
-SnapGraph::SnapGraph(const Surface& surface) {
+SnapGraph::SnapGraph(const Surface& surface, const Task& task) {
   auto data = std::make_shared<SnapData>();
   const std::size_t vertices = surface.vertex_count(), faces = surface.face_count();
   const std::vector<Edge>& edges = surface.edges();
@@ -44,16 +45,29 @@ SnapGraph::SnapGraph(const Surface& surface) {
   data->first_edge.assign(vertices + 1, 0);
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
   pairs.reserve(2 * edges.size());
+  const Poll listing(task, 0.0, 0.1, edges.size());
   for (std::size_t e = 0; e < edges.size(); ++e) {
+    listing.at(e);
     ++data->first_edge[edges[e][0] + 1];
     for (const std::int32_t v : edges[e]) pairs.push_back({v, static_cast<std::int32_t>(e)});
   }
   std::partial_sum(data->first_edge.begin(), data->first_edge.end(), data->first_edge.begin());
-  data->edges_of_vertex = Csr<std::int32_t>(vertices, pairs);
+  const auto rows = [&](std::size_t row_count, double begin, double end) {
+    Poll poll(task, begin, end, 2 * pairs.size());
+    return Csr<std::int32_t>(row_count, [&](const auto& visit) {
+      for (const auto& [row, item] : pairs) {
+        poll.next();
+        visit(row, item);
+      }
+    });
+  };
+  data->edges_of_vertex = rows(vertices, 0.1, 0.3);
 
   pairs.clear();  // (face, real edge)
   std::vector<std::tuple<Edge, std::int32_t>> diagonals;
+  const Poll looking(task, 0.3, 0.5, faces);
   for (std::size_t f = 0; f < faces; ++f) {
+    looking.at(f);
     for (std::size_t i = 0; i < 3; ++i) {
       const std::int32_t a = surface.triangles()[f][i], b = surface.triangles()[f][(i + 1) % 3];
       if (a == b) continue;
@@ -66,19 +80,29 @@ SnapGraph::SnapGraph(const Surface& surface) {
       }
     }
   }
-  std::sort(diagonals.begin(), diagonals.end());
+  Poll sorting(task, 0.5, 0.6, 32 * diagonals.size());
+  std::sort(diagonals.begin(), diagonals.end(), [&](const auto& a, const auto& b) {
+    sorting.next();
+    return a < b;
+  });
   DisjointSets joined(faces);
+  const Poll joining(task, 0.6, 0.65, diagonals.size());
   for (std::size_t i = 1; i < diagonals.size(); ++i) {
+    joining.at(i);
     if (std::get<0>(diagonals[i]) == std::get<0>(diagonals[i - 1])) {
       joined.join(std::get<1>(diagonals[i]), std::get<1>(diagonals[i - 1]));
     }
   }
   data->polygon_of_face.resize(faces);
-  for (std::size_t f = 0; f < faces; ++f) data->polygon_of_face[f] = joined.find(static_cast<std::int32_t>(f));
+  const Poll naming(task, 0.65, 0.7, faces);
+  for (std::size_t f = 0; f < faces; ++f) {
+    naming.at(f);
+    data->polygon_of_face[f] = joined.find(static_cast<std::int32_t>(f));
+  }
   for (auto& [face, edge] : pairs) face = data->polygon_of_face[face];
-  data->edges_of_polygon = Csr<std::int32_t>(faces, pairs);
+  data->edges_of_polygon = rows(faces, 0.7, 0.85);
   for (auto& [polygon, edge] : pairs) std::swap(polygon, edge);
-  data->polygons_of_edge = Csr<std::int32_t>(edges.size(), pairs);
+  data->polygons_of_edge = rows(edges.size(), 0.85, 1.0);
   data_ = std::move(data);
 }
 

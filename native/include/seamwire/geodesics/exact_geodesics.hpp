@@ -25,8 +25,8 @@ struct GeodesicCounters {
 class ExactGeodesics {
  public:
   /// Throws InvalidInput for a length that is not positive and finite, a triangle that fails the triangle inequality,
-  /// or twins that do not match.
-  explicit ExactGeodesics(const IntrinsicMesh& mesh);
+  /// or twins that do not match; Cancelled.
+  explicit ExactGeodesics(const IntrinsicMesh& mesh, const Task& task = {});
   /// Throws InvalidInput for a seed out of range; Cancelled.
   DistanceField solve(std::int32_t seed, const Task& task = {}, GeodesicCounters* counters = nullptr) const;
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "seamwire/surface/surface.hpp"
+#include "seamwire/task.hpp"
 
 namespace seamwire {
 
@@ -26,6 +27,7 @@ struct Curvature {
 std::vector<Vector> vertex_normals(const Surface& surface);
 
 /// Rusinkiewicz, "Estimating Curvatures and Their Derivatives on Triangle Meshes" (2004), on vertex_normals().
-Curvature principal_curvatures(const Surface& surface);
+/// Throws Cancelled.
+Curvature principal_curvatures(const Surface& surface, const Task& task = {});
 
 }  // namespace seamwire

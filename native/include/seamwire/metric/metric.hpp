@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "seamwire/metric/curvature.hpp"
+#include "seamwire/task.hpp"
 
 namespace seamwire {
 
@@ -40,18 +41,23 @@ struct Strength {
 /// Throws InvalidInput where a strength is not as said there; `smallest_parameter`: 1 for Campen.
 void check_strength(const Strength& strength, double smallest_parameter = 0.0);
 
+/// Each of the four throws InvalidInput for curvatures of another size or that are not finite, a strength that is not
+/// as said above or too strong for them; Cancelled.
+///
 /// Eq. 5, the paper's metric: l1 = 1 + gamma s, l2 = 1 / l1. Parameter: gamma; max_anisotropy A means gamma =
 /// (A - 1) / max s, or 0 where max s is but rounding (planes, spheres).
-Metric feature_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Strength& strength);
+Metric feature_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Strength& strength,
+                      const Task& task = {});
 /// Eq. 3, Campen et al.: l1 = alpha, l2 = 1. Parameter: alpha; max_anisotropy A means alpha = A^2. Nothing to clamp.
-Metric campen_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Strength& strength);
+Metric campen_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Strength& strength,
+                     const Task& task = {});
 /// Eq. 4, Pottmann et al., Kovacs et al.: l1 = k1^2 + beta, l2 = k2^2 + beta. Parameter: beta; at least 1e-12 of the
 /// largest k1^2 is taken, so that the norm is nowhere zero. max_anisotropy 1, and flat surfaces, give the Euclidean
 /// one.
 Metric pottmann_kovacs_metric(const Surface& surface, const Curvature& curvature, Follow follow,
-                              const Strength& strength);
+                              const Strength& strength, const Task& task = {});
 /// The Euclidean metric: the identity on every tangent plane.
-Metric euclidean_metric(const Surface& surface, const Curvature& curvature);
+Metric euclidean_metric(const Surface& surface, const Curvature& curvature, const Task& task = {});
 
 /// A tensor with its normal, and the norm it gives to any vector: g(e)^2 = e^T M e + sqrt(l1 l2) (n.e)^2, the "ambient"
 /// reading of the norm of an edge, which need not be tangent (docs/method.md says why).

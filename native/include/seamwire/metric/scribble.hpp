@@ -8,6 +8,7 @@
 
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/surface/surface.hpp"
+#include "seamwire/task.hpp"
 
 namespace seamwire {
 
@@ -46,8 +47,8 @@ struct Scribble {
 ///
 /// Throws InvalidInput, naming scribble and point, for a point that is not finite, without a face or vertex, with one
 /// out of range, or off the mesh: further from its face or vertex than a twentieth of the model's longest side; for
-/// lists that differ in length, eta, rings or a radius that is out of range, and a metric of another size.
+/// lists that differ in length, eta, rings or a radius that is out of range, and a metric of another size; Cancelled.
 Metric apply_scribbles(const Surface& surface, const Metric& metric, std::span<const Scribble> scribbles,
-                       std::optional<Follow> follow = std::nullopt);
+                       std::optional<Follow> follow = std::nullopt, const Task& task = {});
 
 }  // namespace seamwire

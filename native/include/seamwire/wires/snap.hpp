@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "seamwire/surface/surface.hpp"
+#include "seamwire/task.hpp"
 #include "seamwire/wires/wire.hpp"
 
 namespace seamwire {
@@ -16,8 +17,8 @@ struct SnapData;  // snap.cpp
 /// real edges around them. Immutable, so wires may be snapped on several threads.
 class SnapGraph {
  public:
-  /// Takes time proportional to the surface.
-  explicit SnapGraph(const Surface& surface);
+  /// Takes time proportional to the surface. Throws Cancelled.
+  explicit SnapGraph(const Surface& surface, const Task& task = {});
 
  private:
   friend std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire);

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "seamwire/task.hpp"
+
+namespace seamwire {
+
+/// A loop's looks at its task, one in some thousands of steps.
+class Poll {
+ public:
+  /// Between two looks: well under a millisecond, where a step takes a tenth of a microsecond.
+  static constexpr std::size_t kSteps = 4096;
+  /// Where a step may take several microseconds.
+  static constexpr std::size_t kFewSteps = 64;
+
+  /// The loop takes about `total` steps, the part of the whole work from `begin` to `end`.
+  Poll(const Task& task, double begin, double end, std::size_t total, std::size_t steps_between = kSteps)
+      : task_(task),
+        begin_(begin),
+        length_(end - begin),
+        total_(static_cast<double>(std::max<std::size_t>(total, 1))),
+        mask_(steps_between - 1) {}
+
+  /// At the beginning of each step, the first is 0. Throws Cancelled.
+  void at(std::size_t step) const {
+    if ((step & mask_) == 0) task_.check(begin_ + length_ * std::min(1.0, static_cast<double>(step) / total_));
+  }
+  /// The same for steps that are not numbered.
+  void next() { at(steps_++); }
+
+ private:
+  const Task& task_;
+  double begin_, length_, total_;
+  std::size_t mask_;  // of a power of two
+  std::size_t steps_ = 0;
+};
+
+/// The system hands out memory page by page when it is first written, some milliseconds for 16 MB; so, between looks at
+/// the task, vector.resize(size).
+template <class T>
+void resize(std::vector<T>& vector, std::size_t size, const Task& task, double progress) {
+  constexpr std::size_t kBytes = std::size_t{1} << 20;
+  vector.reserve(size);
+  while (vector.size() < size) {
+    task.check(progress);
+    vector.resize(std::min(size, vector.size() + std::max<std::size_t>(kBytes / sizeof(T), 1)));
+  }
+}
+
+/// A copy made in the same way.
+template <class T>
+std::vector<T> copied(const std::vector<T>& from, const Task& task, double progress) {
+  constexpr std::size_t kBytes = std::size_t{1} << 20;
+  std::vector<T> copy;
+  copy.reserve(from.size());
+  while (copy.size() < from.size()) {
+    task.check(progress);
+    const auto next = from.begin() + static_cast<std::ptrdiff_t>(copy.size());
+    const std::size_t count = std::min(from.size() - copy.size(), std::max<std::size_t>(kBytes / sizeof(T), 1));
+    copy.insert(copy.end(), next, next + static_cast<std::ptrdiff_t>(count));
+  }
+  return copy;
+}
+
+}  // namespace seamwire

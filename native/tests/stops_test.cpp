@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What takes long can be stopped, and looks often enough whether it is to be: counted, not timed.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "detail/poll.hpp"
+#include "seamwire/edges/edge_graph.hpp"
+#include "seamwire/embedding/embedding.hpp"
+#include "seamwire/geodesics/exact_geodesics.hpp"
+#include "seamwire/metric/scribble.hpp"
+#include "seamwire/wires/snap.hpp"
+#include "shapes.hpp"
+
+namespace seamwire {
+namespace {
+
+/// `steps`: of the work's loops that take long, together.
+void expect_stops(std::size_t steps, const std::function<void(const Task&)>& work) {
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_THROW(work({.stop = stop.get_token(), .progress = {}}), Cancelled);
+
+  std::size_t checks = 0;
+  double last = 0.0;
+  work({.stop = {}, .progress = [&](double fraction) {
+          EXPECT_GE(fraction, last);
+          EXPECT_LE(fraction, 1.0);
+          last = fraction;
+          ++checks;
+          return true;
+        }});
+  EXPECT_GE(checks, steps / Poll::kSteps);
+
+  for (std::size_t n = 1; n <= checks; ++n) {
+    std::size_t asked = 0;
+    const Task task{.stop = {}, .progress = [&](double) { return ++asked < n; }};
+    EXPECT_THROW(work(task), Cancelled) << "at check " << n << " of " << checks;
+    EXPECT_EQ(asked, n) << "it went on";
+  }
+}
+
+class Stops : public testing::Test {
+ protected:
+  const shapes::Mesh mesh = shapes::torus(160, 120);
+  const Surface surface{mesh.points, mesh.triangles};
+  const std::size_t vertices = surface.vertex_count(), faces = surface.face_count(), edges = surface.edges().size();
+};
+
+TEST_F(Stops, BuildingASurface) {
+  const std::size_t half_edges = 3 * faces;
+  expect_stops(6 * vertices + 4 * faces + 2 * edges + 7 * half_edges,
+               [&](const Task& task) { const Surface again(mesh.points, mesh.triangles, std::nullopt, task); });
+}
+
+TEST_F(Stops, Curvatures) {
+  expect_stops(2 * faces + 4 * vertices, [&](const Task& task) { principal_curvatures(surface, task); });
+}
+
+TEST_F(Stops, EachMetric) {
+  const Curvature curvature = principal_curvatures(surface);
+  const Strength strength{.max_anisotropy = 5, .clamp_percentile = 99};
+  for (const Follow follow : {Follow::kMin, Follow::kMax}) {
+    expect_stops(4 * vertices, [&](const Task& task) { feature_metric(surface, curvature, follow, strength, task); });
+    expect_stops(2 * vertices, [&](const Task& task) { campen_metric(surface, curvature, follow, strength, task); });
+    expect_stops(4 * vertices,
+                 [&](const Task& task) { pottmann_kovacs_metric(surface, curvature, follow, strength, task); });
+  }
+  expect_stops(2 * vertices, [&](const Task& task) { euclidean_metric(surface, curvature, task); });
+}
+
+TEST_F(Stops, Scribbles) {
+  const Metric metric = euclidean_metric(surface, principal_curvatures(surface));
+  Scribble scribble;
+  for (std::int32_t v = 0; v < 100; ++v) {
+    scribble.vertices.push_back(v);
+    scribble.points.push_back(surface.points()[v]);
+  }
+  scribble.rings = 50;
+  // Each vertex looked at is several steps long.
+  expect_stops(100 * 50 * Poll::kSteps / Poll::kFewSteps,
+               [&](const Task& task) { apply_scribbles(surface, metric, std::vector{scribble}, std::nullopt, task); });
+}
+
+TEST_F(Stops, TheGraphToSnapTo) {
+  expect_stops(edges + 4 * edges + faces + 4 * 3 * faces, [&](const Task& task) { SnapGraph(surface, task); });
+  const Surface quads = shapes::quad_torus(160, 120).surface();  // whose diagonals are sorted
+  expect_stops(quads.edges().size() * (1 + 4 + 2 * 4) + 3 * quads.face_count() + 10 * quads.face_count(),
+               [&](const Task& task) { SnapGraph(quads, task); });
+}
+
+TEST_F(Stops, Embedding) {
+  const Metric metric = euclidean_metric(surface, principal_curvatures(surface));
+  // Looking for degenerate ones, lengths, and looking for invalid ones.
+  expect_stops(faces + vertices + 3 * faces + faces, [&](const Task& task) { embed(surface, metric, {}, task); });
+}
+
+TEST_F(Stops, TheMeshOfTheGeodesics) {
+  const Embedding embedding = embed(surface, euclidean_metric(surface, principal_curvatures(surface)));
+  expect_stops(faces + 3 * faces + faces + 2 * faces + vertices + faces + 2 * faces + vertices + vertices,
+               [&](const Task& task) { ExactGeodesics(embedding.mesh, task); });
+}
+
+TEST_F(Stops, TheEdgesAroundEachVertexAndTheirLengths) {
+  // It looks at each vertex, and each fan, four times as often.
+  expect_stops(edges + 4 * 2 * vertices, [&](const Task& task) { make_edge_adjacency(surface, task); });
+  const auto adjacency = make_edge_adjacency(surface);
+  const Metric metric = euclidean_metric(surface, principal_curvatures(surface));
+  expect_stops(edges, [&](const Task& task) { make_edge_graph(surface, metric, adjacency, task); });
+}
+
+}  // namespace
+}  // namespace seamwire
