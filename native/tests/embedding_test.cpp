@@ -320,6 +320,27 @@ TEST(Embed, FlipsFacesWithACornerOnTheOppositeEdge) {
   }
 }
 
+// As above, with vertex 4 off the diagonal by a part of its length: a face is flipped away where the report lists it,
+// and bisected as any other where it does not, from whichever corner it is given.
+TEST(Embed, RemovesTheFacesThatTheReportListsAndNoOthers) {
+  int listed = 0, others = 0;
+  for (const double part : {1e-13, 1e-11, 1e-10, 0.9e-9, 1.1e-9, 1e-8, 1e-7}) {
+    const double t = 0.3, off = part;  // the diagonal is sqrt 2 long, and (off, -off) off * sqrt 2
+    for (const Triangle& corners : {Triangle{0, 2, 4}, Triangle{2, 4, 0}, Triangle{4, 0, 2}, Triangle{2, 0, 4}}) {
+      const Surface surface({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {t - off, t + off, 0}},
+                            {{0, 1, 2}, corners, {0, 4, 3}, {4, 2, 3}});
+      const bool is_listed = !surface.report().zero_area_faces.empty();
+      EXPECT_EQ(is_listed, part < 1e-9) << part;
+      ++(is_listed ? listed : others);
+      const Embedding embedding = embed(surface, identity_metric(surface));
+      EXPECT_EQ(std::ranges::count(embedding.source_face, 1) == 0, is_listed) << part;
+      EXPECT_EQ(embedding.invalid_left, 0U) << part;
+    }
+  }
+  EXPECT_GT(listed, 0);
+  EXPECT_GT(others, 0);
+}
+
 TEST(Embed, MergesVerticesAtTheSamePlace) {
   // A fan about (0.5, 0.5), where vertices 4 and 5 are both: faces 4 and 5 between them have no area.
   const Surface surface({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {.5, .5, 0}, {.5, .5, 0}},

@@ -7,6 +7,7 @@
 
 #include "detail/prefetch.hpp"
 #include "embedding/degenerate_faces.hpp"
+#include "surface/face_height.hpp"
 
 namespace seamwire {
 namespace {
@@ -144,7 +145,7 @@ void BisectedMesh::measure_all() {
 }
 
 bool BisectedMesh::is_degenerate(std::int32_t f) const {
-  return seamwire::is_degenerate(vector(3 * f), vector(3 * f + 1), vector(3 * f + 2));
+  return !has_area(vector(3 * f), vector(3 * f + 1), vector(3 * f + 2));
 }
 
 std::int32_t BisectedMesh::external_vertex(std::int32_t v) const {
