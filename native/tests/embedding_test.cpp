@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "embedding/bisection.hpp"
 #include "embeddings.hpp"
 #include "shapes.hpp"
 
@@ -177,19 +178,34 @@ TEST(Embed, LeavesInvalidTrianglesSmallerThanSigma) {
             all.invalid_before / 2);
 }
 
+// Step by step: of the invalid triangles, the one bisected next has the largest perimeter.
 TEST(Embed, SplitsLargestPerimeterFirst) {
-  const Surface surface = shapes::grid(12).surface();
+  const Surface surface = shapes::grid(12, 0.2).surface();
   const Metric metric = random_metric(surface, 10, 3);
-  // After a few splits no invalid triangle is larger than the largest that is bisected next.
-  const Embedding few = embed(surface, metric, {.max_faces_added = 2});
-  const Embedding none = embed(surface, metric, {.max_faces_added = 0});
-  const auto longest_loose = [](const Embedding& e) {
-    double longest = 0;
-    for (const LooseEdge& edge : e.mesh.loose_edges) longest = std::max(longest, edge.length);
-    return longest;
-  };
-  EXPECT_LE(longest_loose(few), longest_loose(none));
-  EXPECT_EQ(few.faces_added, 2U);
+  for (const Perimeter kind : {Perimeter::kMetric, Perimeter::kEuclidean}) {
+    const EmbedOptions options{.perimeter = kind};
+    Bisection bisection(BisectedMesh(surface, metric), options, Scheme::kLongestEdge);
+    const BisectedMesh& mesh = bisection.mesh();
+    double progress = 0;
+    ASSERT_FALSE(bisection.run({}, 0, progress));
+    int steps = 0;
+    for (bool is_done = false; !is_done && steps < 200; ++steps) {
+      float largest = 0;  // as rounded as the order is
+      for (std::int32_t f = 0; at(f) < mesh.face_count(); ++f) {
+        if (!mesh.is_valid(f)) largest = std::max(largest, static_cast<float>(mesh.perimeter(f, kind)));
+      }
+      std::vector<std::int32_t> first;
+      for (std::int32_t f = 0; at(f) < mesh.face_count(); ++f) {
+        if (!mesh.is_valid(f) && static_cast<float>(mesh.perimeter(f, kind)) == largest) first.push_back(f);
+      }
+      const std::vector<Triangle> before = mesh.corners;
+      is_done = bisection.work_off({}, mesh.faces_added() + 2, progress);
+      const bool is_first =
+          std::ranges::any_of(first, [&](std::int32_t f) { return mesh.corners[at(f)] != before[at(f)]; });
+      ASSERT_TRUE(is_first) << "step " << steps;
+    }
+    EXPECT_GT(steps, 50);
+  }
 }
 
 // Neighbors agree on their edges, and no vertex lies within an edge, also where a chain of neighbors was bisected.

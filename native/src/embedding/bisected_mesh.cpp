@@ -310,6 +310,7 @@ void BisectedMesh::remove_unused_vertices() {
 Embedding BisectedMesh::to_embedding(bool is_scheme_local) && {
   Embedding out;
   out.faces_added = faces_added();
+  out.faces_embedded = surface.face_fans().size();
   IntrinsicMesh& mesh = out.mesh;
   mesh.vertex_count = static_cast<std::int32_t>(points_.size());
   std::vector<std::int32_t> holes;
