@@ -334,10 +334,15 @@ The first vertices are those of the surface, with their numbers; new ones are mi
           "hit_cap", [](const EmbeddingObject& e) { return e.embedding.hit_cap; },
           "Whether max_faces_added ended the subdivision.")
       .def("__repr__", [](const EmbeddingObject& e) {
-        return "<Embedding: " + std::to_string(e.embedding.points.size()) + " vertices, " +
-               std::to_string(e.embedding.mesh.face_count()) + " triangles, " +
-               std::to_string(e.embedding.faces_added) + " added, " + std::to_string(e.embedding.invalid_left) +
-               " invalid left>";
+        std::string text = "<Embedding: " + std::to_string(e.embedding.points.size()) + " vertices, " +
+                           std::to_string(e.embedding.mesh.face_count()) + " triangles, " +
+                           std::to_string(e.embedding.faces_added) + " added, " +
+                           std::to_string(e.embedding.invalid_left) + " invalid left";
+        if (e.embedding.clamped_edges > 0) {
+          text += ", " + std::to_string(e.embedding.clamped_edges) + " lengths clamped, by up to " +
+                  number(e.embedding.worst_clamp) + " times";
+        }
+        return text + ">";
       });
 
   py::class_<Wire>(module, "Wire", "A geodesic on a surface, from one of its vertices to another.")
