@@ -81,7 +81,12 @@ void bind_surface(py::module_& module) {
       .def_property_readonly("zero_area_faces", array_of<ReportObject>([](const auto& r) -> auto& {
                                return r.surface->report().zero_area_faces;
                              }),
-                             "(k,) int32: kept, unless two of their corners are the same vertex.")
+                             "(k,) int32: lower than 1e-9 of their longest side; kept, but embeddings remove them or "
+                             "leave holes.")
+      .def_property_readonly(
+          "low_faces", array_of<ReportObject>([](const auto& r) -> auto& { return r.surface->report().low_faces; }),
+          "(k,) int32: lower than 2^-22 of the unit cube, zero-area ones among them; kept, but "
+          "normals and curvature leave them out.")
       .def_property_readonly("degenerate_faces", array_of<ReportObject>([](const auto& r) -> auto& {
                                return r.surface->report().degenerate_faces;
                              }),
@@ -111,6 +116,7 @@ void bind_surface(py::module_& module) {
         add(report.unorientable_edges.size(), "unorientable edges");
         add(report.flipped_faces.size(), "flipped faces");
         add(report.zero_area_faces.size(), "zero-area faces");
+        add(report.low_faces.size() - report.zero_area_faces.size(), "faces too low to have a direction");
         add(report.degenerate_faces.size(), "degenerate faces");
         add(report.duplicate_faces.size(), "duplicate faces");
         add(report.isolated_vertices.size(), "isolated vertices");
@@ -328,10 +334,15 @@ The first vertices are those of the surface, with their numbers; new ones are mi
           "hit_cap", [](const EmbeddingObject& e) { return e.embedding.hit_cap; },
           "Whether max_faces_added ended the subdivision.")
       .def("__repr__", [](const EmbeddingObject& e) {
-        return "<Embedding: " + std::to_string(e.embedding.points.size()) + " vertices, " +
-               std::to_string(e.embedding.mesh.face_count()) + " triangles, " +
-               std::to_string(e.embedding.faces_added) + " added, " + std::to_string(e.embedding.invalid_left) +
-               " invalid left>";
+        std::string text = "<Embedding: " + std::to_string(e.embedding.points.size()) + " vertices, " +
+                           std::to_string(e.embedding.mesh.face_count()) + " triangles, " +
+                           std::to_string(e.embedding.faces_added) + " added, " +
+                           std::to_string(e.embedding.invalid_left) + " invalid left";
+        if (e.embedding.clamped_edges > 0) {
+          text += ", " + std::to_string(e.embedding.clamped_edges) + " lengths clamped, by up to " +
+                  number(e.embedding.worst_clamp) + " times";
+        }
+        return text + ">";
       });
 
   py::class_<Wire>(module, "Wire", "A geodesic on a surface, from one of its vertices to another.")

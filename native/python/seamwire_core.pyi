@@ -30,7 +30,8 @@ class SurfaceReport:
     nonmanifold_edges: NDArray[np.int32]  # (k, 2)
     unorientable_edges: NDArray[np.int32]  # (k, 2)
     flipped_faces: NDArray[np.int32]
-    zero_area_faces: NDArray[np.int32]
+    zero_area_faces: NDArray[np.int32]  # lower than 1e-9 of their longest side
+    low_faces: NDArray[np.int32]  # lower than 2^-22 of the unit cube, those among them
     degenerate_faces: NDArray[np.int32]
     duplicate_faces: NDArray[np.int32]
     isolated_vertices: NDArray[np.int32]

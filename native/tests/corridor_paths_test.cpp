@@ -77,15 +77,18 @@ TEST_P(CorridorPathsOn, CloseToTheGeodesicOnLargerMeshes) {
   EXPECT_LT(excess.mean(), 1e-3);
 }
 
+// In a corridor of a third of the vertices at most: the default one holds more than most of these meshes have.
 TEST_P(CorridorPathsOn, EmbeddedLengths) {
-  const auto [name, mesh] = exactness_meshes(2)[static_cast<std::size_t>(GetParam())];
+  const auto [name, mesh] = exactness_meshes(4)[static_cast<std::size_t>(GetParam())];
   SCOPED_TRACE(name);
   const Surface surface = mesh.surface();
   const Curvature curvature = principal_curvatures(surface);
   for (const Follow follow : {Follow::kMin, Follow::kMax}) {
     const Metric metric = feature_metric(surface, curvature, follow, {.max_anisotropy = 30.0});
     const Embedding embedding = embed(surface, metric);
-    const Excess excess = expect_paths(embedding.mesh, mesh.triangles[3][0], 1.05);
+    const auto third = static_cast<std::uint32_t>(embedding.mesh.vertex_count / 3);
+    const Excess excess =
+        expect_paths(embedding.mesh, mesh.triangles[3][0], 1.05, {.corridor_vertices = std::min(400U, third)});
     EXPECT_LT(excess.mean(), 1e-3);
   }
 }

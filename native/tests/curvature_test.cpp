@@ -277,6 +277,25 @@ TEST(Curvature, IsFiniteWhereNormalsCancel) {
   expect_sound(surface, curvature);
 }
 
+// A square, and a low triangle that stands upright on its side: left out, the normals are the square's to the last bit.
+TEST(Curvature, LeavesOutTheFacesThatTheReportCallsLowAndNoOthers) {
+  for (const double height : {1e-30, 1e-12, 1e-8, 0.99 * 0x1p-22, 1.01 * 0x1p-22, 1e-6}) {
+    for (const Triangle& corners : {Triangle{1, 0, 4}, Triangle{0, 4, 1}, Triangle{4, 1, 0}, Triangle{0, 1, 4}}) {
+      // After a face that is left out of the half-edge mesh, so that numbers there are others.
+      const Surface surface({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.3, 0, height}},
+                            {{0, 0, 1}, {0, 1, 2}, {0, 2, 3}, corners});
+      const bool is_low = !surface.report().low_faces.empty();
+      EXPECT_EQ(is_low, height < 0x1p-22) << height;
+      if (is_low) {
+        EXPECT_EQ(surface.report().low_faces, std::vector<std::int32_t>{3});
+      }
+      const Curvature curvature = principal_curvatures(surface);
+      EXPECT_EQ(curvature.normals[0].head<2>().isZero(0.0), is_low) << height;
+      EXPECT_EQ(curvature.k1[0] == 0.0, is_low) << height;
+    }
+  }
+}
+
 TEST(VertexNormals, AreThoseOfTheCurvature) {
   const Surface surface = shapes::torus(24, 16).surface();
   EXPECT_EQ(vertex_normals(surface), principal_curvatures(surface).normals);

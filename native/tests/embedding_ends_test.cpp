@@ -220,6 +220,35 @@ TEST_P(EmbeddingEndsOn, SliversAtAnyStrength) {
   }
 }
 
+/// How many lengths are not the metric's there, in all, as part of the triangles added; and the largest factor between
+/// the two. Length repair alone, without the bisections before it, clamps more.
+TEST_P(EmbeddingEndsOn, SliversWithABoundOnClampedLengths) {
+  const double aspect = GetParam();
+  // As measured, with a tenth more.
+  const std::map<std::pair<int, int>, std::pair<double, double>> bounds{
+      {{10, 10}, {0, 1}},        {{10, 100}, {0.072, 30}},    {{10, 1000}, {0.22, 384}},
+      {{100, 10}, {0.33, 38}},   {{100, 100}, {0.28, 146}},   {{100, 1000}, {0.343, 2100}},
+      {{1000, 10}, {0.42, 166}}, {{1000, 100}, {0.392, 716}}, {{1000, 1000}, {0.404, 17900}}};
+  for (const int a : {10, 100, 1000}) {
+    std::size_t added = 0, clamped = 0;
+    double worst = 1;
+    for (const auto& [name, mesh] : slivers(aspect)) {
+      const Surface surface = mesh.surface();
+      const Curvature curvature = principal_curvatures(surface);
+      for (const Follow follow : {Follow::kMin, Follow::kMax}) {
+        const Metric metric = feature_metric(surface, curvature, follow, {.max_anisotropy = double(a)});
+        const Embedding embedding = embed(surface, metric);
+        added += embedding.faces_added;
+        clamped += embedding.clamped_edges;
+        worst = std::max(worst, embedding.worst_clamp);
+      }
+    }
+    const auto [part, factor] = bounds.at({GetParam(), a});
+    EXPECT_LE(static_cast<double>(clamped), part * static_cast<double>(added)) << a;
+    EXPECT_LE(worst, factor) << a;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Aspects, EmbeddingEndsOn, testing::Values(10, 100, 1000));
 
 /// On slivers nothing is left because lengths are clamped, which says how far they are from the metric's; on meshes as
@@ -239,6 +268,30 @@ TEST(EmbeddingEnds, SayingHowManyLengthsAreNotTheMetrics) {
   for (const double a : {10.0, 30.0, 100.0}) {
     const Embedding embedding = embed(bumpy, feature_metric(bumpy, of_bumpy, Follow::kMax, {.max_anisotropy = a}));
     EXPECT_EQ(embedding.clamped_edges, 0U) << a;
+  }
+  for (const double aspect : {1.0, 3.0, 10.0}) {
+    for (const auto& [name, mesh] : slivers(aspect)) {
+      const Surface surface = mesh.surface();
+      const Curvature curvature = principal_curvatures(surface);
+      for (const double a : {10.0, 30.0, 100.0, 1000.0}) {
+        if (aspect > 3 && a > 30) continue;
+        for (const Follow follow : {Follow::kMin, Follow::kMax}) {
+          const Embedding embedding = embed(surface, feature_metric(surface, curvature, follow, {.max_anisotropy = a}));
+          EXPECT_EQ(embedding.clamped_edges, 0U) << name << ", aspect " << aspect << ", A = " << a;
+        }
+      }
+    }
+  }
+  for (const auto& [name, mesh] : shapes::exactness_meshes(2)) {
+    const Surface surface = mesh.surface();
+    const Curvature curvature = principal_curvatures(surface);
+    for (const double a : {5.0, 20.0, 100.0, 1000.0}) {
+      for (const Follow follow : {Follow::kMin, Follow::kMax}) {
+        const Embedding embedding = embed(surface, feature_metric(surface, curvature, follow, {.max_anisotropy = a}));
+        EXPECT_LE(embedding.clamped_edges, a > 100 ? 300U : 0U) << name << ", A = " << a;
+        EXPECT_LE(embedding.worst_clamp, a > 100 ? 5.5 : 1.0) << name << ", A = " << a;
+      }
+    }
   }
   const Surface sliver = slivers(100)[3].mesh.surface();
   const Embedding embedding =

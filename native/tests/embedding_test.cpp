@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "embedding/bisection.hpp"
 #include "embeddings.hpp"
 #include "shapes.hpp"
 
@@ -177,19 +178,34 @@ TEST(Embed, LeavesInvalidTrianglesSmallerThanSigma) {
             all.invalid_before / 2);
 }
 
+// Step by step: of the invalid triangles, the one bisected next has the largest perimeter.
 TEST(Embed, SplitsLargestPerimeterFirst) {
-  const Surface surface = shapes::grid(12).surface();
+  const Surface surface = shapes::grid(12, 0.2).surface();
   const Metric metric = random_metric(surface, 10, 3);
-  // After a few splits no invalid triangle is larger than the largest that is bisected next.
-  const Embedding few = embed(surface, metric, {.max_faces_added = 2});
-  const Embedding none = embed(surface, metric, {.max_faces_added = 0});
-  const auto longest_loose = [](const Embedding& e) {
-    double longest = 0;
-    for (const LooseEdge& edge : e.mesh.loose_edges) longest = std::max(longest, edge.length);
-    return longest;
-  };
-  EXPECT_LE(longest_loose(few), longest_loose(none));
-  EXPECT_EQ(few.faces_added, 2U);
+  for (const Perimeter kind : {Perimeter::kMetric, Perimeter::kEuclidean}) {
+    const EmbedOptions options{.perimeter = kind};
+    Bisection bisection(BisectedMesh(surface, metric, {}, 0.0), options, Scheme::kLongestEdge);
+    const BisectedMesh& mesh = bisection.mesh();
+    double progress = 0;
+    ASSERT_FALSE(bisection.run({}, 0, progress));
+    int steps = 0;
+    for (bool is_done = false; !is_done && steps < 200; ++steps) {
+      float largest = 0;  // as rounded as the order is
+      for (std::int32_t f = 0; at(f) < mesh.face_count(); ++f) {
+        if (!mesh.is_valid(f)) largest = std::max(largest, static_cast<float>(mesh.perimeter(f, kind)));
+      }
+      std::vector<std::int32_t> first;
+      for (std::int32_t f = 0; at(f) < mesh.face_count(); ++f) {
+        if (!mesh.is_valid(f) && static_cast<float>(mesh.perimeter(f, kind)) == largest) first.push_back(f);
+      }
+      const std::vector<Triangle> before = mesh.corners;
+      is_done = bisection.work_off({}, mesh.faces_added() + 2, progress);
+      const bool is_first =
+          std::ranges::any_of(first, [&](std::int32_t f) { return mesh.corners[at(f)] != before[at(f)]; });
+      ASSERT_TRUE(is_first) << "step " << steps;
+    }
+    EXPECT_GT(steps, 50);
+  }
 }
 
 // Neighbors agree on their edges, and no vertex lies within an edge, also where a chain of neighbors was bisected.
@@ -318,6 +334,27 @@ TEST(Embed, FlipsFacesWithACornerOnTheOppositeEdge) {
       }
     }
   }
+}
+
+// As above, with vertex 4 off the diagonal by a part of its length: a face is flipped away where the report lists it,
+// and bisected as any other where it does not, from whichever corner it is given.
+TEST(Embed, RemovesTheFacesThatTheReportListsAndNoOthers) {
+  int listed = 0, others = 0;
+  for (const double part : {1e-13, 1e-11, 1e-10, 0.9e-9, 1.1e-9, 1e-8, 1e-7}) {
+    const double t = 0.3, off = part;  // the diagonal is sqrt 2 long, and (off, -off) off * sqrt 2
+    for (const Triangle& corners : {Triangle{0, 2, 4}, Triangle{2, 4, 0}, Triangle{4, 0, 2}, Triangle{2, 0, 4}}) {
+      const Surface surface({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {t - off, t + off, 0}},
+                            {{0, 1, 2}, corners, {0, 4, 3}, {4, 2, 3}});
+      const bool is_listed = !surface.report().zero_area_faces.empty();
+      EXPECT_EQ(is_listed, part < 1e-9) << part;
+      ++(is_listed ? listed : others);
+      const Embedding embedding = embed(surface, identity_metric(surface));
+      EXPECT_EQ(std::ranges::count(embedding.source_face, 1) == 0, is_listed) << part;
+      EXPECT_EQ(embedding.invalid_left, 0U) << part;
+    }
+  }
+  EXPECT_GT(listed, 0);
+  EXPECT_GT(others, 0);
 }
 
 TEST(Embed, MergesVerticesAtTheSamePlace) {

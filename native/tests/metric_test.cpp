@@ -12,6 +12,7 @@
 #include <random>
 #include <string>
 
+#include "metric/tangent_frame.hpp"
 #include "shapes.hpp"
 
 namespace seamwire {
@@ -311,6 +312,30 @@ TEST(MidpointTensor, TurnsTensorsWithTheirNormals) {
   const TensorAt middle = midpoint_tensor(bent(0), bent(std::numbers::pi / 2)), expected = bent(std::numbers::pi / 4);
   EXPECT_TRUE(middle.normal.isApprox(expected.normal, 1e-14));
   EXPECT_TRUE(middle.tensor.isApprox(expected.tensor, 1e-14));
+}
+
+// Normals that are opposite but for an angle: as long as that is not rounding, the least rotation turns about the axis
+// that it says, whatever is turned.
+TEST(LeastRotation, IsThatOfNormalsWhichAreNotQuiteOpposite) {
+  for (const double angle : {1e-1, 1e-3, 1e-4, 1e-5}) {
+    const Vector from = Vector::UnitZ(), to(std::sin(angle), 0, -std::cos(angle)), x(1, 0, 0), y(0, 1, 0);
+    const Vector turned(-std::cos(angle), 0, -std::sin(angle));
+    // The rounding of 1 + m.n = angle^2 / 2.
+    const double tolerance = 1e-15 / (angle * angle);
+    EXPECT_NEAR((turned_by_least_rotation(x, from, to) - turned).norm(), 0, tolerance);
+    EXPECT_EQ(turned_by_least_rotation(y, from, to), y);
+    const Vector d = 0.6 * x + 0.8 * y, turned_d = 0.6 * turned + 0.8 * y;
+    const Eigen::Matrix3d dd = d * d.transpose(), tensor = turned_by_least_rotation(dd, from, to);
+    EXPECT_NEAR((tensor - turned_d * turned_d.transpose()).norm(), 0, tolerance);
+    const TensorAt middle = midpoint_tensor({from, x * x.transpose()}, {to, turned * turned.transpose()});
+    EXPECT_NEAR((middle.normal - Vector(1, 0, 0)).norm(), 0, angle);
+    EXPECT_NEAR(middle.tensor(2, 2), 1, angle);
+  }
+  for (const double angle : {0.0, 1e-8, 1e-6}) {  // opposite
+    const Vector from = Vector::UnitZ(), to(std::sin(angle), 0, -std::cos(angle)), x(1, 0, 0);
+    EXPECT_EQ(turned_by_least_rotation(x, from, to), x);
+    EXPECT_EQ(midpoint_tensor({from, x * x.transpose()}, {to, x * x.transpose()}).normal, from);
+  }
 }
 
 TEST(MidpointTensor, KeepsOneOfOppositeNormals) {

@@ -86,7 +86,7 @@ TEST(ReEmbed, IsEmbeddingFromScratchAfterEveryScribble) {
     std::vector<Scribble> scribbles;
     Metric former = base;
     Embedding embedding = embed(surface, base);
-    int local = 0;
+    int local = 0, in_part = 0;
     for (int step = 0; step < 25; ++step) {
       // Mostly added, sometimes one in the middle of the list removed.
       if (scribbles.size() > 2 && random() % 3 == 0) {
@@ -97,10 +97,12 @@ TEST(ReEmbed, IsEmbeddingFromScratchAfterEveryScribble) {
       Metric metric = apply_scribbles(surface, base, scribbles);
       local += embedding.is_local;
       embedding = re_embed(surface, former, metric, std::move(embedding));
+      in_part += embedding.faces_embedded < surface.face_count() / 2;
       expect_same(surface, embedding, embed(surface, metric));
       former = std::move(metric);
     }
     EXPECT_GT(local, 15) << "hardly anything was done locally";
+    EXPECT_GT(in_part, 15) << "hardly anything was left as it was";
     const Embedding back = re_embed(surface, former, base, std::move(embedding));
     expect_same(surface, back, embed(surface, base));
   }
@@ -152,6 +154,9 @@ TEST(ReEmbed, LeavesWhatIsFarAwayWhereItIs) {
   for (std::size_t h = 0; h < 3 * surface.face_count(); ++h) changed += embedding.mesh.lengths[h] != before[h];
   EXPECT_GT(changed, 0U);
   EXPECT_LT(changed, 100U);
+  EXPECT_GE(embedding.faces_embedded, 2U);  // those at the vertex
+  EXPECT_LT(embedding.faces_embedded, 100U);
+  EXPECT_EQ(embed(surface, metric).faces_embedded, surface.face_count());
 }
 
 }  // namespace

@@ -119,8 +119,8 @@ def views(surface: sw.Surface) -> list[tuple[object, str]]:
         (surface, "points triangles edges"),
         (
             surface.report,
-            "nonmanifold_edges unorientable_edges flipped_faces zero_area_faces degenerate_faces duplicate_faces "
-            "isolated_vertices",
+            "nonmanifold_edges unorientable_edges flipped_faces zero_area_faces low_faces degenerate_faces "
+            "duplicate_faces isolated_vertices",
         ),
         (curvature, "k1 k2 d1 d2 normals difference"),
         (metric, "normals tensors"),

@@ -73,6 +73,18 @@ def test_everything_says_what_it_is(surface: sw.Surface, metric: sw.Metric, fiel
     assert repr(surface) == "<Surface: 960 vertices, 1920 triangles, 2880 edges>"
 
 
+def test_embeddings_say_which_lengths_are_not_the_metrics(embedding: sw.Embedding) -> None:
+    assert (embedding.clamped_edges, embedding.worst_clamp) == (0, 1)
+    assert "clamped" not in repr(embedding)
+    points, triangles = meshes.torus(24, 12)
+    flat = sw.Surface(points * [1, 1, 0.05], triangles)
+    metric = sw.feature_metric(flat, sw.principal_curvatures(flat), follow="max", max_anisotropy=1000)
+    clamped = sw.embed(flat, metric)
+    assert clamped.clamped_edges > 0
+    assert clamped.worst_clamp > 1
+    assert f"{clamped.clamped_edges} lengths clamped, by up to {clamped.worst_clamp:.6g} times" in repr(clamped)
+
+
 def test_results_cannot_be_made_or_changed_by_hand(surface: sw.Surface) -> None:
     for kind in (sw.Metric, sw.Embedding, sw.Wire, sw.EdgeChain):
         with pytest.raises(TypeError):

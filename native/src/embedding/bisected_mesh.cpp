@@ -8,6 +8,7 @@
 #include "detail/poll.hpp"
 #include "detail/prefetch.hpp"
 #include "embedding/degenerate_faces.hpp"
+#include "surface/face_height.hpp"
 
 namespace seamwire {
 namespace {
@@ -53,7 +54,7 @@ BisectedMesh::BisectedMesh(const Surface& on, const Metric& by, const Task& task
       vertex_of_fan_(on.vertex_of_fan()),
       fans_(vertex_of_fan_.size()),
       points_(copied(on.points(), task, progress)) {
-  std::optional<CleanMesh> clean = remove_degenerate_faces(surface, metric, task, progress);
+  std::optional<CleanMesh> clean = remove_degenerate_faces(surface, metric);
   is_cleaned_ = clean.has_value();
   if (clean) {
     flatten(clean->mesh, *this);
@@ -155,7 +156,7 @@ void BisectedMesh::measure_all(const Task& task, double progress) {
 }
 
 bool BisectedMesh::is_degenerate(std::int32_t f) const {
-  return seamwire::is_degenerate(vector(3 * f), vector(3 * f + 1), vector(3 * f + 2));
+  return !has_area(vector(3 * f), vector(3 * f + 1), vector(3 * f + 2));
 }
 
 std::int32_t BisectedMesh::external_vertex(std::int32_t v) const {
@@ -320,6 +321,7 @@ void BisectedMesh::remove_unused_vertices() {
 Embedding BisectedMesh::to_embedding(bool is_scheme_local) && {
   Embedding out;
   out.faces_added = faces_added();
+  out.faces_embedded = surface.face_fans().size();
   IntrinsicMesh& mesh = out.mesh;
   mesh.vertex_count = static_cast<std::int32_t>(points_.size());
   std::vector<std::int32_t> holes;

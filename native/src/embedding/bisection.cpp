@@ -36,6 +36,7 @@ bool ActiveFaces::activate(BisectedMesh& mesh, std::int32_t face) {
     for (const std::int32_t fan : mesh.corners[face]) mesh.set_node(fan);
     state = State::kActive;
     active_.push_back(face);
+    ++activations_;
   }
   return true;
 }

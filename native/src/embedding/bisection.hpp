@@ -42,6 +42,8 @@ class ActiveFaces {
   /// The faces in conflicts, which are then forgotten. What was bisected until now counts as bisected before.
   std::vector<std::int32_t> take_conflicts(const BisectedMesh& mesh);
   bool has_conflicts() const { return !conflicts_.empty(); }
+  /// How often a face was made ready.
+  std::size_t activations() const { return activations_; }
 
  private:
   enum class State : std::uint8_t {
@@ -53,6 +55,7 @@ class ActiveFaces {
 
   std::vector<State> states_;  // per face of the surface's half-edge mesh
   std::vector<std::int32_t> active_, conflicts_;
+  std::size_t activations_ = 0;
 };
 
 /// Bisects invalid triangles of a mesh, those of the largest perimeter first, until none is left that a scheme bisects.

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "detail/poll.hpp"
+#include "surface/face_height.hpp"
 
 namespace seamwire {
 
@@ -18,20 +18,10 @@ using HalfedgeHandle = HalfEdgeMesh::HalfedgeHandle;
 using EdgeHandle = HalfEdgeMesh::EdgeHandle;
 using FaceHandle = HalfEdgeMesh::FaceHandle;
 
-// A face lower than this fraction of its longest edge is degenerate. Bisecting it never ends: so are its parts.
-constexpr double kDegenerate = 1e-9;
 // Lengths that differ by less than this fraction are equal: rounding depends on the scale of the input.
 constexpr double kEqual = 1e-9;
 // Passes over the degenerate faces, each because some could be removed in the one before.
 constexpr int kMostPasses = 64;
-
-}  // namespace
-
-bool is_degenerate(const Vector& a, const Vector& b, const Vector& c) {
-  return !(a.cross(b).norm() > kDegenerate * std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm()}));
-}
-
-namespace {
 
 /// Removes degenerate faces from a mesh.
 class DegenerateFaces {
@@ -100,7 +90,7 @@ Vector DegenerateFaces::vector(HalfedgeHandle h) const {
 
 bool DegenerateFaces::is_degenerate(FaceHandle f) const {
   const auto [a, b, c] = sides(f);
-  return seamwire::is_degenerate(vector(a), vector(b), vector(c));
+  return !has_area(vector(a), vector(b), vector(c));
 }
 
 // Collapses the shortest edge of a needle; false for other faces, and where that is impossible.
@@ -110,7 +100,7 @@ bool DegenerateFaces::collapse_needle(FaceHandle f) {
   };
   const auto all = sides(f);
   const auto [shortest, longest] = std::minmax_element(all.begin(), all.end(), by_length);
-  if (vector(*shortest).norm() > kDegenerate * vector(*longest).norm()) return false;
+  if (vector(*shortest).norm() > kNoArea * vector(*longest).norm()) return false;
   if (!has_collapsed_) {
     mesh_.request_vertex_status();
     mesh_.request_halfedge_status();
@@ -153,19 +143,9 @@ FaceHandle DegenerateFaces::flip_cap(FaceHandle f) {
 
 }  // namespace
 
-std::optional<CleanMesh> remove_degenerate_faces(const Surface& surface, const Metric& metric, const Task& task,
-                                                 double progress) {
-  const HalfEdgeMesh& mesh = surface.half_edges();
-  const double scale = surface.scale();
+std::optional<CleanMesh> remove_degenerate_faces(const Surface& surface, const Metric& metric) {
   std::vector<FaceHandle> degenerate;
-  Poll poll(task, progress, progress, mesh.n_faces());
-  for (const FaceHandle f : mesh.faces()) {
-    poll.next();
-    const HalfedgeHandle h = mesh.halfedge_handle(f);
-    const Vector &p = mesh.point(mesh.from_vertex_handle(h)), &q = mesh.point(mesh.to_vertex_handle(h)),
-                 &r = mesh.point(mesh.to_vertex_handle(mesh.next_halfedge_handle(h)));
-    if (is_degenerate((q - p) * scale, (r - q) * scale, (p - r) * scale)) degenerate.push_back(f);
-  }
+  for (const std::int32_t f : half_edge_faces(surface, surface.report().zero_area_faces)) degenerate.emplace_back(f);
   if (degenerate.empty()) return std::nullopt;
   return DegenerateFaces(surface, metric).remove(std::move(degenerate));
 }

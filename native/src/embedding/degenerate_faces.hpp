@@ -14,9 +14,6 @@
 
 namespace seamwire {
 
-/// Whether a triangle with these sides is degenerate: lower than 1e-9 of its longest side.
-bool is_degenerate(const Vector& a, const Vector& b, const Vector& c);
-
 /// A surface's half-edge mesh without those degenerate faces that could be removed.
 struct CleanMesh {
   HalfEdgeMesh mesh;
@@ -26,10 +23,9 @@ struct CleanMesh {
   std::size_t removed = 0;  ///< how many fewer degenerate faces there are
 };
 
-/// Removes degenerate faces, across which no path could go, on a copy of the half-edge mesh: needles, whose shortest
-/// edge has no length, by collapsing that edge; caps by flipping their longest edge. Faces of which neither is possible
-/// stay. Nothing where the surface has no degenerate face. The task is told `progress`.
-std::optional<CleanMesh> remove_degenerate_faces(const Surface& surface, const Metric& metric, const Task& task,
-                                                 double progress);
+/// Removes degenerate faces, which have no area (SurfaceReport::zero_area_faces), so no path could go across them, on a
+/// copy of the half-edge mesh: needles, whose shortest edge has no length, by collapsing that edge; caps by flipping
+/// their longest edge. Faces of which neither is possible stay. Nothing where the surface has no degenerate face.
+std::optional<CleanMesh> remove_degenerate_faces(const Surface& surface, const Metric& metric);
 
 }  // namespace seamwire

@@ -70,6 +70,7 @@ std::optional<Embedding> re_embed_locally(const Surface& surface, const Metric& 
   if (bisection.has_decayed()) return std::nullopt;
   Embedding out = std::move(bisection).to_embedding();
   out.invalid_before = invalid_before;
+  out.faces_embedded = active.activations();
   return out;
 }
 

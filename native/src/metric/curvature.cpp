@@ -15,13 +15,10 @@
 #include "detail/prefetch.hpp"
 #include "metric/tangent_frame.hpp"
 #include "seamwire/surface/half_edge_mesh.hpp"
+#include "surface/face_height.hpp"
 
 namespace seamwire {
 namespace {
-
-// A triangle lower than this, on the unit cube's scale, tells nothing of the surface's direction: so high does storing
-// coordinates as 32-bit floats make triangles whose corners are in line. Fits to them make curvatures of any size.
-constexpr double kLeastHeight = 0x1p-22;
 
 // Faces whose corners memory is asked for in advance.
 constexpr std::size_t kAhead = 8;
@@ -31,11 +28,25 @@ struct FaceShape {
   std::array<double, 3> squared_lengths;
   Vector cross;  // along the normal, twice the area long
   double squared_cross;
+};
 
-  double longest_squared() const { return std::max({squared_lengths[0], squared_lengths[1], squared_lengths[2]}); }
-  bool is_usable() const {
-    return squared_cross > 0.0 && squared_cross >= kLeastHeight * kLeastHeight * longest_squared();
+// Low faces, met one by one in a pass over all faces: fits to them would make curvatures of any size.
+class LowFaces {
+ public:
+  explicit LowFaces(const Surface& surface)
+      : faces_(half_edge_faces(surface, surface.report().low_faces)), next_(faces_.begin()) {}
+
+  const std::vector<std::int32_t>& all() const { return faces_; }
+  // Whether a face is low; each is asked for once, in their order.
+  bool meets(std::size_t face) {
+    if (next_ == faces_.end() || static_cast<std::size_t>(*next_) != face) return false;
+    ++next_;
+    return true;
   }
+
+ private:
+  std::vector<std::int32_t> faces_;
+  std::vector<std::int32_t>::const_iterator next_;
 };
 
 // Of the face whose corners are the given points.
@@ -54,14 +65,14 @@ Vector normalized_or_zero(const Vector& v) {
   return length > 0.0 ? Vector(v / length) : Vector(Vector::Zero());
 }
 
-// Gives fans of none but flat triangles the direction of the widest of them.
-void complete(const Surface& surface, const std::vector<std::size_t>& flat, std::vector<Vector>& normals) {
+// Gives fans of none but low triangles the direction of the widest of them.
+void complete(const Surface& surface, const std::vector<std::int32_t>& low, std::vector<Vector>& normals) {
   struct Wide {
-    std::size_t face;
+    std::int32_t face;
     Vector cross;
   };
   std::vector<Wide> wide;
-  for (const std::size_t f : flat) {
+  for (const std::int32_t f : low) {
     const Vector cross = face_shape(surface.half_edges().points(), surface.face_fans()[f], surface.scale()).cross;
     if (cross.norm() > 0.0) wide.push_back({f, cross});
   }
@@ -78,7 +89,7 @@ std::vector<Vector> fan_normals(const Surface& surface, const Task& task) {
   std::vector<Vector> normals(surface.vertex_of_fan().size(), Vector::Zero());
   const std::vector<Triangle>& faces = surface.face_fans();
   const Vector* points = surface.half_edges().points();
-  std::vector<std::size_t> flat;
+  LowFaces low(surface);
   const Poll summing(task, 0.0, 0.2, faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f) {
     summing.at(f);
@@ -88,11 +99,8 @@ std::vector<Vector> fan_normals(const Surface& surface, const Task& task) {
         prefetch(&normals[fan]);
       }
     }
+    if (low.meets(f)) continue;
     const FaceShape shape = face_shape(points, faces[f], surface.scale());
-    if (!shape.is_usable()) {
-      flat.push_back(f);
-      continue;
-    }
     // One over the squared lengths of the two edges at each corner.
     const auto& [a, b, c] = shape.squared_lengths;
     const Vector weighted = shape.cross / (a * b * c);
@@ -105,7 +113,7 @@ std::vector<Vector> fan_normals(const Surface& surface, const Task& task) {
     normalizing.next();
     normal = normalized_or_zero(normal);
   }
-  if (!flat.empty()) complete(surface, flat, normals);
+  if (!low.all().empty()) complete(surface, low.all(), normals);
   return normals;
 }
 
@@ -157,9 +165,6 @@ struct Fit {
   }
 };
 
-// Where the normals of two planes are opposite but for this, the least rotation from one to the other is not defined.
-constexpr double kOpposite = 1e-12;
-
 // A frame as seen from another one, whose own vectors are u, v and normal.
 struct SeenFrame {
   double normal_u, normal_v, normal_normal, u_u, u_v, u_normal;
@@ -176,7 +181,7 @@ struct SeenFrame {
   // applied to the components of u here. Where the normals are opposite any rotation is as good: leave u.
   Form carried(const Form& form) const {
     const double sum = 1.0 + normal_normal;
-    const bool is_opposite = sum < kOpposite;
+    const bool is_opposite = sum < kOppositeNormals;
     const double part = is_opposite ? 0.0 : u_normal / sum;
     const double c = u_u - part * normal_u, s = u_v - part * normal_v;
     const double c2 = c * c - s * s, s2 = 2.0 * c * s;
@@ -254,6 +259,7 @@ std::vector<Fit> fit_fans(const Surface& surface, const std::vector<TangentFrame
   const Vector* points = surface.half_edges().points();
   std::vector<Fit> fits;
   resize(fits, frames.size(), task, 0.3);
+  LowFaces low(surface);
   const Poll poll(task, 0.3, 0.8, faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f) {
     poll.at(f);
@@ -264,9 +270,9 @@ std::vector<Fit> fit_fans(const Surface& surface, const std::vector<TangentFrame
         prefetch(&fits[fan]);
       }
     }
+    if (low.meets(f)) continue;
     const Triangle& fans = faces[f];
     const FaceShape shape = face_shape(points, fans, surface.scale());
-    if (!shape.is_usable()) continue;
     fit_face(shape, {&frames[fans[0]], &frames[fans[1]], &frames[fans[2]]},
              {&fits[fans[0]], &fits[fans[1]], &fits[fans[2]]});
   }

@@ -21,9 +21,6 @@ constexpr double kNoDifference = 1e-9;
 // Smallest beta, as a fraction of the largest k1^2: where k1 = k2 = 0 the norm would vanish without it.
 constexpr double kSmallestBeta = 1e-12;
 
-// Normals whose sum is shorter than this have no direction in the middle.
-constexpr double kNoDirection = 1e-6;
-
 void check_curvature(const Surface& surface, const Curvature& curvature, const Task& task) {
   const std::size_t n = surface.vertex_count();
   for (const std::size_t size :
@@ -249,7 +246,7 @@ double ambient_norm(const TensorAt& at, const Vector& e) {
 TensorAt midpoint_tensor(const TensorAt& a, const TensorAt& b) {
   Vector n = a.normal + b.normal;
   const double length = n.norm();
-  n = length > kNoDirection ? Vector(n / length) : a.normal;
+  n = length * length > 2 * kOppositeNormals ? Vector(n / length) : a.normal;
   return {n, (turned_by_least_rotation(a.tensor, a.normal, n) + turned_by_least_rotation(b.tensor, b.normal, n)) / 2};
 }
 

@@ -34,8 +34,8 @@ inline TangentFrame fast_tangent_frame(const Vector& n) {
 //   d - (d.n) / (1 + m.n) (m + n).
 // It is not defined where the normals are opposite; the tangent planes are the same then.
 
-/// Normals with 1 + m.n below this are opposite.
-constexpr double kOppositeNormals = 1e-6;
+/// Normals with 1 + m.n = |m + n|^2 / 2 below this are opposite: rounding of 1e-16 is then 1e-4 of it.
+inline constexpr double kOppositeNormals = 1e-12;
 
 /// A tangent vector after the least rotation from one normal to another; as it is where they are opposite.
 inline Vector turned_by_least_rotation(const Vector& d, const Vector& from, const Vector& to) {

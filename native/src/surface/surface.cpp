@@ -16,6 +16,7 @@
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "seamwire/surface/half_edge_mesh.hpp"
+#include "surface/face_height.hpp"
 
 namespace seamwire {
 namespace {
@@ -452,11 +453,9 @@ double unit_cube_scale(const std::vector<Vector>& points, const std::vector<bool
   return side >= std::numeric_limits<double>::min() ? 1.0 / side : 1.0;
 }
 
-// Below this times its longest side, a triangle's height is nothing but rounding.
-constexpr double kZeroHeight = 1e-12;
-
-// Areas on the unit cube's scale; 0 where a triangle's corners are in line.
-std::vector<double> face_areas(const std::vector<Vector>& points, const Faces& faces, double scale, const Task& task) {
+// Areas on the unit cube's scale, 0 where a triangle has none; and a report of the faces without one, and of low ones.
+std::vector<double> face_areas(const std::vector<Vector>& points, const Faces& faces, double scale,
+                               SurfaceReport& report, const Task& task) {
   std::vector<double> areas;
   areas.reserve(faces.corners.size());
   Poll poll(task, 0.5, 0.55, faces.corners.size());
@@ -466,8 +465,12 @@ std::vector<double> face_areas(const std::vector<Vector>& points, const Faces& f
     const Vector bc = scale * (points[c] - points[b]);
     const Vector ca = scale * (points[a] - points[c]);
     const double longest = std::max({ab.squaredNorm(), bc.squaredNorm(), ca.squaredNorm()});
-    const double area = 0.5 * ab.cross(bc).norm();
-    areas.push_back(2.0 * area > kZeroHeight * longest ? area : 0.0);
+    const double squared_cross = ab.cross(bc).squaredNorm();
+    const Index source = faces.source[areas.size()];
+    const bool is_flat = !has_area(ab, bc, ca);
+    areas.push_back(is_flat ? 0.0 : 0.5 * std::sqrt(squared_cross));
+    if (is_flat) report.zero_area_faces.push_back(source);
+    if (is_flat || squared_cross < kLeastHeight * kLeastHeight * longest) report.low_faces.push_back(source);
   }
   return areas;
 }
@@ -529,11 +532,10 @@ Surface::Surface(std::vector<Vector> points, std::vector<Triangle> triangles, st
   report_.components = count_components(used, {&gluing.carried, &connecting}, task);
 
   task.check(0.5);
-  const std::vector<double> areas = face_areas(points_, faces, scale_, task);
+  const std::vector<double> areas = face_areas(points_, faces, scale_, report_, task);
   task.check(0.55);
   const std::vector<bool> flipped = find_flips(faces, gluing.twin, areas, task);
   for (Index f = 0; f < faces.count(); ++f) {
-    if (areas[f] == 0.0) report_.zero_area_faces.push_back(faces.source[f]);
     if (flipped[f]) report_.flipped_faces.push_back(faces.source[f]);
   }
   cut_unorientable(faces, flipped, gluing.twin, report_.unorientable_edges);

@@ -40,7 +40,10 @@ struct Embedding {
   /// two lengths.
   std::size_t clamped_edges = 0;
   double worst_clamp = 1.0;  ///< that factor, 1 or more
-  bool is_local = false;     ///< re_embed() can go on from it: see there
+  /// Faces of the surface that were embedded, counted again where that was begun anew: all, or after re_embed() those
+  /// that the change has reached.
+  std::size_t faces_embedded = 0;
+  bool is_local = false;  ///< re_embed() can go on from it: see there
   std::vector<std::int32_t>
       unreachable;  ///< the caller's vertices in a face, but in no valid triangle and on no edge to run along
 };

@@ -9,7 +9,7 @@
 namespace seamwire {
 
 /// Principal curvatures at the caller's vertices, of the model scaled to the unit cube (unit: 1 / side of the cube).
-/// Never infinite or NaN. Triangles lower than 2^-22 of the cube (corners in line but for 32-bit rounding) are skipped;
+/// Never infinite or NaN. Triangles lower than 2^-22 of the cube (SurfaceReport::low_faces) are skipped;
 /// a vertex with no other has curvature 0, and a zero normal if none has any area. A vertex of several corner fans
 /// takes the side of its first fan: fans that face the other way count turned over, each fitted with its own normals.
 struct Curvature {

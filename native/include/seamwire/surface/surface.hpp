@@ -21,7 +21,12 @@ struct SurfaceReport {
   std::vector<Edge> nonmanifold_edges;      ///< edges with three or more faces: the surface is cut open there
   std::vector<Edge> unorientable_edges;     ///< cut open because the faces could not be oriented alike (Moebius strip)
   std::vector<std::int32_t> flipped_faces;  ///< turned over to agree with their neighbors
-  std::vector<std::int32_t> zero_area_faces;    ///< three different corners in line: kept
+  /// Lower than 1e-9 of their longest side, with three different corners: kept, but an embedding removes them, or
+  /// leaves them as holes.
+  std::vector<std::int32_t> zero_area_faces;
+  /// Lower than 2^-22 of the unit cube, those without an area among them: kept, but which way they face is nothing but
+  /// rounding, so normals and curvature leave them out.
+  std::vector<std::int32_t> low_faces;
   std::vector<std::int32_t> degenerate_faces;   ///< two corners are one vertex: left out, their edges stay
   std::vector<std::int32_t> duplicate_faces;    ///< same three vertices as an earlier face: left out
   std::vector<std::int32_t> isolated_vertices;  ///< in no face and no edge
