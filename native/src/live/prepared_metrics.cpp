@@ -7,9 +7,9 @@
 namespace seamwire {
 namespace {
 
-/// An artist waits for an embedding, and one that runs away is better cut short, with small holes: at most so many
-/// triangles are added, or so many times the surface's.
-constexpr std::size_t kFacesAdded = 200'000, kFacesAddedPerFace = 12;
+/// An artist waits for an embedding, and one that runs away is better cut short: at most so many times the surface's
+/// triangles are added, but no fewer than the first number and no more than the last.
+constexpr std::size_t kLeastFacesAdded = 200'000, kFacesAddedPerFace = 12, kMostFacesAdded = 1'000'000;
 
 Metric make_metric(const Surface& surface, const Curvature& curvature, Follow follow, const MetricPair& metrics,
                    const Task& task) {
@@ -94,7 +94,7 @@ Prepared prepare(SurfaceCache& surface_cache, Along along, MetricPair& metrics, 
     return true;
   };
   if (on_surface) {
-    const std::size_t most = std::max(kFacesAdded, kFacesAddedPerFace * surface.face_count());
+    const std::size_t most = std::clamp(kFacesAddedPerFace * surface.face_count(), kLeastFacesAdded, kMostFacesAdded);
     const EmbedOptions options{.max_faces_added = most};
     const std::shared_ptr<const Prepared> former = metrics.former(which);
     prepared.embedding = former ? re_embed(surface, former->metric, metric, *former->embedding, options, task)
