@@ -157,6 +157,7 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh) {
   });
   list_hops();
   find_pseudo_sources();
+  internal_face_ = std::move(internal_face);
 }
 
 /// For each vertex the half-edges that leave it.
