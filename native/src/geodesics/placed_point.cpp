@@ -15,7 +15,9 @@ namespace {
 /// The sum of barycentric coordinates may miss 1 by this much.
 constexpr double kSumTolerance = 1e-9;
 
-std::array<double, 3> checked(const std::array<double, 3>& barycentric, const std::string& what) {
+}  // namespace
+
+std::array<double, 3> checked_barycentric(const std::array<double, 3>& barycentric, const std::string& what) {
   double sum = 0.0;
   for (const double b : barycentric) {
     if (!(b >= 0) || !std::isfinite(b)) {
@@ -28,8 +30,6 @@ std::array<double, 3> checked(const std::array<double, 3>& barycentric, const st
   }
   return {barycentric[0] / sum, barycentric[1] / sum, barycentric[2] / sum};
 }
-
-}  // namespace
 
 PlacedPoint PlacedPoint::in_face(const GeodesicMesh& mesh, const InFace& first) {
   PlacedPoint point{.vertex = -1, .faces = {first}};
@@ -58,7 +58,7 @@ PlacedPoint PlacedPoint::of(const GeodesicMesh& mesh, const SurfacePoint& point,
     return at_vertex(mesh.internal_vertex(point.vertex));
   }
   check_index(point.face, mesh.half_edge_count() / 3, what + ": face", "faces");
-  const std::array<double, 3> weights = checked(point.barycentric, what);
+  const std::array<double, 3> weights = checked_barycentric(point.barycentric, what);
   const std::int32_t face = mesh.internal_face(point.face);
   for (std::int32_t i = 0; i < 3; ++i) {
     if (weights[(i + 1) % 3] == 0 && weights[(i + 2) % 3] == 0) return at_vertex(mesh.half_edge(3 * face + i).tail);

@@ -41,6 +41,9 @@ inline Point2 position(const GeodesicMesh& mesh, std::int32_t h, const std::arra
   return {tip * edge.length + apex * edge.apex_x, apex * edge.apex_y};
 }
 
+/// Barycentric coordinates with the sum 1. Throws InvalidInput, which begins with `what`, for those that are none.
+std::array<double, 3> checked_barycentric(const std::array<double, 3>& barycentric, const std::string& what);
+
 /// A SurfacePoint in internal numbers: a vertex, or a point in one face, or in the two faces of an edge. Where faces
 /// have no height, in all those whose edges it is on.
 struct PlacedPoint {

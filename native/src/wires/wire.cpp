@@ -108,13 +108,19 @@ Wire map_wire(const Surface& surface, const Embedding& embedding, const Intrinsi
 Wire trace_wire(const Surface& surface, const Embedding& embedding, const DistanceField& field, std::int32_t vertex,
                 const Task& task) {
   check_index(vertex, surface.vertex_count(), "vertex");
+  Wire wire = trace_wire(surface, embedding, field, SurfacePoint::at_vertex(vertex), task);
+  wire.to = vertex;
+  return wire;
+}
+
+Wire trace_wire(const Surface& surface, const Embedding& embedding, const DistanceField& field,
+                const SurfacePoint& point, const Task& task) {
   if (field.distances().size() != embedding.points.size()) {
     throw InvalidInput("the field is of another embedding: it has " + std::to_string(field.distances().size()) +
                        " vertices, the embedding " + std::to_string(embedding.points.size()));
   }
-  Wire wire = map_wire(surface, embedding, field.trace(vertex, task));
-  wire.from = index(field.seed()) < surface.vertex_count() ? field.seed() : -1;
-  wire.to = vertex;
+  Wire wire = map_wire(surface, embedding, field.trace(point, task));
+  if (const std::int32_t seed = field.seed(); seed >= 0) wire.from = index(seed) < surface.vertex_count() ? seed : -1;
   return wire;
 }
 
