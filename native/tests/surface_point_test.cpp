@@ -187,6 +187,30 @@ TEST(SurfacePoints, NextToAnEdgeIsAsGoodAsOnIt) {
   }
 }
 
+TEST(SurfacePoints, NextToAVertexIsAsGoodAsAtIt) {
+  for (const auto& [name, mesh] : meshes()) {
+    const ExactGeodesics geodesics(mesh);
+    for (const double away : {1e-13, 2e-16, 1.2e-16, 1e-17, 1e-200, 1e-310}) {
+      for (std::int32_t face = 0; index(face) < mesh.face_count(); face += 29) {
+        SCOPED_TRACE(name + ", face " + std::to_string(face) + ", " + std::to_string(std::log10(away)));
+        const DistanceField expected = geodesics.solve(mesh.triangles[index(face)][1]);
+        for (const SurfacePoint& beside : {at(face, away, 1 - 3 * away, 2 * away), at(face, away, 1 - away, 0)}) {
+          const DistanceField field = geodesics.solve(std::array{beside});
+          for (std::int32_t v = 0; v < mesh.vertex_count; v += 3) {
+            const double distance = expected.distances()[index(v)];
+            if (std::isinf(distance)) continue;
+            ASSERT_NEAR(field.distances()[index(v)], distance, kTolerance) << v;
+            EXPECT_NEAR(field.trace(v).length, distance, kTolerance) << v;
+          }
+          const SurfacePoint far = at(static_cast<std::int32_t>(mesh.face_count()) / 2, 0.3, 0.3, 0.4);
+          EXPECT_NEAR(field.distance(far), expected.distance(far), kTolerance);
+          EXPECT_NEAR(geodesics.solve(std::array{far}).trace(beside).length, expected.distance(far), kTolerance);
+        }
+      }
+    }
+  }
+}
+
 TEST(SurfacePoints, CoordinatesThatAreAVertexAreThatVertexToTheBit) {
   for (const auto& [name, mesh] : meshes()) {
     const ExactGeodesics geodesics(mesh);
@@ -333,7 +357,7 @@ TEST(SurfacePoints, FacesWithoutHeightHaveTheirPoints) {
   square.triangles = {{0, 1, 2}, {0, 2, 4}, {0, 4, 3}, {4, 2, 3}};
   const IntrinsicMesh mesh = shapes::intrinsic(square);
   const ExactGeodesics geodesics(mesh);
-  const DistanceField field = geodesics.solve(std::array{at(1, 0.3, 0.3, 0.4)});  // at (0.5, 0.5)
+  const DistanceField field = geodesics.solve(std::array{at(1, 0.3, 0.3, 0.4)});   // at (0.5, 0.5)
   const DistanceField beside = geodesics.solve(std::array{at(1, 0.5, 0.2, 0.3)});  // at (0.35, 0.35)
   EXPECT_NEAR(field.distances()[1], std::sqrt(0.5), 1e-14);
   EXPECT_NEAR(field.distances()[3], std::sqrt(0.5), 1e-14);
@@ -370,7 +394,9 @@ TEST(SurfacePoints, WhatIsNoPointIsRefused) {
     EXPECT_EQ(message([&] { field.distance(point); }), "point: " + what);
     EXPECT_EQ(message([&] { field.trace(point); }), "point: " + what);
     EXPECT_EQ(message([&] { geodesics.solve(std::array{right, point}); }), "source 1: " + what);
-    EXPECT_EQ(message([&] { geodesics.solve(std::array{right}, {.targets = {right, right, point}}); }),
+    EXPECT_EQ(message([&] {
+                geodesics.solve(std::array{right}, {.targets = {right, right, point}});
+              }),
               "target 2: " + what);
   }
   EXPECT_EQ(message([&] { field.distance(at(3, 0.2 + 1e-10, 0.3, 0.5)); }), "taken");

@@ -15,7 +15,7 @@ namespace seamwire {
 struct DistanceField::Data {
   std::shared_ptr<const GeodesicMesh> mesh;
   std::vector<SurfacePoint> given_sources;
-  SourcePoints sources;                   ///< the same in internal numbers
+  SourcePoints sources;              ///< the same in internal numbers
   std::vector<double> distances;     ///< in external numbers
   std::vector<TraceRecord> records;  ///< in internal numbers
   bool is_exact;

@@ -54,14 +54,14 @@ DistanceField ExactGeodesics::run(std::span<const SurfacePoint> sources, const S
   for (std::size_t v = 0; v < distances.size(); ++v) {
     distances[mesh_->external_vertex(static_cast<std::int32_t>(v))] = result.distances[v];
   }
-  return DistanceField(std::make_shared<const DistanceField::Data>(
-      DistanceField::Data{.mesh = mesh_,
-                          .given_sources = {sources.begin(), sources.end()},
-                          .sources = std::move(from),
-                          .distances = std::move(distances),
-                          .records = std::move(result.records),
-                          .is_exact = windows == 0,
-                          .radius = result.radius}));
+  return DistanceField(
+      std::make_shared<const DistanceField::Data>(DistanceField::Data{.mesh = mesh_,
+                                                                      .given_sources = {sources.begin(), sources.end()},
+                                                                      .sources = std::move(from),
+                                                                      .distances = std::move(distances),
+                                                                      .records = std::move(result.records),
+                                                                      .is_exact = windows == 0,
+                                                                      .radius = result.radius}));
 }
 
 }  // namespace seamwire

@@ -92,8 +92,8 @@ class Tracer {
     if (!is_point(source)) return false;
     const HalfEdge& edge = mesh_.half_edge(h);
     return std::ranges::any_of(point(source).faces, [&](const PlacedPoint::InFace& in) {
-      return in.face == h / 3 && distance(position(mesh_, h, in.weights), place) <=
-                                     kSameVertex * std::max(edge.length, edge.left_length);
+      return in.face == h / 3 &&
+             distance(position(mesh_, h, in.weights), place) <= kSameVertex * std::max(edge.length, edge.left_length);
     });
   }
 
@@ -200,7 +200,8 @@ class Tracer {
 std::optional<IntrinsicPath> trace_records(const SolvedDistances& solved, const std::vector<TraceRecord>& records,
                                            const PlacedPoint& target, const Task& task) {
   if (target.vertex >= 0) {
-    return Tracer(solved, records).run(target.vertex, {.points = {{.vertex = target.vertex}}, .faces = {}, .length = 0});
+    return Tracer(solved, records)
+        .run(target.vertex, {.points = {{.vertex = target.vertex}}, .faces = {}, .length = 0});
   }
   StraightStart start = find_straight_start(solved, target, task);
   if (start.vertex < 0) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 #include "detail/index.hpp"
@@ -14,6 +15,8 @@ namespace {
 
 /// The sum of barycentric coordinates may miss 1 by this much.
 constexpr double kSumTolerance = 1e-9;
+/// A coordinate below it changes no sum with the others. It counts as 0: squares of less might vanish.
+constexpr double kLeastWeight = std::numeric_limits<double>::epsilon() / 2;
 
 }  // namespace
 
@@ -28,7 +31,12 @@ std::array<double, 3> checked_barycentric(const std::array<double, 3>& barycentr
   if (!(std::abs(sum - 1) <= kSumTolerance)) {
     throw InvalidInput(what + ": the barycentric coordinates' sum is " + text(sum) + ", not 1");
   }
-  return {barycentric[0] / sum, barycentric[1] / sum, barycentric[2] / sum};
+  std::array<double, 3> weights{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double weight = barycentric[i] / sum;
+    if (weight >= kLeastWeight) weights[i] = weight;
+  }
+  return weights;
 }
 
 PlacedPoint PlacedPoint::in_face(const GeodesicMesh& mesh, const InFace& first) {

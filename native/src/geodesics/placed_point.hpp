@@ -52,7 +52,7 @@ struct PlacedPoint {
     std::array<double, 3> weights;
   };
 
-  std::int32_t vertex = -1;    ///< -1: in `faces`
+  std::int32_t vertex = -1;   ///< -1: in `faces`
   std::vector<InFace> faces;  ///< empty for a vertex
 
   static PlacedPoint at_vertex(std::int32_t v) { return {.vertex = v, .faces = {}}; }

@@ -75,8 +75,10 @@ class PointSearch {
       queue_.pop();
       follow(beam);
     }
-    if (best_.distance <= solved_.radius && best_.distance < kInfinity) list_path();
-    else best_ = {};
+    if (best_.distance <= solved_.radius && best_.distance < kInfinity)
+      list_path();
+    else
+      best_ = {};
     return std::move(best_);
   }
 
@@ -199,8 +201,8 @@ class PointSearch {
       const Beam& beam = beams_[b];
       const double length = mesh_.half_edge(beam.half_edge).length;
       path.faces.push_back(beam.half_edge / 3);
-      path.points.push_back({.half_edge = beam.half_edge,
-                             .t = std::clamp(meets_base(beam.point, end), beam.begin, beam.end) / length});
+      path.points.push_back(
+          {.half_edge = beam.half_edge, .t = std::clamp(meets_base(beam.point, end), beam.begin, beam.end) / length});
       last = mesh_.twin(beam.half_edge);
       if (beam.parent < 0) break;
       const HalfEdge& before = mesh_.half_edge(beams_[beam.parent].half_edge);

@@ -25,8 +25,8 @@ struct SolvedDistances {
 /// The shortest path from a point in a face, as far as it is straight: to a vertex or to a source.
 struct StraightStart {
   double distance = std::numeric_limits<double>::infinity();  ///< of the point; infinite: no path, or beyond the radius
-  std::int32_t vertex = -1, source = -1;  ///< where it ends; one of them is -1
-  IntrinsicPath path;                     ///< from the point to there, in internal numbers; its length is the straight part's
+  std::int32_t vertex = -1, source = -1;                      ///< where it ends; one of them is -1
+  IntrinsicPath path;  ///< from the point to there, in internal numbers; its length is the straight part's
 };
 
 /// Finds the distance of a point that is no vertex, and how its shortest path begins.

@@ -7,8 +7,9 @@
 // A window says: through the interval [b0, b1] of this half-edge the source (x, y) is seen in a straight line, when the
 // triangles in between are unfolded. The front carries lists of windows from triangle to triangle, vertex by vertex in
 // the order of their distance. A shortest path may bend at pseudo-sources only (GeodesicMesh::is_pseudo_source), which
-// emit windows themselves, and so do sources, vertices and points in faces. Windows that no shortest path can come through are dropped. Those that stay may overlap:
-// only neighbors in a list are compared, and only on the edge itself. The arithmetic is in window_kernels.
+// emit windows themselves, and so do sources, vertices and points in faces. Windows that no shortest path can come
+// through are dropped. Those that stay may overlap: only neighbors in a list are compared, and only on the edge itself.
+// The arithmetic is in window_kernels.
 //
 // A path through what is dropped is longer than another path, or as long up to rounding. In the latter case a sliver
 // may be lost, next to a path of the same length.
@@ -38,6 +39,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kShadowMargin = 1e-3;
 /// A source whose distance falls by less than this part of it does not emit windows again: that is rounding.
 constexpr double kLeastGain = 1e-13;
+/// A source is next to a corner of its face below this part of a side.
+constexpr double kNextToCorner = 1e-2;
 /// Windows (a list counts as some) between two looks at the task: a fraction of a millisecond.
 constexpr std::size_t kWorkBetweenChecks = 8192;
 constexpr std::size_t kWorkOfAList = 8;
@@ -88,7 +91,16 @@ class Wavefront {
  private:
   double distance(std::int32_t v) const { return result_.distances[v]; }
   /// Of a vertex that the front has reached.
-  bool is_source(std::int32_t v) const { return result_.records[v].half_edge == TraceRecord::kNone; }
+  bool is_source(std::int32_t v) const {
+    const TraceRecord& record = result_.records[v];
+    return record.half_edge == TraceRecord::kNone || is_next_to_source(v, record);
+  }
+  /// A path from a point that close to a corner is as long over the corner, up to rounding, in directions in which it
+  /// may be dropped for that. So the corner emits windows too, all around.
+  bool is_next_to_source(std::int32_t v, const TraceRecord& record) const {
+    return record.half_edge >= 0 && record.y >= 0 &&
+           distance(v) < kNextToCorner * mesh_.half_edge(record.half_edge).left_length;
+  }
 
   double longest_edge() const {
     double longest = 0.0;
@@ -228,6 +240,7 @@ class Wavefront {
   /// that half-edge; -1 at a source and where it comes along a loose edge.
   std::pair<std::int32_t, double> arrival_at(std::int32_t v) const {
     const TraceRecord& record = result_.records[v];
+    if (is_next_to_source(v, record)) return {-1, 0.0};
     if (record.half_edge >= 0) {
       const HalfEdge& edge = mesh_.half_edge(record.half_edge);
       const double x = record.x - edge.apex_x, y = record.y - edge.apex_y;
@@ -575,7 +588,7 @@ class Wavefront {
   const Task& task_;
   const SourcePoints& sources_;
   const WavefrontEnd& end_;
-  double longest_edge_ = 0.0;      ///< known where the front may stop
+  double longest_edge_ = 0.0;     ///< known where the front may stop
   std::size_t targets_done_ = 0;  ///< of end_.targets, so many have their final distances
   std::uint32_t windows_kept_;
   WavefrontResult result_;

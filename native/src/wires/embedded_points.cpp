@@ -83,14 +83,14 @@ EmbeddedPoints::~EmbeddedPoints() = default;
 EmbeddedPoints::EmbeddedPoints(EmbeddedPoints&&) noexcept = default;
 EmbeddedPoints& EmbeddedPoints::operator=(EmbeddedPoints&&) noexcept = default;
 
-std::optional<SurfacePoint> EmbeddedPoints::find(const SurfacePoint& point) const {
+std::optional<SurfacePoint> EmbeddedPoints::find(const SurfacePoint& point, const std::string& what) const {
   const Surface& surface = *impl_->surface;
   if (point.vertex >= 0) {
-    check_index(point.vertex, surface.vertex_count(), "point: vertex");
+    check_index(point.vertex, surface.vertex_count(), what + ": vertex");
     return point;
   }
-  check_index(point.face, surface.face_count(), "point: face", "faces");
-  const Weights at = checked_barycentric(point.barycentric, "point");
+  check_index(point.face, surface.face_count(), what + ": face", "faces");
+  const Weights at = checked_barycentric(point.barycentric, what);
   for (std::size_t i = 0; i < 3; ++i) {
     if (at[(i + 1) % 3] == 0 && at[(i + 2) % 3] == 0) {
       return SurfacePoint::at_vertex(surface.triangles()[point.face][i]);

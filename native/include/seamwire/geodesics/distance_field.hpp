@@ -29,9 +29,9 @@ struct IntrinsicPath {
   double length = std::numeric_limits<double>::infinity();  ///< sum of the segments' lengths
 };
 
-/// Distances from a seed, or from the nearest of several sources, to every point of an IntrinsicMesh, with what it takes
-/// to trace the paths; exact, or from a bounded number of windows (ExactGeodesics makes both). Immutable; copies share
-/// the data.
+/// Distances from a seed, or from the nearest of several sources, to every point of an IntrinsicMesh, with what it
+/// takes to trace the paths; exact, or from a bounded number of windows (ExactGeodesics makes both). Immutable; copies
+/// share the data.
 class DistanceField {
  public:
   std::int32_t seed() const;  ///< the vertex that distances are from; -1: several, or a point that is none
@@ -53,8 +53,8 @@ class DistanceField {
   IntrinsicPath trace(std::int32_t vertex, const Task& task = {}) const;
 
   /// The distance of any point: exact too, not interpolated from the vertices; in time about proportional to the
-  /// triangles that the path crosses. Where the field is not exact, the length of trace(). Infinite where no path leads,
-  /// or beyond radius().
+  /// triangles that the path crosses. Where the field is not exact, the length of trace(). Infinite where no path
+  /// leads, or beyond radius().
   ///
   /// Throws InvalidInput for a vertex or a face out of range, and for barycentric coordinates that are not finite, less
   /// than 0, or whose sum is not 1; Cancelled.

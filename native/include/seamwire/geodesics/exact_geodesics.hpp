@@ -44,14 +44,14 @@ class ExactGeodesics {
   /// Throws InvalidInput for a seed out of range; Cancelled.
   DistanceField solve(std::int32_t seed, const Task& task = {}, GeodesicCounters* counters = nullptr) const;
 
-  /// Distances from the nearest of one or several sources, each any point of the mesh. Throws InvalidInput for no source,
-  /// for sources and targets as DistanceField::distance() does, and for a max_distance that is negative or not a number;
-  /// Cancelled.
+  /// Distances from the nearest of one or several sources, each any point of the mesh. Throws InvalidInput for no
+  /// source, for sources and targets as DistanceField::distance() does, and for a max_distance that is negative or not
+  /// a number; Cancelled.
   DistanceField solve(std::span<const SurfacePoint> sources, const SolveOptions& options = {}, const Task& task = {},
                       GeodesicCounters* counters = nullptr) const;
 
-  /// The same as from a seed, with at most `windows` > 0 windows of a list going on: those around the shortest way to the apex,
-  /// stretched over what the others covered. The more windows, the longer it takes and the nearer it comes
+  /// The same as from a seed, with at most `windows` > 0 windows of a list going on: those around the shortest way to
+  /// the apex, stretched over what the others covered. The more windows, the longer it takes and the nearer it comes
   /// (docs/benchmarks.md).
   DistanceField solve_bounded(std::int32_t seed, std::uint32_t windows, const Task& task = {},
                               GeodesicCounters* counters = nullptr) const;

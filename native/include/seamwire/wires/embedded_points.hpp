@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/surface/surface.hpp"
@@ -23,11 +24,12 @@ class EmbeddedPoints {
   EmbeddedPoints& operator=(EmbeddedPoints&&) noexcept;  ///< as moving
 
   /// The same point as one of the embedding, in time proportional to the parts of its face. What is on an edge of the
-  /// caller's, is on an edge of the embedding; vertices keep their numbers. Nothing where the embedding has a hole.
+  /// caller's, is on an edge of the embedding; vertices keep their numbers. Nothing where the embedding has a hole, or
+  /// the face no area.
   ///
-  /// Throws InvalidInput for a vertex or a face out of range, and for barycentric coordinates that are not finite, less
-  /// than 0, or whose sum is not 1.
-  std::optional<SurfacePoint> find(const SurfacePoint& point) const;
+  /// Throws InvalidInput, which begins with `what`, for a vertex or a face out of range, and for barycentric
+  /// coordinates that are not finite, less than 0, or whose sum is not 1.
+  std::optional<SurfacePoint> find(const SurfacePoint& point, const std::string& what = "point") const;
 
  private:
   struct Impl;
