@@ -98,8 +98,10 @@ int main() {
   //! [geodesics]
 
   //! [surface points]
-  const EmbeddedPoints points(*surface, embedding);  // the caller's faces, as the embedding has refined them
-  const auto on_face = [&](std::int32_t face) { return *points.find({.face = face, .barycentric = {0.2, 0.3, 0.5}}); };
+  const EmbeddedPoints embedded(*surface, embedding);  // the caller's faces, as the embedding has refined them
+  const auto on_face = [&](std::int32_t face) {
+    return *embedded.find({.face = face, .barycentric = {0.2, 0.3, 0.5}});
+  };
   const std::vector<SurfacePoint> sources{on_face(0), on_face(40)};
   const SurfacePoint point = on_face(100);
   const DistanceField nearest = geodesics.solve(sources, {.targets = {point}});  // stops when that is known

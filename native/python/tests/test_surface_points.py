@@ -101,7 +101,7 @@ def test_what_is_no_seed_is_refused(seed: object, message: str) -> None:
 def test_what_is_no_target_is_refused() -> None:
     field = sw.distance_field(STRETCHED, 0)
     for call in (field.distance, field.trace_to):
-        with pytest.raises(ValueError, match="sum is 0.5, not 1"):
+        with pytest.raises(ValueError, match=r"sum is 0\.5, not 1"):
             call(0, (0.5, 0, 0))
         with pytest.raises(ValueError, match="face -1 is out of range"):
             call(-1, (1, 0, 0))
