@@ -25,6 +25,7 @@
 #include "seamwire/surface/ray_tree.hpp"
 #include "seamwire/surface/segments.hpp"
 #include "seamwire/surface/surface.hpp"
+#include "seamwire/wires/embedded_points.hpp"
 #include "seamwire/wires/snap.hpp"
 #include "seamwire/wires/wire.hpp"
 
@@ -95,6 +96,18 @@ int main() {
   const DistanceField field = geodesics.solve(seed);
   say("distance across the torus", field.distances()[static_cast<std::size_t>(target)]);
   //! [geodesics]
+
+  //! [surface points]
+  const EmbeddedPoints embedded(*surface, embedding);  // the caller's faces, as the embedding has refined them
+  const auto on_face = [&](std::int32_t face) {
+    return *embedded.find({.face = face, .barycentric = {0.2, 0.3, 0.5}});
+  };
+  const std::vector<SurfacePoint> sources{on_face(0), on_face(40)};
+  const SurfacePoint point = on_face(100);
+  const DistanceField nearest = geodesics.solve(sources, {.targets = {point}});  // stops when that is known
+  say("distance of a point of a face", nearest.distance(point));
+  say("the same, along its wire", trace_wire(*surface, embedding, nearest, point).length);
+  //! [surface points]
 
   //! [first path]
   CorridorPaths paths(geodesics, seed);  // at once, without a field, and a little longer now and then

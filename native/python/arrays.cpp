@@ -146,20 +146,77 @@ std::vector<std::int32_t> numbers_from(py::handle value, const std::string& name
   return to;
 }
 
-std::int32_t vertex_from(py::handle value, std::size_t count, const std::string& name) {
+namespace {
+
+/// The number of one of `count` elements of a kind, "vertex" or "face".
+std::int32_t element_from(py::handle value, std::size_t count, const std::string& name, const std::string& kind,
+                          const char* kinds) {
   const PythonCall calling;
   const auto number = py::reinterpret_steal<py::object>(is_integer(value) ? PyNumber_Index(value.ptr()) : nullptr);
   if (!number) {
     PyErr_Clear();
-    throw InvalidInput(name + ": expected a vertex number, got a " + type_name(value));
+    throw InvalidInput(name + ": expected a " + kind + " number, got a " + type_name(value));
   }
   int overflow = 0;
   const long long vertex = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
   if (overflow != 0 || vertex < 0 || std::cmp_greater_equal(vertex, count)) {
-    throw InvalidInput(name + ": vertex " + std::string(py::str(number)) + " is out of range: there are " +
-                       std::to_string(count) + " vertices");
+    throw InvalidInput(name + ": " + kind + " " + std::string(py::str(number)) + " is out of range: there are " +
+                       std::to_string(count) + " " + kinds);
   }
   return static_cast<std::int32_t>(vertex);
+}
+
+/// -1 where it has no length: an array without dimensions is a sequence all the same.
+Py_ssize_t length_of(py::handle value) {
+  const Py_ssize_t length = PySequence_Check(value.ptr()) != 0 ? PySequence_Size(value.ptr()) : -1;
+  PyErr_Clear();
+  return length;
+}
+
+/// Whether it is meant as a face and coordinates in it, not as two points.
+bool is_face_point(py::handle value) {
+  if (length_of(value) != 2) return false;
+  const auto sequence = py::reinterpret_borrow<py::sequence>(value);
+  const py::object first = sequence[0], second = sequence[1];
+  return is_integer(first) && length_of(second) >= 0 && !is_face_point(second);
+}
+
+}  // namespace
+
+std::int32_t vertex_from(py::handle value, std::size_t count, const std::string& name) {
+  return element_from(value, count, name, "vertex", "vertices");
+}
+
+SurfacePoint face_point_from(py::handle face, py::handle barycentric, const Surface& surface, const std::string& name) {
+  const PythonCall calling;
+  SurfacePoint point{.face = element_from(face, surface.face_count(), name, "face", "faces")};
+  const std::vector<Vector> weights = points_from(py::make_tuple(barycentric), name + ": barycentric coordinates");
+  for (std::size_t i = 0; i < 3; ++i) point.barycentric[i] = weights.front()[static_cast<Eigen::Index>(i)];
+  return point;
+}
+
+SurfacePoint surface_point_from(py::handle value, const Surface& surface, const std::string& name) {
+  const PythonCall calling;
+  if (is_integer(value)) return SurfacePoint::at_vertex(vertex_from(value, surface.vertex_count(), name));
+  if (!is_face_point(value)) {
+    throw InvalidInput(name + ": expected a vertex number, or a face number with three coordinates, got a " +
+                       type_name(value));
+  }
+  const auto pair = py::reinterpret_borrow<py::sequence>(value);
+  return face_point_from(py::object(pair[0]), py::object(pair[1]), surface, name);
+}
+
+std::vector<SurfacePoint> surface_points_from(py::handle value, const Surface& surface, const std::string& name) {
+  const PythonCall calling;
+  const Py_ssize_t count = is_integer(value) || is_face_point(value) ? -1 : length_of(value);
+  if (count < 0) return {surface_point_from(value, surface, name)};
+  std::vector<SurfacePoint> points;
+  for (Py_ssize_t i = 0; i < count; ++i) {
+    const auto item = py::reinterpret_steal<py::object>(PySequence_GetItem(value.ptr(), i));
+    if (!item) throw py::error_already_set();
+    points.push_back(surface_point_from(item, surface, name + " " + std::to_string(i)));
+  }
+  return points;
 }
 
 Edge edge_from(py::handle value, std::size_t count, const std::string& name) {

@@ -13,6 +13,7 @@
 
 #include "seamwire/edges/edge_wires.hpp"
 #include "seamwire/surface/surface.hpp"
+#include "seamwire/surface/surface_point.hpp"
 
 /// Between NumPy's arrays and the library's vectors.
 namespace seamwire::python {
@@ -26,6 +27,13 @@ std::vector<Triangle> triangles_from(py::handle value, const std::string& name);
 std::vector<Edge> edges_from(py::handle value, const std::string& name);
 /// Numbers of vertices or faces, -1 for none, of shape (n,).
 std::vector<std::int32_t> numbers_from(py::handle value, const std::string& name);
+
+/// A point of a surface as Python gives it: a vertex number; or a pair of a face number and three barycentric
+/// coordinates, or these two by themselves. Which coordinates are none is not looked at.
+SurfacePoint surface_point_from(py::handle value, const Surface& surface, const std::string& name);
+SurfacePoint face_point_from(py::handle face, py::handle barycentric, const Surface& surface, const std::string& name);
+/// One such point, or a sequence of them.
+std::vector<SurfacePoint> surface_points_from(py::handle value, const Surface& surface, const std::string& name);
 
 /// A vertex number of a surface with `count` vertices, an edge between two of them, or either.
 std::int32_t vertex_from(py::handle value, std::size_t count, const std::string& name);

@@ -361,7 +361,12 @@ The first vertices are those of the surface, with their numbers; new ones are mi
       });
 
   py::class_<FieldObject>(module, "DistanceField", "Distances from a seed to every vertex.")
-      .def_property_readonly("seed", [](const FieldObject& f) { return f.field.seed(); })
+      .def_property_readonly(
+          "seed", [](const FieldObject& f) { return f.field.seed(); },
+          "The vertex that distances are from; -1: several, or a point that is none.")
+      .def_property_readonly(
+          "radius", [](const FieldObject& f) { return f.field.radius(); },
+          "Distances beyond it are inf: where the solve stopped, or inf.")
       .def_property_readonly("is_exact", [](const FieldObject& f) { return f.field.is_exact(); })
       .def_property_readonly(
           "distances",
@@ -391,6 +396,50 @@ Raises
 ------
 ValueError
     Where the vertex is out of range.
+)")
+      .def(
+          "distance",
+          [](const FieldObject& object, const py::object& face, const py::object& barycentric) {
+            const EmbeddingObject& on = *object.embedding;
+            const SurfacePoint point = face_point_from(face, barycentric, *on.surface, "point");
+            return Watch(py::none()).run([&](const Task& task) {
+              return object.field.distance(on.find(point, "point"), task);
+            });
+          },
+          py::arg("face"), py::arg("barycentric"), R"(The distance of any point of a face.
+
+Exact where the field is, not interpolated from the vertices.
+
+Parameters
+----------
+face : int
+    A triangle of the surface.
+barycentric : (3,) array_like
+    One coordinate for each of its corners: none below 0, their sum 1. One that is exactly 0: a point on the edge
+    opposite to that corner.
+
+Returns
+-------
+float
+    In the metric; inf where no path leads, or beyond the field's radius.
+
+Raises
+------
+ValueError
+    Where the face is out of range, the coordinates are none, or the embedding has a hole there.
+)")
+      .def(
+          "trace_to",
+          [](const FieldObject& object, const py::object& face, const py::object& barycentric) {
+            const EmbeddingObject& on = *object.embedding;
+            const SurfacePoint point = face_point_from(face, barycentric, *on.surface, "point");
+            return Watch(py::none()).run([&](const Task& task) {
+              return trace_wire(*on.surface, on.embedding, object.field, on.find(point, "point"), task);
+            });
+          },
+          py::arg("face"), py::arg("barycentric"), R"(The shortest path from the nearest seed to any point of a face.
+
+Parameters, what it returns and raises: as distance() and trace(). An end that is no vertex has the number -1.
 )")
       .def("__repr__", [](const FieldObject& f) {
         return "<DistanceField: from " + std::to_string(f.field.seed()) + " to " +
@@ -440,35 +489,52 @@ Cancelled
   module.def(
       "distance_field",
       [](const std::shared_ptr<EmbeddingObject>& embedding, const py::object& seed, const py::object& progress,
-         const std::optional<std::int32_t>& windows) {
-        const std::int32_t vertex = vertex_from(seed, embedding->surface->vertex_count(), "seed");
+         const std::optional<std::int32_t>& windows, const py::object& targets,
+         const std::optional<double>& max_distance) {
+        const Surface& surface = *embedding->surface;
+        std::vector<SurfacePoint> seeds = surface_points_from(seed, surface, "seed");
+        SolveOptions options;
+        if (!targets.is_none()) options.targets = surface_points_from(targets, surface, "target");
+        if (max_distance) options.max_distance = *max_distance;
+        if (seeds.empty()) throw InvalidInput("seed: expected at least one");
         if (windows && *windows < 1) throw InvalidInput("windows: expected at least 1, or None");
+        if (windows && (seeds.size() > 1 || seeds[0].vertex < 0 || !targets.is_none() || max_distance)) {
+          throw InvalidInput("windows: only for one seed that is a vertex, without targets and max_distance");
+        }
         return Watch(progress).run([&](const Task& task) {
           const ExactGeodesics& geodesics = embedding->geodesics();
+          for (SurfacePoint& point : seeds) point = embedding->find(point, "seed");
+          for (SurfacePoint& point : options.targets) point = embedding->find(point, "target");
           return std::make_unique<FieldObject>(FieldObject{
-              embedding, windows ? geodesics.solve_bounded(vertex, static_cast<std::uint32_t>(*windows), task)
-                                 : geodesics.solve(vertex, task)});
+              embedding, windows ? geodesics.solve_bounded(seeds[0].vertex, static_cast<std::uint32_t>(*windows), task)
+                                 : geodesics.solve(seeds, options, task)});
         });
       },
       py::arg("embedding"), py::arg("seed"), py::arg("progress") = py::none(), py::arg("windows") = py::none(),
-      R"(Distances from a vertex over an embedding, exact unless `windows` are given.
+      py::arg("targets") = py::none(), py::arg("max_distance") = py::none(),
+      R"(Distances over an embedding from a point, or the nearest of several, exact unless `windows` are given.
 
 Parameters
 ----------
 embedding : Embedding
     What the solver needs of it is built at the first call and kept with it.
-seed : int
-    A vertex of the surface.
+seed : int, (int, (3,) array_like), or a sequence of these
+    A vertex of the surface; or a triangle and barycentric coordinates in it, as DistanceField.distance() takes them.
 progress : callable, optional
     Called now and then with the fraction done; returning False cancels.
 windows : int, optional
     At most that many windows of a list go on: faster, and approximate. Paths traced are real, with their true length,
-    which is not below the shortest one's.
+    which is not below the shortest one's. For one seed that is a vertex.
+targets : as seed, optional
+    Stop when their distances and paths are known; others may be missing (inf).
+max_distance : float, optional
+    Stop there; greater distances are inf.
 
 Raises
 ------
 ValueError
-    Where the seed is out of range or windows is less than 1.
+    Where a seed or a target is out of range, has wrong coordinates, or lies in a hole of the embedding; where windows
+    is less than 1, or max_distance negative.
 Cancelled
 )");
   module.def(
@@ -576,6 +642,15 @@ ValueError
 }
 
 }  // namespace
+
+SurfacePoint EmbeddingObject::find(const SurfacePoint& point, const std::string& name) const {
+  if (point.vertex >= 0) return point;
+  const std::optional<SurfacePoint> found = points().find(point, name);
+  if (!found) {
+    throw InvalidInput(name + ": face " + std::to_string(point.face) + " is a hole of the embedding there");
+  }
+  return *found;
+}
 
 EmbeddingObject::Edges EmbeddingObject::list_edges(const IntrinsicMesh& mesh) {
   Edges edges;

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <mutex>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,8 @@
 #include "seamwire/metric/curvature.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/surface/surface.hpp"
+#include "seamwire/surface/surface_point.hpp"
+#include "seamwire/wires/embedded_points.hpp"
 #include "seamwire/wires/snap.hpp"
 #include "seamwire/wires/wire.hpp"
 
@@ -90,6 +93,11 @@ struct EmbeddingObject {
   const ExactGeodesics& geodesics() const {
     return geodesics_.get([this] { return ExactGeodesics(embedding.mesh); });
   }
+  const EmbeddedPoints& points() const {
+    return points_.get([this] { return EmbeddedPoints(*surface, embedding); });
+  }
+  /// A point of the surface as one of the embedding; InvalidInput, which begins with `name`, where it has none.
+  SurfacePoint find(const SurfacePoint& point, const std::string& name) const;
   const Edges& edges() const {
     return edges_.get([this] { return list_edges(embedding.mesh); });
   }
@@ -102,6 +110,7 @@ struct EmbeddingObject {
 
   Lazy<ExactGeodesics> geodesics_;
   Lazy<Edges> edges_;
+  Lazy<EmbeddedPoints> points_;
 };
 
 struct FieldObject {

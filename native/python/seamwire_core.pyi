@@ -20,6 +20,8 @@ from numpy.typing import ArrayLike, NDArray
 
 Pick = int | tuple[int, int]
 """A vertex, or an edge by its two vertices."""
+SurfacePoint = int | tuple[int, ArrayLike]
+"""A vertex, or a triangle and three barycentric coordinates in it."""
 Progress = Callable[[float], bool | None]
 
 class Cancelled(RuntimeError): ...  # noqa: N818
@@ -107,10 +109,15 @@ class Wire:
     euclidean_length: float
 
 class DistanceField:
-    seed: int
+    seed: int  # -1: several, or a point that is no vertex
     is_exact: bool
+    radius: float  # distances beyond it are inf
     distances: NDArray[np.float64]  # (n,) at the caller's vertices
     def trace(self, vertex: int) -> Wire: ...
+    def distance(self, face: int, barycentric: ArrayLike) -> float:
+        """Return the exact distance of a point of a face; barycentric is (3,), 0 or more, its sum 1."""
+    def trace_to(self, face: int, barycentric: ArrayLike) -> Wire:
+        """Return the shortest path to such a point."""
 
 class EdgeChain:
     vertices: NDArray[np.int32]
@@ -251,8 +258,15 @@ def embed(
     progress: Progress | None = None,
 ) -> Embedding: ...
 def distance_field(
-    embedding: Embedding, seed: int, progress: Progress | None = None, windows: int | None = None
-) -> DistanceField: ...
+    embedding: Embedding,
+    seed: SurfacePoint | Sequence[SurfacePoint],
+    progress: Progress | None = None,
+    windows: int | None = None,
+    targets: SurfacePoint | Sequence[SurfacePoint] | None = None,
+    max_distance: float | None = None,
+) -> DistanceField:
+    """Of several seeds the nearest one counts. Stops when the targets' distances are known, or at max_distance."""
+
 def snap_to_edges(surface: Surface, wire: Wire) -> NDArray[np.int32]: ...
 def edge_wires(
     surface: Surface,

@@ -22,6 +22,11 @@ inline Eigen::Vector2d place(const IntrinsicMesh& mesh, std::int32_t face, const
                c = mesh.lengths[index(3 * face + 2)];
   const double x = (a * a + c * c - b * b) / (2 * a);
   const Eigen::Vector2d corners[3] = {{0, 0}, {a, 0}, {x, std::sqrt(std::max(c * c - x * x, 0.0))}};
+  if (point.face >= 0) {
+    EXPECT_EQ(point.face, face);
+    const auto& w = point.barycentric;
+    return w[0] * corners[0] + w[1] * corners[1] + w[2] * corners[2];
+  }
   if (point.half_edge < 0) {
     for (std::size_t i = 0; i < 3; ++i) {
       if (mesh.triangles[index(face)][i] == point.vertex) return corners[i];

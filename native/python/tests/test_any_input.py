@@ -102,6 +102,17 @@ def test_strokes(points: object, faces: object, eta: float, radius: float | None
     taken_or_refused(stroke)
 
 
+@given(point=st.tuples(anything, anything), number=numbers | anything)
+def test_surface_points(point: tuple[object, object], number: object) -> None:
+    taken_or_refused(lambda: sw.distance_field(EMBEDDING, point))
+    taken_or_refused(lambda: sw.distance_field(EMBEDDING, [point, 0], targets=point))
+    taken_or_refused(lambda: sw.distance_field(EMBEDDING, (0, point[1])))
+    taken_or_refused(lambda: sw.distance_field(EMBEDDING, 0, max_distance=number))
+    for call in (FIELD.distance, FIELD.trace_to):
+        taken_or_refused(lambda call=call: call(*point))
+        taken_or_refused(lambda call=call: call(0, point[1]))
+
+
 @given(rays=st.tuples(anything, anything))
 def test_rays(rays: tuple[object, object]) -> None:
     taken_or_refused(lambda: RAYS.first_hit(*rays))

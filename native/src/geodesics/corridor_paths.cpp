@@ -128,10 +128,13 @@ IntrinsicPath CorridorPaths::path(std::int32_t target, const Task& task) {
   const std::int32_t part_target = impl_->cutter.part_vertex(own_target);
   const Task silent{.stop = task.stop, .progress = {}};
   const WavefrontResult result = propagate_wavefront(*part.mesh, part_seed, silent, impl_->options.windows);
-  std::optional<IntrinsicPath> path = trace_records(*part.mesh, result.distances, result.records, part_target);
+  const SourcePoints sources({PlacedPoint::at_vertex(part_seed)});
+  const SolvedDistances solved{*part.mesh, result.distances, sources};
+  std::optional<IntrinsicPath> path = trace_records(solved, result.records, PlacedPoint::at_vertex(part_target));
   if (path) to_whole_mesh(part, *path);
   if (!path || impl_->options.windows > 0) {
-    path = shorten(mesh, impl_->cutter, path ? *path : impl_->from_seed.chain(own_target), silent);
+    path = shorten(mesh, impl_->cutter, path ? *path : impl_->from_seed.chain(own_target),
+                   PlacedPoint::at_vertex(own_target), silent);
   }
   to_external(mesh, *path);
   return std::move(*path);

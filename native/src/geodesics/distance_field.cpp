@@ -2,6 +2,7 @@
 #include "geodesics/distance_field.hpp"
 
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -23,29 +24,69 @@ IntrinsicPath chain_of_hops(const GeodesicMesh& mesh, std::int32_t seed, std::in
   return distances.chain(vertex);
 }
 
+/// Of a point, or of the corners of its faces the one over which it is nearest.
+std::int32_t nearest_vertex(const SolvedDistances& solved, const PlacedPoint& point) {
+  if (point.vertex >= 0) return point.vertex;
+  std::int32_t nearest = solved.mesh.half_edge(3 * point.faces.front().face).tail;
+  double least = std::numeric_limits<double>::infinity();
+  point.for_each_corner(solved.mesh, [&](std::int32_t h, const Point2&, double straight) {
+    const std::int32_t corner = solved.mesh.half_edge(h).apex;
+    if (!(solved.at(corner) + straight < least)) return;
+    least = solved.at(corner) + straight;
+    nearest = corner;
+  });
+  return nearest;
+}
+
+std::string name(const SurfacePoint& point) {
+  return point.vertex >= 0 ? "vertex " + std::to_string(point.vertex) : "a point of face " + std::to_string(point.face);
+}
+
 }  // namespace
 
 DistanceField::DistanceField(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 
-std::int32_t DistanceField::seed() const { return data_->seed; }
+std::int32_t DistanceField::seed() const {
+  const std::vector<SurfacePoint>& sources = data_->given_sources;
+  return sources.size() == 1 ? sources.front().vertex : -1;
+}
+const std::vector<SurfacePoint>& DistanceField::sources() const { return data_->given_sources; }
 bool DistanceField::is_exact() const { return data_->is_exact; }
+double DistanceField::radius() const { return data_->radius; }
 const std::vector<double>& DistanceField::distances() const { return data_->distances; }
 
 IntrinsicPath DistanceField::trace(std::int32_t vertex, const Task& task) const {
-  const auto& [mesh, seed, distances, records, is_exact] = *data_;
-  check_index(vertex, distances.size(), "vertex");
-  if (std::isinf(distances[vertex])) return {};
-  const std::int32_t target = mesh->internal_vertex(vertex);
-  std::optional<IntrinsicPath> path = trace_records(*mesh, distances, records, target);
-  if (!is_exact) {
-    if (!path) path = chain_of_hops(*mesh, mesh->internal_vertex(seed), target, task);
-    SubmeshCutter cutter(*mesh);
-    path = shorten(*mesh, cutter, *path, task);
-  } else if (!path) {
-    throw std::logic_error("the path to vertex " + std::to_string(vertex) + " cannot be traced");
+  check_index(vertex, data_->distances.size(), "vertex");
+  return trace(SurfacePoint::at_vertex(vertex), task);
+}
+
+IntrinsicPath DistanceField::trace(const SurfacePoint& point, const Task& task) const {
+  const GeodesicMesh& mesh = *data_->mesh;
+  const PlacedPoint target = PlacedPoint::of(mesh, point, "point");
+  const SolvedDistances solved{mesh, data_->distances, data_->sources, data_->radius};
+  std::optional<IntrinsicPath> path;
+  if (data_->is_exact) {
+    if (target.vertex >= 0 && std::isinf(solved.at(target.vertex))) return {};
+    path = trace_records(solved, data_->records, target, task);
+    if (!path) throw std::logic_error("the path to " + name(point) + " cannot be traced");
+  } else {
+    const std::int32_t vertex = nearest_vertex(solved, target);
+    if (std::isinf(solved.at(vertex))) return {};
+    path = trace_records(solved, data_->records, PlacedPoint::at_vertex(vertex));
+    if (!path) path = chain_of_hops(mesh, data_->sources[0].vertex, vertex, task);
+    SubmeshCutter cutter(mesh);
+    path = shorten(mesh, cutter, *path, target, task);
   }
-  to_external(*mesh, *path);
+  to_external(mesh, *path);
   return std::move(*path);
+}
+
+double DistanceField::distance(const SurfacePoint& point, const Task& task) const {
+  const PlacedPoint target = PlacedPoint::of(*data_->mesh, point, "point");
+  const SolvedDistances solved{*data_->mesh, data_->distances, data_->sources, data_->radius};
+  if (target.vertex >= 0) return solved.at(target.vertex);
+  if (!data_->is_exact) return trace(point, task).length;
+  return find_straight_start(solved, target, task).distance;
 }
 
 }  // namespace seamwire

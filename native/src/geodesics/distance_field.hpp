@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geodesics/geodesic_mesh.hpp"
+#include "geodesics/placed_point.hpp"
 #include "geodesics/trace_record.hpp"
 #include "seamwire/geodesics/distance_field.hpp"
 
@@ -13,10 +14,12 @@ namespace seamwire {
 
 struct DistanceField::Data {
   std::shared_ptr<const GeodesicMesh> mesh;
-  std::int32_t seed;                 ///< external
+  std::vector<SurfacePoint> given_sources;
+  SourcePoints sources;              ///< the same in internal numbers
   std::vector<double> distances;     ///< in external numbers
   std::vector<TraceRecord> records;  ///< in internal numbers
   bool is_exact;
+  double radius;  ///< distances beyond it are infinite
 };
 
 }  // namespace seamwire

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "seamwire/geodesics/exact_geodesics.hpp"
 
+#include <array>
+#include <string>
 #include <utility>
 
 #include "detail/index.hpp"
+#include "detail/text.hpp"
 #include "geodesics/distance_field.hpp"
 #include "geodesics/geodesic_mesh.hpp"
+#include "geodesics/placed_point.hpp"
 #include "geodesics/wavefront.hpp"
 
 namespace seamwire {
@@ -14,27 +18,51 @@ ExactGeodesics::ExactGeodesics(const IntrinsicMesh& mesh, const Task& task)
     : mesh_(std::make_shared<const GeodesicMesh>(mesh, task)) {}
 
 DistanceField ExactGeodesics::solve(std::int32_t seed, const Task& task, GeodesicCounters* counters) const {
-  return run(seed, 0, task, counters);
+  check_index(seed, mesh_->vertex_count(), "seed");
+  return run(std::array{SurfacePoint::at_vertex(seed)}, {}, 0, task, counters);
+}
+
+DistanceField ExactGeodesics::solve(std::span<const SurfacePoint> sources, const SolveOptions& options,
+                                    const Task& task, GeodesicCounters* counters) const {
+  if (sources.empty()) throw InvalidInput("no source to have distances from");
+  if (!(options.max_distance >= 0)) {
+    throw InvalidInput("max_distance is " + text(options.max_distance) + ", not 0 or more");
+  }
+  return run(sources, options, 0, task, counters);
 }
 
 DistanceField ExactGeodesics::solve_bounded(std::int32_t seed, std::uint32_t windows, const Task& task,
                                             GeodesicCounters* counters) const {
   if (windows == 0) throw InvalidInput("windows must be at least 1");
-  return run(seed, windows, task, counters);
+  check_index(seed, mesh_->vertex_count(), "seed");
+  return run(std::array{SurfacePoint::at_vertex(seed)}, {}, windows, task, counters);
 }
 
-DistanceField ExactGeodesics::run(std::int32_t seed, std::uint32_t windows, const Task& task,
-                                  GeodesicCounters* counters) const {
-  const std::size_t vertex_count = mesh_->vertex_count();
-  check_index(seed, vertex_count, "seed");
-  WavefrontResult result = propagate_wavefront(*mesh_, mesh_->internal_vertex(seed), task, windows);
+DistanceField ExactGeodesics::run(std::span<const SurfacePoint> sources, const SolveOptions& options,
+                                  std::uint32_t windows, const Task& task, GeodesicCounters* counters) const {
+  std::vector<PlacedPoint> placed;
+  for (const SurfacePoint& source : sources) {
+    placed.push_back(PlacedPoint::of(*mesh_, source, "source " + std::to_string(placed.size())));
+  }
+  WavefrontEnd end{.max_distance = options.max_distance, .targets = {}};
+  for (const SurfacePoint& target : options.targets) {
+    end.targets.push_back(PlacedPoint::of(*mesh_, target, "target " + std::to_string(end.targets.size())));
+  }
+  SourcePoints from(std::move(placed));
+  WavefrontResult result = propagate_wavefront(*mesh_, from, task, windows, end);
   if (counters != nullptr) *counters = result.counters;
-  std::vector<double> distances(vertex_count);
-  for (std::size_t v = 0; v < vertex_count; ++v) {
+  std::vector<double> distances(mesh_->vertex_count());
+  for (std::size_t v = 0; v < distances.size(); ++v) {
     distances[mesh_->external_vertex(static_cast<std::int32_t>(v))] = result.distances[v];
   }
-  return DistanceField(std::make_shared<const DistanceField::Data>(
-      DistanceField::Data{mesh_, seed, std::move(distances), std::move(result.records), /*is_exact=*/windows == 0}));
+  return DistanceField(
+      std::make_shared<const DistanceField::Data>(DistanceField::Data{.mesh = mesh_,
+                                                                      .given_sources = {sources.begin(), sources.end()},
+                                                                      .sources = std::move(from),
+                                                                      .distances = std::move(distances),
+                                                                      .records = std::move(result.records),
+                                                                      .is_exact = windows == 0,
+                                                                      .radius = result.radius}));
 }
 
 }  // namespace seamwire

@@ -166,6 +166,7 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh, const Task& task) {
   });
   list_hops(task);
   find_pseudo_sources(task);
+  internal_face_ = std::move(internal_face);
 }
 
 /// For each vertex the half-edges that leave it.

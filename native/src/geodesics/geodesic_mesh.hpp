@@ -70,6 +70,7 @@ class GeodesicMesh {
   /// From internal numbers to those of the IntrinsicMesh, and back.
   std::int32_t external_vertex(std::int32_t v) const { return external_vertex_[v]; }
   std::int32_t internal_vertex(std::int32_t external) const { return internal_vertex_[external]; }
+  std::int32_t internal_face(std::int32_t external) const { return internal_face_[external]; }
   std::int32_t external_half_edge(std::int32_t h) const { return 3 * external_face_[h / 3] + h % 3; }
 
  private:
@@ -89,7 +90,7 @@ class GeodesicMesh {
   Csr<Hop> hops_;
   float mean_hop_ = 0.0F, longest_hop_ = 0.0F;
   std::vector<std::uint8_t> is_pseudo_source_;
-  std::vector<std::int32_t> external_vertex_, internal_vertex_, external_face_;
+  std::vector<std::int32_t> external_vertex_, internal_vertex_, external_face_, internal_face_;
 };
 
 }  // namespace seamwire

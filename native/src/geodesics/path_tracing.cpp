@@ -24,24 +24,6 @@ constexpr double kSnapDistance = 1e-11;
 /// How far (in parts of the triangle's longest side) unfolding may have moved the source from its vertex.
 constexpr double kSameVertex = 1e-6;
 
-struct Point2 {
-  double x, y;
-};
-
-double norm(const Point2& a) { return std::sqrt(a.x * a.x + a.y * a.y); }
-double distance(const Point2& a, const Point2& b) { return norm({a.x - b.x, a.y - b.y}); }
-double cross(const Point2& a, const Point2& b) { return a.x * b.y - a.y * b.x; }
-
-/// Into the frame of the half-edge entered over the left or the right side.
-Point2 to_left(const HalfEdge& h, const Point2& p) {
-  const double c = h.apex_x / h.left_length, s = h.apex_y / h.left_length;
-  return {p.x * c + p.y * s, p.y * c - p.x * s};
-}
-Point2 to_right(const HalfEdge& h, const Point2& p) {
-  const double c = (h.length - h.apex_x) / h.right_length, s = -h.apex_y / h.right_length;
-  const double x = p.x - h.apex_x, y = p.y - h.apex_y;
-  return {x * c + y * s, y * c - x * s};
-}
 Point2 to_twin(const HalfEdge& h, const Point2& p) { return {h.length - p.x, -p.y}; }
 
 /// Where the segment from p (below) to q (above) meets the base.
@@ -49,18 +31,22 @@ double crossing(const HalfEdge& h, const Point2& p, const Point2& q) {
   return std::clamp(p.x + (q.x - p.x) * (-p.y / (q.y - p.y)), 0.0, h.length);
 }
 
-/// Walks from a vertex back to the seed, and lists what it passes.
+/// Walks from a vertex back to a source, and lists what it passes.
 class Tracer {
  public:
-  Tracer(const GeodesicMesh& mesh, const std::vector<double>& distances, const std::vector<TraceRecord>& records)
-      : mesh_(mesh), distances_(distances), records_(records) {}
+  Tracer(const SolvedDistances& solved, const std::vector<TraceRecord>& records)
+      : mesh_(solved.mesh), distances_(solved.distances), sources_(solved.sources), records_(records) {}
 
-  std::optional<IntrinsicPath> run(std::int32_t vertex) {
-    path_.length = 0.0;
-    path_.points.push_back({.vertex = vertex});
-    for (;;) {
+  /// On from a path that ends at the vertex.
+  std::optional<IntrinsicPath> run(std::int32_t vertex, IntrinsicPath path) {
+    path_ = std::move(path);
+    while (!is_point(vertex)) {
       const TraceRecord& record = records_[static_cast<std::size_t>(vertex)];
       if (record.half_edge == TraceRecord::kNone) break;
+      if (record.half_edge >= 0 && record.y >= 0) {
+        add_source(record.source, record.half_edge, at(vertex));
+        break;
+      }
       if (record.half_edge >= 0) {
         const auto length = path_.length;
         const auto points = path_.points.size(), faces = path_.faces.size();
@@ -96,6 +82,21 @@ class Tracer {
     std::size_t points = 0;
   };
 
+  /// Whether what a record names is a point in a face, no vertex.
+  bool is_point(std::int32_t source) const { return source >= static_cast<std::int32_t>(mesh_.vertex_count()); }
+  const PlacedPoint& point(std::int32_t source) const {
+    return sources_[source - static_cast<std::int32_t>(mesh_.vertex_count())];
+  }
+  /// Whether the source at `place` in the frame of h is a point of that half-edge's face, and not another one's image.
+  bool is_in_face(std::int32_t source, std::int32_t h, const Point2& place) const {
+    if (!is_point(source)) return false;
+    const HalfEdge& edge = mesh_.half_edge(h);
+    return std::ranges::any_of(point(source).faces, [&](const PlacedPoint::InFace& in) {
+      return in.face == h / 3 &&
+             distance(position(mesh_, h, in.weights), place) <= kSameVertex * std::max(edge.length, edge.left_length);
+    });
+  }
+
   double at(std::int32_t vertex) const { return distances_[static_cast<std::size_t>(mesh_.external_vertex(vertex))]; }
 
   void add_segment(std::int32_t half_edge, double length) {
@@ -105,6 +106,10 @@ class Tracer {
   void add_vertex(std::int32_t vertex, std::int32_t half_edge, double length) {
     add_segment(half_edge, length);
     path_.points.push_back({.vertex = vertex});
+  }
+  void add_source(std::int32_t source, std::int32_t half_edge, double length) {
+    add_segment(half_edge, length);
+    path_.points.push_back(point(source).path_point());
   }
   void add_crossing(std::int32_t half_edge, double x, std::int32_t behind, double length) {
     add_segment(behind, length);
@@ -130,13 +135,17 @@ class Tracer {
     source = to_twin(first, source);
     // A straight line crosses no triangle twice unless it winds around a cone; this many crossings are a mistake.
     std::size_t crossings_left = 16 * mesh_.half_edge_count();
-    while (h >= 0 && source.y > 0 && crossings_left-- > 0) {
+    while (h >= 0 && (source.y > 0 || is_in_face(record.source, h, source)) && crossings_left-- > 0) {
       const HalfEdge& edge = mesh_.half_edge(h);
       if (edge.left >= 0) prefetch(&mesh_.half_edge(edge.left));
       if (edge.right >= 0) prefetch(&mesh_.half_edge(edge.right));
       const double x = crossing(edge, from, source);
       add_crossing(h, x, behind, distance(here, {x, 0.0}));
       here = {x, 0.0};
+      if (is_in_face(record.source, h, source)) {
+        add_source(record.source, h, distance(here, source));
+        return record.source;
+      }
       const Point2 apex{edge.apex_x, edge.apex_y};
       if (edge.apex == record.source &&
           distance(apex, source) <= kSameVertex * std::max(edge.length, edge.left_length)) {
@@ -180,6 +189,7 @@ class Tracer {
 
   const GeodesicMesh& mesh_;
   const std::vector<double>& distances_;
+  const SourcePoints& sources_;
   const std::vector<TraceRecord>& records_;
   IntrinsicPath path_;
   Passed best_;
@@ -187,12 +197,23 @@ class Tracer {
 
 }  // namespace
 
-std::optional<IntrinsicPath> trace_records(const GeodesicMesh& mesh, const std::vector<double>& distances,
-                                           const std::vector<TraceRecord>& records, std::int32_t vertex) {
-  return Tracer(mesh, distances, records).run(vertex);
+std::optional<IntrinsicPath> trace_records(const SolvedDistances& solved, const std::vector<TraceRecord>& records,
+                                           const PlacedPoint& target, const Task& task) {
+  if (target.vertex >= 0) {
+    return Tracer(solved, records)
+        .run(target.vertex, {.points = {{.vertex = target.vertex}}, .faces = {}, .length = 0});
+  }
+  StraightStart start = find_straight_start(solved, target, task);
+  if (start.vertex < 0) {
+    std::reverse(start.path.points.begin(), start.path.points.end());
+    std::reverse(start.path.faces.begin(), start.path.faces.end());
+    return std::move(start.path);
+  }
+  return Tracer(solved, records).run(start.vertex, std::move(start.path));
 }
 
-IntrinsicPath shorten(const GeodesicMesh& mesh, SubmeshCutter& cutter, const IntrinsicPath& path, const Task& task) {
+IntrinsicPath shorten(const GeodesicMesh& mesh, SubmeshCutter& cutter, const IntrinsicPath& path,
+                      const PlacedPoint& target, const Task& task) {
   std::vector<std::int32_t> vertices;
   for (const PathPoint& point : path.points) {
     if (point.vertex >= 0) vertices.push_back(point.vertex);
@@ -200,10 +221,17 @@ IntrinsicPath shorten(const GeodesicMesh& mesh, SubmeshCutter& cutter, const Int
     vertices.push_back(mesh.half_edge(point.half_edge).tail);
     vertices.push_back(mesh.half_edge(point.half_edge).tip);
   }
+  for (const auto& [face, weights] : target.faces) {
+    for (std::int32_t h = 3 * face; h < 3 * face + 3; ++h) vertices.push_back(mesh.half_edge(h).tail);
+  }
   const Submesh part = cutter.cut(vertices);
-  const WavefrontResult result = propagate_wavefront(*part.mesh, cutter.part_vertex(path.points.front().vertex), task);
+  PlacedPoint part_target = target;
+  if (target.vertex >= 0) part_target.vertex = cutter.part_vertex(target.vertex);
+  for (PlacedPoint::InFace& in : part_target.faces) in.face = cutter.part_face(in.face);
+  const SourcePoints source({PlacedPoint::at_vertex(cutter.part_vertex(path.points.front().vertex))});
+  const WavefrontResult result = propagate_wavefront(*part.mesh, source, task);
   std::optional<IntrinsicPath> shorter =
-      trace_records(*part.mesh, result.distances, result.records, cutter.part_vertex(path.points.back().vertex));
+      trace_records({*part.mesh, result.distances, source}, result.records, part_target, task);
   if (!shorter) throw std::logic_error("a path cannot be traced");
   to_whole_mesh(part, *shorter);
   return std::move(*shorter);
@@ -212,6 +240,7 @@ IntrinsicPath shorten(const GeodesicMesh& mesh, SubmeshCutter& cutter, const Int
 void to_whole_mesh(const Submesh& part, IntrinsicPath& path) {
   for (PathPoint& point : path.points) {
     if (point.vertex >= 0) point.vertex = part.vertices[static_cast<std::size_t>(point.vertex)];
+    if (point.face >= 0) point.face = part.faces[static_cast<std::size_t>(point.face)];
     if (point.half_edge < 0) continue;
     point.half_edge = 3 * part.faces[static_cast<std::size_t>(point.half_edge / 3)] + point.half_edge % 3;
   }
@@ -224,6 +253,7 @@ void to_external(const GeodesicMesh& mesh, IntrinsicPath& path) {
   for (PathPoint& point : path.points) {
     if (point.vertex >= 0) point.vertex = mesh.external_vertex(point.vertex);
     if (point.half_edge >= 0) point.half_edge = mesh.external_half_edge(point.half_edge);
+    if (point.face >= 0) point.face = mesh.external_half_edge(3 * point.face) / 3;
   }
   for (std::int32_t& face : path.faces) {
     if (face >= 0) face = mesh.external_half_edge(3 * face) / 3;

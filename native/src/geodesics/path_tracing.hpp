@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "geodesics/geodesic_mesh.hpp"
+#include "geodesics/placed_point.hpp"
+#include "geodesics/point_search.hpp"
 #include "geodesics/submesh.hpp"
 #include "geodesics/trace_record.hpp"
 #include "seamwire/geodesics/distance_field.hpp"
@@ -13,14 +15,17 @@
 
 namespace seamwire {
 
-/// The path to a vertex that the records tell, in internal numbers; nothing where following them fails, which those of
-/// an exact field never do. `distances` are in external numbers.
-std::optional<IntrinsicPath> trace_records(const GeodesicMesh& mesh, const std::vector<double>& distances,
-                                           const std::vector<TraceRecord>& records, std::int32_t vertex);
+/// The path to a target that the records tell, in internal numbers; nothing where following them fails, which those of
+/// an exact field never do. A target that is a vertex has a distance; another one may have none, and the path then no
+/// points, and its distances are exact.
+std::optional<IntrinsicPath> trace_records(const SolvedDistances& solved, const std::vector<TraceRecord>& records,
+                                           const PlacedPoint& target, const Task& task = {});
 
-/// The shortest path within the triangles at the vertices of a path and at the ends of the edges it crosses; both in
-/// internal numbers. Of `path` only the points count.
-IntrinsicPath shorten(const GeodesicMesh& mesh, SubmeshCutter& cutter, const IntrinsicPath& path, const Task& task);
+/// The shortest path from the vertex at which a path begins to a target, within the triangles at the vertices of the
+/// path, at the ends of the edges it crosses and around the target's faces; all in internal numbers. Of `path` only the
+/// points count.
+IntrinsicPath shorten(const GeodesicMesh& mesh, SubmeshCutter& cutter, const IntrinsicPath& path,
+                      const PlacedPoint& target, const Task& task);
 
 /// Renumbers a path over a submesh as one over the whole mesh, in internal numbers.
 void to_whole_mesh(const Submesh& part, IntrinsicPath& path);

@@ -67,6 +67,7 @@ Submesh SubmeshCutter::cut(std::span<const std::int32_t> vertices) {
   part->internal_vertex_ = part->external_vertex_;
   part->external_face_.resize(used_faces_.size());
   std::iota(part->external_face_.begin(), part->external_face_.end(), 0);
+  part->internal_face_ = part->external_face_;
   part->out_ = GeodesicMesh::leaving(used_vertices_.size(), corners);
   for (const std::int32_t v : used_vertices_) {
     for (const auto& [to, length] : mesh_.loose(v)) {

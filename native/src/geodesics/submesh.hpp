@@ -26,8 +26,9 @@ class SubmeshCutter {
 
   /// The triangles that have one of the given vertices, and the loose edges between these.
   Submesh cut(std::span<const std::int32_t> vertices);
-  /// The number of a vertex in the submesh cut last, -1 outside of it.
+  /// The number of a vertex, or a face, in the submesh cut last, -1 outside of it.
   std::int32_t part_vertex(std::int32_t vertex) const { return part_vertex_[vertex] - 1; }
+  std::int32_t part_face(std::int32_t face) const { return part_face_[face] - 1; }
 
  private:
   const GeodesicMesh& mesh_;

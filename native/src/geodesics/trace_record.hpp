@@ -8,9 +8,12 @@ namespace seamwire {
 
 /// How the shortest path arrives at a vertex; in the numbers of the GeodesicMesh.
 struct TraceRecord {
-  double x = 0.0, y = 0.0;  ///< the source unfolded into the frame of `half_edge`; along an edge: x is its length
+  /// The source unfolded into the frame of `half_edge`; y < 0, but y >= 0 where it is a point in the half-edge's own
+  /// face. Along an edge: x is its length.
+  double x = 0.0, y = 0.0;
   std::int32_t half_edge = kNone;  ///< crossed last (>= 0); ~h: straight along half-edge h; kNone: the seed, or none
-  std::int32_t source = -1;        ///< the vertex the path runs straight from
+  /// The vertex the path runs straight from; the number of vertices plus k: the point in a face that is source k.
+  std::int32_t source = -1;
 
   static constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::min();
   static constexpr std::int32_t kLooseEdge = kNone + 1;  ///< straight along an edge without faces

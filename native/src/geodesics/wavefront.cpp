@@ -7,8 +7,9 @@
 // A window says: through the interval [b0, b1] of this half-edge the source (x, y) is seen in a straight line, when the
 // triangles in between are unfolded. The front carries lists of windows from triangle to triangle, vertex by vertex in
 // the order of their distance. A shortest path may bend at pseudo-sources only (GeodesicMesh::is_pseudo_source), which
-// emit windows themselves. Windows that no shortest path can come through are dropped. Those that stay may overlap:
-// only neighbors in a list are compared, and only on the edge itself. The arithmetic is in window_kernels.
+// emit windows themselves, and so do sources, vertices and points in faces. Windows that no shortest path can come
+// through are dropped. Those that stay may overlap: only neighbors in a list are compared, and only on the edge itself.
+// The arithmetic is in window_kernels.
 //
 // A path through what is dropped is longer than another path, or as long up to rounding. In the latter case a sliver
 // may be lost, next to a path of the same length.
@@ -21,6 +22,7 @@
 #include <span>
 #include <utility>
 
+#include "detail/index.hpp"
 #include "detail/indexed_heap.hpp"
 #include "detail/poll.hpp"
 #include "detail/prefetch.hpp"
@@ -38,6 +40,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kShadowMargin = 1e-3;
 /// A source whose distance falls by less than this part of it does not emit windows again: that is rounding.
 constexpr double kLeastGain = 1e-13;
+/// A source is next to a corner of its face below this part of a side.
+constexpr double kNextToCorner = 1e-2;
 /// Windows (a list counts as some) between two looks at the task: a fraction of a millisecond.
 constexpr std::size_t kWorkBetweenChecks = 8192;
 constexpr std::size_t kWorkOfAList = 8;
@@ -49,10 +53,12 @@ enum class ListState : std::uint8_t { kEmpty, kWaiting, kReady };
 
 class Wavefront {
  public:
-  Wavefront(const GeodesicMesh& mesh, std::int32_t seed, const Task& task, std::uint32_t windows_kept)
+  Wavefront(const GeodesicMesh& mesh, const SourcePoints& sources, const Task& task, std::uint32_t windows_kept,
+            const WavefrontEnd& end)
       : mesh_(mesh),
         task_(task),
-        seed_(seed),
+        sources_(sources),
+        end_(end),
         windows_kept_(windows_kept),
         status_(mesh.vertex_count(), Status::kUnreached),
         queue_(mesh.vertex_count()),
@@ -65,8 +71,11 @@ class Wavefront {
 
   WavefrontResult run() {
     task_.check(0.0);
-    relax(seed_, 0.0, {});
+    const bool may_stop = std::isfinite(end_.max_distance) || !end_.targets.empty();
+    if (may_stop) longest_edge_ = longest_edge();
+    for (std::int32_t k = 0; index(k) < sources_.points().size(); ++k) emit_source(k);
     while (!queue_.empty()) {
+      if (may_stop && is_done(queue_.least_key())) break;
       const std::int32_t v = queue_.pop();
       const auto next = queue_.empty() ? std::span<const std::int32_t>() : mesh_.out(queue_.least());
       prefetch(next.data());
@@ -75,12 +84,88 @@ class Wavefront {
       for (const std::int32_t h : next) prefetch(&mesh_.half_edge(h));
       propagate_ready_lists();
     }
+    if (may_stop) forget_beyond(std::min(result_.radius, end_.max_distance));
     task_.check(1.0);
     return std::move(result_);
   }
 
  private:
   double distance(std::int32_t v) const { return result_.distances[v]; }
+  /// Of a vertex that the front has reached.
+  bool is_source(std::int32_t v) const {
+    const TraceRecord& record = result_.records[v];
+    return record.half_edge == TraceRecord::kNone || is_next_to_source(v, record);
+  }
+  /// A path from a point that close to a corner is as long over the corner, up to rounding, in directions in which it
+  /// may be dropped for that. So the corner emits windows too, all around.
+  bool is_next_to_source(std::int32_t v, const TraceRecord& record) const {
+    return record.half_edge >= 0 && record.y >= 0 &&
+           distance(v) < kNextToCorner * mesh_.half_edge(record.half_edge).left_length;
+  }
+
+  double longest_edge() const {
+    double longest = 0.0;
+    for (std::size_t h = 0; h < mesh_.half_edge_count(); ++h) {
+      longest = std::max(longest, mesh_.half_edge(static_cast<std::int32_t>(h)).length);
+    }
+    return longest;
+  }
+
+  /// Whether what is to be reached has its final distance, when `next` is the least distance on the front. A window
+  /// that waits does so on an edge whose ends the front has not passed, and both are reached at its distance at most,
+  /// and along the edge. So whatever may still come is not nearer than `next`, less an edge.
+  bool is_done(double next) {
+    constexpr double kRounding = 1e-12;
+    const double final = next - longest_edge_ - kRounding * next;
+    if (final > end_.max_distance) {
+      result_.radius = end_.max_distance;
+      return true;
+    }
+    if (end_.targets.empty()) return false;
+    while (targets_done_ < end_.targets.size() && upper_bound(end_.targets[targets_done_]) <= final) ++targets_done_;
+    if (targets_done_ < end_.targets.size()) return false;
+    result_.radius = final;
+    return true;
+  }
+
+  /// Of the distance of a point: over the corners of its faces.
+  double upper_bound(const PlacedPoint& point) const {
+    if (point.vertex >= 0) return distance(point.vertex);
+    double bound = kInfinity;
+    point.for_each_corner(mesh_, [&](std::int32_t h, const Point2&, double straight) {
+      bound = std::min(bound, distance(mesh_.half_edge(h).apex) + straight);
+    });
+    return bound;
+  }
+
+  void forget_beyond(double radius) {
+    result_.radius = radius;
+    for (std::size_t v = 0; v < result_.distances.size(); ++v) {
+      if (result_.distances[v] <= radius) continue;
+      result_.distances[v] = kInfinity;
+      result_.records[v] = {};
+    }
+  }
+
+  /// Begins at source k. From a point in a face paths run straight to its corners, and over its edges.
+  void emit_source(std::int32_t k) {
+    const PlacedPoint& source = sources_[k];
+    if (source.vertex >= 0) {
+      relax(source.vertex, 0.0, {});
+      return;
+    }
+    const std::int32_t number = static_cast<std::int32_t>(mesh_.vertex_count()) + k;
+    source.for_each_corner(mesh_, [&](std::int32_t h, const Point2& p, double straight) {
+      relax(mesh_.half_edge(h).apex, straight, {.x = p.x, .y = p.y, .half_edge = h, .source = number});
+    });
+    source.for_each_exit(mesh_, [&](std::int32_t h, const Point2& p) {
+      const HalfEdge& edge = mesh_.half_edge(h);
+      WindowList& list = lists_[h];
+      list.reserve_back(1, blocks_).set(0, 0.0, edge.length, p.x, p.y, 0.0, number);
+      list.grew_back(1);
+      queue_list(h, edge.tail, edge.tip);
+    });
+  }
 
   /// A path to v was found; keeps it if it is shorter than what is known.
   void relax(std::int32_t v, double distance, const TraceRecord& record) {
@@ -91,7 +176,7 @@ class Wavefront {
     if (status_[v] != Status::kPassed) {
       status_[v] = Status::kOnFront;
       queue_.lower(v, distance);
-    } else if ((mesh_.is_pseudo_source(v) || v == seed_) && distance < before * (1 - kLeastGain)) {
+    } else if (mesh_.is_pseudo_source(v) && distance < before * (1 - kLeastGain)) {
       improved_sources_.lower(v, distance);
     }
   }
@@ -105,7 +190,7 @@ class Wavefront {
       if (status_[edge.tip] == Status::kUnreached) status_[edge.tip] = Status::kOnFront;
       if (status_[edge.apex] == Status::kUnreached) status_[edge.apex] = Status::kOnFront;
     }
-    if (mesh_.is_pseudo_source(v) || v == seed_) {
+    if (mesh_.is_pseudo_source(v) || is_source(v)) {
       emit_windows(v);
     } else if (windows_kept_ > 0) {
       relax_neighbors(v);  // stretched windows need not cover everything; this bounds what is lost
@@ -153,9 +238,10 @@ class Wavefront {
   }
 
   /// The corner in which the shortest path arrives at v, named by the half-edge that leaves v there, and its angle from
-  /// that half-edge; -1 at the seed and where it comes along a loose edge.
+  /// that half-edge; -1 at a source and where it comes along a loose edge.
   std::pair<std::int32_t, double> arrival_at(std::int32_t v) const {
     const TraceRecord& record = result_.records[v];
+    if (is_next_to_source(v, record)) return {-1, 0.0};
     if (record.half_edge >= 0) {
       const HalfEdge& edge = mesh_.half_edge(record.half_edge);
       const double x = record.x - edge.apex_x, y = record.y - edge.apex_y;
@@ -501,7 +587,10 @@ class Wavefront {
 
   const GeodesicMesh& mesh_;
   const Task& task_;
-  std::int32_t seed_;
+  const SourcePoints& sources_;
+  const WavefrontEnd& end_;
+  double longest_edge_ = 0.0;     ///< known where the front may stop
+  std::size_t targets_done_ = 0;  ///< of end_.targets, so many have their final distances
   std::uint32_t windows_kept_;
   WavefrontResult result_;
   std::vector<Status> status_;
@@ -520,9 +609,14 @@ class Wavefront {
 
 }  // namespace
 
+WavefrontResult propagate_wavefront(const GeodesicMesh& mesh, const SourcePoints& sources, const Task& task,
+                                    std::uint32_t windows_kept, const WavefrontEnd& end) {
+  return Wavefront(mesh, sources, task, windows_kept, end).run();
+}
+
 WavefrontResult propagate_wavefront(const GeodesicMesh& mesh, std::int32_t seed, const Task& task,
                                     std::uint32_t windows_kept) {
-  return Wavefront(mesh, seed, task, windows_kept).run();
+  return propagate_wavefront(mesh, SourcePoints({PlacedPoint::at_vertex(seed)}), task, windows_kept);
 }
 
 }  // namespace seamwire

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "geodesics/geodesic_mesh.hpp"
+#include "geodesics/placed_point.hpp"
 #include "geodesics/trace_record.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
 
@@ -15,12 +17,23 @@ struct WavefrontResult {
   std::vector<double> distances;
   std::vector<TraceRecord> records;
   GeodesicCounters counters;
+  /// Distances up to it are final, others infinite; infinite where the front was not stopped.
+  double radius = std::numeric_limits<double>::infinity();
 };
 
-/// Distances from `seed` to all vertices. `windows_kept`: 0, or the number of windows of a list that go on: those
-/// around the one that is shortest at the apex, the outer two stretched over what the others covered. 0 keeps all and
-/// is exact; otherwise distances are approximate, and records only say roughly where the path comes from, but every
-/// vertex that is connected to the seed has both. Throws Cancelled.
+/// Where the front may stop.
+struct WavefrontEnd {
+  double max_distance = std::numeric_limits<double>::infinity();
+  std::vector<PlacedPoint> targets;  ///< none: at max_distance only
+};
+
+/// Distances from the nearest of some sources to all vertices. `windows_kept`: 0, or the number of windows of a list
+/// that go on: those around the one that is shortest at the apex, the outer two stretched over what the others covered.
+/// 0 keeps all and is exact; otherwise distances are approximate, and records only say roughly where the path comes
+/// from, but every vertex that is connected to a source has both. Throws Cancelled.
+WavefrontResult propagate_wavefront(const GeodesicMesh& mesh, const SourcePoints& sources, const Task& task,
+                                    std::uint32_t windows_kept = 0, const WavefrontEnd& end = {});
+/// The same from a vertex.
 WavefrontResult propagate_wavefront(const GeodesicMesh& mesh, std::int32_t seed, const Task& task,
                                     std::uint32_t windows_kept = 0);
 

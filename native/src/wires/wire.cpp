@@ -17,7 +17,13 @@ namespace {
 constexpr double kCollinear = 1e-11;
 
 Vector position(const Embedding& embedding, const PathPoint& point) {
-  if (point.half_edge < 0) return embedding.points[point.vertex];
+  if (point.vertex >= 0) return embedding.points[point.vertex];
+  if (point.face >= 0) {
+    const Triangle& corners = embedding.mesh.triangles[point.face];
+    Vector sum = Vector::Zero();
+    for (std::size_t i = 0; i < 3; ++i) sum += point.barycentric[i] * embedding.points[corners[i]];
+    return sum;
+  }
   const Vector& tail = embedding.points[embedding.mesh.tail(point.half_edge)];
   const Vector& tip = embedding.points[embedding.mesh.tip(point.half_edge)];
   return (1.0 - point.t) * tail + point.t * tip;
@@ -43,10 +49,11 @@ void check_path(const Surface& surface, const Embedding& embedding, const Intrin
   };
   check(path.faces.size() + 1 == path.points.size());
   for (const PathPoint& point : path.points) {
-    if (point.half_edge < 0) {
-      check(point.vertex >= 0 && index(point.vertex) < embedding.points.size());
+    if (point.vertex >= 0) {
+      check(index(point.vertex) < embedding.points.size());
     } else {
-      check(index(point.half_edge / 3) < embedding.source_face.size());
+      check(point.half_edge >= 0 || point.face >= 0);
+      check(index(point.half_edge >= 0 ? point.half_edge / 3 : point.face) < embedding.source_face.size());
     }
   }
   for (const std::int32_t face : path.faces) {
@@ -67,7 +74,7 @@ Wire map_wire(const Surface& surface, const Embedding& embedding, const Intrinsi
   for (std::size_t i = 0; i < path.points.size(); ++i) {
     const PathPoint& at = path.points[i];
     const Vector point = position(embedding, at);
-    const bool is_external = at.half_edge < 0 && index(at.vertex) < surface.vertex_count();
+    const bool is_external = at.vertex >= 0 && index(at.vertex) < surface.vertex_count();
     const std::int32_t vertex = is_external ? at.vertex : -1;
     if (i > 0) {
       const std::int32_t refined = path.faces[i - 1];
@@ -101,13 +108,19 @@ Wire map_wire(const Surface& surface, const Embedding& embedding, const Intrinsi
 Wire trace_wire(const Surface& surface, const Embedding& embedding, const DistanceField& field, std::int32_t vertex,
                 const Task& task) {
   check_index(vertex, surface.vertex_count(), "vertex");
+  Wire wire = trace_wire(surface, embedding, field, SurfacePoint::at_vertex(vertex), task);
+  wire.to = vertex;
+  return wire;
+}
+
+Wire trace_wire(const Surface& surface, const Embedding& embedding, const DistanceField& field,
+                const SurfacePoint& point, const Task& task) {
   if (field.distances().size() != embedding.points.size()) {
     throw InvalidInput("the field is of another embedding: it has " + std::to_string(field.distances().size()) +
                        " vertices, the embedding " + std::to_string(embedding.points.size()));
   }
-  Wire wire = map_wire(surface, embedding, field.trace(vertex, task));
-  wire.from = index(field.seed()) < surface.vertex_count() ? field.seed() : -1;
-  wire.to = vertex;
+  Wire wire = map_wire(surface, embedding, field.trace(point, task));
+  if (const std::int32_t seed = field.seed(); seed >= 0) wire.from = index(seed) < surface.vertex_count() ? seed : -1;
   return wire;
 }
 

@@ -1,35 +1,45 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <vector>
 
+#include "seamwire/surface/surface_point.hpp"
 #include "seamwire/task.hpp"
 
 namespace seamwire {
 
-/// A point that a geodesic passes: a vertex (half_edge < 0), or a point on an edge.
+/// A point that a geodesic passes: a vertex, a point on an edge, or, at its ends, a point within a face. One of
+/// `vertex`, `half_edge` and `face` is not -1.
 struct PathPoint {
-  std::int32_t vertex = -1;     ///< -1: on an edge
-  std::int32_t half_edge = -1;  ///< -1: at a vertex
-  double t = 0.0;               ///< 0 at the tail of the half-edge, 1 at its tip
+  std::int32_t vertex = -1;             ///< -1: no vertex
+  std::int32_t half_edge = -1;          ///< -1: not on an edge
+  double t = 0.0;                       ///< 0 at the tail of the half-edge, 1 at its tip
+  std::int32_t face = -1;               ///< -1: not within a face
+  std::array<double, 3> barycentric{};  ///< in `face`
 };
 
-/// A geodesic over an IntrinsicMesh, from the seed to a target: straight in each triangle.
+/// A geodesic over an IntrinsicMesh, from a source to a target: straight in each triangle.
 struct IntrinsicPath {
-  std::vector<PathPoint> points;    ///< empty where the target is unreachable; one point where it is the seed
+  std::vector<PathPoint> points;    ///< empty where the target is unreachable; one point where it is the source
   std::vector<std::int32_t> faces;  ///< the triangle each segment crosses or bounds; -1 along a loose edge
   double length = std::numeric_limits<double>::infinity();  ///< sum of the segments' lengths
 };
 
-/// Distances from one seed to every vertex of an IntrinsicMesh, with what it takes to trace the paths; exact, or from a
-/// bounded number of windows (ExactGeodesics makes both). Immutable; copies share the data.
+/// Distances from a seed, or from the nearest of several sources, to every point of an IntrinsicMesh, with what it
+/// takes to trace the paths; exact, or from a bounded number of windows (ExactGeodesics makes both). Immutable; copies
+/// share the data.
 class DistanceField {
  public:
-  std::int32_t seed() const;  ///< the vertex that distances are from
-  bool is_exact() const;      ///< or from a bounded number of windows
+  std::int32_t seed() const;  ///< the vertex that distances are from; -1: several, or a point that is none
+  /// What distances are from, as given.
+  const std::vector<SurfacePoint>& sources() const;
+  bool is_exact() const;  ///< or from a bounded number of windows
+  /// Distances beyond it are given as infinite: that at which the solve stopped, or infinity.
+  double radius() const;
   /// One a vertex; infinite where no path leads. Where the field is not exact they may be too long or too short.
   const std::vector<double>& distances() const;
 
@@ -41,6 +51,16 @@ class DistanceField {
   /// Throws InvalidInput for a vertex out of range. Where the field is not exact, the work takes long enough for `task`
   /// to be looked at, and Cancelled may be thrown.
   IntrinsicPath trace(std::int32_t vertex, const Task& task = {}) const;
+
+  /// The distance of any point: exact too, not interpolated from the vertices; in time about proportional to the
+  /// triangles that the path crosses. Where the field is not exact, the length of trace(). Infinite where no path
+  /// leads, or beyond radius().
+  ///
+  /// Throws InvalidInput for a vertex or a face out of range, and for barycentric coordinates that are not finite, less
+  /// than 0, or whose sum is not 1; Cancelled.
+  double distance(const SurfacePoint& point, const Task& task = {}) const;
+  /// The shortest path from the source nearest to a point to that point, as to a vertex. Throws as distance().
+  IntrinsicPath trace(const SurfacePoint& point, const Task& task = {}) const;
 
   struct Data;  // the solver's own
   /// By ExactGeodesics only.

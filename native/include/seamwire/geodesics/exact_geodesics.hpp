@@ -3,10 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "seamwire/geodesics/distance_field.hpp"
 #include "seamwire/surface/intrinsic_mesh.hpp"
+#include "seamwire/surface/surface_point.hpp"
 #include "seamwire/task.hpp"
 
 namespace seamwire {
@@ -17,6 +21,16 @@ class GeodesicMesh;  // the solver's own form of the mesh
 struct GeodesicCounters {
   std::size_t lists = 0;    ///< window lists propagated
   std::size_t windows = 0;  ///< windows propagated
+};
+
+/// What a solve is for: it may stop when it knows that much. The front looks back by no more than the mesh's longest
+/// edge, so what it saves is less where that is long.
+struct SolveOptions {
+  /// Distances beyond it are not wanted: they are given as infinite. 0 or more.
+  double max_distance = std::numeric_limits<double>::infinity();
+  /// Distances and paths are wanted here only: where this is not empty, the solve stops when all are known (or are
+  /// beyond max_distance). DistanceField::radius() tells how far it came.
+  std::vector<SurfacePoint> targets;
 };
 
 /// Solver for repeated seeds on one mesh: the triangle-oriented wavefront of Qin et al., "Fast and Exact Discrete
@@ -30,8 +44,14 @@ class ExactGeodesics {
   /// Throws InvalidInput for a seed out of range; Cancelled.
   DistanceField solve(std::int32_t seed, const Task& task = {}, GeodesicCounters* counters = nullptr) const;
 
-  /// The same with at most `windows` > 0 windows of a list going on: those around the shortest way to the apex,
-  /// stretched over what the others covered. The more windows, the longer it takes and the nearer it comes
+  /// Distances from the nearest of one or several sources, each any point of the mesh. Throws InvalidInput for no
+  /// source, for sources and targets as DistanceField::distance() does, and for a max_distance that is negative or not
+  /// a number; Cancelled.
+  DistanceField solve(std::span<const SurfacePoint> sources, const SolveOptions& options = {}, const Task& task = {},
+                      GeodesicCounters* counters = nullptr) const;
+
+  /// The same as from a seed, with at most `windows` > 0 windows of a list going on: those around the shortest way to
+  /// the apex, stretched over what the others covered. The more windows, the longer it takes and the nearer it comes
   /// (docs/benchmarks.md).
   DistanceField solve_bounded(std::int32_t seed, std::uint32_t windows, const Task& task = {},
                               GeodesicCounters* counters = nullptr) const;
@@ -39,7 +59,8 @@ class ExactGeodesics {
  private:
   friend class CorridorPaths;
 
-  DistanceField run(std::int32_t seed, std::uint32_t windows, const Task& task, GeodesicCounters* counters) const;
+  DistanceField run(std::span<const SurfacePoint> sources, const SolveOptions& options, std::uint32_t windows,
+                    const Task& task, GeodesicCounters* counters) const;
 
   std::shared_ptr<const GeodesicMesh> mesh_;
 };

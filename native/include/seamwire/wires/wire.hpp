@@ -13,8 +13,8 @@ namespace seamwire {
 
 /// A geodesic on the caller's surface, from `from` to `to`.
 struct Wire {
-  std::int32_t from = -1;              ///< the caller's vertex; -1: a new vertex of the embedding
-  std::int32_t to = -1;                ///< the caller's vertex; -1: a new vertex of the embedding
+  std::int32_t from = -1;              ///< the caller's vertex; -1: a point that is none
+  std::int32_t to = -1;                ///< the caller's vertex; -1: a point that is none
   std::vector<Vector> points;          ///< in the caller's coordinates; empty where `to` is unreachable
   std::vector<std::int32_t> vertices;  ///< per point: the caller's vertex it is, or -1
   std::vector<std::int32_t> faces;     ///< the caller's face that each segment lies in; -1 along an edge without a face
@@ -34,5 +34,10 @@ Wire map_wire(const Surface& surface, const Embedding& embedding, const Intrinsi
 /// Cancelled, as DistanceField::trace().
 Wire trace_wire(const Surface& surface, const Embedding& embedding, const DistanceField& field, std::int32_t vertex,
                 const Task& task = {});
+
+/// The shortest wire from the source that is nearest to a point of the embedding, to that point (EmbeddedPoints finds
+/// it). Throws as trace_wire() to a vertex.
+Wire trace_wire(const Surface& surface, const Embedding& embedding, const DistanceField& field,
+                const SurfacePoint& point, const Task& task = {});
 
 }  // namespace seamwire

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Seeds and targets between the vertices."""
+
+from __future__ import annotations
+
+import meshes
+import numpy as np
+import pytest
+import seamwire_core as sw
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+settings.register_profile("seamwire", deadline=None, max_examples=300, derandomize=True)
+settings.load_profile("seamwire")
+
+POINTS, TRIANGLES = meshes.torus(12, 8)
+SURFACE = sw.Surface(POINTS, TRIANGLES)
+CURVATURE = sw.principal_curvatures(SURFACE)
+STRETCHED = sw.embed(SURFACE, sw.feature_metric(SURFACE, CURVATURE, max_anisotropy=20))
+PLANE_POINTS, PLANE_TRIANGLES = meshes.grid(6)
+PLANE = sw.Surface(PLANE_POINTS, PLANE_TRIANGLES)
+FLAT = sw.embed(PLANE, sw.euclidean_metric(PLANE, sw.principal_curvatures(PLANE)))
+
+
+def point_of(faces: int) -> st.SearchStrategy[tuple[int, tuple[float, float, float]]]:
+    """Points of faces, on edges and at corners too."""
+    part = st.sampled_from([0.0, 1.0]) | st.floats(0, 1)
+
+    def split(face: int, s: float, t: float) -> tuple[int, tuple[float, float, float]]:
+        return face, (s * t, s * (1 - t), 1 - s)
+
+    return st.builds(split, st.integers(0, faces - 1), part, part)
+
+
+def place(points: np.ndarray, triangles: np.ndarray, at: tuple[int, tuple[float, float, float]]) -> np.ndarray:
+    """Return where a point of a face is."""
+    return np.array(at[1]) @ points[triangles[at[0]]]
+
+
+@given(a=point_of(len(PLANE_TRIANGLES)), b=point_of(len(PLANE_TRIANGLES)))
+def test_on_a_plane_all_ways_are_straight(
+    a: tuple[int, tuple[float, float, float]], b: tuple[int, tuple[float, float, float]]
+) -> None:
+    field = sw.distance_field(FLAT, a)
+    from_, to = (place(PLANE_POINTS, PLANE_TRIANGLES, p) for p in (a, b))
+    scale = 1 / np.ptp(PLANE_POINTS, axis=0).max()
+    assert field.distance(*b) == pytest.approx(scale * np.linalg.norm(to - from_), abs=1e-14)
+    wire = field.trace_to(*b)
+    np.testing.assert_allclose(wire.points[[0, -1]], [from_, to], atol=1e-14)
+    assert wire.length == pytest.approx(field.distance(*b), abs=1e-14)
+
+
+@given(a=point_of(len(TRIANGLES)), b=point_of(len(TRIANGLES)), vertex=st.integers(0, len(POINTS) - 1))
+def test_distances_are_a_metric(
+    a: tuple[int, tuple[float, float, float]], b: tuple[int, tuple[float, float, float]], vertex: int
+) -> None:
+    from_a, from_b, both = (sw.distance_field(STRETCHED, seed) for seed in (a, b, [a, b]))
+    there = from_a.distance(*b)
+    assert there >= 0
+    assert from_b.distance(*a) == pytest.approx(there, rel=1e-11, abs=1e-14)
+    assert there <= from_a.distances[vertex] + from_b.distances[vertex] + 1e-13
+    np.testing.assert_allclose(both.distances, np.minimum(from_a.distances, from_b.distances), rtol=1e-11, atol=1e-14)
+    wire = from_a.trace_to(*b)
+    assert wire.length == pytest.approx(there, rel=1e-11, abs=1e-14)
+    ends = [place(POINTS, TRIANGLES, p) for p in (a, b)]
+    np.testing.assert_allclose(wire.points[[0, -1]], ends, atol=1e-13)
+    stopped = sw.distance_field(STRETCHED, a, targets=[b])
+    assert stopped.distance(*b) == pytest.approx(there, rel=1e-11, abs=1e-14)
+    assert sw.distance_field(STRETCHED, a, max_distance=there / 2).distance(*b) == (0 if there == 0 else np.inf)
+
+
+def test_a_vertex_is_the_same_by_number_and_by_coordinates() -> None:
+    expected = sw.distance_field(STRETCHED, int(TRIANGLES[5][1]))
+    field = sw.distance_field(STRETCHED, (5, (0, 1, 0)))
+    np.testing.assert_array_equal(field.distances, expected.distances)
+    assert field.seed == -1 or field.seed == TRIANGLES[5][1]
+    assert sw.distance_field(STRETCHED, [3, 4]).seed == -1
+    assert expected.radius == np.inf
+    assert sw.distance_field(STRETCHED, 3, max_distance=0.25).radius == 0.25
+
+
+@pytest.mark.parametrize(
+    ("seed", "message"),
+    [
+        ((len(TRIANGLES), (1, 0, 0)), "seed: face 192 is out of range: the surface has 192 faces"),
+        ((3, (0.5, 0.6, -0.1)), "seed: a barycentric coordinate is -0.1, not finite and 0 or more"),
+        ((3, (0.5, float("nan"), 0.5)), "seed: a barycentric coordinate is nan, not finite and 0 or more"),
+        ((3, (0.5, 0.5, 0.5)), "seed: the barycentric coordinates' sum is 1.5, not 1"),
+        ([0, (3, (0.5, 0.5))], "seed 1: barycentric coordinates: expected real numbers"),
+        ([0, 96], "seed 1: vertex 96 is out of range: the surface has 96 vertices"),
+        ([0, None], "seed 1: expected a vertex number, or a face number with three coordinates, got a NoneType"),
+        ([], "seed: expected at least one"),
+    ],
+)
+def test_what_is_no_seed_is_refused(seed: object, message: str) -> None:
+    with pytest.raises(ValueError) as refusal:
+        sw.distance_field(STRETCHED, seed)
+    assert str(refusal.value).startswith(message)
+
+
+def test_what_is_no_target_is_refused() -> None:
+    field = sw.distance_field(STRETCHED, 0)
+    for call in (field.distance, field.trace_to):
+        with pytest.raises(ValueError, match=r"sum is 0\.5, not 1"):
+            call(0, (0.5, 0, 0))
+        with pytest.raises(ValueError, match="face -1 is out of range"):
+            call(-1, (1, 0, 0))
+    with pytest.raises(ValueError, match="target 1: vertex 96 is out of range"):
+        sw.distance_field(STRETCHED, 0, targets=[0, 96])
+    with pytest.raises(ValueError, match="max_distance is -1, not 0 or more"):
+        sw.distance_field(STRETCHED, 0, max_distance=-1)
+    with pytest.raises(ValueError, match="windows: only for one seed"):
+        sw.distance_field(STRETCHED, [0, 1], windows=4)
