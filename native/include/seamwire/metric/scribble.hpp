@@ -33,11 +33,12 @@ struct Scribble {
   friend bool operator==(const Scribble&, const Scribble&) = default;
 };
 
-/// The metric after the scribbles, applied in their order: at the vertices that follow a stroke most closely the tensor
-/// has the eigenvalues (eta, 1 / eta), the minor eigenvector along the drawn line. That tensor is carried on, ring by
-/// ring, turned by the least rotation from normal to normal, and blended with what was there with the weight 1 - r / k
-/// (r: the ring; with a radius: 1 - distance / radius, but 1 along the stroke). So of two strokes that cross, the later
-/// one wins along its own line, and without scribbles the result is `metric`, bit for bit.
+/// The metric after the scribbles, applied in their order: at all corners of the triangles that a stroke crosses, and
+/// the vertices it runs along, the tensor has the eigenvalues (eta, 1 / eta), the minor eigenvector along the drawn
+/// line (its chord over two edges). That tensor is carried on, ring by ring, turned by the least rotation from normal
+/// to normal, and blended with what was there with the weight 1 - r / k (r: the ring; with a radius: 1 - distance /
+/// radius, but 1 along the stroke). So of two strokes that cross, the later one wins along its own line, and without
+/// scribbles the result is `metric`, bit for bit.
 ///
 /// Points further apart than a triangle are joined along the vertices nearest to the straight line between them; where
 /// none lead there (another component, the far side of a hole) the stroke has a gap. A stroke that crosses itself takes
