@@ -285,11 +285,11 @@ std::vector<double> steiner_distances(const Surface& surface, const Metric& metr
 }
 
 TEST(EmbeddedDistance, IsWhatPathsOverPointsOnTheEdgesFallTowards) {
-  const Surface surface = shapes::torus(48, 28).surface();  // on 48 x 24 cells: 1.63, 0.50 and -0.02 %
+  const Surface surface = shapes::torus(48, 24).surface();
   const Metric metric = feature_metric(surface, principal_curvatures(surface), Follow::kMin, {.max_anisotropy = 5});
   const std::vector<double> d = distances(surface, metric, 0);
   double last = 1;
-  for (const auto& [m, bound] : {std::pair(3, 1.5e-2), {6, 6e-3}, {12, 2e-3}}) {
+  for (const auto& [m, bound] : {std::pair(3, 1.7e-2), {6, 6e-3}, {12, 1e-3}}) {
     const std::vector<double> steiner = steiner_distances(surface, metric, m, 0);
     double above = 0;
     for (std::size_t v = 1; v < d.size(); ++v) above += (steiner[v] - d[v]) / d[v];

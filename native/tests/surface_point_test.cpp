@@ -72,7 +72,7 @@ TEST(SurfacePoints, TargetsHaveTheDistancesOfInsertedVertices) {
     for (const std::int32_t seed : {0, mesh.vertex_count / 3, mesh.vertex_count - 1}) {
       const DistanceField field = geodesics.solve(seed);
       for (const auto& [kind, point] : points::all_kinds(mesh, static_cast<unsigned>(seed))) {
-        SCOPED_TRACE(name + ", " + kind + ", seed " + std::to_string(seed));
+        SCOPED_TRACE(testing::Message() << name << ", " << kind << ", seed " << seed);
         const double expected = ExactGeodesics(points::insert(mesh, point)).solve(seed).distances().back();
         if (std::isinf(expected)) continue;  // a vertex without a face
         EXPECT_NEAR(field.distance(point), expected, kTolerance * expected);
@@ -87,7 +87,7 @@ TEST(SurfacePoints, SourcesGiveTheDistancesOfInsertedVertices) {
     const ExactGeodesics geodesics(mesh);
     for (const unsigned draw : {1U, 2U, 3U}) {
       for (const auto& [kind, point] : points::all_kinds(mesh, draw)) {
-        SCOPED_TRACE(name + ", " + kind + " of face " + std::to_string(point.face));
+        SCOPED_TRACE(testing::Message() << name << ", " << kind << " of face " << point.face);
         const DistanceField field = geodesics.solve(std::array{point});
         EXPECT_EQ(field.seed(), -1);
         EXPECT_EQ(field.sources(), std::vector{point});
@@ -119,7 +119,7 @@ TEST(SurfacePoints, FromPointToPointIsTheSameBothWays) {
       const DistanceField field = geodesics.solve(std::array{source});
       const IntrinsicMesh with_source = points::insert(mesh, source);
       for (const auto& [other_kind, target] : to) {
-        SCOPED_TRACE(name + ", from a point " + kind + " to one " + other_kind);
+        SCOPED_TRACE(testing::Message() << name << ", from a point " << kind << " to one " << other_kind);
         const double distance = field.distance(target);
         EXPECT_NEAR(geodesics.solve(std::array{target}).distance(source), distance, kTolerance * distance);
         expect_path(mesh, field.trace(target), distance, source, target);
@@ -170,7 +170,7 @@ TEST(SurfacePoints, NextToAnEdgeIsAsGoodAsOnIt) {
     const ExactGeodesics geodesics(mesh);
     const DistanceField from_vertex = geodesics.solve(mesh.triangles[0][0]);
     for (std::int32_t face = 0; index(face) < mesh.face_count(); face += 7) {
-      SCOPED_TRACE(name + ", face " + std::to_string(face));
+      SCOPED_TRACE(testing::Message() << name << ", face " << face);
       const SurfacePoint on = at(face, 0, 0.3, 0.7), beside = at(face, kAway, 0.3, 0.7 - kAway);
       const double expected = from_vertex.distance(on);
       EXPECT_NEAR(from_vertex.distance(beside), expected, kTolerance);
@@ -192,7 +192,7 @@ TEST(SurfacePoints, NextToAVertexIsAsGoodAsAtIt) {
     const ExactGeodesics geodesics(mesh);
     for (const double away : {1e-13, 2e-16, 1.2e-16, 1e-17, 1e-200, 1e-310}) {
       for (std::int32_t face = 0; index(face) < mesh.face_count(); face += 29) {
-        SCOPED_TRACE(name + ", face " + std::to_string(face) + ", " + std::to_string(std::log10(away)));
+        SCOPED_TRACE(testing::Message() << name << ", face " << face << ", " << std::log10(away));
         const DistanceField expected = geodesics.solve(mesh.triangles[index(face)][1]);
         for (const SurfacePoint& beside : {at(face, away, 1 - 3 * away, 2 * away), at(face, away, 1 - away, 0)}) {
           const DistanceField field = geodesics.solve(std::array{beside});
@@ -236,7 +236,7 @@ TEST(SurfacePoints, OfSeveralSourcesTheNearestCounts) {
     for (const SurfacePoint& source : sources) each.push_back(geodesics.solve(std::array{source}));
     const DistanceField field = geodesics.solve(sources);
     EXPECT_EQ(field.seed(), -1);
-    const auto check = [&](const SurfacePoint& target) {
+    const auto check = [&, &mesh = mesh](const SurfacePoint& target) {
       std::size_t nearest = 0;
       for (std::size_t k = 1; k < each.size(); ++k) {
         if (each[k].distance(target) < each[nearest].distance(target)) nearest = k;
@@ -285,7 +285,7 @@ TEST(SurfacePoints, ASolveThatStopsKnowsWhatItWasFor) {
     for (const double d : whole.distances()) {
       if (d < kInfinity) farthest = std::max(farthest, d);
     }
-    const auto compare = [&](const DistanceField& field) {
+    const auto compare = [&, &mesh = mesh](const DistanceField& field) {
       for (std::size_t v = 0; v < whole.distances().size(); ++v) {
         const double d = whole.distances()[v];
         if (d < kInfinity && d <= field.radius()) {
@@ -338,7 +338,7 @@ TEST(SurfacePoints, BoundedFieldsGiveRealPathsToPoints) {
     const ExactGeodesics geodesics(mesh);
     const DistanceField exact = geodesics.solve(0), bounded = geodesics.solve_bounded(0, 2);
     for (const auto& [kind, point] : points::all_kinds(mesh, 71)) {
-      SCOPED_TRACE(name + ", " + kind);
+      SCOPED_TRACE(testing::Message() << name << ", " << kind);
       if (std::isinf(exact.distance(point))) continue;
       const IntrinsicPath path = bounded.trace(point);
       EXPECT_EQ(bounded.distance(point), path.length);
@@ -391,10 +391,10 @@ TEST(SurfacePoints, WhatIsNoPointIsRefused) {
       {at(3, 0, 0, 0), "the barycentric coordinates' sum is 0, not 1"}};
   const SurfacePoint right = at(3, 0.2, 0.3, 0.5);
   for (const auto& [point, what] : wrong) {
-    EXPECT_EQ(message([&] { field.distance(point); }), "point: " + what);
-    EXPECT_EQ(message([&] { field.trace(point); }), "point: " + what);
-    EXPECT_EQ(message([&] { geodesics.solve(std::array{right, point}); }), "source 1: " + what);
-    EXPECT_EQ(message([&] {
+    EXPECT_EQ(message([&, &point = point] { field.distance(point); }), "point: " + what);
+    EXPECT_EQ(message([&, &point = point] { field.trace(point); }), "point: " + what);
+    EXPECT_EQ(message([&, &point = point] { geodesics.solve(std::array{right, point}); }), "source 1: " + what);
+    EXPECT_EQ(message([&, &point = point] {
                 geodesics.solve(std::array{right}, {.targets = {right, right, point}});
               }),
               "target 2: " + what);

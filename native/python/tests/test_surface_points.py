@@ -82,12 +82,12 @@ def test_a_vertex_is_the_same_by_number_and_by_coordinates() -> None:
 @pytest.mark.parametrize(
     ("seed", "message"),
     [
-        ((len(TRIANGLES), (1, 0, 0)), "seed: face 192 is out of range: the surface has 192 faces"),
+        ((len(TRIANGLES), (1, 0, 0)), "seed: face 192 is out of range: there are 192 faces"),
         ((3, (0.5, 0.6, -0.1)), "seed: a barycentric coordinate is -0.1, not finite and 0 or more"),
         ((3, (0.5, float("nan"), 0.5)), "seed: a barycentric coordinate is nan, not finite and 0 or more"),
         ((3, (0.5, 0.5, 0.5)), "seed: the barycentric coordinates' sum is 1.5, not 1"),
         ([0, (3, (0.5, 0.5))], "seed 1: barycentric coordinates: expected real numbers"),
-        ([0, 96], "seed 1: vertex 96 is out of range: the surface has 96 vertices"),
+        ([0, 96], "seed 1: vertex 96 is out of range: there are 96 vertices"),
         ([0, None], "seed 1: expected a vertex number, or a face number with three coordinates, got a NoneType"),
         ([], "seed: expected at least one"),
     ],

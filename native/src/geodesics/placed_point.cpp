@@ -93,8 +93,8 @@ SourcePoints::SourcePoints(std::vector<PlacedPoint> points) : points_(std::move(
 }
 
 std::span<const SourcePoints::InFace> SourcePoints::in_face(std::int32_t face) const {
-  const auto found = std::ranges::equal_range(in_faces_, face, {}, &InFace::face);
-  return {found.begin(), found.end()};
+  const auto begin = std::ranges::lower_bound(in_faces_, face, {}, &InFace::face);
+  return {begin, std::ranges::upper_bound(begin, in_faces_.end(), face, {}, &InFace::face)};
 }
 
 }  // namespace seamwire

@@ -17,6 +17,7 @@ struct SurfacePoint {
   /// The point that a vertex is.
   static SurfacePoint at_vertex(std::int32_t v) { return {.vertex = v}; }
 
+  /// The same numbers, not only the same point.
   bool operator==(const SurfacePoint&) const = default;
 };
 
