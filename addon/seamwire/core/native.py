@@ -46,10 +46,10 @@ def load(folder: Path = FOLDER, wheels: Path = WHEELS) -> ModuleType:
     except ImportError as error:
         installed = error
     if IS_EXTENSION:
-        fitting = [wheel.name for wheel in wheels.glob("*.whl") if _fits(wheel)]
+        fitting = _fitting(wheels)
         if fitting and _is_absent(installed):
             raise NativeError(
-                f"Blender has not installed Seamwire's compiled part, {fitting[0]}, or has removed it since: "
+                f"Blender has not installed Seamwire's compiled part, {fitting[0].name}, or has removed it since: "
                 "disable and enable the add-on"
             ) from installed
         raise NativeError(_sentence(folder, wheels, installed, installed)) from installed
@@ -77,7 +77,7 @@ def _of_this_package(module: ModuleType, wheels: Path) -> ModuleType:
 
 def _unpacked(folder: Path, wheels: Path) -> Path:
     """Return where to import from: the folder, or the one below it that the fitting wheel was unpacked to."""
-    fitting = [wheel for wheel in wheels.glob("*.whl") if _fits(wheel)]
+    fitting = _fitting(wheels)
     if not fitting:
         return folder
     # One folder a wheel: a later version is never written over a file that is in use.
@@ -100,6 +100,10 @@ def _unpacked(folder: Path, wheels: Path) -> Path:
 
 def _version(wheel: Path) -> str:
     return wheel.stem.split("-")[1]
+
+
+def _fitting(wheels: Path) -> list[Path]:
+    return [wheel for wheel in wheels.glob("*.whl") if _fits(wheel)]
 
 
 def _fits(wheel: Path) -> bool:

@@ -75,10 +75,11 @@ class PointSearch {
       queue_.pop();
       follow(beam);
     }
-    if (best_.distance <= solved_.radius && best_.distance < kInfinity)
+    if (best_.distance <= solved_.radius && best_.distance < kInfinity) {
       list_path();
-    else
+    } else {
       best_ = {};
+    }
     return std::move(best_);
   }
 

@@ -344,9 +344,7 @@ class Wavefront {
   /// relaxed by many others in turn would relax as many behind it each time, and so on.
   void emit_again() {
     while (!improved_sources_.empty()) {
-      const double distance_then = improved_sources_.least_key();
       const std::int32_t v = improved_sources_.pop();
-      if (distance_then != distance(v)) continue;  // what it has gained since then is rounding
       emit_windows(v);
       check_task(mesh_.out(v).size() + mesh_.loose(v).size());
     }
