@@ -11,6 +11,7 @@
 #include "detail/poll.hpp"
 #include "seamwire/edges/edge_graph.hpp"
 #include "seamwire/embedding/embedding.hpp"
+#include "seamwire/geodesics/corridor_paths.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/metric/scribble.hpp"
 #include "seamwire/wires/snap.hpp"
@@ -103,6 +104,17 @@ TEST_F(Stops, TheMeshOfTheGeodesics) {
   const Embedding embedding = embed(surface, euclidean_metric(surface, principal_curvatures(surface)));
   expect_stops(faces + 3 * faces + faces + 2 * faces + vertices + faces + 2 * faces + vertices + vertices,
                [&](const Task& task) { ExactGeodesics(embedding.mesh, task); });
+}
+
+TEST_F(Stops, APathAtOnce) {
+  const Embedding embedding = embed(surface, euclidean_metric(surface, principal_curvatures(surface)));
+  const ExactGeodesics geodesics(embedding.mesh);
+  // In a corridor as wide as the mesh, with all windows, the front looks at the task as often as in a field.
+  const CorridorPathOptions all{.corridor_vertices = vertices, .windows = 0};
+  const auto target = static_cast<std::int32_t>(vertices / 2);
+  GeodesicCounters counters;
+  geodesics.solve(0, {}, &counters);
+  expect_stops(counters.windows / 4, [&](const Task& task) { CorridorPaths(geodesics, 0, all).path(target, task); });
 }
 
 TEST_F(Stops, TheEdgesAroundEachVertexAndTheirLengths) {

@@ -126,15 +126,16 @@ IntrinsicPath CorridorPaths::path(std::int32_t target, const Task& task) {
   const Submesh part = impl_->cutter.cut(impl_->corridor);
   const std::int32_t part_seed = impl_->cutter.part_vertex(own_seed);
   const std::int32_t part_target = impl_->cutter.part_vertex(own_target);
-  const Task silent{.stop = task.stop, .progress = {}};
-  const WavefrontResult result = propagate_wavefront(*part.mesh, part_seed, silent, impl_->options.windows);
+  Task part_task{.stop = task.stop, .progress = {}};  // what is done of the part says little of the whole
+  if (task.progress) part_task.progress = [&task](double) { return task.progress(0.0); };
+  const WavefrontResult result = propagate_wavefront(*part.mesh, part_seed, part_task, impl_->options.windows);
   const SourcePoints sources({PlacedPoint::at_vertex(part_seed)});
   const SolvedDistances solved{*part.mesh, result.distances, sources};
   std::optional<IntrinsicPath> path = trace_records(solved, result.records, PlacedPoint::at_vertex(part_target));
   if (path) to_whole_mesh(part, *path);
   if (!path || impl_->options.windows > 0) {
     path = shorten(mesh, impl_->cutter, path ? *path : impl_->from_seed.chain(own_target),
-                   PlacedPoint::at_vertex(own_target), silent);
+                   PlacedPoint::at_vertex(own_target), part_task);
   }
   to_external(mesh, *path);
   return std::move(*path);

@@ -329,15 +329,32 @@ class Wavefront {
   }
 
   /// First in, first out: a list that comes later has gathered more windows, and finds better distances.
+  ///
+  /// They come in layers: the windows of a layer's lists crossed one triangle more than those of the layer before. No
+  /// shortest path crosses a triangle twice, so after as many layers as there are triangles, what is left is not
+  /// needed. Where one triangle is far longer than all others, what circles around a needle is no longer than what
+  /// goes straight, up to rounding, and would not end before.
   void propagate_ready_lists() {
-    // NOLINTNEXTLINE(modernize-loop-convert): the list grows while it is read.
+    std::size_t layer_end = ready_lists_.size(), layers_left = mesh_.half_edge_count() / 3;
     for (std::size_t i = 0; i < ready_lists_.size(); ++i) {
       const std::int32_t h = ready_lists_[i];
+      if (i == layer_end) {
+        layer_end = ready_lists_.size();
+        --layers_left;
+      }
+      if (layers_left == 0) {
+        drop(h);
+        continue;
+      }
       list_state_[h] = ListState::kEmpty;
       propagate(h);
       emit_again();
     }
     ready_lists_.clear();
+  }
+  void drop(std::int32_t h) {
+    list_state_[h] = ListState::kEmpty;
+    blocks_.give_back(std::exchange(lists_[h], {}).block);
   }
 
   /// Nearest first, so that of sources that lie behind each other each emits once; in another order a source that is
