@@ -74,7 +74,7 @@ class Wavefront {
     const bool may_stop = std::isfinite(end_.max_distance) || !end_.targets.empty();
     if (may_stop) longest_edge_ = longest_edge();
     for (std::int32_t k = 0; index(k) < sources_.points().size(); ++k) emit_source(k);
-    while (!queue_.empty()) {
+    while (!queue_.empty() || relax_left_out()) {
       if (may_stop && is_done(queue_.least_key())) break;
       const std::int32_t v = queue_.pop();
       const auto next = queue_.empty() ? std::span<const std::int32_t>() : mesh_.out(queue_.least());
@@ -101,6 +101,20 @@ class Wavefront {
   bool is_next_to_source(std::int32_t v, const TraceRecord& record) const {
     return record.half_edge >= 0 && record.y >= 0 &&
            distance(v) < kNextToCorner * mesh_.half_edge(record.half_edge).left_length;
+  }
+
+  /// Where triangles are so thin that rounding decides, a vertex may lie between all windows. Then it is reached along
+  /// an edge. Returns whether there is such a vertex.
+  bool relax_left_out() {
+    if (vertices_done_ == mesh_.vertex_count()) return false;
+    for (std::int32_t v = 0; index(v) < mesh_.vertex_count(); ++v) {
+      if (distance(v) == kInfinity) continue;
+      const auto is_left_out = [&](std::int32_t h) {
+        return distance(mesh_.half_edge(h).tip) == kInfinity || distance(mesh_.half_edge(h).apex) == kInfinity;
+      };
+      if (std::ranges::any_of(mesh_.out(v), is_left_out)) relax_neighbors(v);
+    }
+    return !queue_.empty();
   }
 
   double longest_edge() const {
