@@ -22,6 +22,7 @@ _PARTS = (
     "mesh.settings",
     "ui.preferences",
     "operators.mark",
+    "operators.cut",
     "operators.draw",
     "operators.hover",
     "ui.keymap",

@@ -39,6 +39,8 @@ class Arrays:
         (n, 3) vertices, stretched as the object's matrix stretches them: lengths are those that are seen.
     triangles
         (m, 3) the visible faces, cut into triangles by Blender.
+    polygons
+        (m,) the face that each triangle is part of, ascending.
     edges
         (e, 2) the visible edges of the polygons, no diagonals.
     to_object
@@ -49,6 +51,7 @@ class Arrays:
 
     points: NDArray[np.float64]
     triangles: NDArray[np.int32]
+    polygons: NDArray[np.int32]
     edges: NDArray[np.int32]
     to_object: NDArray[np.float64]
     seams: NDArray[np.int32]
@@ -282,9 +285,10 @@ def read(obj: bpy.types.Object) -> Arrays:
             bpy.data.meshes.remove(shared)
     triangles, polygons = _cut(obj.data, corners, points)
     if hidden.any():
-        triangles = triangles[~hidden[polygons]]
+        visible = ~hidden[polygons]
+        triangles, polygons = triangles[visible], polygons[visible]
     stretch = visible_stretch(obj.matrix_world)
-    return Arrays(points @ stretch, triangles, edges, np.linalg.inv(stretch), seams)
+    return Arrays(points @ stretch, triangles, polygons, edges, np.linalg.inv(stretch), seams)
 
 
 def _on_basis(obj: bpy.types.Object) -> bool:

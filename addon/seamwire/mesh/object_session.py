@@ -17,13 +17,16 @@ from ..core.serialization import Archive, UnreadableError
 from ..core.session import Session
 from ..core.strokes import on_mesh
 from ..core.wire_labels import EdgeLabels, Found, Places
-from . import edit_mesh
+from . import cut, edit_mesh
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     import seamwire_core
     from numpy.typing import NDArray
 
-    from ..core.network import Along, Network
+    from ..core.cutting import CutPlan
+    from ..core.network import Along, Network, Wire
     from ..core.solver import LiveWire
     from .settings import SeamwireSettings
 
@@ -346,6 +349,15 @@ class ObjectSession:
         if adopt:
             self.session.adopt(replace(plan.network, seed=None), self.plain_seams)
         return written
+
+    def plan_cut(self, wires: Iterable[Wire]) -> CutPlan:
+        """Find what wires across the surface and their mirror images cut; raises `CuttingError`."""
+        curves = [(own.vertices[0], own.points) for wire in wires for own in (wire, *self.session.mirrored(wire))]
+        return cut.plan(self.cage, self.arrays, curves)
+
+    def cut(self, plan: CutPlan) -> cut.Cut:
+        """Cut the mesh, whose vertices, edges and faces have other numbers then: this session is over."""
+        return cut.carry_out(self.cage, plan)
 
     def drop_changes(self, network: Network) -> None:
         """Go back to a network that the session had, whatever was drawn since."""

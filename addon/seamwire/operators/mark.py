@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..mesh.settings import ALONG_ITEMS, METRIC_ITEMS
+from .cut import cut_wires
 from .report import in_edit_mode, summary
 
 if TYPE_CHECKING:
@@ -53,6 +54,15 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
         " before one that they are to keep off",
     )
     along: bpy.props.EnumProperty(name="Along", description="Where wires run", items=ALONG_ITEMS, default="EDGES")
+    finish: bpy.props.EnumProperty(
+        name="Finish",
+        description="What becomes the seam of a wire across the surface",
+        items=(
+            ("SNAP", "Snap", "The edges that lie nearest to it"),
+            ("CUT", "Cut", "The wire itself, cut into the faces"),
+        ),
+        default="SNAP",
+    )
     clear: bpy.props.BoolProperty(name="Clear", description="Clear seams instead of marking them", default=False)
     mirror: bpy.props.EnumProperty(
         name="Mirror",
@@ -105,6 +115,8 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
         if not any(new_wires.values()):
             self.report({"ERROR"}, f"No seam was marked. {problems[0]}" if problems else "No seam was marked")
             return {"CANCELLED"}
+        if self.finish == "CUT" and self.along == "SURFACE":
+            return cut_wires(self, context, new_wires)
         plans = [(mesh, mesh.plan()) for mesh, _ in drawn]
         wires = new = old = touched = 0
         for mesh, plan in plans:
@@ -161,6 +173,8 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
         """Return chains, loops and strokes; raises ValueError where they cannot be drawn."""
         from . import seed_text
 
+        if self.finish == "CUT" and self.clear:
+            raise ValueError("A cut makes seams: clear them along edges instead")
         loops = seed_text.parse_edges(self.loops)
         seeds = [] if loops and not self.chains.strip() else seed_text.parse_chains(self.chains)
         strokes = seed_text.parse_scribbles(self.strokes)

@@ -24,9 +24,9 @@ def in_edit_mode(context: bpy.types.Context) -> bool:
     return context.mode == "EDIT_MESH" and obj is not None and obj.type == "MESH"
 
 
-def count(number: int, what: str) -> str:
+def count(number: int, what: str, several: str = "") -> str:
     """Return a number with what it counts."""
-    return f"{number} {what}{'' if number == 1 else 's'}"
+    return f"{number} {what if number == 1 else several or what + 's'}"
 
 
 def summary(wires: int, marked: int, cleared: int, touched: int = 0) -> str:

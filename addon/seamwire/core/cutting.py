@@ -1,0 +1,420 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where curves over a mesh cut its edges and faces, as a plan that somebody else carries out. Knows neither Blender nor the library.
+
+A curve is a list of points, each two of which lie in one triangle. What it passes is found by walking along it, from triangle to
+triangle; then all curves are taken together: they meet in shared points where they cross or run close to each other.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+
+from .geometry import nearest_on_segments
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .network import Edge
+
+NEAR = 0.05
+"""A cut that passes a vertex or an edge nearer than that, as part of an edge or of a triangle's height, goes through it: no slivers."""
+OFF = 0.1
+"""How far from the mesh a curve's points may be, as part of the longest edge of the triangle beside. Mirror images of curves are off
+where the halves of a mesh are cut into other triangles; what is new lies on the mesh all the same."""
+BEND = 0.1
+"""By how much of its length a cut may leave the straight line within a polygon and be straight."""
+ON = 1e-4
+"""Which vertex or edge a curve's point is on: stored curves are rounded."""
+
+
+class CuttingError(ValueError):
+    """A curve cannot be cut into the mesh; the text is a sentence for the artist."""
+
+
+class Faces(Protocol):
+    """The polygons of a mesh, and the triangles that they are seen as."""
+
+    points: NDArray[np.float64]
+    """(n, 3) vertices."""
+    triangles: NDArray[np.int32]
+    """(m, 3)"""
+
+    def polygons_at(self, vertex: int) -> Sequence[int]:
+        """Return the polygons around a vertex."""
+
+    def rows_of(self, polygon: int) -> Sequence[int]:
+        """Return the triangles of a polygon."""
+
+    def corners(self, polygon: int) -> Sequence[int]:
+        """Return the vertices around a polygon."""
+
+    def is_edge(self, a: int, b: int) -> bool:
+        """Whether a polygon has an edge between two vertices: no diagonal."""
+
+
+@dataclass(frozen=True)
+class Node:
+    """A place on the mesh: a vertex, a point between two, or one inside a triangle.
+
+    Parameters
+    ----------
+    vertices
+        One, two or three, ascending.
+    weights
+        Of each vertex, all positive; their sum is 1.
+    """
+
+    vertices: tuple[int, ...]
+    weights: tuple[float, ...] = (1.0,)
+
+    @classmethod
+    def between(cls, vertices: Sequence[int], weights: Sequence[float], near: float = 0.0) -> Node:
+        """Return the node of barycentric coordinates, moved to an edge or a vertex that it is near to."""
+        kept = [(int(v), float(w)) for v, w in zip(vertices, weights, strict=True) if w > near]
+        if len(kept) < 3:
+            # What is near an edge may still be near one of its ends.
+            total = sum(w for _, w in kept)
+            kept = [(v, w / total) for v, w in kept if w > near * total]
+        kept.sort()
+        total = sum(w for _, w in kept)
+        return cls(tuple(v for v, _ in kept), tuple(w / total for _, w in kept))
+
+    def place(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return where it is, (3,)."""
+        return np.asarray(self.weights) @ points[list(self.vertices)]
+
+    def weight(self, vertex: int) -> float:
+        """Return the weight of any vertex."""
+        return dict(zip(self.vertices, self.weights, strict=True)).get(vertex, 0.0)
+
+
+Segment = tuple[Node, Node]
+
+
+@dataclass
+class CutPlan:
+    """What is to be done to the mesh.
+
+    Parameters
+    ----------
+    splits
+        For each edge that is cut, its smaller vertex first, the nodes on it, from that vertex on.
+    along
+        Cuts between two neighboring vertices or nodes of one edge.
+    across
+        For each polygon, the cuts inside it. Their nodes are its corners, on its edges or inside it.
+    """
+
+    splits: dict[Edge, list[Node]] = field(default_factory=dict)
+    along: list[Segment] = field(default_factory=list)
+    across: dict[int, list[Segment]] = field(default_factory=dict)
+
+    @property
+    def inside(self) -> list[Node]:
+        """The nodes inside polygons."""
+        on_edges = {node for nodes in self.splits.values() for node in nodes}
+        nodes = dict.fromkeys(node for segments in self.across.values() for segment in segments for node in segment)
+        return [node for node in nodes if len(node.vertices) > 1 and node not in on_edges]
+
+
+def plan(faces: Faces, curves: Iterable[tuple[int, NDArray[np.float64]]]) -> CutPlan:
+    """Find what curves cut.
+
+    Parameters
+    ----------
+    faces
+        The mesh.
+    curves
+        For each, the vertex that it begins at and its points, (k, 3); the last one is at a vertex or on an edge.
+
+    Raises
+    ------
+    CuttingError
+        Where a curve does not run over the mesh.
+    """
+    pieces: list[Piece] = []
+    for start, points in curves:
+        pieces += _without_detours(_walk(faces, start, points))
+    return _sorted_out(faces, _together(_crossed(faces, _together(pieces))))
+
+
+Piece = tuple[Node, Node, int]
+"""A straight piece of a cut between two nodes, in a polygon."""
+
+
+def _walk(faces: Faces, start: int, points: NDArray[np.float64]) -> Iterator[Piece]:
+    """Yield what a curve passes: from node to node, and the polygon between them."""
+    here, polygons = Node((start,)), list(faces.polygons_at(start))
+    for point in points[1:]:
+        beside = [(row, polygon) for polygon in polygons for row in faces.rows_of(polygon)]
+        corners = faces.triangles[[row for row, _ in beside]]
+        weights, off = _coordinates(faces.points[corners], point)
+        best = int(np.argmin(off)) if len(off) else -1
+        if best < 0 or not off[best] < OFF:
+            raise CuttingError(f"A wire does not run over the mesh near vertex {here.vertices[0]}")
+        polygon = beside[best][1]
+        there = _on_side(faces, polygon, Node.between(corners[best], weights[best], NEAR))
+        if there != here:
+            yield here, there, polygon
+        here = there
+        # Where it goes on, the exact place says: the node may have been moved away from it.
+        on = Node.between(corners[best], weights[best], ON).vertices
+        polygons = [p for p in faces.polygons_at(on[0]) if {*on} <= {*faces.corners(p)}]
+
+
+def _on_side(faces: Faces, polygon: int, node: Node) -> Node:
+    """Return a node that lies on a polygon's side as one between its ends, which diagonals past corners in a row do as well."""
+    corners = faces.corners(polygon)
+    if len(corners) < 4 or len(node.vertices) == 1 or (len(node.vertices) == 2 and faces.is_edge(*node.vertices)):
+        return node
+    starts = faces.points[list(corners)]
+    ends = np.roll(starts, -1, axis=0)
+    part, gap = nearest_on_segments(node.place(faces.points), starts, ends)
+    best = int(np.argmin(gap))
+    if not gap[best] < ON * np.linalg.norm(ends[best] - starts[best]):
+        return node
+    share = float(part[best, 0])
+    return Node.between((corners[best], corners[(best + 1) % len(corners)]), (1.0 - share, share), NEAR)
+
+
+def _without_detours(pieces: Iterable[Piece]) -> list[Piece]:
+    """Leave out what leads away from a node and back: places that were near a vertex before and after others that were not."""
+    kept: list[Piece] = []
+    number_at: dict[Node, int] = {}
+    for piece in pieces:
+        number_at.setdefault(piece[0], len(kept))
+        kept.append(piece)
+        before = number_at.get(piece[1], 0)
+        if before > 0:  # at 0 a closed curve ends where it began
+            for dropped in kept[before:]:
+                if dropped[0] != piece[1]:
+                    number_at.pop(dropped[0], None)
+            del kept[before:]
+    return kept
+
+
+def _coordinates(
+    corners: NDArray[np.float64], point: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Find a point in triangles.
+
+    Parameters
+    ----------
+    corners
+        (k, 3, d) the triangles.
+    point
+        (d,)
+
+    Returns
+    -------
+    weights
+        (k, 3) barycentric coordinates of a place in each triangle that is the point or near it.
+    off
+        (k,) how far the point is from it, as part of the triangle's longest edge; infinite where that has no area.
+    """
+    a, u, v = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    w = point - a
+    uu, uv, vv, uw, vw = (np.einsum("ij,ij->i", p, q) for p, q in ((u, u), (u, v), (v, v), (u, w), (v, w)))
+    area = uu * vv - uv * uv
+    with np.errstate(divide="ignore", invalid="ignore"):
+        s, t = (vv * uw - uv * vw) / area, (uu * vw - uv * uw) / area
+        weights = np.clip(np.stack([1.0 - s - t, s, t], axis=1), 0.0, None)
+        weights /= weights.sum(axis=1, keepdims=True)
+        gaps = np.linalg.norm(np.einsum("ij,ijk->ik", weights, corners) - point, axis=1)
+        off = gaps / np.sqrt(np.maximum.reduce([uu, vv, uu - 2.0 * uv + vv]))
+    return weights, np.where(np.isfinite(off), off, np.inf)
+
+
+def _together(pieces: Iterable[Piece]) -> list[Piece]:
+    """Let nodes that are near each other on one edge or diagonal be one, and keep each piece once."""
+    pieces = list(pieces)
+    same: dict[Node, Node] = {}
+    for nodes in _on_pairs(pieces).values():
+        first = nodes[0]
+        for node in nodes:
+            if node.weights[1] - first.weights[1] > NEAR:
+                first = node
+            same[node] = first
+    kept: dict[frozenset[Node], Piece] = {}
+    for one, two, polygon in pieces:
+        begin, end = same.get(one, one), same.get(two, two)
+        if begin != end:
+            kept.setdefault(frozenset((begin, end)), (begin, end, polygon))
+    return list(kept.values())
+
+
+def _on_pairs(pieces: Iterable[Piece]) -> dict[tuple[int, ...], list[Node]]:
+    """Return the nodes between each two vertices, in order from the smaller one."""
+    found: dict[tuple[int, ...], set[Node]] = defaultdict(set)
+    for one, two, _ in pieces:
+        for node in (one, two):
+            if len(node.vertices) == 2:
+                found[node.vertices].add(node)
+    return {pair: sorted(nodes, key=lambda node: node.weights[1]) for pair, nodes in found.items()}
+
+
+def _crossed(faces: Faces, pieces: list[Piece]) -> Iterator[Piece]:
+    """Yield the pieces, cut where they cross others in the same polygon."""
+    by_polygon: dict[int, list[Piece]] = defaultdict(list)
+    for piece in pieces:
+        by_polygon[piece[2]].append(piece)
+    for polygon, own in by_polygon.items():
+        if len(own) == 1:
+            yield own[0]
+            continue
+        shape = _Shape(faces, polygon)
+        stops: list[list[tuple[float, Node]]] = [[(0.0, one), (1.0, two)] for one, two, _ in own]
+        lines = [(shape.seen(one), shape.seen(two)) for one, two, _ in own]
+        for i, j in itertools.combinations(range(len(own)), 2):
+            at = None if {*own[i][:2]} & {*own[j][:2]} else _crossing(*lines[i], *lines[j])
+            if at is None:
+                continue
+            # An end that lies near the other piece is where both meet.
+            parts = zip((*own[i][:2], *own[j][:2]), (at[0], 1.0 - at[0], at[1], 1.0 - at[1]), strict=True)
+            ends = [node for node, part in parts if part < NEAR]
+            node = ends[0] if ends else shape.node_at(lines[i][0] + at[0] * (lines[i][1] - lines[i][0]))
+            stops[i].append((at[0], node))
+            stops[j].append((at[1], node))
+        for places in stops:
+            nodes = [node for _, node in sorted(places, key=lambda place: place[0])]
+            yield from ((one, two, polygon) for one, two in itertools.pairwise(nodes) if one != two)
+
+
+def _crossing(
+    a: NDArray[np.float64], b: NDArray[np.float64], c: NDArray[np.float64], d: NDArray[np.float64]
+) -> tuple[float, float] | None:
+    """Return which parts of a-b and c-d, in the plane, lie before where they cross; None where they do not."""
+    u, v, w = b - a, d - c, c - a
+    area = u[0] * v[1] - u[1] * v[0]
+    if area == 0.0:
+        return None
+    s, t = (w[0] * v[1] - w[1] * v[0]) / area, (w[0] * u[1] - w[1] * u[0]) / area
+    return (float(s), float(t)) if 0.0 <= s <= 1.0 and 0.0 <= t <= 1.0 else None
+
+
+def _sorted_out(faces: Faces, pieces: list[Piece]) -> CutPlan:
+    """Tell cuts along edges from those across polygons."""
+    on_pairs = _on_pairs(pieces)
+    result = CutPlan({pair: nodes for pair, nodes in on_pairs.items() if faces.is_edge(*pair)})
+    along: dict[frozenset[Node], Segment] = {}
+    across: dict[int, dict[frozenset[Node], Segment]] = defaultdict(dict)
+    for one, two, polygon in pieces:
+        pair = tuple(sorted({*one.vertices, *two.vertices}))
+        if len(pair) > 2:
+            across[polygon].setdefault(frozenset((one, two)), (one, two))
+            continue
+        # It runs along an edge or a diagonal, and may pass nodes of others.
+        part = {node: node.weight(pair[1]) for node in (one, two, *on_pairs.get(pair, ()))}
+        low, high = sorted((part[one], part[two]))
+        passed = sorted((node for node in part if low <= part[node] <= high), key=part.__getitem__)
+        for segment in itertools.pairwise(passed):
+            into = along if faces.is_edge(*pair) else across[polygon]
+            into.setdefault(frozenset(segment), segment)
+    result.along = list(along.values())
+    for polygon, segments in across.items():
+        result.across[polygon] = _straightened(faces, polygon, list(segments.values()))
+    return result
+
+
+def _straightened(faces: Faces, polygon: int, segments: list[Segment]) -> list[Segment]:
+    """Lead cuts straight over a polygon, without vertices inside, where they hardly bend and nothing is in the way."""
+    beside: dict[Node, list[Node]] = defaultdict(list)
+    for one, two in segments:
+        beside[one].append(two)
+        beside[two].append(one)
+    shape = _Shape(faces, polygon)
+    inner = {node for node, ends in beside.items() if len(ends) == 2 and not shape.on_rim(node)}
+    kept = {frozenset(segment) for segment in segments if inner.isdisjoint(segment)}
+    chains = {chain for node in beside if node not in inner for chain in _chains(node, beside, inner)}
+    waiting = [chain for chain in sorted(chains, key=len) if chain[0] != chain[-1]]
+    bent = {frozenset(segment) for chain in waiting for segment in itertools.pairwise(chain)}
+    while waiting:
+        chain = waiting.pop()
+        bent -= {frozenset(segment) for segment in itertools.pairwise(chain)}
+        line = frozenset((chain[0], chain[-1]))
+        if len(chain) == 2:
+            kept.add(line)
+            continue
+        farthest = shape.farthest(chain)
+        if farthest < 0 and (line in kept or shape.lets_through(chain[0], chain[-1], [tuple(s) for s in kept | bent])):
+            kept.add(line)
+            continue
+        middle = len(chain) // 2 if farthest < 0 else farthest
+        waiting += [chain[: middle + 1], chain[middle:]]
+        bent |= {frozenset(segment) for segment in itertools.pairwise(chain)}
+    return [(one, two) for one, two in kept]
+
+
+def _chains(start: Node, beside: dict[Node, list[Node]], inner: set[Node]) -> Iterator[tuple[Node, ...]]:
+    """Yield the chains over inner nodes that begin at a node, each the same way round from both its ends."""
+    for following in beside[start]:
+        if following not in inner:
+            continue
+        chain = [start, following]
+        while chain[-1] in inner:
+            one, two = beside[chain[-1]]
+            chain.append(two if one == chain[-2] else one)
+        yield min(tuple(chain), tuple(reversed(chain)), key=lambda nodes: [(n.vertices, n.weights) for n in nodes])
+
+
+class _Shape:
+    """A polygon, seen along its normal."""
+
+    def __init__(self, faces: Faces, polygon: int) -> None:
+        self._faces, self._polygon = faces, polygon
+        corners = faces.corners(polygon)
+        rim = faces.points[list(corners)]
+        normal = np.cross(rim, np.roll(rim, -1, axis=0)).sum(axis=0)
+        self._points = np.delete(faces.points[list(corners)], int(np.argmax(np.abs(normal))), axis=1)
+        self._place_of = dict(zip(corners, self._points, strict=True))
+        self._sides = [{a, b} for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
+        self._triangles = faces.triangles[list(faces.rows_of(polygon))]
+
+    def on_rim(self, node: Node) -> bool:
+        """Whether a node is a corner or on a side."""
+        return any({*node.vertices} <= side for side in self._sides)
+
+    def farthest(self, chain: Sequence[Node]) -> int:
+        """Return the number of the node that is farthest from the line between the ends; -1: the chain hardly bends."""
+        places = np.array([self.seen(node) for node in chain])
+        along = places[-1] - places[0]
+        length = float(np.hypot(*along))
+        off = np.abs(along[0] * (places[:, 1] - places[0, 1]) - along[1] * (places[:, 0] - places[0, 0]))
+        worst = int(np.argmax(off[1:-1])) + 1
+        return -1 if off[worst] < BEND * length * length else worst
+
+    def seen(self, node: Node) -> NDArray[np.float64]:
+        """Return where a node is, (2,)."""
+        return sum(weight * self._place_of[vertex] for vertex, weight in zip(node.vertices, node.weights, strict=True))
+
+    def node_at(self, place: NDArray[np.float64]) -> Node:
+        """Return the node at a place inside, (2,)."""
+        corners = np.array([[self._place_of[vertex] for vertex in triangle] for triangle in self._triangles.tolist()])
+        weights, off = _coordinates(corners, place)
+        best = int(np.argmin(off))
+        return _on_side(self._faces, self._polygon, Node.between(self._triangles[best], weights[best], NEAR))
+
+    def lets_through(self, one: Node, two: Node, segments: Sequence[Segment]) -> bool:
+        """Whether the straight line between two nodes lies inside, and meets none of some segments."""
+        if any({*one.vertices, *two.vertices} <= side for side in self._sides):
+            return False
+        a, b = self.seen(one), self.seen(two)
+        for side, c, d in zip(self._sides, self._points, np.roll(self._points, -1, axis=0), strict=True):
+            if not ({*one.vertices} <= side or {*two.vertices} <= side) and _crossing(a, b, c, d) is not None:
+                return False
+        if any({*ends}.isdisjoint((one, two)) and _crossing(a, b, *map(self.seen, ends)) for ends in segments):
+            return False
+        return self._holds(0.5 * (a + b))
+
+    def _holds(self, place: NDArray[np.float64]) -> bool:
+        inside = False
+        for (ax, ay), (bx, by) in zip(self._points, np.roll(self._points, -1, axis=0), strict=True):
+            if (ay > place[1]) != (by > place[1]) and place[0] < ax + (place[1] - ay) * (bx - ax) / (by - ay):
+                inside = not inside
+        return inside

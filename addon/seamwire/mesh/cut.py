@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Wires cut into the faces of an edit mesh: edges split where they cross, faces split along them.
+
+Blender's own operations on the edit mesh do it, those that its knife is made of: so attributes come out as the knife leaves them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import bmesh
+import numpy as np
+
+from ..core import cutting
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..core.cutting import CutPlan, Node
+    from .edit_mesh import Arrays, Cage
+
+
+@dataclass(frozen=True)
+class Cut:
+    """What was done to a mesh.
+
+    Parameters
+    ----------
+    edges
+        How many edges the wires run along now.
+    vertices
+        How many vertices are new.
+    uncut
+        How many faces could not be cut.
+    """
+
+    edges: int
+    vertices: int
+    uncut: int
+
+
+class _CageFaces:
+    """The visible faces of an edit mesh, and the triangles that they were read as."""
+
+    def __init__(self, cage: Cage, arrays: Arrays) -> None:
+        self.points, self.triangles = arrays.points, arrays.triangles
+        self._polygons = arrays.polygons
+        self._bm = cage.bm
+
+    def polygons_at(self, vertex: int) -> Sequence[int]:
+        return [face.index for face in self._bm.verts[vertex].link_faces if not face.hide]
+
+    def rows_of(self, polygon: int) -> Sequence[int]:
+        # Of the same type, or all of the array would be converted.
+        bounds = np.array((polygon, polygon + 1), dtype=self._polygons.dtype)
+        return range(*np.searchsorted(self._polygons, bounds).tolist())
+
+    def corners(self, polygon: int) -> Sequence[int]:
+        return [vert.index for vert in self._bm.faces[polygon].verts]
+
+    def is_edge(self, a: int, b: int) -> bool:
+        return self._bm.edges.get((self._bm.verts[a], self._bm.verts[b])) is not None
+
+
+def plan(cage: Cage, arrays: Arrays, curves: Iterable[tuple[int, NDArray[np.float64]]]) -> CutPlan:
+    """Find what curves cut, each with the vertex that it begins at; raises `CuttingError`, before anything is changed."""
+    return cutting.plan(_CageFaces(cage, arrays), curves)
+
+
+def carry_out(cage: Cage, what: CutPlan) -> Cut:
+    """Cut an edit mesh, and make seams of the cuts. Vertices, edges and faces have other numbers then."""
+    bm = cage.bm
+    faces = {polygon: bm.faces[polygon] for polygon in what.across}
+    before = len(bm.verts)
+    vert_of: dict[Node, bmesh.types.BMVert] = {}
+    corners = {vertex: bm.verts[vertex] for node in _nodes(what) for vertex in node.vertices}
+    for node in _nodes(what):
+        if len(node.vertices) == 1:
+            vert_of[node] = corners[node.vertices[0]]
+    # Inside faces first: what they are between is still as it was.
+    for node in what.inside:
+        vert_of[node] = _vert_inside(bm, [corners[vertex] for vertex in node.vertices], node.weights)
+    for (a, b), nodes in what.splits.items():
+        last, end, passed = corners[a], corners[b], 0.0
+        for node in nodes:
+            edge = bm.edges.get((last, end))
+            part = (node.weights[1] - passed) / (1.0 - passed)
+            _, last = bmesh.utils.edge_split(edge, last, part)
+            vert_of[node], passed = last, node.weights[1]
+    seams = [bm.edges.get((vert_of[one], vert_of[two])) for one, two in what.along]
+    uncut = 0
+    for polygon, segments in what.across.items():
+        edges = _split(bm, faces[polygon], [(vert_of[one], vert_of[two]) for one, two in segments])
+        uncut += len(edges) < len(segments)
+        seams += edges
+    for edge in seams:
+        edge.seam = True
+    for items in (bm.verts, bm.edges, bm.faces):
+        items.index_update()
+    bmesh.update_edit_mesh(cage.mesh, loop_triangles=True, destructive=True)
+    return Cut(len(seams), len(bm.verts) - before, uncut)
+
+
+def _nodes(what: CutPlan) -> list[Node]:
+    segments = [*what.along, *(segment for own in what.across.values() for segment in own)]
+    return list(dict.fromkeys(node for segment in segments for node in segment))
+
+
+def _vert_inside(
+    bm: bmesh.types.BMesh, corners: Sequence[bmesh.types.BMVert], weights: Sequence[float]
+) -> bmesh.types.BMVert:
+    """Make a vertex between two or three others, its attributes and shape keys interpolated."""
+    place = sum(
+        (weight * corner.co for corner, weight in zip(corners[1:], weights[1:], strict=True)),
+        weights[0] * corners[0].co,
+    )
+    vert = bm.verts.new(place)
+    vert.copy_from_vert_interp(corners[:2], weights[1] / (weights[0] + weights[1]))
+    if len(corners) == 3:
+        beside = bm.verts.new(place)
+        beside.copy_from_vert_interp(corners[:2], weights[1] / (weights[0] + weights[1]))
+        vert.copy_from_vert_interp([beside, corners[2]], weights[2])
+        bm.verts.remove(beside)
+    return vert
+
+
+def _split(
+    bm: bmesh.types.BMesh,
+    face: bmesh.types.BMFace,
+    segments: Sequence[tuple[bmesh.types.BMVert, bmesh.types.BMVert]],
+) -> list[bmesh.types.BMEdge]:
+    """Split a face along edges between its corners and vertices inside it; return those edges, none where that cannot be done."""
+    selected = face.select
+    known = [bm.edges.get(segment) for segment in segments]
+    edges = [bm.edges.new(segment) if edge is None else edge for edge, segment in zip(known, segments, strict=True)]
+    try:
+        parts = bmesh.utils.face_split_edgenet(face, edges)
+    except ValueError:
+        parts = ()
+    # What is left of new edges must not lie about: they go, and vertices with them that nothing else holds.
+    loose = [edge for edge, before in zip(edges, known, strict=True) if before is None and not edge.link_faces]
+    if loose:
+        ends = {vert for edge in loose for vert in edge.verts}
+        for edge in loose:
+            bm.edges.remove(edge)
+        for vert in ends:
+            if not vert.link_edges:
+                bm.verts.remove(vert)
+        edges = [edge for edge in edges if edge.is_valid]
+    if selected:
+        for part in parts:
+            part.select = True
+    return edges

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that cuts kept wires into the mesh."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import bpy
+
+from .report import count, in_edit_mode
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from ..core.network import Wire
+    from ..mesh.object_session import ObjectSession
+
+
+class MESH_OT_seamwire_cut(bpy.types.Operator):
+    """Cut the kept wires that run across the surface into the faces, so that the seams run where the wires do"""  # noqa: D400 - a tooltip
+
+    bl_idname = "mesh.seamwire_cut"
+    bl_label = "Cut Seamwires"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Whether a mesh is in edit mode."""
+        if not in_edit_mode(context):
+            cls.poll_message_set("Needs a mesh in Edit Mode")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Take the wires out of their networks, their snapped seams with them, and cut along them."""
+        from ..core.native import NativeError
+        from ..mesh.object_session import ObjectSession
+
+        wires: dict[ObjectSession, list[Wire]] = {}
+        try:
+            for obj in context.objects_in_mode_unique_data:
+                mesh = ObjectSession(obj)
+                own = [wire for wire in mesh.session.wires if wire.along == "SURFACE" and wire.marks]
+                if own:
+                    wires[mesh] = own
+        except (ValueError, NativeError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        if not wires:
+            self.report({"ERROR"}, "No kept wire runs across the surface")
+            return {"CANCELLED"}
+        return cut_wires(self, context, wires, kept=True)
+
+
+def cut_wires(
+    operator: bpy.types.Operator,
+    context: bpy.types.Context,
+    wires: Mapping[ObjectSession, Sequence[Wire]],
+    kept: bool = False,
+) -> set[str]:
+    """Cut wires across the surface into meshes and say what was done; nothing is changed where one of them cannot be cut.
+
+    Parameters
+    ----------
+    operator
+        Reports it.
+    wires
+        Of each mesh. Its session is over then.
+    kept
+        Whether meshes have these wires already: they cease to be wires, and their snapped edges to be seams.
+    """
+    from ..core.cutting import CuttingError
+    from ..mesh import edit_mesh
+
+    try:
+        plans = {mesh: mesh.plan_cut(own) for mesh, own in wires.items()}
+    except CuttingError as error:
+        operator.report({"ERROR"}, str(error))
+        return {"CANCELLED"}
+    cuts = []
+    for mesh, plan in plans.items():
+        if kept:
+            for wire in wires[mesh]:
+                mesh.session.drop(wire)
+            mesh.write(mesh.plan())
+        cuts.append(mesh.cut(plan))
+    edit_mesh.live_unwrap(context)
+    uncut = sum(cut.uncut for cut in cuts)
+    if uncut:
+        operator.report({"WARNING"}, f"{count(uncut, 'face')} could not be cut: the seams have gaps there")
+    done = (
+        f"{count(sum(map(len, wires.values())), 'wire')} cut",
+        f"{count(sum(cut.edges for cut in cuts), 'edge')} marked",
+        count(sum(cut.vertices for cut in cuts), "new vertex", "new vertices"),
+    )
+    operator.report({"INFO"}, ", ".join(done))
+    return {"FINISHED"}
+
+
+def register() -> None:
+    """Add the operator."""
+    bpy.utils.register_class(MESH_OT_seamwire_cut)
+
+
+def unregister() -> None:
+    """Remove it."""
+    bpy.utils.unregister_class(MESH_OT_seamwire_cut)

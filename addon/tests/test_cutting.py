@@ -1,0 +1,198 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Plans of cuts, on flat meshes of quads and larger polygons, where what curves cross is known."""
+
+from __future__ import annotations
+
+import itertools
+from collections import defaultdict
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from seamwire.core.cutting import NEAR, CutPlan, CuttingError, Node, plan
+
+
+class Flat:
+    """Polygons in the plane, as triangles that fan out from their first corners."""
+
+    def __init__(self, points: NDArray[np.float64], polygons: list[list[int]]) -> None:
+        self.points = np.column_stack([points, np.zeros(len(points))])
+        self._polygons = polygons
+        cut = [(a, b, c, p) for p, (a, *rest) in enumerate(polygons) for b, c in itertools.pairwise(rest)]
+        self.triangles = np.array([row[:3] for row in cut], dtype=np.int32)
+        self._rows = defaultdict(list)
+        for row, (*_, polygon) in enumerate(cut):
+            self._rows[polygon].append(row)
+        self._around = defaultdict(list)
+        for polygon, corners in enumerate(polygons):
+            for corner in corners:
+                self._around[corner].append(polygon)
+        sides = (pair for corners in polygons for pair in itertools.pairwise([*corners, corners[0]]))
+        self._edges = {frozenset(side) for side in sides}
+
+    def polygons_at(self, vertex: int) -> list[int]:
+        return self._around[vertex]
+
+    def rows_of(self, polygon: int) -> list[int]:
+        return self._rows[polygon]
+
+    def corners(self, polygon: int) -> list[int]:
+        return self._polygons[polygon]
+
+    def is_edge(self, a: int, b: int) -> bool:
+        return frozenset((a, b)) in self._edges
+
+    def straight(self, start: int, end: int) -> tuple[int, NDArray[np.float64]]:
+        """Return the straight curve between two vertices, with a point wherever it passes a side of a triangle."""
+        a, b = self.points[start, :2], self.points[end, :2]
+        parts = {0.0, 1.0}
+        for triangle in self.triangles:
+            for c, d in itertools.pairwise([*triangle, triangle[0]]):
+                u, v, w = b - a, self.points[d, :2] - self.points[c, :2], self.points[c, :2] - a
+                area = u[0] * v[1] - u[1] * v[0]
+                if abs(area) < 1e-12:
+                    continue
+                s, t = (w[0] * v[1] - w[1] * v[0]) / area, (w[0] * u[1] - w[1] * u[0]) / area
+                if 0.0 <= s <= 1.0 and -1e-12 <= t <= 1.0 + 1e-12:
+                    parts.add(round(float(s), 12))
+        places = np.array(sorted(parts))[:, None]
+        return start, self.points[start] * (1.0 - places) + self.points[end] * places
+
+
+def grid(size: int, dice: np.random.Generator | None = None) -> Flat:
+    """Return a grid of size x size quads, vertex y * (size + 1) + x at (x, y); with dice its inner vertices are moved and some
+    of its quads are triangles."""
+    count = size + 1
+    points = np.array([(x, y) for y in range(count) for x in range(count)], dtype=float)
+    polygons = []
+    for y, x in itertools.product(range(size), repeat=2):
+        a = y * count + x
+        quad = [a, a + 1, a + count + 1, a + count]
+        polygons += [quad] if dice is None or dice.random() < 0.7 else [quad[:3], [quad[0], *quad[2:]]]
+    if dice is not None:
+        inner = (points > 0.0).all(axis=1) & (points < size).all(axis=1)
+        points[inner] += dice.uniform(-0.2, 0.2, (int(inner.sum()), 2))
+    return Flat(points, polygons)
+
+
+def segments(cuts: CutPlan) -> list[tuple[Node, Node]]:
+    return [*cuts.along, *(segment for own in cuts.across.values() for segment in own)]
+
+
+def reached(cuts: CutPlan, start: int) -> set[Node]:
+    beside = defaultdict(set)
+    for one, two in segments(cuts):
+        beside[one].add(two)
+        beside[two].add(one)
+    found, waiting = {Node((start,))}, [Node((start,))]
+    while waiting:
+        new = beside[waiting.pop()] - found
+        found |= new
+        waiting += new
+    return found
+
+
+def crossings(faces: Flat, own: list[tuple[Node, Node]]) -> int:
+    """Count pairs of cuts that cross where they have no node."""
+
+    def side(p: NDArray[np.float64], q: NDArray[np.float64], r: NDArray[np.float64]) -> float:
+        return float((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]))
+
+    count = 0
+    for one, two in itertools.combinations(own, 2):
+        if {*one} & {*two}:
+            continue
+        (a, b), (c, d) = (tuple(node.place(faces.points) for node in segment) for segment in (one, two))
+        count += side(a, b, c) * side(a, b, d) < 0.0 and side(c, d, a) * side(c, d, b) < 0.0
+    return count
+
+
+def test_a_row_of_quads_is_cut_across_without_vertices_inside() -> None:
+    faces = grid(4)
+    cuts = plan(faces, [faces.straight(0, 14)])  # from (0, 0) to (4, 2)
+    assert cuts.splits == {(1, 6): [Node((1, 6), (0.5, 0.5))], (8, 13): [Node((8, 13), (0.5, 0.5))]}
+    assert {polygon: len(own) for polygon, own in cuts.across.items()} == {0: 1, 1: 1, 6: 1, 7: 1}
+    assert cuts.inside == [] and cuts.along == []
+
+
+def test_along_edges_nothing_is_split() -> None:
+    faces = grid(4)
+    cuts = plan(faces, [faces.straight(5, 9)])
+    assert cuts.splits == {} and cuts.across == {}
+    assert [(one.vertices, two.vertices) for one, two in cuts.along] == [
+        ((5,), (6,)),
+        ((6,), (7,)),
+        ((7,), (8,)),
+        ((8,), (9,)),
+    ]
+
+
+def test_a_diagonal_of_a_quad_is_cut_from_corner_to_corner() -> None:
+    faces = grid(2)
+    for start, end in ((0, 8), (2, 6)):
+        cuts = plan(faces, [faces.straight(start, end)])
+        assert cuts.splits == {} and cuts.inside == []
+        assert sum(len(own) for own in cuts.across.values()) == 2
+
+
+def test_what_passes_near_a_vertex_goes_through_it() -> None:
+    faces = grid(3)
+    faces.points[10] += (0.4 * NEAR, 0.0, 0.0)  # the straight line from 5 to 15 passes 10 on its left
+    cuts = plan(faces, [faces.straight(5, 15)])
+    assert cuts.splits == {}
+    assert Node((10,)) in reached(cuts, 5)
+
+
+def test_curves_that_cross_meet_in_a_vertex() -> None:
+    faces = grid(3)
+    cuts = plan(faces, [faces.straight(0, 11), faces.straight(1, 8)])
+    (node,) = cuts.inside
+    assert node.place(faces.points) == pytest.approx([0.75, 0.5, 0.0])
+    assert {Node((0,)), Node((11,)), Node((1,)), Node((8,))} <= reached(cuts, 0)
+    on_an_edge = plan(faces, [faces.straight(0, 11), faces.straight(3, 8)])
+    assert on_an_edge.inside == []
+    assert Node((5, 6), (0.5, 0.5)) in reached(on_an_edge, 3) & reached(on_an_edge, 0)
+
+
+def test_curves_that_share_a_stretch_share_its_cuts() -> None:
+    faces = grid(4)
+    once = plan(faces, [faces.straight(0, 14)])
+    twice = plan(faces, [faces.straight(0, 14), faces.straight(14, 0)])
+    assert twice.splits == once.splits
+    assert len(segments(twice)) == len(segments(once))
+
+
+@pytest.mark.parametrize("number", range(40))
+def test_random_lines_join_their_ends_and_cross_in_nodes_only(number: int) -> None:
+    dice = np.random.default_rng(number)
+    faces = grid(6, dice)
+    ends = [tuple(dice.choice(len(faces.points), 2, replace=False).tolist()) for _ in range(4)]
+    cuts = plan(faces, [faces.straight(*pair) for pair in ends])
+    for start, end in ends:
+        assert Node((end,)) in reached(cuts, start)
+    for pair, nodes in cuts.splits.items():
+        parts = [0.0, *(node.weights[1] for node in nodes), 1.0]
+        assert min(np.diff(parts)) > 0.9 * NEAR, pair
+        assert faces.is_edge(*pair)
+    for polygon, own in cuts.across.items():
+        corners = {*faces.corners(polygon)}
+        assert all({*node.vertices} <= corners for segment in own for node in segment)
+        assert crossings(faces, own) == 0
+        assert len({frozenset(segment) for segment in own}) == len(own)
+    # No cut leaves its line by more than what it is moved for slivers and bends.
+    for node in {node for segment in segments(cuts) for node in segment}:
+        place = node.place(faces.points)
+        gaps = []
+        for start, end in ends:
+            a, b = faces.points[start], faces.points[end]
+            part = np.clip((place - a) @ (b - a) / ((b - a) @ (b - a)), 0.0, 1.0)
+            gaps.append(np.linalg.norm(a + part * (b - a) - place))
+        assert min(gaps) < 0.15
+
+
+def test_a_curve_beside_the_mesh_is_refused() -> None:
+    faces = grid(2)
+    with pytest.raises(CuttingError, match="does not run over the mesh near vertex 0"):
+        plan(faces, [(0, np.array([[0.0, 0.0, 0.0], [-3.0, 0.5, 0.0]]))])
+    with pytest.raises(CuttingError):
+        plan(faces, [(0, np.array([[0.0, 0.0, 0.0], [0.5, 0.5, 9.0]]))])

@@ -1,0 +1,319 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Wires cut into the faces: ``mesh.seamwire_mark(finish="CUT")`` and ``mesh.seamwire_cut``."""
+
+import math
+import random
+from collections import defaultdict
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from mathutils import Vector
+from scene import add_grid, add_layers, add_suzanne, edit, head, items_of, layer_kinds, plain, seams, snapshot
+
+
+def cut(chains: str, **options: object) -> set[str]:
+    return bpy.ops.mesh.seamwire_mark(chains=chains, along="SURFACE", finish="CUT", **options)
+
+
+def triangles(obj: bpy.types.Object, key: str = "") -> list[tuple[Vector, Vector, Vector]]:
+    """Return the triangles that a mesh in object mode is seen as, in a shape key where one is named."""
+    mesh = obj.data
+    mesh.calc_loop_triangles()
+    places = mesh.shape_keys.key_blocks[key].data if key else mesh.vertices
+    return [tuple(places[v].co.copy() for v in triangle.vertices) for triangle in mesh.loop_triangles]
+
+
+def joined(obj: bpy.types.Object, start: int) -> set[int]:
+    beside = defaultdict(set)
+    for a, b in seams(obj):
+        beside[a].add(b)
+        beside[b].add(a)
+    found, waiting = {start}, [start]
+    while waiting:
+        new = beside[waiting.pop()] - found
+        found |= new
+        waiting += new
+    return found
+
+
+def add_hills() -> bpy.types.Object:
+    """Add a grid with some polygons of up to ten corners, concave ones too, and heights that make them uneven."""
+    obj = add_grid(13)
+    edit()
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    bmesh.ops.dissolve_verts(bm, verts=[bm.verts[v] for v in (30, 31, 57, 84, 97, 98, 111)])
+    for v in bm.verts:
+        v.co.z = 0.2 * math.sin(3.0 * v.co.x) * v.co.y
+    bmesh.update_edit_mesh(obj.data)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    return obj
+
+
+def add_scan() -> bpy.types.Object:
+    """Add a ball of irregular triangles."""
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5)
+    obj = bpy.context.active_object
+    dice = random.Random(3)
+    for v in obj.data.vertices:
+        v.co *= 1.0 + 0.03 * dice.random()
+    return obj
+
+
+SHAPES = {
+    "quads": (lambda: add_suzanne(1), lambda obj: head(obj, 6)),
+    "polygons": (add_hills, lambda obj: [0, len(obj.data.vertices) - 1, 12, len(obj.data.vertices) - 13, 40, 140]),
+    "triangles": (add_scan, lambda _obj: [0, 3, 70, 400, 900, 1500]),
+}
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_seams_run_from_seed_to_seed_and_the_surface_stays(shape: str) -> None:
+    make, seeds_of = SHAPES[shape]
+    obj = make()
+    seeds = seeds_of(obj)
+    old = triangles(obj)
+    count, area = len(obj.data.vertices), sum(face.area for face in obj.data.polygons)
+    edit()
+    assert cut("{} {} {}; {} {}; {} {}".format(*seeds, seeds[0])) == {"FINISHED"}
+    for start, end in ((0, 1), (1, 2), (3, 4), (5, 0)):
+        assert seeds[end] in joined(obj, seeds[start])
+    bpy.ops.object.mode_set(mode="OBJECT")
+    mesh = obj.data
+    assert not mesh.validate(verbose=True), "validate() had something to mend"
+    new = mesh.vertices[count:]
+    assert len(new) > 5
+    faces = triangles(obj)
+    size = max(obj.dimensions)
+    assert all(_on_any(v.co, old, 1e-6 * size) for v in new)
+    assert len(faces) > len(old)
+    assert sum(face.area for face in mesh.polygons) == pytest.approx(area, rel=2e-3), "uneven polygons change a little"
+    bm = bmesh.new()
+    bm.from_mesh(mesh)
+    assert all(edge.is_manifold or edge.is_boundary for edge in bm.edges)
+    assert all(edge.link_faces for edge in bm.edges)
+    assert min(face.calc_area() for face in bm.faces) > 1e-9
+    bm.free()
+
+
+def _on_any(place: Vector, corners: list[tuple[Vector, Vector, Vector]], tolerance: float) -> bool:
+    for a, b, c in corners:
+        if any(
+            min(p) - tolerance > q or max(p) + tolerance < q
+            for p, q in zip(zip(a, b, c, strict=True), place, strict=True)
+        ):
+            continue
+        normal = (b - a).cross(c - a)
+        if normal.length > 0.0 and abs((place - a).dot(normal.normalized())) <= tolerance:
+            return True
+    return False
+
+
+def by_place(obj: bpy.types.Object) -> dict[str, object]:
+    """Return the layers of an edit mesh by where their items are, whatever their numbers."""
+
+    def at(item: object) -> tuple[float, ...]:
+        if isinstance(item, bmesh.types.BMVert):
+            place = item.co
+        elif isinstance(item, bmesh.types.BMLoop):
+            return (*at(item.vert), *at(item.face))
+        else:
+            verts = item.verts
+            place = sum((v.co for v in verts), Vector()) / len(verts)
+        return tuple(round(x, 4) + 0.0 for x in place)
+
+    def rounded(value: object) -> object:
+        if isinstance(value, float):
+            return round(value, 4) + 0.0
+        return tuple(map(rounded, value)) if isinstance(value, tuple) else value
+
+    bm = bmesh.from_edit_mesh(obj.data)
+    items = items_of(bm)
+    found: dict[str, object] = {
+        "places": sorted(at(v) for v in bm.verts),
+        "edges": {at(e): (e.smooth, e.hide) for e in bm.edges},
+        "faces": {at(f): (f.smooth, f.material_index, f.hide) for f in bm.faces},
+    }
+    for domain, kind, layers in layer_kinds(bm):
+        for name, layer in layers.items():
+            found[f"{domain} {kind} {name}"] = {at(item): rounded(plain(item[layer])) for item in items[domain]}
+            if kind == "uv":
+                found[f"uv {name}"] = {at(item): rounded(tuple(item[layer].uv)) for item in items[domain]}
+    return found
+
+
+def test_layers_come_out_as_blenders_own_bisect_leaves_them() -> None:
+    found = []
+    for name in ("ours", "blenders"):
+        obj = add_grid(9, name=name)
+        add_layers(obj)
+        edit()
+        if name == "ours":
+            assert cut("0 44") == {"FINISHED"}
+        else:
+            # The wire leads from one side of the grid to another, as the plane does.
+            bm = bmesh.from_edit_mesh(obj.data)
+            a, b = (bm.verts[:][v].co.copy() for v in (0, 44))
+            everything = [*bm.verts, *bm.edges, *bm.faces]
+            across = (b - a).cross((0.0, 0.0, 1.0))
+            bmesh.ops.bisect_plane(bm, geom=everything, plane_co=a, plane_no=across, dist=1e-6)
+            bmesh.update_edit_mesh(obj.data)
+        found.append(by_place(obj))
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.data.objects.remove(obj)
+    ours, blenders = found
+    assert ours.keys() == blenders.keys()
+    for name in ours:
+        assert ours[name] == blenders[name], name
+
+
+def test_in_every_shape_key_new_vertices_lie_on_the_faces_as_they_were() -> None:
+    obj = add_grid(9)
+    obj.shape_key_add(name="Basis")
+    wavy = obj.shape_key_add(name="Wavy", from_mix=False)
+    for point in wavy.data:
+        point.co.z += 0.3 * math.sin(4.0 * point.co.x + point.co.y)
+    old = triangles(obj, "Wavy")
+    obj.active_shape_key_index = 1
+    edit()
+    assert cut("0 44; 8 36; 3 70") == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    places = [point.co.copy() for point in obj.data.shape_keys.key_blocks["Wavy"].data][81:]
+    assert places and all(_on_any(place, old, 2e-6) for place in places)
+    flat = [point.co.z for point in obj.data.shape_keys.key_blocks["Basis"].data]
+    assert flat == pytest.approx([0.0] * len(flat), abs=1e-6)
+
+
+def test_wires_that_cross_meet_in_a_vertex_and_part_the_mesh() -> None:
+    obj = add_grid(9)
+    edit()
+    cut("0 80; 8 72; 4 44")  # both diagonals, and from the middle of one side to that of another
+    crossing = [v for v, count in _counts(seams(obj)).items() if count > 2]
+    assert len(crossing) == 2
+    assert islands(obj) == 6
+
+
+def _counts(edges: list[tuple[int, int]]) -> dict[int, int]:
+    numbers, counts = np.unique(np.array(edges), return_counts=True)
+    return dict(zip(numbers.tolist(), counts.tolist(), strict=True))
+
+
+def islands(obj: bpy.types.Object) -> int:
+    bm = bmesh.from_edit_mesh(obj.data)
+    left, count = set(bm.faces), 0
+    while left:
+        count += 1
+        waiting = [left.pop()]
+        while waiting:
+            face = waiting.pop()
+            new = {other for edge in face.edges if not edge.seam for other in edge.link_faces} & left
+            left -= new
+            waiting += new
+    return count
+
+
+def test_a_closed_chain_cuts_an_island_out() -> None:
+    obj = add_scan()
+    edit()
+    cut("0 3 70 0")
+    open_ends = {v for v, count in _counts(seams(obj)).items() if count == 1}
+    assert open_ends <= {3}, "two wires may leave a seed along the same edge"
+    assert islands(obj) >= 2
+
+
+def test_mirrored_wires_are_cut_on_both_sides() -> None:
+    obj = add_suzanne(1)
+    bpy.context.view_layer.update()
+    right = [v.index for v in obj.data.vertices if v.co.x > 0.2 and v.co.y < 0.0]
+    edit()
+    seeds = [v for v in head(obj, 40) if v in set(right)][:2]
+    assert cut(f"{seeds[0]} {seeds[1]}", mirror={"X"}) == {"FINISHED"}
+    bm = bmesh.from_edit_mesh(obj.data)
+    middles = [sum((v.co for v in edge.verts), Vector()) / 2 for edge in bm.edges if edge.seam]
+    missing = [m for m in middles if not any((n - Vector((-m.x, m.y, m.z))).length < 0.02 for n in middles)]
+    assert middles and not missing
+
+
+def test_several_objects_are_cut_at_once() -> None:
+    first, second = add_grid(5, name="First"), add_grid(5, name="Second")
+    first.select_set(True)
+    edit()
+    assert cut("0 14", objects="*") == {"FINISHED"}
+    assert seams(first) == seams(second) != []
+
+
+def test_a_cut_is_one_step_of_undo_and_brings_every_layer_back() -> None:
+    obj = add_grid(9)
+    add_layers(obj)
+    edit()
+    name = obj.name
+    bpy.ops.ed.undo_push(message="Before")
+    before = snapshot(bpy.data.objects[name])
+    cut("0 44; 8 36")
+    bpy.ops.ed.undo_push(message="Cut")
+    assert snapshot(bpy.data.objects[name])["vertices"] != before["vertices"]
+    bpy.ops.ed.undo()
+    assert snapshot(bpy.data.objects[name]) == before
+
+
+def test_a_face_that_cannot_be_cut_stays_whole_and_is_told_of(
+    monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    split, calls = bmesh.utils.face_split_edgenet, []
+
+    def refuse_the_third(face: bmesh.types.BMFace, edges: list[bmesh.types.BMEdge]) -> object:
+        calls.append(1)
+        if len(calls) == 3:
+            raise ValueError("refused on purpose")
+        return split(face, edges)
+
+    class Utils:
+        edge_split = staticmethod(bmesh.utils.edge_split)
+        face_split_edgenet = staticmethod(refuse_the_third)
+
+    from seamwire.mesh import cut as cutting
+
+    monkeypatch.setattr(cutting.bmesh, "utils", Utils)
+    obj = add_grid(9)
+    edit()
+    cut("0 44")
+    assert "1 face could not be cut" in capfd.readouterr().out
+    bm = bmesh.from_edit_mesh(obj.data)
+    assert all(edge.link_faces for edge in bm.edges) and all(vert.link_edges for vert in bm.verts)
+    assert len(seams(obj)) == 7
+
+
+def test_kept_wires_are_cut_and_their_snapped_seams_are_gone() -> None:
+    obj = add_scan()
+    edit()
+    bpy.ops.mesh.seamwire_mark(chains="0 3 70", along="SURFACE")
+    bpy.ops.mesh.seamwire_mark(chains="400 900", along="EDGES")
+    snapped = set(seams(obj))
+    assert bpy.ops.mesh.seamwire_cut() == {"FINISHED"}
+    assert {3, 70} <= joined(obj, 0)
+    assert 900 in joined(obj, 400), "wires along edges stay"
+    assert len(snapped - set(seams(obj))) > 5, "the staircase is gone"
+    with pytest.raises(RuntimeError, match="No kept wire runs across the surface"):
+        bpy.ops.mesh.seamwire_cut()
+
+
+def test_seams_cannot_be_cleared_by_a_cut() -> None:
+    add_grid(5)
+    edit()
+    with pytest.raises(RuntimeError, match="clear them along edges"):
+        cut("0 14", clear=True)
+
+
+def test_hidden_faces_are_not_cut() -> None:
+    obj = add_grid(9)
+    edit()
+    bm = bmesh.from_edit_mesh(obj.data)
+    for face in bm.faces:
+        face.hide_set(face.calc_center_median().x > 0.5)
+    bmesh.update_edit_mesh(obj.data)
+    hidden = sum(face.hide for face in bm.faces)
+    assert cut("0 76") == {"FINISHED"}
+    bm = bmesh.from_edit_mesh(obj.data)
+    assert sum(face.hide for face in bm.faces) == hidden
