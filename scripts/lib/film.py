@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Films the tool at work in Blender's window, with simulated events and the display's own pixels; scripts/animation runs this.
 
-``blender ... --python scripts/lib/film.py -- animation|guide FOLDER`` leaves frames.raw or guide-*.png in the folder. The simulated mouse
+``blender ... --python scripts/lib/film.py -- animation|guide|cut FOLDER`` leaves frames.raw or guide-*.png in the folder. The simulated mouse
 has no pointer on the display: one is drawn into the frames where it would be.
 """
 
@@ -405,6 +405,33 @@ def guide(film: Film) -> None:
     film.picture("unwrapped")
 
 
+def cut(film: Film) -> None:
+    """Take what becomes of a wire over irregular triangles: snapped to edges, and cut into the faces."""
+    film.filming = False
+    stage(film)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    modifier = film.obj.modifiers.new("Scan", "DECIMATE")
+    modifier.ratio = 0.25
+    bpy.ops.object.modifier_apply(modifier=modifier.name)
+    bpy.ops.object.shade_flat()
+    bpy.ops.object.mode_set(mode="EDIT")
+    vertices = film.obj.data.vertices
+    places = (Vector(place) for place in ((-0.55, -0.45, -0.3), (0.0, -0.75, 0.1), (0.6, -0.55, -0.25), (0.3, -0.6, -0.75)))
+    seeds = [min(vertices, key=lambda v: (v.co - place).length).index for place in places]
+    film.ui.view.view_rotation = Euler((1.24, 0.0, 0.2)).to_quaternion()
+    film.ui.view.view_distance = 2.2
+    with film.ui.override():
+        bpy.ops.mesh.seamwire_mark(chains=" ".join(map(str, seeds)), along="SURFACE")
+    film.at = (60.0, 60.0)
+    film.ui.move(film.at)
+    for name, what in (("snapped", None), ("cut", bpy.ops.mesh.seamwire_cut)):
+        if what is not None:
+            with film.ui.override():
+                what()
+        film.ui.wait(20, redraw=True)
+        film.picture(name)
+
+
 def bend(
     one: tuple[float, float], over: tuple[float, float], two: tuple[float, float], part: float
 ) -> tuple[float, float]:
@@ -476,5 +503,5 @@ def looks(film: Film) -> None:
 
 addon_utils.enable("seamwire", default_set=True)
 kind, target = sys.argv[sys.argv.index("--") + 1 :]
-part = {"animation": animation, "guide": guide, "looks": looks}[kind]
+part = {"animation": animation, "guide": guide, "cut": cut, "looks": looks}[kind]
 play_strictly(lambda: part(Film(Path(target))))
