@@ -169,7 +169,11 @@ class Band {
   std::size_t widened_ = 0;  // edges whose surroundings are there
 };
 
-/// Dijkstra's algorithm on a band. Empty where it does not connect the ends.
+/// What a turn costs in 1 - its cosine and in the lengths of the edges on both sides of it: see docs/method.md.
+constexpr double kTurning = 0.5;
+
+/// Dijkstra's algorithm over the directed edges of a band, since a turn belongs to two edges. Empty where it does not
+/// connect the ends.
 ///
 /// Nearly all of the time goes into the integrals that are the edges' costs, so an edge waits in the queue with a lower
 /// bound of its cost, which the distances of its ends give, and the integral is taken when it comes out and may still
@@ -178,118 +182,152 @@ class BandSearch {
  public:
   BandSearch(const Surface& surface, const std::vector<std::int32_t>& edges, const Wire& wire)
       : surface_(surface),
-        edges_(edges),
         polyline_(wire.points),
         // Edges along the wire are for free, all but this: it decides among them by length.
         per_length_(1e-6 * wire.euclidean_length / surface.scale()) {
-    std::vector<std::pair<std::int32_t, std::int32_t>> pairs;  // (vertex, edge of the band)
+    std::vector<std::pair<std::int32_t, std::int32_t>> pairs;  // (vertex, directed edge that leaves it)
     pairs.reserve(2 * edges.size());
-    ends_.reserve(edges.size());
+    heads_.reserve(2 * edges.size());
+    along_.reserve(edges.size());
     for (const std::int32_t e : edges) {
       const Edge& edge = surface.edges()[e];
-      ends_.push_back({vertices_.insert(edge[0]).first, vertices_.insert(edge[1]).first});
-      for (const std::int32_t v : ends_.back()) pairs.push_back({v, static_cast<std::int32_t>(ends_.size()) - 1});
+      const std::int32_t a = vertices_.insert(edge[0]).first, b = vertices_.insert(edge[1]).first;
+      const Vector vector = surface.points()[edge[1]] - surface.points()[edge[0]];
+      along_.push_back({vector, vector.norm()});
+      for (const auto& [tail, head] : {std::pair(a, b), std::pair(b, a)}) {
+        pairs.push_back({tail, static_cast<std::int32_t>(heads_.size())});
+        heads_.push_back(head);
+      }
     }
-    edges_of_ = Csr<std::int32_t>(vertices_.numbers().size(), pairs);
+    leaving_ = Csr<std::int32_t>(vertices_.numbers().size(), pairs);
   }
 
   std::vector<std::int32_t> path(std::int32_t from_vertex, std::int32_t to_vertex) {
     const std::int32_t from = vertices_.find(from_vertex), to = vertices_.find(to_vertex);
     if (from < 0 || to < 0) return {};
-    states_.assign(vertices_.numbers().size(), {});
-    weights_.assign(edges_.size(), -1.0);
-    states_[from].cost = 0.0;
-    push(0.0, from, -1);
-    State& goal = states_[to];
-    while (!queue_.empty() && !goal.is_settled) {
+    states_.assign(heads_.size(), {});
+    distances_.assign(vertices_.numbers().size(), -1.0);
+    weights_.assign(heads_.size() / 2, -1.0);
+    leave(from, -1);
+    while (!queue_.empty()) {
       const Waiting next = queue_.top();
       queue_.pop();
-      State& state = states_[next.vertex];
-      if (state.is_settled) continue;
-      if (next.edge >= 0) {
-        reach(next.vertex, next.edge);
-      } else {
-        settle(next.vertex);
+      if (states_[next.edge].is_settled) continue;
+      if (next.before != kReached) {
+        reach(next.edge, next.before);
+        continue;
       }
+      states_[next.edge].is_settled = true;
+      if (heads_[next.edge] == to) return chain(next.edge);
+      leave(heads_[next.edge], next.edge);
     }
-    std::vector<std::int32_t> path;
-    if (!goal.is_settled) return path;
-    for (std::int32_t v = to; v >= 0; v = states_[v].previous) path.push_back(vertices_.numbers()[v]);
-    std::reverse(path.begin(), path.end());
-    return path;
+    return {};
   }
 
  private:
+  static constexpr std::int32_t kReached = -2;
+
+  /// Of a directed edge: the least cost of a path that ends with it.
   struct State {
     double cost = std::numeric_limits<double>::infinity();
-    double distance = -1.0;  // from the wire; negative: not known yet
-    std::int32_t previous = -1;
+    std::int32_t before = -1;  // the directed edge before it in that path; -1: none
     bool is_settled = false;
   };
-  /// A vertex at its cost, or with an edge: not known to cost less by that edge.
+  /// A directed edge at its cost, or behind `before`: not known to cost less that way.
   struct Waiting {
     double cost;
-    std::int32_t number;  // the surface's, so that the order is the same whatever the band's
-    std::int32_t vertex, edge;
+    std::array<std::int32_t, 2>
+        numbers;  // of its ends on the surface, so that the order is the same whatever the band's
+    std::int32_t edge, before;
     bool operator>(const Waiting& other) const {
-      return std::tie(cost, number, edge) > std::tie(other.cost, other.number, other.edge);
+      return std::tie(cost, numbers, before) > std::tie(other.cost, other.numbers, other.before);
     }
   };
 
+  /// An edge from its first end to its second.
+  struct Along {
+    Vector vector;
+    double length;
+  };
+
+  /// Directed edges come in pairs, in opposite directions.
+  std::int32_t tail(std::int32_t edge) const { return heads_[edge ^ 1]; }
   const Vector& point(std::int32_t vertex) const { return surface_.points()[vertices_.numbers()[vertex]]; }
 
-  void push(double cost, std::int32_t vertex, std::int32_t edge) {
-    queue_.push({cost, vertices_.numbers()[vertex], vertex, edge});
+  void push(double cost, std::int32_t edge, std::int32_t before) {
+    queue_.push({cost, {vertices_.numbers()[heads_[edge]], vertices_.numbers()[tail(edge)]}, edge, before});
   }
 
   double distance(std::int32_t vertex, double bound) {
-    double& known = states_[vertex].distance;
+    double& known = distances_[vertex];
     if (known < 0) known = polyline_.distance(point(vertex), bound);
     return known;
   }
 
-  std::int32_t other_end(std::int32_t edge, std::int32_t vertex) const {
-    return ends_[edge][ends_[edge][0] == vertex ? 1 : 0];
+  /// Of all before an edge, and the turn onto it.
+  double cost_before(std::int32_t edge, std::int32_t before) const {
+    if (before < 0) return 0.0;
+    const Along &u = along_[before / 2], &v = along_[edge / 2];
+    const double dot = ((before ^ edge) & 1) != 0 ? -u.vector.dot(v.vector) : u.vector.dot(v.vector);
+    return states_[before].cost + kTurning * std::max(0.0, u.length * v.length - dot);
   }
 
-  void settle(std::int32_t vertex) {
-    State& state = states_[vertex];
-    state.is_settled = true;
+  /// Goes on from a vertex that is reached over `before`.
+  void leave(std::int32_t vertex, std::int32_t before) {
     const double here = distance(vertex, std::numeric_limits<double>::infinity());
-    for (const std::int32_t e : edges_of_[vertex]) {
-      const std::int32_t other = other_end(e, vertex);
-      if (states_[other].is_settled) continue;
-      const double length = (point(other) - point(vertex)).norm();
-      const double there = distance(other, (here + length) * (1.0 + 1e-12));
+    for (const std::int32_t edge : leaving_[vertex]) {
+      if (states_[edge].is_settled || edge == (before ^ 1)) continue;
+      const double length = along_[edge / 2].length;
+      const double there = distance(heads_[edge], (here + length) * (1.0 + 1e-12));
       const double least = Polyline::least_integral(length, here, there) + per_length_ * length;
-      if (state.cost + least < states_[other].cost) push(state.cost + least, other, e);
+      const double cost = cost_before(edge, before) + (weights_[edge / 2] < 0 ? least : weights_[edge / 2]);
+      if (cost < states_[edge].cost) push(cost, edge, before);
     }
   }
 
-  void reach(std::int32_t vertex, std::int32_t edge) {
-    State& state = states_[vertex];
-    const std::int32_t before = other_end(edge, vertex);
-    double& weight = weights_[edge];
+  void reach(std::int32_t edge, std::int32_t before) {
+    double& weight = weights_[edge / 2];
     if (weight < 0) {
-      const Vector &a = point(before), &b = point(vertex);
-      weight = polyline_.integral(a, b, states_[before].distance, state.distance) + per_length_ * (b - a).norm();
+      // In the same direction for both, so that both have the same.
+      const std::int32_t one = edge & ~1;
+      const Vector &a = point(tail(one)), &b = point(heads_[one]);
+      weight = polyline_.integral(a, b, distances_[tail(one)], distances_[heads_[one]]) +
+               per_length_ * along_[edge / 2].length;
     }
-    const double through = states_[before].cost + weight;
-    if (!(through < state.cost)) return;
-    state.cost = through;
-    state.previous = before;
-    push(through, vertex, -1);
+    const double cost = cost_before(edge, before) + weight;
+    State& state = states_[edge];
+    if (!(cost < state.cost)) return;
+    state.cost = cost;
+    state.before = before;
+    push(cost, edge, kReached);
+  }
+
+  /// The vertices of the path that ends with an edge. A path that meets itself, to turn more gently, leaves the loop
+  /// out.
+  std::vector<std::int32_t> chain(std::int32_t last) const {
+    std::vector<std::int32_t> path{heads_[last]};
+    std::vector<bool> is_on_path(distances_.size());
+    is_on_path[path.back()] = true;
+    for (std::int32_t edge = last; edge >= 0; edge = states_[edge].before) {
+      for (; is_on_path[tail(edge)]; path.pop_back()) is_on_path[path.back()] = false;
+      path.push_back(tail(edge));
+      is_on_path[path.back()] = true;
+    }
+    std::ranges::reverse(path);
+    for (std::int32_t& vertex : path) vertex = vertices_.numbers()[vertex];
+    return path;
   }
 
   const Surface& surface_;
-  const std::vector<std::int32_t>& edges_;
   const Polyline polyline_;
   const double per_length_;
-  InsertionMap vertices_;                          // of the band, which are numbered in it by their places
-  std::vector<std::array<std::int32_t, 2>> ends_;  // of the band's edges
-  Csr<std::int32_t> edges_of_;
+  InsertionMap vertices_;            // of the band, which are numbered in it by their places
+  std::vector<std::int32_t> heads_;  // of directed edges, each next to the opposite one
+  std::vector<Along> along_;         // of undirected edges
+  Csr<std::int32_t> leaving_;        // the directed edges that leave each vertex
   std::vector<State> states_;
-  std::vector<double> weights_;  // of the band's edges; negative: not known yet
+  std::vector<double> distances_;  // of vertices from the wire; negative: not known yet
+  std::vector<double> weights_;    // of undirected edges; negative: not known yet
   std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> queue_;
 };
 

@@ -26,10 +26,11 @@ class SnapGraph {
   std::shared_ptr<const SnapData> data_;
 };
 
-/// The path of real edges (Surface::edges()) from wire.from to wire.to that stays closest to the wire: of all paths
-/// along the edges of the polygons that the wire crosses, and of the polygons that share an edge with those, the one
-/// with the least integral of its distance to the wire. Where these do not connect the ends, of the polygons around
-/// them, ring by ring. Connected, without a repeated vertex. Empty where the wire is, or where no path of edges leads.
+/// The path of real edges (Surface::edges()) from wire.from to wire.to that stays close to the wire and hardly zigzags:
+/// of all paths along the edges of the polygons that the wire crosses, and of the polygons that share an edge with
+/// those, the one with the least sum of its integral of the distance to the wire and of 1/2 (|u| |v| - u v) for every
+/// two edges u, v that follow each other. Where these do not connect the ends, of the polygons around them, ring by
+/// ring. Connected, without a repeated vertex. Empty where the wire is, or where no path of edges leads.
 /// Takes time proportional to the faces crossed. Throws InvalidInput for a wire that is not on the surface, and a graph
 /// of a surface with other numbers of vertices, faces or edges.
 std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire);
