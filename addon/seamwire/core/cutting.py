@@ -89,6 +89,11 @@ class Node:
         """Return where it is, (3,)."""
         return np.asarray(self.weights) @ points[list(self.vertices)]
 
+    def near(self, other: Node) -> bool:
+        """Whether both are between the same vertices, and near each other."""
+        weights = zip(self.weights, other.weights, strict=True)
+        return self.vertices == other.vertices and max(abs(one - two) for one, two in weights) < NEAR
+
     def weight(self, vertex: int) -> float:
         """Return the weight of any vertex."""
         return dict(zip(self.vertices, self.weights, strict=True)).get(vertex, 0.0)
@@ -232,7 +237,7 @@ def _coordinates(
 
 
 def _together(pieces: Iterable[Piece]) -> list[Piece]:
-    """Let nodes that are near each other on one edge or diagonal be one, and keep each piece once."""
+    """Let nodes that are near each other between the same vertices be one, and keep each piece once."""
     pieces = list(pieces)
     same: dict[Node, Node] = {}
     for nodes in _on_pairs(pieces).values():
@@ -241,6 +246,13 @@ def _together(pieces: Iterable[Piece]) -> list[Piece]:
             if node.weights[1] - first.weights[1] > NEAR:
                 first = node
             same[node] = first
+    inside: dict[tuple[int, ...], list[Node]] = defaultdict(list)
+    for node in dict.fromkeys(node for one, two, _ in pieces for node in (one, two)):
+        if len(node.vertices) == 3:
+            first = next((other for other in inside[node.vertices] if node.near(other)), None)
+            if first is None:
+                inside[node.vertices].append(node)
+            same[node] = first or node
     kept: dict[frozenset[Node], Piece] = {}
     for one, two, polygon in pieces:
         begin, end = same.get(one, one), same.get(two, two)
