@@ -179,6 +179,10 @@ def test_random_lines_join_their_ends_and_cross_in_nodes_only(number: int) -> No
         assert all({*node.vertices} <= corners for segment in own for node in segment)
         assert crossings(faces, own) == 0
         assert len({frozenset(segment) for segment in own}) == len(own)
+    beside = defaultdict(int)
+    for node in (node for segment in segments(cuts) for node in segment):
+        beside[node] += 1
+    assert all(count > 1 or len(node.vertices) == 1 for node, count in beside.items()), "cuts end at seeds only"
     # No cut leaves its line by more than what it is moved for slivers and bends.
     for node in {node for segment in segments(cuts) for node in segment}:
         place = node.place(faces.points)

@@ -299,6 +299,18 @@ def test_kept_wires_are_cut_and_their_snapped_seams_are_gone() -> None:
         bpy.ops.mesh.seamwire_cut()
 
 
+def test_a_kept_wire_that_is_crossed_stays_a_wire() -> None:
+    from seamwire.mesh.object_session import ObjectSession
+
+    obj = add_grid(9)
+    edit()
+    bpy.ops.mesh.seamwire_mark(chains="36 44", along="EDGES")
+    cut("1 76")
+    (wire,) = ObjectSession(obj).session.wires
+    assert (wire.start, wire.end) == (36, 44)
+    assert len(wire.vertices) == 10, "with the vertex where it is crossed"
+
+
 def test_seams_cannot_be_cleared_by_a_cut() -> None:
     add_grid(5)
     edit()

@@ -136,7 +136,7 @@ def plan(faces: Faces, curves: Iterable[tuple[int, NDArray[np.float64]]]) -> Cut
     faces
         The mesh.
     curves
-        For each, the vertex that it begins at and its points, (k, 3); the last one is at a vertex or on an edge.
+        For each, the vertex that it begins at and its points, (k, 3); the last one is at a vertex.
 
     Raises
     ------
@@ -146,7 +146,7 @@ def plan(faces: Faces, curves: Iterable[tuple[int, NDArray[np.float64]]]) -> Cut
     pieces: list[Piece] = []
     for start, points in curves:
         pieces += _without_detours(_walk(faces, start, points))
-    return _sorted_out(faces, _together(_crossed(faces, _together(pieces))))
+    return _sorted_out(faces, _without_spurs(_together(_crossed(faces, _together(pieces)))))
 
 
 Piece = tuple[Node, Node, int]
@@ -259,6 +259,25 @@ def _together(pieces: Iterable[Piece]) -> list[Piece]:
         if begin != end:
             kept.setdefault(frozenset((begin, end)), (begin, end, polygon))
     return list(kept.values())
+
+
+def _without_spurs(pieces: list[Piece]) -> list[Piece]:
+    """Leave out pieces that lead nowhere, which moving nodes leaves behind: curves end at vertices."""
+    beside: dict[Node, set[int]] = defaultdict(set)
+    for number, (one, two, _) in enumerate(pieces):
+        beside[one].add(number)
+        beside[two].add(number)
+    waiting = [node for node, own in beside.items() if len(own) == 1 and len(node.vertices) > 1]
+    left_out: set[int] = set()
+    while waiting:
+        for number in beside.pop(waiting.pop()):
+            left_out.add(number)
+            for node in pieces[number][:2]:
+                if node in beside:
+                    beside[node].discard(number)
+                    if len(beside[node]) == 1 and len(node.vertices) > 1:
+                        waiting.append(node)
+    return [piece for number, piece in enumerate(pieces) if number not in left_out]
 
 
 def _on_pairs(pieces: Iterable[Piece]) -> dict[tuple[int, ...], list[Node]]:
