@@ -398,7 +398,11 @@ class IndexSet {
 
 std::optional<GeodesicMesh> GeodesicMesh::patched(const IntrinsicMesh& before, const IntrinsicMesh& mesh,
                                                   const Task& task) const {
+  check_sizes(before);
   check_sizes(mesh);
+  if (3 * before.triangles.size() != half_edge_count() || index(before.vertex_count) != vertex_count()) {
+    throw InvalidInput("the former mesh is not the one that the geodesics were made from");
+  }
   const std::size_t count = mesh.triangles.size(), former_count = before.triangles.size();
   const std::size_t common = std::min(count, former_count), most = count / kFacesPerChange;
   if (hop_unit_ != 1.0 || std::max(count, former_count) - common > most) return std::nullopt;
