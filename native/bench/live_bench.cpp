@@ -202,6 +202,7 @@ void measure(const std::string& file, const Options& options) {
   }
   std::mt19937 random(1);
   std::uniform_int_distribution<std::int32_t> any(0, static_cast<std::int32_t>(surface->vertex_count()) - 1);
+  const ExactGeodesics before(embeddings[0].mesh);
   for (const int edges : {1, 4, 16, 64}) {
     std::vector<double> again, drawing, embedding_again, solver, path, until_wire;
     std::size_t touched = 0;
@@ -220,7 +221,8 @@ void measure(const std::string& file, const Options& options) {
       drawing.push_back(seconds([&] { drawn = apply_scribbles(*surface, metrics[0], std::vector{scribble}); }));
       embedding_again.push_back(seconds([&] { old = re_embed(*surface, metrics[0], drawn, std::move(old)); }));
       std::unique_ptr<ExactGeodesics> geodesics;
-      solver.push_back(seconds([&] { geodesics = std::make_unique<ExactGeodesics>(old.mesh); }));
+      solver.push_back(
+          seconds([&] { geodesics = std::make_unique<ExactGeodesics>(before, embeddings[0].mesh, old.mesh); }));
       path.push_back(seconds([&] { CorridorPaths(*geodesics, from, {}).path(to); }));
       until_wire.push_back(drawing.back() + embedding_again.back() + solver.back() + path.back());
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -43,6 +44,30 @@ class Csr {
   std::int32_t offset(std::int32_t row) const { return offsets_[row]; }
   std::size_t row_count() const { return offsets_.size() - 1; }
   const std::vector<T>& items() const { return items_; }
+
+  /// The same with another number of rows, new ones empty, and with some rows, ascending, filled anew:
+  /// `fill(row, add)` calls add(item) for each of its items.
+  template <class Fill>
+  Csr with_rows(std::size_t row_count, std::span<const std::int32_t> rows, const Fill& fill) const {
+    Csr out;
+    out.reserve(row_count, items_.size() + items_.size() / 8);
+    const auto copy_until = [&](std::size_t end) {
+      const std::size_t first = out.row_count(), kept = std::min(end, this->row_count());
+      if (first < kept) {
+        const auto shift = static_cast<std::int32_t>(out.items_.size()) - offsets_[first];
+        out.items_.insert(out.items_.end(), items_.begin() + offsets_[first], items_.begin() + offsets_[kept]);
+        for (std::size_t row = first; row < kept; ++row) out.offsets_.push_back(offsets_[row + 1] + shift);
+      }
+      while (out.row_count() < end) out.end_row();
+    };
+    for (const std::int32_t row : rows) {
+      copy_until(index(row));
+      fill(row, [&out](const T& item) { out.push(item); });
+      out.end_row();
+    }
+    copy_until(row_count);
+    return out;
+  }
 
   void reserve(std::size_t row_count, std::size_t item_count) {
     offsets_.reserve(row_count + 1);

@@ -262,11 +262,17 @@ std::vector<std::int32_t> BisectedMesh::undo(const std::vector<std::int32_t>& se
   return faces;
 }
 
-// Removes the triangles, but the first ones, of some faces of the surface.
+// Removes the triangles, but the first ones, of some faces of the surface. The last of the others take their numbers,
+// so that most keep theirs.
 void BisectedMesh::remove_parts(const std::vector<bool>& is_undone) {
-  std::size_t to = given_faces_;
-  for (std::size_t f = given_faces_; f < origins.size(); ++f) {
-    if (is_undone[origins[f]]) continue;
+  std::size_t end = origins.size();
+  const auto drop_last = [&] {
+    while (end > given_faces_ && is_undone[origins[end - 1]]) --end;
+  };
+  drop_last();
+  for (std::size_t to = given_faces_; to < end; ++to) {
+    if (!is_undone[origins[to]]) continue;
+    const std::size_t f = --end;
     corners[to] = corners[f];
     origins[to] = origins[f];
     branches[to] = branches[f];
@@ -276,16 +282,17 @@ void BisectedMesh::remove_parts(const std::vector<bool>& is_undone) {
       twins[3 * to + i] = twin;
       if (twin >= 0) twins[twin] = static_cast<std::int32_t>(3 * to + i);
     }
-    ++to;
+    drop_last();
   }
-  corners.resize(to);
-  twins.resize(3 * to);
-  lengths.resize(3 * to);
-  origins.resize(to);
-  branches.resize(to);
-  depths.resize(to);
+  corners.resize(end);
+  twins.resize(3 * end);
+  lengths.resize(3 * end);
+  origins.resize(end);
+  branches.resize(end);
+  depths.resize(end);
 }
 
+// The last ones that are used take the numbers of those that are not.
 void BisectedMesh::remove_unused_vertices() {
   std::vector<std::int32_t> kept;  // all triangles of bisected faces; the first part of a face has the face's number
   std::vector<bool> has_parts(given_faces_, false);
@@ -300,13 +307,18 @@ void BisectedMesh::remove_unused_vertices() {
       if (index(v) >= fans_) renumbered[index(v) - fans_] = 0;
     }
   }
-  std::size_t count = 0;
-  for (std::size_t v = 0; v < renumbered.size(); ++v) {
-    if (renumbered[v] < 0) continue;
-    renumbered[v] = static_cast<std::int32_t>(fans_ + count);
-    new_nodes_[count] = new_nodes_[v];
-    tensors_[count] = tensors_[v];
-    points_[fans_ + count++] = points_[fans_ + v];
+  std::size_t count = renumbered.size();
+  for (std::size_t v = 0;; ++v) {
+    while (count > v && renumbered[count - 1] < 0) --count;
+    if (v == count) break;
+    std::size_t from = v;
+    if (renumbered[v] < 0) {
+      from = --count;
+      new_nodes_[v] = new_nodes_[from];
+      tensors_[v] = tensors_[from];
+      points_[fans_ + v] = points_[fans_ + from];
+    }
+    renumbered[from] = static_cast<std::int32_t>(fans_ + v);
   }
   new_nodes_.resize(count);
   tensors_.resize(count);

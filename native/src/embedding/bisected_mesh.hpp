@@ -72,8 +72,8 @@ class BisectedMesh {
   /// Takes the metric of a vertex of the surface's half-edge mesh from the metric.
   void set_node(std::int32_t fan);
   /// Makes faces what they were before any bisection, and with them those that they were bisected together with, that
-  /// is those with which they have a bisected edge in common. Triangles and vertices move together. Returns all the
-  /// faces; their lengths have to be measured anew.
+  /// is those with which they have a bisected edge in common. The last triangles and vertices take the numbers that
+  /// become free. Returns all the faces; their lengths have to be measured anew.
   std::vector<std::int32_t> undo(const std::vector<std::int32_t>& seeds);
 
   /// The embedding: invalid triangles become holes. All is set but the counters of the work. `is_scheme_local`: whether

@@ -2,6 +2,7 @@
 #include "seamwire/geodesics/exact_geodesics.hpp"
 
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -16,6 +17,13 @@ namespace seamwire {
 
 ExactGeodesics::ExactGeodesics(const IntrinsicMesh& mesh, const Task& task)
     : mesh_(std::make_shared<const GeodesicMesh>(mesh, task)) {}
+
+ExactGeodesics::ExactGeodesics(const ExactGeodesics& former, const IntrinsicMesh& former_mesh,
+                               const IntrinsicMesh& mesh, const Task& task) {
+  std::optional<GeodesicMesh> patched = former.mesh_->patched(former_mesh, mesh, task);
+  mesh_ = patched ? std::make_shared<const GeodesicMesh>(std::move(*patched))
+                  : std::make_shared<const GeodesicMesh>(mesh, task);
+}
 
 DistanceField ExactGeodesics::solve(std::int32_t seed, const Task& task, GeodesicCounters* counters) const {
   check_index(seed, mesh_->vertex_count(), "seed");

@@ -32,51 +32,66 @@ void check_vertex(const IntrinsicMesh& mesh, std::int32_t vertex, const char* wh
   check_index(vertex, index(mesh.vertex_count), std::string(what) + " " + std::to_string(number) + ": vertex");
 }
 
-void check(const IntrinsicMesh& mesh, const Task& task) {
+void check_sizes(const IntrinsicMesh& mesh) {
   const auto half_edge_count = 3 * mesh.triangles.size();
   if (mesh.twins.size() != half_edge_count || mesh.lengths.size() != half_edge_count) {
     throw InvalidInput("twins and lengths must have 3 entries a triangle: " + std::to_string(mesh.triangles.size()) +
                        " triangles, " + std::to_string(mesh.twins.size()) + " twins, " +
                        std::to_string(mesh.lengths.size()) + " lengths");
   }
+}
+
+void check_corners(const IntrinsicMesh& mesh, std::size_t f) {
+  for (const std::int32_t v : mesh.triangles[f]) check_vertex(mesh, v, "triangle", f);
+}
+
+void check_half_edge(const IntrinsicMesh& mesh, std::int32_t h) {
+  const auto where = [&] { return "half-edge " + text(h) + " of triangle " + text(h / 3); };
+  const double length = mesh.lengths[h];
+  if (!(length > 0) || !std::isfinite(length)) {
+    throw InvalidInput(where() + ": its length must be positive and finite, not " + text(length));
+  }
+  const std::int32_t twin = mesh.twins[h];
+  if (twin == -1) return;
+  if (twin < 0 || index(twin) >= mesh.twins.size() || twin == h || mesh.twins[twin] != h) {
+    throw InvalidInput(where() + ": its twin, " + text(twin) + ", does not name it back");
+  }
+  if (mesh.tail(twin) != mesh.tip(h) || mesh.tip(twin) != mesh.tail(h)) {
+    throw InvalidInput(where() + ": its twin, " + text(twin) +
+                       ", does not run the other way between the same vertices");
+  }
+  if (mesh.lengths[twin] != length) {
+    throw InvalidInput(where() + ": it is " + text(length) + " long, its twin, " + text(twin) + ", " +
+                       text(mesh.lengths[twin]));
+  }
+}
+
+void check_triangle_inequality(const IntrinsicMesh& mesh, std::size_t f) {
+  const double a = mesh.lengths[3 * f], b = mesh.lengths[3 * f + 1], c = mesh.lengths[3 * f + 2];
+  const double longest = std::max({a, b, c});
+  if (longest - (a + b + c - longest) > kRounding * longest) {
+    throw InvalidInput("triangle " + std::to_string(f) + ": the lengths " + text(a) + ", " + text(b) + ", " + text(c) +
+                       " fail the triangle inequality");
+  }
+}
+
+void check(const IntrinsicMesh& mesh, const Task& task) {
+  check_sizes(mesh);
   const Poll corners(task, 0.0, 0.02, mesh.triangles.size());
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     corners.at(f);
-    for (const std::int32_t v : mesh.triangles[f]) check_vertex(mesh, v, "triangle", f);
+    check_corners(mesh, f);
   }
-  const auto count = static_cast<std::int32_t>(half_edge_count);
-  const Poll half_edges(task, 0.02, 0.08, half_edge_count);
+  const auto count = static_cast<std::int32_t>(mesh.twins.size());
+  const Poll half_edges(task, 0.02, 0.08, mesh.twins.size());
   for (std::int32_t h = 0; h < count; ++h) {
     half_edges.at(index(h));
-    const auto where = [&] { return "half-edge " + text(h) + " of triangle " + text(h / 3); };
-    const double length = mesh.lengths[h];
-    if (!(length > 0) || !std::isfinite(length)) {
-      throw InvalidInput(where() + ": its length must be positive and finite, not " + text(length));
-    }
-    const std::int32_t twin = mesh.twins[h];
-    if (twin == -1) continue;
-    if (twin < 0 || twin >= count || twin == h || mesh.twins[twin] != h) {
-      throw InvalidInput(where() + ": its twin, " + text(twin) + ", does not name it back");
-    }
-    if (twin < h) continue;  // the rest has been looked at from the other side
-    if (mesh.tail(twin) != mesh.tip(h) || mesh.tip(twin) != mesh.tail(h)) {
-      throw InvalidInput(where() + ": its twin, " + text(twin) +
-                         ", does not run the other way between the same vertices");
-    }
-    if (mesh.lengths[twin] != length) {
-      throw InvalidInput(where() + ": it is " + text(length) + " long, its twin, " + text(twin) + ", " +
-                         text(mesh.lengths[twin]));
-    }
+    check_half_edge(mesh, h);
   }
   const Poll lengths(task, 0.08, 0.1, mesh.triangles.size());
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     lengths.at(f);
-    const double a = mesh.lengths[3 * f], b = mesh.lengths[3 * f + 1], c = mesh.lengths[3 * f + 2];
-    const double longest = std::max({a, b, c});
-    if (longest - (a + b + c - longest) > kRounding * longest) {
-      throw InvalidInput("triangle " + std::to_string(f) + ": the lengths " + text(a) + ", " + text(b) + ", " +
-                         text(c) + " fail the triangle inequality");
-    }
+    check_triangle_inequality(mesh, f);
   }
   for (std::size_t i = 0; i < mesh.loose_edges.size(); ++i) {
     const LooseEdge& edge = mesh.loose_edges[i];
@@ -106,6 +121,13 @@ double foot(double base, double left, double right) {
   return square / (2 * base);
 }
 
+/// Hops are in a unit of their own where the longest is longer than 2 to this, or shorter than the inverse: 2^80 times
+/// the number of vertices is still far below 2^128, where single precision ends.
+constexpr int kMostHopExponent = 80;
+
+/// Where more than one in so many faces has changed, building anew is no slower than patching.
+constexpr std::size_t kFacesPerChange = 4;
+
 /// Items that memory is asked for in advance.
 constexpr std::size_t kAhead = 8;
 
@@ -116,12 +138,10 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh, const Task& task) {
   std::vector<std::int32_t> internal_face(mesh.triangles.size(), -1);
   renumber(mesh, internal_face, task);
 
-  const auto entered_over = [&](std::int32_t original) {
-    const std::int32_t twin = mesh.twins[original];
-    return twin < 0 ? -1 : 3 * internal_face[twin / 3] + twin % 3;
-  };
-  half_edges_.reserve(3 * external_face_.size());
-  angle_.reserve(3 * external_face_.size());
+  internal_face_ = std::move(internal_face);
+
+  half_edges_.resize(3 * external_face_.size());
+  angle_.resize(3 * external_face_.size());
   std::vector<Triangle> corners;
   corners.reserve(external_face_.size());
   const Poll poll(task, 0.3, 0.6, external_face_.size());
@@ -133,30 +153,46 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh, const Task& task) {
       prefetch(&mesh.twins[3 * ahead]);
       prefetch(&mesh.triangles[ahead]);
     }
-    const std::int32_t face = external_face_[f];
-    const double* lengths = &mesh.lengths[3 * index(face)];
-    const double areas = four_areas(lengths[0], lengths[1], lengths[2]);
-    const Triangle& triangle = mesh.triangles[face];
-    const Triangle& own = corners.emplace_back(
-        Triangle{internal_vertex(triangle[0]), internal_vertex(triangle[1]), internal_vertex(triangle[2])});
-    const std::array entered{entered_over(3 * face), entered_over(3 * face + 1), entered_over(3 * face + 2)};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t after = (i + 1) % 3, before = (i + 2) % 3;
-      const HalfEdge& h = half_edges_.emplace_back(HalfEdge{.length = lengths[i],
-                                                            .apex_x = foot(lengths[i], lengths[before], lengths[after]),
-                                                            .apex_y = areas / (2 * lengths[i]),
-                                                            .left_length = lengths[before],
-                                                            .right_length = lengths[after],
-                                                            .tail = own[i],
-                                                            .tip = own[after],
-                                                            .apex = own[before],
-                                                            .left = entered[before],
-                                                            .right = entered[after]});
-      angle_.push_back(std::atan2(h.apex_y, h.apex_x));
-    }
+    set_face(mesh, external_face_[f]);
+    corners.push_back({half_edges_[3 * f].tail, half_edges_[3 * f + 1].tail, half_edges_[3 * f + 2].tail});
   }
 
   out_ = leaving(vertex_count(), corners, task);
+  list_loose_edges(mesh);
+  list_hops(task);
+  find_pseudo_sources(task);
+}
+
+/// The half-edges of a face, with their angles. Numbers have to be known.
+void GeodesicMesh::set_face(const IntrinsicMesh& mesh, std::int32_t external) {
+  const auto entered_over = [&](std::int32_t original) {
+    const std::int32_t twin = mesh.twins[original];
+    return twin < 0 ? -1 : 3 * internal_face_[twin / 3] + twin % 3;
+  };
+  const double* lengths = &mesh.lengths[3 * index(external)];
+  const double areas = four_areas(lengths[0], lengths[1], lengths[2]);
+  const Triangle& triangle = mesh.triangles[external];
+  const Triangle own{internal_vertex(triangle[0]), internal_vertex(triangle[1]), internal_vertex(triangle[2])};
+  const std::array entered{entered_over(3 * external), entered_over(3 * external + 1), entered_over(3 * external + 2)};
+  const std::size_t first = 3 * index(internal_face_[external]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t after = (i + 1) % 3, before = (i + 2) % 3;
+    HalfEdge& h = half_edges_.edit(first + i);
+    h = {.length = lengths[i],
+         .apex_x = foot(lengths[i], lengths[before], lengths[after]),
+         .apex_y = areas / (2 * lengths[i]),
+         .left_length = lengths[before],
+         .right_length = lengths[after],
+         .tail = own[i],
+         .tip = own[after],
+         .apex = own[before],
+         .left = entered[before],
+         .right = entered[after]};
+    angle_.edit(first + i) = std::atan2(h.apex_y, h.apex_x);
+  }
+}
+
+void GeodesicMesh::list_loose_edges(const IntrinsicMesh& mesh) {
   loose_ = Csr<Loose>(vertex_count(), [&](const auto& visit) {
     for (const LooseEdge& edge : mesh.loose_edges) {
       const std::int32_t a = internal_vertex(edge.a), b = internal_vertex(edge.b);
@@ -164,9 +200,6 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh, const Task& task) {
       visit(b, {a, edge.length});
     }
   });
-  list_hops(task);
-  find_pseudo_sources(task);
-  internal_face_ = std::move(internal_face);
 }
 
 /// For each vertex the half-edges that leave it.
@@ -185,55 +218,59 @@ Csr<std::int32_t> GeodesicMesh::leaving(std::size_t vertex_count, const std::vec
 /// What lengths are multiplied by to give those of hops: a power of two; 1, unless sums of them might leave the range
 /// of single precision.
 double GeodesicMesh::unit_of_hops() const {
-  constexpr int kMostExponent = 80;  // 2^80 times the number of vertices is still far below 2^128
   double longest = 0.0;
-  for (const HalfEdge& edge : half_edges_) longest = std::max(longest, edge.length);
+  for (std::size_t h = 0; h < half_edges_.size(); ++h) longest = std::max(longest, half_edges_[h].length);
   for (const Loose& edge : loose_.items()) longest = std::max(longest, edge.length);
   if (longest == 0.0) return 1.0;
   const int exponent = std::ilogb(longest);
-  return std::abs(exponent) > kMostExponent ? std::ldexp(1.0, -exponent) : 1.0;
+  return std::abs(exponent) > kMostHopExponent ? std::ldexp(1.0, -exponent) : 1.0;
+}
+
+/// Calls add(to, length) for each hop from a vertex.
+template <class Add>
+void GeodesicMesh::each_hop(std::int32_t vertex, const Add& add) const {
+  const std::vector<std::int32_t>& all = out_.items();
+  std::size_t leaving = index(out_.offset(vertex));  // of `all`, half-edges looked at
+  for (const std::int32_t h : out(vertex)) {
+    if (++leaving + 2 * kAhead < all.size()) {
+      prefetch(&half_edge(all[leaving + 2 * kAhead]));
+      if (const std::int32_t over = half_edge(all[leaving + kAhead]).right; over >= 0) prefetch(&half_edge(over));
+    }
+    const HalfEdge& edge = half_edge(h);
+    add(edge.tip, edge.length);
+    // On the boundary no half-edge leaves the vertex along the edge that arrives here.
+    if (edge.left < 0) add(edge.apex, half_edge(previous(h)).length);
+    if (edge.right < 0) continue;
+    // Over the opposite edge, from below it in the frame of the half-edge entered.
+    const HalfEdge& over = half_edge(edge.right);
+    const HalfEdge& back = half_edge(next(h));
+    const double x = over.length - back.apex_x, y = -back.apex_y;
+    const double dx = over.apex_x - x, dy = over.apex_y - y, foot = x * dy - dx * y;  // times dy, which is positive
+    if (!(foot > 0 && foot < over.length * dy)) continue;
+    const double length = std::sqrt(dx * dx + dy * dy);
+    const double around = std::min(edge.length + over.right_length, edge.left_length + over.left_length);
+    if (length < kShortcut * around) add(over.apex, length);
+  }
+  for (const auto& [to, length] : loose(vertex)) add(to, length);
 }
 
 void GeodesicMesh::list_hops(const Task& task) {
   hops_.reserve(vertex_count(), 2 * half_edges_.size() + loose_.items().size());
-  double sum = 0.0;
-  const std::vector<std::int32_t>& all = out_.items();
-  std::size_t leaving = 0;  // of `all`, half-edges looked at
-  const double unit = unit_of_hops();
+  hop_unit_ = unit_of_hops();
   const auto add = [&](std::int32_t to, double length) {
-    const auto rounded = static_cast<float>(length * unit);
+    const auto rounded = static_cast<float>(length * hop_unit_);
     hops_.push({to, rounded});
-    sum += length * unit;
+    hop_sum_ += length * hop_unit_;
     longest_hop_ = std::max(longest_hop_, rounded);
   };
   const Poll poll(task, 0.7, 0.9, vertex_count());
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(vertex_count()); ++v) {
     poll.at(index(v));
-    for (const std::int32_t h : out(v)) {
-      if (++leaving + 2 * kAhead < all.size()) {
-        prefetch(&half_edge(all[leaving + 2 * kAhead]));
-        if (const std::int32_t over = half_edge(all[leaving + kAhead]).right; over >= 0) prefetch(&half_edge(over));
-      }
-      const HalfEdge& edge = half_edge(h);
-      add(edge.tip, edge.length);
-      // On the boundary no half-edge leaves v along the edge that arrives here.
-      if (edge.left < 0) add(edge.apex, half_edge(previous(h)).length);
-      if (edge.right < 0) continue;
-      // Over the opposite edge, from below it in the frame of the half-edge entered.
-      const HalfEdge& over = half_edge(edge.right);
-      const HalfEdge& back = half_edge(next(h));
-      const double x = over.length - back.apex_x, y = -back.apex_y;
-      const double dx = over.apex_x - x, dy = over.apex_y - y, foot = x * dy - dx * y;  // times dy, which is positive
-      if (!(foot > 0 && foot < over.length * dy)) continue;
-      const double length = std::sqrt(dx * dx + dy * dy);
-      const double around = std::min(edge.length + over.right_length, edge.left_length + over.left_length);
-      if (length < kShortcut * around) add(over.apex, length);
-    }
-    for (const auto& [to, length] : loose(v)) add(to, length);
+    each_hop(v, add);
     hops_.end_row();
   }
   if (const std::size_t count = hops_.items().size(); count > 0) {
-    mean_hop_ = static_cast<float>(sum / static_cast<double>(count));
+    mean_hop_ = static_cast<float>(hop_sum_ / static_cast<double>(count));
   }
 }
 
@@ -271,30 +308,237 @@ void GeodesicMesh::renumber(const IntrinsicMesh& mesh, std::vector<std::int32_t>
   }
 }
 
+bool GeodesicMesh::may_bend(std::int32_t vertex) const {
+  const auto leaving = out(vertex);
+  bool bends = !loose(vertex).empty();
+  double angle = 0.0;
+  for (const std::int32_t h : leaving) {
+    angle += angle_[index(h)];
+    bends = bends || twin(h) < 0 || half_edge(h).left < 0;
+  }
+  if (!bends && !leaving.empty()) {
+    // Around one closed umbrella; whatever is not met belongs to another.
+    std::size_t met = 0;
+    std::int32_t h = leaving.front();
+    do {
+      h = half_edge(h).left;
+      ++met;
+    } while (h != leaving.front());
+    bends = met != leaving.size();
+  }
+  return bends || angle > 2 * std::numbers::pi + kFlatness;
+}
+
 void GeodesicMesh::find_pseudo_sources(const Task& task) {
   is_pseudo_source_.assign(vertex_count(), 0);
   const Poll poll(task, 0.9, 1.0, vertex_count());
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(vertex_count()); ++v) {
     poll.at(index(v));
-    const auto leaving = out(v);
-    bool bends = !loose(v).empty();
-    double angle = 0.0;
-    for (const std::int32_t h : leaving) {
-      angle += angle_[h];
-      bends = bends || twin(h) < 0 || half_edge(h).left < 0;
-    }
-    if (!bends && !leaving.empty()) {
-      // Around one closed umbrella; whatever is not met belongs to another.
-      std::size_t met = 0;
-      std::int32_t h = leaving.front();
-      do {
-        h = half_edge(h).left;
-        ++met;
-      } while (h != leaving.front());
-      bends = met != leaving.size();
-    }
-    is_pseudo_source_[v] = bends || angle > 2 * std::numbers::pi + kFlatness;
+    is_pseudo_source_[v] = may_bend(v);
   }
+}
+
+namespace {
+
+bool is_same_face(const IntrinsicMesh& one, const IntrinsicMesh& other, std::size_t f) {
+  const auto same = [f](const auto& a, const auto& b) {
+    return a[3 * f] == b[3 * f] && a[3 * f + 1] == b[3 * f + 1] && a[3 * f + 2] == b[3 * f + 2];
+  };
+  return one.triangles[f] == other.triangles[f] && same(one.twins, other.twins) && same(one.lengths, other.lengths);
+}
+
+bool are_same(const std::vector<LooseEdge>& these, const std::vector<LooseEdge>& those) {
+  return std::ranges::equal(these, those, [](const LooseEdge& a, const LooseEdge& b) {
+    return a.a == b.a && a.b == b.b && a.length == b.length;
+  });
+}
+
+/// Makes the numbers of `count` items out of those of some others, external from internal ones and back. An item keeps
+/// its internal number, but where there are fewer than before: then the last ones take those that have become free.
+/// Returns the external numbers of these.
+std::vector<std::int32_t> resize_numbers(std::vector<std::int32_t>& external, std::vector<std::int32_t>& internal,
+                                         std::size_t count) {
+  std::vector<std::int32_t> free, moved;
+  for (std::size_t item = count; item < internal.size(); ++item) {
+    if (index(internal[item]) < count) free.push_back(internal[item]);
+  }
+  for (std::size_t number = count; number < external.size(); ++number) {
+    const std::int32_t item = external[number];
+    if (index(item) >= count) continue;
+    internal[item] = free[moved.size()];
+    external[internal[item]] = item;
+    moved.push_back(item);
+  }
+  const std::size_t former = std::min(count, external.size());
+  external.resize(count);
+  internal.resize(count);
+  for (std::size_t item = former; item < count; ++item) {
+    external[item] = internal[item] = static_cast<std::int32_t>(item);
+  }
+  return moved;
+}
+
+/// A set of indices, listed in the order in which they come.
+class IndexSet {
+ public:
+  explicit IndexSet(std::size_t range) : has_(range, false) {}
+  void add(std::int32_t i) {
+    if (!has_[i]) items_.push_back(i);
+    has_[i] = true;
+  }
+  bool has(std::int32_t i) const { return has_[i]; }
+  const std::vector<std::int32_t>& items() const { return items_; }
+
+ private:
+  std::vector<bool> has_;
+  std::vector<std::int32_t> items_;
+};
+
+}  // namespace
+
+std::optional<GeodesicMesh> GeodesicMesh::patched(const IntrinsicMesh& before, const IntrinsicMesh& mesh,
+                                                  const Task& task) const {
+  check_sizes(before);
+  check_sizes(mesh);
+  if (3 * before.triangles.size() != half_edge_count() || index(before.vertex_count) != vertex_count()) {
+    throw InvalidInput("the former mesh is not the one that the geodesics were made from");
+  }
+  const std::size_t count = mesh.triangles.size(), former_count = before.triangles.size();
+  const std::size_t common = std::min(count, former_count), most = count / kFacesPerChange;
+  if (hop_unit_ != 1.0 || std::max(count, former_count) - common > most) return std::nullopt;
+  if (!are_same(before.loose_edges, mesh.loose_edges)) return std::nullopt;
+  const auto vertices = index(mesh.vertex_count), former_vertices = vertex_count();
+
+  // What is other than before: by its own numbers, or because it, or what it names, gets another internal number.
+  IndexSet faces(count);
+  const Poll comparing(task, 0.0, 0.5, common);
+  for (std::size_t f = 0; f < common; ++f) {
+    comparing.at(f);
+    if (is_same_face(before, mesh, f)) continue;
+    faces.add(static_cast<std::int32_t>(f));
+    if (faces.items().size() > most) return std::nullopt;
+  }
+  for (std::size_t f = common; f < count; ++f) faces.add(static_cast<std::int32_t>(f));
+  std::vector<std::int32_t> former_faces;  // those that are no more what they were
+  for (const std::int32_t f : faces.items()) {
+    if (index(f) < former_count) former_faces.push_back(f);
+  }
+  for (std::size_t f = common; f < former_count; ++f) former_faces.push_back(static_cast<std::int32_t>(f));
+  for (const std::int32_t f : faces.items()) check_corners(mesh, index(f));
+
+  GeodesicMesh out;  // rows of half-edges and hops are copied when they are patched
+  out.half_edges_ = half_edges_;
+  out.angle_ = angle_;
+  out.is_pseudo_source_ = is_pseudo_source_;
+  out.hop_sum_ = hop_sum_;
+  out.longest_hop_ = longest_hop_;
+  out.external_vertex_ = external_vertex_;
+  out.internal_vertex_ = internal_vertex_;
+  out.external_face_ = external_face_;
+  out.internal_face_ = internal_face_;
+  for (const std::int32_t f : resize_numbers(out.external_face_, out.internal_face_, count)) faces.add(f);
+  const std::vector<std::int32_t> moved_vertices = resize_numbers(out.external_vertex_, out.internal_vertex_, vertices);
+  for (const std::int32_t v : moved_vertices) {
+    for (const std::int32_t h : this->out(internal_vertex(v))) {
+      if (const std::int32_t f = external_face_[h / 3]; index(f) < count) faces.add(f);
+    }
+  }
+  // And the faces around, for the hops over them, and what they name.
+  const auto add_neighbors = [&](const IntrinsicMesh& of, std::int32_t f) {
+    for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
+      if (const std::int32_t twin = of.twins[h]; twin >= 0 && index(twin / 3) < count) faces.add(twin / 3);
+    }
+  };
+  const std::size_t own = faces.items().size();
+  for (const std::int32_t f : former_faces) add_neighbors(before, f);
+  for (std::size_t i = 0; i < own; ++i) add_neighbors(mesh, faces.items()[i]);
+
+  constexpr double kLongest = 0x1p80, kShortest = 0x1p-80;
+  static_assert(kMostHopExponent == 80);
+  for (const std::int32_t f : faces.items()) {
+    for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
+      check_half_edge(mesh, h);
+      if (mesh.lengths[h] > kLongest || mesh.lengths[h] < kShortest) return std::nullopt;
+    }
+  }
+  for (const std::int32_t f : faces.items()) check_triangle_inequality(mesh, index(f));
+
+  out.half_edges_.resize(3 * count);
+  out.angle_.resize(3 * count);
+  IndexSet around(vertices);  // internal numbers of the vertices of all these faces
+  for (const std::int32_t f : faces.items()) {
+    out.set_face(mesh, f);
+    for (const std::int32_t v : mesh.triangles[f]) around.add(out.internal_vertex(v));
+  }
+  for (const std::int32_t f : former_faces) {
+    for (const std::int32_t v : before.triangles[f]) {
+      if (index(v) < vertices) around.add(out.internal_vertex(v));
+    }
+  }
+  for (std::size_t v = former_vertices; v < vertices; ++v) around.add(static_cast<std::int32_t>(v));
+  out.list_loose_edges(mesh);
+  for (const std::int32_t v : moved_vertices) {
+    around.add(out.internal_vertex(v));
+    for (const Loose& edge : out.loose(out.internal_vertex(v))) around.add(edge.to);
+  }
+  std::vector<std::int32_t> rows = around.items();
+  std::ranges::sort(rows);
+  task.check(0.6);
+  out.patch_rows(*this, faces.items(), rows);
+  out.is_pseudo_source_.resize(vertices);
+  for (const std::int32_t v : rows) out.is_pseudo_source_[v] = out.may_bend(v);
+  return out;
+}
+
+/// Rows of half-edges and hops: made anew for some vertices, ascending, whose faces, by external numbers, may be
+/// others; the rest is that of the former mesh.
+void GeodesicMesh::patch_rows(const GeodesicMesh& former, const std::vector<std::int32_t>& faces,
+                              const std::vector<std::int32_t>& vertices) {
+  std::vector<std::pair<std::int32_t, std::int32_t>> leaving;  // vertex, half-edge
+  std::vector<bool> is_new(half_edges_.size() / 3, false);
+  for (const std::int32_t face : faces) {
+    const std::int32_t own = internal_face_[face];
+    is_new[own] = true;
+    for (std::int32_t h = 3 * own; h < 3 * own + 3; ++h) leaving.emplace_back(half_edge(h).tail, h);
+  }
+  for (const std::int32_t v : vertices) {
+    if (index(v) >= former.vertex_count()) continue;
+    for (const std::int32_t h : former.out(v)) {
+      if (index(h) < half_edges_.size() && !is_new[h / 3]) leaving.emplace_back(v, h);
+    }
+  }
+  std::ranges::sort(leaving);
+  auto next = leaving.begin();
+  out_ = former.out_.with_rows(vertex_count(), vertices, [&](std::int32_t v, const auto& add) {
+    for (; next != leaving.end() && next->first == v; ++next) add(next->second);
+  });
+
+  bool was_longest = false;
+  const auto forget = [&](std::int32_t v) {
+    for (const Hop& hop : former.hops(v)) {
+      hop_sum_ -= static_cast<double>(hop.length);
+      was_longest = was_longest || hop.length == former.longest_hop_;
+    }
+  };
+  const std::size_t common = std::min(vertex_count(), former.vertex_count());
+  for (const std::int32_t v : vertices) {
+    if (index(v) < common) forget(v);
+  }
+  for (std::size_t v = common; v < former.vertex_count(); ++v) forget(static_cast<std::int32_t>(v));
+  hops_ = former.hops_.with_rows(vertex_count(), vertices, [&](std::int32_t v, const auto& add) {
+    each_hop(v, [&](std::int32_t to, double length) {
+      const auto rounded = static_cast<float>(length);
+      add(Hop{to, rounded});
+      hop_sum_ += static_cast<double>(rounded);
+      longest_hop_ = std::max(longest_hop_, rounded);
+    });
+  });
+  if (was_longest) {
+    longest_hop_ = 0.0F;
+    for (const Hop& hop : hops_.items()) longest_hop_ = std::max(longest_hop_, hop.length);
+  }
+  const std::size_t count = hops_.items().size();
+  mean_hop_ = count > 0 ? static_cast<float>(hop_sum_ / static_cast<double>(count)) : 0.0F;
 }
 
 }  // namespace seamwire

@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "detail/csr.hpp"
+#include "detail/paged_array.hpp"
 #include "detail/prefetch.hpp"
 #include "seamwire/surface/intrinsic_mesh.hpp"
 #include "seamwire/task.hpp"
@@ -45,8 +47,17 @@ class GeodesicMesh {
   /// Throws as ExactGeodesics does.
   explicit GeodesicMesh(const IntrinsicMesh& mesh, const Task& task = {});
 
+  /// The mesh anew after a change: `before` is what this one was made of, `mesh` what it is to be made of, with most
+  /// faces and vertices, by their numbers, as they were. Only what belongs to the others is made anew, the rest is
+  /// shared: the time is that of comparing the two, and of copying the hops. What it tells of `mesh` is what one made
+  /// from scratch tells, but for internal numbers: of all that keeps its external number, nearly all keeps those too.
+  /// Nothing where too much has changed, or loose edges, or where lengths are huge or tiny. Throws as the constructor
+  /// does.
+  std::optional<GeodesicMesh> patched(const IntrinsicMesh& before, const IntrinsicMesh& mesh,
+                                      const Task& task = {}) const;
+
   std::size_t vertex_count() const { return external_vertex_.size(); }
-  const HalfEdge& half_edge(std::int32_t h) const { return half_edges_[h]; }
+  const HalfEdge& half_edge(std::int32_t h) const { return half_edges_[index(h)]; }
   std::size_t half_edge_count() const { return half_edges_.size(); }
   static std::int32_t next(std::int32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
   static std::int32_t previous(std::int32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
@@ -54,7 +65,7 @@ class GeodesicMesh {
   std::int32_t twin(std::int32_t h) const { return half_edge(previous(h)).right; }
 
   /// The angle at the tail of h in its triangle.
-  double angle(std::int32_t h) const { return angle_[h]; }
+  double angle(std::int32_t h) const { return angle_[index(h)]; }
 
   /// Half-edges that leave a vertex, of all its umbrellas.
   std::span<const std::int32_t> out(std::int32_t vertex) const { return out_[vertex]; }
@@ -72,6 +83,10 @@ class GeodesicMesh {
   std::int32_t internal_vertex(std::int32_t external) const { return internal_vertex_[external]; }
   std::int32_t internal_face(std::int32_t external) const { return internal_face_[external]; }
   std::int32_t external_half_edge(std::int32_t h) const { return 3 * external_face_[h / 3] + h % 3; }
+  /// Whether a half-edge is in the memory of another mesh, which this one was patched from, or it from this one.
+  bool shares(const GeodesicMesh& other, std::int32_t h) const {
+    return half_edges_.shares(other.half_edges_, index(h));
+  }
 
  private:
   friend class SubmeshCutter;
@@ -79,15 +94,23 @@ class GeodesicMesh {
   void renumber(const IntrinsicMesh& mesh, std::vector<std::int32_t>& internal_face, const Task& task);
   static Csr<std::int32_t> leaving(std::size_t vertex_count, const std::vector<Triangle>& corners,
                                    const Task& task = {});
+  void set_face(const IntrinsicMesh& mesh, std::int32_t external);
+  void list_loose_edges(const IntrinsicMesh& mesh);
   double unit_of_hops() const;
+  template <class Add>
+  void each_hop(std::int32_t vertex, const Add& add) const;
   void list_hops(const Task& task);
+  void patch_rows(const GeodesicMesh& former, const std::vector<std::int32_t>& faces,
+                  const std::vector<std::int32_t>& vertices);
+  bool may_bend(std::int32_t vertex) const;
   void find_pseudo_sources(const Task& task);
 
-  std::vector<HalfEdge> half_edges_;
-  std::vector<double> angle_;
+  PagedArray<HalfEdge> half_edges_;
+  PagedArray<double> angle_;
   Csr<std::int32_t> out_;
   Csr<Loose> loose_;
   Csr<Hop> hops_;
+  double hop_unit_ = 1.0, hop_sum_ = 0.0;
   float mean_hop_ = 0.0F, longest_hop_ = 0.0F;
   std::vector<std::uint8_t> is_pseudo_source_;
   std::vector<std::int32_t> external_vertex_, internal_vertex_, external_face_, internal_face_;

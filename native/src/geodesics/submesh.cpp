@@ -39,15 +39,16 @@ Submesh SubmeshCutter::cut(std::span<const std::int32_t> vertices) {
     const std::int32_t face = part_face_[h / 3] - 1;
     return face < 0 ? -1 : 3 * face + h % 3;
   };
-  part->half_edges_.reserve(3 * used_faces_.size());
-  part->angle_.reserve(3 * used_faces_.size());
+  part->half_edges_.resize(3 * used_faces_.size());
+  part->angle_.resize(3 * used_faces_.size());
   part->is_pseudo_source_.resize(used_vertices_.size());
   for (std::size_t v = 0; v < used_vertices_.size(); ++v) {
     part->is_pseudo_source_[v] = mesh_.is_pseudo_source(used_vertices_[v]);
   }
   std::vector<Triangle> corners;
   corners.reserve(used_faces_.size());
-  for (const std::int32_t face : used_faces_) {
+  for (std::size_t own = 0; const std::int32_t face : used_faces_) {
+    Triangle& triangle = corners.emplace_back();
     for (const std::int32_t h : {3 * face, 3 * face + 1, 3 * face + 2}) {
       GeodesicMesh::HalfEdge edge = mesh_.half_edge(h);
       edge.tail = part_vertex(edge.tail);
@@ -56,11 +57,10 @@ Submesh SubmeshCutter::cut(std::span<const std::int32_t> vertices) {
       edge.left = entered(edge.left);
       edge.right = entered(edge.right);
       if (edge.left < 0) part->is_pseudo_source_[edge.tail] = part->is_pseudo_source_[edge.apex] = 1;
-      part->half_edges_.push_back(edge);
-      part->angle_.push_back(mesh_.angle(h));
+      triangle[index(h % 3)] = edge.tail;
+      part->half_edges_.edit(own) = edge;
+      part->angle_.edit(own++) = mesh_.angle(h);
     }
-    const auto* h = &part->half_edges_.back() - 2;
-    corners.push_back({h[0].tail, h[1].tail, h[2].tail});
   }
   part->external_vertex_.resize(used_vertices_.size());
   std::iota(part->external_vertex_.begin(), part->external_vertex_.end(), 0);

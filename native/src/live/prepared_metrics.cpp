@@ -99,7 +99,13 @@ Prepared prepare(SurfaceCache& surface_cache, Along along, MetricPair& metrics, 
     const std::shared_ptr<const Prepared> former = metrics.former(which);
     prepared.embedding = former ? re_embed(surface, former->metric, metric, *former->embedding, options, task)
                                 : embed(surface, metric, options, task);
-    prepared.geodesics.emplace(prepared.embedding->mesh, Task{.stop = stop, .progress = {}});
+    const IntrinsicMesh& mesh = prepared.embedding->mesh;
+    const Task silent{.stop = stop, .progress = {}};
+    if (former) {
+      prepared.geodesics.emplace(*former->geodesics, former->embedding->mesh, mesh, silent);
+    } else {
+      prepared.geodesics.emplace(mesh, silent);
+    }
     prepared.metric = std::move(metric);
   } else {
     prepared.graph = make_edge_graph(surface, metric, std::move(fans), task, metrics.scribbles, kFollow[which]);

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace seamwire {
+
+/// An array whose copies share what has not been changed since (copy on write), page by page: a copy that differs in a
+/// few places costs these, and a pointer a page. As with other containers, one array is for one thread; the pages that
+/// several share are only read.
+template <class T>
+class PagedArray {
+ public:
+  PagedArray() = default;
+
+  std::size_t size() const { return size_; }
+  const T& operator[](std::size_t i) const { return pages_[i / kPage][i % kPage]; }
+  /// To be written to: a page that is shared is copied first.
+  T& edit(std::size_t i) {
+    std::shared_ptr<T[]>& page = pages_[i / kPage];
+    if (page.use_count() > 1) {
+      std::shared_ptr<T[]> own = make_page();
+      std::copy_n(page.get(), kPage, own.get());
+      page = std::move(own);
+    }
+    return page[i % kPage];
+  }
+  /// New items have any value.
+  void resize(std::size_t size) {
+    const std::size_t pages = (size + kPage - 1) / kPage;
+    pages_.reserve(pages);
+    while (pages_.size() > pages) pages_.pop_back();
+    while (pages_.size() < pages) pages_.push_back(make_page());
+    size_ = size;
+  }
+  /// Whether both read an item from the same place.
+  bool shares(const PagedArray& other, std::size_t i) const { return &(*this)[i] == &other[i]; }
+
+ private:
+  static constexpr std::size_t kPage = 2048;
+  static std::shared_ptr<T[]> make_page() { return std::shared_ptr<T[]>(new T[kPage]); }
+
+  std::vector<std::shared_ptr<T[]>> pages_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace seamwire
