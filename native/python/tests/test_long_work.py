@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import os
 import signal
 import sys
 import threading
@@ -125,7 +124,7 @@ def heeds_control_c() -> Iterator[None]:
 
 
 def interrupt_after(seconds: float) -> threading.Timer:
-    timer = threading.Timer(seconds, os.kill, (os.getpid(), signal.SIGINT))
+    timer = threading.Timer(seconds, signal.raise_signal, (signal.SIGINT,))
     timer.start()
     return timer
 

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads what a compiled module asks of its system: Windows' PE files, 64 bit."""
+
+import struct
+from pathlib import Path
+from typing import NamedTuple
+
+
+class Portable(NamedTuple):
+    """What a Windows DLL or program names: the DLLs it imports, and its own functions and data."""
+
+    imports: list[str]
+    exports: list[str]
+
+
+def read_portable(path: Path) -> Portable:
+    """Return the import and export tables of a PE file (PE Format, "The .idata Section", "The .edata Section").
+
+    Raises
+    ------
+    ValueError
+        Where it is none for x86-64.
+    """
+    data = path.read_bytes()
+    (header,) = struct.unpack_from("<I", data, 0x3C) if data[:2] == b"MZ" else (0,)
+    signature, machine, sections, options_size = struct.unpack_from("<4sHH12xH", data, header)
+    options = header + 24
+    if signature != b"PE\0\0" or machine != 0x8664 or struct.unpack_from("<H", data, options) != (0x20B,):
+        raise ValueError(f"{path.name} is no PE file for x86-64")
+    tables = [struct.unpack_from("<II", data, options + 112 + 8 * table) for table in (0, 1)]
+    spans = [struct.unpack_from("<4I", data, options + options_size + 40 * index + 8) for index in range(sections)]
+
+    def place(address: int) -> int:
+        for size, start, stored, offset in spans:
+            if start <= address < start + max(size, stored):
+                return offset + address - start
+        raise ValueError(f"{path.name}: nothing is at {address:#x}")
+
+    def text(address: int) -> str:
+        start = place(address)
+        return data[start : data.index(b"\0", start)].decode()
+
+    (exported, _), (imported, _) = tables
+    imports, exports = [], []
+    if imported:
+        entry = place(imported)
+        while name := struct.unpack_from("<12xI", data, entry)[0]:
+            imports.append(text(name))
+            entry += 20
+    if exported:
+        count, names = struct.unpack_from("<24xI4xI", data, place(exported))
+        exports = [text(name) for name in struct.unpack_from(f"<{count}I", data, place(names))] if count else []
+    return Portable(imports, exports)

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Knows how wheels and modules are called, and looks whether a wheel holds what its name says.
+
+``check_wheel.py check PLATFORM PYTHON WHEEL``, ``check_wheel.py tag PLATFORM`` (of a wheel), ``check_wheel.py suffix PLATFORM PYTHON`` (of
+the module). PLATFORM is as Blender names it, PYTHON such as 3.11. Name, tags in the wheel and the compiled module must agree, and the
+module may ask for nothing but the system and that Python. Into the modules of Linux wheels auditwheel has looked before.
+"""
+
+import re
+import sys
+import tempfile
+import zipfile
+from pathlib import Path
+
+from binaries import read_portable
+
+TAGS = {
+    "linux-x64": "manylinux_2_28_x86_64",
+    "windows-x64": "win_amd64",
+}
+SUFFIXES = {
+    "linux-x64": ".cpython-{0}-x86_64-linux-gnu.so",
+    "windows-x64": ".cp{0}-win_amd64.pyd",
+}
+WINDOWS_SYSTEM = re.compile(r"(api-ms-win-[a-z0-9-]+|kernel32|ntdll|advapi32|user32|shell32|ole32|bcrypt)\.dll", re.I)
+
+
+def faults_of_module(module: Path, platform: str, python: str) -> list[str]:
+    """Return a sentence for each library that the module asks for and that is not there by itself."""
+    if platform == "windows-x64":
+        asked = read_portable(module).imports
+        own = f"python{python.replace('.', '')}.dll"
+        faults = [f"it links {name}" for name in asked if not WINDOWS_SYSTEM.fullmatch(name) and name.lower() != own]
+        return faults if own in map(str.lower, asked) else [*faults, f"it does not link {own}"]
+    return []
+
+
+def faults_of_wheel(wheel: Path, platform: str, python: str) -> list[str]:
+    """Return a sentence for each thing that is not as it must be."""
+    version = python.replace(".", "")
+    tag = f"cp{version}-cp{version}-{TAGS[platform]}"
+    module = f"seamwire_core{SUFFIXES[platform].format(version)}"
+    faults = [] if wheel.name.endswith(f"-{tag}.whl") else [f"its name does not end with {tag}"]
+    with zipfile.ZipFile(wheel) as archive, tempfile.TemporaryDirectory() as folder:
+        (metadata,) = (name for name in archive.namelist() if name.endswith(".dist-info/WHEEL"))
+        tags = re.findall(r"^Tag: (\S+)", archive.read(metadata).decode(), re.M)
+        if tag not in tags or len(tags) != 1:
+            faults.append(f"its tags are {', '.join(tags)}")
+        if module not in archive.namelist():
+            return [*faults, f"{module} is not in it"]
+        return faults + faults_of_module(Path(archive.extract(module, folder)), platform, python)
+
+
+def main() -> None:
+    """Do what the command line says."""
+    action, platform, *rest = sys.argv[1:]
+    if action == "tag":
+        print(TAGS[platform])
+        return
+    python = rest[0]
+    if action == "suffix":
+        print(SUFFIXES[platform].format(python.replace(".", "")))
+        return
+    wheel = rest[1]
+    faults = faults_of_wheel(Path(wheel), platform, python)
+    if faults:
+        sys.exit("".join(f"{Path(wheel).name}: {fault}\n" for fault in faults))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What wheels are looked through for before they are packed."""
+
+from __future__ import annotations
+
+import struct
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+import binaries
+import check_wheel
+
+SECTION, STORED = 0x3000, 0x200
+"""Where the one section of the test's DLL is in memory, and in the file."""
+
+
+def wheel(folder: Path, name: str, tag: str, module: bytes) -> Path:
+    path = folder / name
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("seamwire_core.cp311-win_amd64.pyd", module)
+        archive.writestr("seamwire_core-1.0.dist-info/WHEEL", f"Wheel-Version: 1.0\nTag: {tag}\n")
+    return path
+
+
+def portable(imports: list[str], exports: list[str]) -> bytes:
+    """Return a DLL that has nothing but an import and an export table."""
+    content = bytearray(20 * (len(imports) + 1) + 40 + 4 * len(exports))
+
+    def add(text: str) -> int:
+        content.extend(text.encode() + b"\0")
+        return SECTION + len(content) - len(text) - 1
+
+    for index, name in enumerate(imports):
+        struct.pack_into("<12xI", content, 20 * index, add(name))
+    table = 20 * (len(imports) + 1)
+    struct.pack_into("<24xI4xI", content, table, len(exports), SECTION + table + 40)
+    for index, name in enumerate(exports):
+        struct.pack_into("<I", content, table + 40 + 4 * index, add(name))
+    tables = struct.pack("<4I", SECTION + table, 40, SECTION, table)
+    options = struct.pack("<H110x", 0x20B) + tables.ljust(128, b"\0")
+    section = struct.pack("<8s4I16x", b".rdata", len(content), SECTION, len(content), STORED)
+    header = struct.pack("<4sHH12xHH", b"PE\0\0", 0x8664, 1, len(options), 0)
+    start = b"MZ".ljust(0x3C, b"\0") + struct.pack("<I", 0x40)
+    return (start + header + options + section).ljust(STORED, b"\0") + bytes(content)
+
+
+def test_the_tables_of_a_windows_dll_are_read(tmp_path: Path) -> None:
+    path = tmp_path / "python311.dll"
+    path.write_bytes(portable(["KERNEL32.dll", "VCRUNTIME140.dll"], ["PyArg_Parse", "Py_Main"]))
+    assert binaries.read_portable(path) == (["KERNEL32.dll", "VCRUNTIME140.dll"], ["PyArg_Parse", "Py_Main"])
+    path.write_bytes(portable([], []))
+    assert binaries.read_portable(path) == ([], [])
+
+
+@pytest.mark.parametrize("content", [b"\x7fELF" + bytes(100), b"MZ" + bytes(200)])
+def test_what_is_no_windows_program_is_refused(tmp_path: Path, content: bytes) -> None:
+    (tmp_path / "module.pyd").write_bytes(content)
+    with pytest.raises(ValueError, match="no PE file"):
+        binaries.read_portable(tmp_path / "module.pyd")
+
+
+@pytest.mark.parametrize(
+    ("imports", "faults"),
+    [
+        (["KERNEL32.dll", "api-ms-win-crt-heap-l1-1-0.dll", "python311.dll"], []),
+        (["libc++.dll", "python311.dll"], ["it links libc++.dll"]),
+        (["python313.dll"], ["it links python313.dll", "it does not link python311.dll"]),
+    ],
+)
+def test_a_windows_module_links_its_python_and_the_system_alone(
+    tmp_path: Path, imports: list[str], faults: list[str]
+) -> None:
+    tag = "cp311-cp311-win_amd64"
+    path = wheel(tmp_path, f"seamwire_core-1.0-{tag}.whl", tag, portable(imports, ["PyInit_seamwire_core"]))
+    assert check_wheel.faults_of_wheel(path, "windows-x64", "3.11") == faults
+
+
+def test_name_and_tags_have_to_agree(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(check_wheel, "faults_of_module", lambda *_: [])
+    named = wheel(tmp_path, "seamwire_core-1.0-cp311-cp311-win_amd64.whl", "cp311-cp311-linux_x86_64", b"")
+    assert check_wheel.faults_of_wheel(named, "windows-x64", "3.11") == ["its tags are cp311-cp311-linux_x86_64"]
+    assert len(check_wheel.faults_of_wheel(named, "windows-x64", "3.13")) == 3, "name, tags, module"
