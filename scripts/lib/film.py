@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Films the tool at work in Blender's window, with simulated events and the display's own pixels; scripts/animation runs this.
 
-``blender ... --python scripts/lib/film.py -- animation|guide|cut FOLDER`` leaves frames.raw or guide-*.png in the folder. The simulated mouse
-has no pointer on the display: one is drawn into the frames where it would be.
+``blender ... --python scripts/lib/film.py -- animation|guide|cut FOLDER`` leaves frames.raw or guide-*.png in the folder. The simulated
+mouse has no pointer on the display: one is drawn into the frames where it would be.
 """
 
 import os
@@ -416,7 +416,9 @@ def cut(film: Film) -> None:
     bpy.ops.object.shade_flat()
     bpy.ops.object.mode_set(mode="EDIT")
     vertices = film.obj.data.vertices
-    places = (Vector(place) for place in ((-0.55, -0.45, -0.3), (0.0, -0.75, 0.1), (0.6, -0.55, -0.25), (0.3, -0.6, -0.75)))
+    places = (
+        Vector(place) for place in ((-0.55, -0.45, -0.3), (0.0, -0.75, 0.1), (0.6, -0.55, -0.25), (0.3, -0.6, -0.75))
+    )
     seeds = [min(vertices, key=lambda v: (v.co - place).length).index for place in places]
     film.ui.view.view_rotation = Euler((1.24, 0.0, 0.2)).to_quaternion()
     film.ui.view.view_distance = 2.2
