@@ -40,6 +40,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kShadowMargin = 1e-3;
 /// A source whose distance falls by less than this part of it does not emit windows again: that is rounding.
 constexpr double kLeastGain = 1e-13;
+/// A distance that an edge makes shorter by more than this is not rounding.
+constexpr double kLate = 1.0 + 1e-9;
 /// A source is next to a corner of its face below this part of a side.
 constexpr double kNextToCorner = 1e-2;
 /// Windows (a list counts as some) between two looks at the task: a fraction of a millisecond.
@@ -103,16 +105,23 @@ class Wavefront {
            distance(v) < kNextToCorner * mesh_.half_edge(record.half_edge).left_length;
   }
 
-  /// Where triangles are so thin that rounding decides, a vertex may lie between all windows. Then it is reached along
-  /// an edge. Returns whether there is such a vertex.
+  /// Where triangles are so thin that rounding decides, windows may be lost, and a vertex be reached late or not at
+  /// all. Then it is reached along an edge. Returns whether the front goes on from there.
   bool relax_left_out() {
-    if (vertices_done_ == mesh_.vertex_count()) return false;
-    for (std::int32_t v = 0; index(v) < mesh_.vertex_count(); ++v) {
-      if (distance(v) == kInfinity) continue;
-      const auto is_left_out = [&](std::int32_t h) {
-        return distance(mesh_.half_edge(h).tip) == kInfinity || distance(mesh_.half_edge(h).apex) == kInfinity;
-      };
-      if (std::ranges::any_of(mesh_.out(v), is_left_out)) relax_neighbors(v);
+    bool is_any = true;
+    while (is_any && queue_.empty()) {
+      is_any = false;
+      for (std::size_t h = 0; h < mesh_.half_edge_count(); ++h) {
+        const HalfEdge& edge = mesh_.half_edge(static_cast<std::int32_t>(h));
+        const double tail = distance(edge.tail), tip = distance(edge.tip);
+        const bool is_tip_late = (tail + edge.length) * kLate < tip, is_tail_late = (tip + edge.length) * kLate < tail;
+        if (!is_tip_late && !is_tail_late) [[likely]]
+          continue;
+        is_any = true;
+        relax_neighbors(is_tip_late ? edge.tail : edge.tip);
+      }
+      emit_again();
+      propagate_ready_lists();
     }
     return !queue_.empty();
   }
