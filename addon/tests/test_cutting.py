@@ -75,13 +75,9 @@ def grid(size: int, dice: np.random.Generator | None = None) -> Flat:
     return Flat(points, polygons)
 
 
-def segments(cuts: CutPlan) -> list[tuple[Node, Node]]:
-    return [*cuts.along, *(segment for own in cuts.across.values() for segment in own)]
-
-
 def reached(cuts: CutPlan, start: int) -> set[Node]:
     beside = defaultdict(set)
-    for one, two in segments(cuts):
+    for one, two in cuts.segments():
         beside[one].add(two)
         beside[two].add(one)
     found, waiting = {Node((start,))}, [Node((start,))]
@@ -112,7 +108,7 @@ def test_a_row_of_quads_is_cut_across_without_vertices_inside() -> None:
     cuts = plan(faces, [faces.straight(0, 14)])  # from (0, 0) to (4, 2)
     assert cuts.splits == {(1, 6): [Node((1, 6), (0.5, 0.5))], (8, 13): [Node((8, 13), (0.5, 0.5))]}
     assert {polygon: len(own) for polygon, own in cuts.across.items()} == {0: 1, 1: 1, 6: 1, 7: 1}
-    assert cuts.inside == [] and cuts.along == []
+    assert cuts.inside() == [] and cuts.along == []
 
 
 def test_along_edges_nothing_is_split() -> None:
@@ -131,7 +127,7 @@ def test_a_diagonal_of_a_quad_is_cut_from_corner_to_corner() -> None:
     faces = grid(2)
     for start, end in ((0, 8), (2, 6)):
         cuts = plan(faces, [faces.straight(start, end)])
-        assert cuts.splits == {} and cuts.inside == []
+        assert cuts.splits == {} and cuts.inside() == []
         assert sum(len(own) for own in cuts.across.values()) == 2
 
 
@@ -146,11 +142,11 @@ def test_what_passes_near_a_vertex_goes_through_it() -> None:
 def test_curves_that_cross_meet_in_a_vertex() -> None:
     faces = grid(3)
     cuts = plan(faces, [faces.straight(0, 11), faces.straight(1, 8)])
-    (node,) = cuts.inside
+    (node,) = cuts.inside()
     assert node.place(faces.points) == pytest.approx([0.75, 0.5, 0.0])
     assert {Node((0,)), Node((11,)), Node((1,)), Node((8,))} <= reached(cuts, 0)
     on_an_edge = plan(faces, [faces.straight(0, 11), faces.straight(3, 8)])
-    assert on_an_edge.inside == []
+    assert on_an_edge.inside() == []
     assert Node((5, 6), (0.5, 0.5)) in reached(on_an_edge, 3) & reached(on_an_edge, 0)
 
 
@@ -159,7 +155,7 @@ def test_curves_that_share_a_stretch_share_its_cuts() -> None:
     once = plan(faces, [faces.straight(0, 14)])
     twice = plan(faces, [faces.straight(0, 14), faces.straight(14, 0)])
     assert twice.splits == once.splits
-    assert len(segments(twice)) == len(segments(once))
+    assert len(twice.segments()) == len(once.segments())
 
 
 @pytest.mark.parametrize("number", range(40))
@@ -180,11 +176,11 @@ def test_random_lines_join_their_ends_and_cross_in_nodes_only(number: int) -> No
         assert crossings(faces, own) == 0
         assert len({frozenset(segment) for segment in own}) == len(own)
     beside = defaultdict(int)
-    for node in (node for segment in segments(cuts) for node in segment):
+    for node in (node for segment in cuts.segments() for node in segment):
         beside[node] += 1
     assert all(count > 1 or len(node.vertices) == 1 for node, count in beside.items()), "cuts end at seeds only"
     # No cut leaves its line by more than what it is moved for slivers and bends.
-    for node in {node for segment in segments(cuts) for node in segment}:
+    for node in {node for segment in cuts.segments() for node in segment}:
         place = node.place(faces.points)
         gaps = []
         for start, end in ends:

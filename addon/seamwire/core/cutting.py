@@ -120,12 +120,18 @@ class CutPlan:
     along: list[Segment] = field(default_factory=list)
     across: dict[int, list[Segment]] = field(default_factory=dict)
 
-    @property
+    def segments(self) -> list[Segment]:
+        """Return all cuts."""
+        return [*self.along, *(segment for own in self.across.values() for segment in own)]
+
+    def nodes(self) -> list[Node]:
+        """Return all nodes, each once."""
+        return list(dict.fromkeys(node for segment in self.segments() for node in segment))
+
     def inside(self) -> list[Node]:
-        """The nodes inside polygons."""
+        """Return the nodes inside polygons."""
         on_edges = {node for nodes in self.splits.values() for node in nodes}
-        nodes = dict.fromkeys(node for segments in self.across.values() for segment in segments for node in segment)
-        return [node for node in nodes if len(node.vertices) > 1 and node not in on_edges]
+        return [node for node in self.nodes() if len(node.vertices) > 1 and node not in on_edges]
 
 
 def plan(faces: Faces, curves: Iterable[tuple[int, NDArray[np.float64]]]) -> CutPlan:
@@ -332,7 +338,7 @@ def _crossing(
 def _sorted_out(faces: Faces, pieces: list[Piece]) -> CutPlan:
     """Tell cuts along edges from those across polygons."""
     on_pairs = _on_pairs(pieces)
-    result = CutPlan({pair: nodes for pair, nodes in on_pairs.items() if faces.is_edge(*pair)})
+    result = CutPlan()
     along: dict[frozenset[Node], Segment] = {}
     across: dict[int, dict[frozenset[Node], Segment]] = defaultdict(dict)
     for one, two, polygon in pieces:
@@ -350,6 +356,10 @@ def _sorted_out(faces: Faces, pieces: list[Piece]) -> CutPlan:
     result.along = list(along.values())
     for polygon, segments in across.items():
         result.across[polygon] = _straightened(faces, polygon, list(segments.values()))
+    used = {node for segment in result.segments() for node in segment}
+    for pair, nodes in on_pairs.items():
+        if faces.is_edge(*pair) and not used.isdisjoint(nodes):
+            result.splits[pair] = [node for node in nodes if node in used]
     return result
 
 

@@ -75,16 +75,17 @@ def carry_out(cage: Cage, what: CutPlan) -> Cut:
     faces = {polygon: bm.faces[polygon] for polygon in what.across}
     before = len(bm.verts)
     vert_of: dict[Node, bmesh.types.BMVert] = {}
-    corners = {vertex: bm.verts[vertex] for node in _nodes(what) for vertex in node.vertices}
-    for node in _nodes(what):
+    nodes = what.nodes()
+    corners = {vertex: bm.verts[vertex] for node in nodes for vertex in node.vertices}
+    for node in nodes:
         if len(node.vertices) == 1:
             vert_of[node] = corners[node.vertices[0]]
     # Inside faces first: what they are between is still as it was.
-    for node in what.inside:
+    for node in what.inside():
         vert_of[node] = _vert_inside(bm, [corners[vertex] for vertex in node.vertices], node.weights)
-    for (a, b), nodes in what.splits.items():
+    for (a, b), between in what.splits.items():
         last, end, passed = corners[a], corners[b], 0.0
-        for node in nodes:
+        for node in between:
             edge = bm.edges.get((last, end))
             part = (node.weights[1] - passed) / (1.0 - passed)
             _, last = bmesh.utils.edge_split(edge, last, part)
@@ -101,11 +102,6 @@ def carry_out(cage: Cage, what: CutPlan) -> Cut:
         items.index_update()
     bmesh.update_edit_mesh(cage.mesh, loop_triangles=True, destructive=True)
     return Cut(len(seams), len(bm.verts) - before, uncut)
-
-
-def _nodes(what: CutPlan) -> list[Node]:
-    segments = [*what.along, *(segment for own in what.across.values() for segment in own)]
-    return list(dict.fromkeys(node for segment in segments for node in segment))
 
 
 def _vert_inside(
