@@ -299,6 +299,18 @@ def test_kept_wires_are_cut_and_their_snapped_seams_are_gone() -> None:
         bpy.ops.mesh.seamwire_cut()
 
 
+def test_an_object_that_shows_nothing_is_in_nobodys_way() -> None:
+    hidden, obj = add_grid(5, name="Hidden"), add_grid(9)
+    hidden.select_set(True)
+    edit()
+    for face in bmesh.from_edit_mesh(hidden.data).faces:
+        face.hide_set(True)
+    bmesh.update_edit_mesh(hidden.data)
+    bpy.ops.mesh.seamwire_mark(chains="0 44", along="SURFACE")
+    assert bpy.ops.mesh.seamwire_cut() == {"FINISHED"}
+    assert len(seams(obj)) == 8
+
+
 def test_a_kept_wire_that_is_crossed_stays_a_wire() -> None:
     from seamwire.mesh.object_session import ObjectSession
 
@@ -314,8 +326,11 @@ def test_a_kept_wire_that_is_crossed_stays_a_wire() -> None:
 def test_seams_cannot_be_cleared_by_a_cut() -> None:
     add_grid(5)
     edit()
-    with pytest.raises(RuntimeError, match="clear them along edges"):
+    with pytest.raises(RuntimeError, match="cannot clear them"):
         cut("0 14", clear=True)
+    bpy.ops.mesh.seamwire_mark(chains="0 4", along="EDGES", finish="CUT")
+    assert bpy.ops.mesh.seamwire_mark(chains="0 4", along="EDGES", finish="CUT", clear=True) == {"FINISHED"}
+    assert seams(bpy.context.active_object) == [], "along edges there is nothing to cut"
 
 
 def test_hidden_faces_are_not_cut() -> None:

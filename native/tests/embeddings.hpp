@@ -6,12 +6,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <random>
 #include <vector>
 
 #include "seamwire/embedding/embedding.hpp"
+#include "seamwire/metric/scribble.hpp"
+#include "seamwire/surface/half_edge_mesh.hpp"
 
 /// What tests of embeddings share.
 namespace seamwire::embeddings {
@@ -30,6 +33,24 @@ inline Metric plane_metric(const Surface& surface, double l1, double l2, double 
 inline Metric identity_metric(const Surface& surface) {
   return {std::vector<Vector>(surface.vertex_count(), Vector::Zero()),
           std::vector<Eigen::Matrix3d>(surface.vertex_count(), Eigen::Matrix3d::Identity())};
+}
+
+/// A stroke along a random walk over the vertices of a clean mesh.
+inline Scribble random_scribble(const Surface& surface, std::mt19937& random, unsigned most_edges,
+                                unsigned most_rings) {
+  Scribble scribble;
+  auto v = static_cast<std::int32_t>(random() % surface.vertex_count());
+  for (std::size_t steps = 2 + random() % most_edges; steps > 0; --steps) {
+    scribble.vertices.push_back(v);
+    scribble.points.push_back(surface.points()[at(v)]);
+    std::vector<std::int32_t> around;
+    for (const auto w : surface.half_edges().vv_range(OpenMesh::VertexHandle(v))) around.push_back(w.idx());
+    v = around[random() % around.size()];
+  }
+  scribble.rings = 1 + static_cast<int>(random() % most_rings);
+  scribble.eta = 2 + static_cast<double>(random() % 29);
+  scribble.attracts = random() % 4 != 0;
+  return scribble;
 }
 
 /// A metric that no smooth surface has: at each vertex a direction of its own, at anisotropy A.

@@ -15,14 +15,13 @@
 #include "intrinsic.hpp"
 #include "seamwire/geodesics/corridor_paths.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
-#include "seamwire/metric/scribble.hpp"
-#include "seamwire/surface/half_edge_mesh.hpp"
 #include "shapes.hpp"
 
 namespace seamwire {
 namespace {
 
 using embeddings::at;
+using embeddings::random_scribble;
 using shapes::Mesh;
 
 std::int32_t external(const GeodesicMesh& mesh, std::int32_t half_edge) {
@@ -84,23 +83,6 @@ void expect_same_distances(const ExactGeodesics& patched, const ExactGeodesics& 
   EXPECT_NEAR(length(patched), length(made), 1e-12 * (1 + b[at(target)]));
 }
 
-// A stroke along a random walk over the vertices.
-Scribble random_scribble(const Surface& surface, std::mt19937& random) {
-  Scribble scribble;
-  auto v = static_cast<std::int32_t>(random() % surface.vertex_count());
-  for (int steps = 2 + static_cast<int>(random() % 12); steps > 0; --steps) {
-    scribble.vertices.push_back(v);
-    scribble.points.push_back(surface.points()[at(v)]);
-    std::vector<std::int32_t> around;
-    for (const auto w : surface.half_edges().vv_range(OpenMesh::VertexHandle(v))) around.push_back(w.idx());
-    v = around[random() % around.size()];
-  }
-  scribble.rings = 1 + static_cast<int>(random() % 4);
-  scribble.eta = 2 + static_cast<double>(random() % 29);
-  scribble.attracts = random() % 4 != 0;
-  return scribble;
-}
-
 TEST(PatchedMesh, IsTheMeshFromScratchAfterEveryStroke) {
   std::mt19937 random(7);
   const Mesh meshes[] = {shapes::grid(40, 0.3), shapes::torus(60, 30), shapes::bumpy(shapes::icosphere(4), 0.05)};
@@ -117,7 +99,7 @@ TEST(PatchedMesh, IsTheMeshFromScratchAfterEveryStroke) {
       if (scribbles.size() > 2 && random() % 2 == 0) {
         scribbles.erase(scribbles.begin() + static_cast<std::ptrdiff_t>(random() % scribbles.size()));
       } else {
-        scribbles.push_back(random_scribble(surface, random));
+        scribbles.push_back(random_scribble(surface, random, 12, 4));
       }
       Metric metric = apply_scribbles(surface, base, scribbles);
       Embedding next = re_embed(surface, former, metric, embedding);

@@ -8,7 +8,6 @@
 
 #include "embeddings.hpp"
 #include "seamwire/metric/scribble.hpp"
-#include "seamwire/surface/half_edge_mesh.hpp"
 #include "shapes.hpp"
 
 namespace seamwire {
@@ -18,6 +17,7 @@ using embeddings::at;
 using embeddings::expect_sound;
 using embeddings::identity_metric;
 using embeddings::random_metric;
+using embeddings::random_scribble;
 using shapes::Mesh;
 
 // The triangles of an embedding, each by the places of its corners and its lengths, whatever their numbers.
@@ -57,24 +57,6 @@ void expect_same(const Surface& surface, const Embedding& a, const Embedding& b)
   expect_sound(surface, a);
 }
 
-// A stroke along a random walk over the vertices.
-Scribble random_scribble(const Surface& surface, std::mt19937& random) {
-  Scribble scribble;
-  auto v = static_cast<std::int32_t>(random() % surface.vertex_count());
-  const HalfEdgeMesh& mesh = surface.half_edges();
-  for (int steps = 2 + static_cast<int>(random() % 30); steps > 0; --steps) {
-    scribble.vertices.push_back(v);
-    scribble.points.push_back(surface.points()[at(v)]);
-    std::vector<std::int32_t> around;
-    for (const auto w : mesh.vv_range(OpenMesh::VertexHandle(v))) around.push_back(w.idx());
-    v = around[random() % around.size()];
-  }
-  scribble.rings = 1 + static_cast<int>(random() % 10);
-  scribble.eta = 2 + static_cast<double>(random() % 29);
-  scribble.attracts = random() % 4 != 0;
-  return scribble;
-}
-
 TEST(ReEmbed, IsEmbeddingFromScratchAfterEveryScribble) {
   std::mt19937 random(11);
   // A torus has many triangles of the same size, which only a local order tells apart in the same way.
@@ -92,7 +74,7 @@ TEST(ReEmbed, IsEmbeddingFromScratchAfterEveryScribble) {
       if (scribbles.size() > 2 && random() % 3 == 0) {
         scribbles.erase(scribbles.begin() + static_cast<std::ptrdiff_t>(random() % scribbles.size()));
       } else {
-        scribbles.push_back(random_scribble(surface, random));
+        scribbles.push_back(random_scribble(surface, random, 30, 10));
       }
       Metric metric = apply_scribbles(surface, base, scribbles);
       local += embedding.is_local;

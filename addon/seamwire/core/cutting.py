@@ -100,6 +100,10 @@ class Node:
 
 
 Segment = tuple[Node, Node]
+"""A straight cut between two nodes."""
+
+Piece = tuple[Node, Node, int]
+"""One in a polygon, by that polygon's number."""
 
 
 @dataclass
@@ -153,10 +157,6 @@ def plan(faces: Faces, curves: Iterable[tuple[int, NDArray[np.float64]]]) -> Cut
     for start, points in curves:
         pieces += _without_detours(_walk(faces, start, points))
     return _sorted_out(faces, _without_spurs(_together(_crossed(faces, _together(pieces)))))
-
-
-Piece = tuple[Node, Node, int]
-"""A straight piece of a cut between two nodes, in a polygon."""
 
 
 def _walk(faces: Faces, start: int, points: NDArray[np.float64]) -> Iterator[Piece]:

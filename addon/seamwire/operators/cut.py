@@ -26,10 +26,7 @@ class MESH_OT_seamwire_cut(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Whether a mesh is in edit mode."""
-        if not in_edit_mode(context):
-            cls.poll_message_set("Needs a mesh in Edit Mode")
-            return False
-        return True
+        return in_edit_mode(cls, context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Take the wires out of their networks, their snapped seams with them, and cut along them."""
@@ -37,16 +34,18 @@ class MESH_OT_seamwire_cut(bpy.types.Operator):
         from ..mesh.object_session import ObjectSession
 
         wires: dict[ObjectSession, list[Wire]] = {}
-        try:
-            for obj in context.objects_in_mode_unique_data:
+        for obj in context.objects_in_mode_unique_data:
+            try:
                 mesh = ObjectSession(obj)
-                own = [wire for wire in mesh.session.wires if wire.along == "SURFACE" and wire.marks]
-                if own:
-                    wires[mesh] = own
-        except (ValueError, NativeError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        if not wires:
+            except NativeError as error:
+                self.report({"ERROR"}, str(error))
+                return {"CANCELLED"}
+            except ValueError:
+                continue  # nothing of it is visible, and so no wire
+            if mesh.problem:
+                self.report({"WARNING"}, mesh.problem)
+            wires[mesh] = [wire for wire in mesh.session.wires if wire.along == "SURFACE" and wire.marks]
+        if not any(wires.values()):
             self.report({"ERROR"}, "No kept wire runs across the surface")
             return {"CANCELLED"}
         return cut_wires(self, context, wires, kept=True)
@@ -73,7 +72,7 @@ def cut_wires(
     from ..mesh import edit_mesh
 
     try:
-        plans = {mesh: mesh.plan_cut(own) for mesh, own in wires.items()}
+        plans = {mesh: mesh.plan_cut(own) for mesh, own in wires.items() if own}
     except CuttingError as error:
         operator.report({"ERROR"}, str(error))
         return {"CANCELLED"}

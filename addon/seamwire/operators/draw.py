@@ -51,8 +51,7 @@ class MESH_OT_seamwire_draw(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Whether a mesh is in edit mode, and no chain being drawn."""
-        if not in_edit_mode(context):
-            cls.poll_message_set("Needs a mesh in Edit Mode")
+        if not in_edit_mode(cls, context):
             return False
         if running:
             cls.poll_message_set("A chain is being drawn already")

@@ -90,10 +90,7 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Whether a mesh is in edit mode."""
-        if not in_edit_mode(context):
-            cls.poll_message_set("Needs a mesh in Edit Mode")
-            return False
-        return True
+        return in_edit_mode(cls, context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Draw the chains and loops, and mark or clear what they run along."""
@@ -173,8 +170,8 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
         """Return chains, loops and strokes; raises ValueError where they cannot be drawn."""
         from . import seed_text
 
-        if self.finish == "CUT" and self.clear:
-            raise ValueError("A cut makes seams: clear them along edges instead")
+        if self.finish == "CUT" and self.clear and self.along == "SURFACE":
+            raise ValueError("A cut makes seams: it cannot clear them")
         loops = seed_text.parse_edges(self.loops)
         seeds = [] if loops and not self.chains.strip() else seed_text.parse_chains(self.chains)
         strokes = seed_text.parse_scribbles(self.strokes)

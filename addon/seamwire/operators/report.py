@@ -18,10 +18,13 @@ status_makers: list[Callable[[Chain], object]] = []
 """Make what draws the status bar while a chain is drawn; the interface adds one."""
 
 
-def in_edit_mode(context: bpy.types.Context) -> bool:
-    """Whether a mesh is in edit mode."""
+def in_edit_mode(operator: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
+    """Whether a mesh is in edit mode; where none is, whoever points at the operator's button reads so."""
     obj = context.active_object
-    return context.mode == "EDIT_MESH" and obj is not None and obj.type == "MESH"
+    if context.mode == "EDIT_MESH" and obj is not None and obj.type == "MESH":
+        return True
+    operator.poll_message_set("Needs a mesh in Edit Mode")
+    return False
 
 
 def count(number: int, what: str, several: str = "") -> str:

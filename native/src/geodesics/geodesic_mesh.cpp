@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "detail/insertion_map.hpp"
 #include "detail/poll.hpp"
 #include "detail/text.hpp"
 
@@ -56,6 +57,7 @@ void check_half_edge(const IntrinsicMesh& mesh, std::int32_t h) {
   if (twin < 0 || index(twin) >= mesh.twins.size() || twin == h || mesh.twins[twin] != h) {
     throw InvalidInput(where() + ": its twin, " + text(twin) + ", does not name it back");
   }
+  if (twin < h) return;  // the rest is looked at from the other side
   if (mesh.tail(twin) != mesh.tip(h) || mesh.tip(twin) != mesh.tail(h)) {
     throw InvalidInput(where() + ": its twin, " + text(twin) +
                        ", does not run the other way between the same vertices");
@@ -378,22 +380,6 @@ std::vector<std::int32_t> resize_numbers(std::vector<std::int32_t>& external, st
   return moved;
 }
 
-/// A set of indices, listed in the order in which they come.
-class IndexSet {
- public:
-  explicit IndexSet(std::size_t range) : has_(range, false) {}
-  void add(std::int32_t i) {
-    if (!has_[i]) items_.push_back(i);
-    has_[i] = true;
-  }
-  bool has(std::int32_t i) const { return has_[i]; }
-  const std::vector<std::int32_t>& items() const { return items_; }
-
- private:
-  std::vector<bool> has_;
-  std::vector<std::int32_t> items_;
-};
-
 }  // namespace
 
 std::optional<GeodesicMesh> GeodesicMesh::patched(const IntrinsicMesh& before, const IntrinsicMesh& mesh,
@@ -410,21 +396,21 @@ std::optional<GeodesicMesh> GeodesicMesh::patched(const IntrinsicMesh& before, c
   const auto vertices = index(mesh.vertex_count), former_vertices = vertex_count();
 
   // What is other than before: by its own numbers, or because it, or what it names, gets another internal number.
-  IndexSet faces(count);
+  InsertionMap faces;
   const Poll comparing(task, 0.0, 0.5, common);
   for (std::size_t f = 0; f < common; ++f) {
     comparing.at(f);
     if (is_same_face(before, mesh, f)) continue;
-    faces.add(static_cast<std::int32_t>(f));
-    if (faces.items().size() > most) return std::nullopt;
+    faces.insert(static_cast<std::int32_t>(f));
+    if (faces.numbers().size() > most) return std::nullopt;
   }
-  for (std::size_t f = common; f < count; ++f) faces.add(static_cast<std::int32_t>(f));
+  for (std::size_t f = common; f < count; ++f) faces.insert(static_cast<std::int32_t>(f));
   std::vector<std::int32_t> former_faces;  // those that are no more what they were
-  for (const std::int32_t f : faces.items()) {
+  for (const std::int32_t f : faces.numbers()) {
     if (index(f) < former_count) former_faces.push_back(f);
   }
   for (std::size_t f = common; f < former_count; ++f) former_faces.push_back(static_cast<std::int32_t>(f));
-  for (const std::int32_t f : faces.items()) check_corners(mesh, index(f));
+  for (const std::int32_t f : faces.numbers()) check_corners(mesh, index(f));
 
   GeodesicMesh out;  // rows of half-edges and hops are copied when they are patched
   out.half_edges_ = half_edges_;
@@ -436,55 +422,54 @@ std::optional<GeodesicMesh> GeodesicMesh::patched(const IntrinsicMesh& before, c
   out.internal_vertex_ = internal_vertex_;
   out.external_face_ = external_face_;
   out.internal_face_ = internal_face_;
-  for (const std::int32_t f : resize_numbers(out.external_face_, out.internal_face_, count)) faces.add(f);
+  for (const std::int32_t f : resize_numbers(out.external_face_, out.internal_face_, count)) faces.insert(f);
   const std::vector<std::int32_t> moved_vertices = resize_numbers(out.external_vertex_, out.internal_vertex_, vertices);
   for (const std::int32_t v : moved_vertices) {
     for (const std::int32_t h : this->out(internal_vertex(v))) {
-      if (const std::int32_t f = external_face_[h / 3]; index(f) < count) faces.add(f);
+      if (const std::int32_t f = external_face_[h / 3]; index(f) < count) faces.insert(f);
     }
   }
   // And the faces around, for the hops over them, and what they name.
   const auto add_neighbors = [&](const IntrinsicMesh& of, std::int32_t f) {
     for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
-      if (const std::int32_t twin = of.twins[h]; twin >= 0 && index(twin / 3) < count) faces.add(twin / 3);
+      if (const std::int32_t twin = of.twins[h]; twin >= 0 && index(twin / 3) < count) faces.insert(twin / 3);
     }
   };
-  const std::size_t own = faces.items().size();
+  const std::size_t own = faces.numbers().size();
   for (const std::int32_t f : former_faces) add_neighbors(before, f);
-  for (std::size_t i = 0; i < own; ++i) add_neighbors(mesh, faces.items()[i]);
+  for (std::size_t i = 0; i < own; ++i) add_neighbors(mesh, faces.numbers()[i]);
 
-  constexpr double kLongest = 0x1p80, kShortest = 0x1p-80;
-  static_assert(kMostHopExponent == 80);
-  for (const std::int32_t f : faces.items()) {
+  const double longest = std::ldexp(1.0, kMostHopExponent), shortest = std::ldexp(1.0, -kMostHopExponent);
+  for (const std::int32_t f : faces.numbers()) {
     for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
       check_half_edge(mesh, h);
-      if (mesh.lengths[h] > kLongest || mesh.lengths[h] < kShortest) return std::nullopt;
+      if (mesh.lengths[h] > longest || mesh.lengths[h] < shortest) return std::nullopt;
     }
   }
-  for (const std::int32_t f : faces.items()) check_triangle_inequality(mesh, index(f));
+  for (const std::int32_t f : faces.numbers()) check_triangle_inequality(mesh, index(f));
 
   out.half_edges_.resize(3 * count);
   out.angle_.resize(3 * count);
-  IndexSet around(vertices);  // internal numbers of the vertices of all these faces
-  for (const std::int32_t f : faces.items()) {
+  InsertionMap around;  // internal numbers of the vertices of all these faces
+  for (const std::int32_t f : faces.numbers()) {
     out.set_face(mesh, f);
-    for (const std::int32_t v : mesh.triangles[f]) around.add(out.internal_vertex(v));
+    for (const std::int32_t v : mesh.triangles[f]) around.insert(out.internal_vertex(v));
   }
   for (const std::int32_t f : former_faces) {
     for (const std::int32_t v : before.triangles[f]) {
-      if (index(v) < vertices) around.add(out.internal_vertex(v));
+      if (index(v) < vertices) around.insert(out.internal_vertex(v));
     }
   }
-  for (std::size_t v = former_vertices; v < vertices; ++v) around.add(static_cast<std::int32_t>(v));
+  for (std::size_t v = former_vertices; v < vertices; ++v) around.insert(static_cast<std::int32_t>(v));
   out.list_loose_edges(mesh);
   for (const std::int32_t v : moved_vertices) {
-    around.add(out.internal_vertex(v));
-    for (const Loose& edge : out.loose(out.internal_vertex(v))) around.add(edge.to);
+    around.insert(out.internal_vertex(v));
+    for (const Loose& edge : out.loose(out.internal_vertex(v))) around.insert(edge.to);
   }
-  std::vector<std::int32_t> rows = around.items();
+  std::vector<std::int32_t> rows = around.numbers();
   std::ranges::sort(rows);
   task.check(0.6);
-  out.patch_rows(*this, faces.items(), rows);
+  out.patch_rows(*this, faces.numbers(), rows);
   out.is_pseudo_source_.resize(vertices);
   for (const std::int32_t v : rows) out.is_pseudo_source_[v] = out.may_bend(v);
   return out;

@@ -112,6 +112,7 @@ class Wavefront {
     while (is_any && queue_.empty()) {
       is_any = false;
       for (std::size_t h = 0; h < mesh_.half_edge_count(); ++h) {
+        check_task(1);
         const HalfEdge& edge = mesh_.half_edge(static_cast<std::int32_t>(h));
         const double tail = distance(edge.tail), tip = distance(edge.tip);
         const bool is_tip_late = (tail + edge.length) * kLate < tip, is_tail_late = (tip + edge.length) * kLate < tail;
