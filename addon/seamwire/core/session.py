@@ -815,7 +815,8 @@ class Session:
         self._history.step(self._network)
         self._set(self._images.complete(network))
         self._settle()
-        self.message = self._images.warning(self._network) or self.message
+        warning = self._images.warning(self._network) or self._engines.warning(self.along)
+        self.message = warning or self.message
         return True
 
     def _scribbled(self, scribbles: tuple[Scribble, ...], chosen: int | None) -> bool:
