@@ -815,8 +815,7 @@ class Session:
         self._history.step(self._network)
         self._set(self._images.complete(network))
         self._settle()
-        warning = self._images.warning(self._network) or self._engines.warning(self.along)
-        self.message = warning or self.message
+        self.message = self._images.warning(self._network) or self.message
         return True
 
     def _scribbled(self, scribbles: tuple[Scribble, ...], chosen: int | None) -> bool:
@@ -918,6 +917,7 @@ class Session:
         network = self._network.joined(target, self._points).with_drawn(wire, target.pick, ending is not None)
         if not self._change(network):
             return False
+        self.message = self.message or self._engines.warning(self.along)
         self._last_click = (undirected(target.pick), self._history.steps)
         return True
 
