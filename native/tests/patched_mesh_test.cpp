@@ -16,8 +16,8 @@
 #include "seamwire/geodesics/corridor_paths.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/metric/scribble.hpp"
-#include "seamwire/surface/half_edge_mesh.hpp"
 #include "shapes.hpp"
+#include "surface/half_edge_mesh.hpp"
 
 namespace seamwire {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "embeddings.hpp"
 #include "seamwire/metric/scribble.hpp"
-#include "seamwire/surface/half_edge_mesh.hpp"
 #include "shapes.hpp"
+#include "surface/half_edge_mesh.hpp"
 
 namespace seamwire {
 namespace {
