@@ -29,6 +29,13 @@ class FakeWires:
 
 
 @dataclass
+class FakeReport:
+    """What became of an embedding."""
+
+    invalid_left: int
+
+
+@dataclass
 class FakeChain:
     """A chain of edges."""
 
@@ -63,7 +70,8 @@ class FakeLive:
 
     The first is shorter, unless `shorter` says otherwise. Vertices in `islands` are reached by no wire. Forks begin as
     `fork_ready` says; a new metric makes it ready as `metric_ready` says, and until it is the wires are `stale` ones.
-    Loops go straight on at their corners, as around a limb, or turn off there, as `boxes`.
+    Loops go straight on at their corners, as around a limb, or turn off there, as `boxes`. Across the surface the
+    embeddings leave `holes`.
     """
 
     size: int
@@ -71,6 +79,7 @@ class FakeLive:
     ready: tuple[bool, bool] = (True, True)
     shorter: int = 0
     islands: tuple[int, ...] = ()
+    holes: tuple[int, int] = (0, 0)
     seeded: tuple[object, bool] | None = None
     seeds: list[tuple[object, bool]] = field(default_factory=list)
     fork_ready: tuple[bool, bool] = (True, True)
@@ -166,6 +175,10 @@ class FakeLive:
         self.scribbles.append(tuple(scribbles))
         self.stale = self.stale or all(self.ready)
         self.ready = self.metric_ready
+
+    def embeddings(self) -> tuple[FakeReport | None, FakeReport | None]:
+        reports = (FakeReport(holes) if ready else None for holes, ready in zip(self.holes, self.ready, strict=True))
+        return tuple(reports) if self.along == "SURFACE" else (None, None)
 
     def feature_strength(self) -> NDArray[np.float64]:
         return np.zeros(self.size**2)

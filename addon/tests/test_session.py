@@ -45,6 +45,14 @@ def test_toggling_makes_the_other_active_until_a_wire_is_kept() -> None:
     assert session.active.vertices == (8, 9, 15), "the next wire is the shorter one again"
 
 
+def test_a_kept_wire_says_what_wires_lead_around() -> None:
+    table = Table(along="SURFACE", holes=(0, 2))
+    table.session.click(0)
+    table.session.hover(7)
+    table.session.click(7)
+    assert table.session.message.startswith("2 triangles could not be made valid")
+
+
 def test_where_both_wires_agree_there_is_nothing_to_toggle() -> None:
     session = Table().session
     session.click(0)

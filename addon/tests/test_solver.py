@@ -58,3 +58,17 @@ def test_another_strength_is_told_to_those_that_it_is_for() -> None:
     assert told == {"EDGES": [("feature", 33.0, CLAMP_PERCENTILE)], "SURFACE": []}
     made.engines.use("campen", {**STRENGTHS, "EDGES": 33.0}, CLAMP_PERCENTILE)
     assert [live.metrics[-1][0] for live in made.lives] == ["campen", "campen"]
+
+
+def test_triangles_that_wires_lead_around_are_told_of_once() -> None:
+    made = Made()
+    for along in ("EDGES", "SURFACE"):
+        made.engines.get(along)
+        made.lives[-1].holes = (1, 3)
+    made.lives[-1].ready = (True, False)
+    assert made.engines.warning("EDGES") == ""
+    assert made.engines.warning("SURFACE") == "1 triangle could not be made valid: wires lead around it"
+    assert made.engines.warning("SURFACE") == ""
+    made.lives[-1].ready = (True, True)
+    assert made.engines.warning("SURFACE").startswith("3 triangles could not")
+    assert made.engines.warning("SURFACE") == ""

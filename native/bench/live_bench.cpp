@@ -25,8 +25,8 @@
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/live/livewire.hpp"
 #include "seamwire/metric/scribble.hpp"
-#include "seamwire/surface/half_edge_mesh.hpp"
 #include "seamwire/wires/wire.hpp"
+#include "surface/half_edge_mesh.hpp"
 
 namespace seamwire::bench {
 namespace {

@@ -173,6 +173,12 @@ void bind_live_wire(py::module_& module) {
         return "<LiveWires: shorter " + std::to_string(w.wires->shorter) + (w.wires->final() ? ", final>" : ">");
       });
 
+  py::class_<LiveEmbedding>(module, "LiveEmbedding", "What became of the embedding of one of the two metrics.")
+      .def_readonly("invalid_left", &LiveEmbedding::invalid_left, "Triangles that wires lead around.")
+      .def_readonly("hit_cap", &LiveEmbedding::hit_cap, "Whether the cap ended the subdivision.")
+      .def_readonly("clamped_edges", &LiveEmbedding::clamped_edges, "Edges with other lengths than the metric's.")
+      .def_readonly("worst_clamp", &LiveEmbedding::worst_clamp, "By that factor at most, 1 or more.");
+
   py::class_<LiveLoop>(module, "LiveLoop", "A closed chain of edges.")
       .def_property_readonly(
           "vertices", [](const py::object& self) { return view(self.cast<const LiveLoop&>().vertices, self); },
@@ -466,6 +472,19 @@ Raises
 ------
 ValueError
     Where the edge is not one of the surface's.
+)")
+      .def(
+          "embeddings",
+          [](const LiveWireObject& object) {
+            const auto found = without_gil([&] { return object.live->embeddings(); });
+            return py::make_tuple(found[0], found[1]);
+          },
+          R"(What became of the embeddings across the surface.
+
+Returns
+-------
+tuple of LiveEmbedding or None
+    Of M_min and M_max; None where it is not prepared yet, and along edges.
 )")
       .def(
           "feature_strength",

@@ -134,6 +134,12 @@ class LiveCandidate:
     length: float
     final: bool  # False: still being computed; what is here, if anything, will be replaced
 
+class LiveEmbedding:
+    invalid_left: int  # triangles that wires lead around
+    hit_cap: bool
+    clamped_edges: int
+    worst_clamp: float
+
 class LiveLoop:
     vertices: NDArray[np.int32]  # the first one not given twice; empty: none, or not yet
     length: float
@@ -213,6 +219,8 @@ class LiveWire:
         """Return the straightest way on, from the edge's second vertex; its length is that in the unit cube. No vertices: not ready."""
     def strip(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> EdgeStrip:
         """Return the edge loop through an edge, as modellers select it, up to poles, boundaries and stops. No vertices: not ready."""
+    def embeddings(self) -> tuple[LiveEmbedding | None, LiveEmbedding | None]:
+        """Return what became of them across the surface; None where one is not prepared, and along edges."""
     def feature_strength(self) -> NDArray[np.float64] | None:
         """Return s of eq. 5 per vertex, None while it is computed."""
     def progress(self) -> float:

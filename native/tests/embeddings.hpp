@@ -14,7 +14,7 @@
 
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/metric/scribble.hpp"
-#include "seamwire/surface/half_edge_mesh.hpp"
+#include "surface/half_edge_mesh.hpp"
 
 /// What tests of embeddings share.
 namespace seamwire::embeddings {

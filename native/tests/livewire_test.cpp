@@ -493,6 +493,32 @@ TEST(LiveWire, TellsTheFeatureStrengthOfEachVertex) {
   EXPECT_EQ(*live.feature_strength(), principal_curvatures(*surface).difference());
 }
 
+TEST(LiveWire, TellsWhatBecameOfItsEmbeddings) {
+  const shapes::Mesh mesh = shapes::torus(24, 40);
+  const auto surface = std::make_shared<const Surface>(mesh.points, mesh.triangles);
+  const Strength strength{.parameter = {}, .max_anisotropy = 1000};
+  LiveWire live(surface, {.strength = strength});
+  live.seed({0, -1});
+  ASSERT_TRUE(live.wait());
+  const Curvature curvature = principal_curvatures(*surface);
+  std::size_t clamped = 0;
+  for (const Follow follow : {Follow::kMin, Follow::kMax}) {
+    // The most triangles that a live wire adds to so small a mesh.
+    const Embedding embedding =
+        embed(*surface, feature_metric(*surface, curvature, follow, strength), {.max_faces_added = 200'000});
+    clamped += embedding.clamped_edges;
+    const auto told = live.embeddings()[static_cast<std::size_t>(follow == Follow::kMax)];
+    ASSERT_TRUE(told);
+    EXPECT_EQ(told->invalid_left, embedding.invalid_left);
+    EXPECT_EQ(told->hit_cap, embedding.hit_cap);
+    EXPECT_EQ(told->clamped_edges, embedding.clamped_edges);
+    EXPECT_EQ(told->worst_clamp, embedding.worst_clamp);
+  }
+  EXPECT_GT(clamped, 0U);
+  const LiveWire along_edges = live.sibling({.along = Along::kEdges});
+  EXPECT_FALSE(along_edges.embeddings()[0] || along_edges.embeddings()[1]);
+}
+
 TEST(LiveWire, RunsOnAlongBothKinds) {
   const auto surface = std::make_shared<const Surface>(shapes::quad_cylinder(12, 6, 0.5, 1.0).surface());
   for (const LiveWireOptions& options : {LiveWireOptions{}, kAlongEdges}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "seamwire/surface/surface.hpp"
-#include "seamwire/surface/half_edge_mesh.hpp"
+#include "surface/half_edge_mesh.hpp"
 
 #include <gtest/gtest.h>
 

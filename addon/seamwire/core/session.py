@@ -917,6 +917,7 @@ class Session:
         network = self._network.joined(target, self._points).with_drawn(wire, target.pick, ending is not None)
         if not self._change(network):
             return False
+        self.message = self.message or self._engines.warning(self.along)
         self._last_click = (undirected(target.pick), self._history.steps)
         return True
 

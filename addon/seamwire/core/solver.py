@@ -54,6 +54,12 @@ class Strip(Chain, Protocol):
     closed: bool
 
 
+class EmbeddingReport(Protocol):
+    """What the library says of a mesh that wires run across."""
+
+    invalid_left: int
+
+
 class LiveWire(Protocol):
     """What a session asks of ``seamwire_core.LiveWire``.
 
@@ -90,6 +96,9 @@ class LiveWire(Protocol):
     def feature_strength(self) -> NDArray[np.float64] | None:
         """Return how strong the features are at the vertices; None as long as that is computed."""
 
+    def embeddings(self) -> tuple[EmbeddingReport | None, EmbeddingReport | None]:
+        """Return what became of both metrics' embeddings; None where there is none, or not yet."""
+
     def progress(self) -> float:
         """Fraction of the running work that is done."""
 
@@ -123,6 +132,7 @@ class Engines:
         self.clamp = CLAMP_PERCENTILE
         self._make_scribble = make_scribble
         self._scribbles: list[object] = []
+        self._told: int = 0
 
     def get(self, along: Along) -> LiveWire:
         """Return the live wires of one way."""
@@ -147,6 +157,16 @@ class Engines:
         self._scribbles = [self._make_scribble(scribble) for scribble in scribbles]
         for live in self._lives.values():
             live.set_scribbles(self._scribbles)
+
+    def warning(self, along: Along) -> str:
+        """Return that wires which run one way have to lead around triangles; empty where they have not, or it was said."""
+        reports = (report for report in self.get(along).embeddings() if report is not None)
+        count = max((report.invalid_left for report in reports), default=0)
+        if count <= self._told:
+            return ""
+        self._told = count
+        what = "1 triangle" if count == 1 else f"{count} triangles"
+        return f"{what} could not be made valid: wires lead around {'it' if count == 1 else 'them'}"
 
     def _tell_metric(self, along: Along) -> None:
         self._lives[along].set_metric(self.metric, max_anisotropy=self.strengths[along], clamp_percentile=self.clamp)

@@ -29,6 +29,18 @@ def test_across_the_surface_gives_both_geodesics_and_their_edges(surface: sw.Sur
         assert wire.length == traced.length
 
 
+def test_tells_what_became_of_its_embeddings(surface: sw.Surface, curvature: sw.Curvature) -> None:
+    live = sw.LiveWire(surface, max_anisotropy=30.0)
+    live.seed(3)
+    live.wait()
+    for follow, told in zip(("min", "max"), live.embeddings(), strict=True):
+        embedding = sw.embed(surface, sw.feature_metric(surface, curvature, follow=follow, max_anisotropy=30.0))
+        assert told is not None
+        for name in ("invalid_left", "hit_cap", "clamped_edges", "worst_clamp"):
+            assert getattr(told, name) == getattr(embedding, name)
+    assert sw.LiveWire(surface, along="edges").embeddings() == (None, None)
+
+
 def test_along_edges_gives_both_chains(surface: sw.Surface, curvature: sw.Curvature) -> None:
     live = sw.LiveWire(surface, along="edges")
     live.seed((3, 4), forward=True)

@@ -10,7 +10,7 @@
 
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
-#include "seamwire/surface/half_edge_mesh.hpp"
+#include "surface/half_edge_mesh.hpp"
 
 namespace seamwire {
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "seamwire/metric/metric.hpp"
-#include "seamwire/surface/half_edge_mesh.hpp"
 #include "seamwire/surface/intrinsic_mesh.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/task.hpp"
+#include "surface/half_edge_mesh.hpp"
 
 namespace seamwire {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "embedding/bisection.hpp"
-#include "seamwire/surface/half_edge_mesh.hpp"
+#include "surface/half_edge_mesh.hpp"
 
 namespace seamwire {
 namespace {

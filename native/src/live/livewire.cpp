@@ -240,6 +240,22 @@ std::shared_ptr<const std::vector<double>> LiveWire::feature_strength() const {
   return curvatures ? std::shared_ptr<const std::vector<double>>(curvatures, &curvatures->difference) : nullptr;
 }
 
+std::array<std::optional<LiveEmbedding>, 2> LiveWire::embeddings() const {
+  impl_->surface_cache->rethrow_failure();
+  const std::shared_ptr<MetricPair> metrics = impl_->metrics();
+  std::array<std::optional<LiveEmbedding>, 2> found;
+  for (std::size_t which = 0; which < found.size(); ++which) {
+    const std::shared_ptr<const Prepared> prepared = metrics->prepared[which]->peek();
+    if (!prepared || !prepared->embedding) continue;
+    const Embedding& embedding = *prepared->embedding;
+    found[which] = {.invalid_left = embedding.invalid_left,
+                    .hit_cap = embedding.hit_cap,
+                    .clamped_edges = embedding.clamped_edges,
+                    .worst_clamp = embedding.worst_clamp};
+  }
+  return found;
+}
+
 double LiveWire::progress() const {
   impl_->surface_cache->rethrow_failure();
   double sum = 0.0;

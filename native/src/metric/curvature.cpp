@@ -14,8 +14,8 @@
 #include "detail/poll.hpp"
 #include "detail/prefetch.hpp"
 #include "metric/tangent_frame.hpp"
-#include "seamwire/surface/half_edge_mesh.hpp"
 #include "surface/face_height.hpp"
+#include "surface/half_edge_mesh.hpp"
 
 namespace seamwire {
 namespace {

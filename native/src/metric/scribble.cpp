@@ -19,7 +19,7 @@
 #include "detail/text.hpp"
 #include "metric/scribble_points.hpp"
 #include "metric/tangent_frame.hpp"
-#include "seamwire/surface/half_edge_mesh.hpp"
+#include "surface/half_edge_mesh.hpp"
 #include "surface/point_segment.hpp"
 
 namespace seamwire {

@@ -15,8 +15,8 @@
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
-#include "seamwire/surface/half_edge_mesh.hpp"
 #include "surface/face_height.hpp"
+#include "surface/half_edge_mesh.hpp"
 
 namespace seamwire {
 namespace {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -62,6 +64,15 @@ struct LiveLoop {
   bool final = false;                                       ///< false: still being computed
 };
 
+/// What became of one metric's embedding: see Embedding. Across the surface wires lead around triangles that are not
+/// valid, as around holes.
+struct LiveEmbedding {
+  std::size_t invalid_left = 0;   ///< triangles
+  bool hit_cap = false;           ///< the most triangles that may be added ended the subdivision
+  std::size_t clamped_edges = 0;  ///< whose lengths are others than the metric's
+  double worst_clamp = 1.0;       ///< by that factor at most, 1 or more
+};
+
 /// Both metrics for one surface, each computed on a thread of its own; seed, then the two wires to any target (Section
 /// 5). All members may be called from one thread at a time, surface() and wait_for_surface() from others meanwhile;
 /// none but wait() and wait_for_surface() waits for the computation.
@@ -118,6 +129,9 @@ class LiveWire {
   EdgeLoop strip(const Edge& edge, std::span<const std::int32_t> stops) const;
   /// s of eq. 5 at each vertex; null while it is being computed.
   std::shared_ptr<const std::vector<double>> feature_strength() const;
+
+  /// Of M_min and M_max across the surface, as far as they are prepared; along edges none.
+  std::array<std::optional<LiveEmbedding>, 2> embeddings() const;
 
   /// Fraction of the preparation and the seed's work that is done, 0 until the surface is there, 1 when all is.
   double progress() const;

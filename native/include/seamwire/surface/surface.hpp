@@ -14,7 +14,7 @@
 
 namespace seamwire {
 
-struct HalfEdgeMesh;  // surface/half_edge_mesh.hpp
+struct HalfEdgeMesh;  // in src/surface/half_edge_mesh.hpp
 
 /// What was odd about the input. Nothing here is an error: the surface was built all the same.
 struct SurfaceReport {
@@ -66,7 +66,7 @@ class Surface {
   /// the longest side of the bounding box of the vertices in use; 1 where that is zero.
   double scale() const { return scale_; }
 
-  /// The manifold mesh inside; include surface/half_edge_mesh.hpp to use it.
+  /// The manifold mesh inside, for the library itself: its type is no part of the interface.
   const HalfEdgeMesh& half_edges() const { return *mesh_; }
   /// Number of the caller's vertex for each vertex (corner fan) of half_edges(), ascending, and of the caller's face
   /// for each of its faces, ascending; both are the identity on a clean mesh. A face's vertices are listed from the
