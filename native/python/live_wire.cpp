@@ -27,13 +27,6 @@ using SharedSurface = std::shared_ptr<SurfaceObject>;
 struct LiveWireObject {
   LiveWireObject(std::size_t vertices, Along how, std::unique_ptr<LiveWire> made, SharedSurface on = nullptr)
       : vertex_count(vertices), along(how), live(std::move(made)), surface(std::move(on)) {}
-  LiveWireObject(const LiveWireObject&) = delete;
-  LiveWireObject& operator=(const LiveWireObject&) = delete;
-  ~LiveWireObject() {
-    const GilRelease released;  // joins threads
-    live.reset();
-    surface.reset();
-  }
 
   std::size_t vertex_count;
   Along along;
@@ -199,8 +192,9 @@ void bind_live_wire(py::module_& module) {
                (strip.closed ? ", closed>" : ">");
       });
 
-  py::class_<LiveWireObject>(module, "LiveWire",
-                             R"(Two wires from a seed to any target, each metric computed on a thread of its own.
+  py::class_<LiveWireObject, Held<LiveWireObject>>(
+      module, "LiveWire",
+      R"(Two wires from a seed to any target, each metric computed on a thread of its own.
 
 ``LiveWire(surface, ...)``, or ``LiveWire(points, triangles, edges=None, *, ...)``, which copies the arrays, returns at
 once and builds the surface on the live wire's own threads. Until it is there all methods but `wait` and
@@ -235,8 +229,8 @@ ValueError
              const LiveWireOptions options =
                  options_from(gamma, max_anisotropy, clamp_percentile, along, turning, loop_turning, metric);
              auto live = without_gil([&] { return std::make_unique<LiveWire>(surface->surface, options); });
-             return std::make_unique<LiveWireObject>(surface->surface->vertex_count(), options.along, std::move(live),
-                                                     surface);
+             return make_held<LiveWireObject>(surface->surface->vertex_count(), options.along, std::move(live),
+                                              surface);
            }),
            py::arg("surface"), with.gamma, with.max_anisotropy, with.clamp_percentile, with.along, with.turning,
            with.loop_turning, with.metric)
@@ -252,7 +246,7 @@ ValueError
              const std::size_t vertex_count = p.size();
              auto live = without_gil(
                  [&] { return std::make_unique<LiveWire>(std::move(p), std::move(t), std::move(e), options); });
-             return std::make_unique<LiveWireObject>(vertex_count, options.along, std::move(live));
+             return make_held<LiveWireObject>(vertex_count, options.along, std::move(live));
            }),
            py::arg("points"), py::arg("triangles"), py::arg("edges") = py::none(), py::kw_only(), with.gamma,
            with.max_anisotropy, with.clamp_percentile, with.along, with.turning, with.loop_turning, with.metric)
@@ -261,7 +255,7 @@ ValueError
           [](LiveWireObject& object) {
             if (!object.surface) {
               auto built = without_gil([&] { return object.live->surface(); });
-              if (built && !object.surface) object.surface = std::make_shared<SurfaceObject>(std::move(built));
+              if (built && !object.surface) object.surface = make_held<SurfaceObject>(std::move(built));
             }
             return object.surface;
           },
@@ -283,7 +277,7 @@ bool
           "fork",
           [](const LiveWireObject& object) {
             auto live = without_gil([&] { return std::make_unique<LiveWire>(object.live->fork()); });
-            return std::make_unique<LiveWireObject>(object.vertex_count, object.along, std::move(live), object.surface);
+            return make_held<LiveWireObject>(object.vertex_count, object.along, std::move(live), object.surface);
           },
           R"(Another live wire with the same metrics, those still being computed too, and no seed.
 
@@ -301,8 +295,7 @@ LiveWire
             const LiveWireOptions options =
                 options_from(gamma, max_anisotropy, clamp_percentile, along, turning, loop_turning, metric);
             auto live = without_gil([&] { return std::make_unique<LiveWire>(object.live->sibling(options)); });
-            return std::make_unique<LiveWireObject>(object.vertex_count, options.along, std::move(live),
-                                                    object.surface);
+            return make_held<LiveWireObject>(object.vertex_count, options.along, std::move(live), object.surface);
           },
           py::kw_only(), with.gamma, with.max_anisotropy, with.clamp_percentile, with.along, with.turning,
           with.loop_turning, with.metric,

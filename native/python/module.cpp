@@ -54,18 +54,18 @@ void check_size(const char* what, std::size_t size, const Surface& surface) {
 
 using MetricFunction = Metric (*)(const Surface&, const Curvature&, Follow, const Strength&, const Task&);
 
-std::unique_ptr<MetricObject> make_metric(MetricFunction function, const SurfaceObject& surface,
-                                          const CurvatureObject& curvature, const std::string& follow,
-                                          const Strength& strength) {
+Held<MetricObject> make_metric(MetricFunction function, const SurfaceObject& surface, const CurvatureObject& curvature,
+                               const std::string& follow, const Strength& strength) {
   const Follow direction = follow_from(follow);
   check_size("curvature", curvature.curvature.k1.size(), *surface.surface);
   return without_gil([&] {
-    return std::make_unique<MetricObject>(function(*surface.surface, curvature.curvature, direction, strength, Task{}));
+    return make_held<MetricObject>(function(*surface.surface, curvature.curvature, direction, strength, Task{}));
   });
 }
 
 void bind_surface(py::module_& module) {
-  py::class_<ReportObject>(module, "SurfaceReport", "What was odd about the input; nothing here is an error.")
+  py::class_<ReportObject, Held<ReportObject>>(module, "SurfaceReport",
+                                               "What was odd about the input; nothing here is an error.")
       .def_property_readonly("nonmanifold_edges", array_of<ReportObject>([](const auto& r) -> auto& {
                                return r.surface->report().nonmanifold_edges;
                              }),
@@ -149,8 +149,8 @@ ValueError
              auto t = triangles_from(triangles, "triangles");
              auto e = edges.is_none() ? std::nullopt : std::optional(edges_from(edges, "edges"));
              return without_gil([&] {
-               return std::make_shared<SurfaceObject>(
-                   std::make_shared<const Surface>(std::move(p), std::move(t), std::move(e)));
+               return std::shared_ptr<SurfaceObject>(
+                   make_held<SurfaceObject>(std::make_shared<const Surface>(std::move(p), std::move(t), std::move(e))));
              });
            }),
            py::arg("points"), py::arg("triangles"), py::arg("edges") = py::none())
@@ -175,7 +175,7 @@ ValueError
 }
 
 void bind_metric(py::module_& module) {
-  py::class_<CurvatureObject>(module, "Curvature", R"(Principal curvatures at the vertices.
+  py::class_<CurvatureObject, Held<CurvatureObject>>(module, "Curvature", R"(Principal curvatures at the vertices.
 
 Of the model scaled to the unit cube, in 1 / side of the cube. 0 at vertices without a usable face.)")
       .def_property_readonly("k1", array_of<CurvatureObject>([](const auto& c) -> auto& { return c.curvature.k1; }),
@@ -198,7 +198,8 @@ Of the model scaled to the unit cube, in 1 / side of the cube. 0 at vertices wit
                ">";
       });
 
-  py::class_<MetricObject>(module, "Metric", "An anisotropic metric: a tensor on the tangent plane of each vertex.")
+  py::class_<MetricObject, Held<MetricObject>>(module, "Metric",
+                                               "An anisotropic metric: a tensor on the tangent plane of each vertex.")
       .def_property_readonly("normals", array_of<MetricObject>([](const auto& m) -> auto& { return m.metric.normals; }),
                              "(n, 3) float64: unit; zero at vertices without a face.")
       .def_property_readonly("tensors", array_of<MetricObject>([](const auto& m) -> auto& { return m.metric.tensors; }),
@@ -217,7 +218,7 @@ Of the model scaled to the unit cube, in 1 / side of the cube. 0 at vertices wit
         return without_gil([&] {
           Curvature curvature = principal_curvatures(*surface.surface);
           auto difference = curvature.difference();
-          return std::make_unique<CurvatureObject>(CurvatureObject{std::move(curvature), std::move(difference)});
+          return make_held<CurvatureObject>(CurvatureObject{std::move(curvature), std::move(difference)});
         });
       },
       py::arg("surface"), R"(Principal curvatures at the vertices of a surface.
@@ -280,7 +281,7 @@ One of beta (at least 0) and max_anisotropy (at least 1) is given; else ValueErr
       [](const SurfaceObject& surface, const CurvatureObject& curvature) {
         check_size("curvature", curvature.curvature.k1.size(), *surface.surface);
         return without_gil(
-            [&] { return std::make_unique<MetricObject>(euclidean_metric(*surface.surface, curvature.curvature)); });
+            [&] { return make_held<MetricObject>(euclidean_metric(*surface.surface, curvature.curvature)); });
       },
       py::arg("surface"), py::arg("curvature"), "The metric in which lengths are those of space.");
 }
@@ -360,7 +361,7 @@ The first vertices are those of the surface, with their numbers; new ones are mi
                std::to_string(w.points.size()) + " points, length " + number(w.length) + ">";
       });
 
-  py::class_<FieldObject>(module, "DistanceField", "Distances from a seed to every vertex.")
+  py::class_<FieldObject, Held<FieldObject>>(module, "DistanceField", "Distances from a seed to every vertex.")
       .def_property_readonly(
           "seed", [](const FieldObject& f) { return f.field.seed(); },
           "The vertex that distances are from; -1: several, or a point that is none.")
@@ -458,8 +459,8 @@ Parameters, what it returns and raises: as distance() and trace(). An end that i
         if (!(sigma >= 0.0)) throw InvalidInput("sigma: expected a number that is not negative");
         check_size("metric", metric.metric.size(), *surface.surface);
         return Watch(progress).run([&](const Task& task) {
-          return std::make_shared<EmbeddingObject>(surface.surface,
-                                                   embed(*surface.surface, metric.metric, options, task));
+          return std::shared_ptr<EmbeddingObject>(
+              make_held<EmbeddingObject>(surface.surface, embed(*surface.surface, metric.metric, options, task)));
         });
       },
       py::arg("surface"), py::arg("metric"), py::arg("sigma") = 0.0, py::arg("perimeter") = "metric",
@@ -505,7 +506,7 @@ Cancelled
           const ExactGeodesics& geodesics = embedding->geodesics();
           for (SurfacePoint& point : seeds) point = embedding->find(point, "seed");
           for (SurfacePoint& point : options.targets) point = embedding->find(point, "target");
-          return std::make_unique<FieldObject>(FieldObject{
+          return make_held<FieldObject>(FieldObject{
               embedding, windows ? geodesics.solve_bounded(seeds[0].vertex, static_cast<std::uint32_t>(*windows), task)
                                  : geodesics.solve(seeds, options, task)});
         });
@@ -569,7 +570,8 @@ void bind_edge_wires(py::module_& module) {
         return "<EdgeChain: " + std::to_string(c.vertices.size()) + " vertices, length " + number(c.length) + ">";
       });
 
-  py::class_<EdgeWiresObject>(module, "EdgeWires", "The cheapest chains of edges from a vertex or an edge.")
+  py::class_<EdgeWiresObject, Held<EdgeWiresObject>>(module, "EdgeWires",
+                                                     "The cheapest chains of edges from a vertex or an edge.")
       .def(
           "trace",
           [](const EdgeWiresObject& object, const py::object& target) {
@@ -595,7 +597,7 @@ ValueError
         const Pick pick = pick_from(seed, count, "seed");
         check_size("metric", metric.metric.size(), *surface.surface);
         return Watch(progress).run([&](const Task& task) {
-          return std::make_unique<EdgeWiresObject>(
+          return make_held<EdgeWiresObject>(
               EdgeWiresObject{count, edge_wires(metric.edge_graph(surface.surface), pick, turning, forward, task)});
         });
       },

@@ -5,10 +5,12 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "gil.hpp"
 #include "seamwire/edges/edge_wires.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
@@ -39,6 +41,25 @@ class Lazy {
   mutable std::once_flag once_;
   mutable std::unique_ptr<const T> value_;
 };
+
+/// Frees without the GIL what may take milliseconds to free.
+struct FreeWithoutGil {
+  template <class T>
+  void operator()(T* object) const {
+    std::optional<GilRelease> released;
+    if (PyGILState_Check() != 0) released.emplace();
+    delete object;
+  }
+};
+
+/// What holds objects of many megabytes for Python.
+template <class T>
+using Held = std::unique_ptr<T, FreeWithoutGil>;
+
+template <class T, class... Arguments>
+Held<T> make_held(Arguments&&... arguments) {
+  return Held<T>(new T(std::forward<Arguments>(arguments)...));
+}
 
 struct SurfaceObject {
   explicit SurfaceObject(std::shared_ptr<const Surface> built) : surface(std::move(built)) {}

@@ -22,7 +22,7 @@ Vector vector_from(const std::array<double, 3>& values) { return {values[0], val
 }  // namespace
 
 void bind_rays(py::module_& module) {
-  py::class_<RayTree>(module, "RayTree", R"(Finds the first triangle that a ray meets, from either side.
+  py::class_<RayTree, Held<RayTree>>(module, "RayTree", R"(Finds the first triangle that a ray meets, from either side.
 
 A tree is built on a thread of its own; until it is there every triangle is looked at, with the same answers.
 
@@ -40,7 +40,7 @@ ValueError
              auto own_points = points_from(points, "points");
              auto own_triangles = triangles_from(triangles, "triangles");
              const GilRelease released;
-             return std::make_unique<RayTree>(std::move(own_points), std::move(own_triangles));
+             return make_held<RayTree>(std::move(own_points), std::move(own_triangles));
            }),
            py::arg("points"), py::arg("triangles"))
       .def(

@@ -101,7 +101,7 @@ ValueError
          const std::optional<std::string>& follow) {
         const std::optional<Follow> meant = follow_from(follow);
         return without_gil([&] {
-          return std::make_unique<MetricObject>(apply_scribbles(*surface.surface, metric.metric, scribbles, meant));
+          return make_held<MetricObject>(apply_scribbles(*surface.surface, metric.metric, scribbles, meant));
         });
       },
       py::arg("surface"), py::arg("metric"), py::arg("scribbles"), py::arg("follow") = py::none(),
