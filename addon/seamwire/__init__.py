@@ -23,6 +23,7 @@ _PARTS = (
     "ui.preferences",
     "operators.mark",
     "operators.cut",
+    "operators.take_over",
     "operators.draw",
     "operators.hover",
     "ui.keymap",

@@ -7,7 +7,7 @@ shows and what it marks is decided here and nowhere else.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
@@ -20,6 +20,7 @@ from .intent import Intent
 from .mirror_images import MirrorImages
 from .network import Network, Seed, Snap, Wire, name, undirected
 from .retrace import Retraces, other_way, retraced
+from .seam_wires import seam_chains, wires_along
 from .seed_drag import SeedDrag
 from .solver import Engines
 from .stops import Stops
@@ -371,6 +372,23 @@ class Session:
         self._aim_again()
         self.revision += 1
         return True
+
+    def wires_along(self, seams: NDArray[np.int32]) -> Iterator[Wire]:
+        """Yield wires that run along the mesh's edges as seams do, as few as there can be; keeps none of them.
+
+        Parameters
+        ----------
+        seams
+            (k, 2) edges, each once.
+
+        Raises
+        ------
+        ValueError
+            Where one is not part of the surface.
+        """
+        live = self._engines.get("EDGES").fork()
+        for chain in seam_chains(seams):
+            yield from wires_along(live, chain, self._points, self._engines.strengths["EDGES"])
 
     # What leads the wires that are drawn from here on; kept wires stay as they are
 

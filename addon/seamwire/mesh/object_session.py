@@ -350,6 +350,16 @@ class ObjectSession:
             self.session.adopt(replace(plan.network, seed=None), self.plain_seams)
         return written
 
+    def take_over(self, wires: Iterable[Wire]) -> None:
+        """Go on with wires along seams of the mesh: `write` makes these edges theirs, so that they go where the wires go."""
+        session = self.session
+        network = replace(session.network, wires=(*session.wires, *wires), seed=None)
+        taken = {edge for wire in network.wires for edge in wire.edges()}
+        rest = [pair for pair in self.plain_seams.tolist() if (min(pair), max(pair)) not in taken]
+        self.plain_seams = np.array(rest, dtype=np.int32).reshape(-1, 2)
+        session.adopt(network, self.plain_seams)
+        self._found = replace(self._found, network=session.network)
+
     def plan_cut(self, wires: Iterable[Wire]) -> CutPlan:
         """Find what wires across the surface and their mirror images cut; raises `CuttingError`."""
         curves = [(own.vertices[0], own.points) for wire in wires for own in (wire, *self.session.mirrored(wire))]

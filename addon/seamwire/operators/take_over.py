@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that makes wires of seams that a mesh has."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+
+from .report import count, in_edit_mode
+
+if TYPE_CHECKING:
+    from ..core.network import Wire
+    from ..mesh.object_session import ObjectSession
+
+
+class MESH_OT_seamwire_take_over(bpy.types.Operator):
+    """Make wires of the seams that the mesh has, with as few seeds as reproduce them, so that they can be dragged"""  # noqa: D400 - a tooltip
+
+    bl_idname = "mesh.seamwire_take_over"
+    bl_label = "Seams to Seamwires"
+    bl_options = {"REGISTER", "UNDO"}
+
+    selected: bpy.props.BoolProperty(
+        name="Selected Only", description="Only seams whose edges are selected", default=False
+    )
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Whether a mesh is in edit mode."""
+        return in_edit_mode(cls, context)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Find the wires of all objects in edit mode, then write them: the seams stay as they are."""
+        from ..core.native import NativeError
+        from ..mesh.object_session import ObjectSession
+
+        found: dict[ObjectSession, list[Wire]] = {}
+        for obj in context.objects_in_mode_unique_data:
+            try:
+                mesh = ObjectSession(obj)
+            except NativeError as error:
+                self.report({"ERROR"}, str(error))
+                return {"CANCELLED"}
+            except ValueError:
+                continue  # nothing of it is visible
+            if mesh.problem:
+                self.report({"WARNING"}, mesh.problem)
+            seams = mesh.plain_seams
+            if self.selected:
+                edges = mesh.cage.bm.edges
+                seams = seams[[edges.get([mesh.cage.bm.verts[v] for v in pair]).select for pair in seams.tolist()]]
+            if len(seams):
+                found[mesh] = self._wires(context, mesh, seams)
+        if not found:
+            self.report({"ERROR"}, f"No {'selected edge' if self.selected else 'edge'} is a seam without a wire")
+            return {"CANCELLED"}
+        for mesh, wires in found.items():
+            mesh.take_over(wires)
+            mesh.write(mesh.plan())
+        wires = [wire for own in found.values() for wire in own]
+        seeds = {(mesh, end) for mesh, own in found.items() for wire in own for end in (wire.start, wire.end)}
+        edges = sum(len(wire.edges()) for wire in wires)
+        self.report(
+            {"INFO"},
+            f"{count(edges, 'seam edge')} taken over: {count(len(wires), 'wire')}, {count(len(seeds), 'seed')}",
+        )
+        return {"FINISHED"}
+
+    @staticmethod
+    def _wires(context: bpy.types.Context, mesh: ObjectSession, seams: np.ndarray) -> list[Wire]:
+        progress = context.window_manager
+        progress.progress_begin(0, len(seams))
+        wires, done = [], 0
+        try:
+            for wire in mesh.session.wires_along(seams):
+                wires.append(wire)
+                done += len(wire.edges())
+                progress.progress_update(done)
+        finally:
+            progress.progress_end()
+        return wires
+
+
+def register() -> None:
+    """Add the operator."""
+    bpy.utils.register_class(MESH_OT_seamwire_take_over)
+
+
+def unregister() -> None:
+    """Remove it."""
+    bpy.utils.unregister_class(MESH_OT_seamwire_take_over)
