@@ -26,6 +26,8 @@ Points = NDArray[np.float64]
 Triangles = NDArray[np.int32]
 MakeMetric = Callable[[sw.Surface, sw.Curvature, str], sw.Metric]
 
+# Their first wire leads, whichever is shorter in its own metric.
+FIRST_LEADS = "concave"
 FRACTIONS = (1 / 3, 1 / 2)
 # Shorter boundaries leave too few edges between the two points for a distance to say anything but how edges zigzag.
 FEWEST_EDGES = 24
@@ -50,12 +52,26 @@ def campen(max_anisotropy: float) -> MakeMetric:
     )
 
 
+def concave(strength: float, radius: float | None = 0.01) -> MakeMetric:
+    """Return a maker of the concave metric, and of the Euclidean one as its second wire."""
+
+    def make(surface: sw.Surface, curvature: sw.Curvature, follow: str) -> sw.Metric:
+        if follow == "max":
+            return sw.euclidean_metric(surface, curvature)
+        smoothed = curvature if radius is None else sw.smoothed_curvatures(surface, curvature, radius)
+        return sw.concave_metric(surface, smoothed, strength)
+
+    return make
+
+
 SETTINGS: dict[str, MakeMetric] = {
     "Euclidean (A = 1)": lambda surface, curvature, _: sw.euclidean_metric(surface, curvature),
     **{f"A = {a}, clamp 99": feature(max_anisotropy=float(a), clamp_percentile=99.0) for a in (5, 10, 20, 40)},
     "A = 20, no clamp": feature(max_anisotropy=20.0),
     **{f"gamma = {g}, no clamp": feature(gamma=g) for g in (0.03, 0.1)},
     **{f"Campen, A = {a}": campen(float(a)) for a in (5, 20)},
+    **{f"concave, strength {t}, and Euclidean": concave(t) for t in (0.5, 1.0, 2.0)},
+    "concave, not smoothed, and Euclidean": concave(1.0, None),
 }
 
 
@@ -137,8 +153,10 @@ def distances(wire: Points, chain: Points) -> NDArray[np.float64]:
     return np.linalg.norm(samples[:, None] - start - t[:, :, None] * along, axis=2).min(axis=1)
 
 
-def measure(points: Points, surface: sw.Surface, chosen: list[tuple[Boundary, list[Arc]]], make: MakeMetric) -> Points:
-    """Return (wires, 5): mean and largest distance of the shorter wire, mean of the better one; whether either mean is NEAR.
+def measure(
+    points: Points, surface: sw.Surface, chosen: list[tuple[Boundary, list[Arc]]], make: MakeMetric, first_leads: bool
+) -> Points:
+    """Return (wires, 5): mean and largest distance of the leading wire, the shorter one or the first, mean of the better one; whether either mean is NEAR.
 
     Distances are in percent of the arcs' lengths.
     """
@@ -148,7 +166,9 @@ def measure(points: Points, surface: sw.Surface, chosen: list[tuple[Boundary, li
     for boundary, pairs in chosen:
         fields = [sw.distance_field(embedding, pairs[0].start) for embedding in embeddings]
         for arc in pairs:
-            wires = sorted((field.trace(arc.end) for field in fields), key=lambda wire: wire.length)
+            wires = [field.trace(arc.end) for field in fields]
+            if not first_leads:
+                wires.sort(key=lambda wire: wire.length)
             off = [100 / arc.length * distances(wire.points, points[boundary.vertices]) for wire in wires]
             better = min(o.mean() for o in off)
             rows.append((off[0].mean(), off[0].max(), better, 100 * (off[0].mean() < NEAR), 100 * (better < NEAR)))
@@ -173,7 +193,7 @@ def category(file: Path) -> int:
 def print_table(per_model: dict[str, Points], made: NDArray[np.bool_], random: np.random.Generator) -> None:
     """Print a line for each setting; per_model has its (models, 5) means."""
     draws = random.integers(0, len(made), (2000, len(made)))
-    print("| metric | shorter | of it made / living | largest | near | to default | better | near | to default |")
+    print("| metric | leading | of it made / living | largest | near | to default | better | near | to default |")
     print("|---|---|---|---|---|---|---|---|---|")
     for name, values in per_model.items():
         shorter, largest, better, near, better_near = values.mean(axis=0)
@@ -223,7 +243,7 @@ def main() -> None:
             continue
         surface = sw.Surface(points, triangles)
         for name, make in SETTINGS.items():
-            per_model[name].append(measure(points, surface, chosen, make).mean(axis=0))
+            per_model[name].append(measure(points, surface, chosen, make, name.startswith(FIRST_LEADS)).mean(axis=0))
         made.append(category(file) in MADE)
         wires += sum(len(pairs) for _, pairs in chosen)
         edge = np.linalg.norm(points[triangles[:, 0]] - points[triangles[:, 1]], axis=1).mean()

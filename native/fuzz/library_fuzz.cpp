@@ -184,7 +184,8 @@ Metric metric_from(Bytes& from, const Surface& surface, const Curvature& curvatu
     case 2:
       return pottmann_kovacs_metric(surface, curvature, follow, strength);
     default:
-      return euclidean_metric(surface, curvature);
+      if (!strength.parameter) return euclidean_metric(surface, curvature);
+      return concave_metric(surface, smoothed_curvatures(surface, curvature, 0.01), *strength.parameter);
   }
 }
 

@@ -58,8 +58,10 @@ MetricFamily family_from(const std::string& name) {
   if (name == "feature") return MetricFamily::kFeature;
   if (name == "campen") return MetricFamily::kCampen;
   if (name == "pottmann_kovacs") return MetricFamily::kPottmannKovacs;
+  if (name == "concave") return MetricFamily::kConcave;
   if (name == "euclidean") return MetricFamily::kEuclidean;
-  throw InvalidInput("metric: expected 'feature', 'campen', 'pottmann_kovacs' or 'euclidean', got '" + name + "'");
+  throw InvalidInput("metric: expected 'feature', 'campen', 'pottmann_kovacs', 'concave' or 'euclidean', got '" + name +
+                     "'");
 }
 
 /// With the defaults of each way of running.
@@ -70,7 +72,9 @@ Strength strength_from(MetricFamily family, Along along, OptionalNumber gamma, O
   }
   Strength strength{gamma, max_anisotropy, clamp_percentile};
   if (gamma || max_anisotropy) return strength;
-  if (along == Along::kSurface && family == MetricFamily::kFeature) {
+  if (family == MetricFamily::kConcave) {
+    strength.parameter = 1.0;
+  } else if (along == Along::kSurface && family == MetricFamily::kFeature) {
     strength.parameter = 0.1;
   } else {
     strength.max_anisotropy = 10.0;
@@ -208,15 +212,16 @@ points, triangles, edges : array_like
     (n, 3), (m, 3), (e, 2) or None, as of `Surface`.
 gamma, max_anisotropy, clamp_percentile : float, optional
     As in `feature_metric`. Neither gamma nor max_anisotropy: gamma = 0.1 across the surface, max_anisotropy = 10 and
-    clamp_percentile = 99 along edges; max_anisotropy = 10 for the other metrics, which have no gamma.
+    clamp_percentile = 99 along edges; max_anisotropy = 20 for 'concave', 10 for the others, which have no gamma.
 along : {'surface', 'edges'}
     Wires are exact geodesics across the surface, or chains of real edges.
 turning : float
     What turning costs, of `edge_wires`.
 loop_turning : float, optional
     What it costs in `edge_loop`; None: 20, more on meshes of over 6400 edges, so that rings are found there too.
-metric : {'feature', 'campen', 'pottmann_kovacs', 'euclidean'}
-    What wires are short in.
+metric : {'feature', 'campen', 'pottmann_kovacs', 'concave', 'euclidean'}
+    What wires are short in. 'concave': the first wire in `concave_metric`, with a strength of (max_anisotropy - 1) / 19,
+    on curvatures smoothed over 0.01; the second one is the shortest path.
 
 Raises
 ------

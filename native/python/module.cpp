@@ -277,6 +277,47 @@ One of alpha (at least 1) and max_anisotropy (at least 1; its square is alpha) i
 
 One of beta (at least 0) and max_anisotropy (at least 1) is given; else ValueError.)");
   module.def(
+      "smoothed_curvatures",
+      [](const SurfaceObject& surface, const CurvatureObject& curvature, double radius, const py::object& progress) {
+        return Watch(progress).run([&](const Task& task) {
+          Curvature smoothed = smoothed_curvatures(*surface.surface, curvature.curvature, radius, task);
+          std::vector<double> difference = smoothed.difference();
+          return make_held<CurvatureObject>(CurvatureObject{std::move(smoothed), std::move(difference)});
+        });
+      },
+      py::arg("surface"), py::arg("curvature"), py::arg("radius") = 0.01, py::arg("progress") = py::none(),
+      R"(Curvatures averaged over about a radius, in sides of the unit cube: tensors averaged over 1-rings, again and again.
+
+Raises
+------
+ValueError
+    Where the curvature is of another surface, or the radius is not positive.
+)");
+  module.def(
+      "concave_metric",
+      [](const SurfaceObject& surface, const CurvatureObject& curvature, double strength) {
+        return without_gil([&] {
+          return make_held<MetricObject>(concave_metric(*surface.surface, curvature.curvature, strength));
+        });
+      },
+      py::arg("surface"), py::arg("curvature"), py::arg("strength") = 1.0,
+      R"(The metric whose wires come nearest to cuts that people make: short along concave creases (docs/method.md).
+
+Parameters
+----------
+surface : Surface
+    Whose normals point outwards.
+curvature : Curvature
+    Of that surface, best from `smoothed_curvatures`.
+strength : float
+    At least 0: 0 gives the Euclidean metric, 1 the one that was measured.
+
+Raises
+------
+ValueError
+    Where the strength is negative, or the curvature is of another surface.
+)");
+  module.def(
       "euclidean_metric",
       [](const SurfaceObject& surface, const CurvatureObject& curvature) {
         check_size("curvature", curvature.curvature.k1.size(), *surface.surface);

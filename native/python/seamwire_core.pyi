@@ -165,7 +165,7 @@ class LiveWire:
         along: Literal["surface", "edges"] = "surface",
         turning: float = 3.0,
         loop_turning: float | None = None,
-        metric: Literal["feature", "campen", "pottmann_kovacs", "euclidean"] = "feature",
+        metric: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"] = "feature",
     ) -> None:
         """Neither gamma nor max_anisotropy: gamma = 0.1 across the surface, max_anisotropy = 10 and clamp_percentile = 99 along edges."""
     @overload
@@ -181,7 +181,7 @@ class LiveWire:
         along: Literal["surface", "edges"] = "surface",
         turning: float = 3.0,
         loop_turning: float | None = None,
-        metric: Literal["feature", "campen", "pottmann_kovacs", "euclidean"] = "feature",
+        metric: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"] = "feature",
     ) -> None:
         """Copy the arrays, return at once and build the surface in the background; what that raises, the other methods raise."""
     surface: Surface | None  # None until it is built
@@ -198,12 +198,12 @@ class LiveWire:
         along: Literal["surface", "edges"] = "surface",
         turning: float = 3.0,
         loop_turning: float | None = None,
-        metric: Literal["feature", "campen", "pottmann_kovacs", "euclidean"] = "feature",
+        metric: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"] = "feature",
     ) -> LiveWire:
         """Another on the same surface, which is built once; metrics of its own, no strokes, no seed."""
     def set_metric(
         self,
-        metric: Literal["feature", "campen", "pottmann_kovacs", "euclidean"] = "feature",
+        metric: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"] = "feature",
         max_anisotropy: float | None = None,
         gamma: float | None = None,
         clamp_percentile: float | None = None,
@@ -246,6 +246,10 @@ def campen_metric(
     alpha: float | None = None,
     max_anisotropy: float | None = None,
 ) -> Metric: ...
+def smoothed_curvatures(
+    surface: Surface, curvature: Curvature, radius: float = 0.01, progress: Progress | None = None
+) -> Curvature: ...
+def concave_metric(surface: Surface, curvature: Curvature, strength: float = 1.0) -> Metric: ...
 def pottmann_kovacs_metric(
     surface: Surface,
     curvature: Curvature,

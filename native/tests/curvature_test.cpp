@@ -296,6 +296,59 @@ TEST(Curvature, LeavesOutTheFacesThatTheReportCallsLowAndNoOthers) {
   }
 }
 
+TEST(SmoothedCurvatures, OfACylinderStayWhatTheyAre) {
+  const Surface surface = shapes::cylinder(48, 40).surface();
+  const Curvature curvature = principal_curvatures(surface);
+  const Curvature smoothed = smoothed_curvatures(surface, curvature, 0.2);
+  expect_sound(surface, smoothed);
+  // Unless they were turned, tensors from around it would shorten each other.
+  for (std::size_t v = 0; v < surface.vertex_count(); ++v) {
+    EXPECT_NEAR(smoothed.k1[v], curvature.k1[v], 0.02 * std::abs(curvature.k1[v]));
+    EXPECT_NEAR(std::abs(smoothed.d2[v].z()), 1.0, 1e-6);
+    EXPECT_EQ(smoothed.normals[v], curvature.normals[v]);
+  }
+}
+
+TEST(SmoothedCurvatures, LoseTheNoiseAndKeepTheMean) {
+  const Surface surface = shapes::icosphere(4).surface();
+  Curvature curvature = principal_curvatures(surface);
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  for (std::size_t v = 0; v < surface.vertex_count(); ++v) {
+    const double k = curvature.k1[v] + noise(random);
+    curvature.k1[v] = curvature.k2[v] = k;
+  }
+  const auto deviation = [&](const Curvature& of) {
+    double sum = 0.0;
+    for (std::size_t v = 0; v < surface.vertex_count(); ++v) sum += std::pow(0.5 * (of.k1[v] + of.k2[v]) - 2.0, 2.0);
+    return std::sqrt(sum / static_cast<double>(surface.vertex_count()));
+  };
+  EXPECT_NEAR(deviation(curvature), 1.0, 0.1);
+  double last = deviation(curvature);
+  for (const double radius : {0.02, 0.1, 0.3}) {
+    const double now = deviation(smoothed_curvatures(surface, curvature, radius));
+    EXPECT_LT(now, 0.6 * last) << radius;
+    last = now;
+  }
+}
+
+TEST(SmoothedCurvatures, AreSoundOnWhateverThereIs) {
+  for (Mesh mesh : {shapes::bumpy(shapes::torus(24, 12), 0.05), shapes::moebius(12), shapes::grid(1)}) {
+    mesh.points.emplace_back(5.0, 5.0, 5.0);  // in no face
+    const Surface surface = mesh.surface();
+    expect_sound(surface, smoothed_curvatures(surface, principal_curvatures(surface), 0.1));
+  }
+}
+
+TEST(SmoothedCurvatures, RefuseWhatIsNoRadiusAndCurvaturesOfAnotherSurface) {
+  const Surface surface = shapes::grid(3).surface();
+  const Curvature curvature = principal_curvatures(surface);
+  for (const double radius : {0.0, -1.0, std::nan("")}) {
+    EXPECT_THROW(smoothed_curvatures(surface, curvature, radius), InvalidInput);
+  }
+  EXPECT_THROW(smoothed_curvatures(shapes::grid(4).surface(), curvature, 0.1), InvalidInput);
+}
+
 TEST(VertexNormals, AreThoseOfTheCurvature) {
   const Surface surface = shapes::torus(24, 16).surface();
   EXPECT_EQ(vertex_normals(surface), principal_curvatures(surface).normals);

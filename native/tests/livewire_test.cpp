@@ -279,6 +279,7 @@ TEST(LiveWire, AnotherMetricIsThatOfALiveWireMadeWithIt) {
         {MetricFamily::kFeature, {.max_anisotropy = 20, .clamp_percentile = 95}},
         {MetricFamily::kCampen, {.max_anisotropy = 5}},
         {MetricFamily::kPottmannKovacs, {.max_anisotropy = 5}},
+        {MetricFamily::kConcave, {.max_anisotropy = 5}},
         {MetricFamily::kEuclidean, {}},
         {options.family, options.strength}};
     for (const auto& [family, strength] : metrics) {
@@ -289,6 +290,24 @@ TEST(LiveWire, AnotherMetricIsThatOfALiveWireMadeWithIt) {
       expect_equal(live.wires({333}), fresh_wires(surface, options, {7}, {333}));
     }
   }
+}
+
+TEST(LiveWire, OfConcaveCreasesTheFirstWireLeadsAndTheSecondIsTheShortestPath) {
+  const auto surface = shared(shapes::bumpy(shapes::torus(32, 20), 0.02));
+  const LiveWireOptions concave{.family = MetricFamily::kConcave, .strength = {.parameter = 1.0}};
+  const LiveWires wires = fresh_wires(surface, concave, {7}, {333});
+  const LiveWires shortest = fresh_wires(surface, {.family = MetricFamily::kEuclidean}, {7}, {333});
+  EXPECT_EQ(wires.wires[1].points, shortest.wires[0].points);
+  const Metric metric = concave_metric(*surface, smoothed_curvatures(*surface, principal_curvatures(*surface), 0.01));
+  const Embedding embedding = embed(*surface, metric);
+  EXPECT_NEAR(wires.wires[0].length, ExactGeodesics(embedding.mesh).solve(7).distances()[333], 1e-12);
+  EXPECT_EQ(wires.shorter, 0);
+  // Half as strong by either of the two; so strong that the second is shorter, the first leads all the same.
+  const LiveWireOptions half{.family = MetricFamily::kConcave, .strength = {.parameter = 0.5}};
+  const LiveWireOptions same{.family = MetricFamily::kConcave, .strength = {.max_anisotropy = 10.5}};
+  expect_equal(fresh_wires(surface, half, {7}, {333}), fresh_wires(surface, same, {7}, {333}));
+  const LiveWireOptions strong{.family = MetricFamily::kConcave, .strength = {.parameter = 50.0}};
+  EXPECT_EQ(fresh_wires(surface, strong, {7}, {333}).shorter, 0);
 }
 
 TEST(LiveWire, WhileTheMetricChangesTheWiresAreTheFormerOnesAndNotFinal) {

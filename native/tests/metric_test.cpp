@@ -199,6 +199,37 @@ TEST(Metrics, RefuseWhatMakesNoSense) {
   EXPECT_THROW(pottmann_kovacs_metric(patch.surface, patch.curvature, Follow::kMin, {.parameter = -0.5}), InvalidInput);
 }
 
+TEST(ConcaveMetric, IsShortAlongValleysLessSoAlongRidgesAndNotAcrossThem) {
+  const auto of = [](double k1, double k2, double strength) {
+    const Patch patch([&](std::size_t) { return std::pair(k1, k2); });
+    return at(concave_metric(patch.surface, patch.curvature, strength), 0);
+  };
+  for (const double t : {1.0, 2.5}) {
+    const double l1 = 1 + 0.03 * t * 12, half = 1 + 0.03 * t * 6;
+    const auto c = [t](double k) { return 1 / (1 + t * (1 / (0.3 + 0.7 * std::exp(k / 16)) - 1)); };
+    // A valley along y.
+    EXPECT_NEAR(ambient_norm(of(-16, 4, t), Vector::UnitY()), c(-16) / std::sqrt(l1), 1e-14);
+    EXPECT_NEAR(ambient_norm(of(-16, 4, t), Vector::UnitX()), std::sqrt(l1), 1e-14);
+    // A ridge along y, itself bent downwards.
+    EXPECT_NEAR(ambient_norm(of(16, -4, t), Vector::UnitY()), 1 / std::sqrt(half), 1e-14);
+    EXPECT_NEAR(ambient_norm(of(16, -4, t), Vector::UnitX()), std::sqrt(half) * c(-4), 1e-14);
+  }
+  EXPECT_NEAR(ambient_norm(of(-1e6, 0, 0), Vector(3, 4, 0)), 5, 1e-14);  // no strength
+  EXPECT_NEAR(ambient_norm(of(0, 0, 1), Vector(3, 4, 0)), 5, 1e-14);     // no curvature
+}
+
+TEST(ConcaveMetric, RefusesWhatIsNoStrength) {
+  const Patch patch = rising();
+  for (const double strength : {-1.0, kNan, kInfinity}) {
+    EXPECT_NE(message([&] { concave_metric(patch.surface, patch.curvature, strength); }).find("strength"),
+              std::string::npos);
+  }
+  EXPECT_NE(message([&] { concave_metric(shapes::grid(2).surface(), patch.curvature); }).find("vertices"),
+            std::string::npos);
+  EXPECT_NE(message([&] { concave_metric(patch.surface, patch.curvature, 1e300); }).find("too strong"),
+            std::string::npos);
+}
+
 TEST(Metrics, RefuseEigenvaluesWhoseSquaresAreNoNumbers) {
   const Patch patch = rising();
   const auto too_strong = [&](auto family, const Strength& strength) {

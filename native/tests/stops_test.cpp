@@ -62,6 +62,12 @@ TEST_F(Stops, Curvatures) {
   expect_stops(2 * faces + 4 * vertices, [&](const Task& task) { principal_curvatures(surface, task); });
 }
 
+TEST_F(Stops, SmoothingCurvatures) {
+  const Curvature curvature = principal_curvatures(surface);
+  expect_stops(faces + edges + vertices,
+               [&](const Task& task) { smoothed_curvatures(surface, curvature, 1e-9, task); });
+}
+
 TEST_F(Stops, EachMetric) {
   const Curvature curvature = principal_curvatures(surface);
   const Strength strength{.max_anisotropy = 5, .clamp_percentile = 99};
@@ -71,6 +77,7 @@ TEST_F(Stops, EachMetric) {
     expect_stops(4 * vertices,
                  [&](const Task& task) { pottmann_kovacs_metric(surface, curvature, follow, strength, task); });
   }
+  expect_stops(2 * vertices, [&](const Task& task) { concave_metric(surface, curvature, 1.0, task); });
   expect_stops(2 * vertices, [&](const Task& task) { euclidean_metric(surface, curvature, task); });
 }
 

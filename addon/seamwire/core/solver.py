@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from .network import Along, Edge, Pick
     from .strokes import Scribble
 
-MetricName = Literal["feature", "campen", "pottmann_kovacs", "euclidean"]
+MetricName = Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"]
 """What draws wires to features, as the library calls it."""
 
 

@@ -20,6 +20,7 @@ _METRICS = {
     "feature": "",
     "campen": "Campen's metric",
     "pottmann_kovacs": "Pottmann and Kovacs' metric",
+    "concave": "concave creases",
     "euclidean": "shortest ways",
 }
 

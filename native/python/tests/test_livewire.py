@@ -127,7 +127,9 @@ def test_the_metric_changes_in_the_background(surface: sw.Surface) -> None:
         ("feature", 30),
         ("campen", 5),
         ("pottmann_kovacs", 5),
+        ("concave", 30),
         ("euclidean", None),
+        ("concave", None),
         ("feature", None),
     ]:
         live.set_metric(metric, max_anisotropy=max_anisotropy)

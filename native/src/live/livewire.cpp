@@ -194,7 +194,9 @@ LiveWires LiveWire::wires(const Pick& target) const {
     }
     if (solution) worker.release(std::move(solution));
   }
-  result.shorter = result.wires[1].length < result.wires[0].length ? 1 : 0;
+  const bool second_is_shorter = result.wires[1].length < result.wires[0].length;
+  const bool first_leads = impl_->metrics()->family == MetricFamily::kConcave && !result.wires[0].points.empty();
+  result.shorter = second_is_shorter && !first_leads ? 1 : 0;
   return result;
 }
 

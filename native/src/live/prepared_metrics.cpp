@@ -11,8 +11,14 @@ namespace {
 /// triangles are added, but no fewer than the first number and no more than the last.
 constexpr std::size_t kLeastFacesAdded = 200'000, kFacesAddedPerFace = 12, kMostFacesAdded = 1'000'000;
 
-Metric make_metric(const Surface& surface, const Curvature& curvature, Follow follow, const MetricPair& metrics,
+/// Of concave_metric(), by either of the two.
+double concave_strength(const Strength& strength) {
+  return strength.parameter ? *strength.parameter : (*strength.max_anisotropy - 1.0) / (kConcaveUnit - 1.0);
+}
+
+Metric make_metric(SurfaceCache& surface_cache, const Curvature& curvature, Follow follow, const MetricPair& metrics,
                    const Task& task) {
+  const Surface& surface = surface_cache.surface();
   switch (metrics.family) {
     case MetricFamily::kFeature:
       return feature_metric(surface, curvature, follow, metrics.strength, task);
@@ -20,6 +26,10 @@ Metric make_metric(const Surface& surface, const Curvature& curvature, Follow fo
       return campen_metric(surface, curvature, follow, metrics.strength, task);
     case MetricFamily::kPottmannKovacs:
       return pottmann_kovacs_metric(surface, curvature, follow, metrics.strength, task);
+    case MetricFamily::kConcave:
+      if (follow == Follow::kMax) break;
+      return concave_metric(surface, *surface_cache.smoothed_curvatures_now(task.stop),
+                            concave_strength(metrics.strength), task);
     case MetricFamily::kEuclidean:
       break;
   }
@@ -84,7 +94,7 @@ Prepared prepare(SurfaceCache& surface_cache, Along along, MetricPair& metrics, 
   const std::shared_ptr<const CurvatureCache> curvatures = surface_cache.curvatures_now(stop);
   if (which == 0) prepare_edges();
   Task task{.stop = stop, .progress = {}};
-  Metric metric = make_metric(surface, curvatures->curvature, kFollow[which], metrics, task);
+  Metric metric = make_metric(surface_cache, curvatures->curvature, kFollow[which], metrics, task);
   if (!metrics.scribbles.empty()) {
     metric = apply_scribbles(surface, metric, metrics.scribbles, kFollow[which], task);
   }

@@ -58,6 +58,13 @@ struct SurfaceCache {
       return made;
     });
   }
+  /// Over a hundredth of the unit cube, as concave_metric() is best given them.
+  std::shared_ptr<const Curvature> smoothed_curvatures_now(const std::stop_token& stop) {
+    return smoothed_curvatures.get(stop, [&] {
+      return seamwire::smoothed_curvatures(surface(), curvatures_now(stop)->curvature, 0.01,
+                                           {.stop = stop, .progress = {}});
+    });
+  }
   std::shared_ptr<const SnapGraph> snap_graph_now(const std::stop_token& stop) {
     return snap_graph.get(stop, [&] { return SnapGraph(surface(), {.stop = stop, .progress = {}}); });
   }
@@ -68,6 +75,7 @@ struct SurfaceCache {
 
   const std::size_t vertex_count;
   ComputedOnce<CurvatureCache> curvatures;
+  ComputedOnce<Curvature> smoothed_curvatures;
   ComputedOnce<SnapGraph> snap_graph;
   ComputedOnce<std::shared_ptr<const EdgeAdjacency>> fans;
 

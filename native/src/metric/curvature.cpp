@@ -13,6 +13,7 @@
 
 #include "detail/poll.hpp"
 #include "detail/prefetch.hpp"
+#include "metric/curvature_form.hpp"
 #include "metric/tangent_frame.hpp"
 #include "surface/face_height.hpp"
 #include "surface/half_edge_mesh.hpp"
@@ -147,12 +148,6 @@ VertexNormals combine(const Surface& surface, const std::vector<Vector>& fans, c
   return result;
 }
 
-// The second fundamental form in a frame: (mean + difference) u^2 + 2 mixed u v + (mean - difference) v^2. Turning the
-// frame by an angle leaves the mean, and turns (difference, mixed) back by twice that angle.
-struct Form {
-  double mean = 0.0, difference = 0.0, mixed = 0.0;
-};
-
 // Per fan, with the fan's own normal: sums of form times area, and of the areas.
 struct Fit {
   Form form;
@@ -286,22 +281,6 @@ Form seen_from(const TangentFrame& fan, const Form& form, double side, const Tan
   const Vector v = -fan.v(), normal = -fan.normal;
   return SeenFrame(from, fan.u, v, normal)
       .carried({.mean = -form.mean, .difference = -form.difference, .mixed = form.mixed});
-}
-
-// Curvatures and directions at a vertex.
-void decompose(const TangentFrame& frame, const Form& form, std::size_t vertex, Curvature& curvature) {
-  const double d = form.difference, m = form.mixed, radius = std::sqrt(d * d + m * m);
-  const double signed_radius = form.mean < 0.0 ? -radius : radius;
-  curvature.k1[vertex] = form.mean + signed_radius;
-  curvature.k2[vertex] = form.mean - signed_radius;
-  if (!(radius > 0.0)) return;
-  // The direction of k1 is at half the angle of (d, m), or of (-d, -m) where the mean is negative.
-  const double along = form.mean < 0.0 ? -d : d, across = form.mean < 0.0 ? -m : m;
-  const double large = radius + std::abs(along), inverse = 1.0 / std::sqrt(2.0 * radius * large);
-  const double c = (along < 0.0 ? across : large) * inverse, s = (along < 0.0 ? large : across) * inverse;
-  const Vector v = frame.v();
-  curvature.d1[vertex] = c * frame.u + s * v;
-  curvature.d2[vertex] = c * v - s * frame.u;
 }
 
 }  // namespace

@@ -21,6 +21,9 @@ constexpr double kNoDifference = 1e-9;
 // Smallest beta, as a fraction of the largest k1^2: where k1 = k2 = 0 the norm would vanish without it.
 constexpr double kSmallestBeta = 1e-12;
 
+// The concave metric's: gamma, how short the deepest creases become, and the curvature at which they are near to it.
+constexpr double kCreaseGamma = 0.03, kDeepest = 0.3, kConcavity = 16;
+
 void check_curvature(const Surface& surface, const Curvature& curvature, const Task& task) {
   const std::size_t n = surface.vertex_count();
   for (const std::size_t size :
@@ -99,7 +102,7 @@ Metric aligned_metric(const Curvature& curvature, Follow follow, const Task& tas
     metric.tensors.emplace_back(Eigen::Matrix3d::Identity());
     if (!has_normal(curvature, v)) continue;
     const auto [l1, l2] = at(v);
-    if (!(l1 <= kLargestEigenvalue && l2 > 0)) {
+    if (!(std::max(l1, l2) <= kLargestEigenvalue && std::min(l1, l2) * kLargestEigenvalue >= 1)) {
       throw InvalidInput("the metric at vertex " + std::to_string(v) + " is too strong: its eigenvalues are " +
                          text(l1) + " and " + text(l2));
     }
@@ -200,6 +203,23 @@ Metric pottmann_kovacs_metric(const Surface& surface, const Curvature& curvature
   }
   return aligned_metric(curvature, follow, task, [&](std::size_t v) {
     return Eigenvalues{f.k1(v) * f.k1(v) + beta, f.k2[v] * f.k2[v] + beta};
+  });
+}
+
+Metric concave_metric(const Surface& surface, const Curvature& curvature, double strength, const Task& task) {
+  check_curvature(surface, curvature, task);
+  if (!(std::isfinite(strength) && strength >= 0)) {
+    throw InvalidInput("strength of the metric is " + text(strength) + ", not a finite number of at least 0");
+  }
+  const auto shortened = [strength](double k) {
+    const double measured = kDeepest + (1 - kDeepest) * std::exp(std::min(0.0, k) / kConcavity);
+    return 1 / (1 + strength * (1 / measured - 1));
+  };
+  return aligned_metric(curvature, Follow::kMin, task, [&](std::size_t v) {
+    const double k1 = curvature.k1[v], k2 = curvature.k2[v];
+    const double s = std::max(0.0, std::abs(k1) - std::abs(k2)) * (k1 > 0 ? 0.5 : 1.0);
+    const double l1 = 1 + kCreaseGamma * strength * s, c1 = shortened(k1), c2 = shortened(k2);
+    return Eigenvalues{l1 * c2 * c2, c1 * c1 / l1};
   });
 }
 

@@ -23,8 +23,12 @@ namespace seamwire {
 /// Where wires run: across the surface, as exact geodesics, or along its real edges.
 enum class Along { kSurface, kEdges };
 
-/// Which of the metrics of metric.hpp wires are short in.
-enum class MetricFamily { kFeature, kCampen, kPottmannKovacs, kEuclidean };
+/// Which of the metrics of metric.hpp wires are short in. kConcave: the first wire in concave_metric(), on curvatures
+/// smoothed over 0.01, the second one in the Euclidean metric.
+enum class MetricFamily { kFeature, kCampen, kPottmannKovacs, kConcave, kEuclidean };
+/// What kConcave takes a max_anisotropy A for: a strength of (A - 1) / (kConcaveUnit - 1), so that one setting serves
+/// all families.
+inline constexpr double kConcaveUnit = 20.0;
 
 /// How live wires run.
 struct LiveWireOptions {
@@ -52,7 +56,7 @@ struct LiveCandidate {
 /// Both wires to a target.
 struct LiveWires {
   std::array<LiveCandidate, 2> wires;  ///< that of M_min, that of M_max
-  int shorter = 0;                     ///< the one shorter in its own metric (Section 5)
+  int shorter = 0;  ///< the one shorter in its own metric (Section 5); of kConcave the first, where there is one
   /// Whether both are.
   bool final() const { return wires[0].final && wires[1].final; }
 };

@@ -10,7 +10,8 @@
 
 namespace seamwire {
 
-/// Larger eigenvalues of a tensor are refused: the square of a triangle's area would not be a finite number.
+/// Larger eigenvalues of a tensor are refused, and smaller ones than its inverse: the square of a triangle's area would
+/// not be a number, or be lost.
 inline constexpr double kLargestEigenvalue = 1e150;
 
 /// An anisotropic metric: at each of the caller's vertices a tensor on the tangent plane (eq. 1), in coordinates of the
@@ -41,8 +42,8 @@ struct Strength {
 /// Throws InvalidInput where a strength is not as said there; `smallest_parameter`: 1 for Campen.
 void check_strength(const Strength& strength, double smallest_parameter = 0.0);
 
-/// Each of the four throws InvalidInput for curvatures of another size or that are not finite, a strength that is not
-/// as said above or too strong for them; Cancelled.
+/// Each of the first three throws InvalidInput for curvatures of another size or that are not finite, a strength that
+/// is not as said above or too strong for them; Cancelled.
 ///
 /// Eq. 5, the paper's metric: l1 = 1 + gamma s, l2 = 1 / l1. Parameter: gamma; max_anisotropy A means gamma =
 /// (A - 1) / max s, or 0 where max s is but rounding (planes, spheres).
@@ -56,6 +57,13 @@ Metric campen_metric(const Surface& surface, const Curvature& curvature, Follow 
 /// one.
 Metric pottmann_kovacs_metric(const Surface& surface, const Curvature& curvature, Follow follow,
                               const Strength& strength, const Task& task = {});
+/// Short along concave creases and, less so, ridges: the metric whose single wires come nearest to the cuts that people
+/// make (docs/method.md, Section 3). With s = |k1| - |k2|, halved where k1 > 0 (convex), l1 = 1 + 0.03 t s, l2 = 1 / l1
+/// and c(k) = 1 / (1 + t (1 / (0.3 + 0.7 exp(-max(0, -k) / 16)) - 1)): M = l1 c(k2)^2 d1 d1^T + l2 c(k1)^2 d2 d2^T.
+/// Normals must point outwards; curvatures are best those of smoothed_curvatures() with a radius of 0.01. `strength`:
+/// t, 0 is the Euclidean metric, 1 what was measured; InvalidInput where it is negative or not finite, as above for the
+/// rest.
+Metric concave_metric(const Surface& surface, const Curvature& curvature, double strength = 1.0, const Task& task = {});
 /// The Euclidean metric: the identity on every tangent plane.
 Metric euclidean_metric(const Surface& surface, const Curvature& curvature, const Task& task = {});
 
