@@ -48,9 +48,11 @@ def longest_hold(work: Callable[[], object]) -> float:
     thread = threading.Thread(target=tick)
     thread.start()
     begun.wait()
-    work()
-    done.set()
-    thread.join()
+    try:
+        work()
+    finally:
+        done.set()
+        thread.join()
     return longest
 
 
