@@ -156,7 +156,9 @@ def distances(wire: Points, chain: Points) -> NDArray[np.float64]:
 def measure(
     points: Points, surface: sw.Surface, chosen: list[tuple[Boundary, list[Arc]]], make: MakeMetric, first_leads: bool
 ) -> Points:
-    """Return (wires, 5): mean and largest distance of the leading wire, the shorter one or the first, mean of the better one; whether either mean is NEAR.
+    """Return (wires, 5): mean and largest distance of the leading wire, mean of the better one; whether either mean is NEAR.
+
+    The shorter wire leads, or the first one.
 
     Distances are in percent of the arcs' lengths.
     """
