@@ -8,7 +8,7 @@ import itertools
 import numpy as np
 import pytest
 from seamwire.core.network import Wire, undirected
-from seamwire.core.seam_wires import seam_chains
+from seamwire.core.seam_wires import seam_chains, wires_between
 from seamwire.core.session import Session
 from test_real_loops import AROUND, RINGS, ball, meridian, tube
 
@@ -30,6 +30,16 @@ def test_chains_end_where_seams_end_or_meet() -> None:
 def test_a_circle_through_a_junction_is_one_chain() -> None:
     chains = seam_chains(np.array([(0, 1), (1, 2), (2, 0), (0, 3)]))
     assert sorted((chain[0], chain[-1], len(chain)) for chain in chains) == [(0, 0, 4), (0, 3, 2)]
+
+
+def test_wires_between_seeds_that_are_given_end_there_and_circles_are_halved() -> None:
+    points = np.zeros((10, 3))
+    line = list(itertools.pairwise(range(6)))
+    wires = list(wires_between(np.array([*line, (6, 7), (7, 8), (8, 9), (9, 6)]), {2}, points))
+    assert sorted((len(wire.vertices), *sorted((wire.start, wire.end))) for wire in wires) == [
+        (3, 0, 2), (3, 6, 8), (3, 6, 8), (4, 2, 5),
+    ]  # fmt: skip
+    assert len({edge for wire in wires for edge in wire.edges()}) == 9
 
 
 def redrawn(session: Session, wires: list[Wire]) -> list[list[int]]:

@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 from mathutils import Vector
 from scene import add_grid, add_layers, add_suzanne, edit, head, items_of, layer_kinds, plain, seams, snapshot
+from seamwire.mesh.edit_mesh import LABELS
+from stored import agree, session_on, write
 
 
 def cut(chains: str, **options: object) -> set[str]:
@@ -164,6 +166,7 @@ def test_layers_come_out_as_blenders_own_bisect_leaves_them() -> None:
         bpy.ops.object.mode_set(mode="OBJECT")
         bpy.data.objects.remove(obj)
     ours, blenders = found
+    assert ours.pop(f"edges int {LABELS}"), "the wires"
     assert ours.keys() == blenders.keys()
     for name in ours:
         assert ours[name] == blenders[name], name
@@ -312,15 +315,39 @@ def test_an_object_that_shows_nothing_is_in_nobodys_way() -> None:
 
 
 def test_a_kept_wire_that_is_crossed_stays_a_wire() -> None:
-    from seamwire.mesh.object_session import ObjectSession
-
     obj = add_grid(9)
     edit()
     bpy.ops.mesh.seamwire_mark(chains="36 44", along="EDGES")
     cut("1 76")
-    (wire,) = ObjectSession(obj).session.wires
+    wire, across = sorted(session_on(obj).session.wires, key=lambda own: -own.start)
     assert (wire.start, wire.end) == (36, 44)
     assert len(wire.vertices) == 10, "with the vertex where it is crossed"
+    assert {across.start, across.end} == {1, 76}
+    assert len(set(wire.vertices) & set(across.vertices)) == 1
+
+
+def test_what_was_cut_is_a_wire_along_its_edges_between_its_seeds() -> None:
+    obj = add_scan()
+    edit()
+    cut("0 3 70")
+    assert agree(obj)
+    wires = session_on(obj).session.wires
+    assert {0, 3, 70} <= {end for wire in wires for end in (wire.start, wire.end)}
+    mesh = session_on(obj)
+    mesh.make_live.wait()
+    (toward,) = [wire for wire in mesh.session.wires if 70 in (wire.start, wire.end)]
+    assert mesh.session.drop(toward)
+    write(mesh)
+    assert 70 not in joined(obj, 0)
+    assert 3 in joined(obj, 0)
+
+
+def test_a_closed_chain_that_is_cut_keeps_its_seeds() -> None:
+    obj = add_grid(9)
+    edit()
+    bpy.ops.mesh.seamwire_mark(chains="10 16 70 64 10", along="SURFACE", finish="CUT")
+    assert agree(obj)
+    assert len(session_on(obj).session.wires) == 4
 
 
 def test_seams_cannot_be_cleared_by_a_cut() -> None:

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Seams that are taken over as wires: the fewest seeds whose wires run as they do, edge for edge."""
+"""Seams that become wires: with the fewest seeds whose wires run as they do, edge for edge, or with seeds that are given."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,13 +22,15 @@ _SLICE = 0.005
 """Seconds; wires to vertices near the seed are there long before those to all others."""
 
 
-def seam_chains(seams: NDArray[np.int32]) -> list[list[int]]:
+def seam_chains(seams: NDArray[np.int32], seeds: Collection[int] = ()) -> list[list[int]]:
     """Return seams as chains of vertices between those where they end or more than two meet; closed ones end where they begin.
 
     Parameters
     ----------
     seams
         (k, 2) edges, each once.
+    seeds
+        Vertices where chains end as well.
     """
     around: dict[int, list[int]] = {}
     for one, two in seams.tolist():
@@ -36,20 +38,37 @@ def seam_chains(seams: NDArray[np.int32]) -> list[list[int]]:
         around.setdefault(two, []).append(one)
     unused = {frozenset(pair) for pair in seams.tolist()}
 
+    ends = {vertex for vertex, near in around.items() if len(near) != 2}.union(seeds)
+
     def follow(first: int, second: int) -> list[int]:
         chain = [first, second]
         unused.discard(frozenset(chain))
-        while chain[-1] != first and len(around[chain[-1]]) == 2:
+        while chain[-1] != first and chain[-1] not in ends:
             one, two = around[chain[-1]]
             chain.append(two if one == chain[-2] else one)
             unused.discard(frozenset(chain[-2:]))
         return chain
 
     chains = []
-    nodes = [vertex for vertex, near in around.items() if len(near) != 2]
-    for vertex in (*nodes, *around):  # what is left after the nodes are circles
+    for vertex in (*(ends & around.keys()), *around):  # what is left after the ends are circles
         chains += [follow(vertex, other) for other in around[vertex] if frozenset((vertex, other)) in unused]
     return chains
+
+
+def wires_between(seams: NDArray[np.int32], seeds: Collection[int], points: NDArray[np.float64]) -> Iterator[Wire]:
+    """Yield one wire for each chain of seams between seeds, junctions and ends; a circle is halved.
+
+    Parameters
+    ----------
+    seams, seeds
+        As those of `seam_chains`.
+    points
+        (n, 3) vertices of the mesh.
+    """
+    for chain in seam_chains(seams, seeds):
+        middle = len(chain) // 2
+        for part in (chain[: middle + 1], chain[middle:]) if chain[0] == chain[-1] else (chain,):
+            yield Wire("EDGES", tuple(part), points[part], part[0], part[-1])
 
 
 def wires_along(live: LiveWire, chain: list[int], points: NDArray[np.float64], strength: float) -> Iterator[Wire]:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.cutting import CutPlan, Node
+    from ..core.network import Edge
     from .edit_mesh import Arrays, Cage
 
 
@@ -29,14 +30,17 @@ class Cut:
     Parameters
     ----------
     edges
-        How many edges the wires run along now.
+        What the wires run along now, by their vertices.
+    seeds
+        The vertices that were asked for, by the numbers that they have now.
     vertices
         How many vertices are new.
     uncut
         How many faces could not be cut.
     """
 
-    edges: int
+    edges: tuple[Edge, ...]
+    seeds: tuple[int, ...]
     vertices: int
     uncut: int
 
@@ -69,9 +73,10 @@ def plan(cage: Cage, arrays: Arrays, curves: Iterable[tuple[int, NDArray[np.floa
     return cutting.plan(_CageFaces(cage, arrays), curves)
 
 
-def carry_out(cage: Cage, what: CutPlan) -> Cut:
-    """Cut an edit mesh, and make seams of the cuts. Vertices, edges and faces have other numbers then."""
+def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int] = ()) -> Cut:
+    """Cut an edit mesh, and make seams of the cuts. Vertices, edges and faces, some vertices asked for too, have other numbers then."""
     bm = cage.bm
+    seed_verts = [bm.verts[vertex] for vertex in seeds]
     faces = {polygon: bm.faces[polygon] for polygon in what.across}
     before = len(bm.verts)
     vert_of: dict[Node, bmesh.types.BMVert] = {}
@@ -101,7 +106,8 @@ def carry_out(cage: Cage, what: CutPlan) -> Cut:
     for items in (bm.verts, bm.edges, bm.faces):
         items.index_update()
     bmesh.update_edit_mesh(cage.mesh, loop_triangles=True, destructive=True)
-    return Cut(len(seams), len(bm.verts) - before, uncut)
+    pairs = {(min(pair), max(pair)) for pair in ((edge.verts[0].index, edge.verts[1].index) for edge in seams)}
+    return Cut(tuple(sorted(pairs)), tuple(vert.index for vert in seed_verts), len(bm.verts) - before, uncut)
 
 
 def _vert_inside(

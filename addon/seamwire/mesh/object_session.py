@@ -13,6 +13,7 @@ import numpy as np
 from ..core import native, serialization, wire_labels
 from ..core.defaults import CLAMP_PERCENTILE, STRENGTHS
 from ..core.network import edges_after
+from ..core.seam_wires import wires_between
 from ..core.serialization import Archive, UnreadableError
 from ..core.session import Session
 from ..core.strokes import on_mesh
@@ -20,7 +21,7 @@ from ..core.wire_labels import EdgeLabels, Found, Places
 from . import cut, edit_mesh
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Collection, Iterable
 
     import seamwire_core
     from numpy.typing import NDArray
@@ -365,9 +366,25 @@ class ObjectSession:
         curves = [(own.vertices[0], own.points) for wire in wires for own in (wire, *self.session.mirrored(wire))]
         return cut.plan(self.cage, self.arrays, curves)
 
-    def cut(self, plan: CutPlan) -> cut.Cut:
-        """Cut the mesh, whose vertices, edges and faces have other numbers then: this session is over."""
-        return cut.carry_out(self.cage, plan)
+    def cut(self, plan: CutPlan, seeds: Collection[int]) -> cut.Cut:
+        """Cut the mesh; what was cut are wires along its edges then, between seeds.
+
+        Vertices, edges and faces have other numbers then: this session is over.
+
+        Parameters
+        ----------
+        plan
+            From `plan_cut`.
+        seeds
+            The vertices where the wires began and ended.
+        """
+        done = cut.carry_out(self.cage, plan, seeds)
+        after = ObjectSession(self.obj)
+        taken = {edge for wire in after.session.wires for edge in wire.claims()}
+        free = np.array([edge for edge in done.edges if edge not in taken], dtype=np.int32).reshape(-1, 2)
+        after.take_over(wires_between(free, done.seeds, after.arrays.points))
+        after.write(after.plan())
+        return done
 
     def drop_changes(self, network: Network) -> None:
         """Go back to a network that the session had, whatever was drawn since."""

@@ -26,7 +26,12 @@ METRIC_ITEMS = (
     ("feature", "Features", "Follow ridges, valleys and lines of curvature", 0),
     ("campen", "Principal Directions", "Keep to the directions of curvature (Campen, Bommes, Kobbelt)", 1),
     ("pottmann_kovacs", "Surface Normals", "Turning normals make paths long (Pottmann, Kovacs)", 2),
-    ("concave", "Concave Creases", "Follow creases as cuts that people make do; the other wire is the shortest path", 4),
+    (
+        "concave",
+        "Concave Creases",
+        "Follow creases as cuts that people make do; the other wire is the shortest path",
+        4,
+    ),
     ("euclidean", "Shortest Path", "Run as short as possible, whatever the shape", 3),
 )
 

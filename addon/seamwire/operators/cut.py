@@ -29,7 +29,7 @@ class MESH_OT_seamwire_cut(bpy.types.Operator):
         return in_edit_mode(cls, context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Take the wires out of their networks, their snapped seams with them, and cut along them."""
+        """Take the snapped seams of the wires away, and cut along them."""
         from ..core.native import NativeError
         from ..mesh.object_session import ObjectSession
 
@@ -66,7 +66,7 @@ def cut_wires(
     wires
         Of each mesh. Its session is over then.
     kept
-        Whether meshes have these wires already: they cease to be wires, and their snapped edges to be seams.
+        Whether meshes have these wires already: their snapped edges cease to be seams.
     """
     from ..core.cutting import CuttingError
     from ..mesh import edit_mesh
@@ -82,14 +82,15 @@ def cut_wires(
             for wire in wires[mesh]:
                 mesh.session.drop(wire)
             mesh.write(mesh.plan())
-        cuts.append(mesh.cut(plan))
+        seeds = {end for wire in wires[mesh] for end in (wire.start, wire.end)}
+        cuts.append(mesh.cut(plan, seeds))
     edit_mesh.live_unwrap(context)
     uncut = sum(cut.uncut for cut in cuts)
     if uncut:
         operator.report({"WARNING"}, f"{count(uncut, 'face')} could not be cut: the seams have gaps there")
     done = (
         f"{count(sum(map(len, wires.values())), 'wire')} cut",
-        f"{count(sum(cut.edges for cut in cuts), 'edge')} marked",
+        f"{count(sum(len(cut.edges) for cut in cuts), 'edge')} marked",
         count(sum(cut.vertices for cut in cuts), "new vertex", "new vertices"),
     )
     operator.report({"INFO"}, ", ".join(done))
