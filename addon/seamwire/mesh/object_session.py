@@ -366,8 +366,8 @@ class ObjectSession:
         curves = [(own.vertices[0], own.points) for wire in wires for own in (wire, *self.session.mirrored(wire))]
         return cut.plan(self.cage, self.arrays, curves)
 
-    def cut(self, plan: CutPlan, seeds: Collection[int]) -> cut.Cut:
-        """Cut the mesh; what was cut are wires along its edges then, between seeds.
+    def cut(self, plan: CutPlan, wires: Collection[Wire], kept: bool) -> cut.Cut:
+        """Cut the mesh; what was cut are wires along its edges then, between the seeds of those across the surface.
 
         Vertices, edges and faces have other numbers then: this session is over.
 
@@ -375,9 +375,16 @@ class ObjectSession:
         ----------
         plan
             From `plan_cut`.
-        seeds
-            The vertices where the wires began and ended.
+        wires
+            What is cut.
+        kept
+            Whether the mesh has these wires already: their snapped edges cease to be seams.
         """
+        if kept:
+            for wire in wires:
+                self.session.drop(wire)
+            self.write(self.plan())
+        seeds = {end for wire in wires for end in (wire.start, wire.end)}
         done = cut.carry_out(self.cage, plan, seeds)
         after = ObjectSession(self.obj)
         taken = {edge for wire in after.session.wires for edge in wire.claims()}

@@ -22,6 +22,10 @@ ALONG_ITEMS = (
     ("EDGES", "Along Edges", "Wires are chains of the mesh's edges", 0),
     ("SURFACE", "Across Surface", "Wires cross faces, and the chain of edges nearest to them is marked", 1),
 )
+FINISH_ITEMS = (
+    ("SNAP", "Snap", "The edges that lie nearest to it", 0),
+    ("CUT", "Cut", "The wire itself, cut into the faces", 1),
+)
 METRIC_ITEMS = (
     ("feature", "Features", "Follow ridges, valleys and lines of curvature", 0),
     ("campen", "Principal Directions", "Keep to the directions of curvature (Campen, Bommes, Kobbelt)", 1),
@@ -67,6 +71,12 @@ class SeamwireSettings(bpy.types.PropertyGroup):
     along: bpy.props.EnumProperty(name="Along", description="Where wires run", items=ALONG_ITEMS, update=_changed)
     strength_edges: strength_property("EDGES")
     strength_surface: strength_property("SURFACE")
+    finish: bpy.props.EnumProperty(
+        name="Finish",
+        description="What becomes the seam of a wire across the surface when its chain ends",
+        items=FINISH_ITEMS,
+        update=_changed,
+    )
     metric: bpy.props.EnumProperty(
         name="Metric", description="What draws wires to features", items=METRIC_ITEMS, update=_changed
     )

@@ -76,18 +76,11 @@ def cut_wires(
     except CuttingError as error:
         operator.report({"ERROR"}, str(error))
         return {"CANCELLED"}
-    cuts = []
-    for mesh, plan in plans.items():
-        if kept:
-            for wire in wires[mesh]:
-                mesh.session.drop(wire)
-            mesh.write(mesh.plan())
-        seeds = {end for wire in wires[mesh] for end in (wire.start, wire.end)}
-        cuts.append(mesh.cut(plan, seeds))
+    cuts = [mesh.cut(plan, wires[mesh], kept) for mesh, plan in plans.items()]
     edit_mesh.live_unwrap(context)
     uncut = sum(cut.uncut for cut in cuts)
     if uncut:
-        operator.report({"WARNING"}, f"{count(uncut, 'face')} could not be cut: the seams have gaps there")
+        operator.report({"WARNING"}, gaps(uncut))
     done = (
         f"{count(sum(map(len, wires.values())), 'wire')} cut",
         f"{count(sum(len(cut.edges) for cut in cuts), 'edge')} marked",
@@ -95,6 +88,11 @@ def cut_wires(
     )
     operator.report({"INFO"}, ", ".join(done))
     return {"FINISHED"}
+
+
+def gaps(uncut: int) -> str:
+    """Say that faces could not be cut."""
+    return f"{count(uncut, 'face')} could not be cut: the seams have gaps there"
 
 
 def register() -> None:

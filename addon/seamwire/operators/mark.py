@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ..mesh.settings import ALONG_ITEMS, METRIC_ITEMS
+from ..mesh.settings import ALONG_ITEMS, FINISH_ITEMS, METRIC_ITEMS
 from .cut import cut_wires
 from .report import in_edit_mode, summary
 
@@ -57,11 +57,7 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
     finish: bpy.props.EnumProperty(
         name="Finish",
         description="What becomes the seam of a wire across the surface",
-        items=(
-            ("SNAP", "Snap", "The edges that lie nearest to it"),
-            ("CUT", "Cut", "The wire itself, cut into the faces"),
-        ),
-        default="SNAP",
+        items=FINISH_ITEMS,
     )
     clear: bpy.props.BoolProperty(name="Clear", description="Clear seams instead of marking them", default=False)
     mirror: bpy.props.EnumProperty(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
+from ..core.cutting import CuttingError
 from ..core.network import Network
 from ..mesh import edit_mesh
 from ..mesh import settings as chosen
@@ -16,9 +17,10 @@ from ..view.edited_objects import edited
 from ..view.viewport import Place, place_of
 from . import bindings, navigation
 from .bindings import Action
+from .cut import gaps
 from .drag_handlers import Hold, SeedHold, StrokeHold
 from .navigation import Meaning
-from .report import running, status_makers, summary
+from .report import count, running, status_makers, summary
 
 if TYPE_CHECKING:
     from ..core.session import Session
@@ -183,11 +185,27 @@ class Chain:
         wires = sum(wire.id not in known for wire in view.session.network.wires)
         marked, cleared = self._write(view, adopt=True)
         self._drawn, self._saved = None, False
+        cut = self._cut(view, known)
         if undo_step:
             if (marked or cleared) and context.mode == "EDIT_MESH":
                 edit_mesh.live_unwrap(context)
             bpy.ops.ed.undo_push(message=title)
-        self.told.append(f"{title}: {summary(wires, marked, cleared)}")
+        self.told.append(f"{title}: {cut or summary(wires, marked, cleared)}")
+
+    @staticmethod
+    def _cut(view: ObjectView, known: set[int]) -> str:
+        """Cut new wires across the surface, where the artist wants that; return what was done, in words."""
+        new = [wire for wire in view.session.wires if wire.id not in known and wire.along == "SURFACE" and wire.marks]
+        if not new or chosen.settings().finish != "CUT" or not view.mesh.alive():
+            return ""
+        try:
+            plan = view.mesh.plan_cut(new)
+        except CuttingError as error:
+            return f"not cut: {error}"
+        cut = view.mesh.cut(plan, new, kept=True)
+        edited.forget(view)
+        done = f"{count(len(new), 'wire')} cut, {count(len(cut.edges), 'edge')} marked"
+        return f"{done}, {gaps(cut.uncut)}" if cut.uncut else done
 
     def save(self) -> None:
         """Write what is drawn so far to the mesh, so that Blender saves it; the chain goes on."""
@@ -360,6 +378,7 @@ class Chain:
 
     def _on_settings(self) -> None:
         edited.follow_settings()
+        self._shown = None
         self.show()
 
     def _tick(self) -> None:
@@ -390,6 +409,10 @@ class Chain:
             self.session.hover(None)
         if action is Action.NEW_CHAIN and not view.session.waiting_clicks:
             self._keep(bpy.context)
+            if view not in edited.views():  # it was cut
+                view, snap = edited.find(place)
+                if view is None or snap is None:
+                    return
         self._draw_on(view)
         session = view.session
         if action is Action.NEW_CHAIN:

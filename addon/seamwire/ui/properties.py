@@ -21,6 +21,8 @@ def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout) -> Non
         row = layout.row(align=True)
         row.prop(chosen, "along", expand=True)
         layout.prop(chosen, strength)
+        if chosen.along == "SURFACE":
+            layout.row(align=True).prop(chosen, "finish", expand=True)
         layout.prop(chosen, "clear", toggle=True)
         layout.prop(chosen, "snap", text="", icon="SNAP_ON" if chosen.snap else "SNAP_OFF")
         layout.prop(chosen, "xray", text="", icon="XRAY")
@@ -29,6 +31,9 @@ def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout) -> Non
     layout.use_property_decorate = False
     layout.prop(chosen, "along")
     layout.prop(chosen, strength)
+    column = layout.column()
+    column.active = chosen.along == "SURFACE"
+    column.row().prop(chosen, "finish", expand=True)
     layout.prop(chosen, "clear")
     layout.prop(chosen, "stroke_radius")
     column = layout.column(heading="Snap")

@@ -97,6 +97,10 @@ class EditedObjects:
         for name in idle[: max(0, len(self._views) - _KEPT)]:
             self._remove(name)
 
+    def forget(self, view: ObjectView) -> None:
+        """Let an object be read anew: its mesh has other vertices now."""
+        self._remove(view.name)
+
     def take_stock(self) -> None:
         """Read anew what has changed, and let one of the objects that are edited be in front."""
         self._error = None  # what could not be drawn before says nothing of now

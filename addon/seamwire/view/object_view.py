@@ -178,5 +178,6 @@ class ObjectView:
         settings = chosen.settings()
         self.overlay.xray = settings.xray
         self.overlay.features = settings.snap
+        self.overlay.cuts = settings.finish == "CUT"
         self.overlay.front = front
         self.overlay.help_rows = help_rows

@@ -84,6 +84,8 @@ class Overlay:
         Draw what lies behind the mesh like what lies before it.
     features
         Whether seeds snap to features: said in the text.
+    cuts
+        Whether live wires across the surface will be cut into it: the edges that they snap to do not matter then.
     front
         Whether this object is the one under the cursor: its session is the one that the text tells of.
     stroke
@@ -122,6 +124,7 @@ class Overlay:
         self._seams_read = 0
         self.xray = False
         self.features = False
+        self.cuts = False
         self.front = True
         self.stroke: tuple[NDArray[np.float64], bool] | None = None
         self.help_rows: Sequence[text_overlay.Row] | None = None
@@ -267,7 +270,8 @@ class Overlay:
     def _live_sheet(self) -> _Sheet:
         """Return what changes with every move of the cursor."""
         session = self._session
-        if self._live[0] == session.revision:
+        key = (session.revision, self.cuts)
+        if self._live[0] == key:
             return self._live[1]
         looks, sheet = self._looks, _Sheet(self._points)
         hovered = session.hovered_wire
@@ -287,14 +291,14 @@ class Overlay:
         self._add_seeds(sheet)
         self._add_target(sheet)
         sheet.finish()
-        self._live = (session.revision, sheet)
+        self._live = (key, sheet)
         return sheet
 
     def _add_live(self, sheet: _Sheet, wire: Wire, style: Style) -> None:
         looks = self._looks
         for image in self._session.mirrored(wire):
             sheet.edges(looks.mirrored_live, image.edges())
-        if wire.along == "SURFACE":
+        if wire.along == "SURFACE" and not (self.cuts and wire.marks):
             sheet.edges(looks.will_mark if wire.marks else looks.clear, wire.edges())
         sheet.curve(style, wire.points)
         if not wire.marks and wire.along == "EDGES":

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Chains across the surface that are cut into the faces when they end."""
+
+import bpy
+import numpy as np
+import pytest
+from desk import Desk
+from scene import chain, seams
+from seamwire.mesh.settings import settings
+from stored import agree, chains
+
+
+@pytest.fixture
+def cutting(desk: Desk) -> Desk:
+    """Wires across the surface are cut."""
+    settings().along, settings().finish = "SURFACE", "CUT"
+    return desk
+
+
+def length(desk: Desk) -> float:
+    """Return the length of all seams."""
+    vertices = bpy.data.objects[desk.name].data.vertices
+    desk.obj.update_from_editmode()
+    return sum((vertices[a].co - vertices[b].co).length for a, b in seams(desk.obj))
+
+
+def test_a_chain_is_cut_when_it_ends_in_one_step_of_undo(cutting: Desk) -> None:
+    session, ui = cutting.start(), cutting.ui
+    count = len(cutting.obj.data.vertices)
+    ui.click(cutting.at(0), ctrl=True)
+    ui.move(cutting.at(44))
+    ui.wait_until(lambda: session.active is not None and not session.preliminary)
+    alone = ui.pixels()
+    settings().finish = "SNAP"
+    ui.wait(redraw=True)
+    snapped = ui.pixels()
+    settings().finish = "CUT"
+    ui.wait(redraw=True)
+    assert np.abs(alone - snapped).max() > 0.2, "with the edges that it would snap to"
+    assert np.array_equal(ui.pixels(), alone)
+    ui.click(cutting.at(44))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.key("RET")
+    assert cutting.left_clean()
+    assert agree(cutting.obj)
+    straight = (cutting.obj.data.vertices[0].co - cutting.obj.data.vertices[44].co).length
+    assert length(cutting) == pytest.approx(straight, rel=1e-6)
+    ui.key("Z", ctrl=True)
+    obj = bpy.data.objects[cutting.name]
+    obj.update_from_editmode()
+    assert len(obj.data.vertices) == count
+    assert seams(obj) == []
+
+
+def test_drawing_goes_on_after_a_cut_on_the_mesh_as_it_is(cutting: Desk) -> None:
+    session, ui = cutting.start(), cutting.ui
+    ui.click(cutting.at(0), ctrl=True)
+    ui.click(cutting.at(44))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.click(cutting.at(72), ctrl=True)  # another chain: the first one is cut
+    assert length(cutting) > 0
+    ui.click(cutting.at(80))
+    ui.wait_until(lambda: not cutting.session.waiting_clicks and len(cutting.session.wires) == 2)
+    ui.key("RET")
+    assert cutting.left_clean()
+    assert agree(cutting.obj)
+    assert set(chain(*range(72, 81))) <= set(seams(cutting.obj))
+    assert {(own[0], own[-1]) for own in chains(cutting.obj)} == {(0, 44), (72, 80)}
+
+
+def test_along_edges_nothing_is_cut(cutting: Desk) -> None:
+    settings().along = "EDGES"
+    session, ui = cutting.start(), cutting.ui
+    ui.click(cutting.at(0), ctrl=True)
+    ui.click(cutting.at(44))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.key("RET")
+    cutting.obj.update_from_editmode()
+    assert len(cutting.obj.data.vertices) == 81
+    assert len(seams(cutting.obj)) == 12
