@@ -6,11 +6,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import bpy
-import numpy as np
 
 from .report import count, in_edit_mode
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from ..core.network import Wire
     from ..mesh.object_session import ObjectSession
 
@@ -69,7 +71,7 @@ class MESH_OT_seamwire_take_over(bpy.types.Operator):
         return {"FINISHED"}
 
     @staticmethod
-    def _wires(context: bpy.types.Context, mesh: ObjectSession, seams: np.ndarray) -> list[Wire]:
+    def _wires(context: bpy.types.Context, mesh: ObjectSession, seams: NDArray[np.int32]) -> list[Wire]:
         progress = context.window_manager
         progress.progress_begin(0, len(seams))
         wires, done = [], 0
