@@ -23,6 +23,7 @@ _PARTS = (
     "ui.preferences",
     "operators.mark",
     "operators.cut",
+    "operators.unwrap",
     "operators.draw",
     "operators.hover",
     "ui.keymap",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Menu entries that choose the tool, and that cut what it drew."""
+"""Menu entries that choose the tool, that cut what it drew, and that unwrap."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ def _draw_menu(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
     entry = menu.layout.operator("wm.tool_set_by_id", text="Draw Seamwires")
     entry.name, entry.space_type = TOOL, "VIEW_3D"
     menu.layout.operator("mesh.seamwire_cut")
+    menu.layout.operator("mesh.seamwire_unwrap")
 
 
 def register() -> None:

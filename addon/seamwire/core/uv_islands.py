@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Islands in UV space: which ones are no longer what the seams say, and where new ones find room. Knows no Blender."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+_SAME = 1e-5
+"""UVs nearer than this are one place: unwrapping gives corners that belong together the same numbers, packing rounds them."""
+_CELLS = 512
+"""Cells along a side of the square in which room is looked for."""
+_GAP = 1.0 / _CELLS
+
+
+def split_edges(
+    vertices: NDArray[np.int32],
+    edges: NDArray[np.int32],
+    following: NDArray[np.int64],
+    uvs: NDArray[np.float32],
+) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    """Find the edges between two faces over which a UV map is torn.
+
+    Parameters
+    ----------
+    vertices, edges, following
+        (c,) of each corner its vertex, the edge to the next corner of its face, and that corner; -1 as the edge: left out.
+    uvs
+        (c, 2).
+
+    Returns
+    -------
+    (k, 2) array
+        The two corners at which the faces at an edge hold it, for each edge with two.
+    (k,) array
+        Whether the map is torn there.
+    """
+    order = np.argsort(edges, kind="stable")
+    order = order[edges[order] >= 0]
+    _, first, counts = np.unique(edges[order], return_index=True, return_counts=True)
+    first = first[counts == 2]
+    pairs = np.stack([order[first], order[first + 1]], axis=1)
+    one, two = pairs.T
+    # Neighbors go along their edge in opposite ways, unless one is flipped.
+    opposite = vertices[one] == vertices[following[two]]
+    begin, end = np.where(opposite, following[two], two), np.where(opposite, two, following[two])
+    gaps = np.abs(np.stack([uvs[one] - uvs[begin], uvs[following[one]] - uvs[end]]))
+    return pairs, (gaps > _SAME).any(axis=(0, 2))
+
+
+@dataclass(frozen=True)
+class NewIsland:
+    """An island that was unwrapped.
+
+    Parameters
+    ----------
+    before, after
+        (c, 2) its corners in the UV map before and after; `before` is all zero where it had no place.
+    triangles
+        (t, 3) its triangles, as rows of `after`.
+    areas
+        (t,) of those triangles on the model.
+    """
+
+    before: NDArray[np.float64]
+    after: NDArray[np.float64]
+    triangles: NDArray[np.int64]
+    areas: NDArray[np.float64]
+
+
+def uv_areas(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the areas of triangles, (t, 3, 2)."""
+    one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    return 0.5 * np.abs(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0])
+
+
+def boxes_of(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the bounds of triangles, (t, 3, 2), as low u, low v, high u, high v: (t, 4)."""
+    return np.concatenate([corners.min(axis=1), corners.max(axis=1)], axis=1).reshape(-1, 4)
+
+
+def place(islands: Sequence[NewIsland], taken: NDArray[np.float64], density: float) -> list[NDArray[np.float64]]:
+    """Find a place for islands among those that stay.
+
+    Each has the texel density it had, turned as it was, and lies as near to where it was as there is room in that square
+    of the UV plane; where there is none, beside all others, to the right.
+
+    Parameters
+    ----------
+    islands
+        What was unwrapped.
+    taken
+        (b, 4) bounds of the triangles that stay, see `boxes_of`.
+    density
+        Length in UVs over length on the model, for islands that had no place.
+
+    Returns
+    -------
+    list of (c, 2) array
+        The corners of each.
+    """
+    ready = [_fitted(island, density) for island in islands]
+    sizes = [float(np.prod(np.ptp(corners, axis=0))) for corners in ready]
+    placed: list[NDArray[np.float64]] = list(ready)
+    left_over = []
+    for number in sorted(range(len(ready)), key=lambda number: -sizes[number]):
+        island, corners = islands[number], ready[number]
+        spot = _free_spot(corners, _middle(island.before), taken)
+        if spot is None:
+            left_over.append(number)
+            continue
+        placed[number] = corners + (spot - corners.min(axis=0))
+        taken = np.concatenate([taken, boxes_of(placed[number][island.triangles])])
+    edge = max(1.0, float(taken[:, 2].max(initial=0.0)))
+    left, bottom, widest = edge + 4.0 * _GAP, 0.0, 0.0
+    for number in left_over:
+        width, height = np.ptp(ready[number], axis=0)
+        if bottom > 0.0 and bottom + height > 1.0:
+            left, bottom, widest = left + widest + 4.0 * _GAP, 0.0, 0.0
+        placed[number] = ready[number] + ((left, bottom) - ready[number].min(axis=0))
+        bottom, widest = bottom + height + 4.0 * _GAP, max(widest, width)
+    return placed
+
+
+def _middle(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    return 0.5 * (corners.min(axis=0) + corners.max(axis=0))
+
+
+def _fitted(island: NewIsland, density: float) -> NDArray[np.float64]:
+    """Return the corners of an island in the size and as turned as they were before."""
+    area, now = float(island.areas.sum()), float(uv_areas(island.after[island.triangles]).sum())
+    before = float(uv_areas(island.before[island.triangles]).sum())
+    wanted = before if before > 0.0 else density * density * area
+    corners = island.after - island.after.mean(axis=0)
+    old = island.before - island.before.mean(axis=0)
+    if now > 0.0 and wanted > 0.0:
+        corners = corners * np.sqrt(wanted / now)
+    # The turn that leaves least between the two: Kabsch in the plane.
+    along, across = float((corners * old).sum()), float((corners[:, 0] * old[:, 1] - corners[:, 1] * old[:, 0]).sum())
+    length = np.hypot(along, across)
+    if length > 0.0:
+        cos, sin = along / length, across / length
+        corners = corners @ np.array([[cos, sin], [-sin, cos]])
+    return corners
+
+
+def _free_spot(
+    corners: NDArray[np.float64], middle: NDArray[np.float64], taken: NDArray[np.float64]
+) -> NDArray[np.float64] | None:
+    """Return the low corner of the free place that is nearest to where an island was, in that square; None: there is none."""
+    tile = np.floor(middle)
+    size = np.ceil((np.ptp(corners, axis=0) + 2.0 * _GAP) * _CELLS).astype(np.int64)
+    if (size > _CELLS).any():
+        return None
+    # What is taken, cell by cell: each box counted up at its low corner and down behind its high one, and summed.
+    low = np.clip(np.floor((taken[:, :2] - tile) * _CELLS), 0, _CELLS).astype(np.int64)
+    high = np.clip(np.floor((taken[:, 2:] - tile) * _CELLS) + 1, 0, _CELLS).astype(np.int64)
+    marks = np.zeros((_CELLS + 1, _CELLS + 1), dtype=np.int64)
+    for u, v, sign in ((low, low, 1), (high, low, -1), (low, high, -1), (high, high, 1)):
+        np.add.at(marks, (u[:, 0], v[:, 1]), sign)
+    full = marks.cumsum(axis=0).cumsum(axis=1)[:-1, :-1] > 0
+    # How many cells are taken below and left of each: four of these tell whether a rectangle is free.
+    sums = np.zeros((_CELLS + 1, _CELLS + 1), dtype=np.int64)
+    sums[1:, 1:] = full.cumsum(axis=0).cumsum(axis=1)
+    wide, tall = size
+    inside = sums[wide:, tall:] - sums[:-wide, tall:] - sums[wide:, :-tall] + sums[:-wide, :-tall]
+    free = np.argwhere(inside == 0)
+    if not len(free):
+        return None
+    wanted = (middle - tile - 0.5 * np.ptp(corners, axis=0) - _GAP) * _CELLS
+    nearest = free[((free - wanted) ** 2).sum(axis=1).argmin()]
+    return tile + nearest / _CELLS + _GAP
