@@ -120,7 +120,7 @@ class _Map:
 
     def new_islands(self) -> list[tuple[NDArray[np.int64], NewIsland]]:
         """Return the corners of each island that was unwrapped and may be moved, and what it has become."""
-        after = uv_map.read(self.obj)[1]
+        after = uv_map.read_uvs(self.obj)
         before = np.zeros_like(after) if self._uvs is None else self._uvs
         islands = []
         pinned = self._pinned()

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -10,6 +11,8 @@ import bpy
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from numpy.typing import NDArray
 
     from .edit_mesh import Arrays
@@ -58,19 +61,35 @@ class Corners:
 
 
 def read(obj: bpy.types.Object) -> tuple[Corners, NDArray[np.float32] | None]:
-    """Read the corners of an edit mesh and their places in the active UV map, (c, 2); None: there is no UV map."""
+    """Read the corners of an edit mesh, and their UVs as `read_uvs` does."""
+    with _copied(obj) as mesh:
+        return Corners.of(mesh), _uvs(mesh)
+
+
+def read_uvs(obj: bpy.types.Object) -> NDArray[np.float32] | None:
+    """Read the places of an edit mesh's corners in the active UV map, (c, 2); None: there is no UV map."""
+    with _copied(obj) as mesh:
+        return _uvs(mesh)
+
+
+@contextmanager
+def _copied(obj: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
+    """Copy the mesh, which itself shows no UVs in edit mode; from 4.1 on a copy shares the data and costs nothing."""
     obj.update_from_editmode()
-    # The mesh itself shows no UVs in edit mode; from 4.1 on its copy shares the data and costs nothing.
     mesh = obj.data.copy()
     try:
-        corners, layer = Corners.of(mesh), mesh.uv_layers.active
-        if layer is None:
-            return corners, None
-        uvs = np.empty(2 * len(corners.vertices), dtype=np.float32)
-        if hasattr(layer, "uv"):
-            layer.uv.foreach_get("vector", uvs)
-        else:
-            layer.data.foreach_get("uv", uvs)
-        return corners, uvs.reshape(-1, 2)
+        yield mesh
     finally:
         bpy.data.meshes.remove(mesh)
+
+
+def _uvs(mesh: bpy.types.Mesh) -> NDArray[np.float32] | None:
+    layer = mesh.uv_layers.active
+    if layer is None:
+        return None
+    uvs = np.empty(2 * len(mesh.loops), dtype=np.float32)
+    if hasattr(layer, "uv"):
+        layer.uv.foreach_get("vector", uvs)
+    else:
+        layer.data.foreach_get("uv", uvs)
+    return uvs.reshape(-1, 2)

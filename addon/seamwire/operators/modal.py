@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..core.network import Network
-from ..mesh import edit_mesh
 from ..mesh import settings as chosen
 from ..view.edited_objects import edited
 from ..view.viewport import Place, place_of
@@ -19,6 +18,7 @@ from .bindings import Action
 from .drag_handlers import Hold, SeedHold, StrokeHold
 from .navigation import Meaning
 from .report import running, status_makers, summary
+from .unwrap import unwrap_after_chain
 
 if TYPE_CHECKING:
     from ..core.session import Session
@@ -182,12 +182,12 @@ class Chain:
         known = {wire.id for wire in before.wires}
         wires = sum(wire.id not in known for wire in view.session.network.wires)
         marked, cleared = self._write(view, adopt=True)
-        self._drawn, self._saved = None, False
+        self._drawn, self._saved, problem = None, False, ""
         if undo_step:
             if (marked or cleared) and context.mode == "EDIT_MESH":
-                edit_mesh.live_unwrap(context)
+                problem = unwrap_after_chain(context)
             bpy.ops.ed.undo_push(message=title)
-        self.told.append(f"{title}: {summary(wires, marked, cleared)}")
+        self.told.append(f"{title}: {summary(wires, marked, cleared)}{problem and f'. {problem}'}")
 
     def save(self) -> None:
         """Write what is drawn so far to the mesh, so that Blender saves it; the chain goes on."""

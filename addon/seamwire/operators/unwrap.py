@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import bpy
 
+from ..mesh.settings import settings
 from .report import count, in_edit_mode
 
 
@@ -35,6 +36,23 @@ class MESH_OT_seamwire_unwrap(bpy.types.Operator):
             return {"CANCELLED"}
         self.report({"INFO"}, f"{count(done.islands, 'island')} unwrapped, {done.kept} kept")
         return {"FINISHED"}
+
+
+def unwrap_after_chain(context: bpy.types.Context) -> str:
+    """Unwrap as the tool and Blender are set, after seams have changed; return what could not be done, in words."""
+    if not settings(context).unwrap:
+        from ..mesh import edit_mesh
+
+        edit_mesh.live_unwrap(context)
+        return ""
+    from ..core.native import NativeError
+    from ..mesh.unwrap import unwrap_changed
+
+    try:
+        unwrap_changed(context)
+    except (ValueError, NativeError) as error:
+        return str(error)
+    return ""
 
 
 def register() -> None:
