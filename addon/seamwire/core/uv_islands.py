@@ -67,12 +67,30 @@ class NewIsland:
         (t, 3) its triangles, as rows of `after`.
     areas
         (t,) of those triangles on the model.
+    density
+        What it is to have, length in UVs over length on the model; zero: as it is.
     """
 
     before: NDArray[np.float64]
     after: NDArray[np.float64]
     triangles: NDArray[np.int64]
     areas: NDArray[np.float64]
+    density: float
+
+
+def families(count: int, pairs: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return a number for each of some islands, (count,), the same for those that pairs, (k, 2), lead to one from the other."""
+    found = np.arange(count)
+    pairs = np.unique(np.sort(pairs, axis=1), axis=0)
+    while len(pairs):
+        one, two = found[pairs].T
+        low = np.minimum(one, two)
+        if (one == two).all():
+            break
+        np.minimum.at(found, one, low)
+        np.minimum.at(found, two, low)
+        found = found[found]
+    return found
 
 
 def uv_areas(corners: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -86,10 +104,10 @@ def boxes_of(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.concatenate([corners.min(axis=1), corners.max(axis=1)], axis=1).reshape(-1, 4)
 
 
-def place(islands: Sequence[NewIsland], taken: NDArray[np.float64], density: float) -> list[NDArray[np.float64]]:
+def place(islands: Sequence[NewIsland], taken: NDArray[np.float64]) -> list[NDArray[np.float64]]:
     """Find a place for islands among those that stay.
 
-    Each has the texel density it had, turned as it was, and lies as near to where it was as there is room in that square
+    Each has the texel density it is to have, turned as it was, and lies as near to where it was as there is room in that square
     of the UV plane; where there is none, beside all others, to the right.
 
     Parameters
@@ -98,15 +116,13 @@ def place(islands: Sequence[NewIsland], taken: NDArray[np.float64], density: flo
         What was unwrapped.
     taken
         (b, 4) bounds of the triangles that stay, see `boxes_of`.
-    density
-        Length in UVs over length on the model, for islands that had no place.
 
     Returns
     -------
     list of (c, 2) array
         The corners of each.
     """
-    ready = [_fitted(island, density) for island in islands]
+    ready = [_fitted(island) for island in islands]
     sizes = [float(np.prod(np.ptp(corners, axis=0))) for corners in ready]
     placed: list[NDArray[np.float64]] = list(ready)
     left_over = []
@@ -133,11 +149,10 @@ def _middle(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     return 0.5 * (corners.min(axis=0) + corners.max(axis=0))
 
 
-def _fitted(island: NewIsland, density: float) -> NDArray[np.float64]:
-    """Return the corners of an island in the size and as turned as they were before."""
+def _fitted(island: NewIsland) -> NDArray[np.float64]:
+    """Return the corners of an island in the size they are to have, and turned as they were before."""
     area, now = float(island.areas.sum()), float(uv_areas(island.after[island.triangles]).sum())
-    before = float(uv_areas(island.before[island.triangles]).sum())
-    wanted = before if before > 0.0 else density * density * area
+    wanted = island.density**2 * area
     corners = island.after - island.after.mean(axis=0)
     old = island.before - island.before.mean(axis=0)
     if now > 0.0 and wanted > 0.0:

@@ -18,7 +18,7 @@ import bpy
 import numpy as np
 
 from ..core import native
-from ..core.uv_islands import NewIsland, place, split_edges, uv_areas
+from ..core.uv_islands import NewIsland, families, place, split_edges, uv_areas
 from . import edit_mesh, uv_map
 
 if TYPE_CHECKING:
@@ -73,6 +73,7 @@ class _Map:
         return bm
 
     def _find_changed(self) -> NDArray[np.bool_]:
+        self._families = np.arange(self.count)
         if self._uvs is None:
             return np.ones(self.count, dtype=bool)
         corners, bm = self.corners, self.bm
@@ -81,13 +82,15 @@ class _Map:
         known = np.array([edge[layer] for edge in bm.edges] if layer else np.zeros(len(seams)), dtype=np.int64)
         visible = self._of_face[corners.faces] >= 0
         pairs, torn = split_edges(corners.vertices, np.where(visible, corners.edges, -1), corners.following, self._uvs)
+        islands = self._of_face[corners.faces[pairs]]
+        self._families = families(self.count, islands[~torn])
         edges = corners.edges[pairs[:, 0]]
         odd = (torn != seams[edges]) & (known[edges] != self._signs(seams[edges]))
         areas = uv_areas(self._uvs[self._triangles].astype(np.float64))
         changed = np.bincount(self._labels, areas, self.count) <= 0.0
         # An island without area on the model cannot have one in the map.
         changed &= np.bincount(self._labels, self._areas, self.count) > 0.0
-        changed[self._of_face[corners.faces[pairs[odd]]]] = True
+        changed[islands[odd]] = True
         return changed
 
     def _signs(self, seams: NDArray[np.bool_]) -> NDArray[np.int64]:
@@ -110,16 +113,25 @@ class _Map:
             return np.empty((0, 4))
         return np.concatenate([np.minimum.reduceat(uvs, starts), np.maximum.reduceat(uvs, starts)], axis=1)
 
-    def sums(self) -> NDArray[np.float64]:
-        """Return the areas of the visible islands that stay: in the map, and on the model."""
-        if self._uvs is None:
-            return np.zeros(2)
-        staying = ~np.isin(self._labels, self.changed)
-        in_map = uv_areas(self._uvs[self._triangles[staying]].astype(np.float64)).sum()
-        return np.array([in_map, self._areas[staying].sum()])
+    def areas(self) -> NDArray[np.float64]:
+        """Return the areas of the islands in the map as it was, and on the model, (2, count)."""
+        in_map = np.zeros(len(self._labels))
+        if self._uvs is not None:
+            in_map = uv_areas(self._uvs[self._triangles].astype(np.float64))
+        return np.stack([np.bincount(self._labels, areas, self.count) for areas in (in_map, self._areas)])
 
-    def new_islands(self) -> list[tuple[NDArray[np.int64], NewIsland]]:
-        """Return the corners of each island that was unwrapped and may be moved, and what it has become."""
+    def densities(self, fallback: float) -> NDArray[np.float64]:
+        """Return the texel density of each island, (count,): what was one island in the map has one still."""
+        sums = np.stack([np.bincount(self._families, areas, self.count) for areas in self.areas()])[:, self._families]
+        known = (sums > 0.0).all(axis=0)
+        return np.sqrt(np.divide(sums[0], sums[1], out=np.full(self.count, fallback**2), where=known))
+
+    def new_islands(self, density: float) -> list[tuple[NDArray[np.int64], NewIsland]]:
+        """Return the corners of each island that was unwrapped and may be moved, and what it has become.
+
+        `density` is for those that had no place.
+        """
+        densities = self.densities(density)
         after = uv_map.read_uvs(self.obj)
         before = np.zeros_like(after) if self._uvs is None else self._uvs
         islands = []
@@ -131,7 +143,8 @@ class _Map:
             corners, triangles = np.unique(self._triangles[rows], return_inverse=True)
             if not pinned[corners].any():
                 one, other = (uvs[corners].astype(np.float64) for uvs in (before, after))
-                islands.append((corners, NewIsland(one, other, triangles.reshape(-1, 3), self._areas[rows])))
+                triangles = triangles.reshape(-1, 3)
+                islands.append((corners, NewIsland(one, other, triangles, self._areas[rows], float(densities[label]))))
         return islands
 
     def _pinned(self) -> NDArray[np.bool_]:
@@ -206,10 +219,10 @@ def _place(maps: Sequence[_Map]) -> None:
     taken = np.concatenate([found.staying() for found in maps])
     if not len(taken):
         return
-    in_map, on_model = sum(found.sums() for found in maps)
-    new = [(found, *island) for found in maps for island in (found.new_islands() if len(found.changed) else ())]
+    in_map, on_model = sum(np.delete(found.areas(), found.changed, axis=1).sum(axis=1) for found in maps)
     density = float(np.sqrt(in_map / on_model)) if on_model > 0.0 else 0.0
-    for (found, corners, _), uvs in zip(new, place([island for _, _, island in new], taken, density), strict=True):
+    new = [(found, *island) for found in maps if len(found.changed) for island in found.new_islands(density)]
+    for (found, corners, _), uvs in zip(new, place([island for _, _, island in new], taken), strict=True):
         found.write(corners, uvs)
 
 

@@ -26,9 +26,11 @@ HOT = 1.0
 """Octaves that are red: twice as long one way, or an area twice too large or small."""
 _STEPS = 32
 _OPACITY = 0.8
-_RAMP = ((0.13, 0.22, 0.78), (0.10, 0.66, 0.86), (0.30, 0.76, 0.32), (0.98, 0.86, 0.16), (0.86, 0.10, 0.07))
-"""From blue to red, at equal distances. Yellow is the lightest: where it turns to red is seen without color too."""
-_OUTLINE = Style((1.0, 1.0, 1.0, 1.0), 2.0, halo=2.0, lift=2.5)
+_RAMP = ((0.13, 0.22, 0.78), (0.10, 0.66, 0.86), (0.30, 0.76, 0.32), (0.98, 0.86, 0.16), (0.74, 0.04, 0.12))
+"""From blue to red, at equal distances. Yellow is the lightest: where it turns to red is seen without color too. The red is
+darker than that of seams, which are seen on it."""
+_OUTLINE = Style((1.0, 1.0, 1.0, 1.0), 8.0, halo=2.0, lift=2.5)
+"""Wider than the seams that lie on it."""
 _TEXT: Color = (0.93, 0.93, 0.93, 1.0)
 _GROUND: Color = (0.07, 0.07, 0.08, 0.8)
 _NAMES = {"ANGLE": "Stretch of angles", "AREA": "Stretch of areas"}
