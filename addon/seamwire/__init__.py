@@ -24,6 +24,7 @@ _PARTS = (
     "operators.mark",
     "operators.cut",
     "operators.unwrap",
+    "operators.worst_island",
     "operators.draw",
     "operators.hover",
     "ui.keymap",

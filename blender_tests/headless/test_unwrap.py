@@ -307,3 +307,43 @@ def test_with_nothing_visible_the_error_says_so_and_nothing_changes() -> None:
     edit()
     with pytest.raises(RuntimeError, match="No face is visible"):
         unwrap()
+
+
+def selected(obj: bpy.types.Object) -> list[int]:
+    return [face.index for face in bmesh.from_edit_mesh(obj.data).faces if face.select]
+
+
+@pytest.mark.parametrize("mode", ["EDGE", "FACE"])
+def test_the_worst_island_is_selected(mode: str) -> None:
+    objects = [add_hill() for _ in range(2)]
+    for obj in objects:
+        obj.select_set(True)
+    edit()
+    bpy.ops.mesh.select_mode(type=mode)
+    for obj in objects:
+        mark(obj, row(4))
+    unwrap()
+    bm = bmesh.from_edit_mesh(objects[0].data)
+    layer = bm.loops.layers.uv.active
+    for face in list(bm.faces)[32:]:
+        for loop in face.loops:
+            loop[layer].uv.x *= 4.0
+    bmesh.update_edit_mesh(objects[0].data)
+    before = uvs(objects[0])
+    assert bpy.ops.mesh.seamwire_worst_island() == {"FINISHED"}
+    assert selected(objects[0]) == list(range(32, 64))
+    assert selected(objects[1]) == []
+    assert np.array_equal(uvs(objects[0]), before)
+    move(objects[1], slice(0, 32), (0.0, 0.0), 9.0)
+    assert bpy.ops.mesh.seamwire_worst_island(kind="AREA") == {"FINISHED"}
+    assert selected(objects[1]) == list(range(32, 64)), "it is far smaller than the mean"
+    bpy.ops.mesh.select_mode(type="VERT")
+
+
+def test_without_uvs_there_is_no_worst_island() -> None:
+    obj = add_hill()
+    edit()
+    before = snapshot(obj)
+    with pytest.raises(RuntimeError, match="unwrap first"):
+        bpy.ops.mesh.seamwire_worst_island()
+    assert snapshot(obj) == before

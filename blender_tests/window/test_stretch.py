@@ -163,6 +163,24 @@ def test_a_chain_unwraps_what_it_changed_in_its_own_step_of_undo(desk: Desk, cap
     assert np.array_equal(uvs(desk), before)
 
 
+def test_the_worst_island_is_one_key_away(desk: Desk) -> None:
+    bm = bmesh.from_edit_mesh(desk.obj.data)
+    for edge in bm.edges:
+        edge.seam = all(abs(v.co.x) < 1e-6 for v in edge.verts)
+    bmesh.update_edit_mesh(desk.obj.data)
+    lay_out(desk, right=2.0)
+    bpy.ops.mesh.select_mode(type="FACE")
+    desk.choose()
+    distance = desk.ui.view.view_distance
+    desk.ui.key("W", shift=True, ctrl=True)
+    desk.ui.wait(redraw=True)
+    faces = bmesh.from_edit_mesh(desk.obj.data).faces
+    assert all(face.select == (face.calc_center_median().x > 0.0) for face in faces)
+    assert desk.ui.view.view_distance < distance
+    assert desk.ui.view.view_location.x == pytest.approx(0.5, abs=1e-3)
+    bpy.ops.mesh.select_mode(type="VERT")
+
+
 def uvs(desk: Desk) -> np.ndarray:
     bm = bmesh.from_edit_mesh(desk.obj.data)
     layer = bm.loops.layers.uv.active

@@ -125,15 +125,23 @@ def place(islands: Sequence[NewIsland], taken: NDArray[np.float64]) -> list[NDAr
     ready = [_fitted(island) for island in islands]
     sizes = [float(np.prod(np.ptp(corners, axis=0))) for corners in ready]
     placed: list[NDArray[np.float64]] = list(ready)
+    squares: dict[tuple[float, ...], _Square] = {}
     left_over = []
     for number in sorted(range(len(ready)), key=lambda number: -sizes[number]):
         island, corners = islands[number], ready[number]
-        spot = _free_spot(corners, _middle(island.before), taken)
+        middle = 0.5 * (island.before.min(axis=0) + island.before.max(axis=0))
+        low = np.floor(middle)
+        if tuple(low) not in squares:
+            squares[tuple(low)] = _Square(low, taken)
+        square = squares[tuple(low)]
+        spot = square.free_spot(np.ptp(corners, axis=0), middle)
         if spot is None:
             left_over.append(number)
             continue
         placed[number] = corners + (spot - corners.min(axis=0))
-        taken = np.concatenate([taken, boxes_of(placed[number][island.triangles])])
+        boxes = boxes_of(placed[number][island.triangles])
+        taken = np.concatenate([taken, boxes])
+        square.take(boxes)
     edge = max(1.0, float(taken[:, 2].max(initial=0.0)))
     left, bottom, widest = edge + 4.0 * _GAP, 0.0, 0.0
     for number in left_over:
@@ -143,10 +151,6 @@ def place(islands: Sequence[NewIsland], taken: NDArray[np.float64]) -> list[NDAr
         placed[number] = ready[number] + ((left, bottom) - ready[number].min(axis=0))
         bottom, widest = bottom + height + 4.0 * _GAP, max(widest, width)
     return placed
-
-
-def _middle(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    return 0.5 * (corners.min(axis=0) + corners.max(axis=0))
 
 
 def _fitted(island: NewIsland) -> NDArray[np.float64]:
@@ -166,29 +170,43 @@ def _fitted(island: NewIsland) -> NDArray[np.float64]:
     return corners
 
 
-def _free_spot(
-    corners: NDArray[np.float64], middle: NDArray[np.float64], taken: NDArray[np.float64]
-) -> NDArray[np.float64] | None:
-    """Return the low corner of the free place that is nearest to where an island was, in that square; None: there is none."""
-    tile = np.floor(middle)
-    size = np.ceil((np.ptp(corners, axis=0) + 2.0 * _GAP) * _CELLS).astype(np.int64)
-    if (size > _CELLS).any():
-        return None
-    # What is taken, cell by cell: each box counted up at its low corner and down behind its high one, and summed.
-    low = np.clip(np.floor((taken[:, :2] - tile) * _CELLS), 0, _CELLS).astype(np.int64)
-    high = np.clip(np.floor((taken[:, 2:] - tile) * _CELLS) + 1, 0, _CELLS).astype(np.int64)
-    marks = np.zeros((_CELLS + 1, _CELLS + 1), dtype=np.int64)
-    for u, v, sign in ((low, low, 1), (high, low, -1), (low, high, -1), (high, high, 1)):
-        np.add.at(marks, (u[:, 0], v[:, 1]), sign)
-    full = marks.cumsum(axis=0).cumsum(axis=1)[:-1, :-1] > 0
-    # How many cells are taken below and left of each: four of these tell whether a rectangle is free.
-    sums = np.zeros((_CELLS + 1, _CELLS + 1), dtype=np.int64)
-    sums[1:, 1:] = full.cumsum(axis=0).cumsum(axis=1)
-    wide, tall = size
-    inside = sums[wide:, tall:] - sums[:-wide, tall:] - sums[wide:, :-tall] + sums[:-wide, :-tall]
-    free = np.argwhere(inside == 0)
-    if not len(free):
-        return None
-    wanted = (middle - tile - 0.5 * np.ptp(corners, axis=0) - _GAP) * _CELLS
-    nearest = free[((free - wanted) ** 2).sum(axis=1).argmin()]
-    return tile + nearest / _CELLS + _GAP
+class _Square:
+    """One unit square of the UV plane, cell by cell.
+
+    Parameters
+    ----------
+    low
+        Its low corner.
+    taken
+        (b, 4) bounds of what lies in it, and elsewhere.
+    """
+
+    def __init__(self, low: NDArray[np.float64], taken: NDArray[np.float64]) -> None:
+        self._low = low
+        self._full = np.zeros((_CELLS, _CELLS), dtype=bool)
+        self.take(taken)
+
+    def take(self, boxes: NDArray[np.float64]) -> None:
+        """Let bounds, (b, 4), be taken."""
+        low = np.clip(np.floor((boxes[:, :2] - self._low) * _CELLS), 0, _CELLS).astype(np.int64)
+        high = np.clip(np.floor((boxes[:, 2:] - self._low) * _CELLS) + 1, 0, _CELLS).astype(np.int64)
+        # Each is counted up at its low corner and down behind its high one: sums tell how many cover a cell.
+        marks = np.zeros((_CELLS + 1, _CELLS + 1), dtype=np.int32)
+        for u, v, sign in ((low, low, 1), (high, low, -1), (low, high, -1), (high, high, 1)):
+            np.add.at(marks, (u[:, 0], v[:, 1]), sign)
+        self._full |= marks.cumsum(axis=0, dtype=np.int32).cumsum(axis=1, dtype=np.int32)[:-1, :-1] > 0
+
+    def free_spot(self, size: NDArray[np.float64], middle: NDArray[np.float64]) -> NDArray[np.float64] | None:
+        """Return the low corner of the free rectangle of a size whose middle is nearest to a place; None: there is none."""
+        wide, tall = np.ceil((size + 2.0 * _GAP) * _CELLS).astype(np.int64)
+        if wide > _CELLS or tall > _CELLS:
+            return None
+        # How many cells are taken below and left of each: four of these tell whether a rectangle is free.
+        sums = np.zeros((_CELLS + 1, _CELLS + 1), dtype=np.int32)
+        sums[1:, 1:] = self._full.cumsum(axis=0, dtype=np.int32).cumsum(axis=1, dtype=np.int32)
+        free = sums[wide:, tall:] - sums[:-wide, tall:] - sums[wide:, :-tall] + sums[:-wide, :-tall] == 0
+        wanted = (middle - self._low - 0.5 * size - _GAP) * _CELLS
+        away = [(np.arange(count) - place) ** 2 for count, place in zip(free.shape, wanted, strict=True)]
+        distances = np.where(free, away[0][:, None] + away[1], np.inf)
+        nearest = np.unravel_index(distances.argmin(), free.shape)
+        return self._low + np.array(nearest) / _CELLS + _GAP if free[nearest] else None

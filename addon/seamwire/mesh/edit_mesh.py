@@ -405,6 +405,16 @@ def live_unwrap(context: bpy.types.Context) -> None:
             selection.restore()
 
 
+def select_faces(obj: bpy.types.Object, faces: NDArray[np.integer]) -> None:
+    """Select faces of an edit mesh by their numbers, beside what is selected."""
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.faces.ensure_lookup_table()
+    for face in faces.tolist():
+        bm.faces[face].select = True
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
+
+
 class Selection:
     """What is selected of an edit mesh.
 

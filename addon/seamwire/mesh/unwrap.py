@@ -17,9 +17,9 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core import native
 from ..core.uv_islands import NewIsland, families, place, split_edges, uv_areas
 from . import edit_mesh, uv_map
+from .seam_islands import labels_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -54,9 +54,7 @@ class _Map:
         self._arrays = arrays = edit_mesh.read(obj)
         self.corners, self._uvs = uv_map.read(obj)
         self._triangles = self.corners.of_triangles(arrays)
-        core = native.load()
-        surface = core.Surface(arrays.points, arrays.triangles, arrays.edges)
-        self._labels = np.asarray(core.face_segments(surface, arrays.seams))
+        self._labels = labels_of(arrays)
         self.count = int(self._labels.max(initial=-1)) + 1
         p = arrays.points[arrays.triangles]
         self._areas = 0.5 * np.linalg.norm(np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1)
