@@ -20,11 +20,12 @@ def grid(size: int) -> tuple[np.ndarray, np.ndarray]:
 POINTS, TRIANGLES = grid(4)
 PLACES = POINTS[:, :2][TRIANGLES].astype(np.float32)
 ALONE = np.arange(len(TRIANGLES))
+CORNERS = np.arange(3 * len(TRIANGLES)).reshape(-1, 3)
 
 
 def stretch_of(uvs: np.ndarray, points: np.ndarray = POINTS, polygons: np.ndarray = ALONE) -> Stretch:
-    stretch = Stretch(points, TRIANGLES, polygons)
-    assert stretch.update(uvs.astype(np.float32))
+    stretch = Stretch(points, TRIANGLES, polygons, CORNERS)
+    assert stretch.update(uvs.astype(np.float32).reshape(-1, 2))
     return stretch
 
 
@@ -93,8 +94,8 @@ def test_faces_without_area_count_for_nothing_and_those_without_uv_area_for_the_
     nothing = stretch_of(np.zeros_like(PLACES))
     assert nothing.angle == pytest.approx(np.full(len(PLACES), LIMIT))
     assert np.isfinite(nothing.area).all()
-    empty = Stretch(POINTS, TRIANGLES[:0], ALONE[:0])
-    assert not empty.update(PLACES[:0])
+    empty = Stretch(POINTS, TRIANGLES[:0], ALONE[:0], CORNERS[:0])
+    assert not empty.update(np.empty((0, 2), dtype=np.float32))
     assert len(empty.islands(ALONE[:0]).angle) == 0
 
 
@@ -102,10 +103,10 @@ def test_only_islands_whose_uvs_changed_are_measured_again() -> None:
     labels = np.repeat([0, 1, 2], len(TRIANGLES) // 3)
     uvs = PLACES.copy()
     stretch = stretch_of(uvs)
-    assert not stretch.update(uvs, labels)
+    assert not stretch.update(uvs.reshape(-1, 2), labels)
     assert stretch.measured == 0
     uvs[7, 0] += 0.4
-    assert stretch.update(uvs, labels)
+    assert stretch.update(uvs.reshape(-1, 2), labels)
     assert stretch.measured == len(TRIANGLES) // 3
     anew = stretch_of(uvs)
     assert np.array_equal(stretch.angle, anew.angle)
@@ -114,8 +115,10 @@ def test_only_islands_whose_uvs_changed_are_measured_again() -> None:
 
 def test_a_hundred_thousand_quads_are_measured_within_a_moment() -> None:
     points, triangles = grid(317)
-    stretch = Stretch(points, triangles, np.arange(len(triangles)) // 2)
-    uvs = points[:, :2][triangles].astype(np.float32)
+    corners = (4 * np.arange(len(triangles) // 2)[:, None] + np.array([0, 1, 2, 0, 2, 3])).reshape(-1, 3)
+    stretch = Stretch(points, triangles, np.arange(len(triangles)) // 2, corners)
+    uvs = np.empty((2 * len(triangles), 2), dtype=np.float32)
+    uvs[corners] = points[:, :2][triangles]
     times = []
     for i in range(7):
         began = time.thread_time()

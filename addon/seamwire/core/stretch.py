@@ -48,6 +48,8 @@ class Stretch:
         (m, 3) what the faces are cut into.
     polygons
         (m,) the face that each triangle is part of, ascending.
+    corners
+        (m, 3) the rows of the UV map that belong to the triangles' corners.
 
     Attributes
     ----------
@@ -60,7 +62,13 @@ class Stretch:
         How many triangles the last update looked at.
     """
 
-    def __init__(self, points: NDArray[np.float64], triangles: NDArray[np.int32], polygons: NDArray[np.int32]) -> None:
+    def __init__(
+        self,
+        points: NDArray[np.float64],
+        triangles: NDArray[np.int32],
+        polygons: NDArray[np.int32],
+        corners: NDArray[np.int64],
+    ) -> None:
         count = len(triangles)
         x, y, z = (np.ascontiguousarray(column)[triangles.T] for column in np.asarray(points, dtype=np.float64).T)
         one = [column[1] - column[0] for column in (x, y, z)]
@@ -77,7 +85,8 @@ class Stretch:
         self._sizes = np.diff(self._starts, append=count)
         self._plain = bool((self._sizes == 1).all())
         self._face_areas = self._per_face(self._areas)
-        self._uvs = np.full((count, 3, 2), np.nan, dtype=np.float32)
+        self._corners = np.ascontiguousarray(corners.T)
+        self._uvs: NDArray[np.float32] | None = None
         self._energy = np.zeros(count)
         self._uv_areas = np.zeros(count)
         self.angle = np.zeros(count)
@@ -89,30 +98,30 @@ class Stretch:
         return values if self._plain or not len(values) else np.add.reduceat(values, self._starts)
 
     def update(self, uvs: NDArray[np.float32], labels: NDArray[np.int32] | None = None) -> bool:
-        """Follow the UVs of the triangles' corners, (m, 3, 2); return whether any are others than before.
+        """Follow a UV map, (c, 2); return whether it is another than before.
 
-        Only the islands of which some are others are measured anew, where `labels`, (m,), tells the islands apart.
+        Only the islands of which some corner has moved are measured anew, where `labels`, (m,), tells the islands apart.
         """
-        fresh = (uvs != self._uvs).any(axis=(1, 2))
+        moved = np.ones(len(uvs), dtype=bool) if self._uvs is None else (uvs != self._uvs).any(axis=1)
+        fresh = np.ones(len(self._areas), dtype=bool) if moved.all() else moved[self._corners].any(axis=0)
+        self.measured = 0
         if not fresh.any():
-            self.measured = 0
             return False
         if labels is not None:
             touched = np.zeros(int(labels.max()) + 1, dtype=bool)
             touched[labels[fresh]] = True
             fresh = touched[labels]
         self.measured = int(np.count_nonzero(fresh))
-        rows = slice(None) if self.measured == len(uvs) else np.flatnonzero(fresh)
-        self._measure(uvs, rows)
+        self._measure(uvs, slice(None) if self.measured == len(fresh) else np.flatnonzero(fresh))
         self._uvs = np.array(uvs, dtype=np.float32)
         self._sum_up()
         return True
 
     def _measure(self, uvs: NDArray[np.float32], rows: slice | NDArray[np.int64]) -> None:
         """Set the UV areas of triangles and the energies (s1 / s2 + s2 / s1) / 2, weighted by the areas on the model."""
-        corners = np.asarray(uvs[rows], dtype=np.float64)
-        one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-        (ux, uy), (vx, vy) = one.T, two.T
+        corners = self._corners[:, rows]
+        x, y = (np.ascontiguousarray(column)[corners].astype(np.float64) for column in uvs.T)
+        ux, vx, uy, vy = x[1] - x[0], x[2] - x[0], y[1] - y[0], y[2] - y[0]
         e, f, g = self._form[:, rows]
         doubled = np.abs(ux * vy - uy * vx)
         # trace / (2 det) of the map's squared lengths: (g E - 2 f F + e G) / (2 |sides| |UV sides|).

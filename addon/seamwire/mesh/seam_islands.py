@@ -63,8 +63,8 @@ def worst_island(obj: bpy.types.Object, kind: str) -> Worst | None:
     if uvs is None or not len(arrays.triangles):
         return None
     labels = labels_of(arrays)
-    stretch = Stretch(arrays.points, arrays.triangles, arrays.polygons)
-    stretch.update(uvs[corners.of_triangles(arrays)])
+    stretch = Stretch(arrays.points, arrays.triangles, arrays.polygons, corners.of_triangles(arrays))
+    stretch.update(uvs)
     islands = stretch.islands(labels)
     values = islands.angle if kind == "ANGLE" else islands.area
     number = int(values.argmax())

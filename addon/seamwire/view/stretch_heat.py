@@ -83,7 +83,6 @@ class StretchHeat:
         self._arrays = arrays
         self._islands = islands
         self._kind = "NONE"
-        self._corners: NDArray[np.int64] | None = None
         self._stretch: Stretch | None = None
         self._known = False
         self._missing = False
@@ -130,17 +129,15 @@ class StretchHeat:
 
     def _measure(self, obj: bpy.types.Object) -> None:
         arrays = self._arrays
-        if self._corners is None:
+        if self._stretch is None:
             corners, uvs = uv_map.read(obj)
-            self._corners = corners.of_triangles(arrays)
+            self._stretch = Stretch(arrays.points, arrays.triangles, arrays.polygons, corners.of_triangles(arrays))
         else:
             uvs = uv_map.read_uvs(obj)
-        if self._stretch is None:
-            self._stretch = Stretch(arrays.points, arrays.triangles, arrays.polygons)
         self._missing = uvs is None
         if uvs is not None:
             found = self._islands.newest
-            self._stretch.update(uvs[self._corners], None if found is None else found.labels)
+            self._stretch.update(uvs, None if found is None else found.labels)
         self._revision += 1
 
     @property
