@@ -24,6 +24,8 @@ _PARTS = (
     "operators.mark",
     "operators.cut",
     "operators.take_over",
+    "operators.unwrap",
+    "operators.worst_island",
     "operators.draw",
     "operators.hover",
     "ui.keymap",

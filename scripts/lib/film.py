@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Films the tool at work in Blender's window, with simulated events and the display's own pixels; scripts/animation runs this.
 
-``blender ... --python scripts/lib/film.py -- animation|guide|cut FOLDER`` leaves frames.raw or guide-*.png in the folder. The simulated
-mouse has no pointer on the display: one is drawn into the frames where it would be.
+``blender ... --python scripts/lib/film.py -- animation|guide|cut|stretch FOLDER`` leaves frames.raw or guide-*.png in the folder. The
+simulated mouse has no pointer on the display: one is drawn into the frames where it would be.
 """
 
 import os
@@ -434,6 +434,23 @@ def cut(film: Film) -> None:
         film.picture(name)
 
 
+def stretch(film: Film) -> None:
+    """Take the stretch of a UV map before and after a cut, with the islands unwrapped that it changed."""
+    film.filming = False
+    stage(film)
+    settings().stretch, settings().unwrap = "AREA", True
+    film.obj.data.use_mirror_x = True
+    start(film)
+    for edges, name in (((film.edge(EYE), film.middle_edge(0.0, -0.45, 0.9)), "before"), ((film.edge(EAR),), "after")):
+        for edge in edges:
+            film.peek(edge)
+            film.take()
+        film.click("RIGHTMOUSE")
+        film.go((60.0, 60.0))
+        film.ui.wait(30, redraw=True)
+        film.picture(f"stretch-{name}")
+
+
 def bend(
     one: tuple[float, float], over: tuple[float, float], two: tuple[float, float], part: float
 ) -> tuple[float, float]:
@@ -505,5 +522,5 @@ def looks(film: Film) -> None:
 
 addon_utils.enable("seamwire", default_set=True)
 kind, target = sys.argv[sys.argv.index("--") + 1 :]
-part = {"animation": animation, "guide": guide, "cut": cut, "looks": looks}[kind]
+part = {"animation": animation, "guide": guide, "cut": cut, "stretch": stretch, "looks": looks}[kind]
 play_strictly(lambda: part(Film(Path(target))))

@@ -396,7 +396,7 @@ def live_unwrap(context: bpy.types.Context) -> None:
     """
     if not context.tool_settings.use_edge_path_live_unwrap:
         return
-    selections = [_Selection(obj) for obj in context.objects_in_mode_unique_data]
+    selections = [Selection(obj) for obj in context.objects_in_mode_unique_data]
     try:
         bpy.ops.mesh.select_all(action="DESELECT")
         bpy.ops.mesh.mark_seam(clear=False)
@@ -405,18 +405,36 @@ def live_unwrap(context: bpy.types.Context) -> None:
             selection.restore()
 
 
-class _Selection:
-    """What is selected of an edit mesh."""
+def select_faces(obj: bpy.types.Object, faces: NDArray[np.integer]) -> None:
+    """Select faces of an edit mesh by their numbers, beside what is selected."""
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.faces.ensure_lookup_table()
+    for face in faces.tolist():
+        bm.faces[face].select = True
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
+
+
+class Selection:
+    """What is selected of an edit mesh.
+
+    Parameters
+    ----------
+    obj
+        A mesh object in edit mode.
+    """
 
     def __init__(self, obj: bpy.types.Object) -> None:
         self._mesh = obj.data
-        bm = bmesh.from_edit_mesh(obj.data)
+        # Held, for items end with the last that holds it.
+        self._bm = bm = bmesh.from_edit_mesh(obj.data)
         self._items = [item for items in (bm.verts, bm.edges, bm.faces) for item in items if item.select]
         # Not iterated: Blender 4.3 cannot, on the Python 3.13 of Debian 13.
         self._history = [bm.select_history[i] for i in range(len(bm.select_history))]
         self._active = bm.faces.active
 
     def restore(self) -> None:
+        """Select it again, where nothing is selected."""
         bm = bmesh.from_edit_mesh(self._mesh)
         for item in self._items:
             item.select = True

@@ -38,6 +38,11 @@ METRIC_ITEMS = (
     ),
     ("euclidean", "Shortest Path", "Run as short as possible, whatever the shape", 3),
 )
+STRETCH_ITEMS = (
+    ("NONE", "None", "The islands are tinted instead", 0),
+    ("ANGLE", "Angle", "How much longer faces are one way than the other in the UV map than on the model", 1),
+    ("AREA", "Area", "How much larger or smaller faces are in the UV map than the mean of the mesh", 2),
+)
 
 
 listeners: list[Callable[[], None]] = []
@@ -109,6 +114,17 @@ class SeamwireSettings(bpy.types.PropertyGroup):
     )
     xray: bpy.props.BoolProperty(
         name="X-Ray", description="Show wires, and pick, through the mesh", default=False, update=_changed
+    )
+    stretch: bpy.props.EnumProperty(
+        name="Show Stretch",
+        description="Color faces by how much the active UV map stretches them, from blue to red",
+        items=STRETCH_ITEMS,
+        update=_changed,
+    )
+    unwrap: bpy.props.BoolProperty(
+        name="Unwrap After Each Chain",
+        description="When a chain ends unwrap the islands whose seams it has changed; all other UVs stay as they are",
+        default=False,
     )
 
 

@@ -11,7 +11,6 @@ import bpy
 
 from ..core.cutting import CuttingError
 from ..core.network import Network
-from ..mesh import edit_mesh
 from ..mesh import settings as chosen
 from ..view.edited_objects import edited
 from ..view.viewport import Place, place_of
@@ -21,6 +20,7 @@ from .cut import gaps
 from .drag_handlers import Hold, SeedHold, StrokeHold
 from .navigation import Meaning
 from .report import count, running, status_makers, summary
+from .unwrap import unwrap_after_chain
 
 if TYPE_CHECKING:
     from ..core.session import Session
@@ -184,13 +184,13 @@ class Chain:
         known = {wire.id for wire in before.wires}
         wires = sum(wire.id not in known for wire in view.session.network.wires)
         marked, cleared = self._write(view, adopt=True)
-        self._drawn, self._saved = None, False
+        self._drawn, self._saved, problem = None, False, ""
         cut = self._cut(view, known)
         if undo_step:
             if (marked or cleared) and context.mode == "EDIT_MESH":
-                edit_mesh.live_unwrap(context)
+                problem = unwrap_after_chain(context)
             bpy.ops.ed.undo_push(message=title)
-        self.told.append(f"{title}: {cut or summary(wires, marked, cleared)}")
+        self.told.append(f"{title}: {cut or summary(wires, marked, cleared)}{problem and f'. {problem}'}")
 
     @staticmethod
     def _cut(view: ObjectView, known: set[int]) -> str:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Menu entries that choose the tool, that make wires of seams, and that cut wires."""
+"""Menu entries that choose the tool, that make wires of seams, cut wires, unwrap, and show stretch."""
 
 from __future__ import annotations
 
@@ -16,6 +16,8 @@ def _draw_menu(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
     entry.name, entry.space_type = TOOL, "VIEW_3D"
     menu.layout.operator("mesh.seamwire_take_over")
     menu.layout.operator("mesh.seamwire_cut")
+    menu.layout.operator("mesh.seamwire_unwrap")
+    menu.layout.operator("mesh.seamwire_worst_island")
 
 
 def register() -> None:

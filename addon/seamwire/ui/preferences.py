@@ -6,7 +6,7 @@ from __future__ import annotations
 import bpy
 
 from ..mesh.settings import ADDON, SeamwireSettings
-from ..operators import bindings
+from ..operators import bindings, worst_island
 from ..operators.bindings import Action
 from . import toolbar
 
@@ -87,6 +87,8 @@ def draw_keys(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     keys = configuration.keymaps.get(toolbar.KEYMAP) if configuration is not None else None
     for item in bindings.items_of(keys, toolbar.OPERATOR) if keys is not None else ():
         _draw_key(box, keys, item, item.properties.bl_rna.properties["first"].enum_items[item.properties.first].name)
+    for item in bindings.items_of(keys, worst_island.OPERATOR) if keys is not None else ():
+        _draw_key(box, keys, item, "Select Worst Stretched Island")
     keys = bindings.user_keymap(context.window_manager)
     if keys is None:
         box.label(text="There are no keymaps here")

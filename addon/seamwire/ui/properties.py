@@ -26,6 +26,7 @@ def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout) -> Non
         layout.prop(chosen, "clear", toggle=True)
         layout.prop(chosen, "snap", text="", icon="SNAP_ON" if chosen.snap else "SNAP_OFF")
         layout.prop(chosen, "xray", text="", icon="XRAY")
+        layout.prop(chosen, "stretch", text="Stretch")
         return  # Blender shows the mirror of the mesh right beside
     layout.use_property_split = True
     layout.use_property_decorate = False
@@ -39,6 +40,8 @@ def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout) -> Non
     column = layout.column(heading="Snap")
     column.prop(chosen, "snap", text="Features")
     layout.prop(chosen, "xray")
+    layout.prop(chosen, "stretch")
+    layout.prop(chosen, "unwrap")
     if obj is not None and obj.type == "MESH":
         row = layout.row(align=True, heading="Mirror")
         for axis in "xyz":

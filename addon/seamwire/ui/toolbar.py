@@ -8,7 +8,7 @@ from pathlib import Path
 import bpy
 
 from ..mesh.settings import TOOL
-from ..operators import hover
+from ..operators import hover, worst_island
 from ..operators.bindings import NAME
 from . import keymap, properties
 
@@ -46,6 +46,7 @@ class SeamwireTool(bpy.types.WorkSpaceTool):
         _key("REMOVE", "DEL"),
         _key("NEXT", "W"),
         _key("PEEK", "LEFT_ALT", any=True),
+        (worst_island.OPERATOR, {"type": "W", "value": "PRESS", "shift": True, "ctrl": True}, None),
         (hover.OPERATOR, {"type": "MOUSEMOVE", "value": "ANY", "any": True}, None),
     )
 

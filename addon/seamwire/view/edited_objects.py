@@ -180,6 +180,7 @@ class EditedObjects:
         for view in self.views():
             view.mesh.follow(settings)
             view.mesh.follow_mirror()
+            view.measure()
 
     def _on_settings(self) -> None:
         self.follow_settings()

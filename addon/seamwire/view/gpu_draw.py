@@ -25,6 +25,8 @@ _SOFT = ((1.0, 0.3), (0.75, 0.35), (0.5, 0.45))
 """Widths and opacities that together make a band fade towards its sides."""
 _DISC = np.linspace(0.0, 2.0 * np.pi, 25)
 _FONT = 0
+_OVER = 1.5
+"""Pixels by which what is drawn over faces is nearer than they are."""
 
 
 def sees_through(space: bpy.types.SpaceView3D) -> bool:
@@ -282,6 +284,15 @@ class Faces:
             for number, batch in self._batches:
                 self._shader.uniform_float("color", colors[number])
                 batch.draw(self._shader)
+
+    def draw_over(self, eye: Eye, colors: Sequence[Color]) -> None:
+        """Draw what is seen of them over the mesh, with opacity, in the view that Blender is drawing now."""
+        if sees_through(bpy.context.space_data):
+            # Else all layers of the mesh would be tinted, one over the other, and no wire would be seen to be hidden.
+            with unseen():
+                self.draw(eye, colors, 0.0)
+        with blended("LESS_EQUAL"):
+            self.draw(eye, colors, _OVER)
 
 
 # On the screen: pixels of the region from its bottom left

@@ -13,6 +13,7 @@ from ..mesh import settings as chosen
 from ..mesh.object_session import ObjectSession
 from .overlay import Overlay
 from .picking import REACH, Picker, stroke_at
+from .stretch_heat import StretchHeat
 from .theme import HUES
 
 if TYPE_CHECKING:
@@ -74,10 +75,12 @@ class ObjectView:
             islands=self._islands,
             seams=arrays.seams,
             preferences=chosen.preferences(),
+            heat=StretchHeat(arrays, self._islands),
         )
         self._strength: NDArray[np.float64] | None = None
         self.name = obj.name_full
         self.was_read()
+        self.measure()
         self.mesh.look_for_symmetry()
 
     @property
@@ -113,6 +116,16 @@ class ObjectView:
         """Let picker and overlay follow the mesh that was read, or written."""
         self._picker.renew(self.mesh.cage.bm, self.mesh.plain_seams)
         self.overlay.renew(self.obj, self.mesh.arrays.seams)
+        self.measure(anew=True)
+
+    def measure(self, anew: bool = False) -> None:
+        """Measure the stretch that the settings ask for, where it is not known or `anew`."""
+        if self.stale and not anew:
+            return  # of a mesh that is read anew soon
+        stale = self.stale
+        if self.overlay.heat.follow(self.obj, chosen.settings().stretch, anew):
+            self.was_read()
+            self.stale = stale
 
     @property
     def busy(self) -> bool:

@@ -11,7 +11,7 @@ from mathutils import Matrix
 
 from ..core.network import edges_after
 from . import text_overlay
-from .gpu_draw import Eye, Faces, Lines, blended, draw_dots, sees_through, unseen
+from .gpu_draw import Eye, Faces, Lines, blended, draw_dots
 from .theme import Looks, Style, hue_colors
 
 if TYPE_CHECKING:
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from ..core.islands import IslandMaker
     from ..core.network import Edge, Pick, Wire
     from ..core.session import Session
+    from .stretch_heat import StretchHeat
 
-TINT_LIFT = 1.5
 _NO_ROOM = (0.0, 0.0, 0.0, 0.0)
 
 
@@ -77,6 +77,8 @@ class Overlay:
         (s, 2) the edges that are seams.
     preferences
         The add-on's, see `Looks.of`.
+    heat
+        The stretch of the UV map, drawn in place of the islands' tint where there is something to be seen of it.
 
     Attributes
     ----------
@@ -105,6 +107,7 @@ class Overlay:
         islands: IslandMaker | None = None,
         seams: ArrayLike = (),
         preferences: object | None = None,
+        heat: StretchHeat | None = None,
     ) -> None:
         self._session = session
         self._obj = obj
@@ -113,6 +116,7 @@ class Overlay:
         self._islands = islands
         self._seams = np.asarray(seams, dtype=np.int32).reshape(-1, 2)
         self._preferences = preferences
+        self.heat = heat
         self._to_object = Matrix(to_object.tolist()).to_4x4()
         self._looks = self._current_looks()
         self._kept: tuple[object, _Sheet] = (None, _Sheet(points))
@@ -178,7 +182,10 @@ class Overlay:
             self._kept = self._live = self._bands = (None, self._live[1])
         sheets = self._bands_sheet(), self._kept_sheet(), self._live_sheet()
         eye = Eye(bpy.context.region_data, self._obj.matrix_world @ self._to_object)
-        self._draw_tint(eye)
+        if self.heat is not None and self.heat.shown:
+            self.heat.draw(eye)
+        else:
+            self._draw_tint(eye)
         passes = [("NONE", False)] if self.xray else [("GREATER", True), ("LESS_EQUAL", False)]
         for test, hidden in passes:
             with blended(test):
@@ -204,12 +211,7 @@ class Overlay:
             for hue, triangles in found.pieces if found.cut else ():
                 self._faces.add(hue, triangles)
             self._tinted = found.key
-        if sees_through(bpy.context.space_data):
-            # Else all layers of the mesh would be tinted, one over the other, and no wire would be seen to be hidden.
-            with unseen():
-                self._faces.draw(eye, hue_colors(1.0), 0.0)
-        with blended("LESS_EQUAL"):
-            self._faces.draw(eye, hue_colors(self._looks.tint), TINT_LIFT)
+        self._faces.draw_over(eye, hue_colors(self._looks.tint))
 
     def draw_on_screen(self) -> None:
         """Draw over the region: text and the table of keys."""
@@ -226,6 +228,8 @@ class Overlay:
                     self._session, found.count if found is not None else None, xray=self.xray, features=self.features
                 )
                 text_overlay.draw(lines, (left, bottom), scale, bpy.context.preferences.themes[0].view_3d.space.text_hi)
+            if self.heat is not None:
+                self.heat.draw_legend(room, scale)
             if self.help_rows is not None:
                 text_overlay.draw_table(self.help_rows, (left, bottom, width, height), scale)
 

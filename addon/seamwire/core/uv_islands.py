@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Islands in UV space: which ones are no longer what the seams say, and where new ones find room. Knows no Blender."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+_SAME = 1e-5
+"""UVs nearer than this are one place: unwrapping gives corners that belong together the same numbers, packing rounds them."""
+_CELLS = 512
+"""Cells along a side of the square in which room is looked for."""
+_GAP = 1.0 / _CELLS
+
+
+def split_edges(
+    vertices: NDArray[np.int32],
+    edges: NDArray[np.int32],
+    following: NDArray[np.int64],
+    uvs: NDArray[np.float32],
+) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    """Find the edges between two faces over which a UV map is torn.
+
+    Parameters
+    ----------
+    vertices, edges, following
+        (c,) of each corner its vertex, the edge to the next corner of its face, and that corner; -1 as the edge: left out.
+    uvs
+        (c, 2).
+
+    Returns
+    -------
+    (k, 2) array
+        The two corners at which the faces at an edge hold it, for each edge with two.
+    (k,) array
+        Whether the map is torn there.
+    """
+    order = np.argsort(edges, kind="stable")
+    order = order[edges[order] >= 0]
+    _, first, counts = np.unique(edges[order], return_index=True, return_counts=True)
+    first = first[counts == 2]
+    pairs = np.stack([order[first], order[first + 1]], axis=1)
+    one, two = pairs.T
+    # Neighbors go along their edge in opposite ways, unless one is flipped.
+    opposite = vertices[one] == vertices[following[two]]
+    begin, end = np.where(opposite, following[two], two), np.where(opposite, two, following[two])
+    gaps = np.abs(np.stack([uvs[one] - uvs[begin], uvs[following[one]] - uvs[end]]))
+    return pairs, (gaps > _SAME).any(axis=(0, 2))
+
+
+@dataclass(frozen=True)
+class NewIsland:
+    """An island that was unwrapped.
+
+    Parameters
+    ----------
+    before, after
+        (c, 2) its corners in the UV map before and after; `before` is all zero where it had no place.
+    triangles
+        (t, 3) its triangles, as rows of `after`.
+    areas
+        (t,) of those triangles on the model.
+    density
+        What it is to have, length in UVs over length on the model; zero: as it is.
+    """
+
+    before: NDArray[np.float64]
+    after: NDArray[np.float64]
+    triangles: NDArray[np.int64]
+    areas: NDArray[np.float64]
+    density: float
+
+
+def families(count: int, pairs: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return a number for each of some islands, (count,), the same for those that pairs, (k, 2), lead to one from the other."""
+    found = np.arange(count)
+    pairs = np.unique(np.sort(pairs, axis=1), axis=0)
+    while len(pairs):
+        one, two = found[pairs].T
+        low = np.minimum(one, two)
+        if (one == two).all():
+            break
+        np.minimum.at(found, one, low)
+        np.minimum.at(found, two, low)
+        found = found[found]
+    return found
+
+
+def uv_areas(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the areas of triangles, (t, 3, 2)."""
+    one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    return 0.5 * np.abs(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0])
+
+
+def boxes_of(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the bounds of triangles, (t, 3, 2), as low u, low v, high u, high v: (t, 4)."""
+    return np.concatenate([corners.min(axis=1), corners.max(axis=1)], axis=1).reshape(-1, 4)
+
+
+def place(islands: Sequence[NewIsland], taken: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+    """Find a place for islands among those that stay.
+
+    Each has the texel density it is to have, turned as it was, and lies as near to where it was as there is room in that square
+    of the UV plane; where there is none, beside all others, to the right.
+
+    Parameters
+    ----------
+    islands
+        What was unwrapped.
+    taken
+        (b, 4) bounds of the triangles that stay, see `boxes_of`.
+
+    Returns
+    -------
+    list of (c, 2) array
+        The corners of each.
+    """
+    ready = [_fitted(island) for island in islands]
+    sizes = [float(np.prod(np.ptp(corners, axis=0))) for corners in ready]
+    placed: list[NDArray[np.float64]] = list(ready)
+    squares: dict[tuple[float, ...], _Square] = {}
+    left_over = []
+    for number in sorted(range(len(ready)), key=lambda number: -sizes[number]):
+        island, corners = islands[number], ready[number]
+        middle = 0.5 * (island.before.min(axis=0) + island.before.max(axis=0))
+        low = np.floor(middle)
+        if tuple(low) not in squares:
+            squares[tuple(low)] = _Square(low, taken)
+        square = squares[tuple(low)]
+        spot = square.free_spot(np.ptp(corners, axis=0), middle)
+        if spot is None:
+            left_over.append(number)
+            continue
+        placed[number] = corners + (spot - corners.min(axis=0))
+        boxes = boxes_of(placed[number][island.triangles])
+        taken = np.concatenate([taken, boxes])
+        square.take(boxes)
+    edge = max(1.0, float(taken[:, 2].max(initial=0.0)))
+    left, bottom, widest = edge + 4.0 * _GAP, 0.0, 0.0
+    for number in left_over:
+        width, height = np.ptp(ready[number], axis=0)
+        if bottom > 0.0 and bottom + height > 1.0:
+            left, bottom, widest = left + widest + 4.0 * _GAP, 0.0, 0.0
+        placed[number] = ready[number] + ((left, bottom) - ready[number].min(axis=0))
+        bottom, widest = bottom + height + 4.0 * _GAP, max(widest, width)
+    return placed
+
+
+def _fitted(island: NewIsland) -> NDArray[np.float64]:
+    """Return the corners of an island in the size they are to have, and turned as they were before."""
+    area, now = float(island.areas.sum()), float(uv_areas(island.after[island.triangles]).sum())
+    wanted = island.density**2 * area
+    corners = island.after - island.after.mean(axis=0)
+    old = island.before - island.before.mean(axis=0)
+    if now > 0.0 and wanted > 0.0:
+        corners = corners * np.sqrt(wanted / now)
+    # The turn that leaves least between the two: Kabsch in the plane.
+    along, across = float((corners * old).sum()), float((corners[:, 0] * old[:, 1] - corners[:, 1] * old[:, 0]).sum())
+    length = np.hypot(along, across)
+    if length > 0.0:
+        cos, sin = along / length, across / length
+        corners = corners @ np.array([[cos, sin], [-sin, cos]])
+    return corners
+
+
+class _Square:
+    """One unit square of the UV plane, cell by cell.
+
+    Parameters
+    ----------
+    low
+        Its low corner.
+    taken
+        (b, 4) bounds of what lies in it, and elsewhere.
+    """
+
+    def __init__(self, low: NDArray[np.float64], taken: NDArray[np.float64]) -> None:
+        self._low = low
+        self._full = np.zeros((_CELLS, _CELLS), dtype=bool)
+        self.take(taken)
+
+    def take(self, boxes: NDArray[np.float64]) -> None:
+        """Let bounds, (b, 4), be taken."""
+        low = np.clip(np.floor((boxes[:, :2] - self._low) * _CELLS), 0, _CELLS).astype(np.int64)
+        high = np.clip(np.floor((boxes[:, 2:] - self._low) * _CELLS) + 1, 0, _CELLS).astype(np.int64)
+        # Each is counted up at its low corner and down behind its high one: sums tell how many cover a cell.
+        marks = np.zeros((_CELLS + 1, _CELLS + 1), dtype=np.int32)
+        for u, v, sign in ((low, low, 1), (high, low, -1), (low, high, -1), (high, high, 1)):
+            np.add.at(marks, (u[:, 0], v[:, 1]), sign)
+        self._full |= marks.cumsum(axis=0, dtype=np.int32).cumsum(axis=1, dtype=np.int32)[:-1, :-1] > 0
+
+    def free_spot(self, size: NDArray[np.float64], middle: NDArray[np.float64]) -> NDArray[np.float64] | None:
+        """Return the low corner of the free rectangle of a size whose middle is nearest to a place; None: there is none."""
+        wide, tall = np.ceil((size + 2.0 * _GAP) * _CELLS).astype(np.int64)
+        if wide > _CELLS or tall > _CELLS:
+            return None
+        # How many cells are taken below and left of each: four of these tell whether a rectangle is free.
+        sums = np.zeros((_CELLS + 1, _CELLS + 1), dtype=np.int32)
+        sums[1:, 1:] = self._full.cumsum(axis=0, dtype=np.int32).cumsum(axis=1, dtype=np.int32)
+        free = sums[wide:, tall:] - sums[:-wide, tall:] - sums[wide:, :-tall] + sums[:-wide, :-tall] == 0
+        wanted = (middle - self._low - 0.5 * size - _GAP) * _CELLS
+        away = [(np.arange(count) - place) ** 2 for count, place in zip(free.shape, wanted, strict=True)]
+        distances = np.where(free, away[0][:, None] + away[1], np.inf)
+        nearest = np.unravel_index(distances.argmin(), free.shape)
+        return self._low + np.array(nearest) / _CELLS + _GAP if free[nearest] else None

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The active UV map of an edit mesh as arrays."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from numpy.typing import NDArray
+
+    from .edit_mesh import Arrays
+
+
+@dataclass(frozen=True)
+class Corners:
+    """The corners of a mesh's faces, face by face, hidden ones included.
+
+    Parameters
+    ----------
+    vertices, edges
+        (c,) the vertex of each, and the edge to the next corner of its face.
+    faces
+        (c,) the face that each belongs to, ascending.
+    following
+        (c,) the next corner of its face.
+    """
+
+    vertices: NDArray[np.int32]
+    edges: NDArray[np.int32]
+    faces: NDArray[np.int64]
+    following: NDArray[np.int64]
+
+    @classmethod
+    def of(cls, mesh: bpy.types.Mesh) -> Corners:
+        """Read them from a mesh that edit mode does not hold."""
+        vertices = np.empty(len(mesh.loops), dtype=np.int32)
+        edges = np.empty(len(mesh.loops), dtype=np.int32)
+        starts = np.empty(len(mesh.polygons), dtype=np.int32)
+        mesh.loops.foreach_get("vertex_index", vertices)
+        mesh.loops.foreach_get("edge_index", edges)
+        mesh.polygons.foreach_get("loop_start", starts)
+        sizes = np.diff(starts, append=len(vertices))
+        following = np.arange(1, len(vertices) + 1)
+        following[starts + sizes - 1] = starts
+        return cls(vertices, edges, np.repeat(np.arange(len(starts)), sizes), following)
+
+    def of_triangles(self, arrays: Arrays) -> NDArray[np.int64]:
+        """Return the corner that lies at each corner of the triangles, (m, 3)."""
+        count = len(arrays.points)
+        keys = self.faces * count + self.vertices
+        order = np.argsort(keys, kind="stable")
+        wanted = arrays.polygons[:, None].astype(np.int64) * count + arrays.triangles
+        return order[np.searchsorted(keys, wanted.reshape(-1), sorter=order)].reshape(-1, 3)
+
+
+def read(obj: bpy.types.Object) -> tuple[Corners, NDArray[np.float32] | None]:
+    """Read the corners of an edit mesh, and their UVs as `read_uvs` does."""
+    with _copied(obj) as mesh:
+        return Corners.of(mesh), _uvs(mesh)
+
+
+def read_uvs(obj: bpy.types.Object) -> NDArray[np.float32] | None:
+    """Read the places of an edit mesh's corners in the active UV map, (c, 2); None: there is no UV map."""
+    with _copied(obj) as mesh:
+        return _uvs(mesh)
+
+
+@contextmanager
+def _copied(obj: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
+    """Copy the mesh, which itself shows no UVs in edit mode; from 4.1 on a copy shares the data and costs nothing."""
+    obj.update_from_editmode()
+    mesh = obj.data.copy()
+    try:
+        yield mesh
+    finally:
+        bpy.data.meshes.remove(mesh)
+
+
+def _uvs(mesh: bpy.types.Mesh) -> NDArray[np.float32] | None:
+    layer = mesh.uv_layers.active
+    if layer is None:
+        return None
+    uvs = np.empty(2 * len(mesh.loops), dtype=np.float32)
+    if hasattr(layer, "uv"):
+        layer.uv.foreach_get("vector", uvs)
+    else:
+        layer.data.foreach_get("uv", uvs)
+    return uvs.reshape(-1, 2)

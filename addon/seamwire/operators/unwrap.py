@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that unwraps the islands whose seams have changed."""
+
+from __future__ import annotations
+
+import bpy
+
+from ..mesh.settings import settings
+from .report import count, in_edit_mode
+
+
+class MESH_OT_seamwire_unwrap(bpy.types.Operator):
+    """Unwrap the islands whose seams have changed since they were unwrapped; all other UVs stay as they are"""  # noqa: D400 - a tooltip
+
+    bl_idname = "mesh.seamwire_unwrap"
+    bl_label = "Unwrap Changed Islands"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Whether a mesh is in edit mode."""
+        return in_edit_mode(cls, context)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Unwrap, and say how many islands."""
+        from ..core.native import NativeError
+        from ..mesh.unwrap import unwrap_changed
+
+        try:
+            done = unwrap_changed(context)
+        except (ValueError, NativeError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        if not done.islands:
+            self.report({"INFO"}, "No island has changed since it was unwrapped")
+            return {"CANCELLED"}
+        self.report({"INFO"}, f"{count(done.islands, 'island')} unwrapped, {done.kept} kept")
+        return {"FINISHED"}
+
+
+def unwrap_after_chain(context: bpy.types.Context) -> str:
+    """Unwrap as the tool and Blender are set, after seams have changed; return what could not be done, in words."""
+    if not settings(context).unwrap:
+        from ..mesh import edit_mesh
+
+        edit_mesh.live_unwrap(context)
+        return ""
+    from ..core.native import NativeError
+    from ..mesh.unwrap import unwrap_changed
+
+    try:
+        unwrap_changed(context)
+    except (ValueError, NativeError) as error:
+        return str(error)
+    return ""
+
+
+def register() -> None:
+    """Add the operator."""
+    bpy.utils.register_class(MESH_OT_seamwire_unwrap)
+
+
+def unregister() -> None:
+    """Remove it."""
+    bpy.utils.unregister_class(MESH_OT_seamwire_unwrap)

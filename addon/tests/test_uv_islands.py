@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where a UV map is torn, and where new islands are put."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from seamwire.core.uv_islands import NewIsland, boxes_of, families, place, split_edges
+
+SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+TRIANGLES = np.array([[0, 1, 2], [0, 2, 3]])
+TILES = np.array([[(x, y) for x, y in SQUARE[rows]] for rows in TRIANGLES])
+
+
+def island(before: np.ndarray, after: np.ndarray, density: float = 0.25) -> NewIsland:
+    """Return a square, one unit large on the model."""
+    return NewIsland(before, after, TRIANGLES, np.array([0.5, 0.5]), density)
+
+
+def taken(low: tuple[float, float], size: tuple[float, float]) -> np.ndarray:
+    return boxes_of(TILES * size + low)
+
+
+def bounds(corners: np.ndarray) -> np.ndarray:
+    return np.concatenate([corners.min(axis=0), corners.max(axis=0)])
+
+
+@pytest.mark.parametrize("flipped", [False, True])
+def test_an_edge_is_torn_where_either_end_is(flipped: bool) -> None:
+    # Two squares side by side, 0 1 4 3 and 1 2 5 4; the edge 1-4 is number 1.
+    second = [4, 5, 2, 1] if flipped else [1, 2, 5, 4]
+    vertices = np.array([0, 1, 4, 3, *second])
+    edges = np.array([0, 1, 2, 3, 4, 5, 6, 1])
+    following = np.array([1, 2, 3, 0, 5, 6, 7, 4])
+    places = np.array([[0, 0], [1, 0], [2, 0], [0, 1], [1, 1], [2, 1]], dtype=np.float32)
+    uvs = places[vertices]
+    pairs, torn = split_edges(vertices, edges, following, uvs)
+    assert pairs.tolist() == [[1, 7]]
+    assert torn.tolist() == [False]
+    for end in (1, 4):
+        moved = uvs.copy()
+        moved[4 + second.index(end)] += (0.0, 0.01)
+        assert split_edges(vertices, edges, following, moved)[1].tolist() == [True]
+    left_out = np.where(np.arange(8) < 4, edges, -1)
+    assert len(split_edges(vertices, left_out, following, uvs)[0]) == 0
+
+
+def test_families_are_what_pairs_lead_to() -> None:
+    found = families(7, np.array([[5, 1], [1, 3], [6, 5], [2, 4], [0, 0]]))
+    assert found.tolist() == [0, 1, 2, 1, 2, 1, 1]
+    assert families(3, np.empty((0, 2), dtype=np.int64)).tolist() == [0, 1, 2]
+    chain = np.stack([np.arange(99), np.arange(1, 100)], axis=1)[::-1]
+    assert not families(100, chain).any()
+
+
+def test_an_island_lies_where_it_was_as_large_and_turned_as_it_was() -> None:
+    before = 0.25 * SQUARE + (0.5, 0.25)
+    turned = SQUARE @ np.array([[0.0, 1.0], [-1.0, 0.0]])
+    found = place([island(before, 3.0 * turned + 7.0)], taken((0.0, 0.0), (0.3, 1.0)))[0]
+    assert found == pytest.approx(before, abs=1.0 / 512)
+
+
+def test_what_is_in_the_way_is_kept_clear_of() -> None:
+    before = 0.25 * SQUARE + (0.5, 0.25)
+    there = taken((0.55, 0.3), (0.1, 0.1))
+    found = bounds(place([island(before, SQUARE)], there)[0])
+    low, high = there[:, :2].min(axis=0), there[:, 2:].max(axis=0)
+    assert (found[2:] < low).any() or (found[:2] > high).any()
+    assert np.abs(found - bounds(before)).max() < 0.3
+    assert (found >= 0.0).all()
+    assert (found <= 1.0).all()
+
+
+def test_new_islands_keep_clear_of_each_other() -> None:
+    before = 0.25 * SQUARE + (0.5, 0.25)
+    found = [bounds(corners) for corners in place([island(before, SQUARE)] * 5, taken((0.0, 0.0), (0.1, 0.1)))]
+    for i, one in enumerate(found):
+        for two in found[:i]:
+            assert (one[2:] < two[:2]).any() or (two[2:] < one[:2]).any()
+
+
+def test_without_room_they_lie_to_the_right_of_all() -> None:
+    before = 0.5 * SQUARE + 0.1
+    found = [bounds(c) for c in place([island(before, SQUARE, 0.6)] * 3, taken((0.0, 0.0), (1.2, 1.0)))]
+    assert all(box[0] > 1.2 for box in found)
+    for i, one in enumerate(found):
+        for two in found[:i]:
+            assert (one[2:] < two[:2]).any() or (two[2:] < one[:2]).any()
+    assert max(box[3] for box in found) <= 1.01
+
+
+def test_an_island_in_another_tile_stays_in_it() -> None:
+    before = 0.25 * SQUARE + (2.5, -0.75)
+    found = place([island(before, SQUARE)], taken((0.0, 0.0), (1.0, 1.0)))[0]
+    assert found == pytest.approx(before, abs=1.0 / 512)
