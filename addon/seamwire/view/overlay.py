@@ -224,9 +224,7 @@ class Overlay:
         with blended("NONE"):
             if self._looks.text:
                 found = None if self._islands is None else self._islands.newest
-                lines = text_overlay.lines(
-                    self._session, found.count if found is not None else None, xray=self.xray, features=self.features
-                )
+                lines = text_overlay.lines(self._session, found, xray=self.xray, features=self.features)
                 text_overlay.draw(lines, (left, bottom), scale, bpy.context.preferences.themes[0].view_3d.space.text_hi)
             if self.heat is not None:
                 self.heat.draw_legend(room, scale)

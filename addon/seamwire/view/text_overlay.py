@@ -13,6 +13,7 @@ from . import gpu_draw
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from ..core.islands import Islands
     from ..core.session import Session
     from .theme import Color
 
@@ -25,7 +26,19 @@ _METRICS = {
 }
 
 
-def lines(session: Session, islands: int | None, xray: bool = False, features: bool = False) -> list[str]:
+def _islands(islands: Islands) -> str:
+    """Say how many islands there are, and, once something is cut, which do not unwrap yet."""
+    found = f"{islands.count} island" + ("s" if islands.count != 1 else "")
+    no_discs = int((islands.missing > 0).sum())
+    if not islands.cut or not no_discs:
+        return found
+    cuts = int(islands.missing.sum())
+    return (
+        f"{found}, {no_discs} no disc{'s' if no_discs != 1 else ''}: {cuts} more cut{'s' if cuts != 1 else ''} needed"
+    )
+
+
+def lines(session: Session, islands: Islands | None, xray: bool = False, features: bool = False) -> list[str]:
     """Return what is to be read, top line first.
 
     Parameters
@@ -33,7 +46,7 @@ def lines(session: Session, islands: int | None, xray: bool = False, features: b
     session
         The drawing.
     islands
-        How many there are; None where that is not known.
+        What the seams cut the mesh into; None where that is not known.
     xray, features
         Whether picking goes through the mesh, and whether seeds snap to features.
     """
@@ -43,7 +56,7 @@ def lines(session: Session, islands: int | None, xray: bool = False, features: b
         which = f" ({offers.index(session.loop_choice) + 1} of {len(offers)})" if len(offers) > 1 else ""
         found.append(LOOP_NAMES[session.loop_choice].capitalize() + which)
     if islands is not None:
-        found.append(f"{islands} island" + ("s" if islands != 1 else ""))
+        found.append(_islands(islands))
     way = "Along edges" if session.along == "EDGES" else "Across the surface"
     metric = _METRICS.get(session.metric, session.metric)
     strength = "" if session.metric == "euclidean" else f"strength {session.strength:.3g}"
