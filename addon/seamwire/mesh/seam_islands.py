@@ -1,20 +1,28 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The islands that the seams of an edit mesh make, and how much its active UV map stretches each."""
+"""The islands that the seams of an edit mesh make: which are discs, how much its active UV map stretches each, and how they are stored."""
 
 from __future__ import annotations
 
+import colorsys
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import bmesh
+import bpy
 import numpy as np
 
 from ..core import native
+from ..core.islands import CutCounter, choose_hues, neighbours, places_of
 from ..core.stretch import Stretch
 from . import edit_mesh, uv_map
 
 if TYPE_CHECKING:
-    import bpy
     from numpy.typing import NDArray
+
+ATTRIBUTE = "island"
+"""The face attribute that islands are stored as."""
+_HUES = [place / 12 for place in places_of(12)]
+"""Of the materials, around the circle of hues."""
 
 
 def labels_of(arrays: edit_mesh.Arrays) -> NDArray[np.int32]:
@@ -22,6 +30,75 @@ def labels_of(arrays: edit_mesh.Arrays) -> NDArray[np.int32]:
     core = native.load()
     surface = core.Surface(arrays.points, arrays.triangles, arrays.edges)
     return np.asarray(core.face_segments(surface, arrays.seams))
+
+
+def faces_to_cut(obj: bpy.types.Object) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
+    """Return the faces of the islands that are no discs, and how many cuts each of these islands needs.
+
+    Raises
+    ------
+    ValueError, native.NativeError
+        Where no edge is visible, or the compiled part is missing.
+    """
+    arrays = edit_mesh.read(obj)
+    labels = labels_of(arrays)
+    missing = CutCounter(arrays.triangles).missing(labels, arrays.seams)
+    return np.unique(arrays.polygons[missing[labels] > 0]), missing[missing > 0]
+
+
+def store(obj: bpy.types.Object, kind: str) -> int:
+    """Store the island of each visible face with an edit mesh; return how many there are.
+
+    Parameters
+    ----------
+    obj
+        In edit mode.
+    kind
+        ``ATTRIBUTE``: as the face attribute `ATTRIBUTE`, from 0, largest first. ``FACE_SETS``: as the sculpt mode's face
+        sets, from 1. ``MATERIALS``: as materials of their own, one a hue for neighbors to differ, in new slots.
+
+    Raises
+    ------
+    ValueError, native.NativeError
+        Where no edge is visible, or the compiled part is missing.
+    """
+    arrays = edit_mesh.read(obj)
+    labels = labels_of(arrays)
+    count = int(labels.max(initial=-1)) + 1
+    numbers = labels + (kind == "FACE_SETS")
+    if kind == "MATERIALS":
+        hues = choose_hues(np.full(count, -1), neighbours(arrays.triangles, labels, arrays.seams), len(_HUES))
+        numbers = np.array(_material_slots(obj, sorted(set(hues.tolist()))))[hues[labels]]
+    bm = bmesh.from_edit_mesh(obj.data)
+    layer = None
+    if kind != "MATERIALS":
+        name = ATTRIBUTE if kind == "ATTRIBUTE" else ".sculpt_face_set"
+        layer = bm.faces.layers.int.get(name) or bm.faces.layers.int.new(name)
+    bm.faces.ensure_lookup_table()
+    polygons, first = np.unique(arrays.polygons, return_index=True)
+    for face, number in zip(polygons.tolist(), numbers[first].tolist(), strict=True):
+        if layer is None:
+            bm.faces[face].material_index = number
+        else:
+            bm.faces[face][layer] = number
+    bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
+    return count
+
+
+def _material_slots(obj: bpy.types.Object, hues: list[int]) -> list[int]:
+    """Return the slot of the material of each hue; -1 for hues that are not used."""
+    slots = [-1] * len(_HUES)
+    for hue in hues:
+        name = f"Seamwire Island {hue + 1}"
+        material = bpy.data.materials.get(name)
+        if material is None:
+            material = bpy.data.materials.new(name)
+            material.diffuse_color = (*colorsys.hsv_to_rgb(_HUES[hue], 0.6, 0.8), 1.0)
+        slots[hue] = obj.data.materials.find(name)
+        if slots[hue] < 0:
+            obj.data.materials.append(material)
+            slots[hue] = len(obj.data.materials) - 1
+    return slots
 
 
 @dataclass(frozen=True)

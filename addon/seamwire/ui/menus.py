@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Menu entries that choose the tool, that make wires of seams, cut wires, unwrap, and show stretch."""
+"""Menu entries that choose the tool, make wires of seams, cut wires, unwrap, show stretch, and select and store islands."""
 
 from __future__ import annotations
 
@@ -18,6 +18,8 @@ def _draw_menu(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
     menu.layout.operator("mesh.seamwire_cut")
     menu.layout.operator("mesh.seamwire_unwrap")
     menu.layout.operator("mesh.seamwire_worst_island")
+    menu.layout.operator("mesh.seamwire_select_islands_to_cut")
+    menu.layout.operator_menu_enum("mesh.seamwire_store_islands", "kind")
 
 
 def register() -> None:

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Islands that seams make: those that are no discs are selected, all are stored."""
+
+import bmesh
+import bpy
+import pytest
+from scene import add_grid, edit, seams, snapshot
+
+SETS = ".sculpt_face_set"
+
+
+def add_tube() -> bpy.types.Object:
+    """Add an open tube of 8 quads."""
+    bpy.ops.mesh.primitive_cylinder_add(vertices=8, end_fill_type="NOTHING")
+    return bpy.context.active_object
+
+
+def mark(obj: bpy.types.Object, wanted: object) -> None:
+    bm = bmesh.from_edit_mesh(obj.data)
+    for edge in bm.edges:
+        edge.seam = wanted(*(v.co for v in edge.verts))
+    bmesh.update_edit_mesh(obj.data)
+
+
+def halves(a: object, b: object) -> bool:
+    """Whether an edge of the grid lies on its middle column."""
+    return abs(a.x) < 1e-6 and abs(b.x) < 1e-6
+
+
+def selected(obj: bpy.types.Object) -> int:
+    return sum(face.select for face in bmesh.from_edit_mesh(obj.data).faces)
+
+
+def numbers(obj: bpy.types.Object, name: str) -> list[tuple[int, bool]]:
+    """Return the number of each face and whether it lies on the left."""
+    bm = bmesh.from_edit_mesh(obj.data)
+    layer = bm.faces.layers.int[name]
+    return [(face[layer], face.calc_center_median().x < 0) for face in bm.faces]
+
+
+def test_islands_that_are_no_discs_are_selected_until_they_are_cut() -> None:
+    sheet, tube = add_grid(5), add_tube()
+    sheet.select_set(True)
+    edit()
+    assert bpy.ops.mesh.seamwire_select_islands_to_cut() == {"FINISHED"}
+    assert (selected(sheet), selected(tube)) == (0, 8)
+    mark(tube, lambda a, b: a.y > 0.99 and b.y > 0.99 and abs(a.z - b.z) > 1.0)
+    assert len(seams(tube)) == 1
+    assert bpy.ops.mesh.seamwire_select_islands_to_cut() == {"FINISHED"}
+    assert selected(tube) == 0
+
+
+def test_islands_are_stored_as_an_attribute_and_nothing_else_changes() -> None:
+    obj = add_grid(9)
+    edit()
+    mark(obj, halves)
+    before = snapshot(obj)
+    assert bpy.ops.mesh.seamwire_store_islands(kind="ATTRIBUTE") == {"FINISHED"}
+    stored = numbers(obj, "island")
+    assert {number for number, _ in stored} == {0, 1}
+    assert len(set(stored)) == 2, "one number on either side"
+    after = snapshot(obj)
+    assert {name: after[name] for name in before} == before
+    assert bpy.ops.mesh.seamwire_store_islands(kind="ATTRIBUTE") == {"FINISHED"}, "again, into the same"
+    assert numbers(obj, "island") == stored
+
+
+def test_islands_are_stored_as_materials_beside_those_that_are_there() -> None:
+    obj = add_grid(9)
+    obj.data.materials.append(bpy.data.materials.new("Own"))
+    edit()
+    mark(obj, halves)
+    for _ in range(2):
+        assert bpy.ops.mesh.seamwire_store_islands(kind="MATERIALS") == {"FINISHED"}
+        assert [slot.name == "Own" for slot in obj.data.materials] == [True, False, False]
+        sides = {
+            (face.material_index, face.calc_center_median().x < 0) for face in bmesh.from_edit_mesh(obj.data).faces
+        }
+        assert len(sides) == 2
+        assert {index for index, _ in sides} == {1, 2}
+
+
+def test_islands_are_stored_as_face_sets() -> None:
+    obj = add_grid(9)
+    edit()
+    mark(obj, halves)
+    if bpy.app.version < (3, 6, 0):
+        with pytest.raises(RuntimeError, match="Face sets can be stored"):
+            bpy.ops.mesh.seamwire_store_islands(kind="FACE_SETS")
+        return
+    assert bpy.ops.mesh.seamwire_store_islands(kind="FACE_SETS") == {"FINISHED"}
+    assert {number for number, _ in numbers(obj, SETS)} == {1, 2}
+    assert len(set(numbers(obj, SETS))) == 2
+
+
+def test_hidden_faces_keep_what_they_have_and_nothing_visible_is_said() -> None:
+    obj = add_grid(9)
+    edit()
+    bm = bmesh.from_edit_mesh(obj.data)
+    layer = bm.faces.layers.int.new("island")
+    bm.faces.ensure_lookup_table()
+    bm.faces[0][layer] = 7
+    bm.faces[0].hide_set(True)
+    bmesh.update_edit_mesh(obj.data)
+    bpy.ops.mesh.seamwire_store_islands(kind="ATTRIBUTE")
+    assert sorted({number for number, _ in numbers(obj, "island")}) == [0, 7]
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.hide()
+    with pytest.raises(RuntimeError, match="No face is visible"):
+        bpy.ops.mesh.seamwire_store_islands(kind="ATTRIBUTE")
