@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# A toolchain for wheels that run where Blender does, made on Linux. The compiler is zig's clang with its libc++ linked in,
+# A toolchain for wheels that run where Blender does, made on Linux for all systems. The compiler is zig's clang with its libc++ linked in,
 # as PyPI's package ziglang brings it. scripts/package uses it.
 #
 # SEAMWIRE_PLATFORM: the system to build for, as Blender names it. SEAMWIRE_ZIG: the zig program. SEAMWIRE_PYTHON_INCLUDE: the folder of
@@ -12,15 +12,23 @@ set(SEAMWIRE_ZIG "zig" CACHE FILEPATH "The zig program")
 list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES SEAMWIRE_PLATFORM SEAMWIRE_ZIG)
 
 # In the trial builds too: zig makes its C++ library once for what is optimized, and once for what is not.
-# The processor: any x86-64 with SSE4.2.
-set(CMAKE_CXX_FLAGS_INIT "-O3 -mcpu=x86_64_v2")
-set(CMAKE_SYSTEM_PROCESSOR x86_64)
-if(SEAMWIRE_PLATFORM STREQUAL "linux-x64")
+set(CMAKE_CXX_FLAGS_INIT "-O3")
+if(SEAMWIRE_PLATFORM MATCHES "-x64$")
+  set(CMAKE_SYSTEM_PROCESSOR x86_64)
+  string(APPEND CMAKE_CXX_FLAGS_INIT " -mcpu=x86_64_v2") # any x86-64 CPU with SSE4.2
+else()
+  set(CMAKE_SYSTEM_PROCESSOR aarch64)
+endif()
+if(SEAMWIRE_PLATFORM MATCHES "^linux-(x64|arm64)$")
   set(CMAKE_SYSTEM_NAME Linux)
   set(system linux-gnu.2.28) # what blender.org's Blender asks for
 elseif(SEAMWIRE_PLATFORM STREQUAL "windows-x64")
   set(CMAKE_SYSTEM_NAME Windows)
   set(system windows-gnu)
+elseif(SEAMWIRE_PLATFORM MATCHES "^macos-(x64|arm64)$")
+  set(CMAKE_SYSTEM_NAME Darwin)
+  set(system macos.11.0)
+  set(CMAKE_USER_MAKE_RULES_OVERRIDE_CXX "${CMAKE_CURRENT_LIST_DIR}/zig-macos.cmake")
 else()
   message(FATAL_ERROR "SEAMWIRE_PLATFORM: ${SEAMWIRE_PLATFORM} is none that wheels are built for")
 endif()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads what a compiled module asks of its system: Windows' PE files, 64 bit."""
+"""Reads what a compiled module asks of its system: Windows' PE files and macOS's Mach-O files, both 64 bit."""
 
 import struct
 from pathlib import Path
@@ -11,6 +11,14 @@ class Portable(NamedTuple):
 
     imports: list[str]
     exports: list[str]
+
+
+class MachO(NamedTuple):
+    """What a macOS library names: the processor, the libraries it loads, and the oldest system it runs on."""
+
+    machine: str
+    libraries: list[str]
+    oldest_system: str
 
 
 def read_portable(path: Path) -> Portable:
@@ -51,3 +59,30 @@ def read_portable(path: Path) -> Portable:
         count, names = struct.unpack_from("<24xI4xI", data, place(exported))
         exports = [text(name) for name in struct.unpack_from(f"<{count}I", data, place(names))] if count else []
     return Portable(imports, exports)
+
+
+def read_macho(path: Path) -> MachO:
+    """Return what the load commands of a Mach-O file tell (<mach-o/loader.h>).
+
+    Raises
+    ------
+    ValueError
+        Where it is none for one 64-bit processor.
+    """
+    data = path.read_bytes()
+    magic, processor, _, _, commands = struct.unpack_from("<5I", data)
+    machines = {0x01000007: "x86_64", 0x0100000C: "arm64"}
+    if magic != 0xFEEDFACF or processor not in machines:
+        raise ValueError(f"{path.name} is no Mach-O file for x86-64 or arm64")
+    libraries, oldest, at = [], "", 32
+    for _ in range(commands):
+        command, size = struct.unpack_from("<II", data, at)
+        # LC_LOAD_DYLIB, LC_LOAD_WEAK_DYLIB, LC_REEXPORT_DYLIB
+        if command in (0xC, 0x80000018, 0x8000001F):
+            start = at + struct.unpack_from("<8xI", data, at)[0]
+            libraries.append(data[start : at + size].split(b"\0", 1)[0].decode())
+        elif command in (0x24, 0x32):  # LC_VERSION_MIN_MACOSX, LC_BUILD_VERSION
+            (version,) = struct.unpack_from("<8xI" if command == 0x24 else "<12xI", data, at)
+            oldest = f"{version >> 16}.{version >> 8 & 0xFF}"
+        at += size
+    return MachO(machines[processor], libraries, oldest)

@@ -12,15 +12,17 @@ import tempfile
 import zipfile
 from pathlib import Path
 
-from binaries import read_portable
+from binaries import read_macho, read_portable
 
 TAGS = {
     "linux-x64": "manylinux_2_28_x86_64",
     "windows-x64": "win_amd64",
+    "macos-arm64": "macosx_11_0_arm64",
 }
 SUFFIXES = {
     "linux-x64": ".cpython-{0}-x86_64-linux-gnu.so",
     "windows-x64": ".cp{0}-win_amd64.pyd",
+    "macos-arm64": ".cpython-{0}-darwin.so",
 }
 WINDOWS_SYSTEM = re.compile(r"(api-ms-win-[a-z0-9-]+|kernel32|ntdll|advapi32|user32|shell32|ole32|bcrypt)\.dll", re.I)
 
@@ -32,6 +34,13 @@ def faults_of_module(module: Path, platform: str, python: str) -> list[str]:
         own = f"python{python.replace('.', '')}.dll"
         faults = [f"it links {name}" for name in asked if not WINDOWS_SYSTEM.fullmatch(name) and name.lower() != own]
         return faults if own in map(str.lower, asked) else [*faults, f"it does not link {own}"]
+    if platform == "macos-arm64":
+        found = read_macho(module)
+        faults = [f"it links {name}" for name in found.libraries if name != "/usr/lib/libSystem.B.dylib"]
+        machine = TAGS[platform].removeprefix("macosx_11_0_")
+        if (found.machine, found.oldest_system) != (machine, "11.0"):
+            faults.append(f"it is for {found.machine}, macOS {found.oldest_system}")
+        return faults
     return []
 
 

@@ -49,6 +49,14 @@ def portable(imports: list[str], exports: list[str]) -> bytes:
     return (start + header + options + section).ljust(STORED, b"\0") + bytes(content)
 
 
+def macho(oldest: int, libraries: list[str]) -> bytes:
+    names = [name.encode().ljust(48, b"\0") for name in libraries]
+    commands = [struct.pack("<6I", 0xC, 24 + len(name), 24, 0, 0, 0) + name for name in names]
+    commands.append(struct.pack("<6I", 0x32, 24, 1, oldest, oldest, 0))
+    size = sum(map(len, commands))
+    return struct.pack("<8I", 0xFEEDFACF, 0x0100000C, 0, 6, len(commands), size, 0, 0) + b"".join(commands)
+
+
 def test_the_tables_of_a_windows_dll_are_read(tmp_path: Path) -> None:
     path = tmp_path / "python311.dll"
     path.write_bytes(portable(["KERNEL32.dll", "VCRUNTIME140.dll"], ["PyArg_Parse", "Py_Main"]))
@@ -85,3 +93,19 @@ def test_name_and_tags_have_to_agree(tmp_path: Path, monkeypatch: pytest.MonkeyP
     named = wheel(tmp_path, "seamwire_core-1.0-cp311-cp311-win_amd64.whl", "cp311-cp311-linux_x86_64", b"")
     assert check_wheel.faults_of_wheel(named, "windows-x64", "3.11") == ["its tags are cp311-cp311-linux_x86_64"]
     assert len(check_wheel.faults_of_wheel(named, "windows-x64", "3.13")) == 3, "name, tags, module"
+
+
+@pytest.mark.parametrize(
+    ("oldest", "libraries", "faults"),
+    [
+        (11 << 16, ["/usr/lib/libSystem.B.dylib"], []),
+        (11 << 16, ["/usr/lib/libSystem.B.dylib", "/usr/lib/libc++.1.dylib"], ["it links /usr/lib/libc++.1.dylib"]),
+        (13 << 16, ["/usr/lib/libSystem.B.dylib"], ["it is for arm64, macOS 13.0"]),
+    ],
+)
+def test_the_load_commands_of_a_macos_module_are_read(
+    tmp_path: Path, oldest: int, libraries: list[str], faults: list[str]
+) -> None:
+    path = tmp_path / "module.so"
+    path.write_bytes(macho(oldest, libraries))
+    assert check_wheel.faults_of_module(path, "macos-arm64", "3.11") == faults
