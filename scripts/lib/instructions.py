@@ -2,7 +2,8 @@
 """Finds what an x86-64 processor with SSE4.2 alone does not understand: ``instructions.py MODULE OBJECT...``.
 
 MODULE is what was linked, and has no symbols; OBJECTs are what it was linked from. In those, AVX instructions may be in the functions of a
-namespace ``avx2`` alone, which the library calls where the processor has them; the module may have no more than these.
+namespace ``avx2`` alone, which the library calls where the processor has them; the module may have no more than these. An object of LLVM's
+bitcode has no instructions before it is linked: the module's count covers it.
 """
 
 import re
@@ -16,6 +17,7 @@ NEWER = re.compile(
     r"\t(?!verr|verw)(v[a-z]\w+|andn|bextr|bls[ir]|blsmsk|bzhi|mulx|pdep|pext|rorx|sarx|shlx|shrx|k[a-z]+[bwdq])[lq]?\s"
 )
 DISPATCHED = re.compile(r"4avx2\d")
+BITCODE = b"BC\xc0\xde"
 
 
 def count_newer(path: Path) -> dict[str, int]:
@@ -33,7 +35,8 @@ def count_newer(path: Path) -> dict[str, int]:
 
 def faults_of_instructions(module: Path, objects: list[Path]) -> list[str]:
     """Return a sentence for each function that has instructions above SSE4.2 and must not."""
-    counts = [(path, function, count) for path in objects for function, count in count_newer(path).items()]
+    compiled = [path for path in objects if not path.read_bytes().startswith(BITCODE)]
+    counts = [(path, function, count) for path in compiled for function, count in count_newer(path).items()]
     faults = [
         f"{path.name}: {function} has {count} instructions above SSE4.2"
         for path, function, count in counts
