@@ -5,7 +5,9 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
+#include <functional>
 #include <mutex>
+#include <system_error>
 #include <thread>
 
 namespace seamwire::python {
@@ -124,6 +126,20 @@ void leave_if_cut_off() {
   if (!is_cut_off()) return;
   PyErr_SetNone(PyExc_SystemExit);
   throw py::error_already_set();
+}
+
+void run_aside(std::function<void()> work) {
+  if (calls().phase != Phase::kRunning) return work();
+  enter();
+  try {
+    std::thread([work] {
+      work();
+      leave();
+    }).detach();
+  } catch (const std::system_error&) {
+    leave();
+    work();
+  }
 }
 
 void heed_interpreter_exit() { py::module_::import("atexit").attr("register")(py::cpp_function(end_calls)); }

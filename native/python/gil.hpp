@@ -3,6 +3,8 @@
 
 #include <pybind11/pybind11.h>
 
+#include <functional>
+
 namespace seamwire::python {
 
 /// Lets other Python threads run for as long as it lives, as pybind11's gil_scoped_release does, but survives the end
@@ -59,6 +61,11 @@ bool is_cut_off();
 
 /// With the GIL: raises SystemExit where is_cut_off(), which ends a Python thread without a word.
 void leave_if_cut_off();
+
+/// Runs work() on a thread of its own and returns at once; where the interpreter is ending, or no thread can be had, it
+/// runs here. The end of the interpreter waits for it as for threads inside the library. It must not touch Python, and
+/// not throw.
+void run_aside(std::function<void()> work);
 
 /// Registers with Python's `atexit`, when the module is imported.
 void heed_interpreter_exit();

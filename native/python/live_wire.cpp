@@ -34,6 +34,8 @@ struct LiveWireObject {
   SharedSurface surface;  ///< null until it is asked for, then the same object each time
 };
 
+using HeldLiveWire = std::unique_ptr<LiveWireObject, FreeAside>;
+
 using SharedWires = std::shared_ptr<const LiveWires>;
 
 struct LiveWiresObject {
@@ -46,6 +48,11 @@ struct CandidateObject {
   SharedWires wires;
   std::size_t index;
 };
+
+template <class... Arguments>
+HeldLiveWire make_live_wire(Arguments&&... arguments) {
+  return HeldLiveWire(new LiveWireObject(std::forward<Arguments>(arguments)...));
+}
 
 const char* name_of(Follow follow) { return follow == Follow::kMin ? "min" : "max"; }
 
@@ -196,7 +203,7 @@ void bind_live_wire(py::module_& module) {
                (strip.closed ? ", closed>" : ">");
       });
 
-  py::class_<LiveWireObject, Held<LiveWireObject>>(
+  py::class_<LiveWireObject, HeldLiveWire>(
       module, "LiveWire",
       R"(Two wires from a seed to any target, each metric computed on a thread of its own.
 
@@ -234,8 +241,7 @@ ValueError
              const LiveWireOptions options =
                  options_from(gamma, max_anisotropy, clamp_percentile, along, turning, loop_turning, metric);
              auto live = without_gil([&] { return std::make_unique<LiveWire>(surface->surface, options); });
-             return make_held<LiveWireObject>(surface->surface->vertex_count(), options.along, std::move(live),
-                                              surface);
+             return make_live_wire(surface->surface->vertex_count(), options.along, std::move(live), surface);
            }),
            py::arg("surface"), with.gamma, with.max_anisotropy, with.clamp_percentile, with.along, with.turning,
            with.loop_turning, with.metric)
@@ -251,7 +257,7 @@ ValueError
              const std::size_t vertex_count = p.size();
              auto live = without_gil(
                  [&] { return std::make_unique<LiveWire>(std::move(p), std::move(t), std::move(e), options); });
-             return make_held<LiveWireObject>(vertex_count, options.along, std::move(live));
+             return make_live_wire(vertex_count, options.along, std::move(live));
            }),
            py::arg("points"), py::arg("triangles"), py::arg("edges") = py::none(), py::kw_only(), with.gamma,
            with.max_anisotropy, with.clamp_percentile, with.along, with.turning, with.loop_turning, with.metric)
@@ -282,7 +288,7 @@ bool
           "fork",
           [](const LiveWireObject& object) {
             auto live = without_gil([&] { return std::make_unique<LiveWire>(object.live->fork()); });
-            return make_held<LiveWireObject>(object.vertex_count, object.along, std::move(live), object.surface);
+            return make_live_wire(object.vertex_count, object.along, std::move(live), object.surface);
           },
           R"(Another live wire with the same metrics, those still being computed too, and no seed.
 
@@ -300,7 +306,7 @@ LiveWire
             const LiveWireOptions options =
                 options_from(gamma, max_anisotropy, clamp_percentile, along, turning, loop_turning, metric);
             auto live = without_gil([&] { return std::make_unique<LiveWire>(object.live->sibling(options)); });
-            return make_held<LiveWireObject>(object.vertex_count, options.along, std::move(live), object.surface);
+            return make_live_wire(object.vertex_count, options.along, std::move(live), object.surface);
           },
           py::kw_only(), with.gamma, with.max_anisotropy, with.clamp_percentile, with.along, with.turning,
           with.loop_turning, with.metric,

@@ -52,6 +52,14 @@ struct FreeWithoutGil {
   }
 };
 
+/// Frees on a thread of its own what has threads to wait for as well.
+struct FreeAside {
+  template <class T>
+  void operator()(T* object) const {
+    run_aside([object] { FreeWithoutGil{}(object); });
+  }
+};
+
 /// What holds objects of many megabytes for Python.
 template <class T>
 using Held = std::unique_ptr<T, FreeWithoutGil>;

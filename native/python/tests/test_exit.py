@@ -55,6 +55,7 @@ WORK = {
     "what cannot be stopped": ("p, t = meshes.grid(60)", "sw.principal_curvatures(sw.Surface(p, t))"),
     "waiting": ("s = grid(60); w = sw.LiveWire(s)", "w.seed(0); w.wait()"),
     "building a surface": ("p, t = meshes.grid(300)", "sw.LiveWire(p, t).wait_for_surface()"),
+    "giving up live wires": ("p, t = meshes.grid(300)", "sw.LiveWire(p, t).seed(0)"),
     "rays": ("p, t = meshes.grid(60)", "sw.RayTree(p, t).wait()"),
 }
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import time
+from pathlib import Path
 
 import meshes
 import numpy as np
@@ -303,6 +304,30 @@ def test_it_may_go_while_the_surface_is_built() -> None:
         started = time.monotonic()
         del live
         assert time.monotonic() - started < 5
+
+
+@pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="the system does not list threads")
+def test_giving_one_up_does_not_wait_for_its_threads() -> None:
+    points, triangles = meshes.grid(300)
+
+    def count_threads() -> int:
+        return len(list(Path("/proc/self/task").iterdir()))
+
+    def settle() -> int:
+        last = -1
+        while last != (last := count_threads()):  # those of other tests may be ending
+            time.sleep(0.05)
+        return last
+
+    def outlives() -> bool:
+        before = settle()
+        live = sw.LiveWire(points, triangles)
+        live.seed(0)
+        del live
+        return count_threads() > before
+
+    # The threads may be the faster ones once, not each time.
+    assert any(outlives() for _ in range(10))
 
 
 def test_every_call_raises_why_there_is_no_surface() -> None:
