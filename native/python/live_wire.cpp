@@ -90,12 +90,6 @@ Strength strength_from(MetricFamily family, Along along, OptionalNumber gamma, O
   return strength;
 }
 
-Along along_from(const std::string& name) {
-  if (name == "edges") return Along::kEdges;
-  if (name == "surface") return Along::kSurface;
-  throw InvalidInput("along: expected 'surface' or 'edges', got '" + name + "'");
-}
-
 LiveWireOptions options_from(OptionalNumber gamma, OptionalNumber max_anisotropy, OptionalNumber clamp_percentile,
                              const std::string& along, double turning, OptionalNumber loop_turning,
                              const std::string& metric) {
@@ -138,6 +132,12 @@ bool wait_in_slices(OptionalNumber seconds, const Wait& wait) {
 }
 
 }  // namespace
+
+Along along_from(const std::string& name) {
+  if (name == "edges") return Along::kEdges;
+  if (name == "surface") return Along::kSurface;
+  throw InvalidInput("along: expected 'surface' or 'edges', got '" + name + "'");
+}
 
 void bind_live_wire(py::module_& module) {
   const OptionArguments with;

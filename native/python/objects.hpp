@@ -14,6 +14,7 @@
 #include "seamwire/edges/edge_wires.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
+#include "seamwire/live/livewire.hpp"
 #include "seamwire/metric/curvature.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/surface/surface.hpp"
@@ -152,6 +153,9 @@ struct EdgeWiresObject {
   EdgeWires wires;
 };
 
+/// Where wires run, by its name.
+Along along_from(const std::string& name);
+
 /// Adds Scribble and what applies it.
 void bind_scribble(py::module_& module);
 /// Adds LiveWire and what it answers with.
@@ -160,5 +164,7 @@ void bind_live_wire(py::module_& module);
 void bind_faces(py::module_& module);
 /// Adds RayTree.
 void bind_rays(py::module_& module);
+/// Adds SeamPlanner and its plans.
+void bind_seams(py::module_& module);
 
 }  // namespace seamwire::python

@@ -306,3 +306,38 @@ def cut_polygons(
 
 def face_segments(surface: Surface, cut_edges: ArrayLike) -> NDArray[np.int32]:
     """Return a segment number per triangle, 0 the one of the most triangles."""
+
+class PlannedWire:
+    """One wire of a plan: the vertices between which it runs, the metric, and the chain of edges that it marks."""
+
+    seeds: tuple[int, int]
+    follow: Literal["min", "max"]
+    vertices: NDArray[np.int32]
+
+class SeamPlan:
+    """Seams that cut a surface into islands: `islands`, (m,), has the island of each triangle."""
+
+    wires: list[PlannedWire]
+    islands: NDArray[np.int32]
+    island_count: int
+    not_discs: int
+
+class SeamPlanner:
+    """Plans a network of wires that cuts a surface into discs."""
+
+    def __init__(
+        self,
+        surface: Surface,
+        *,
+        along: Literal["surface", "edges"] = "surface",
+        max_anisotropy: float = 20.0,
+        clamp_percentile: float = 99.0,
+        seeds: int = 24,
+        most_seeds: int = 120,
+        images: ArrayLike | None = None,
+        progress: Progress | None = None,
+    ) -> None: ...
+    def plan(
+        self, *, max_spread: float | ArrayLike = 0.42, islands: int = 0, progress: Progress | None = None
+    ) -> SeamPlan:
+        """Return the wires that are needed for islands within limits."""

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "seamwire/live/livewire.hpp"
+#include "seamwire/surface/surface.hpp"
+#include "seamwire/task.hpp"
+
+namespace seamwire {
+
+/// Which wires a SeamPlanner has to choose from.
+struct SeamPlannerOptions {
+  Along along = Along::kSurface;  ///< where they run
+  /// Of the two feature metrics that they are short in.
+  Strength strength = {.max_anisotropy = 20.0, .clamp_percentile = 99.0};
+  std::size_t seeds = 24;        ///< to begin with, 1 or more
+  std::size_t most_seeds = 120;  ///< at most, where the surface is not cut into discs yet; `seeds` or more
+  /// The mirror image of each vertex, itself or -1 where it has none: seeds come and wires go in pairs. Empty: the
+  /// surface is not symmetric.
+  std::vector<std::int32_t> images = {};
+};
+
+/// What islands may be like.
+struct SeamLimits {
+  /// By how much the normals of an island may spread: 1 - |sum of area normals| / area, 0 in a plane, 0.5 for a half
+  /// sphere. Not negative.
+  double max_spread = 0.42;
+  /// The same for each of the caller's triangles, the least in an island counts; empty: `max_spread` for all.
+  std::vector<double> max_spreads = {};
+  /// Islands are joined until there are so many, however far their normals spread then, or no two can be joined to a
+  /// disc. 0: as few as the spread allows.
+  std::size_t islands = 0;
+};
+
+/// One wire of a plan.
+struct PlannedWire {
+  std::int32_t from = -1;              ///< a seed
+  std::int32_t to = -1;                ///< another one
+  Follow follow = Follow::kMin;        ///< whose metric it is the shortest in
+  std::vector<std::int32_t> vertices;  ///< the chain of edges that it marks, from `from` to `to`
+};
+
+/// Seams that cut a surface into islands.
+struct SeamPlan {
+  std::vector<PlannedWire> wires;
+  std::vector<std::int32_t> islands;  ///< of each of the caller's triangles, as face_segments() numbers them
+  std::size_t island_count = 0;
+  std::size_t not_discs = 0;  ///< how many of the islands are no discs, where there were not seeds enough
+};
+
+/// Plans a network of wires that cuts a surface into discs.
+///
+/// Seeds are placed far from each other and on features: farthest-point sampling along edges in the metric, weighted by
+/// the rank of |k1| - |k2|. Those whose cells touch are joined by the wire that LiveWire would show, the shorter one of
+/// the two metrics. Where a piece is no disc it gets another seed. Then wires are taken away, the least worth first, as
+/// long as what they part joins to a disc within the limits; worth most are wires that follow features, run in hollows
+/// and out of sight (ambient occlusion), and part what is bent. At last, where two wires run side by side and leave
+/// crumbs between them, the weaker one starts on the other instead.
+class SeamPlanner {
+ public:
+  /// Finds the wires to choose from, on several threads. Throws InvalidInput for options that are not as said above or
+  /// in metric.hpp; Cancelled.
+  explicit SeamPlanner(std::shared_ptr<const Surface> surface, const SeamPlannerOptions& options = {},
+                       const Task& task = {});
+  /// The wires that are needed for islands within limits; no wires where the surface is a disc within them. Throws
+  /// InvalidInput for limits that are not as said above; Cancelled.
+  SeamPlan plan(const SeamLimits& limits = {}, const Task& task = {}) const;
+
+ private:
+  struct Impl;
+  std::shared_ptr<const Impl> impl_;
+};
+
+}  // namespace seamwire

@@ -1,0 +1,597 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "seamwire/seams/seam_planner.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "detail/csr.hpp"
+#include "detail/index.hpp"
+#include "detail/indexed_heap.hpp"
+#include "detail/text.hpp"
+#include "seams/candidate_wires.hpp"
+#include "seams/cut_pieces.hpp"
+#include "seamwire/metric/metric.hpp"
+#include "seamwire/surface/ray_tree.hpp"
+#include "seamwire/surface/segments.hpp"
+
+namespace seamwire {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Seeds lie far from each other in the metric of this anisotropy, whatever the wires' own: where wires are drawn to
+/// features strongly, seeds would gather on flat faces.
+constexpr double kSeedAnisotropy = 10.0, kSeedClamp = 99.0;
+/// A vertex without any feature is as good a seed as one on the strongest that is this much nearer.
+constexpr double kPlainSeed = 0.3;
+/// A wire counts as this much weaker where it strays through the cells of other seeds, beside wires of theirs.
+constexpr double kStray = 5.0;
+/// A wire in a deep hollow, and one that nobody sees, is worth so many times more than one on a bare ridge.
+constexpr double kHollow = 1.0, kHidden = 1.0;
+/// Concave curvature that is halfway to the deepest hollow, of the model scaled to the unit cube.
+constexpr double kDeep = 8.0;
+/// Pieces of less than this part of the surface are joined to others wherever that makes a disc.
+constexpr double kCrumb = 0.004;
+/// What parts flat pieces is worth a little still; a cut that ends within a piece, next to nothing.
+constexpr double kFlatWorth = 0.02, kInnerWorth = 1e-3;
+/// How much more the worst piece may be bent for fewer crumbs.
+constexpr double kBentForCrumbs = 0.02;
+
+/// The rank of each value, 0 to 1: not its size, for one sharp corner must not outweigh all soft ridges.
+std::vector<double> ranks(const std::vector<double>& values) {
+  std::vector<std::int32_t> order(values.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return values[a] < values[b]; });
+  std::vector<double> out(values.size());
+  const auto last = static_cast<double>(std::max<std::size_t>(values.size(), 2) - 1);
+  for (std::size_t i = 0; i < order.size(); ++i) out[order[i]] = static_cast<double>(i) / last;
+  return out;
+}
+
+/// The seeds, and which of them each vertex is nearest to along edges (Dijkstra, a seed at a time, as far as it is
+/// nearer than those before).
+class SeedCells {
+ public:
+  SeedCells(const Surface& surface, const Metric& metric)
+      : edges_(surface.vertex_count(),
+               [&](const auto& visit) {
+                 for (const auto& [a, b] : surface.edges()) {
+                   const double length = edge_length(surface, metric, a, b);
+                   visit(a, Step{b, length});
+                   visit(b, Step{a, length});
+                 }
+               }),
+        distance_(surface.vertex_count(), kInfinity),
+        cell_(surface.vertex_count(), -1),
+        queue_(surface.vertex_count()) {}
+
+  void add(std::int32_t seed) {
+    const auto cell = static_cast<std::int32_t>(seeds_.size());
+    seeds_.push_back(seed);
+    relax(seed, 0.0, cell);
+    while (!queue_.empty()) {
+      const std::int32_t v = queue_.pop();
+      for (const Step& step : edges_[v]) relax(step.to, distance_[v] + step.length, cell);
+    }
+  }
+  const std::vector<std::int32_t>& seeds() const { return seeds_; }
+  bool has(std::int32_t vertex) const { return std::ranges::find(seeds_, vertex) != seeds_.end(); }
+  double distance(std::int32_t v) const { return distance_[v]; }
+  std::int32_t cell(std::int32_t v) const { return cell_[v]; }
+
+ private:
+  struct Step {
+    std::int32_t to;
+    double length;
+  };
+  void relax(std::int32_t v, double distance, std::int32_t cell) {
+    if (!(distance < distance_[v])) return;
+    distance_[v] = distance;
+    cell_[v] = cell;
+    queue_.lower(v, distance);
+  }
+
+  Csr<Step> edges_;
+  std::vector<double> distance_;
+  std::vector<std::int32_t> cell_, seeds_;
+  IndexedHeap queue_;
+};
+
+/// How much a wire is worth for where it runs: in hollows, and where nobody looks.
+class Seclusion {
+ public:
+  explicit Seclusion(const Surface& surface, const Curvature& curvature)
+      : surface_(surface), curvature_(curvature), rays_(surface.points(), surface.triangles()) {
+    rays_.wait();
+  }
+
+  /// 1, and more the more hollow and hidden the wire is.
+  double of(const std::vector<std::int32_t>& vertices) const {
+    constexpr std::size_t kSamples = 24;
+    const std::size_t step = std::max<std::size_t>(vertices.size() / kSamples, 1);
+    double hollow = 0.0, hidden = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < vertices.size(); i += step, ++count) {
+      hollow += hollow_at(vertices[i]);
+      hidden += hidden_at(vertices[i]);
+    }
+    return (1.0 + kHollow * hollow / count) * (1.0 + kHidden * hidden / count);
+  }
+
+ private:
+  double hollow_at(std::int32_t v) const {
+    // Normals point outwards where k > 0 is convex.
+    const double k1 = curvature_.k1[v], k2 = curvature_.k2[v];
+    const double concave = std::max(-std::min(k1, k2), 0.0), convex = std::max(std::max(k1, k2), 0.0);
+    return concave / (concave + convex + kDeep);
+  }
+  /// The part of the hemisphere above a vertex that the surface itself covers, weighted by the cosine.
+  double hidden_at(std::int32_t v) const {
+    constexpr int kRays = 24;
+    constexpr double kAbove = 1e-3;  // of the model's size: away from the faces around the vertex
+    const Vector& normal = curvature_.normals[v];
+    if (normal.isZero()) return 0.0;
+    const Vector x = normal.unitOrthogonal(), y = normal.cross(x);
+    const Vector origin = surface_.points()[v] + kAbove / surface_.scale() * normal;
+    int hits = 0;
+    for (int i = 0; i < kRays; ++i) {
+      // Points of a Fibonacci spiral on the disc, lifted to the hemisphere.
+      const double radius = std::sqrt((i + 0.5) / kRays);
+      const double turn = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
+      const Vector direction =
+          radius * (std::cos(turn) * x + std::sin(turn) * y) + std::sqrt(std::max(1.0 - radius * radius, 0.0)) * normal;
+      hits += rays_.first_hit(origin, direction).triangle >= 0 ? 1 : 0;
+    }
+    return static_cast<double>(hits) / kRays;
+  }
+
+  const Surface& surface_;
+  const Curvature& curvature_;
+  RayTree rays_;
+};
+
+/// A wire to choose from.
+struct Choice {
+  PlannedWire wire;
+  double strength = 0.0;   ///< how well it follows features
+  double seclusion = 1.0;  ///< Seclusion::of()
+};
+
+Choice make_choice(std::int32_t from, std::int32_t to, CandidateWire found, const Seclusion& seclusion) {
+  const double secluded = found.vertices.empty() ? 1.0 : seclusion.of(found.vertices);
+  return {.wire = {.from = from, .to = to, .follow = found.follow, .vertices = std::move(found.vertices)},
+          .strength = found.strength,
+          .seclusion = secluded};
+}
+
+using Ends = std::pair<std::int32_t, std::int32_t>;
+Ends ends_of(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
+
+std::vector<std::vector<std::int32_t>> chains_of(const std::vector<Choice>& choices) {
+  std::vector<std::vector<std::int32_t>> chains;
+  for (const Choice& choice : choices) chains.push_back(choice.wire.vertices);
+  return chains;
+}
+
+/// Places seeds and joins them by wires until these cut the surface into discs.
+class Seeding {
+ public:
+  Seeding(const CandidateWires& wires, const Seclusion& seclusion, const SeamPlannerOptions& options)
+      : wires_(wires),
+        seclusion_(seclusion),
+        options_(options),
+        cells_(wires.surface(), feature_metric(wires.surface(), wires.curvature(), Follow::kMin,
+                                               {.max_anisotropy = kSeedAnisotropy, .clamp_percentile = kSeedClamp})),
+        feature_(ranks(wires.feature_strength())),
+        is_used_(wires.surface().vertex_count(), 0) {
+    for (const Triangle& t : wires.surface().face_fans()) {
+      for (const std::int32_t fan : t) is_used_[wires.surface().vertex_of_fan()[fan]] = 1;
+    }
+  }
+
+  std::vector<Choice> choices(const Task& task) {
+    while (cells_.seeds().size() < options_.seeds && add_seed(is_used_)) task.check(0.0);
+    const std::vector<double> no_limits(wires_.surface().face_count(), kInfinity);
+    while (true) {
+      std::vector<Choice> found = join(task);
+      const CutPieces pieces(wires_.surface(), chains_of(found), no_limits);
+      const std::vector<std::uint8_t> worst = pieces.vertices_of_worst(wires_.surface());
+      if (worst.empty() || cells_.seeds().size() >= options_.most_seeds || !add_seed(worst)) return found;
+    }
+  }
+
+ private:
+  /// Where the farthest feature is, among some vertices, and at its mirror image; false where none is left.
+  bool add_seed(const std::vector<std::uint8_t>& among) {
+    double reach = 1.0;
+    for (std::int32_t v = 0; index(v) < is_used_.size(); ++v) {
+      if (std::isfinite(cells_.distance(v))) reach = std::max(reach, cells_.distance(v));
+    }
+    std::int32_t best = -1;
+    double most = 0.0;
+    for (std::int32_t v = 0; index(v) < is_used_.size(); ++v) {
+      if (among[v] == 0 || is_used_[v] == 0 || cells_.distance(v) <= 0.0) continue;
+      // Components without a seed come first.
+      const double score = std::min(cells_.distance(v), 2.0 * reach) * (kPlainSeed + feature_[v]);
+      if (score > most) {
+        most = score;
+        best = v;
+      }
+    }
+    if (best < 0 || cells_.has(best)) return false;
+    cells_.add(best);
+    const std::int32_t image = options_.images.empty() ? -1 : options_.images[best];
+    if (image >= 0 && image != best && is_used_[image] != 0 && !cells_.has(image)) cells_.add(image);
+    return true;
+  }
+
+  /// Wires between seeds whose cells touch; those that are known already are not found again.
+  std::vector<Choice> join(const Task& task) {
+    std::set<Ends> wanted;
+    for (const auto& [a, b] : wires_.surface().edges()) {
+      const std::int32_t one = cells_.cell(a), other = cells_.cell(b);
+      if (one >= 0 && other >= 0 && one != other) wanted.insert(ends_of(one, other));
+    }
+    std::map<std::int32_t, CandidateWires::Fan> missing;
+    for (const auto& [one, other] : wanted) {
+      if (known_.contains({one, other})) continue;
+      missing.try_emplace(one, CandidateWires::Fan{cells_.seeds()[one], {}})
+          .first->second.to.push_back(cells_.seeds()[other]);
+    }
+    std::vector<CandidateWires::Fan> fans;
+    for (const auto& [cell, fan] : missing) fans.push_back(fan);
+    std::vector<std::vector<CandidateWire>> found = wires_.find(fans, task);
+    std::size_t i = 0;
+    for (const auto& [cell, fan] : missing) {
+      for (std::size_t k = 0; k < fan.to.size(); ++k) {
+        const auto other = std::ranges::find(cells_.seeds(), fan.to[k]) - cells_.seeds().begin();
+        known_[{cell, static_cast<std::int32_t>(other)}] =
+            make_choice(fan.from, fan.to[k], std::move(found[i][k]), seclusion_);
+      }
+      ++i;
+    }
+    std::vector<Choice> all;
+    for (const Ends& pair : wanted) {
+      Choice choice = known_.at(pair);
+      if (choice.wire.vertices.size() < 2) continue;
+      const auto strays = std::ranges::count_if(choice.wire.vertices, [&](std::int32_t v) {
+        return cells_.cell(v) != pair.first && cells_.cell(v) != pair.second;
+      });
+      choice.strength /= 1.0 + kStray * static_cast<double>(strays) / static_cast<double>(choice.wire.vertices.size());
+      all.push_back(std::move(choice));
+    }
+    return all;
+  }
+
+  const CandidateWires& wires_;
+  const Seclusion& seclusion_;
+  const SeamPlannerOptions& options_;
+  SeedCells cells_;
+  std::vector<double> feature_;
+  std::vector<std::uint8_t> is_used_;
+  std::map<Ends, Choice> known_;  // by the numbers of their seeds
+};
+
+/// Takes wires away until each that is left is needed, mirror images together.
+class Thinning {
+ public:
+  /// `images`: as SeamPlannerOptions. `pieces`: those of the choices. `seclusion`: the power of it that wires are
+  /// worth.
+  Thinning(const std::vector<std::int32_t>& images, const std::vector<Choice>& choices, CutPieces pieces,
+           std::size_t islands, double seclusion)
+      : images_(images),
+        choices_(choices),
+        pieces_(std::move(pieces)),
+        islands_(islands),
+        worths_(choices_.size()),
+        costs_(choices_.size()),
+        is_there_(choices_.size(), 1),
+        is_needed_(choices_.size(), 0) {
+    for (const Piece& piece : pieces_.pieces()) area_ += piece.area;
+    for (std::size_t i = 0; i < choices_.size(); ++i) {
+      worths_[i] = choices_[i].strength * std::pow(choices_[i].seclusion, seclusion);
+    }
+  }
+
+  std::vector<Choice> run(const Task& task) {
+    for (std::int32_t i = 0; index(i) < choices_.size(); ++i) costs_[i] = cost(i);
+    for (std::size_t left = choices_.size();; --left) {
+      task.check(1.0 - static_cast<double>(left) / static_cast<double>(choices_.size() + 1));
+      const std::int32_t least = find_least();
+      if (least < 0) break;
+      remove_with_images(least);
+    }
+    std::vector<Choice> kept;
+    for (std::size_t i = 0; i < choices_.size(); ++i) {
+      if (is_there_[i] != 0) kept.push_back(choices_[i]);
+    }
+    return kept;
+  }
+
+ private:
+  /// What is lost without a wire; infinite where what it parts does not join to a disc within the limits.
+  double cost(std::int32_t i) const {
+    const std::optional<CutPieces::Joined> joined = pieces_.joined_without(i);
+    if (!joined) return 0.0;
+    const Piece& piece = joined->piece;
+    if (!piece.is_disc()) return kInfinity;
+    const bool is_cut = joined->pieces == 1;
+    const double spread = piece.spread(), smallest = joined->smallest / std::max(area_, 1e-300);
+    if (islands_ > 0 && !is_cut) {
+      if (pieces_.piece_count() < islands_ + joined->pieces - 1) return kInfinity;
+    } else if (spread > piece.max_spread && (is_cut || smallest >= kCrumb)) {
+      return kInfinity;
+    }
+    if (is_cut) return kInnerWorth * spread * worths_[i];
+    return (spread + kFlatWorth) * worths_[i] * std::pow(smallest, 0.25);
+  }
+
+  std::int32_t find_least() const {
+    std::int32_t least = -1;
+    for (std::int32_t i = 0; index(i) < choices_.size(); ++i) {
+      if (is_there_[i] == 0 || is_needed_[i] != 0 || costs_[i] == kInfinity) continue;
+      if (least < 0 || costs_[i] < costs_[least]) least = i;
+    }
+    return least;
+  }
+
+  void remove(std::int32_t wire) {
+    const std::optional<CutPieces::Joined> joined = pieces_.joined_without(wire);
+    const std::size_t before = pieces_.piece_count();
+    pieces_.remove(wire);
+    is_there_[wire] = 0;
+    const bool is_count_enough = islands_ > 0 && before != pieces_.piece_count();
+    for (std::int32_t i = 0; index(i) < choices_.size(); ++i) {
+      if (is_there_[i] == 0) continue;
+      if (is_count_enough || pieces_.touches(i, wire, joined ? joined->where : -1)) costs_[i] = cost(i);
+    }
+  }
+
+  /// Where an image has to stay, so has the wire.
+  void remove_with_images(std::int32_t wire) {
+    const std::vector<std::int32_t> others = images_of(wire);
+    if (others.empty()) return remove(wire);
+    const CutPieces pieces = pieces_;
+    const std::vector<double> costs = costs_;
+    const std::vector<std::uint8_t> is_there = is_there_;
+    remove(wire);
+    for (const std::int32_t other : others) {
+      if (costs_[other] < kInfinity) {
+        remove(other);
+        continue;
+      }
+      pieces_ = pieces;
+      costs_ = costs;
+      is_there_ = is_there;
+      is_needed_[wire] = 1;
+      for (const std::int32_t each : others) is_needed_[each] = 1;
+      return;
+    }
+  }
+
+  std::int32_t image(std::int32_t v) const { return images_.empty() || images_[v] < 0 ? v : images_[v]; }
+  std::vector<std::int32_t> images_of(std::int32_t wire) const {
+    const PlannedWire& own = choices_[wire].wire;
+    const Ends ends = ends_of(image(own.from), image(own.to));
+    std::vector<std::int32_t> found;
+    for (std::int32_t i = 0; index(i) < choices_.size() && !images_.empty(); ++i) {
+      const PlannedWire& other = choices_[i].wire;
+      if (i != wire && is_there_[i] != 0 && ends_of(other.from, other.to) == ends) found.push_back(i);
+    }
+    return found;
+  }
+
+  const std::vector<std::int32_t>& images_;
+  const std::vector<Choice>& choices_;
+  CutPieces pieces_;
+  const std::size_t islands_;
+  double area_ = 0.0;
+  std::vector<double> worths_, costs_;
+  std::vector<std::uint8_t> is_there_, is_needed_;
+};
+
+/// How good a set of wires is, but for their length.
+struct Quality {
+  explicit Quality(const CutPieces& pieces) {
+    for (const Piece& piece : pieces.pieces()) crumb += kCrumb * piece.area;
+    for (const Piece& piece : pieces.pieces()) {
+      if (piece.area < crumb) {
+        ++crumbs;
+      } else {
+        bent = std::max(bent, piece.spread() - piece.max_spread);
+      }
+      not_discs += piece.is_disc() ? 0 : 1;
+    }
+  }
+
+  double crumb = 0.0;  ///< the area below which a piece is one
+  std::size_t crumbs = 0, not_discs = 0;
+  double bent = 0.0;  ///< by how much the spread of normals exceeds what is allowed, at most
+};
+
+}  // namespace
+
+struct SeamPlanner::Impl {
+  Impl(std::shared_ptr<const Surface> on, const SeamPlannerOptions& with, const Task& task)
+      : options(with),
+        wires(std::move(on), with.along, with.strength, task),
+        seclusion(wires.surface(), wires.curvature()),
+        choices(Seeding(wires, seclusion, options).choices(task)) {}
+
+  const Surface& surface() const { return wires.surface(); }
+  CutPieces pieces(const std::vector<Choice>& of, std::span<const double> max_spreads) const {
+    return CutPieces(surface(), chains_of(of), max_spreads);
+  }
+  double price(const std::vector<Choice>& of) const;
+  std::vector<Choice> thinned(const SeamLimits& limits, std::span<const double> max_spreads, const Task& task) const;
+  std::vector<Choice> swept(std::vector<Choice> best, const SeamLimits& limits, std::span<const double> max_spreads,
+                            const Task& task) const;
+  std::vector<std::vector<Choice>> shortened(const Choice& wire, const std::vector<Choice>& others,
+                                             const Task& task) const;
+
+  const SeamPlannerOptions options;
+  const CandidateWires wires;
+  const Seclusion seclusion;
+  const std::vector<Choice> choices;
+};
+
+/// The length of the seams, of the model scaled to the unit cube, less where nobody sees them.
+double SeamPlanner::Impl::price(const std::vector<Choice>& of) const {
+  double sum = 0.0;
+  std::set<Ends> counted;
+  for (const Choice& choice : of) {
+    const std::vector<std::int32_t>& chain = choice.wire.vertices;
+    for (std::size_t i = 1; i < chain.size(); ++i) {
+      if (!counted.insert(ends_of(chain[i - 1], chain[i])).second) continue;
+      sum += (surface().points()[chain[i]] - surface().points()[chain[i - 1]]).norm() / choice.seclusion;
+    }
+  }
+  return sum * surface().scale();
+}
+
+/// The cheapest of what is left when wires are taken away in several orders: taking the least worth first is greedy,
+/// and the order that heeds seclusion most is not always the one that leaves the least to be seen.
+std::vector<Choice> SeamPlanner::Impl::thinned(const SeamLimits& limits, std::span<const double> max_spreads,
+                                               const Task& task) const {
+  const CutPieces all = pieces(choices, max_spreads);
+  std::vector<Choice> best;
+  double least = kInfinity;
+  for (const double seclusion : {0.0, 0.5, 1.0}) {
+    std::vector<Choice> kept = Thinning(options.images, choices, all, limits.islands, seclusion).run(task);
+    const double now = price(kept);
+    if (now >= least) continue;
+    least = now;
+    best = std::move(kept);
+  }
+  return best;
+}
+
+/// Lets wires start on others where they ran beside them, as long as that leaves fewer crumbs and pieces as good.
+std::vector<Choice> SeamPlanner::Impl::swept(std::vector<Choice> best, const SeamLimits& limits,
+                                             std::span<const double> max_spreads, const Task& task) const {
+  CutPieces cut = pieces(best, max_spreads);
+  Quality quality(cut);
+  std::vector<Choice> order = best;
+  std::stable_sort(order.begin(), order.end(),
+                   [](const Choice& a, const Choice& b) { return a.strength < b.strength; });
+  for (const Choice& wire : order) {
+    if (quality.crumbs == 0) break;
+    const auto place = std::ranges::find(best, wire.wire.vertices, [](const Choice& c) { return c.wire.vertices; });
+    if (place == best.end() || !cut.has_beside(static_cast<std::int32_t>(place - best.begin()), quality.crumb))
+      continue;
+    std::vector<Choice> others = best;
+    others.erase(others.begin() + (place - best.begin()));
+    for (const std::vector<Choice>& parts : shortened(wire, others, task)) {
+      std::vector<Choice> trial = others;
+      trial.insert(trial.end(), parts.begin(), parts.end());
+      CutPieces trial_cut = pieces(trial, max_spreads);
+      const Quality now(trial_cut);
+      if (trial_cut.piece_count() >= limits.islands && now.crumbs < quality.crumbs &&
+          now.not_discs <= quality.not_discs && now.bent <= quality.bent + kBentForCrumbs) {
+        quality = now;
+        cut = std::move(trial_cut);
+        best = std::move(trial);
+        break;
+      }
+    }
+  }
+  return best;
+}
+
+/// A wire between the vertices where it meets others, each time without one of these stretches.
+std::vector<std::vector<Choice>> SeamPlanner::Impl::shortened(const Choice& wire, const std::vector<Choice>& others,
+                                                              const Task& task) const {
+  std::set<std::int32_t> drawn;
+  std::set<Ends> shared;
+  for (const Choice& other : others) {
+    const std::vector<std::int32_t>& chain = other.wire.vertices;
+    drawn.insert(chain.begin(), chain.end());
+    for (std::size_t i = 1; i < chain.size(); ++i) shared.insert(ends_of(chain[i - 1], chain[i]));
+  }
+  const std::vector<std::int32_t>& chain = wire.wire.vertices;
+  std::vector<std::size_t> contacts;
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    if (i == 0 || i + 1 == chain.size() || drawn.contains(chain[i])) contacts.push_back(i);
+  }
+  if (contacts.size() < 3) return {};
+  std::vector<CandidateWires::Fan> fans;
+  for (std::size_t i = 1; i < contacts.size(); ++i) {
+    const std::size_t a = contacts[i - 1], b = contacts[i];
+    if (b - a == 1 && shared.contains(ends_of(chain[a], chain[b]))) continue;
+    fans.push_back({chain[a], {chain[b]}});
+  }
+  std::vector<Choice> stretches;
+  std::vector<std::vector<CandidateWire>> found = wires.find(fans, task);
+  for (std::size_t i = 0; i < fans.size(); ++i) {
+    stretches.push_back(make_choice(fans[i].from, fans[i].to.front(), std::move(found[i].front()), seclusion));
+  }
+  std::vector<std::vector<Choice>> ways;
+  for (std::size_t left_out = 0; left_out < stretches.size(); ++left_out) {
+    std::vector<Choice> parts;
+    for (std::size_t i = 0; i < stretches.size(); ++i) {
+      if (i != left_out && stretches[i].wire.vertices.size() > 1) parts.push_back(stretches[i]);
+    }
+    ways.push_back(std::move(parts));
+  }
+  return ways;
+}
+
+SeamPlanner::SeamPlanner(std::shared_ptr<const Surface> surface, const SeamPlannerOptions& options, const Task& task) {
+  if (!surface) throw InvalidInput("surface: there is none");
+  check_strength(options.strength);
+  if (options.seeds < 1) throw InvalidInput("seeds is 0, not 1 or more");
+  if (options.most_seeds < options.seeds) {
+    throw InvalidInput("most_seeds is " + std::to_string(options.most_seeds) + ", less than seeds, " +
+                       std::to_string(options.seeds));
+  }
+  const std::size_t count = surface->vertex_count();
+  if (!options.images.empty() && options.images.size() != count) {
+    throw InvalidInput("images has " + std::to_string(options.images.size()) + " items: there are " +
+                       std::to_string(count) + " vertices");
+  }
+  for (const std::int32_t v : options.images) {
+    if (v != -1) check_index(v, count, "images: vertex");
+  }
+  impl_ = std::make_shared<const Impl>(std::move(surface), options, task);
+}
+
+SeamPlan SeamPlanner::plan(const SeamLimits& limits, const Task& task) const {
+  const auto check = [](double spread, const std::string& name) {
+    if (!(spread >= 0.0)) throw InvalidInput(name + " is " + text(spread) + ", not a number of at least 0");
+  };
+  check(limits.max_spread, "max_spread");
+  const Surface& surface = impl_->surface();
+  std::vector<double> max_spreads = limits.max_spreads;
+  if (max_spreads.empty()) max_spreads.assign(surface.face_count(), limits.max_spread);
+  if (max_spreads.size() != surface.face_count()) {
+    throw InvalidInput("max_spreads has " + std::to_string(max_spreads.size()) + " items: there are " +
+                       std::to_string(surface.face_count()) + " triangles");
+  }
+  for (std::size_t f = 0; f < max_spreads.size(); ++f) check(max_spreads[f], "max_spreads[" + std::to_string(f) + "]");
+
+  std::vector<Choice> kept = impl_->swept(impl_->thinned(limits, max_spreads, task), limits, max_spreads, task);
+  SeamPlan plan;
+  const CutPieces pieces = impl_->pieces(kept, max_spreads);
+  plan.island_count = pieces.piece_count();
+  plan.not_discs = Quality(pieces).not_discs;
+  std::vector<Edge> cuts;
+  for (Choice& choice : kept) {
+    const std::vector<std::int32_t>& chain = choice.wire.vertices;
+    for (std::size_t i = 1; i < chain.size(); ++i) cuts.push_back({chain[i - 1], chain[i]});
+    plan.wires.push_back(std::move(choice.wire));
+  }
+  plan.islands = face_segments(surface, cuts);
+  return plan;
+}
+
+}  // namespace seamwire
