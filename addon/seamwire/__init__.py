@@ -24,6 +24,7 @@ _PARTS = (
     "operators.mark",
     "operators.cut",
     "operators.take_over",
+    "operators.suggest",
     "operators.islands",
     "operators.unwrap",
     "operators.worst_island",

@@ -50,13 +50,16 @@ void bind_seams(py::module_& module) {
       .def_property_readonly(
           "vertices", [](const py::object& self) { return view(self.cast<const PlannedWire&>().vertices, self); },
           "(k,) int32: the chain of edges that it marks, from seed to seed.")
+      .def_property_readonly(
+          "points", [](const py::object& self) { return view(self.cast<const PlannedWire&>().points, self); },
+          "(p, 3) float64: its curve, in the caller's coordinates.")
       .def("__repr__", [](const PlannedWire& wire) {
         return "<PlannedWire: " + std::to_string(wire.from) + " to " + std::to_string(wire.to) + ", " +
                std::to_string(wire.vertices.size()) + " vertices>";
       });
 
   py::class_<SeamPlan>(module, "SeamPlan", "Seams that cut a surface into islands.")
-      .def_readonly("wires", &SeamPlan::wires, "list of PlannedWire.")
+      .def_readonly("wires", &SeamPlan::wires, "list of PlannedWire, without the seams that were there.")
       .def_property_readonly(
           "islands", [](const py::object& self) { return view(self.cast<const SeamPlan&>().islands, self); },
           "(m,) int32: the island of each triangle, numbered as by `face_segments`.")
@@ -85,6 +88,8 @@ seeds, most_seeds : int
     To begin with; and at most, where the surface is not cut into discs yet.
 images : (n,) array_like of int, optional
     The mirror image of each vertex, itself or -1 where it has none: seeds come and wires go in pairs.
+seams : (k, 2) array_like of int, optional
+    Edges that are seams already, and stay: vertex pairs.
 progress : callable, optional
     Called now and then with the fraction done of a part of the work; returning False cancels.
 
@@ -96,28 +101,31 @@ Cancelled
 )")
       .def(py::init([](const SurfaceObject& surface, const std::string& along, double max_anisotropy,
                        double clamp_percentile, std::size_t seeds, std::size_t most_seeds, const py::object& images,
-                       const py::object& progress) {
+                       const py::object& seams, const py::object& progress) {
              const SeamPlannerOptions options{
                  .along = along_from(along),
                  .strength = {.max_anisotropy = max_anisotropy, .clamp_percentile = clamp_percentile},
                  .seeds = seeds,
                  .most_seeds = most_seeds,
-                 .images = images.is_none() ? std::vector<std::int32_t>{} : numbers_from(images, "images")};
+                 .images = images.is_none() ? std::vector<std::int32_t>{} : numbers_from(images, "images"),
+                 .seams = seams.is_none() ? std::vector<Edge>{} : edges_from(seams, "seams")};
              return Watch(progress).run([&](const Task& task) {
                return make_held<SeamPlannerObject>(SeamPlannerObject{SeamPlanner(surface.surface, options, task)});
              });
            }),
            py::arg("surface"), py::kw_only(), py::arg("along") = "surface", py::arg("max_anisotropy") = 20.0,
            py::arg("clamp_percentile") = 99.0, py::arg("seeds") = 24, py::arg("most_seeds") = 120,
-           py::arg("images") = py::none(), py::arg("progress") = py::none())
+           py::arg("images") = py::none(), py::arg("seams") = py::none(), py::arg("progress") = py::none())
       .def(
           "plan",
           [](const SeamPlannerObject& object, const py::object& max_spread, std::size_t islands,
-             const py::object& progress) {
-            const SeamLimits limits = limits_from(max_spread, islands);
+             bool may_start_on_others, const py::object& progress) {
+            SeamLimits limits = limits_from(max_spread, islands);
+            limits.may_start_on_others = may_start_on_others;
             return Watch(progress).run([&](const Task& task) { return object.planner.plan(limits, task); });
           },
-          py::kw_only(), py::arg("max_spread") = 0.42, py::arg("islands") = 0, py::arg("progress") = py::none(),
+          py::kw_only(), py::arg("max_spread") = 0.42, py::arg("islands") = 0, py::arg("may_start_on_others") = true,
+          py::arg("progress") = py::none(),
           R"(The wires that are needed for islands within limits.
 
 Parameters
@@ -127,6 +135,9 @@ max_spread : float or (m,) array_like of float
     triangle, of which the least in an island counts.
 islands : int
     Islands are joined until there are so many, however far their normals spread; 0: as few as the spread allows.
+may_start_on_others : bool
+    Whether wires may start on the edges of others, where they ran beside them and left crumbs between. Where curves are
+    cut, not edges marked, they have to run from seed to seed.
 progress : callable, optional
     As above.
 

@@ -308,11 +308,12 @@ def face_segments(surface: Surface, cut_edges: ArrayLike) -> NDArray[np.int32]:
     """Return a segment number per triangle, 0 the one of the most triangles."""
 
 class PlannedWire:
-    """One wire of a plan: the vertices between which it runs, the metric, and the chain of edges that it marks."""
+    """One wire of a plan: the vertices between which it runs, its metric, the edges that it marks, and its curve, (p, 3)."""
 
     seeds: tuple[int, int]
     follow: Literal["min", "max"]
     vertices: NDArray[np.int32]
+    points: NDArray[np.float64]
 
 class SeamPlan:
     """Seams that cut a surface into islands: `islands`, (m,), has the island of each triangle."""
@@ -335,9 +336,15 @@ class SeamPlanner:
         seeds: int = 24,
         most_seeds: int = 120,
         images: ArrayLike | None = None,
+        seams: ArrayLike | None = None,
         progress: Progress | None = None,
     ) -> None: ...
     def plan(
-        self, *, max_spread: float | ArrayLike = 0.42, islands: int = 0, progress: Progress | None = None
+        self,
+        *,
+        max_spread: float | ArrayLike = 0.42,
+        islands: int = 0,
+        may_start_on_others: bool = True,
+        progress: Progress | None = None,
     ) -> SeamPlan:
         """Return the wires that are needed for islands within limits."""

@@ -12,6 +12,7 @@
 #include <random>
 #include <set>
 #include <stop_token>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -123,6 +124,10 @@ TEST(SeamPlanner, CutsIntoDiscs) {
 TEST(SeamPlanner, ADiscThatIsFlatEnoughNeedsNoSeam) {
   const auto grid = shared(shapes::grid(12).surface());
   EXPECT_TRUE(SeamPlanner(grid).plan().wires.empty());
+  // Nor does it where images go together, and none may be taken away without leaving a hole for the moment.
+  SeamPlannerOptions options = along_edges();
+  for (std::int32_t v = 0; v < 49; ++v) options.images.push_back(v / 7 * 7 + 6 - v % 7);
+  EXPECT_TRUE(SeamPlanner(shared(shapes::quad_grid(6).surface()), options).plan().wires.empty());
 }
 
 TEST(SeamPlanner, SeedsAreAddedUntilAllPiecesAreDiscs) {
@@ -184,10 +189,64 @@ TEST(SeamPlanner, WiresAreThoseThatLiveWireShows) {
       const LiveCandidate& shown = found.wires[found.shorter];
       EXPECT_EQ(wire.follow, shown.follow);
       EXPECT_EQ(wire.vertices, shown.vertices);
+      EXPECT_EQ(wire.points, shown.points);
       ++compared;
     }
     EXPECT_GT(compared, 5U);
   }
+}
+
+TEST(SeamPlanner, WiresMeetAtSeedsAloneWhereTheyMayNotStartOnOthers) {
+  for (const auto& surface :
+       {shared(shapes::bumpy(shapes::icosphere(3), 0.05).surface()), shared(shapes::torus(32, 16).surface())}) {
+    const SeamPlan plan = SeamPlanner(surface).plan({.may_start_on_others = false});
+    expect_discs(*surface, plan);
+    std::map<std::int32_t, std::vector<const PlannedWire*>> through;
+    for (const PlannedWire& wire : plan.wires) {
+      for (const std::int32_t v : wire.vertices) through[v].push_back(&wire);
+    }
+    for (const auto& [v, wires] : through) {
+      for (const PlannedWire* one : wires) {
+        // Those that leave a seed along the same edges at first have it in common.
+        const bool has_common_seed = std::ranges::all_of(wires, [&](const PlannedWire* other) {
+          return other->from == one->from || other->to == one->to || other->from == one->to || other->to == one->from;
+        });
+        EXPECT_TRUE(has_common_seed);
+      }
+    }
+  }
+}
+
+TEST(SeamPlanner, GoesOnFromSeamsThatAreThere) {
+  // A cube whose lid is cut off already.
+  const auto cube = shared(shapes::quad_cube(8).surface());
+  SeamPlannerOptions options = along_edges();
+  const auto height = [&](std::int32_t v) { return cube->points()[v].z(); };
+  const auto is_side = [&](std::int32_t v) {
+    const Vector& p = cube->points()[v];
+    return std::min({p.x(), p.y(), 1.0 - p.x(), 1.0 - p.y()}) < 1e-9;
+  };
+  for (const auto& [a, b] : cube->edges()) {
+    if (height(a) > 0.99 && height(b) > 0.99 && is_side(a) && is_side(b)) options.seams.push_back({a, b});
+  }
+  ASSERT_EQ(options.seams.size(), 32U);
+  const SeamPlanner planner(cube, options);
+  const SeamPlan plan = planner.plan();
+  Chains chains = chains_of(plan);
+  for (const auto& [a, b] : options.seams) chains.push_back({a, b});
+  const std::multiset<std::int64_t> euler = euler_by_gluing(cube->triangles(), edges_of(chains));
+  EXPECT_EQ(euler.count(1), euler.size());
+  EXPECT_EQ(plan.island_count, euler.size());
+  // The lid is flat: no wire crosses it, and no island is on both sides of its border.
+  std::set<std::int32_t> lid, rest;
+  for (std::size_t f = 0; f < cube->face_count(); ++f) {
+    const auto is_high = [&](std::int32_t v) { return height(v) > 0.99; };
+    (std::ranges::all_of(cube->triangles()[f], is_high) ? lid : rest).insert(plan.islands[f]);
+  }
+  EXPECT_EQ(lid.size(), 1U);
+  EXPECT_FALSE(rest.contains(*lid.begin()));
+  options.seams = {{0, 1000000}};
+  EXPECT_THROW(SeamPlanner(cube, options), InvalidInput);
 }
 
 TEST(SeamPlanner, MirrorImagesGoTogether) {
@@ -314,22 +373,28 @@ TEST(CutPieces, TakingChainsAwayIsAsCuttingWithoutThem) {
     for (std::int32_t i = 0; i < 12; ++i) {
       const auto joined = pieces.joined_without(i);
       const std::size_t before = pieces.piece_count();
+      const auto cost = [&](std::int32_t k) {
+        const auto without = pieces.joined_without(k);
+        return without ? std::tuple(true, without->pieces, without->piece.euler, without->piece.area)
+                       : std::tuple<bool, std::size_t, std::int64_t, double>();
+      };
+      std::vector<decltype(cost(0))> costs;
+      for (std::int32_t k = 0; k < 12; ++k) costs.push_back(cost(k));
       pieces.remove(i);
+      // A chain may part pieces that its other edges do not join to each other: those are not one piece then.
+      if (joined && !joined->piece.is_connected) break;
+      for (std::int32_t k = i + 1; k < 12; ++k) {
+        const bool is_same = cost(k) == costs[k];
+        ASSERT_TRUE(is_same || pieces.touches(k, i, joined ? joined->where : -1));
+      }
       chains[i].clear();
       const CutPieces anew(surface, chains, limits);
       ASSERT_EQ(pieces.piece_count(), anew.piece_count());
-      if (!joined) {
-        ASSERT_EQ(pieces.piece_count(), before);
-      } else if (joined->piece.is_connected) {
-        ASSERT_EQ(before - pieces.piece_count(), joined->pieces - 1);
-      }
+      ASSERT_EQ(before - pieces.piece_count(), joined ? joined->pieces - 1 : 0);
       const std::multiset<std::int64_t> wanted = euler_by_gluing(surface.triangles(), edges_of(chains));
       std::multiset<std::int64_t> found;
       for (const Piece& piece : anew.pieces()) found.insert(piece.euler);
       ASSERT_EQ(found, wanted);
-      // A chain may part pieces that its other edges do not join to each other: their sum is one piece here.
-      if (!joined || joined->piece.is_connected) continue;
-      break;
     }
   }
 }

@@ -769,6 +769,10 @@ class Session:
         """The axes over which the mesh is symmetric."""
         return self._symmetry.symmetric_axes
 
+    def partners(self, axes: tuple[int, ...]) -> NDArray[np.int64]:
+        """Return the vertex that each is mirrored to over all of the axes at once, (n,); -1: none."""
+        return self._symmetry.partners(axes)
+
     @property
     def intent(self) -> Intent:
         """What a click would do now."""

@@ -351,6 +351,11 @@ class ObjectSession:
             self.session.adopt(replace(plan.network, seed=None), self.plain_seams)
         return written
 
+    def add(self, wires: Iterable[Wire]) -> None:
+        """Go on with more wires, found elsewhere; `write` marks their edges."""
+        session = self.session
+        session.adopt(replace(session.network, wires=(*session.wires, *wires), seed=None), self.plain_seams)
+
     def take_over(self, wires: Iterable[Wire]) -> None:
         """Go on with wires along seams of the mesh: `write` makes these edges theirs, so that they go where the wires go."""
         session = self.session

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..core import native
 from ..core.islands import CutCounter, choose_hues, neighbours, places_of
-from ..core.stretch import Stretch
+from ..core.stretch import IslandStretch, Stretch
 from . import edit_mesh, uv_map
 
 if TYPE_CHECKING:
@@ -136,13 +136,28 @@ def worst_island(obj: bpy.types.Object, kind: str) -> Worst | None:
         Where no edge is visible, or the compiled part is missing.
     """
     arrays = edit_mesh.read(obj)
-    corners, uvs = uv_map.read(obj)
-    if uvs is None or not len(arrays.triangles):
-        return None
     labels = labels_of(arrays)
-    stretch = Stretch(arrays.points, arrays.triangles, arrays.polygons, corners.of_triangles(arrays))
-    stretch.update(uvs)
-    islands = stretch.islands(labels)
+    islands = stretch_of(obj, arrays, labels)
+    if islands is None:
+        return None
     values = islands.angle if kind == "ANGLE" else islands.area
     number = int(values.argmax())
     return Worst(float(values[number]), np.unique(arrays.polygons[labels == number]), len(values))
+
+
+def stretch_of(obj: bpy.types.Object, arrays: edit_mesh.Arrays, labels: NDArray[np.int32]) -> IslandStretch | None:
+    """Return how much the active UV map of an edit mesh stretches islands; None: there is no UV map, or no visible face.
+
+    Parameters
+    ----------
+    obj, arrays
+        In edit mode, and what was read of it.
+    labels
+        (m,) the island of each triangle.
+    """
+    corners, uvs = uv_map.read(obj)
+    if uvs is None or not len(arrays.triangles):
+        return None
+    stretch = Stretch(arrays.points, arrays.triangles, arrays.polygons, corners.of_triangles(arrays))
+    stretch.update(uvs)
+    return stretch.islands(labels)

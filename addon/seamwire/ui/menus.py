@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Menu entries that choose the tool, make wires of seams, cut wires, unwrap, show stretch, and select and store islands."""
+"""Menu entries that choose the tool, suggest wires, make wires of seams, cut wires, unwrap, show stretch, and select and store islands."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ def _draw_menu(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
     menu.layout.separator()
     entry = menu.layout.operator("wm.tool_set_by_id", text="Draw Seamwires")
     entry.name, entry.space_type = TOOL, "VIEW_3D"
+    menu.layout.operator("mesh.seamwire_suggest")
     menu.layout.operator("mesh.seamwire_take_over")
     menu.layout.operator("mesh.seamwire_cut")
     menu.layout.operator("mesh.seamwire_unwrap")

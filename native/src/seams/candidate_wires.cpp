@@ -105,7 +105,10 @@ std::vector<std::vector<CandidateWire>> CandidateWires::find(std::span<const Fan
       const std::size_t which = found[i][1][k].length < found[i][0][k].length ? 1 : 0;
       Found& best = found[i][which][k];
       const double strength = best.length > 0.0 ? best.euclidean / best.length : 1.0;
-      wires[i].push_back({.follow = kFollow[which], .vertices = std::move(best.vertices), .strength = strength});
+      wires[i].push_back({.follow = kFollow[which],
+                          .vertices = std::move(best.vertices),
+                          .points = std::move(best.points),
+                          .strength = strength});
     }
   }
   return wires;
@@ -124,9 +127,9 @@ std::vector<CandidateWires::Found> CandidateWires::find_on_surface(const Prepare
   const DistanceField field = metric.geodesics->solve(from, until, task);
   std::vector<Found> found;
   for (const std::int32_t v : fan.to) {
-    const Wire wire = trace_wire(surface(), *metric.embedding, field, v, task);
+    Wire wire = trace_wire(surface(), *metric.embedding, field, v, task);
     std::vector<std::int32_t> vertices = snap_to_edges(surface(), *metric.snap_graph, wire);
-    found.push_back({std::move(vertices), wire.length, wire.euclidean_length});
+    found.push_back({std::move(vertices), std::move(wire.points), wire.length, wire.euclidean_length});
   }
   return found;
 }
@@ -147,11 +150,11 @@ std::vector<CandidateWires::Found> CandidateWires::find_along_edges(const Prepar
   std::vector<Found> found;
   for (const std::int32_t v : fan.to) {
     EdgeChain chain = wires.trace({.a = v});
+    std::vector<Vector> points;
+    for (const std::int32_t vertex : chain.vertices) points.push_back(surface().points()[vertex]);
     double euclidean = 0.0;
-    for (std::size_t i = 1; i < chain.vertices.size(); ++i) {
-      euclidean += (surface().points()[chain.vertices[i]] - surface().points()[chain.vertices[i - 1]]).norm();
-    }
-    found.push_back({std::move(chain.vertices), chain.length, euclidean * surface().scale()});
+    for (std::size_t i = 1; i < points.size(); ++i) euclidean += (points[i] - points[i - 1]).norm();
+    found.push_back({std::move(chain.vertices), std::move(points), chain.length, euclidean * surface().scale()});
   }
   return found;
 }

@@ -19,6 +19,7 @@ namespace seamwire {
 struct CandidateWire {
   Follow follow = Follow::kMin;
   std::vector<std::int32_t> vertices;  ///< the chain of edges that it marks; empty: there is no wire
+  std::vector<Vector> points;          ///< its curve
   /// Its Euclidean length over that in its metric: 1 where it follows nothing, more along features.
   double strength = 1.0;
 };
@@ -46,6 +47,7 @@ class CandidateWires {
   /// A wire in one metric, with its length there.
   struct Found {
     std::vector<std::int32_t> vertices;
+    std::vector<Vector> points;
     double length, euclidean;
   };
   std::vector<Found> find_in(const Prepared& metric, const Fan& fan, const Task& task) const;

@@ -210,7 +210,7 @@ void CutPieces::remove(std::int32_t chain) {
 
 bool CutPieces::touches(std::int32_t chain, std::int32_t other, std::int32_t where) const {
   const std::span<const std::int32_t> others = edges_of_chain_[other];
-  const std::int32_t name = piece_sets_.find(where);
+  const std::int32_t name = where < 0 ? -1 : piece_sets_.find(where);
   return std::ranges::any_of(edges_of_chain_[chain], [&](std::int32_t e) {
     const CutEdge& edge = edges_[e];
     return piece_sets_.find(edge.pieces[0]) == name || piece_sets_.find(edge.pieces[1]) == name ||

@@ -49,7 +49,7 @@ class CutPieces {
   std::optional<Joined> joined_without(std::int32_t chain) const;
   /// Takes it away.
   void remove(std::int32_t chain);
-  /// Whether joined_without(chain) may be another since `other` was removed and has joined the piece `where`.
+  /// Whether joined_without(chain) may be another since `other` was removed and has joined the piece `where`; -1: none.
   bool touches(std::int32_t chain, std::int32_t other, std::int32_t where) const;
 
   /// Whether a piece of less than an area lies beside a chain.

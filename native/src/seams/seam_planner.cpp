@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -169,7 +170,11 @@ struct Choice {
 
 Choice make_choice(std::int32_t from, std::int32_t to, CandidateWire found, const Seclusion& seclusion) {
   const double secluded = found.vertices.empty() ? 1.0 : seclusion.of(found.vertices);
-  return {.wire = {.from = from, .to = to, .follow = found.follow, .vertices = std::move(found.vertices)},
+  return {.wire = {.from = from,
+                   .to = to,
+                   .follow = found.follow,
+                   .vertices = std::move(found.vertices),
+                   .points = std::move(found.points)},
           .strength = found.strength,
           .seclusion = secluded};
 }
@@ -177,9 +182,11 @@ Choice make_choice(std::int32_t from, std::int32_t to, CandidateWire found, cons
 using Ends = std::pair<std::int32_t, std::int32_t>;
 Ends ends_of(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
-std::vector<std::vector<std::int32_t>> chains_of(const std::vector<Choice>& choices) {
+/// The chains of choices, then the seams that stay, an edge each.
+std::vector<std::vector<std::int32_t>> chains_of(const std::vector<Choice>& choices, const std::vector<Edge>& seams) {
   std::vector<std::vector<std::int32_t>> chains;
   for (const Choice& choice : choices) chains.push_back(choice.wire.vertices);
+  for (const auto& [a, b] : seams) chains.push_back({a, b});
   return chains;
 }
 
@@ -204,7 +211,7 @@ class Seeding {
     const std::vector<double> no_limits(wires_.surface().face_count(), kInfinity);
     while (true) {
       std::vector<Choice> found = join(task);
-      const CutPieces pieces(wires_.surface(), chains_of(found), no_limits);
+      const CutPieces pieces(wires_.surface(), chains_of(found, options_.seams), no_limits);
       const std::vector<std::uint8_t> worst = pieces.vertices_of_worst(wires_.surface());
       if (worst.empty() || cells_.seeds().size() >= options_.most_seeds || !add_seed(worst)) return found;
     }
@@ -282,11 +289,45 @@ class Seeding {
   std::map<Ends, Choice> known_;  // by the numbers of their seeds
 };
 
+/// How many vertices two chains have in common from an end on that both have.
+std::size_t common_at_ends(std::vector<std::int32_t> one, std::vector<std::int32_t> other) {
+  std::size_t count = 0;
+  for (int i = 0; i < 4; ++i) {
+    const auto differ = std::ranges::mismatch(one, other);
+    count += static_cast<std::size_t>(differ.in1 - one.begin());
+    std::ranges::reverse(i % 2 == 0 ? one : other);
+  }
+  return count;
+}
+
+/// Those whose chains of edges meet where their curves do, at seeds; of two others the one that is worth more. What
+/// edges enclose, curves then enclose too.
+std::vector<Choice> meeting_at_seeds(std::vector<Choice> choices) {
+  const auto worth = [](const Choice& choice) { return choice.strength * choice.seclusion; };
+  std::ranges::stable_sort(choices, std::greater<>(), worth);
+  std::vector<Choice> taken;
+  std::map<std::int32_t, std::vector<std::size_t>> through;
+  for (Choice& choice : choices) {
+    const std::vector<std::int32_t>& chain = choice.wire.vertices;
+    std::map<std::size_t, std::size_t> contacts;
+    for (const std::int32_t v : chain) {
+      for (const std::size_t other : through[v]) ++contacts[other];
+    }
+    const bool meets_between = std::ranges::any_of(contacts, [&](const auto& contact) {
+      return contact.second > common_at_ends(chain, taken[contact.first].wire.vertices);
+    });
+    if (meets_between) continue;
+    for (const std::int32_t v : chain) through[v].push_back(taken.size());
+    taken.push_back(std::move(choice));
+  }
+  return taken;
+}
+
 /// Takes wires away until each that is left is needed, mirror images together.
 class Thinning {
  public:
-  /// `images`: as SeamPlannerOptions. `pieces`: those of the choices. `seclusion`: the power of it that wires are
-  /// worth.
+  /// `images`: as SeamPlannerOptions. `pieces`: those of the choices and of the seams that stay. `seclusion`: the power
+  /// of it that wires are worth.
   Thinning(const std::vector<std::int32_t>& images, const std::vector<Choice>& choices, CutPieces pieces,
            std::size_t islands, double seclusion)
       : images_(images),
@@ -350,6 +391,7 @@ class Thinning {
     const std::size_t before = pieces_.piece_count();
     pieces_.remove(wire);
     is_there_[wire] = 0;
+    std::ranges::fill(is_needed_, std::uint8_t{0});  // it may be another matter now
     const bool is_count_enough = islands_ > 0 && before != pieces_.piece_count();
     for (std::int32_t i = 0; index(i) < choices_.size(); ++i) {
       if (is_there_[i] == 0) continue;
@@ -357,13 +399,14 @@ class Thinning {
     }
   }
 
-  /// Where an image has to stay, so has the wire.
+  /// Where an image has to stay, so has the wire, for now.
   void remove_with_images(std::int32_t wire) {
     const std::vector<std::int32_t> others = images_of(wire);
     if (others.empty()) return remove(wire);
     const CutPieces pieces = pieces_;
     const std::vector<double> costs = costs_;
     const std::vector<std::uint8_t> is_there = is_there_;
+    const std::vector<std::uint8_t> is_needed = is_needed_;
     remove(wire);
     for (const std::int32_t other : others) {
       if (costs_[other] < kInfinity) {
@@ -373,6 +416,7 @@ class Thinning {
       pieces_ = pieces;
       costs_ = costs;
       is_there_ = is_there;
+      is_needed_ = is_needed;
       is_needed_[wire] = 1;
       for (const std::int32_t each : others) is_needed_[each] = 1;
       return;
@@ -430,7 +474,7 @@ struct SeamPlanner::Impl {
 
   const Surface& surface() const { return wires.surface(); }
   CutPieces pieces(const std::vector<Choice>& of, std::span<const double> max_spreads) const {
-    return CutPieces(surface(), chains_of(of), max_spreads);
+    return CutPieces(surface(), chains_of(of, options.seams), max_spreads);
   }
   double price(const std::vector<Choice>& of) const;
   std::vector<Choice> thinned(const SeamLimits& limits, std::span<const double> max_spreads, const Task& task) const;
@@ -463,11 +507,12 @@ double SeamPlanner::Impl::price(const std::vector<Choice>& of) const {
 /// and the order that heeds seclusion most is not always the one that leaves the least to be seen.
 std::vector<Choice> SeamPlanner::Impl::thinned(const SeamLimits& limits, std::span<const double> max_spreads,
                                                const Task& task) const {
-  const CutPieces all = pieces(choices, max_spreads);
+  const std::vector<Choice> among = limits.may_start_on_others ? choices : meeting_at_seeds(choices);
+  const CutPieces all = pieces(among, max_spreads);
   std::vector<Choice> best;
   double least = kInfinity;
   for (const double seclusion : {0.0, 0.5, 1.0}) {
-    std::vector<Choice> kept = Thinning(options.images, choices, all, limits.islands, seclusion).run(task);
+    std::vector<Choice> kept = Thinning(options.images, among, all, limits.islands, seclusion).run(task);
     const double now = price(kept);
     if (now >= least) continue;
     least = now;
@@ -513,6 +558,10 @@ std::vector<std::vector<Choice>> SeamPlanner::Impl::shortened(const Choice& wire
                                                               const Task& task) const {
   std::set<std::int32_t> drawn;
   std::set<Ends> shared;
+  for (const auto& [a, b] : options.seams) {
+    drawn.insert({a, b});
+    shared.insert(ends_of(a, b));
+  }
   for (const Choice& other : others) {
     const std::vector<std::int32_t>& chain = other.wire.vertices;
     drawn.insert(chain.begin(), chain.end());
@@ -562,6 +611,9 @@ SeamPlanner::SeamPlanner(std::shared_ptr<const Surface> surface, const SeamPlann
   for (const std::int32_t v : options.images) {
     if (v != -1) check_index(v, count, "images: vertex");
   }
+  for (const Edge& edge : options.seams) {
+    for (const std::int32_t v : edge) check_index(v, count, "seams: vertex");
+  }
   impl_ = std::make_shared<const Impl>(std::move(surface), options, task);
 }
 
@@ -579,12 +631,13 @@ SeamPlan SeamPlanner::plan(const SeamLimits& limits, const Task& task) const {
   }
   for (std::size_t f = 0; f < max_spreads.size(); ++f) check(max_spreads[f], "max_spreads[" + std::to_string(f) + "]");
 
-  std::vector<Choice> kept = impl_->swept(impl_->thinned(limits, max_spreads, task), limits, max_spreads, task);
+  std::vector<Choice> kept = impl_->thinned(limits, max_spreads, task);
+  if (limits.may_start_on_others) kept = impl_->swept(std::move(kept), limits, max_spreads, task);
   SeamPlan plan;
   const CutPieces pieces = impl_->pieces(kept, max_spreads);
   plan.island_count = pieces.piece_count();
   plan.not_discs = Quality(pieces).not_discs;
-  std::vector<Edge> cuts;
+  std::vector<Edge> cuts = impl_->options.seams;
   for (Choice& choice : kept) {
     const std::vector<std::int32_t>& chain = choice.wire.vertices;
     for (std::size_t i = 1; i < chain.size(); ++i) cuts.push_back({chain[i - 1], chain[i]});

@@ -22,6 +22,8 @@ struct SeamPlannerOptions {
   /// The mirror image of each vertex, itself or -1 where it has none: seeds come and wires go in pairs. Empty: the
   /// surface is not symmetric.
   std::vector<std::int32_t> images = {};
+  /// Seams that are there already, and stay: vertex pairs; those that are no edges of two triangles cut nothing.
+  std::vector<Edge> seams = {};
 };
 
 /// What islands may be like.
@@ -34,6 +36,9 @@ struct SeamLimits {
   /// Islands are joined until there are so many, however far their normals spread then, or no two can be joined to a
   /// disc. 0: as few as the spread allows.
   std::size_t islands = 0;
+  /// Whether wires may start on the edges of others, where they ran beside them and left crumbs between. Where curves
+  /// are cut, not edges marked, they have to run from seed to seed: these alone their curves have in common.
+  bool may_start_on_others = true;
 };
 
 /// One wire of a plan.
@@ -42,11 +47,12 @@ struct PlannedWire {
   std::int32_t to = -1;                ///< another one
   Follow follow = Follow::kMin;        ///< whose metric it is the shortest in
   std::vector<std::int32_t> vertices;  ///< the chain of edges that it marks, from `from` to `to`
+  std::vector<Vector> points;          ///< its curve, in the caller's coordinates
 };
 
 /// Seams that cut a surface into islands.
 struct SeamPlan {
-  std::vector<PlannedWire> wires;
+  std::vector<PlannedWire> wires;     ///< without the seams that were there
   std::vector<std::int32_t> islands;  ///< of each of the caller's triangles, as face_segments() numbers them
   std::size_t island_count = 0;
   std::size_t not_discs = 0;  ///< how many of the islands are no discs, where there were not seeds enough

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Seams that the library plans, as wires of a network, and what islands may be like."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .network import Wire
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Sequence
+
+    import seamwire_core
+    from numpy.typing import NDArray
+
+    from .network import Along
+
+_NARROWER = 0.6
+"""What is left of an island's spread where it was stretched too much."""
+_SEEDS = 24, 400
+"""Seeds to choose wires between: at least, and at most."""
+
+
+def best_along(polygons: NDArray[np.int32]) -> Along:
+    """Return how wires had best run: along edges where most faces are quads or larger.
+
+    Parameters
+    ----------
+    polygons
+        (m,) the face that each triangle is part of.
+    """
+    _, triangles = np.unique(polygons, return_counts=True)
+    return "EDGES" if (triangles > 1).mean() > 0.5 else "SURFACE"
+
+
+def spread_of(angle: float) -> float:
+    """Return the spread, see ``seamwire_core.SeamPlanner``, of normals within an angle of their mean, as on a sphere's cap."""
+    return 0.5 * (1.0 - np.cos(min(angle, np.pi)))
+
+
+def seeds_for(max_spread: float, islands: int = 0) -> int:
+    """Return how many seeds there have to be, for wires enough: they part a surface into about twice as many pieces at most."""
+    least, most = _SEEDS
+    return int(min(max(least, islands, 2.0 / max(max_spread, 1e-6)), most))
+
+
+def planned_wires(plan: seamwire_core.SeamPlan, along: Along, strength: float) -> list[Wire]:
+    """Return the wires of a plan, that were found with such a strength."""
+    return [
+        Wire(
+            along, tuple(wire.vertices.tolist()), np.array(wire.points), *wire.seeds,
+            follow=0 if wire.follow == "min" else 1, strength=strength,
+        )
+        for wire in plan.wires
+    ]  # fmt: skip
+
+
+def spreads(
+    points: NDArray[np.float64], triangles: NDArray[np.int32], islands: NDArray[np.int32]
+) -> NDArray[np.float64]:
+    """Return how far the normals of each island spread: 0 in a plane, 0.5 for a half sphere."""
+    corners = points[triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    count = int(islands.max(initial=-1)) + 1
+    areas = np.bincount(islands, np.linalg.norm(normals, axis=1), count)
+    sums = np.stack([np.bincount(islands, column, count) for column in normals.T])
+    flat = np.divide(np.linalg.norm(sums, axis=0), areas, out=np.ones(count), where=areas > 0.0)
+    return np.maximum(1.0 - flat, 0.0)
+
+
+def narrowed(
+    limits: NDArray[np.float64],
+    stretched: Collection[int] | Sequence[int],
+    islands: NDArray[np.int32],
+    island_spreads: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Return limits with which islands that were stretched too much are planned smaller.
+
+    Parameters
+    ----------
+    limits
+        (m,) how far the normals around each triangle could spread.
+    stretched
+        The islands that were.
+    islands
+        (m,) the island of each triangle.
+    island_spreads
+        How far they did spread, see `spreads`.
+    """
+    is_stretched = np.zeros(len(island_spreads), dtype=bool)
+    is_stretched[list(stretched)] = True
+    return np.where(is_stretched[islands], _NARROWER * np.minimum(limits, island_spreads[islands]), limits)

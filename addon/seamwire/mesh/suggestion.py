@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A network of wires that the library suggests for one object in edit mode."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..core import native
+from ..core.defaults import CLAMP_PERCENTILE, STRENGTHS
+from ..core.suggestion import best_along, narrowed, planned_wires, spreads
+from .object_session import ObjectSession, mirror_axes
+from .seam_islands import stretch_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import bpy
+    import seamwire_core
+    from numpy.typing import NDArray
+
+    from ..core.network import Along, Wire
+
+
+_MORE_SEEDS = 5
+"""How many times more seeds there are at most where pieces are no discs, or too large."""
+
+
+class Suggestion:
+    """Wires for one object: those that are suggested, in the mesh or not.
+
+    Parameters
+    ----------
+    obj
+        In edit mode.
+    along
+        How the wires run; None: as is best for the mesh.
+    symmetric
+        Whether they come in pairs where the mesh is symmetric.
+    seeds
+        How many seeds there are to begin with.
+    cut
+        Whether wires across the surface are to be cut into the faces.
+
+    Attributes
+    ----------
+    wires
+        Those suggested last.
+    plan
+        What they were made of; None: nothing was planned yet.
+    marked
+        How many edges they have made seams.
+
+    Raises
+    ------
+    ValueError, native.NativeError
+        Where no edge is visible, or the compiled part is missing.
+    """
+
+    def __init__(self, obj: bpy.types.Object, along: Along | None, symmetric: bool, seeds: int, cut: bool) -> None:
+        self._core = native.load()
+        self.mesh = ObjectSession(obj)
+        self.along: Along = along or best_along(self.mesh.arrays.polygons)
+        self._symmetric = symmetric
+        self._seeds, self._most_seeds = seeds, _MORE_SEEDS * seeds
+        self._cut = cut and self.along == "SURFACE"
+        self._mirror = mirror_axes(obj.data)
+        self._planner: seamwire_core.SeamPlanner | None = None
+        self._limits: NDArray[np.float64] | None = None
+        self.plan: seamwire_core.SeamPlan | None = None
+        self.wires: list[Wire] = []
+        self.marked = 0
+
+    def prepare(self, progress: Callable[[float], bool]) -> None:
+        """Find the wires to choose from; any thread may.
+
+        Parameters
+        ----------
+        progress
+            Is told the fraction done; where it returns False, `seamwire_core.Cancelled` is raised.
+        """
+        arrays = self.mesh.arrays
+        images = None
+        axes = (self._mirror or self.mesh.session.symmetric_axes)[:1] if self._symmetric else ()
+        if axes:
+            images = self.mesh.session.partners(axes)
+        self._planner = self._core.SeamPlanner(
+            self._core.Surface(arrays.points, arrays.triangles, arrays.edges),
+            along=self.along.lower(),
+            max_anisotropy=STRENGTHS[self.along],
+            clamp_percentile=CLAMP_PERCENTILE,
+            seeds=self._seeds,
+            most_seeds=self._most_seeds,
+            images=images,
+            seams=arrays.seams,
+            progress=progress,
+        )
+
+    def suggest(self, max_spread: float, islands: int = 0) -> None:
+        """Choose wires; `islands` as ``seamwire_core.SeamPlanner.plan`` has it."""
+        assert self._planner is not None
+        if self._limits is None:
+            self._limits = np.full(len(self.mesh.arrays.triangles), max_spread)
+        self.plan = self._planner.plan(max_spread=self._limits, islands=islands, may_start_on_others=not self._cut)
+        self.wires = planned_wires(self.plan, self.along, STRENGTHS[self.along])
+
+    def write(self) -> None:
+        """Keep the wires with the mesh."""
+        self.mesh.add(self.wires)
+        self.marked, _ = self.mesh.write(self.mesh.plan())
+
+    def take_back(self) -> None:
+        """Undo `write`."""
+        for wire in self.wires:
+            self.mesh.session.drop(wire)
+        self.mesh.write(self.mesh.plan())
+
+    def stretched(self, most: float) -> list[int]:
+        """Return the islands that the UV map stretches more than so many octaves, by angle, see `core.stretch`."""
+        assert self.plan is not None
+        stretch = stretch_of(self.mesh.obj, self.mesh.arrays, self.plan.islands)
+        return [] if stretch is None else np.flatnonzero(stretch.angle > most).tolist()
+
+    def narrow(self, stretched: list[int]) -> None:
+        """Suggest again, with smaller islands in place of some; between more seeds where there are no wires for that."""
+        assert self.plan is not None and self._limits is not None
+        before = self.plan.island_count
+        arrays, islands = self.mesh.arrays, self.plan.islands
+        self._limits = narrowed(self._limits, stretched, islands, spreads(arrays.points, arrays.triangles, islands))
+        self.suggest(0.0)
+        if self.plan.island_count <= before and self._seeds < self._most_seeds:
+            self._seeds = min(2 * self._seeds, self._most_seeds)
+            self.prepare(lambda _: True)
+            self.suggest(0.0)

@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Seams that are suggested: ``mesh.seamwire_suggest``."""
+
+import math
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from scene import add_grid, add_suzanne, edit, seams, snapshot
+from seamwire.mesh import edit_mesh, seam_islands
+from stored import agree, chains, session_on
+
+
+def islands(obj: bpy.types.Object) -> int:
+    return int(seam_islands.labels_of(edit_mesh.read(obj)).max()) + 1
+
+
+def open_islands(obj: bpy.types.Object) -> int:
+    return len(seam_islands.faces_to_cut(obj)[1])
+
+
+def stretch(obj: bpy.types.Object) -> float:
+    """Return by how many times the worst island is stretched."""
+    worst = seam_islands.worst_island(obj, "ANGLE")
+    return 2.0**worst.value
+
+
+@pytest.fixture
+def suzanne() -> bpy.types.Object:
+    """Suzanne in edit mode: a head and two eyes."""
+    obj = add_suzanne()
+    edit()
+    return obj
+
+
+def add_ball(name: str = "Ball") -> bpy.types.Object:
+    bm = bmesh.new()
+    bmesh.ops.create_icosphere(bm, subdivisions=4, radius=1.0)
+    mesh = bpy.data.meshes.new(name)
+    bm.to_mesh(mesh)
+    bm.free()
+    obj = bpy.data.objects.new(name, mesh)
+    bpy.context.collection.objects.link(obj)
+    bpy.context.view_layer.objects.active = obj
+    return obj
+
+
+def test_islands_are_discs_and_seams_are_wires(suzanne: bpy.types.Object) -> None:
+    before = snapshot(suzanne, with_seams=False)
+    assert open_islands(suzanne) > 0
+    assert bpy.ops.mesh.seamwire_suggest() == {"FINISHED"}
+    assert open_islands(suzanne) == 0
+    assert agree(suzanne)
+    assert len(chains(suzanne)) > 10
+    assert snapshot(suzanne, with_seams=False) == before
+
+
+def test_a_suggested_wire_can_be_dropped(suzanne: bpy.types.Object) -> None:
+    bpy.ops.mesh.seamwire_suggest()
+    mesh = session_on(suzanne)
+    count = len(mesh.session.wires)
+    mesh.session.drop(mesh.session.wires[0])
+    mesh.write(mesh.plan())
+    assert len(chains(suzanne)) == count - 1
+    assert agree(suzanne)
+
+
+def test_limits(suzanne: bpy.types.Object) -> None:
+    found = {}
+    for angle in (50.0, 90.0):
+        bpy.ops.mesh.seamwire_suggest(angle=math.radians(angle))
+        found[angle] = islands(suzanne)
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.mesh.mark_seam(clear=True)
+    assert found[50.0] > found[90.0]
+    bpy.ops.mesh.seamwire_suggest(limit="ISLANDS", islands=9)
+    assert islands(suzanne) == 9
+
+
+def test_no_island_is_stretched_more_than_asked() -> None:
+    obj = add_ball()
+    edit()
+    found = {}
+    for most in (1.3, 1.1, 1.03):
+        assert bpy.ops.mesh.seamwire_suggest(limit="STRETCH", stretch=most) == {"FINISHED"}
+        assert stretch(obj) <= most
+        assert open_islands(obj) == 0
+        assert agree(obj)
+        found[most] = islands(obj)
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.mesh.mark_seam(clear=True)
+    assert found[1.03] > found[1.1] > found[1.3]
+
+
+def test_seams_that_are_there_stay_and_are_no_wires(suzanne: bpy.types.Object) -> None:
+    bpy.ops.mesh.seamwire_mark(loops="0-8" if "0-8" in edges(suzanne) else edges(suzanne)[0])
+    before = seams(suzanne)
+    wires = chains(suzanne)
+    assert before
+    bpy.ops.mesh.seamwire_suggest()
+    assert set(before) <= set(seams(suzanne))
+    assert set(wires) <= set(chains(suzanne))
+    assert agree(suzanne)
+
+
+def edges(obj: bpy.types.Object) -> list[str]:
+    return [f"{a}-{b}" for a, b in edit_mesh.read(obj).edges[:200].tolist()]
+
+
+def test_wires_come_in_pairs_where_the_mesh_is_symmetric(suzanne: bpy.types.Object) -> None:
+    def unpaired() -> int:
+        images = session_on(suzanne).session.partners((0,))
+        marked = {frozenset(edge) for edge in seams(suzanne)}
+        return len([edge for edge in marked if frozenset(images[list(edge)].tolist()) not in marked])
+
+    bpy.ops.mesh.seamwire_suggest(symmetric=True)
+    assert unpaired() <= 0.05 * len(seams(suzanne))
+
+
+def test_nothing_is_added_to_what_is_flat() -> None:
+    obj = add_grid(6)
+    edit()
+    assert bpy.ops.mesh.seamwire_suggest() == {"CANCELLED"}
+    assert seams(obj) == []
+
+
+@pytest.mark.parametrize("finish", ["SNAP", "CUT"])
+def test_across_the_surface(finish: str) -> None:
+    obj = add_ball()
+    edit()
+    vertices = len(obj.data.vertices)
+    assert bpy.ops.mesh.seamwire_suggest(limit="ISLANDS", islands=3, finish=finish) == {"FINISHED"}
+    obj.update_from_editmode()
+    assert (len(obj.data.vertices) > vertices) == (finish == "CUT")
+    assert islands(obj) == 3
+    assert open_islands(obj) == 0
+    assert agree(obj)
+
+
+def test_unwraps_on_request() -> None:
+    obj = add_ball()
+    edit()
+    bpy.ops.mesh.seamwire_suggest()
+    assert seam_islands.worst_island(obj, "ANGLE") is None
+    bpy.ops.mesh.seamwire_suggest(angle=math.radians(40.0), unwrap=True)
+    assert stretch(obj) < 1.1
+
+
+def test_several_objects_and_what_is_hidden() -> None:
+    one, other = add_ball("One"), add_ball("Other")
+    one.location.x = 5.0
+    for obj in (one, other):
+        obj.select_set(True)
+    bpy.context.view_layer.objects.active = one
+    edit()
+    bm = bmesh.from_edit_mesh(other.data)
+    for face in bm.faces:
+        face.hide_set(face.calc_center_median().z > 0.0)
+    bmesh.update_edit_mesh(other.data)
+    bpy.ops.mesh.seamwire_suggest()
+    assert seams(one)
+    heights = np.array([[bm.verts[v].co.z for v in edge] for edge in seams(other)])
+    assert (heights.max(axis=1) < 0.2).all()
+
+
+def test_what_hides_all_is_an_error() -> None:
+    obj = add_grid(4)
+    edit()
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.hide()
+    with pytest.raises(RuntimeError, match="visible"):
+        bpy.ops.mesh.seamwire_suggest()
+    assert seams(obj) == []
