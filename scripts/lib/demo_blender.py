@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The demo inside Blender: ``blender --background --factory-startup --python scripts/lib/demo_blender.py -- FOLDER [MESH]``.
 
-Opens a mesh, plans a network of wires (``demo_network.py``), marks it with the operator ``mesh.seamwire_mark``, unwraps, and writes
-NAME.blend and pictures into FOLDER.
+Opens a mesh, has ``mesh.seamwire_suggest`` mark a network of wires, unwraps, and writes NAME.blend and pictures into FOLDER.
 """
 
 from __future__ import annotations
@@ -15,7 +14,6 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 import addon_utils
 import bpy
-import demo_network
 import demo_pictures
 import numpy as np
 
@@ -88,16 +86,27 @@ def column(items: bpy.types.bpy_prop_collection, name: str, kind: type, width: i
     return values.reshape(-1, width)
 
 
-def mark(obj: bpy.types.Object, network: demo_network.Network, along: str) -> None:
-    """Mark the network's seams with the add-on's operator, and see that they are the ones planned."""
+def suggest(obj: bpy.types.Object) -> demo_pictures.Network:
+    """Mark seams with the add-on's operator; return the wires that the mesh has then, and see that the seams are theirs."""
+    from seamwire.mesh.object_session import ObjectSession
+    from seamwire.mesh.seam_islands import labels_of
+
     bpy.ops.object.mode_set(mode="EDIT")
-    result = bpy.ops.mesh.seamwire_mark(chains=network.chains(), along=along)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    if result != {"FINISHED"}:
-        raise DemoError("the seams could not be marked")
+    try:
+        result = bpy.ops.mesh.seamwire_suggest()
+        if result != {"FINISHED"}:
+            raise DemoError("nothing to cut: the whole mesh is flat enough to be unwrapped as it is")
+        drawn = ObjectSession(obj)
+        network = demo_pictures.Network(list(drawn.session.wires), labels_of(drawn.arrays))
+    except RuntimeError as error:
+        raise DemoError(str(error).strip()) from error
+    finally:
+        bpy.ops.object.mode_set(mode="OBJECT")
     marked = {tuple(sorted(edge.vertices)) for edge in obj.data.edges if edge.use_seam}
-    if marked != network.edges():
-        raise DemoError(f"{len(marked)} edges are seams, not the {len(network.edges())} that the wires run along")
+    wanted = {edge for wire in network.wires for edge in wire.edges()}
+    if marked != wanted:
+        raise DemoError(f"{len(marked)} edges are seams, not the {len(wanted)} that the wires run along")
+    return network
 
 
 def unwrap(obj: bpy.types.Object) -> None:
@@ -111,33 +120,21 @@ def unwrap(obj: bpy.types.Object) -> None:
     bpy.ops.object.mode_set(mode="OBJECT")
 
 
-def stretch(obj: bpy.types.Object, triangles: np.ndarray) -> np.ndarray:
+def stretch(obj: bpy.types.Object, points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     """Return for each triangle how much longer the longest direction in the unwrapping is than the shortest: 1 is none."""
+    from seamwire.core.stretch import Stretch
+
     mesh = obj.data
     corners = column(mesh.loop_triangles, "loops", np.int32, 3)
-    flat = column(mesh.uv_layers.active.data, "uv", np.float32, 2).astype(np.float64)[corners]
-    points = column(mesh.vertices, "co", np.float32, 3).astype(np.float64)[triangles]
-    one, two = points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]
-    along = np.linalg.norm(one, axis=1)
-    across = np.linalg.norm(np.cross(one, two), axis=1)
-    sound = (across > 1e-12 * along**2) & (along > 0)
-    one, two, along, across, flat = one[sound], two[sound], along[sound], across[sound], flat[sound]
-    # The triangle in a frame of its own is (0, 0), (along, 0), (skew, height); J takes that to the flat one.
-    skew = np.einsum("ij,ij->i", one, two) / along
-    height = across / along
-    first = (flat[:, 1] - flat[:, 0]) / along[:, None]
-    second = (flat[:, 2] - flat[:, 0] - first * skew[:, None]) / height[:, None]
-    singular = np.linalg.svd(np.stack([first, second], axis=2), compute_uv=False)
-    return singular[:, 0] / np.maximum(singular[:, 1], 1e-12)
+    measured = Stretch(points, triangles, np.arange(len(triangles)), corners.astype(np.int64))
+    measured.update(column(mesh.uv_layers.active.data, "uv", np.float32, 2))
+    return 2.0**measured.angle
 
 
 def run(folder: Path, path: Path | None) -> None:
     """Do the whole demo."""
     if addon_utils.enable("seamwire", default_set=True) is None:
         raise DemoError("the add-on could not be enabled")
-    from seamwire.core import native
-    from seamwire.core.defaults import STRENGTHS
-
     bpy.data.batch_remove([*bpy.data.objects, *bpy.data.meshes])
     obj = suzanne() if path is None else load(path)
     mesh = obj.data
@@ -146,24 +143,17 @@ def run(folder: Path, path: Path | None) -> None:
     if len(triangles) > MOST_TRIANGLES:
         raise DemoError(f"{len(triangles)} triangles: the demo takes {MOST_TRIANGLES} at most")
     points = column(mesh.vertices, "co", np.float32, 3).astype(np.float64)
-    edges = column(mesh.edges, "vertices", np.int32, 2)
-    sides = np.array([len(polygon.vertices) for polygon in mesh.polygons])
-    along = "EDGES" if (sides > 3).mean() > 0.5 else "SURFACE"
+    tell(f"{obj.name}: {len(points)} vertices, {len(mesh.polygons)} faces")
+
+    started = time.monotonic()
+    network = suggest(obj)
+    across = sum(wire.along == "SURFACE" for wire in network.wires)
     tell(
-        f"{obj.name}: {len(points)} vertices, {len(sides)} faces; wires run {'along edges' if along == 'EDGES' else 'across the surface'}"
+        f"{len(network.wires)} wires {'across the surface' if across else 'along edges'}, {network.islands.max() + 1} islands: "
+        f"mesh.seamwire_suggest took {time.monotonic() - started:.1f} s"
     )
-
-    started = time.monotonic()
-    network = demo_network.plan(native.load(), points, triangles, edges, along.lower(), STRENGTHS[along], tell)
-    tell(f"network planned in {time.monotonic() - started:.1f} s")
-    if not network.wires:
-        raise DemoError("nothing to cut: the whole mesh is flat enough to be unwrapped as it is")
-
-    started = time.monotonic()
-    mark(obj, network, along)
-    tell(f"{len(network.edges())} edges marked by mesh.seamwire_mark in {time.monotonic() - started:.1f} s")
     unwrap(obj)
-    ratio = stretch(obj, triangles)
+    ratio = stretch(obj, points, triangles)
     tell(
         f"unwrapped; stretch {np.median(ratio):.2f} in the median, {np.percentile(ratio, 95):.2f} for 95 % of the triangles"
     )

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The demo's pictures: wires on the model, segments in colors, a checked texture, the UV layout. Rendered by Cycles, no display needed."""
+"""The demo's pictures: wires on the model, islands in colors, a checked texture, the UV layout. Rendered by Cycles, no display needed."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import cos, radians, sin
 from typing import TYPE_CHECKING
 
@@ -14,8 +15,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from demo_network import Network
     from numpy.typing import NDArray
+    from seamwire.core.network import Wire
 
 SIZE = 720
 SAMPLES = 64
@@ -35,6 +36,22 @@ PALETTE = (
     (0.55, 0.40, 0.28),
     (0.62, 0.77, 0.35),
 )
+
+
+@dataclass(frozen=True)
+class Network:
+    """What was marked on a model.
+
+    Parameters
+    ----------
+    wires
+        The wires, between vertices.
+    islands
+        The island of each triangle.
+    """
+
+    wires: list[Wire]
+    islands: NDArray[np.int32]
 
 
 class Scene:
@@ -61,9 +78,9 @@ class Scene:
         self._corners = used.ravel().tolist()
         self._centre = Vector((used.min(axis=0) + used.max(axis=0)) / 2)
         self._radius = float(np.linalg.norm(used - np.array(self._centre), axis=1).max())
-        segments = np.zeros(len(self._mesh.polygons), dtype=np.int64)
-        segments[polygon_of] = network.segments
-        self._colors = np.array(PALETTE)[_coloring(network, triangles)][segments]
+        islands = np.zeros(len(self._mesh.polygons), dtype=np.int64)
+        islands[polygon_of] = network.islands
+        self._colors = np.array(PALETTE)[_coloring(network, triangles)][islands]
         self._paint()
         self._smooth()
         self._wires = self._make_wires(network)
@@ -74,13 +91,13 @@ class Scene:
     def pictures(self, folder: Path, name: str, tell: Callable[[str], None]) -> None:
         """Render everything into NAME-*.png, and all of it side by side into NAME.png."""
         folder.mkdir(parents=True, exist_ok=True)
-        clay, segments, checked = self._clay(), self._segment_material(), self._checked()
+        clay, islands, checked = self._clay(), self._island_material(), self._checked()
         front, back = (-60.0, 18.0), (125.0, 18.0)
         tiles = [
             ("wires-front", clay, front, True),
-            ("segments-front", segments, front, False),
+            ("islands-front", islands, front, False),
             ("wires-back", clay, back, True),
-            ("segments-back", segments, back, False),
+            ("islands-back", islands, back, False),
             ("checked", checked, front, False),
         ]
         images = {}
@@ -90,16 +107,16 @@ class Scene:
             images[tile] = self._render(folder / f"{name}-{tile}.png")
         images["uv"] = self._uv_layout(folder / f"{name}-uv.png")
         rows = [
-            np.concatenate([images["wires-front"], images["segments-front"], images["uv"]], axis=1),
-            np.concatenate([images["wires-back"], images["segments-back"], images["checked"]], axis=1),
+            np.concatenate([images["wires-front"], images["islands-front"], images["uv"]], axis=1),
+            np.concatenate([images["wires-back"], images["islands-back"], images["checked"]], axis=1),
         ]
         _save(np.concatenate(rows[::-1], axis=0), folder / f"{name}.png")
         for tile in (*images, ""):
             tell(str(folder / f"{name}{'-' if tile else ''}{tile}.png"))
 
     def clean(self) -> None:
-        """Leave the model in its segments' colors with its wires, ready to be worked on."""
-        self._show(self._segment_material(), True)
+        """Leave the model in its islands' colors with its wires, ready to be worked on."""
+        self._show(self._island_material(), True)
         for item in self._made:
             bpy.data.objects.remove(item)
 
@@ -135,7 +152,7 @@ class Scene:
         return wires
 
     def _make_seeds(self, network: Network) -> bpy.types.Object:
-        seeds = sorted({seed for wire in network.wires for seed in wire.seeds})
+        seeds = sorted({seed for wire in network.wires for seed in (wire.start, wire.end)})
         bpy.ops.mesh.primitive_uv_sphere_add(segments=16, ring_count=8, radius=0.016 * self._radius)
         ball = bpy.context.object
         ball.data.polygons.foreach_set("use_smooth", np.ones(len(ball.data.polygons), dtype=bool))
@@ -162,7 +179,7 @@ class Scene:
     def _clay(self) -> bpy.types.Material:
         return _material("Clay", CLAY, roughness=0.75)
 
-    def _segment_material(self) -> bpy.types.Material:
+    def _island_material(self) -> bpy.types.Material:
         material = bpy.data.materials.get("Segments")
         if material is None:
             material = _material("Segments", CLAY, roughness=0.7)
@@ -290,9 +307,9 @@ class Scene:
 
 
 def _coloring(network: Network, triangles: NDArray[np.int32]) -> NDArray[np.int64]:
-    """Choose for each segment a color of the palette that none of its neighbours has, where there is one."""
+    """Choose for each island a color of the palette that none of its neighbours has, where there is one."""
     sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
-    owner = np.tile(network.segments, 3)
+    owner = np.tile(network.islands, 3)
     order = np.lexsort((sides[:, 1], sides[:, 0]))
     sides, owner = sides[order], owner[order]
     same = (sides[1:] == sides[:-1]).all(axis=1) & (owner[1:] != owner[:-1])
@@ -300,14 +317,14 @@ def _coloring(network: Network, triangles: NDArray[np.int32]) -> NDArray[np.int6
     for a, b in np.stack([owner[:-1][same], owner[1:][same]], axis=1).tolist():
         neighbours.setdefault(a, set()).add(b)
         neighbours.setdefault(b, set()).add(a)
-    colors = np.zeros(int(network.segments.max()) + 1, dtype=np.int64)
+    colors = np.zeros(int(network.islands.max()) + 1, dtype=np.int64)
     used = [0] * len(PALETTE)
     done: set[int] = set()
-    for segment in range(len(colors)):
-        taken = {int(colors[other]) for other in neighbours.get(segment, set()) & done}
-        colors[segment] = min(range(len(PALETTE)), key=lambda color: (color in taken, used[color]))
-        used[colors[segment]] += 1
-        done.add(segment)
+    for island in range(len(colors)):
+        taken = {int(colors[other]) for other in neighbours.get(island, set()) & done}
+        colors[island] = min(range(len(PALETTE)), key=lambda color: (color in taken, used[color]))
+        used[colors[island]] += 1
+        done.add(island)
     return colors
 
 

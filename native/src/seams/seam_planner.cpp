@@ -60,18 +60,19 @@ std::vector<double> ranks(const std::vector<double>& values) {
   return out;
 }
 
-/// The seeds, and which of them each vertex is nearest to along edges (Dijkstra, a seed at a time, as far as it is
-/// nearer than those before).
+/// The seeds, and which of them each vertex is nearest to (Dijkstra, a seed at a time, as far as it is nearer than
+/// those before). Steps are the sides of triangles, diagonals of polygons among them, and from a triangle's corner to
+/// that behind the side opposite to it: near enough to distances to say where seeds go.
 class SeedCells {
  public:
   SeedCells(const Surface& surface, const Metric& metric)
-      : edges_(surface.vertex_count(),
+      : steps_(surface.vertex_count(),
                [&](const auto& visit) {
-                 for (const auto& [a, b] : surface.edges()) {
+                 for_each_step(surface, [&](std::int32_t a, std::int32_t b) {
                    const double length = edge_length(surface, metric, a, b);
                    visit(a, Step{b, length});
                    visit(b, Step{a, length});
-                 }
+                 });
                }),
         distance_(surface.vertex_count(), kInfinity),
         cell_(surface.vertex_count(), -1),
@@ -83,7 +84,7 @@ class SeedCells {
     relax(seed, 0.0, cell);
     while (!queue_.empty()) {
       const std::int32_t v = queue_.pop();
-      for (const Step& step : edges_[v]) relax(step.to, distance_[v] + step.length, cell);
+      for (const Step& step : steps_[v]) relax(step.to, distance_[v] + step.length, cell);
     }
   }
   const std::vector<std::int32_t>& seeds() const { return seeds_; }
@@ -96,6 +97,18 @@ class SeedCells {
     std::int32_t to;
     double length;
   };
+  template <class Visit>
+  static void for_each_step(const Surface& surface, const Visit& visit) {
+    const auto corner = [&](std::int32_t h, std::int32_t i) {
+      return surface.vertex_of_fan()[surface.face_fans()[h / 3][(h % 3 + i) % 3]];
+    };
+    for (std::int32_t h = 0; index(h) < surface.twins().size(); ++h) {
+      const std::int32_t twin = surface.twins()[h];
+      if (twin > h || twin < 0) visit(corner(h, 0), corner(h, 1));
+      if (twin > h) visit(corner(h, 2), corner(twin, 2));
+    }
+    for (const auto& [a, b] : surface.loose_edges()) visit(a, b);
+  }
   void relax(std::int32_t v, double distance, std::int32_t cell) {
     if (!(distance < distance_[v])) return;
     distance_[v] = distance;
@@ -103,7 +116,7 @@ class SeedCells {
     queue_.lower(v, distance);
   }
 
-  Csr<Step> edges_;
+  Csr<Step> steps_;
   std::vector<double> distance_;
   std::vector<std::int32_t> cell_, seeds_;
   IndexedHeap queue_;
