@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What suggested islands may be like, and wires of a plan."""
+
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+import pytest
+import seamwire_core as sw
+from seamwire.core.suggestion import best_along, narrowed, planned_wires, seeds_for, spread_of, spreads
+
+CUBE = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], dtype=np.float64)
+SIDES = np.array([(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)])
+TRIANGLES = SIDES[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3).astype(np.int32)
+
+
+def test_wires_run_along_edges_of_quads_and_across_triangles() -> None:
+    assert best_along(np.array([0, 0, 1, 1, 2], dtype=np.int32)) == "EDGES"
+    assert best_along(np.array([0, 0, 1, 2], dtype=np.int32)) == "SURFACE"
+
+
+def test_a_cap_of_an_angle_spreads_as_far_as_its_normals() -> None:
+    angle = np.radians(70.0)
+    heights = np.random.default_rng(1).uniform(np.cos(angle), 1.0, 200_000)  # even on the sphere
+    assert spread_of(angle) == pytest.approx(1.0 - heights.mean(), abs=2e-3)
+    assert spread_of(0.5 * pi) == pytest.approx(0.5)
+    assert spread_of(7.0) == spread_of(pi) == pytest.approx(1.0)
+
+
+def test_spreads_of_islands() -> None:
+    islands = np.array([0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2], dtype=np.int32)
+    found = spreads(CUBE, TRIANGLES, islands)
+    # One side; two opposite to it and beside it; three, two of them opposite.
+    np.testing.assert_allclose(found, [0.0, 1.0 - np.sqrt(2.0) / 2.0, 1.0 - 1.0 / 3.0], atol=1e-12)
+
+
+def test_only_stretched_islands_are_narrowed() -> None:
+    islands = np.array([0, 0, 1, 2], dtype=np.int32)
+    limits = narrowed(np.array([0.4, 0.1, 0.4, 0.4]), [0], islands, np.array([0.3, 0.2, 0.2]))
+    assert limits[0] < 0.3
+    assert limits[1] < 0.1
+    assert limits[2:].tolist() == [0.4, 0.4]
+
+
+def test_more_islands_take_more_seeds() -> None:
+    assert seeds_for(1.0) == seeds_for(0.42) == 24
+    assert seeds_for(0.01) == 200
+    assert seeds_for(1.0, islands=60) == 60
+    assert seeds_for(0.0) == 400
+
+
+def test_wires_of_a_plan() -> None:
+    edges = np.sort(np.concatenate([SIDES[:, [i, (i + 1) % 4]] for i in range(4)]), axis=1)
+    surface = sw.Surface(CUBE, TRIANGLES, np.unique(edges, axis=0))
+    plan = sw.SeamPlanner(surface, along="edges", max_anisotropy=10.0).plan()
+    wires = planned_wires(plan, "EDGES", 10.0)
+    assert len(wires) == len(plan.wires) > 0
+    for wire, planned in zip(wires, plan.wires, strict=True):
+        assert (wire.start, wire.end) == planned.seeds == (wire.vertices[0], wire.vertices[-1])
+        np.testing.assert_array_equal(wire.points, CUBE[list(wire.vertices)])
+        assert (wire.along, wire.strength, wire.marks, wire.mirror) == ("EDGES", 10.0, True, ())
+        assert wire.follow == ("min", "max").index(planned.follow)
