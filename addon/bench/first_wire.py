@@ -15,18 +15,16 @@ import sys
 import time
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).parent))
+
 import addon_utils
 import bpy
 import numpy as np
+from bench_meshes import load
 
 REPEATS = 5
 LARGE = 300_000
 """Faces from which on one round has to do."""
-IMPORTERS = {
-    ".obj": lambda path: bpy.ops.wm.obj_import(filepath=path),
-    ".ply": lambda path: bpy.ops.import_mesh.ply(filepath=path),
-    ".stl": lambda path: bpy.ops.import_mesh.stl(filepath=path),
-}
 
 
 class Watch:
@@ -85,19 +83,6 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     if wires.active is None:
         sys.exit(f"No wire leads from the top of {obj.name} to its bottom")
     return steps
-
-
-def load(name: str) -> bpy.types.Object:
-    """Add what is named to the scene."""
-    if not name.startswith("suzanne+"):
-        IMPORTERS[Path(name).suffix.lower()](name)
-        return bpy.context.selected_objects[0]
-    bpy.ops.mesh.primitive_monkey_add()
-    obj = bpy.context.active_object
-    modifier = obj.modifiers.new("Subdivision", "SUBSURF")
-    modifier.levels = modifier.render_levels = int(name.split("+")[1])
-    bpy.ops.object.modifier_apply(modifier=modifier.name)
-    return obj
 
 
 def main() -> None:

@@ -22,8 +22,7 @@ def open_islands(obj: bpy.types.Object) -> int:
 
 def stretch(obj: bpy.types.Object) -> float:
     """Return by how many times the worst island is stretched."""
-    worst = seam_islands.worst_island(obj, "ANGLE")
-    return 2.0**worst.value
+    return max(2.0 ** seam_islands.worst_island(obj, kind).value for kind in ("ANGLE", "AREA"))
 
 
 @pytest.fixture

@@ -296,9 +296,8 @@ ValueError
   module.def(
       "concave_metric",
       [](const SurfaceObject& surface, const CurvatureObject& curvature, double strength) {
-        return without_gil([&] {
-          return make_held<MetricObject>(concave_metric(*surface.surface, curvature.curvature, strength));
-        });
+        return without_gil(
+            [&] { return make_held<MetricObject>(concave_metric(*surface.surface, curvature.curvature, strength)); });
       },
       py::arg("surface"), py::arg("curvature"), py::arg("strength") = 1.0,
       R"(The metric whose wires come nearest to cuts that people make: short along concave creases (docs/method.md).

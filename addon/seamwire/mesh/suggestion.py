@@ -23,8 +23,10 @@ if TYPE_CHECKING:
     from ..core.network import Along, Wire
 
 
-_MORE_SEEDS = 5
-"""How many times more seeds there are at most where pieces are no discs, or too large."""
+_MORE_SEEDS = 120
+"""How many more seeds than at first there may be for pieces that are no discs."""
+_MOST_DOUBLINGS = 3
+"""How often there are twice as many seeds for smaller islands."""
 
 
 class Suggestion:
@@ -63,7 +65,7 @@ class Suggestion:
         self.mesh = ObjectSession(obj)
         self.along: Along = along or best_along(self.mesh.arrays.polygons)
         self._symmetric = symmetric
-        self._seeds, self._most_seeds = seeds, _MORE_SEEDS * seeds
+        self._seeds, self._most_seeds = seeds, seeds << _MOST_DOUBLINGS
         self._cut = cut and self.along == "SURFACE"
         self._mirror = mirror_axes(obj.data)
         self._planner: seamwire_core.SeamPlanner | None = None
@@ -91,7 +93,7 @@ class Suggestion:
             max_anisotropy=STRENGTHS[self.along],
             clamp_percentile=CLAMP_PERCENTILE,
             seeds=self._seeds,
-            most_seeds=self._most_seeds,
+            most_seeds=self._seeds + _MORE_SEEDS,
             images=images,
             seams=arrays.seams,
             progress=progress,
@@ -117,10 +119,10 @@ class Suggestion:
         self.mesh.write(self.mesh.plan())
 
     def stretched(self, most: float) -> list[int]:
-        """Return the islands that the UV map stretches more than so many octaves, by angle, see `core.stretch`."""
+        """Return the islands that the UV map stretches more than so many octaves, by angle or area, see `core.stretch`."""
         assert self.plan is not None
         stretch = stretch_of(self.mesh.obj, self.mesh.arrays, self.plan.islands)
-        return [] if stretch is None else np.flatnonzero(stretch.angle > most).tolist()
+        return [] if stretch is None else np.flatnonzero(np.maximum(stretch.angle, stretch.area) > most).tolist()
 
     def narrow(self, stretched: list[int]) -> None:
         """Suggest again, with smaller islands in place of some; between more seeds where there are no wires for that."""

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from ..mesh.suggestion import Suggestion
 
-_ROUNDS = 8
+_ROUNDS = 12
 """How often islands that are stretched too much are made smaller."""
 _PERIOD = 0.05
 """Seconds between two looks at whether the planning has ended."""
@@ -54,7 +54,8 @@ class MESH_OT_seamwire_suggest(bpy.types.Operator):
     )
     stretch: bpy.props.FloatProperty(
         name="Stretch",
-        description="How many times longer faces are one way than the other in the UV map, the mean of an island",
+        description="How many times longer than wide, and how many times larger or smaller than the mean of the mesh, faces become"
+        " in the UV map, in the mean of an island",
         default=1.2,
         min=1.02,
         soft_max=2.0,

@@ -45,11 +45,16 @@ class FewSets {
     numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
     sets_ = DisjointSets(numbers_.size());
   }
-  bool join(std::int32_t a, std::int32_t b) { return sets_.join(place(a), place(b)); }
+  bool join(std::int32_t a, std::int32_t b) { return sets_.join(at(a), at(b)); }
+  /// Ascending.
   const std::vector<std::int32_t>& numbers() const { return numbers_; }
+  /// Where one of them is there.
+  std::size_t place(std::int32_t number) const { return index(at(number)); }
+  /// The place of the first one that is in a set with that at a place.
+  std::size_t find(std::size_t place) { return index(sets_.find(static_cast<std::int32_t>(place))); }
 
  private:
-  std::int32_t place(std::int32_t number) const {
+  std::int32_t at(std::int32_t number) const {
     return static_cast<std::int32_t>(std::lower_bound(numbers_.begin(), numbers_.end(), number) - numbers_.begin());
   }
 
@@ -158,9 +163,8 @@ std::vector<std::int32_t> CutPieces::glued_without(std::int32_t chain) const {
   return glued;
 }
 
-std::optional<CutPieces::Joined> CutPieces::joined_without(std::int32_t chain) const {
+std::vector<CutPieces::Joined> CutPieces::joined_without(std::int32_t chain) const {
   const std::vector<std::int32_t> glued = glued_without(chain);
-  if (glued.empty()) return std::nullopt;
   std::vector<std::int32_t> sides, ends;
   for (const std::int32_t e : glued) {
     const CutEdge& edge = edges_[e];
@@ -170,33 +174,37 @@ std::optional<CutPieces::Joined> CutPieces::joined_without(std::int32_t chain) c
       ends.push_back(corner_sets_.find(edge.tips[i]));
     }
   }
-  FewSets joined_pieces(sides), joined_corners(ends);
-  Joined joined{.piece = {.max_spread = std::numeric_limits<double>::infinity()},
-                .pieces = joined_pieces.numbers().size(),
-                .smallest = std::numeric_limits<double>::infinity()};
-  for (const std::int32_t p : joined_pieces.numbers()) {
-    const Piece& piece = pieces_[p];
+  FewSets groups(sides), corners(ends);
+  for (std::size_t i = 0; i < sides.size(); i += 2) groups.join(sides[i], sides[i + 1]);
+  std::vector<Joined> all;
+  std::vector<std::size_t> place(groups.numbers().size());
+  for (std::size_t i = 0; i < groups.numbers().size(); ++i) {
+    const std::size_t first = groups.find(i);
+    if (first == i) {
+      place[i] = all.size();
+      all.push_back({.piece = {.max_spread = std::numeric_limits<double>::infinity()},
+                     .smallest = std::numeric_limits<double>::infinity(),
+                     .name = groups.numbers()[i]});
+    }
+    Joined& joined = all[place[first]];
+    const Piece& piece = pieces_[groups.numbers()[i]];
+    ++joined.pieces;
     joined.piece.euler += piece.euler;
     joined.piece.area += piece.area;
     joined.piece.normal += piece.normal;
     joined.piece.max_spread = std::min(joined.piece.max_spread, piece.max_spread);
     joined.smallest = std::min(joined.smallest, piece.area);
   }
-  joined.where = joined_pieces.numbers().front();
-  std::size_t apart = joined.pieces;
   for (std::size_t i = 0; i < glued.size(); ++i) {
-    apart -= joined_pieces.join(sides[2 * i], sides[2 * i + 1]) ? 1 : 0;
-    ++joined.piece.euler;
-    for (const std::size_t end : {4 * i, 4 * i + 1}) {
-      joined.piece.euler -= joined_corners.join(ends[end], ends[end + 2]) ? 1 : 0;
-    }
+    std::int64_t& euler = all[place[groups.find(groups.place(sides[2 * i]))]].piece.euler;
+    ++euler;
+    for (const std::size_t end : {4 * i, 4 * i + 1}) euler -= corners.join(ends[end], ends[end + 2]) ? 1 : 0;
   }
-  joined.piece.is_connected = apart == 1;
-  return joined;
+  return all;
 }
 
-void CutPieces::remove(std::int32_t chain) {
-  const std::optional<Joined> joined = joined_without(chain);
+std::vector<CutPieces::Joined> CutPieces::remove(std::int32_t chain) {
+  const std::vector<Joined> all = joined_without(chain);
   const std::vector<std::int32_t> glued = glued_without(chain);
   for (const std::int32_t e : edges_of_chain_[chain]) --edges_[e].covered;
   for (const std::int32_t e : glued) {
@@ -205,16 +213,18 @@ void CutPieces::remove(std::int32_t chain) {
     corner_sets_.join(edge.tails[0], edge.tails[1]);
     corner_sets_.join(edge.tips[0], edge.tips[1]);
   }
-  if (joined) pieces_[piece_sets_.find(joined->where)] = joined->piece;
+  for (const Joined& joined : all) pieces_[piece_sets_.find(joined.name)] = joined.piece;
+  return all;
 }
 
-bool CutPieces::touches(std::int32_t chain, std::int32_t other, std::int32_t where) const {
+bool CutPieces::touches(std::int32_t chain, std::int32_t other, std::span<const Joined> joined) const {
   const std::span<const std::int32_t> others = edges_of_chain_[other];
-  const std::int32_t name = where < 0 ? -1 : piece_sets_.find(where);
+  const auto is_joined = [&](std::int32_t piece) {
+    return std::ranges::any_of(
+        joined, [&](const Joined& one) { return piece_sets_.find(one.name) == piece_sets_.find(piece); });
+  };
   return std::ranges::any_of(edges_of_chain_[chain], [&](std::int32_t e) {
-    const CutEdge& edge = edges_[e];
-    return piece_sets_.find(edge.pieces[0]) == name || piece_sets_.find(edge.pieces[1]) == name ||
-           std::ranges::binary_search(others, e);
+    return std::ranges::any_of(edges_[e].pieces, is_joined) || std::ranges::binary_search(others, e);
   });
 }
 

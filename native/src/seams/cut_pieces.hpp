@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,13 +15,12 @@ namespace seamwire {
 
 /// A piece of a surface: what it takes to tell whether it is a disc, and a flat one.
 struct Piece {
-  bool is_connected = true;
-  std::int64_t euler = 0;          ///< Euler characteristic
+  std::int64_t euler = 0;          ///< Euler characteristic; 1: it is a disc
   double area = 0.0;               ///< in the caller's units squared
   Vector normal = Vector::Zero();  ///< sum of the triangles' area normals
   double max_spread = 0.0;         ///< the least that is allowed to one of its triangles
 
-  bool is_disc() const { return is_connected && euler == 1; }
+  bool is_disc() const { return euler == 1; }
   /// How far its normals spread, see SeamLimits.
   double spread() const { return area > 0.0 ? 1.0 - normal.norm() / area : 0.0; }
 };
@@ -38,19 +36,20 @@ class CutPieces {
   CutPieces(const Surface& surface, std::span<const std::vector<std::int32_t>> chains,
             std::span<const double> max_spreads);
 
-  /// A chain taken away: the union of the pieces that it parts.
+  /// Pieces that a chain parts, joined.
   struct Joined {
     Piece piece;
-    std::size_t pieces = 0;   ///< how many it joins; 1: it is a cut that ends within one
-    double smallest = 0.0;    ///< the area of the smallest of them
-    std::int32_t where = -1;  ///< for touches(), once it is removed
+    std::size_t pieces = 0;  ///< how many; 1: the chain is a cut that ends within it
+    double smallest = 0.0;   ///< the area of the smallest of them
+    std::int32_t name = -1;  ///< for touches(), once the chain is removed
   };
-  /// What a chain that is still there parts; nullopt where others cover all that it cuts.
-  std::optional<Joined> joined_without(std::int32_t chain) const;
-  /// Takes it away.
-  void remove(std::int32_t chain);
-  /// Whether joined_without(chain) may be another since `other` was removed and has joined the piece `where`; -1: none.
-  bool touches(std::int32_t chain, std::int32_t other, std::int32_t where) const;
+  /// What comes about where a chain that is still there is taken away: several where the pieces along it do not hang
+  /// together, none where other chains cover all that it cuts.
+  std::vector<Joined> joined_without(std::int32_t chain) const;
+  /// Takes it away, and returns what came about.
+  std::vector<Joined> remove(std::int32_t chain);
+  /// Whether joined_without(chain) may be another since `other` was removed.
+  bool touches(std::int32_t chain, std::int32_t other, std::span<const Joined> joined) const;
 
   /// Whether a piece of less than an area lies beside a chain.
   bool has_beside(std::int32_t chain, double less_than) const;

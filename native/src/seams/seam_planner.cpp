@@ -11,6 +11,7 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <span>
 #include <string>
@@ -195,6 +196,24 @@ Choice make_choice(std::int32_t from, std::int32_t to, CandidateWire found, cons
 using Ends = std::pair<std::int32_t, std::int32_t>;
 Ends ends_of(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
+/// The image of a wire along edges; nullopt where it has none, or runs across the surface.
+std::optional<Choice> mirrored(const Choice& choice, const Surface& surface, const SeamPlannerOptions& options) {
+  if (options.images.empty() || options.along != Along::kEdges) return std::nullopt;
+  Choice out = choice;
+  const auto is_edge = [&](std::int32_t a, std::int32_t b) {
+    return std::ranges::binary_search(surface.edges(), Edge{std::min(a, b), std::max(a, b)});
+  };
+  std::vector<std::int32_t>& chain = out.wire.vertices;
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    chain[i] = options.images[chain[i]];
+    if (chain[i] < 0 || (i > 0 && !is_edge(chain[i - 1], chain[i]))) return std::nullopt;
+    out.wire.points[i] = surface.points()[chain[i]];
+  }
+  out.wire.from = options.images[choice.wire.from];
+  out.wire.to = options.images[choice.wire.to];
+  return out;
+}
+
 /// The chains of choices, then the seams that stay, an edge each.
 std::vector<std::vector<std::int32_t>> chains_of(const std::vector<Choice>& choices, const std::vector<Edge>& seams) {
   std::vector<std::vector<std::int32_t>> chains;
@@ -260,7 +279,7 @@ class Seeding {
     std::set<Ends> wanted;
     for (const auto& [a, b] : wires_.surface().edges()) {
       const std::int32_t one = cells_.cell(a), other = cells_.cell(b);
-      if (one >= 0 && other >= 0 && one != other) wanted.insert(ends_of(one, other));
+      if (one >= 0 && other >= 0 && one != other) wanted.insert({ends_of(one, other), image(ends_of(one, other))});
     }
     std::map<std::int32_t, CandidateWires::Fan> missing;
     for (const auto& [one, other] : wanted) {
@@ -280,6 +299,11 @@ class Seeding {
       }
       ++i;
     }
+    for (const Ends& pair : wanted) {
+      // Of chains of edges that are as short as each other, both sides shall have the same.
+      if (image(pair) <= pair) continue;
+      if (auto same = mirrored(known_.at(pair), wires_.surface(), options_)) known_.at(image(pair)) = std::move(*same);
+    }
     std::vector<Choice> all;
     for (const Ends& pair : wanted) {
       Choice choice = known_.at(pair);
@@ -291,6 +315,17 @@ class Seeding {
       all.push_back(std::move(choice));
     }
     return all;
+  }
+
+  /// The cells of the images of two seeds; those of the seeds themselves where one has none.
+  Ends image(const Ends& pair) const {
+    if (options_.images.empty()) return pair;
+    const auto cell = [&](std::int32_t of) {
+      const auto seed = std::ranges::find(cells_.seeds(), options_.images[cells_.seeds()[of]]);
+      return seed == cells_.seeds().end() ? -1 : static_cast<std::int32_t>(seed - cells_.seeds().begin());
+    };
+    const Ends other = ends_of(cell(pair.first), cell(pair.second));
+    return other.first < 0 || other.first == other.second ? pair : other;
   }
 
   const CandidateWires& wires_;
@@ -359,12 +394,10 @@ class Thinning {
 
   std::vector<Choice> run(const Task& task) {
     for (std::int32_t i = 0; index(i) < choices_.size(); ++i) costs_[i] = cost(i);
-    for (std::size_t left = choices_.size();; --left) {
-      task.check(1.0 - static_cast<double>(left) / static_cast<double>(choices_.size() + 1));
-      const std::int32_t least = find_least();
-      if (least < 0) break;
-      remove_with_images(least);
-    }
+    take_away(task);
+    // Where pairs leave no such number, one of the last pair goes alone.
+    is_paired_ = false;
+    if (islands_ > 0 && pieces_.piece_count() > islands_) take_away(task);
     std::vector<Choice> kept;
     for (std::size_t i = 0; i < choices_.size(); ++i) {
       if (is_there_[i] != 0) kept.push_back(choices_[i]);
@@ -373,21 +406,37 @@ class Thinning {
   }
 
  private:
-  /// What is lost without a wire; infinite where what it parts does not join to a disc within the limits.
-  double cost(std::int32_t i) const {
-    const std::optional<CutPieces::Joined> joined = pieces_.joined_without(i);
-    if (!joined) return 0.0;
-    const Piece& piece = joined->piece;
-    if (!piece.is_disc()) return kInfinity;
-    const bool is_cut = joined->pieces == 1;
-    const double spread = piece.spread(), smallest = joined->smallest / std::max(area_, 1e-300);
-    if (islands_ > 0 && !is_cut) {
-      if (pieces_.piece_count() < islands_ + joined->pieces - 1) return kInfinity;
-    } else if (spread > piece.max_spread && (is_cut || smallest >= kCrumb)) {
-      return kInfinity;
+  void take_away(const Task& task) {
+    std::ranges::fill(is_needed_, std::uint8_t{0});
+    while (true) {
+      const auto gone = static_cast<double>(std::ranges::count(is_there_, 0));
+      task.check(gone / static_cast<double>(choices_.size() + 1));
+      const std::int32_t least = find_least();
+      if (least < 0) return;
+      remove_with_images(least);
     }
-    if (is_cut) return kInnerWorth * spread * worths_[i];
-    return (spread + kFlatWorth) * worths_[i] * std::pow(smallest, 0.25);
+  }
+
+  /// What is lost without a wire; infinite where what it parts does not join to discs within the limits.
+  double cost(std::int32_t i) const {
+    const std::vector<CutPieces::Joined> joined = pieces_.joined_without(i);
+    std::size_t fewer = 0;
+    double sum = 0.0;
+    for (const CutPieces::Joined& one : joined) {
+      fewer += one.pieces - 1;
+      sum += cost(one);
+    }
+    if (islands_ > 0 && fewer > 0 && pieces_.piece_count() < islands_ + fewer) return kInfinity;
+    return sum * worths_[i];
+  }
+  double cost(const CutPieces::Joined& joined) const {
+    const Piece& piece = joined.piece;
+    if (!piece.is_disc()) return kInfinity;
+    const bool is_cut = joined.pieces == 1;
+    const double spread = piece.spread(), smallest = joined.smallest / std::max(area_, 1e-300);
+    const bool is_limited = islands_ == 0 || is_cut;
+    if (is_limited && spread > piece.max_spread && (is_cut || smallest >= kCrumb)) return kInfinity;
+    return is_cut ? kInnerWorth * spread : (spread + kFlatWorth) * std::pow(smallest, 0.25);
   }
 
   std::int32_t find_least() const {
@@ -400,21 +449,20 @@ class Thinning {
   }
 
   void remove(std::int32_t wire) {
-    const std::optional<CutPieces::Joined> joined = pieces_.joined_without(wire);
     const std::size_t before = pieces_.piece_count();
-    pieces_.remove(wire);
+    const std::vector<CutPieces::Joined> joined = pieces_.remove(wire);
     is_there_[wire] = 0;
     std::ranges::fill(is_needed_, std::uint8_t{0});  // it may be another matter now
     const bool is_count_enough = islands_ > 0 && before != pieces_.piece_count();
     for (std::int32_t i = 0; index(i) < choices_.size(); ++i) {
       if (is_there_[i] == 0) continue;
-      if (is_count_enough || pieces_.touches(i, wire, joined ? joined->where : -1)) costs_[i] = cost(i);
+      if (is_count_enough || pieces_.touches(i, wire, joined)) costs_[i] = cost(i);
     }
   }
 
   /// Where an image has to stay, so has the wire, for now.
   void remove_with_images(std::int32_t wire) {
-    const std::vector<std::int32_t> others = images_of(wire);
+    const std::vector<std::int32_t> others = is_paired_ ? images_of(wire) : std::vector<std::int32_t>{};
     if (others.empty()) return remove(wire);
     const CutPieces pieces = pieces_;
     const std::vector<double> costs = costs_;
@@ -455,6 +503,7 @@ class Thinning {
   double area_ = 0.0;
   std::vector<double> worths_, costs_;
   std::vector<std::uint8_t> is_there_, is_needed_;
+  bool is_paired_ = true;
 };
 
 /// How good a set of wires is, but for their length.
@@ -549,9 +598,22 @@ std::vector<Choice> SeamPlanner::Impl::swept(std::vector<Choice> best, const Sea
       continue;
     std::vector<Choice> others = best;
     others.erase(others.begin() + (place - best.begin()));
+    // An image that runs as the wire does is shortened with it.
+    const std::optional<Choice> image = mirrored(wire, surface(), options);
+    const auto has_course = [](const Choice& choice, const std::vector<std::int32_t>& course) {
+      const std::vector<std::int32_t>& own = choice.wire.vertices;
+      return own == course || std::ranges::equal(own, course | std::views::reverse);
+    };
+    const bool has_image =
+        image && !has_course(wire, image->wire.vertices) &&
+        std::erase_if(others, [&](const Choice& other) { return has_course(other, image->wire.vertices); }) > 0;
     for (const std::vector<Choice>& parts : shortened(wire, others, task)) {
       std::vector<Choice> trial = others;
       trial.insert(trial.end(), parts.begin(), parts.end());
+      for (const Choice& part : parts) {
+        if (!has_image) break;
+        if (const std::optional<Choice> other = mirrored(part, surface(), options)) trial.push_back(*other);
+      }
       CutPieces trial_cut = pieces(trial, max_spreads);
       const Quality now(trial_cut);
       if (trial_cut.piece_count() >= limits.islands && now.crumbs < quality.crumbs &&
