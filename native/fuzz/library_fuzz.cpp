@@ -27,6 +27,7 @@
 #include "seamwire/metric/curvature.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/metric/scribble.hpp"
+#include "seamwire/seams/seam_planner.hpp"
 #include "seamwire/surface/ray_tree.hpp"
 #include "seamwire/surface/segments.hpp"
 #include "seamwire/surface/surface.hpp"
@@ -306,6 +307,32 @@ void check_edge_wires(Bytes& from, const Patience& patience, const Surface& surf
   require(loop.empty() || (loop.size() > 2 && is_edge(surface, loop.front(), loop.back())), "a loop is closed");
 }
 
+void check_plan(Bytes& from, const Patience& patience, const Surface& surface) {
+  SeamPlannerOptions options{.along = from.coin() ? Along::kSurface : Along::kEdges};
+  options.strength = {.max_anisotropy = 1.0 + static_cast<double>(from.byte()) / 8.0};
+  options.seeds = 1 + static_cast<std::size_t>(from.below(6));
+  options.most_seeds = options.seeds + static_cast<std::size_t>(from.below(12));
+  if (from.coin()) {
+    for (std::size_t v = 0; v < surface.vertex_count(); ++v) {
+      options.images.push_back(from.below(surface.vertex_count() + 1) - 1);
+    }
+  }
+  for (std::int32_t left = from.below(4); left > 0; --left) {
+    options.seams.push_back({from.below(surface.vertex_count()), from.below(surface.vertex_count())});
+  }
+  const SeamPlanner planner(std::make_shared<const Surface>(surface), options, patience.task());
+  SeamLimits limits;
+  limits.max_spread = std::abs(from.number());
+  limits.islands = static_cast<std::size_t>(from.below(6));
+  limits.may_start_on_others = from.coin();
+  const SeamPlan plan = planner.plan(limits, patience.task());
+  require(plan.islands.size() == surface.face_count(), "each face is in an island");
+  for (const PlannedWire& wire : plan.wires) {
+    check_chain(surface, wire.vertices);
+    require(wire.vertices.front() == wire.from && wire.vertices.back() == wire.to, "a wire runs from seed to seed");
+  }
+}
+
 void check_rays(Bytes& from, const Mesh& mesh) {
   const RayTree tree(mesh.points, mesh.triangles);
   const Vector origin(from.number(), from.number(), from.number());
@@ -333,6 +360,7 @@ void check(Bytes& from) {
   metric = apply_scribbles(surface, metric, scribbles);
   check_edge_wires(from, patience, surface, metric, scribbles);
   check_wires(from, patience, surface, metric);
+  if (from.coin()) check_plan(from, patience, surface);
 }
 
 }  // namespace

@@ -289,14 +289,18 @@ double below(const shapes::Mesh& mesh, std::size_t sphere_vertices) {
 }
 
 TEST(SeamPlanner, PrefersWhatIsOutOfSight) {
-  // A sphere in a bowl that hides its lower half.
+  // A sphere in a bowl that hides its lower half, or under one that hides the upper half.
   const shapes::Mesh sphere = shapes::bumpy(shapes::icosphere(4), 0.01);
-  shapes::Mesh bowl = shapes::without(shapes::icosphere(4, 0.6), [](const Vector& p) { return p.z() > 0.0; });
-  shapes::Mesh both = sphere;
-  const auto count = static_cast<std::int32_t>(sphere.points.size());
-  both.points.insert(both.points.end(), bowl.points.begin(), bowl.points.end());
-  for (const Triangle& t : bowl.triangles) both.triangles.push_back({t[0] + count, t[1] + count, t[2] + count});
-  EXPECT_GT(below(both, sphere.points.size()), below(sphere, sphere.points.size()) + 0.1);
+  const auto in_bowl = [&](double side) {
+    const shapes::Mesh bowl =
+        shapes::without(shapes::icosphere(4, 0.6), [side](const Vector& p) { return side * p.z() < 0.0; });
+    shapes::Mesh both = sphere;
+    const auto count = static_cast<std::int32_t>(sphere.points.size());
+    both.points.insert(both.points.end(), bowl.points.begin(), bowl.points.end());
+    for (const Triangle& t : bowl.triangles) both.triangles.push_back({t[0] + count, t[1] + count, t[2] + count});
+    return below(both, sphere.points.size());
+  };
+  EXPECT_GT(in_bowl(-1.0), in_bowl(1.0) + 0.1);
 }
 
 TEST(SeamPlanner, ComponentsAndWhatIsOddAreCutToo) {

@@ -45,8 +45,6 @@ constexpr double kHollow = 1.0, kHidden = 1.0;
 constexpr double kDeep = 8.0;
 /// Pieces of less than this part of the surface are joined to others wherever that makes a disc.
 constexpr double kCrumb = 0.004;
-/// What parts flat pieces is worth a little still; a cut that ends within a piece, next to nothing.
-constexpr double kFlatWorth = 0.02, kInnerWorth = 1e-3;
 /// How much more the worst piece may be bent for fewer crumbs.
 constexpr double kBentForCrumbs = 0.02;
 
@@ -180,6 +178,8 @@ struct Choice {
   PlannedWire wire;
   double strength = 0.0;   ///< how well it follows features
   double seclusion = 1.0;  ///< Seclusion::of()
+
+  double worth() const { return strength * seclusion; }
 };
 
 Choice make_choice(std::int32_t from, std::int32_t to, CandidateWire found, const Seclusion& seclusion) {
@@ -191,6 +191,15 @@ Choice make_choice(std::int32_t from, std::int32_t to, CandidateWire found, cons
                    .points = std::move(found.points)},
           .strength = found.strength,
           .seclusion = secluded};
+}
+
+/// In the caller's units.
+double length(const Surface& surface, const std::vector<std::int32_t>& chain) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    sum += (surface.points()[chain[i]] - surface.points()[chain[i - 1]]).norm();
+  }
+  return sum;
 }
 
 using Ends = std::pair<std::int32_t, std::int32_t>;
@@ -351,8 +360,7 @@ std::size_t common_at_ends(std::vector<std::int32_t> one, std::vector<std::int32
 /// Those whose chains of edges meet where their curves do, at seeds; of two others the one that is worth more. What
 /// edges enclose, curves then enclose too.
 std::vector<Choice> meeting_at_seeds(std::vector<Choice> choices) {
-  const auto worth = [](const Choice& choice) { return choice.strength * choice.seclusion; };
-  std::ranges::stable_sort(choices, std::greater<>(), worth);
+  std::ranges::stable_sort(choices, std::greater<>(), &Choice::worth);
   std::vector<Choice> taken;
   std::map<std::int32_t, std::vector<std::size_t>> through;
   for (Choice& choice : choices) {
@@ -371,29 +379,29 @@ std::vector<Choice> meeting_at_seeds(std::vector<Choice> choices) {
   return taken;
 }
 
-/// Takes wires away until each that is left is needed, mirror images together.
+/// Takes wires away until each that is left is needed, mirror images together: the longest for its worth first, as
+/// Kruskal's algorithm turned round finds a shortest tree.
 class Thinning {
  public:
-  /// `images`: as SeamPlannerOptions. `pieces`: those of the choices and of the seams that stay. `seclusion`: the power
-  /// of it that wires are worth.
-  Thinning(const std::vector<std::int32_t>& images, const std::vector<Choice>& choices, CutPieces pieces,
-           std::size_t islands, double seclusion)
+  /// `images`: as SeamPlannerOptions. `pieces`: those of the choices and of the seams that stay.
+  Thinning(const Surface& surface, const std::vector<std::int32_t>& images, const std::vector<Choice>& choices,
+           CutPieces pieces, std::size_t islands)
       : images_(images),
         choices_(choices),
         pieces_(std::move(pieces)),
         islands_(islands),
-        worths_(choices_.size()),
-        costs_(choices_.size()),
+        prices_(choices_.size()),
+        freedoms_(choices_.size(), Freedom::kNeeded),
         is_there_(choices_.size(), 1),
         is_needed_(choices_.size(), 0) {
     for (const Piece& piece : pieces_.pieces()) area_ += piece.area;
     for (std::size_t i = 0; i < choices_.size(); ++i) {
-      worths_[i] = choices_[i].strength * std::pow(choices_[i].seclusion, seclusion);
+      prices_[i] = length(surface, choices_[i].wire.vertices) / choices_[i].worth();
     }
   }
 
   std::vector<Choice> run(const Task& task) {
-    for (std::int32_t i = 0; index(i) < choices_.size(); ++i) costs_[i] = cost(i);
+    for (std::int32_t i = 0; index(i) < choices_.size(); ++i) freedoms_[i] = freedom(i);
     take_away(task);
     // Where pairs leave no such number, one of the last pair goes alone.
     is_paired_ = false;
@@ -411,41 +419,42 @@ class Thinning {
     while (true) {
       const auto gone = static_cast<double>(std::ranges::count(is_there_, 0));
       task.check(gone / static_cast<double>(choices_.size() + 1));
-      const std::int32_t least = find_least();
-      if (least < 0) return;
-      remove_with_images(least);
+      const std::int32_t dearest = find_dearest();
+      if (dearest < 0) return;
+      remove_with_images(dearest);
     }
   }
 
-  /// What is lost without a wire; infinite where what it parts does not join to discs within the limits.
-  double cost(std::int32_t i) const {
+  /// Whether what a wire parts joins to discs within the limits; where it cuts nothing that others do not, it goes when
+  /// all others have.
+  enum class Freedom : std::uint8_t { kNeeded, kCutsNothing, kFree };
+  Freedom freedom(std::int32_t i) const {
     const std::vector<CutPieces::Joined> joined = pieces_.joined_without(i);
+    if (joined.empty()) return Freedom::kCutsNothing;
     std::size_t fewer = 0;
-    double sum = 0.0;
     for (const CutPieces::Joined& one : joined) {
       fewer += one.pieces - 1;
-      sum += cost(one);
+      if (!is_allowed(one)) return Freedom::kNeeded;
     }
-    if (islands_ > 0 && fewer > 0 && pieces_.piece_count() < islands_ + fewer) return kInfinity;
-    return sum * worths_[i];
+    const bool is_enough = islands_ > 0 && fewer > 0 && pieces_.piece_count() < islands_ + fewer;
+    return is_enough ? Freedom::kNeeded : Freedom::kFree;
   }
-  double cost(const CutPieces::Joined& joined) const {
+  bool is_allowed(const CutPieces::Joined& joined) const {
     const Piece& piece = joined.piece;
-    if (!piece.is_disc()) return kInfinity;
-    const bool is_cut = joined.pieces == 1;
-    const double spread = piece.spread(), smallest = joined.smallest / std::max(area_, 1e-300);
-    const bool is_limited = islands_ == 0 || is_cut;
-    if (is_limited && spread > piece.max_spread && (is_cut || smallest >= kCrumb)) return kInfinity;
-    return is_cut ? kInnerWorth * spread : (spread + kFlatWorth) * std::pow(smallest, 0.25);
+    if (!piece.is_disc()) return false;
+    const bool is_cut = joined.pieces == 1, is_limited = islands_ == 0 || is_cut;
+    return !is_limited || piece.spread() <= piece.max_spread || (!is_cut && joined.smallest < kCrumb * area_);
   }
 
-  std::int32_t find_least() const {
-    std::int32_t least = -1;
+  std::int32_t find_dearest() const {
+    std::int32_t dearest = -1;
     for (std::int32_t i = 0; index(i) < choices_.size(); ++i) {
-      if (is_there_[i] == 0 || is_needed_[i] != 0 || costs_[i] == kInfinity) continue;
-      if (least < 0 || costs_[i] < costs_[least]) least = i;
+      if (is_there_[i] == 0 || is_needed_[i] != 0 || freedoms_[i] == Freedom::kNeeded) continue;
+      if (dearest < 0 || std::pair(freedoms_[i], prices_[i]) > std::pair(freedoms_[dearest], prices_[dearest])) {
+        dearest = i;
+      }
     }
-    return least;
+    return dearest;
   }
 
   void remove(std::int32_t wire) {
@@ -456,7 +465,7 @@ class Thinning {
     const bool is_count_enough = islands_ > 0 && before != pieces_.piece_count();
     for (std::int32_t i = 0; index(i) < choices_.size(); ++i) {
       if (is_there_[i] == 0) continue;
-      if (is_count_enough || pieces_.touches(i, wire, joined)) costs_[i] = cost(i);
+      if (is_count_enough || pieces_.touches(i, wire, joined)) freedoms_[i] = freedom(i);
     }
   }
 
@@ -465,17 +474,17 @@ class Thinning {
     const std::vector<std::int32_t> others = is_paired_ ? images_of(wire) : std::vector<std::int32_t>{};
     if (others.empty()) return remove(wire);
     const CutPieces pieces = pieces_;
-    const std::vector<double> costs = costs_;
+    const std::vector<Freedom> freedoms = freedoms_;
     const std::vector<std::uint8_t> is_there = is_there_;
     const std::vector<std::uint8_t> is_needed = is_needed_;
     remove(wire);
     for (const std::int32_t other : others) {
-      if (costs_[other] < kInfinity) {
+      if (freedoms_[other] != Freedom::kNeeded) {
         remove(other);
         continue;
       }
       pieces_ = pieces;
-      costs_ = costs;
+      freedoms_ = freedoms;
       is_there_ = is_there;
       is_needed_ = is_needed;
       is_needed_[wire] = 1;
@@ -501,7 +510,8 @@ class Thinning {
   CutPieces pieces_;
   const std::size_t islands_;
   double area_ = 0.0;
-  std::vector<double> worths_, costs_;
+  std::vector<double> prices_;
+  std::vector<Freedom> freedoms_;  ///< of those that are there
   std::vector<std::uint8_t> is_there_, is_needed_;
   bool is_paired_ = true;
 };
@@ -538,8 +548,6 @@ struct SeamPlanner::Impl {
   CutPieces pieces(const std::vector<Choice>& of, std::span<const double> max_spreads) const {
     return CutPieces(surface(), chains_of(of, options.seams), max_spreads);
   }
-  double price(const std::vector<Choice>& of) const;
-  std::vector<Choice> thinned(const SeamLimits& limits, std::span<const double> max_spreads, const Task& task) const;
   std::vector<Choice> swept(std::vector<Choice> best, const SeamLimits& limits, std::span<const double> max_spreads,
                             const Task& task) const;
   std::vector<std::vector<Choice>> shortened(const Choice& wire, const std::vector<Choice>& others,
@@ -550,38 +558,6 @@ struct SeamPlanner::Impl {
   const Seclusion seclusion;
   const std::vector<Choice> choices;
 };
-
-/// The length of the seams, of the model scaled to the unit cube, less where nobody sees them.
-double SeamPlanner::Impl::price(const std::vector<Choice>& of) const {
-  double sum = 0.0;
-  std::set<Ends> counted;
-  for (const Choice& choice : of) {
-    const std::vector<std::int32_t>& chain = choice.wire.vertices;
-    for (std::size_t i = 1; i < chain.size(); ++i) {
-      if (!counted.insert(ends_of(chain[i - 1], chain[i])).second) continue;
-      sum += (surface().points()[chain[i]] - surface().points()[chain[i - 1]]).norm() / choice.seclusion;
-    }
-  }
-  return sum * surface().scale();
-}
-
-/// The cheapest of what is left when wires are taken away in several orders: taking the least worth first is greedy,
-/// and the order that heeds seclusion most is not always the one that leaves the least to be seen.
-std::vector<Choice> SeamPlanner::Impl::thinned(const SeamLimits& limits, std::span<const double> max_spreads,
-                                               const Task& task) const {
-  const std::vector<Choice> among = limits.may_start_on_others ? choices : meeting_at_seeds(choices);
-  const CutPieces all = pieces(among, max_spreads);
-  std::vector<Choice> best;
-  double least = kInfinity;
-  for (const double seclusion : {0.0, 0.5, 1.0}) {
-    std::vector<Choice> kept = Thinning(options.images, among, all, limits.islands, seclusion).run(task);
-    const double now = price(kept);
-    if (now >= least) continue;
-    least = now;
-    best = std::move(kept);
-  }
-  return best;
-}
 
 /// Lets wires start on others where they ran beside them, as long as that leaves fewer crumbs and pieces as good.
 std::vector<Choice> SeamPlanner::Impl::swept(std::vector<Choice> best, const SeamLimits& limits,
@@ -706,7 +682,9 @@ SeamPlan SeamPlanner::plan(const SeamLimits& limits, const Task& task) const {
   }
   for (std::size_t f = 0; f < max_spreads.size(); ++f) check(max_spreads[f], "max_spreads[" + std::to_string(f) + "]");
 
-  std::vector<Choice> kept = impl_->thinned(limits, max_spreads, task);
+  const std::vector<Choice> among = limits.may_start_on_others ? impl_->choices : meeting_at_seeds(impl_->choices);
+  CutPieces all = impl_->pieces(among, max_spreads);
+  std::vector<Choice> kept = Thinning(surface, impl_->options.images, among, std::move(all), limits.islands).run(task);
   if (limits.may_start_on_others) kept = impl_->swept(std::move(kept), limits, max_spreads, task);
   SeamPlan plan;
   const CutPieces pieces = impl_->pieces(kept, max_spreads);

@@ -62,10 +62,10 @@ struct SeamPlan {
 ///
 /// Seeds are placed far from each other and on features: farthest-point sampling along edges in the metric, weighted by
 /// the rank of |k1| - |k2|. Those whose cells touch are joined by the wire that LiveWire would show, the shorter one of
-/// the two metrics. Where a piece is no disc it gets another seed. Then wires are taken away, the least worth first, as
-/// long as what they part joins to a disc within the limits; worth most are wires that follow features, run in hollows
-/// and out of sight (ambient occlusion), and part what is bent. At last, where two wires run side by side and leave
-/// crumbs between them, the weaker one starts on the other instead.
+/// the two metrics. Where a piece is no disc it gets another seed. Then wires are taken away, as long as what they part
+/// joins to discs within the limits: first the longest for its worth, which is more where a wire follows features, runs
+/// in hollows, and out of sight (ambient occlusion). At last, where two wires run side by side and leave crumbs between
+/// them, the weaker one starts on the other instead.
 class SeamPlanner {
  public:
   /// Finds the wires to choose from, on several threads. Throws InvalidInput for options that are not as said above or
