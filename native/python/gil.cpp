@@ -128,7 +128,7 @@ void leave_if_cut_off() {
   throw py::error_already_set();
 }
 
-void run_aside(std::function<void()> work) {
+void run_aside(const std::function<void()>& work) {
   if (calls().phase != Phase::kRunning) return work();
   enter();
   try {

@@ -65,7 +65,7 @@ void leave_if_cut_off();
 /// Runs work() on a thread of its own and returns at once; where the interpreter is ending, or no thread can be had, it
 /// runs here. The end of the interpreter waits for it as for threads inside the library. It must not touch Python, and
 /// not throw.
-void run_aside(std::function<void()> work);
+void run_aside(const std::function<void()>& work);
 
 /// Registers with Python's `atexit`, when the module is imported.
 void heed_interpreter_exit();

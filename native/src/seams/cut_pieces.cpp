@@ -204,7 +204,7 @@ std::vector<CutPieces::Joined> CutPieces::joined_without(std::int32_t chain) con
 }
 
 std::vector<CutPieces::Joined> CutPieces::remove(std::int32_t chain) {
-  const std::vector<Joined> all = joined_without(chain);
+  std::vector<Joined> all = joined_without(chain);
   const std::vector<std::int32_t> glued = glued_without(chain);
   for (const std::int32_t e : edges_of_chain_[chain]) --edges_[e].covered;
   for (const std::int32_t e : glued) {

@@ -11,7 +11,6 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
-#include <ranges>
 #include <set>
 #include <span>
 #include <string>
@@ -226,6 +225,7 @@ std::optional<Choice> mirrored(const Choice& choice, const Surface& surface, con
 /// The chains of choices, then the seams that stay, an edge each.
 std::vector<std::vector<std::int32_t>> chains_of(const std::vector<Choice>& choices, const std::vector<Edge>& seams) {
   std::vector<std::vector<std::int32_t>> chains;
+  chains.reserve(choices.size() + seams.size());
   for (const Choice& choice : choices) chains.push_back(choice.wire.vertices);
   for (const auto& [a, b] : seams) chains.push_back({a, b});
   return chains;
@@ -297,6 +297,7 @@ class Seeding {
           .first->second.to.push_back(cells_.seeds()[other]);
     }
     std::vector<CandidateWires::Fan> fans;
+    fans.reserve(missing.size());
     for (const auto& [cell, fan] : missing) fans.push_back(fan);
     std::vector<std::vector<CandidateWire>> found = wires_.find(fans, task);
     std::size_t i = 0;
@@ -578,7 +579,7 @@ std::vector<Choice> SeamPlanner::Impl::swept(std::vector<Choice> best, const Sea
     const std::optional<Choice> image = mirrored(wire, surface(), options);
     const auto has_course = [](const Choice& choice, const std::vector<std::int32_t>& course) {
       const std::vector<std::int32_t>& own = choice.wire.vertices;
-      return own == course || std::ranges::equal(own, course | std::views::reverse);
+      return own == course || std::equal(own.begin(), own.end(), course.rbegin(), course.rend());
     };
     const bool has_image =
         image && !has_course(wire, image->wire.vertices) &&
