@@ -54,8 +54,8 @@ struct PlannedWire {
 struct SeamPlan {
   std::vector<PlannedWire> wires;     ///< without the seams that were there
   std::vector<std::int32_t> islands;  ///< of each of the caller's triangles, as face_segments() numbers them
-  std::size_t island_count = 0;
-  std::size_t not_discs = 0;  ///< how many of the islands are no discs, where there were not seeds enough
+  std::size_t island_count = 0;       ///< how many
+  std::size_t not_discs = 0;          ///< how many of the islands are no discs, where there were not seeds enough
 };
 
 /// Plans a network of wires that cuts a surface into discs.
