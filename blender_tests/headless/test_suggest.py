@@ -92,6 +92,32 @@ def test_no_island_is_stretched_more_than_asked() -> None:
     assert found[1.03] > found[1.1] > found[1.3]
 
 
+def test_open_islands_are_cut_into_discs_and_no_more(suzanne: bpy.types.Object) -> None:
+    before = islands(suzanne)
+    assert bpy.ops.mesh.seamwire_suggest(limit="DISCS") == {"FINISHED"}
+    assert islands(suzanne) == before
+    assert open_islands(suzanne) == 0
+    assert bpy.ops.mesh.seamwire_suggest(limit="DISCS") == {"CANCELLED"}
+
+
+def test_the_worst_island_is_parted_and_no_other() -> None:
+    obj = add_ball()
+    edit()
+    with pytest.raises(RuntimeError, match="unwrap first"):
+        bpy.ops.mesh.seamwire_suggest(limit="WORST")
+    bpy.ops.mesh.seamwire_suggest(limit="ISLANDS", islands=4, unwrap=True)
+    before, faces, was = islands(obj), set(seam_islands.worst_island(obj, "AREA").faces.tolist()), stretch(obj)
+    old = set(seams(obj))
+    assert bpy.ops.mesh.seamwire_suggest(limit="WORST", unwrap=True) == {"FINISHED"}
+    assert islands(obj) > before
+    assert stretch(obj) < was
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    for pair in set(seams(obj)) - old:
+        around = {face.index for face in bm.edges.get([bm.verts[v] for v in pair]).link_faces}
+        assert around <= faces
+
+
 def test_seams_that_are_there_stay_and_are_no_wires(suzanne: bpy.types.Object) -> None:
     bpy.ops.mesh.seamwire_mark(loops="0-8" if "0-8" in edges(suzanne) else edges(suzanne)[0])
     before = seams(suzanne)

@@ -9,9 +9,9 @@ import numpy as np
 
 from ..core import native
 from ..core.defaults import CLAMP_PERCENTILE, STRENGTHS
-from ..core.suggestion import best_along, narrowed, planned_wires, spreads
+from ..core.suggestion import best_along, narrowed, planned_wires, spread_of, spreads
 from .object_session import ObjectSession, mirror_axes
-from .seam_islands import stretch_of
+from .seam_islands import Worst, stretch_of, worst_island
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -135,3 +135,16 @@ class Suggestion:
             self._seeds = min(2 * self._seeds, self._most_seeds)
             self.prepare(lambda _: True)
             self.suggest(0.0)
+
+    def worst(self) -> Worst | None:
+        """Return the island that the UV map stretches most, by angle or by area; None: there are no UVs."""
+        found = [worst_island(self.mesh.obj, kind) for kind in ("ANGLE", "AREA")]
+        return max((one for one in found if one is not None), key=lambda one: one.value, default=None)
+
+    def part(self, island: Worst) -> None:
+        """Let the next suggestion have smaller islands in place of one that there is."""
+        arrays = self.mesh.arrays
+        inside = np.isin(arrays.polygons, island.faces)
+        labels = np.where(inside, 0, 1).astype(np.int32)
+        limits = np.full(len(inside), spread_of(np.pi))
+        self._limits = narrowed(limits, [0], labels, spreads(arrays.points, arrays.triangles, labels))

@@ -38,6 +38,16 @@ class MESH_OT_seamwire_suggest(bpy.types.Operator):
             ("BEND", "Bend", "How far the faces of an island may turn away from their mean direction"),
             ("ISLANDS", "Islands", "Their number"),
             ("STRETCH", "Stretch", "How much Blender's unwrap stretches an island: unwraps as well, several times"),
+            (
+                "DISCS",
+                "Open Islands",
+                "Only what it takes for each island to be a disc: cuts along features and out of sight",
+            ),
+            (
+                "WORST",
+                "Worst Island",
+                "Only the island that the UV map stretches most is parted again, and what is no disc",
+            ),
         ),
         default="BEND",
     )
@@ -86,7 +96,9 @@ class MESH_OT_seamwire_suggest(bpy.types.Operator):
         layout = self.layout
         layout.use_property_split = True
         layout.prop(self, "limit")
-        layout.prop(self, {"BEND": "angle", "ISLANDS": "islands", "STRETCH": "stretch"}[self.limit])
+        amount = {"BEND": "angle", "ISLANDS": "islands", "STRETCH": "stretch"}.get(self.limit)
+        if amount:
+            layout.prop(self, amount)
         layout.prop(self, "along")
         if self.along != "EDGES":
             layout.prop(self, "finish")
@@ -151,10 +163,10 @@ class MESH_OT_seamwire_suggest(bpy.types.Operator):
 
     @property
     def _spread(self) -> float:
-        """How far the normals of an island may spread: anyhow where stretch has the last word, for a strip may turn round and round."""
+        """How far the normals of an island may spread: as far as they like where something else has the last word."""
         from ..core.suggestion import spread_of
 
-        return spread_of(math.pi if self.limit == "STRETCH" else self.angle)
+        return spread_of(self.angle if self.limit in {"BEND", "ISLANDS"} else math.pi)
 
     @property
     def _islands(self) -> int:
@@ -204,9 +216,11 @@ class MESH_OT_seamwire_suggest(bpy.types.Operator):
 
     def _carry_out(self, context: bpy.types.Context, suggestions: Sequence[Suggestion]) -> set[str]:
         """Choose the wires, write or cut them, and unwrap."""
+        if self.limit == "WORST" and not _part_worst(suggestions):
+            self.report({"ERROR"}, "No visible face has UVs: unwrap first")
+            return {"CANCELLED"}
         for suggestion in suggestions:
             suggestion.suggest(self._spread, self._islands)
-        for suggestion in suggestions:
             suggestion.write()
         left = 0
         if self.limit == "STRETCH":
@@ -218,7 +232,7 @@ class MESH_OT_seamwire_suggest(bpy.types.Operator):
                 self.report({"ERROR"}, str(error))
                 return {"CANCELLED"}
         if not any(suggestion.wires for suggestion in suggestions):
-            self.report({"INFO"}, "The islands are discs, and bend no more than that: nothing to add")
+            self.report({"INFO"}, "The islands are discs already, and within the limit: nothing to add")
             return {"CANCELLED"}
         islands = sum(suggestion.plan.island_count for suggestion in suggestions)
         across = {s.mesh: s.wires for s in suggestions if s.along == "SURFACE" and s.wires}
@@ -285,6 +299,16 @@ class MESH_OT_seamwire_suggest(bpy.types.Operator):
         except (ValueError, NativeError) as error:
             return str(error)
         return ""
+
+
+def _part_worst(suggestions: Sequence[Suggestion]) -> bool:
+    """Let the next suggestion part the island that is stretched most; False where there are no UVs."""
+    stretched = {suggestion: worst for suggestion in suggestions if (worst := suggestion.worst()) is not None}
+    if not stretched:
+        return False
+    suggestion = max(stretched, key=lambda one: stretched[one].value)
+    suggestion.part(stretched[suggestion])
+    return True
 
 
 def register() -> None:
