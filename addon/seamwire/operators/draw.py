@@ -21,7 +21,7 @@ _FIRST = (
     ("CLICK", "Click", "Place the first seed, or take hold of a seed or a wire", 1),
     ("LOOP", "Loop", "Take the loop through the edge", 2),
     ("GUIDE", "Guide Stroke", "Draw a stroke that wires follow", 3),
-    ("AVOID", "Avoid Stroke", "Draw a stroke that wires keep off", 4),
+    ("AVOID", "Avoid Stroke", "Draw a stroke that wires avoid", 4),
     ("REMOVE", "Remove", "Remove the wire or the stroke; where there is none, Blender has the key", 5),
     ("NEXT", "Next Candidate", "Let the wire take its other path; where there is none, Blender has the key", 6),
     ("PEEK", "Show Loop", "Show the loop that a click would take, while the key is held", 7),

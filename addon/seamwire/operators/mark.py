@@ -51,7 +51,7 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
     strokes: bpy.props.StringProperty(
         name="Strokes",
         description="Strokes that wires are to follow: vertex numbers along each; semicolons between strokes; a tilde"
-        " before one that they are to keep off",
+        " before one that they are to avoid",
     )
     along: bpy.props.EnumProperty(name="Along", description="Where wires run", items=ALONG_ITEMS, default="EDGES")
     finish: bpy.props.EnumProperty(
@@ -69,7 +69,7 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
     )
     strength: bpy.props.FloatProperty(
         name="Strength",
-        description="How much longer than straight a way may be for following the shape, 1 to 100; 0: as the tool does",
+        description="How strongly wires follow the shape, 1 to 100. 1 is the shortest path; 0: as the tool does",
         default=0.0,
         min=0.0,
         max=100.0,

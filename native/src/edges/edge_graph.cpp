@@ -29,7 +29,7 @@ EdgeGraph::EdgeGraph(const Surface& surface, const Metric& metric, std::shared_p
   const std::size_t edges = surface.edges().size();
   adjacency_ = adjacency ? std::move(adjacency) : make_edge_adjacency(surface, task);
   if (index(vertex_count()) != surface.vertex_count() || directed_count() != 2 * edges) {
-    throw InvalidInput("the adjacency are of another surface: they have " + std::to_string(vertex_count()) +
+    throw InvalidInput("the adjacency is of another surface: it has " + std::to_string(vertex_count()) +
                        " vertices and " + std::to_string(directed_count() / 2) + " edges");
   }
   resize(lengths_, directed_count(), task, 0.0);

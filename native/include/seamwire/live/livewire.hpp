@@ -36,7 +36,7 @@ struct LiveWireOptions {
   MetricFamily family = MetricFamily::kFeature;  ///< in which metric
   Strength strength = {.parameter = 0.1};        ///< of that metric; the Euclidean one has none
   double turning = 3.0;                          ///< q of edge_wires()
-  /// q of edge_loop(). nullopt: 20, and a quarter of the root of the number of edges where that is more. A circle
+  /// q of shortest_cycle(). nullopt: 20, and a quarter of the root of the number of edges where that is more. A circle
   /// around one quad costs four turns, 4 q edges, so with a fixed q a ring of a dense mesh, which may have as many
   /// edges as that root, would be dearer.
   std::optional<double> loop_turning = std::nullopt;

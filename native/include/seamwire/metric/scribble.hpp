@@ -44,7 +44,8 @@ struct Scribble {
 /// none lead there (another component, the far side of a hole) the stroke has a gap. A stroke that crosses itself takes
 /// at each vertex the direction of its nearest part, of equal ones the later. A stroke without movement has no
 /// direction and changes nothing, and vertices without a normal are left as they are. `follow`: takes only the
-/// scribbles meant for that metric.
+/// scribbles meant for that metric. (The paper changes the metric of the active wire; a scribble is meant for both
+/// unless it says otherwise.)
 ///
 /// Throws InvalidInput, naming scribble and point, for a point that is not finite, without a face or vertex, with one
 /// out of range, or off the mesh: further from its face or vertex than a twentieth of the model's longest side; for
