@@ -234,12 +234,13 @@ std::vector<std::vector<std::int32_t>> chains_of(const std::vector<Choice>& choi
 /// Places seeds and joins them by wires until these cut the surface into discs.
 class Seeding {
  public:
-  Seeding(const CandidateWires& wires, const Seclusion& seclusion, const SeamPlannerOptions& options)
+  Seeding(const CandidateWires& wires, const Seclusion& seclusion, const SeamPlannerOptions& options, const Task& task)
       : wires_(wires),
         seclusion_(seclusion),
         options_(options),
-        cells_(wires.surface(), feature_metric(wires.surface(), wires.curvature(), Follow::kMin,
-                                               {.max_anisotropy = kSeedAnisotropy, .clamp_percentile = kSeedClamp})),
+        cells_(wires.surface(),
+               feature_metric(wires.surface(), wires.curvature(), Follow::kMin,
+                              {.max_anisotropy = kSeedAnisotropy, .clamp_percentile = kSeedClamp}, task)),
         feature_(ranks(wires.feature_strength())),
         is_used_(wires.surface().vertex_count(), 0) {
     for (const Triangle& t : wires.surface().face_fans()) {
@@ -248,6 +249,7 @@ class Seeding {
   }
 
   std::vector<Choice> choices(const Task& task) {
+    task.check(0.0);
     while (cells_.seeds().size() < options_.seeds && add_seed(is_used_)) task.check(0.0);
     const std::vector<double> no_limits(wires_.surface().face_count(), kInfinity);
     while (true) {
@@ -543,7 +545,7 @@ struct SeamPlanner::Impl {
       : options(with),
         wires(std::move(on), with.along, with.strength, task),
         seclusion(wires.surface(), wires.curvature()),
-        choices(Seeding(wires, seclusion, options).choices(task)) {}
+        choices(Seeding(wires, seclusion, options, task).choices(task)) {}
 
   const Surface& surface() const { return wires.surface(); }
   CutPieces pieces(const std::vector<Choice>& of, std::span<const double> max_spreads) const {
@@ -689,7 +691,6 @@ SeamPlan SeamPlanner::plan(const SeamLimits& limits, const Task& task) const {
   if (limits.may_start_on_others) kept = impl_->swept(std::move(kept), limits, max_spreads, task);
   SeamPlan plan;
   const CutPieces pieces = impl_->pieces(kept, max_spreads);
-  plan.island_count = pieces.piece_count();
   plan.not_discs = Quality(pieces).not_discs;
   std::vector<Edge> cuts = impl_->options.seams;
   for (Choice& choice : kept) {
@@ -698,6 +699,7 @@ SeamPlan SeamPlanner::plan(const SeamLimits& limits, const Task& task) const {
     plan.wires.push_back(std::move(choice.wire));
   }
   plan.islands = face_segments(surface, cuts);
+  for (const std::int32_t island : plan.islands) plan.island_count = std::max(plan.island_count, index(island) + 1);
   return plan;
 }
 
