@@ -136,7 +136,7 @@ class FakeLive:
                 self.rings |= {(way[i - 2], way[i - 1]): way[i] for i in range(len(way))}
         return FakeChain(np.array(ring, dtype=np.int32))
 
-    def run_on(self, edge: tuple[int, int], stops: list[int]) -> FakeChain:
+    def extend_straight(self, edge: tuple[int, int], stops: list[int]) -> FakeChain:
         if isinstance(stops, tuple) and edge in self.rings:  # asked without a list of stops: for a loop, not for a wire
             return FakeChain(np.array([edge[1], self.rings[edge]], dtype=np.int32))
         return self._straight(edge, stops)
@@ -151,7 +151,7 @@ class FakeLive:
             way.append(y * self.size + x)
         return FakeChain(np.array(way, dtype=np.int32))
 
-    def strip(self, edge: tuple[int, int], stops: list[int]) -> FakeChain:
+    def edge_loop(self, edge: tuple[int, int], stops: list[int]) -> FakeChain:
         if not any(self.ready):
             return FakeChain(np.empty(0, dtype=np.int32))
         ways = [

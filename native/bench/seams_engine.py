@@ -67,7 +67,7 @@ class SeamwireEngine:
 
     def loop(self, edge: tuple[int, int]) -> list[int] | None:
         """Offer the closed chain that one click on the edge takes, its first vertex not repeated."""
-        chains = [sw.edge_loop(self.surface, m, edge, turning=self.loop_turning) for m in self.metrics]
+        chains = [sw.shortest_cycle(self.surface, m, edge, turning=self.loop_turning) for m in self.metrics]
         best = min((c for c in chains if c is not None), key=lambda chain: chain.length, default=None)
         return list(best.vertices) if best is not None and len(best.vertices) else None
 

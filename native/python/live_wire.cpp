@@ -193,14 +193,13 @@ void bind_live_wire(py::module_& module) {
         return "<LiveLoop: " + (loop.final ? std::to_string(loop.vertices.size()) + " vertices>" : "not yet>");
       });
 
-  py::class_<EdgeLoop>(module, "EdgeStrip", "A run of edges straight through a mesh.")
+  py::class_<EdgeLoop>(module, "EdgeLoop", "A run of edges straight through a mesh.")
       .def_property_readonly(
           "vertices", [](const py::object& self) { return view(self.cast<const EdgeLoop&>().vertices, self); },
           "(k,) int32, in order; where it is closed, the first one is not given twice.")
       .def_readonly("closed", &EdgeLoop::closed)
-      .def("__repr__", [](const EdgeLoop& strip) {
-        return "<EdgeStrip: " + std::to_string(strip.vertices.size()) + " vertices" +
-               (strip.closed ? ", closed>" : ">");
+      .def("__repr__", [](const EdgeLoop& loop) {
+        return "<EdgeLoop: " + std::to_string(loop.vertices.size()) + " vertices" + (loop.closed ? ", closed>" : ">");
       });
 
   py::class_<LiveWireObject, HeldLiveWire>(
@@ -225,7 +224,7 @@ along : {'surface', 'edges'}
 turning : float
     What turning costs, of `edge_wires`.
 loop_turning : float, optional
-    What it costs in `edge_loop`; None: 20, more on meshes of over 6400 edges, so that rings are found there too.
+    What it costs in `shortest_cycle`; None: 20, more on meshes of over 6400 edges, so that rings are found there too.
 metric : {'feature', 'campen', 'pottmann_kovacs', 'concave', 'euclidean'}
     What wires are short in. 'concave': the first wire in `concave_metric`, with a strength of (max_anisotropy - 1) / 19,
     on curvatures smoothed over 0.01; the second one is the shortest path.
@@ -415,11 +414,12 @@ ValueError
     Where the edge is not one of the surface's, or wires do not run along edges.
 )")
       .def(
-          "run_on",
+          "extend_straight",
           [](const LiveWireObject& object, const py::object& edge, const py::iterable& stops) {
             const Edge from = edge_from(edge, object.vertex_count, "edge");
             const std::vector<std::int32_t> vertices = vertices_from(stops, object.vertex_count);
-            return without_gil([&] { return std::make_unique<EdgeChain>(object.live->run_on(from, vertices)); });
+            return without_gil(
+                [&] { return std::make_unique<EdgeChain>(object.live->extend_straight(from, vertices)); });
           },
           py::arg("edge"), py::arg("stops") = py::tuple(),
           R"(The straightest way on from the second vertex of an edge, having come from its first.
@@ -446,14 +446,14 @@ ValueError
     Where the edge is not one of the surface's.
 )")
       .def(
-          "strip",
+          "edge_loop",
           [](const LiveWireObject& object, const py::object& edge, const py::iterable& stops) {
             const Edge through = edge_from(edge, object.vertex_count, "edge");
             const std::vector<std::int32_t> vertices = vertices_from(stops, object.vertex_count);
-            return without_gil([&] { return std::make_unique<EdgeLoop>(object.live->strip(through, vertices)); });
+            return without_gil([&] { return std::make_unique<EdgeLoop>(object.live->edge_loop(through, vertices)); });
           },
           py::arg("edge"), py::arg("stops") = py::tuple(),
-          R"(The strip of edges through an edge, both ways, as modellers select an edge loop.
+          R"(The edge loop through an edge, as modellers select it: straight on, both ways.
 
 It goes on over the opposite edge at a vertex of four edges whose faces are not all triangles, and of six whose faces
 all are; from an edge of the boundary along it. It ends at all other vertices, at a vertex of `stops` (an end of the
@@ -462,14 +462,14 @@ edge itself too), and where it meets itself: closed where its ends are one verte
 Parameters
 ----------
 edge : (int, int)
-    Its direction is that of the strip.
+    Its direction is that of the loop.
 stops : iterable of int
     Vertices.
 
 Returns
 -------
-EdgeStrip
-    Where the strip crosses itself, its first or last vertex is also an inner one. Without vertices: it cannot be told
+EdgeLoop
+    Where it crosses itself, its first or last vertex is also an inner one. Without vertices: it cannot be told
     yet.
 
 Raises

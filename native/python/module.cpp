@@ -665,7 +665,7 @@ ValueError
 Cancelled
 )");
   module.def(
-      "edge_loop",
+      "shortest_cycle",
       [](const SurfaceObject& surface, const MetricObject& metric, const py::object& edge, double turning) {
         const Edge through = edge_from(edge, surface.surface->vertex_count(), "edge");
         check_size("metric", metric.metric.size(), *surface.surface);

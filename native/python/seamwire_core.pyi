@@ -145,7 +145,7 @@ class LiveLoop:
     length: float
     final: bool
 
-class EdgeStrip:
+class EdgeLoop:
     vertices: NDArray[np.int32]  # in order; where it is closed, the first one is not given twice
     closed: bool
 
@@ -215,9 +215,9 @@ class LiveWire:
     def wires(self, target: Pick) -> LiveWires: ...
     def loop(self, edge: tuple[int, int]) -> LiveLoop:
         """In the background, the newest edge asked for; ask again until the answer is final. A seed goes first."""
-    def run_on(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> EdgeChain:
+    def extend_straight(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> EdgeChain:
         """Return the straightest way on, from the edge's second vertex; its length is that in the unit cube. No vertices: not ready."""
-    def strip(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> EdgeStrip:
+    def edge_loop(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> EdgeLoop:
         """Return the edge loop through an edge, as modellers select it, up to poles, boundaries and stops. No vertices: not ready."""
     def embeddings(self) -> tuple[LiveEmbedding | None, LiveEmbedding | None]:
         """Return what became of them across the surface; None where one is not prepared, and along edges."""
@@ -288,7 +288,7 @@ def edge_wires(
     forward: bool = False,
     progress: Progress | None = None,
 ) -> EdgeWires: ...
-def edge_loop(surface: Surface, metric: Metric, edge: Sequence[int], turning: float = 20.0) -> EdgeChain: ...
+def shortest_cycle(surface: Surface, metric: Metric, edge: Sequence[int], turning: float = 20.0) -> EdgeChain: ...
 
 class RayTree:
     """Finds the first triangle that a ray meets; the tree is built on a thread, with the same answers before it is there."""

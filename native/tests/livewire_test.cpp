@@ -543,10 +543,10 @@ TEST(LiveWire, RunsOnAlongBothKinds) {
   for (const LiveWireOptions& options : {LiveWireOptions{}, kAlongEdges}) {
     const LiveWire live(surface, options);
     ASSERT_TRUE(live.wait());
-    const EdgeChain up = live.run_on({0, 12}, {});
+    const EdgeChain up = live.extend_straight({0, 12}, {});
     EXPECT_EQ(up.vertices, (std::vector<std::int32_t>{12, 24, 36, 48, 60, 72}));
     EXPECT_NEAR(up.length, 5.0 / 6, 1e-12);
-    EXPECT_THROW(live.run_on({0, 13}, {}), InvalidInput);
+    EXPECT_THROW(live.extend_straight({0, 13}, {}), InvalidInput);
   }
 }
 
@@ -639,8 +639,8 @@ TEST(LiveWireBuildingItsSurface, RunsAlongTheRealEdgesThatItIsGiven) {
   const LiveWire live(quads.points(), quads.triangles(), quads.edges(), kAlongEdges);
   ASSERT_TRUE(live.wait());
   EXPECT_EQ(live.surface()->edges(), quads.edges());
-  EXPECT_EQ(live.run_on({0, 12}, {}).vertices, (std::vector<std::int32_t>{12, 24, 36, 48, 60, 72}));
-  EXPECT_THROW(live.run_on({0, 13}, {}), InvalidInput);
+  EXPECT_EQ(live.extend_straight({0, 12}, {}).vertices, (std::vector<std::int32_t>{12, 24, 36, 48, 60, 72}));
+  EXPECT_THROW(live.extend_straight({0, 13}, {}), InvalidInput);
 }
 
 TEST(LiveWireBuildingItsSurface, SaysUntilItIsThereThatNothingIsFinal) {
@@ -648,8 +648,8 @@ TEST(LiveWireBuildingItsSurface, SaysUntilItIsThereThatNothingIsFinal) {
   live.seed({0});
   const LiveWires wires = live.wires({900});
   const LiveLoop loop = live.loop({0, 1});
-  const EdgeChain on = live.run_on({0, 1}, {});
-  const EdgeLoop strip = live.strip({0, 1}, {});
+  const EdgeChain on = live.extend_straight({0, 1}, {});
+  const EdgeLoop strip = live.edge_loop({0, 1}, {});
   const auto strength = live.feature_strength();
   const double progress = live.progress();
   const bool was_idle = live.wait(0);
@@ -814,8 +814,8 @@ TEST(LiveWireBuildingItsSurface, EveryCallThrowsWhyItCannotBeBuilt) {
     expect_thrown([&] { live.seed({0}); });
     expect_thrown([&] { live.wires({0}); });
     expect_thrown([&] { live.loop({0, 1}); });
-    expect_thrown([&] { live.run_on({0, 1}, {}); });
-    expect_thrown([&] { live.strip({0, 1}, {}); });
+    expect_thrown([&] { live.extend_straight({0, 1}, {}); });
+    expect_thrown([&] { live.edge_loop({0, 1}, {}); });
     expect_thrown([&] { live.feature_strength(); });
     expect_thrown([&] { live.progress(); });
   };

@@ -199,10 +199,10 @@ def find_offers(
         return (), False
     found = [_wire("CLOSED", loop.vertices, True, edge, points, strength)]
     if stops is not None:
-        strip = live.strip(edge, stops)
+        strip = live.edge_loop(edge, stops)
         found.append(_wire("STRIP", strip.vertices, strip.closed, edge, points))
         found.append(_wire("PAST", *past_poles(live, edge, stops), edge, points))
-    chain = live.strip(edge, ())
+    chain = live.edge_loop(edge, ())
     found.append(_wire("WHOLE", chain.vertices, chain.closed, edge, points))
     # Of those that run along the same edges the first.
     different = {frozenset(wire.edges()): wire for wire in reversed(found) if wire is not None}
@@ -267,7 +267,9 @@ def _straight_on(live: LiveWire, loop: Sequence[int]) -> NDArray[np.int64]:
         if at >= len(loop):
             break
         # As far as the chain follows it, one way tells of all vertices.
-        way = np.asarray(live.run_on((loop[at - 1], loop[at]), ()).vertices, dtype=np.int64)[1 : len(loop) - at + 1]
+        way = np.asarray(live.extend_straight((loop[at - 1], loop[at]), ()).vertices, dtype=np.int64)[
+            1 : len(loop) - at + 1
+        ]
         follows = way[:-1] == np.asarray(loop[at + 1 : at + len(way)])
         count = len(way) if follows.all() else int(np.argmin(follows)) + 1
         after[at : at + count] = way[:count]
@@ -281,7 +283,7 @@ def past_poles(live: LiveWire, edge: Edge, stops: NDArray[np.int64] | Sequence[i
     def way(first: int, second: int) -> tuple[int, ...]:
         if second in stops:
             return (second,)
-        return tuple(int(vertex) for vertex in live.run_on((first, second), stops).vertices)
+        return tuple(int(vertex) for vertex in live.extend_straight((first, second), stops).vertices)
 
     forth = way(*edge)
     if len(forth) > 2 and forth[-1] == edge[0]:

@@ -105,7 +105,7 @@ def extended(
     ValueError
         Where the edge is not part of the surface.
     """
-    way = tuple(int(v) for v in live.run_on(edge, stops[stops != edge[1]]).vertices)
+    way = tuple(int(v) for v in live.extend_straight(edge, stops[stops != edge[1]]).vertices)
     if len(way) < 2:
         return None
     vertices = way if active is None else active.vertices + way[1:]

@@ -48,7 +48,7 @@ class Loop(Chain, Protocol):
     final: bool
 
 
-class Strip(Chain, Protocol):
+class EdgeLoop(Chain, Protocol):
     """A straight chain of edges; no vertices where it cannot be told yet."""
 
     closed: bool
@@ -76,10 +76,10 @@ class LiveWire(Protocol):
     def loop(self, edge: Edge) -> Loop:
         """Return the closed chain through an edge, as far as it is computed."""
 
-    def run_on(self, edge: Edge, stops: Iterable[int]) -> Chain:
+    def extend_straight(self, edge: Edge, stops: Iterable[int]) -> Chain:
         """Return the straight way on from the end of a directed edge until a stop, a boundary or itself."""
 
-    def strip(self, edge: Edge, stops: Iterable[int]) -> Strip:
+    def edge_loop(self, edge: Edge, stops: Iterable[int]) -> EdgeLoop:
         """Return the straight chain through an edge, both ways, until a stop, a pole, a boundary or itself."""
 
     def fork(self) -> LiveWire:

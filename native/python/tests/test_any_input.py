@@ -62,10 +62,10 @@ def test_picks(pick: object, stops: object, number: float) -> None:
     taken_or_refused(lambda: sw.distance_field(EMBEDDING, pick))
     taken_or_refused(lambda: FIELD.trace(pick))
     taken_or_refused(lambda: sw.edge_wires(SURFACE, EUCLIDEAN, pick, turning=number).trace(pick))
-    taken_or_refused(lambda: sw.edge_loop(SURFACE, EUCLIDEAN, pick, turning=number))
+    taken_or_refused(lambda: sw.shortest_cycle(SURFACE, EUCLIDEAN, pick, turning=number))
     for call in (LIVE.seed, LIVE.wires, LIVE.loop):
         taken_or_refused(lambda call=call: call(pick))
-    for call in (LIVE.run_on, LIVE.strip):
+    for call in (LIVE.extend_straight, LIVE.edge_loop):
         taken_or_refused(lambda call=call: call(pick, stops))
         taken_or_refused(lambda call=call: call((0, 1), stops))
 

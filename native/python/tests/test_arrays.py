@@ -198,6 +198,10 @@ def test_polygons_are_cut_into_triangles() -> None:
 def test_what_is_no_edge_is_said(surface: sw.Surface, metric: sw.Metric, edge: object) -> None:
     """An array without dimensions is a sequence to Python, but has no length."""
     live = sw.LiveWire(surface, along="edges")
-    for call in (lambda: sw.edge_loop(surface, metric, edge), lambda: live.loop(edge), lambda: live.strip(edge)):
+    for call in (
+        lambda: sw.shortest_cycle(surface, metric, edge),
+        lambda: live.loop(edge),
+        lambda: live.edge_loop(edge),
+    ):
         with pytest.raises(ValueError, match="edge: expected an edge as two vertex numbers"):
             call()

@@ -57,7 +57,7 @@ def test_along_edges_gives_both_chains(surface: sw.Surface, curvature: sw.Curvat
         sw.feature_metric(surface, curvature, follow=follow, max_anisotropy=10, clamp_percentile=99)
         for follow in ("min", "max")
     ]
-    loops = [sw.edge_loop(surface, metric, (3, 4)) for metric in metrics]
+    loops = [sw.shortest_cycle(surface, metric, (3, 4)) for metric in metrics]
     live.loop((3, 4))
     assert live.wait()
     loop = live.loop((4, 3))
@@ -163,13 +163,13 @@ def test_a_fork_has_a_seed_of_its_own(surface: sw.Surface) -> None:
 def test_runs_on_straight(surface: sw.Surface) -> None:
     live = sw.LiveWire(surface, along="edges")
     assert live.wait()
-    way = live.run_on((0, 1)).vertices
+    way = live.extend_straight((0, 1)).vertices
     assert way[0] == 1
     assert len(way) > 3
-    np.testing.assert_array_equal(live.run_on((0, 1), [int(way[2]), 5]).vertices[:3], way[:3])
-    assert len(live.run_on((0, 1), {int(way[2])}).vertices) == 3
+    np.testing.assert_array_equal(live.extend_straight((0, 1), [int(way[2]), 5]).vertices[:3], way[:3])
+    assert len(live.extend_straight((0, 1), {int(way[2])}).vertices) == 3
     with pytest.raises(ValueError, match="stops"):
-        live.run_on((0, 1), [10**6])
+        live.extend_straight((0, 1), [10**6])
 
 
 def test_strips_run_both_ways() -> None:
@@ -179,17 +179,17 @@ def test_strips_run_both_ways() -> None:
     quads += [(n * v + u, n * ((v + 1) % n) + u) for v in range(n) for u in range(n)]
     live = sw.LiveWire(sw.Surface(points, triangles, quads), along="edges")
     assert live.wait()
-    ring = live.strip((1, 2))
+    ring = live.edge_loop((1, 2))
     assert ring.closed
     assert ring.vertices.dtype == np.int32
     assert ring.vertices.tolist() == [1, 2, 3, 4, 5, 0]
-    part = live.strip((1, 2), iter([0, 4]))
+    part = live.edge_loop((1, 2), iter([0, 4]))
     assert not part.closed
     assert part.vertices.tolist() == [0, 1, 2, 3, 4]
     with pytest.raises(ValueError, match="no edge"):
-        live.strip((0, n + 1))
+        live.edge_loop((0, n + 1))
     with pytest.raises(ValueError, match="stops"):
-        live.strip((0, 1), [-1])
+        live.edge_loop((0, 1), [-1])
 
 
 def test_tells_the_strength_of_features(surface: sw.Surface, curvature: sw.Curvature) -> None:
@@ -268,8 +268,8 @@ def test_until_the_surface_is_there_nothing_is_final() -> None:
         live.progress(),
         live.wires(900).final,
         live.loop((0, 1)).final,
-        len(live.run_on((0, 1)).vertices),
-        len(live.strip((0, 1)).vertices),
+        len(live.extend_straight((0, 1)).vertices),
+        len(live.edge_loop((0, 1)).vertices),
         live.feature_strength(),
     )
     if live.surface is not None:
@@ -347,8 +347,8 @@ def test_every_call_raises_why_there_is_no_surface() -> None:
         lambda: live.seed(0),
         lambda: live.wires(0),
         lambda: live.loop((0, 1)),
-        lambda: live.run_on((0, 1)),
-        lambda: live.strip((0, 1)),
+        lambda: live.extend_straight((0, 1)),
+        lambda: live.edge_loop((0, 1)),
         lambda: live.set_metric("euclidean"),
         lambda: live.set_scribbles([]),
     ):

@@ -126,7 +126,7 @@ def test_edge_wires_are_chains_of_real_edges(surface: sw.Surface, metric: sw.Met
         assert 0 < chain.length < np.inf
     forward = sw.edge_wires(surface, metric, (0, 1), forward=True)
     assert forward.trace(500).vertices[:2].tolist() == [0, 1]
-    loop = sw.edge_loop(surface, metric, (0, 1)).vertices.tolist()
+    loop = sw.shortest_cycle(surface, metric, (0, 1)).vertices.tolist()
     assert {0, 1} <= set(loop)
     assert all(tuple(sorted(step)) in edges for step in zip(loop, loop[1:] + loop[:1], strict=True))
 
@@ -234,7 +234,7 @@ def test_nasty_meshes_go_all_the_way(name: str) -> None:
             else:
                 assert len(path) == 0
         for edge in surface.edges[::5]:
-            sw.edge_loop(surface, metric, edge)
+            sw.shortest_cycle(surface, metric, edge)
 
 
 def test_edges_alone_carry_wires() -> None:

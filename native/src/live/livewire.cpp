@@ -216,12 +216,12 @@ LiveLoop LiveWire::loop(const Edge& edge) {
   return {.vertices = std::move(cheaper.vertices), .length = cheaper.length, .final = true};
 }
 
-EdgeChain LiveWire::run_on(const Edge& edge, std::span<const std::int32_t> stops) const {
+EdgeChain LiveWire::extend_straight(const Edge& edge, std::span<const std::int32_t> stops) const {
   const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
   check_edge(surface.get(), edge);
   const auto fans = surface ? impl_->surface_cache->fans.peek() : nullptr;
   if (!fans) return {};
-  EdgeChain way{.vertices = extend_straight(**fans, edge, stops), .length = 0.0};
+  EdgeChain way{.vertices = seamwire::extend_straight(**fans, edge, stops), .length = 0.0};
   const auto point = [&](std::int32_t v) -> const Vector& { return surface->points()[v]; };
   for (std::size_t i = 1; i < way.vertices.size(); ++i) {
     way.length += surface->scale() * (point(way.vertices[i]) - point(way.vertices[i - 1])).norm();
@@ -229,11 +229,11 @@ EdgeChain LiveWire::run_on(const Edge& edge, std::span<const std::int32_t> stops
   return way;
 }
 
-EdgeLoop LiveWire::strip(const Edge& edge, std::span<const std::int32_t> stops) const {
+EdgeLoop LiveWire::edge_loop(const Edge& edge, std::span<const std::int32_t> stops) const {
   const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
   check_edge(surface.get(), edge);
   const auto fans = surface ? impl_->surface_cache->fans.peek() : nullptr;
-  return fans ? edge_loop(**fans, edge, stops) : EdgeLoop{};
+  return fans ? seamwire::edge_loop(**fans, edge, stops) : EdgeLoop{};
 }
 
 std::shared_ptr<const std::vector<double>> LiveWire::feature_strength() const {

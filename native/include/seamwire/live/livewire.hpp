@@ -127,10 +127,10 @@ class LiveWire {
   /// The closed chain through an edge, the cheaper of the two metrics'; along edges only. The first call for an edge
   /// starts the search, in place of that for another edge; ask again until the answer is final. A seed goes first.
   LiveLoop loop(const Edge& edge);
-  /// extend_straight(), with the way's length in the unit cube; no vertices where it cannot be told yet.
-  EdgeChain run_on(const Edge& edge, std::span<const std::int32_t> stops) const;
-  /// edge_loop(); no vertices where it cannot be told yet.
-  EdgeLoop strip(const Edge& edge, std::span<const std::int32_t> stops) const;
+  /// seamwire::extend_straight(), with the way's length in the unit cube; no vertices where it cannot be told yet.
+  EdgeChain extend_straight(const Edge& edge, std::span<const std::int32_t> stops) const;
+  /// seamwire::edge_loop(); no vertices where it cannot be told yet.
+  EdgeLoop edge_loop(const Edge& edge, std::span<const std::int32_t> stops) const;
   /// s of eq. 5 at each vertex; null while it is being computed.
   std::shared_ptr<const std::vector<double>> feature_strength() const;
 
