@@ -187,9 +187,9 @@ std::int32_t vertex_from(py::handle value, std::size_t count, const std::string&
   return element_from(value, count, name, "vertex", "vertices");
 }
 
-SurfacePoint face_point_from(py::handle face, py::handle barycentric, const Surface& surface, const std::string& name) {
+SurfacePoint face_point_from(py::handle face, py::handle barycentric, std::size_t face_count, const std::string& name) {
   const PythonCall calling;
-  SurfacePoint point{.face = element_from(face, surface.face_count(), name, "face", "faces")};
+  SurfacePoint point{.face = element_from(face, face_count, name, "face", "faces")};
   const std::vector<Vector> weights = points_from(py::make_tuple(barycentric), name + ": barycentric coordinates");
   for (std::size_t i = 0; i < 3; ++i) point.barycentric[i] = weights.front()[static_cast<Eigen::Index>(i)];
   return point;
@@ -203,7 +203,7 @@ SurfacePoint surface_point_from(py::handle value, const Surface& surface, const 
                        type_name(value));
   }
   const auto pair = py::reinterpret_borrow<py::sequence>(value);
-  return face_point_from(py::object(pair[0]), py::object(pair[1]), surface, name);
+  return face_point_from(py::object(pair[0]), py::object(pair[1]), surface.face_count(), name);
 }
 
 std::vector<SurfacePoint> surface_points_from(py::handle value, const Surface& surface, const std::string& name) {
@@ -236,6 +236,14 @@ Pick pick_from(py::handle value, std::size_t count, const std::string& name) {
   }
   const Edge edge = edge_from(value, count, name);
   return {edge[0], edge[1]};
+}
+
+std::variant<Pick, SurfacePoint> wire_end_from(py::handle value, std::size_t vertex_count, std::size_t face_count,
+                                               const std::string& name) {
+  const PythonCall calling;
+  if (!is_face_point(value)) return pick_from(value, vertex_count, name);
+  const auto pair = py::reinterpret_borrow<py::sequence>(value);
+  return face_point_from(py::object(pair[0]), py::object(pair[1]), face_count, name);
 }
 
 }  // namespace seamwire::python

@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "seamwire/edges/edge_wires.hpp"
@@ -31,7 +32,7 @@ std::vector<std::int32_t> numbers_from(py::handle value, const std::string& name
 /// A point of a surface as Python gives it: a vertex number; or a pair of a face number and three barycentric
 /// coordinates, or these two by themselves. Which coordinates are none is not looked at.
 SurfacePoint surface_point_from(py::handle value, const Surface& surface, const std::string& name);
-SurfacePoint face_point_from(py::handle face, py::handle barycentric, const Surface& surface, const std::string& name);
+SurfacePoint face_point_from(py::handle face, py::handle barycentric, std::size_t face_count, const std::string& name);
 /// One such point, or a sequence of them.
 std::vector<SurfacePoint> surface_points_from(py::handle value, const Surface& surface, const std::string& name);
 
@@ -39,6 +40,9 @@ std::vector<SurfacePoint> surface_points_from(py::handle value, const Surface& s
 std::int32_t vertex_from(py::handle value, std::size_t count, const std::string& name);
 Edge edge_from(py::handle value, std::size_t count, const std::string& name);
 Pick pick_from(py::handle value, std::size_t count, const std::string& name);
+/// A vertex, an edge, or a pair of a face number and three barycentric coordinates.
+std::variant<Pick, SurfacePoint> wire_end_from(py::handle value, std::size_t vertex_count, std::size_t face_count,
+                                               const std::string& name);
 
 /// Read-only views of memory that `owner` keeps alive. The views keep the owner.
 template <class T>

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "arrays.hpp"
@@ -25,10 +26,11 @@ using OptionalNumber = std::optional<double>;
 using SharedSurface = std::shared_ptr<SurfaceObject>;
 
 struct LiveWireObject {
-  LiveWireObject(std::size_t vertices, Along how, std::unique_ptr<LiveWire> made, SharedSurface on = nullptr)
-      : vertex_count(vertices), along(how), live(std::move(made)), surface(std::move(on)) {}
+  LiveWireObject(std::size_t vertices, std::size_t faces, Along how, std::unique_ptr<LiveWire> made,
+                 SharedSurface on = nullptr)
+      : vertex_count(vertices), face_count(faces), along(how), live(std::move(made)), surface(std::move(on)) {}
 
-  std::size_t vertex_count;
+  std::size_t vertex_count, face_count;
   Along along;
   std::unique_ptr<LiveWire> live;
   SharedSurface surface;  ///< null until it is asked for, then the same object each time
@@ -240,7 +242,8 @@ ValueError
              const LiveWireOptions options =
                  options_from(gamma, max_anisotropy, clamp_percentile, along, turning, loop_turning, metric);
              auto live = without_gil([&] { return std::make_unique<LiveWire>(surface->surface, options); });
-             return make_live_wire(surface->surface->vertex_count(), options.along, std::move(live), surface);
+             return make_live_wire(surface->surface->vertex_count(), surface->surface->face_count(), options.along,
+                                   std::move(live), surface);
            }),
            py::arg("surface"), with.gamma, with.max_anisotropy, with.clamp_percentile, with.along, with.turning,
            with.loop_turning, with.metric)
@@ -253,10 +256,10 @@ ValueError
              auto p = points_from(points, "points");
              auto t = triangles_from(triangles, "triangles");
              auto e = edges.is_none() ? std::nullopt : std::optional(edges_from(edges, "edges"));
-             const std::size_t vertex_count = p.size();
+             const std::size_t vertex_count = p.size(), face_count = t.size();
              auto live = without_gil(
                  [&] { return std::make_unique<LiveWire>(std::move(p), std::move(t), std::move(e), options); });
-             return make_live_wire(vertex_count, options.along, std::move(live));
+             return make_live_wire(vertex_count, face_count, options.along, std::move(live));
            }),
            py::arg("points"), py::arg("triangles"), py::arg("edges") = py::none(), py::kw_only(), with.gamma,
            with.max_anisotropy, with.clamp_percentile, with.along, with.turning, with.loop_turning, with.metric)
@@ -287,7 +290,8 @@ bool
           "fork",
           [](const LiveWireObject& object) {
             auto live = without_gil([&] { return std::make_unique<LiveWire>(object.live->fork()); });
-            return make_live_wire(object.vertex_count, object.along, std::move(live), object.surface);
+            return make_live_wire(object.vertex_count, object.face_count, object.along, std::move(live),
+                                  object.surface);
           },
           R"(Another live wire with the same metrics, those still being computed too, and no seed.
 
@@ -305,7 +309,8 @@ LiveWire
             const LiveWireOptions options =
                 options_from(gamma, max_anisotropy, clamp_percentile, along, turning, loop_turning, metric);
             auto live = without_gil([&] { return std::make_unique<LiveWire>(object.live->sibling(options)); });
-            return make_live_wire(object.vertex_count, options.along, std::move(live), object.surface);
+            return make_live_wire(object.vertex_count, object.face_count, options.along, std::move(live),
+                                  object.surface);
           },
           py::kw_only(), with.gamma, with.max_anisotropy, with.clamp_percentile, with.along, with.turning,
           with.loop_turning, with.metric,
@@ -358,16 +363,20 @@ scribbles : sequence of Scribble
       .def(
           "seed",
           [](const LiveWireObject& object, const py::object& pick, bool forward) {
-            const Pick at = pick_from(pick, object.vertex_count, "pick");
-            without_gil([&] { object.live->seed(at, forward); });
+            const auto at = wire_end_from(pick, object.vertex_count, object.face_count, "pick");
+            without_gil([&] {
+              if (const auto* point = std::get_if<SurfacePoint>(&at)) return object.live->seed_at(*point);
+              object.live->seed(std::get<Pick>(at), forward);
+            });
           },
           py::arg("pick"), py::arg("forward") = false,
           R"(Starts the wires from a pick, dropping those of an earlier one; returns at once.
 
 Parameters
 ----------
-pick : int or (int, int)
-    A vertex or, along edges only, an edge by its two vertices.
+pick : int, (int, int) or (int, (3,) array_like)
+    A vertex; along edges only, an edge by its two vertices; across the surface only, a point by a face and three
+    barycentric coordinates, 0 or more, whose sum is 1.
 forward : bool
     As in `edge_wires`.
 
@@ -379,14 +388,22 @@ ValueError
       .def(
           "wires",
           [](const LiveWireObject& object, const py::object& target) {
-            const Pick at = pick_from(target, object.vertex_count, "target");
-            return LiveWiresObject{
-                without_gil([&] { return std::make_shared<const LiveWires>(object.live->wires(at)); })};
+            const auto at = wire_end_from(target, object.vertex_count, object.face_count, "target");
+            return LiveWiresObject{without_gil([&] {
+              const auto* point = std::get_if<SurfacePoint>(&at);
+              return std::make_shared<const LiveWires>(point != nullptr ? object.live->wires_to(*point)
+                                                                        : object.live->wires(std::get<Pick>(at)));
+            })};
           },
           py::arg("target"), R"(The wires to a target now, as far as they are computed.
 
 Along edges those near the seed are final first. Across the surface a path that may be a little longer than the shortest
 is computed for the target asked for last, and is there, not final, at one of the next calls for it.
+
+Parameters
+----------
+target : int, (int, int) or (int, (3,) array_like)
+    As the seed.
 
 Raises
 ------

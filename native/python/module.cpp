@@ -442,7 +442,7 @@ ValueError
           "distance",
           [](const FieldObject& object, const py::object& face, const py::object& barycentric) {
             const EmbeddingObject& on = *object.embedding;
-            const SurfacePoint point = face_point_from(face, barycentric, *on.surface, "point");
+            const SurfacePoint point = face_point_from(face, barycentric, on.surface->face_count(), "point");
             return Watch(py::none()).run([&](const Task& task) {
               return object.field.distance(on.find(point, "point"), task);
             });
@@ -473,7 +473,7 @@ ValueError
           "trace_to",
           [](const FieldObject& object, const py::object& face, const py::object& barycentric) {
             const EmbeddingObject& on = *object.embedding;
-            const SurfacePoint point = face_point_from(face, barycentric, *on.surface, "point");
+            const SurfacePoint point = face_point_from(face, barycentric, on.surface->face_count(), "point");
             return Watch(py::none()).run([&](const Task& task) {
               return trace_wire(*on.surface, on.embedding, object.field, on.find(point, "point"), task);
             });

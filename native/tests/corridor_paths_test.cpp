@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <string>
 
+#include "inserted_point.hpp"
 #include "intrinsic.hpp"
 #include "paths.hpp"
 #include "seamwire/embedding/embedding.hpp"
@@ -99,6 +101,53 @@ TEST_P(CorridorPathsOn, RandomLengths) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> length(1.02, 2.0);
   expect_paths(intrinsic(mesh, [&](int, int) { return length(random); }), mesh.triangles[3][0], 1.05);
+}
+
+void expect_ends_at(const IntrinsicMesh& mesh, const PathPoint& end, const SurfacePoint& point) {
+  const std::int32_t face = end.face >= 0 ? end.face : end.half_edge / 3;
+  ASSERT_EQ(face, point.face);
+  EXPECT_LT((paths::place(mesh, face, end) - points::in_plane(mesh, face, point.barycentric)).norm(), 1e-13);
+}
+
+/// The same from and to points within faces and on edges: real paths, from point to point, no shorter than the
+/// geodesic.
+void expect_paths_between_points(const IntrinsicMesh& mesh, double longest, const CorridorPathOptions& options = {}) {
+  const ExactGeodesics geodesics(mesh);
+  for (const auto& [kind, seed] : points::all_kinds(mesh, 21)) {
+    const DistanceField field = geodesics.solve(std::array{seed});
+    CorridorPaths quick(geodesics, seed, options);
+    EXPECT_EQ(quick.seed(), -1);
+    std::vector<SurfacePoint> targets{seed, {.face = seed.face, .barycentric = {0.1, 0.2, 0.7}}};
+    for (const unsigned draw : {22U, 23U, 24U}) {
+      for (const auto& [other_kind, target] : points::all_kinds(mesh, draw)) targets.push_back(target);
+    }
+    for (const SurfacePoint& target : targets) {
+      SCOPED_TRACE(testing::Message() << kind << " of face " << seed.face << ", to face " << target.face);
+      const double distance = field.distance(target);
+      const IntrinsicPath path = quick.path(target);
+      if (std::isinf(distance)) {
+        EXPECT_TRUE(path.points.empty());
+        continue;
+      }
+      ASSERT_FALSE(path.points.empty());
+      expect_ends_at(mesh, path.points.front(), seed);
+      expect_ends_at(mesh, path.points.back(), target);
+      EXPECT_NEAR(path.length, length_of(mesh, path), 1e-9 * distance + 1e-15);
+      EXPECT_GE(path.length, distance * (1 - 1e-9));
+      EXPECT_LE(path.length, distance * longest + 1e-15);
+    }
+  }
+}
+
+TEST_P(CorridorPathsOn, BetweenPointsOfFaces) {
+  const auto [name, mesh] = exactness_meshes(2)[static_cast<std::size_t>(GetParam())];
+  SCOPED_TRACE(name);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> length(1.02, 2.0);
+  expect_paths_between_points(intrinsic(mesh), 1 + 1e-9, {.corridor_vertices = 100000, .windows = 0});
+  expect_paths_between_points(intrinsic(mesh), 1.05);
+  expect_paths_between_points(intrinsic(mesh), 1.2, {.corridor_vertices = 1});
+  expect_paths_between_points(intrinsic(mesh, [&](int, int) { return length(random); }), 1.05);
 }
 
 INSTANTIATE_TEST_SUITE_P(CorridorPaths, CorridorPathsOn, testing::Range(0, 7));

@@ -80,6 +80,107 @@ TEST(LiveWire, AcrossTheSurfaceGivesTheGeodesicsOfBothMetrics) {
   }
 }
 
+/// The corner of a face that is nearest to a point of it.
+std::int32_t nearest_corner(const Surface& surface, const SurfacePoint& point) {
+  const Triangle& corners = surface.triangles()[static_cast<std::size_t>(point.face)];
+  const auto at = [&](std::int32_t v) -> const Vector& { return surface.points()[static_cast<std::size_t>(v)]; };
+  Vector place = Vector::Zero();
+  for (std::size_t i = 0; i < 3; ++i) place += point.barycentric[i] * at(corners[i]);
+  return *std::min_element(corners.begin(), corners.end(), [&](std::int32_t a, std::int32_t b) {
+    return (at(a) - place).norm() < (at(b) - place).norm();
+  });
+}
+
+TEST(LiveWire, FromPointsOfFacesGivesTheGeodesicsBetweenThem) {
+  const auto surface = shared(shapes::torus(32, 20));
+  const SurfacePoint seed{.face = 40, .barycentric = {0.2, 0.5, 0.3}};
+  LiveWire live(surface);
+  live.seed_at(seed);
+  ASSERT_TRUE(live.wait());
+  for (const Follow follow : {Follow::kMin, Follow::kMax}) {
+    const Embedding embedding = embed(*surface, metric_of(*surface, follow, {.parameter = 0.1}));
+    const EmbeddedPoints points(*surface, embedding);
+    const DistanceField field = ExactGeodesics(embedding.mesh).solve(std::array{*points.find(seed)});
+    const std::array targets{SurfacePoint{.face = 40, .barycentric = {0.6, 0.1, 0.3}},
+                             SurfacePoint{.face = 900, .barycentric = {0.1, 0.8, 0.1}},
+                             SurfacePoint{.face = 517, .barycentric = {0.0, 0.4, 0.6}},
+                             SurfacePoint{.face = 3, .barycentric = {0.0, 1.0, 0.0}}, SurfacePoint::at_vertex(100)};
+    for (const SurfacePoint& target : targets) {
+      const LiveCandidate got = live.wires_to(target).wires[follow == Follow::kMin ? 0 : 1];
+      const Wire expected = trace_wire(*surface, embedding, field, *points.find(target));
+      EXPECT_TRUE(got.final);
+      EXPECT_EQ(got.points, expected.points);
+      EXPECT_EQ(got.faces, expected.faces);
+      EXPECT_EQ(got.length, expected.length);
+      ASSERT_FALSE(got.vertices.empty());
+      EXPECT_EQ(got.vertices.front(), nearest_corner(*surface, seed));
+      EXPECT_EQ(got.vertices.back(), target.vertex >= 0 ? target.vertex : nearest_corner(*surface, target));
+    }
+  }
+  EXPECT_EQ(live.wires_to(SurfacePoint::at_vertex(100)).wires[0].points, live.wires({100}).wires[0].points);
+  live.seed_at(SurfacePoint::at_vertex(7));
+  ASSERT_TRUE(live.wait());
+  expect_equal(live.wires({100}), fresh_wires(surface, {}, {7}, {100}));
+}
+
+TEST(LiveWire, PointsThatAreNoneAreRefused) {
+  const auto surface = shared(shapes::torus(8, 6));  // 96 triangles
+  LiveWire live(surface), along_edges(surface, kAlongEdges);
+  const SurfacePoint right{.face = 3, .barycentric = {0.2, 0.5, 0.3}};
+  EXPECT_THROW(along_edges.seed_at(right), InvalidInput);
+  live.seed_at(right);
+  for (const SurfacePoint& wrong :
+       {SurfacePoint{.face = 96, .barycentric = {1, 0, 0}}, SurfacePoint{},
+        SurfacePoint{.face = 3, .barycentric = {0.5, 0.6, -0.1}},
+        SurfacePoint{.face = 3, .barycentric = {0.5, 0.6, 0.1}}, SurfacePoint::at_vertex(48)}) {
+    EXPECT_THROW(live.seed_at(wrong), InvalidInput);
+    EXPECT_THROW(live.wires_to(wrong), InvalidInput);
+  }
+  ASSERT_TRUE(live.wait());
+  EXPECT_FALSE(live.wires_to(right).wires[0].points.empty()) << "the seed before stays";
+}
+
+// The embedding leaves out a face without area, which has its vertices all the same.
+TEST(LiveWire, FromAFaceWithoutAreaNoWireBegins) {
+  shapes::Mesh mesh = shapes::grid(4);
+  const auto flat = static_cast<std::int32_t>(mesh.triangles.size());
+  mesh.triangles.push_back({0, 1, 1});
+  const auto surface = std::make_shared<const Surface>(mesh.points, mesh.triangles);
+  LiveWire live(surface);
+  live.seed_at({.face = flat, .barycentric = {0.2, 0.5, 0.3}});
+  ASSERT_TRUE(live.wait());
+  const LiveWires none = live.wires({20});
+  EXPECT_TRUE(none.final());
+  EXPECT_TRUE(none.wires[0].points.empty());
+  live.seed({20});
+  ASSERT_TRUE(live.wait());
+  EXPECT_TRUE(live.wires_to({.face = flat, .barycentric = {0.2, 0.5, 0.3}}).wires[1].points.empty());
+}
+
+TEST(LiveWire, BeforeItIsFinalAWireLeadsFromPointToPoint) {
+  const auto surface = shared(shapes::torus(160, 120));
+  LiveWire live(surface);
+  const SurfacePoint target{.face = 9000, .barycentric = {0.3, 0.3, 0.4}};
+  live.seed_at({.face = 77, .barycentric = {0.6, 0.3, 0.1}});
+  std::array<LiveCandidate, 2> early;
+  LiveWires wires = live.wires_to(target);
+  for (; !wires.final(); wires = live.wires_to(target)) {
+    for (std::size_t which = 0; which < 2; ++which) {
+      if (!wires.wires[which].final && !wires.wires[which].points.empty()) early[which] = wires.wires[which];
+    }
+    std::this_thread::yield();
+  }
+  for (std::size_t which = 0; which < 2; ++which) {
+    const LiveCandidate& last = wires.wires[which];
+    ASSERT_FALSE(early[which].points.empty());
+    EXPECT_LT((early[which].points.front() - last.points.front()).norm(), 1e-12);
+    EXPECT_LT((early[which].points.back() - last.points.back()).norm(), 1e-12);
+    EXPECT_EQ(early[which].vertices.front(), last.vertices.front());
+    EXPECT_GE(early[which].length, last.length * (1 - 1e-9));
+    EXPECT_LE(early[which].length, last.length * 1.05);
+  }
+}
+
 TEST(LiveWire, AlongEdgesGivesTheChainsOfBothMetrics) {
   const auto surface = shared(shapes::torus(32, 20));
   LiveWire live(surface, kAlongEdges);

@@ -7,9 +7,11 @@
 //    1968), whose estimate is exact here, so that no vertex is looked at but those of the corridor and their
 //    neighbors;
 // 3. the exact wavefront over the triangles at those vertices, as a mesh of their own.
+// For a seed or a target within a face, the first two are from or to the corner of the face that is nearest.
 #include "seamwire/geodesics/corridor_paths.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -38,25 +40,43 @@ std::size_t default_corridor(std::size_t vertex_count) {
   return static_cast<std::size_t>(kCorridorBase + kCorridorGrowth * std::sqrt(static_cast<double>(vertex_count)));
 }
 
+/// A vertex itself; of a point, the corner of its faces that has the most of it.
+std::int32_t corner_of(const GeodesicMesh& mesh, const PlacedPoint& point) {
+  if (point.vertex >= 0) return point.vertex;
+  const auto& [face, weights] = point.faces.front();
+  return mesh.half_edge(3 * face + static_cast<std::int32_t>(std::ranges::max_element(weights) - weights.begin())).tail;
+}
+
+/// The longest edge of its faces, 0 for a vertex.
+double longest_edge(const GeodesicMesh& mesh, const PlacedPoint& point) {
+  double longest = 0.0;
+  for (const PlacedPoint::InFace& in : point.faces) {
+    for (std::int32_t h = 3 * in.face; h < 3 * in.face + 3; ++h) longest = std::max(longest, mesh.half_edge(h).length);
+  }
+  return longest;
+}
+
 }  // namespace
 
 struct CorridorPaths::Impl {
-  Impl(std::shared_ptr<const GeodesicMesh> on, std::int32_t from, const CorridorPathOptions& with)
+  Impl(std::shared_ptr<const GeodesicMesh> on, const SurfacePoint& from, const CorridorPathOptions& with)
       : mesh(std::move(on)),
-        seed(from),
+        seed(PlacedPoint::of(*mesh, from, "seed")),
+        seed_corner(corner_of(*mesh, seed)),
         options(with),
         corridor_vertices(with.corridor_vertices > 0 ? with.corridor_vertices : default_corridor(mesh->vertex_count())),
-        from_seed(*mesh, mesh->internal_vertex(from)),
+        from_seed(*mesh, seed_corner),
         to_target(mesh->vertex_count(), kUnknown),
         queue(mesh->vertex_count()),
         cutter(*mesh) {}
 
-  void find_corridor(std::int32_t target, const Task& task);
+  void find_corridor(const PlacedPoint& target, const Task& task);
 
   static constexpr float kUnknown = std::numeric_limits<float>::infinity();
 
   std::shared_ptr<const GeodesicMesh> mesh;
-  std::int32_t seed;  ///< external; all other numbers are internal
+  PlacedPoint seed;
+  std::int32_t seed_corner;
   CorridorPathOptions options;
   std::size_t corridor_vertices;
   DeltaStepping from_seed;
@@ -68,7 +88,8 @@ struct CorridorPaths::Impl {
 };
 
 /// Until the seed is in the corridor and it is as large as it may be.
-void CorridorPaths::Impl::find_corridor(std::int32_t target, const Task& task) {
+void CorridorPaths::Impl::find_corridor(const PlacedPoint& to, const Task& task) {
+  const std::int32_t target = corner_of(*mesh, to);
   for (const std::int32_t v : touched) to_target[v] = kUnknown;
   touched.clear();
   corridor.clear();
@@ -87,8 +108,8 @@ void CorridorPaths::Impl::find_corridor(std::int32_t target, const Task& task) {
     queue.lower(v, length_over(v));
   };
 
-  const std::int32_t source = mesh->internal_vertex(seed);
-  const double longest = kLongestDetour * static_cast<double>(reach);
+  const double around_ends = std::max(longest_edge(*mesh, seed), longest_edge(*mesh, to));
+  const double longest = kLongestDetour * (static_cast<double>(reach) + around_ends);
   bool has_source = false;
   relax(target, 0.0F);
   while (!queue.empty()) {
@@ -97,45 +118,57 @@ void CorridorPaths::Impl::find_corridor(std::int32_t target, const Task& task) {
     if (has_source && (corridor.size() >= corridor_vertices || length > longest)) break;
     corridor.push_back(v);
     if (corridor.size() % kWorkBetweenChecks == 0) task.check(0.0);
-    has_source = has_source || v == source;
+    has_source = has_source || v == seed_corner;
     for (const auto& [to, length] : mesh->hops(v)) relax(to, to_target[v] + length);
+  }
+  for (const PlacedPoint* end : std::array<const PlacedPoint*, 2>{&seed, &to}) {
+    for (const PlacedPoint::InFace& in : end->faces) corridor.push_back(mesh->half_edge(3 * in.face).tail);
   }
 }
 
 CorridorPaths::CorridorPaths(const ExactGeodesics& geodesics, std::int32_t seed, const CorridorPathOptions& options) {
   check_index(seed, geodesics.mesh_->vertex_count(), "seed");
-  impl_ = std::make_unique<Impl>(geodesics.mesh_, seed, options);
+  impl_ = std::make_unique<Impl>(geodesics.mesh_, SurfacePoint::at_vertex(seed), options);
 }
+
+CorridorPaths::CorridorPaths(const ExactGeodesics& geodesics, const SurfacePoint& seed,
+                             const CorridorPathOptions& options)
+    : impl_(std::make_unique<Impl>(geodesics.mesh_, seed, options)) {}
 
 CorridorPaths::~CorridorPaths() = default;
 CorridorPaths::CorridorPaths(CorridorPaths&&) noexcept = default;
 CorridorPaths& CorridorPaths::operator=(CorridorPaths&&) noexcept = default;
 
-std::int32_t CorridorPaths::seed() const { return impl_->seed; }
+std::int32_t CorridorPaths::seed() const {
+  return impl_->seed.vertex < 0 ? -1 : impl_->mesh->external_vertex(impl_->seed.vertex);
+}
 
 IntrinsicPath CorridorPaths::path(std::int32_t target, const Task& task) {
-  const GeodesicMesh& mesh = *impl_->mesh;
-  check_index(target, mesh.vertex_count(), "target");
-  task.check(0.0);
-  const std::int32_t own_target = mesh.internal_vertex(target);
-  impl_->from_seed.reach(own_target, task);
-  if (std::isinf(impl_->from_seed.at(own_target))) return {};
-  impl_->find_corridor(own_target, task);
+  check_index(target, impl_->mesh->vertex_count(), "target");
+  return path(SurfacePoint::at_vertex(target), task);
+}
 
-  const std::int32_t own_seed = mesh.internal_vertex(impl_->seed);
+IntrinsicPath CorridorPaths::path(const SurfacePoint& to, const Task& task) {
+  const GeodesicMesh& mesh = *impl_->mesh;
+  const PlacedPoint target = PlacedPoint::of(mesh, to, "target");
+  task.check(0.0);
+  const std::int32_t corner = corner_of(mesh, target);
+  impl_->from_seed.reach(corner, task);
+  if (std::isinf(impl_->from_seed.at(corner))) return {};
+  impl_->find_corridor(target, task);
+
   const Submesh part = impl_->cutter.cut(impl_->corridor);
-  const std::int32_t part_seed = impl_->cutter.part_vertex(own_seed);
-  const std::int32_t part_target = impl_->cutter.part_vertex(own_target);
   Task part_task{.stop = task.stop, .progress = {}};  // what is done of the part says little of the whole
   if (task.progress) part_task.progress = [&task](double) { return task.progress(0.0); };
-  const WavefrontResult result = propagate_wavefront(*part.mesh, part_seed, part_task, impl_->options.windows);
-  const SourcePoints sources({PlacedPoint::at_vertex(part_seed)});
+  const bool is_exact = impl_->options.windows == 0;
+  const SourcePoints sources({to_part(impl_->cutter, impl_->seed)});
+  const WavefrontResult result = propagate_wavefront(*part.mesh, sources, part_task, impl_->options.windows);
   const SolvedDistances solved{*part.mesh, result.distances, sources};
-  std::optional<IntrinsicPath> path = trace_records(solved, result.records, PlacedPoint::at_vertex(part_target));
+  std::optional<IntrinsicPath> path = trace_records(
+      solved, result.records, to_part(impl_->cutter, is_exact ? target : PlacedPoint::at_vertex(corner)), part_task);
   if (path) to_whole_mesh(part, *path);
-  if (!path || impl_->options.windows > 0) {
-    path = shorten(mesh, impl_->cutter, path ? *path : impl_->from_seed.chain(own_target),
-                   PlacedPoint::at_vertex(own_target), part_task);
+  if (!path || !is_exact) {
+    path = shorten(mesh, impl_->cutter, path ? *path : impl_->from_seed.chain(corner), impl_->seed, target, part_task);
   }
   to_external(mesh, *path);
   return std::move(*path);

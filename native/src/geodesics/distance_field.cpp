@@ -75,7 +75,7 @@ IntrinsicPath DistanceField::trace(const SurfacePoint& point, const Task& task) 
     path = trace_records(solved, data_->records, PlacedPoint::at_vertex(vertex));
     if (!path) path = chain_of_hops(mesh, data_->sources[0].vertex, vertex, task);
     SubmeshCutter cutter(mesh);
-    path = shorten(mesh, cutter, *path, target, task);
+    path = shorten(mesh, cutter, *path, data_->sources[0], target, task);
   }
   to_external(mesh, *path);
   return std::move(*path);

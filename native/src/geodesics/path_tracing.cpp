@@ -213,7 +213,7 @@ std::optional<IntrinsicPath> trace_records(const SolvedDistances& solved, const 
 }
 
 IntrinsicPath shorten(const GeodesicMesh& mesh, SubmeshCutter& cutter, const IntrinsicPath& path,
-                      const PlacedPoint& target, const Task& task) {
+                      const PlacedPoint& source, const PlacedPoint& target, const Task& task) {
   std::vector<std::int32_t> vertices;
   for (const PathPoint& point : path.points) {
     if (point.vertex >= 0) vertices.push_back(point.vertex);
@@ -221,20 +221,26 @@ IntrinsicPath shorten(const GeodesicMesh& mesh, SubmeshCutter& cutter, const Int
     vertices.push_back(mesh.half_edge(point.half_edge).tail);
     vertices.push_back(mesh.half_edge(point.half_edge).tip);
   }
-  for (const auto& [face, weights] : target.faces) {
-    for (std::int32_t h = 3 * face; h < 3 * face + 3; ++h) vertices.push_back(mesh.half_edge(h).tail);
+  for (const PlacedPoint* end : {&source, &target}) {
+    if (end->vertex >= 0) vertices.push_back(end->vertex);
+    for (const auto& [face, weights] : end->faces) {
+      for (std::int32_t h = 3 * face; h < 3 * face + 3; ++h) vertices.push_back(mesh.half_edge(h).tail);
+    }
   }
   const Submesh part = cutter.cut(vertices);
-  PlacedPoint part_target = target;
-  if (target.vertex >= 0) part_target.vertex = cutter.part_vertex(target.vertex);
-  for (PlacedPoint::InFace& in : part_target.faces) in.face = cutter.part_face(in.face);
-  const SourcePoints source({PlacedPoint::at_vertex(cutter.part_vertex(path.points.front().vertex))});
-  const WavefrontResult result = propagate_wavefront(*part.mesh, source, task);
+  const SourcePoints sources({to_part(cutter, source)});
+  const WavefrontResult result = propagate_wavefront(*part.mesh, sources, task);
   std::optional<IntrinsicPath> shorter =
-      trace_records({*part.mesh, result.distances, source}, result.records, part_target, task);
+      trace_records({*part.mesh, result.distances, sources}, result.records, to_part(cutter, target), task);
   if (!shorter) throw std::logic_error("a path cannot be traced");
   to_whole_mesh(part, *shorter);
   return std::move(*shorter);
+}
+
+PlacedPoint to_part(const SubmeshCutter& cutter, PlacedPoint point) {
+  if (point.vertex >= 0) point.vertex = cutter.part_vertex(point.vertex);
+  for (PlacedPoint::InFace& in : point.faces) in.face = cutter.part_face(in.face);
+  return point;
 }
 
 void to_whole_mesh(const Submesh& part, IntrinsicPath& path) {

@@ -21,11 +21,14 @@ namespace seamwire {
 std::optional<IntrinsicPath> trace_records(const SolvedDistances& solved, const std::vector<TraceRecord>& records,
                                            const PlacedPoint& target, const Task& task = {});
 
-/// The shortest path from the vertex at which a path begins to a target, within the triangles at the vertices of the
-/// path, at the ends of the edges it crosses and around the target's faces; all in internal numbers. Of `path` only the
+/// The shortest path from a source to a target, within the triangles at the vertices of a path between them, at the
+/// ends of the edges it crosses and around the faces of source and target; all in internal numbers. Of `path` only the
 /// points count.
 IntrinsicPath shorten(const GeodesicMesh& mesh, SubmeshCutter& cutter, const IntrinsicPath& path,
-                      const PlacedPoint& target, const Task& task);
+                      const PlacedPoint& source, const PlacedPoint& target, const Task& task);
+
+/// A point of a mesh as one of the submesh cut last, in which its vertex or its faces are.
+PlacedPoint to_part(const SubmeshCutter& cutter, PlacedPoint point);
 
 /// Renumbers a path over a submesh as one over the whole mesh, in internal numbers.
 void to_whole_mesh(const Submesh& part, IntrinsicPath& path);

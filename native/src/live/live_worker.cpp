@@ -12,6 +12,27 @@ namespace {
 
 double loop_turning_for(std::size_t edges) { return std::max(20.0, std::sqrt(static_cast<double>(edges)) / 4.0); }
 
+bool is_missing_edge(const Surface& surface, const WireEnd& end) {
+  const auto* pick = std::get_if<Pick>(&end);
+  return pick != nullptr && pick->is_edge() && !has_edge(surface, {pick->a, pick->b});
+}
+
+SurfacePoint point_of(const WireEnd& end) {
+  const auto* pick = std::get_if<Pick>(&end);
+  return pick != nullptr ? SurfacePoint::at_vertex(pick->a) : std::get<SurfacePoint>(end);
+}
+
+/// A vertex itself, of another point the corner of its face that is nearest.
+std::int32_t nearest_vertex(const Surface& surface, const WireEnd& end) {
+  const SurfacePoint point = point_of(end);
+  if (point.vertex >= 0) return point.vertex;
+  const Triangle& corners = surface.triangles()[point.face];
+  Vector place = Vector::Zero();
+  for (std::size_t i = 0; i < 3; ++i) place += point.barycentric[i] * surface.points()[corners[i]];
+  return *std::ranges::min_element(
+      corners, {}, [&](std::int32_t corner) { return (surface.points()[corner] - place).squaredNorm(); });
+}
+
 }  // namespace
 
 bool has_edge(const Surface& surface, const Edge& edge) {
@@ -53,12 +74,12 @@ void LiveWorker::change_metric(std::shared_ptr<MetricPair> metrics) {
   changed_.notify_all();
 }
 
-void LiveWorker::seed(const Pick& pick, bool forward) {
+void LiveWorker::seed(const WireEnd& seed, bool forward) {
   const MutexLock lock(mutex_);
   ++request_;
-  seed_ = pick;
+  seed_ = seed;
   is_forward_ = forward;
-  target_ = {};
+  target_ = std::nullopt;
   solving_.request_stop();
   error_ = nullptr;
   preview_ = nullptr;
@@ -66,7 +87,7 @@ void LiveWorker::seed(const Pick& pick, bool forward) {
   changed_.notify_all();
 }
 
-LiveWorker::Snapshot LiveWorker::snapshot(const Pick& target) {
+LiveWorker::Snapshot LiveWorker::snapshot(const WireEnd& target) {
   const MutexLock lock(mutex_);
   if (target_ != target) {
     target_ = target;
@@ -165,7 +186,7 @@ std::optional<LiveWorker::Job> LiveWorker::next_job() {
   was_prepared_ = metrics_->prepared[which_]->peek() != nullptr;
   return SeedJob{.request = request_,
                  .metrics = metrics_,
-                 .pick = seed_,
+                 .seed = seed_,
                  .is_forward = is_forward_,
                  .before = solution_,  // for this seed, if there is one: a new seed drops it
                  .preparing = preparing_.get_token(),
@@ -225,7 +246,7 @@ std::shared_ptr<const SeedSolution> LiveWorker::solve(const SeedJob& job) {
       job.preparing, [&] { return prepare(*surface_cache_, settings_.along, *job.metrics, which_, job.preparing); });
   job.metrics->forget_former(which_);
   if (job.before && job.before->field && job.before->prepared == prepared) return job.before;  // the other was changed
-  if (!job.pick || (job.pick->is_edge() && !has_edge(surface(), {job.pick->a, job.pick->b}))) return nullptr;
+  if (!job.seed || is_missing_edge(surface(), *job.seed)) return nullptr;
   const Task task{.stop = job.solving, .progress = [this](double done) {
                     fraction_ = done;
                     return true;
@@ -238,14 +259,16 @@ std::shared_ptr<const SeedSolution> LiveWorker::solve(const SeedJob& job) {
 /// thread of its own that would take turns with the search all the same.
 std::shared_ptr<const SeedSolution> LiveWorker::find_field(const SeedJob& job,
                                                            const std::shared_ptr<const Prepared>& prepared, Task task) {
-  CorridorPaths paths(*prepared->geodesics, job.pick->a);
+  const std::optional<SurfacePoint> seed = prepared->points->find(point_of(*job.seed), "seed");
+  if (!seed) return std::make_shared<const SeedSolution>(SeedSolution{.prepared = prepared, .field = {}, .wires = {}});
+  CorridorPaths paths(*prepared->geodesics, *seed);
   std::int64_t answered = -1;
   make_preview(job, *prepared, paths, answered);
   task.progress = [&, report = std::move(task.progress)](double done) {
     make_preview(job, *prepared, paths, answered);
     return report(done);
   };
-  DistanceField field = prepared->geodesics->solve(job.pick->a, task);
+  DistanceField field = prepared->geodesics->solve(std::array{*seed}, {}, task);
   return std::make_shared<const SeedSolution>(
       SeedSolution{.prepared = prepared, .field = std::move(field), .wires = std::nullopt});
 }
@@ -256,16 +279,18 @@ void LiveWorker::make_preview(const SeedJob& job, const Prepared& prepared, Corr
   const std::int64_t asked = targets_;
   if (asked == answered) return;
   answered = asked;
-  Pick target;
+  std::optional<WireEnd> target;
   {
     const MutexLock lock(mutex_);
     target = target_;
   }
-  if (target.a < 0) return;
-  Wire wire = map_wire(surface(), *prepared.embedding, paths.path(target.a, {.stop = job.solving, .progress = {}}));
-  wire.from = job.pick->a;
-  wire.to = target.a;
-  auto preview = std::make_shared<const Preview>(Preview{job.request, target, candidate_of(prepared, std::move(wire))});
+  if (!target) return;
+  LiveCandidate candidate;
+  if (const std::optional<SurfacePoint> to = prepared.points->find(point_of(*target), "target")) {
+    Wire wire = map_wire(surface(), *prepared.embedding, paths.path(*to, {.stop = job.solving, .progress = {}}));
+    candidate = candidate_of(prepared, std::move(wire), *job.seed, *target);
+  }
+  auto preview = std::make_shared<const Preview>(Preview{job.request, *target, std::move(candidate)});
   const MutexLock lock(mutex_);
   if (job.request == request_) preview_.swap(preview);
 }
@@ -274,7 +299,7 @@ void LiveWorker::make_preview(const SeedJob& job, const Prepared& prepared, Corr
 std::shared_ptr<const SeedSolution> LiveWorker::find_chains(const SeedJob& job,
                                                             const std::shared_ptr<const Prepared>& prepared,
                                                             const Task& task) {
-  EdgeWires wires(prepared->graph, *job.pick, settings_.turning, job.is_forward);
+  EdgeWires wires(prepared->graph, std::get<Pick>(*job.seed), settings_.turning, job.is_forward);
   auto solution =
       std::make_shared<const SeedSolution>(SeedSolution{.prepared = prepared, .field = std::nullopt, .wires = wires});
   {
@@ -288,7 +313,10 @@ std::shared_ptr<const SeedSolution> LiveWorker::find_chains(const SeedJob& job,
   return solution;
 }
 
-LiveCandidate LiveWorker::candidate_of(const Prepared& prepared, Wire wire) const {
+LiveCandidate LiveWorker::candidate_of(const Prepared& prepared, Wire wire, const WireEnd& seed,
+                                       const WireEnd& target) const {
+  wire.from = nearest_vertex(surface(), seed);
+  wire.to = nearest_vertex(surface(), target);
   LiveCandidate candidate;
   candidate.follow = kFollow[which_];
   candidate.vertices = snap_to_edges(surface(), *prepared.snap_graph, wire);
@@ -298,14 +326,17 @@ LiveCandidate LiveWorker::candidate_of(const Prepared& prepared, Wire wire) cons
   return candidate;
 }
 
-LiveCandidate LiveWorker::candidate(const SeedSolution& solution, const Pick& target) const {
-  if (solution.field) {
-    const Prepared& prepared = *solution.prepared;
-    return candidate_of(prepared, trace_wire(surface(), *prepared.embedding, *solution.field, target.a));
-  }
+LiveCandidate LiveWorker::candidate(const SeedSolution& solution, const WireEnd& seed, const WireEnd& target) const {
   LiveCandidate candidate;
   candidate.follow = kFollow[which_];
-  EdgeChain chain = solution.wires->trace(target);
+  if (solution.field) {
+    const Prepared& prepared = *solution.prepared;
+    const std::optional<SurfacePoint> to = prepared.points->find(point_of(target), "target");
+    if (!to) return candidate;
+    return candidate_of(prepared, trace_wire(surface(), *prepared.embedding, *solution.field, *to), seed, target);
+  }
+  if (!solution.wires) return candidate;
+  EdgeChain chain = solution.wires->trace(std::get<Pick>(target));
   candidate.length = chain.length;
   candidate.vertices = std::move(chain.vertices);
   candidate.points.reserve(candidate.vertices.size());

@@ -23,13 +23,17 @@ namespace seamwire {
 /// In either direction.
 bool has_edge(const Surface& surface, const Edge& edge);
 
-/// The wires of one metric from one seed. Along edges it may still be at work.
+/// Where wires begin, or what they lead to: across the surface a vertex or another point, along edges a pick.
+using WireEnd = std::variant<Pick, SurfacePoint>;
+
+/// The wires of one metric from one seed: across the surface a field, along edges chains, which may still be at work.
+/// Neither: no wires begin there.
 struct SeedSolution {
   std::shared_ptr<const Prepared> prepared;
   std::optional<DistanceField> field;
   std::optional<EdgeWires> wires;
 
-  bool is_final(const Pick& target) const { return !wires || wires->is_final(target); }
+  bool is_final(const WireEnd& target) const { return !wires || wires->is_final(std::get<Pick>(target)); }
 };
 
 /// How wires run, whatever the metric.
@@ -59,8 +63,8 @@ class LiveWorker {
 
   /// The solution stays, as that of a former metric, until the same seed has one in this metric. The loop is forgotten.
   void change_metric(std::shared_ptr<MetricPair> metrics);
-  /// Drops the solution of the former seed. The pick was checked, an edge where there is a surface.
-  void seed(const Pick& pick, bool forward);
+  /// Drops the solution of the former seed. The seed was checked, an edge where there is a surface.
+  void seed(const WireEnd& seed, bool forward);
 
   /// What is there of the wires now.
   struct Snapshot {
@@ -70,9 +74,10 @@ class LiveWorker {
     std::shared_ptr<const LiveCandidate> preview;
   };
   /// `target` is where a preview leads to from now on. The solution has to be given back by release().
-  Snapshot snapshot(const Pick& target);
+  Snapshot snapshot(const WireEnd& target);
   void release(std::shared_ptr<const SeedSolution> solution);
-  LiveCandidate candidate(const SeedSolution& solution, const Pick& target) const;
+  /// The wire from a seed to a target.
+  LiveCandidate candidate(const SeedSolution& solution, const WireEnd& seed, const WireEnd& target) const;
 
   /// Searches the loop through an edge, `edge[0] < edge[1]`, unless it is the one searched for last.
   void find_loop(const Edge& edge);
@@ -90,7 +95,7 @@ class LiveWorker {
   struct SeedJob {
     std::int64_t request;
     std::shared_ptr<MetricPair> metrics;
-    std::optional<Pick> pick;
+    std::optional<WireEnd> seed;
     bool is_forward;
     std::shared_ptr<const SeedSolution> before;
     std::stop_token preparing, solving;
@@ -107,7 +112,7 @@ class LiveWorker {
   /// A wire to one target, computed before there is a field.
   struct Preview {
     std::int64_t request;
-    Pick target;
+    WireEnd target;
     LiveCandidate candidate;
   };
 
@@ -122,7 +127,7 @@ class LiveWorker {
   std::shared_ptr<const SeedSolution> find_chains(const SeedJob& job, const std::shared_ptr<const Prepared>& prepared,
                                                   const Task& task);
   void make_preview(const SeedJob& job, const Prepared& prepared, CorridorPaths& paths, std::int64_t& answered);
-  LiveCandidate candidate_of(const Prepared& prepared, Wire wire) const;
+  LiveCandidate candidate_of(const Prepared& prepared, Wire wire, const WireEnd& seed, const WireEnd& target) const;
   const Surface& surface() const { return surface_cache_->surface(); }
 
   bool has_job() const SEAMWIRE_REQUIRES(mutex_) {
@@ -145,9 +150,9 @@ class LiveWorker {
   // What is asked for.
   std::shared_ptr<MetricPair> metrics_ SEAMWIRE_GUARDED_BY(mutex_);
   std::int64_t request_ SEAMWIRE_GUARDED_BY(mutex_) = 0;  // grows with each seed and each change of the metric
-  std::optional<Pick> seed_ SEAMWIRE_GUARDED_BY(mutex_);
+  std::optional<WireEnd> seed_ SEAMWIRE_GUARDED_BY(mutex_);
   bool is_forward_ SEAMWIRE_GUARDED_BY(mutex_) = false;
-  Pick target_ SEAMWIRE_GUARDED_BY(mutex_);  // of the preview
+  std::optional<WireEnd> target_ SEAMWIRE_GUARDED_BY(mutex_);  // of the preview
   std::int64_t loop_request_ SEAMWIRE_GUARDED_BY(mutex_) = 0;
   Edge loop_edge_ SEAMWIRE_GUARDED_BY(mutex_) = {-1, -1};
   std::stop_source preparing_ SEAMWIRE_GUARDED_BY(mutex_);  // of the running job

@@ -11,6 +11,7 @@
 #include "detail/index.hpp"
 #include "detail/text.hpp"
 #include "detail/thread_safety.hpp"
+#include "geodesics/placed_point.hpp"
 #include "live/deadline.hpp"
 #include "live/live_worker.hpp"
 
@@ -31,6 +32,23 @@ void check_pick(const Surface* surface, std::size_t vertex_count, Along along, c
   } else {
     check_index(pick.a, vertex_count, "vertex");
   }
+}
+
+/// Throws where an end is not part of the surface, null where that is not known yet.
+void check_end(const Surface* surface, const SurfaceCache& cache, Along along, const WireEnd& end,
+               const std::string& what) {
+  if (const auto* pick = std::get_if<Pick>(&end)) return check_pick(surface, cache.vertex_count, along, *pick);
+  if (along == Along::kEdges) {
+    throw InvalidInput(what + ": along edges wires lead from vertices and edges, not from other points");
+  }
+  const SurfacePoint& point = std::get<SurfacePoint>(end);
+  check_index(point.face, cache.face_count, what + ": face", "faces");
+  checked_barycentric(point.barycentric, what);
+}
+
+/// A vertex is one, whichever way it is given.
+WireEnd end_at(const SurfacePoint& point) {
+  return point.vertex >= 0 ? WireEnd(Pick{.a = point.vertex}) : WireEnd(point);
 }
 
 void check_metric(MetricFamily family, const Strength& strength) {
@@ -92,14 +110,15 @@ struct LiveWire::Impl {
     }
     for (LiveWorker& worker : workers) worker.change_metric(to);
   }
-  std::optional<Pick> seed() const {
-    const MutexLock lock(mutex_);
-    return seed_;
+  void seed(const WireEnd& seed, bool forward) {
+    check_end(surface_if_built().get(), *surface_cache, settings.along, seed, "seed");
+    {
+      const MutexLock lock(mutex_);
+      seed_ = seed;
+    }
+    for (LiveWorker& worker : workers) worker.seed(seed, forward);
   }
-  void set_seed(const Pick& pick) {
-    const MutexLock lock(mutex_);
-    seed_ = pick;
-  }
+  LiveWires wires(const WireEnd& target);
 
   const std::shared_ptr<SurfaceCache> surface_cache;
   const LiveSettings settings;
@@ -107,7 +126,7 @@ struct LiveWire::Impl {
  private:
   mutable Mutex mutex_;
   std::shared_ptr<MetricPair> metrics_ SEAMWIRE_GUARDED_BY(mutex_);
-  std::optional<Pick> seed_ SEAMWIRE_GUARDED_BY(mutex_);
+  std::optional<WireEnd> seed_ SEAMWIRE_GUARDED_BY(mutex_);
 
  public:
   std::array<LiveWorker, 2> workers;  // last, so that they end first
@@ -161,25 +180,25 @@ void LiveWire::set_scribbles(std::vector<Scribble> scribbles) {
   impl_->change_metrics(to);
 }
 
-void LiveWire::seed(const Pick& pick, bool forward) {
-  check_pick(impl_->surface_if_built().get(), impl_->surface_cache->vertex_count, impl_->settings.along, pick);
-  impl_->set_seed(pick);
-  for (LiveWorker& worker : impl_->workers) worker.seed(pick, forward);
-}
+void LiveWire::seed(const Pick& pick, bool forward) { impl_->seed(pick, forward); }
+void LiveWire::seed_at(const SurfacePoint& point) { impl_->seed(end_at(point), false); }
+LiveWires LiveWire::wires(const Pick& target) const { return impl_->wires(target); }
+LiveWires LiveWire::wires_to(const SurfacePoint& target) const { return impl_->wires(end_at(target)); }
 
-LiveWires LiveWire::wires(const Pick& target) const {
-  const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
-  const auto check = [&](const Pick& pick) {
-    check_pick(surface.get(), impl_->surface_cache->vertex_count, impl_->settings.along, pick);
-  };
-  check(target);
-  const std::optional<Pick> seed = impl_->seed();
+LiveWires LiveWire::Impl::wires(const WireEnd& target) {
+  const std::shared_ptr<const Surface> surface = surface_if_built();
+  check_end(surface.get(), *surface_cache, settings.along, target, "target");
+  std::optional<WireEnd> seed;
+  {
+    const MutexLock lock(mutex_);
+    seed = seed_;
+  }
   if (!seed) throw InvalidInput("there is no seed that wires could start from");
-  check(*seed);
-  impl_->rethrow();
+  check_end(surface.get(), *surface_cache, settings.along, *seed, "seed");  // it may have been too early before
+  rethrow();
   LiveWires result;
   for (std::size_t which = 0; which < kFollow.size(); ++which) {
-    LiveWorker& worker = impl_->workers[which];
+    LiveWorker& worker = workers[which];
     LiveCandidate& wire = result.wires[which];
     wire.follow = kFollow[which];
     auto [solution, is_newest, preview] = worker.snapshot(target);
@@ -189,13 +208,13 @@ LiveWires LiveWire::wires(const Pick& target) const {
       wire = *preview;
     } else if (solution) {
       const bool is_final = is_newest && solution->is_final(target);  // before it is looked up
-      wire = worker.candidate(*solution, target);
+      wire = worker.candidate(*solution, *seed, target);
       wire.final = is_final;
     }
     if (solution) worker.release(std::move(solution));
   }
   const bool second_is_shorter = result.wires[1].length < result.wires[0].length;
-  const bool first_leads = impl_->metrics()->family == MetricFamily::kConcave && !result.wires[0].points.empty();
+  const bool first_leads = metrics()->family == MetricFamily::kConcave && !result.wires[0].points.empty();
   result.shorter = second_is_shorter && !first_leads ? 1 : 0;
   return result;
 }

@@ -49,13 +49,15 @@ bool are_same_for(Follow follow, const std::vector<Scribble>& these, const std::
 
 }  // namespace
 
-SurfaceCache::SurfaceCache(std::shared_ptr<const Surface> on) : vertex_count(on->vertex_count()) {
+SurfaceCache::SurfaceCache(std::shared_ptr<const Surface> on)
+    : vertex_count(on->vertex_count()), face_count(on->face_count()) {
   built_.get({}, [&] { return std::move(on); });
 }
 
 SurfaceCache::SurfaceCache(std::vector<Vector> points, std::vector<Triangle> triangles,
                            std::optional<std::vector<Edge>> edges)
     : vertex_count(points.size()),
+      face_count(triangles.size()),
       input_(Input{.points = std::move(points), .triangles = std::move(triangles), .edges = std::move(edges)}) {}
 
 std::shared_ptr<const Surface> SurfaceCache::surface_now(const std::stop_token& stop) {
@@ -107,8 +109,10 @@ Prepared prepare(SurfaceCache& surface_cache, Along along, MetricPair& metrics, 
     const std::size_t most = std::clamp(kFacesAddedPerFace * surface.face_count(), kLeastFacesAdded, kMostFacesAdded);
     const EmbedOptions options{.max_faces_added = most};
     const std::shared_ptr<const Prepared> former = metrics.former(which);
-    prepared.embedding = former ? re_embed(surface, former->metric, metric, *former->embedding, options, task)
-                                : embed(surface, metric, options, task);
+    prepared.embedding = std::make_shared<const Embedding>(
+        former ? re_embed(surface, former->metric, metric, *former->embedding, options, task)
+               : embed(surface, metric, options, task));
+    prepared.points.emplace(surface, *prepared.embedding);
     const IntrinsicMesh& mesh = prepared.embedding->mesh;
     const Task silent{.stop = stop, .progress = {}};
     if (former) {

@@ -15,6 +15,7 @@
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/live/livewire.hpp"
+#include "seamwire/wires/embedded_points.hpp"
 
 /// What a live wire computes before there is a seed, each part once, whoever asks for it first.
 namespace seamwire {
@@ -73,7 +74,7 @@ struct SurfaceCache {
     return *held;
   }
 
-  const std::size_t vertex_count;
+  const std::size_t vertex_count, face_count;
   ComputedOnce<CurvatureCache> curvatures;
   ComputedOnce<Curvature> smoothed_curvatures;
   ComputedOnce<SnapGraph> snap_graph;
@@ -93,7 +94,8 @@ struct SurfaceCache {
 /// What one metric needs for any seed: along edges the last, across the surface the others.
 struct Prepared {
   Metric metric;
-  std::optional<Embedding> embedding;
+  std::shared_ptr<const Embedding> embedding;
+  std::optional<EmbeddedPoints> points;
   std::optional<ExactGeodesics> geodesics;
   std::shared_ptr<const SnapGraph> snap_graph;
   std::shared_ptr<const EdgeGraph> graph;

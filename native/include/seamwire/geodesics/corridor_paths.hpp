@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "seamwire/geodesics/exact_geodesics.hpp"
+#include "seamwire/surface/surface_point.hpp"
 #include "seamwire/task.hpp"
 
 namespace seamwire {
@@ -19,7 +20,7 @@ struct CorridorPathOptions {
   std::uint32_t windows = 8;
 };
 
-/// Paths from one seed to any vertex at once, before there is a DistanceField. Each is a real path over the surface,
+/// Paths from one seed to any point at once, before there is a DistanceField. Each is a real path over the surface,
 /// with its true length: a locally shortest one within a corridor of triangles around the shortest chains of edges. So
 /// it is never shorter than the geodesic, and mostly is the geodesic. The same for the same input, whatever was asked
 /// for before.
@@ -30,14 +31,18 @@ class CorridorPaths {
  public:
   /// Throws InvalidInput for a seed out of range.
   CorridorPaths(const ExactGeodesics& geodesics, std::int32_t seed, const CorridorPathOptions& options = {});
+  /// From any point. Throws InvalidInput as DistanceField::distance() does.
+  CorridorPaths(const ExactGeodesics& geodesics, const SurfacePoint& seed, const CorridorPathOptions& options = {});
   ~CorridorPaths();
   CorridorPaths(CorridorPaths&&) noexcept;             ///< leaves one that may only be destroyed
   CorridorPaths& operator=(CorridorPaths&&) noexcept;  ///< as moving
 
-  std::int32_t seed() const;  ///< the vertex that paths begin at
+  std::int32_t seed() const;  ///< the vertex that paths begin at; -1: a point that is none
   /// A path as DistanceField::trace() gives one. Throws InvalidInput for a target out of range; Cancelled, after which
   /// the object can be used as before.
   IntrinsicPath path(std::int32_t target, const Task& task = {});
+  /// To any point. Throws InvalidInput as DistanceField::distance() does; Cancelled.
+  IntrinsicPath path(const SurfacePoint& target, const Task& task = {});
 
  private:
   struct Impl;

@@ -15,6 +15,7 @@
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/metric/scribble.hpp"
 #include "seamwire/surface/surface.hpp"
+#include "seamwire/surface/surface_point.hpp"
 #include "seamwire/wires/snap.hpp"
 #include "seamwire/wires/wire.hpp"
 
@@ -43,7 +44,8 @@ struct LiveWireOptions {
 };
 
 /// One of the two wires from the seed to a target. `vertices` are the ends of the edges that would be marked: along
-/// edges the wire itself, across the surface the chain it snaps to.
+/// edges the wire itself, across the surface the chain it snaps to. Where the wire begins or ends within a face, the
+/// chain does so at the corner of the face that is nearest in space.
 struct LiveCandidate {
   Follow follow = Follow::kMin;                             ///< whose metric it is the shortest in
   std::vector<Vector> points;                               ///< in the caller's coordinates; empty: no such wire
@@ -118,11 +120,16 @@ class LiveWire {
   /// `forward` as in edge_wires(). Throws InvalidInput where the pick is not part of the surface; an edge that is given
   /// before the surface is there is refused by wires().
   void seed(const Pick& pick, bool forward = false);
+  /// Starts the wires from any point of the surface, across the surface only. Throws InvalidInput where the point is
+  /// none. Where the metric's embedding has a hole, or the face no area, no wire begins.
+  void seed_at(const SurfacePoint& point);
   /// The wires from the seed to a target now, as far as they are computed: along edges those near the seed are final
   /// first; across the surface a path that may be a little longer than the shortest one is computed for the target
   /// asked for last, and is there at one of the next calls for it. Throws InvalidInput for a target that is not part of
   /// the surface or where there is no seed that is.
   LiveWires wires(const Pick& target) const;
+  /// To any point of the surface, across the surface only.
+  LiveWires wires_to(const SurfacePoint& target) const;
 
   /// The closed chain through an edge, the cheaper of the two metrics'; along edges only. The first call for an edge
   /// starts the search, in place of that for another edge; ask again until the answer is final. A seed goes first.
