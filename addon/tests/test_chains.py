@@ -14,10 +14,11 @@ from table import Table
         ("0 512 88; 7-9 40 7-9", [[0, 512, 88], [(7, 9), 40, (7, 9)]]),
         ("0, 1", [[0, 1]]),
         (" 3-1   2 ;", [[(3, 1), 2]]),
+        ("0 (.5 -2e-1, 1);(0,0,0) (1 2 3)7", [[0, (0.5, -0.2, 1.0)], [(0.0, 0.0, 0.0), (1.0, 2.0, 3.0), 7]]),
     ],
 )
 def test_chains_are_read(text: str, chains: list) -> None:
-    assert parse_chains(text) == chains
+    assert parse_chains(text, tuple) == chains
 
 
 @pytest.mark.parametrize(
@@ -32,11 +33,15 @@ def test_chains_are_read(text: str, chains: list) -> None:
         ("7", "at least two"),
         ("0 1.5", "'1.5'"),
         ("0 ²", "'²'"),
+        ("0 (1 2)", r"'\(1 2\)' is neither"),
+        ("0 (1 2 nan)", "neither"),
+        ("0 (1 2 3", r"'\(' is neither"),
+        ("(1 2 3) (1 2 3)", "twice in a row"),
     ],
 )
 def test_what_is_not_a_chain_is_said(text: str, said: str) -> None:
     with pytest.raises(ValueError, match=said):
-        parse_chains(text)
+        parse_chains(text, tuple)
 
 
 def test_drawing_chains_waits_for_each_wire() -> None:

@@ -190,6 +190,33 @@ def test_random_lines_join_their_ends_and_cross_in_nodes_only(number: int) -> No
         assert min(gaps) < 0.15
 
 
+def inside(faces: Flat, *places: tuple[float, float]) -> tuple[int, NDArray[np.float64]]:
+    """Return the curve through places, the first of them in the triangle of quad 0 that has the corner 1."""
+    return 1, np.array([(x, y, 0.0) for x, y in places])
+
+
+def test_curves_may_meet_inside_a_face() -> None:
+    faces = grid(3)
+    meeting = (0.6, 0.3)
+    one = inside(faces, meeting, (1.0, 0.2), (2.0, 0.0))  # to vertex 2
+    two = inside(faces, meeting, (0.55, 0.55), (0.6, 1.0), (1.0, 2.0))  # over the diagonal, to vertex 9
+    cuts = plan(faces, [one, two])
+    node = cuts.node_at((0, 1, 5), tuple(np.array([0.4, 0.3, 0.3])))
+    assert node is not None and node.place(faces.points)[:2] == pytest.approx(meeting)
+    assert {Node((2,)), Node((9,))} <= reached(cuts, 2), "one chain, over where both begin"
+    assert cuts.inside() == [node]
+    assert cuts.node_at((0, 1, 5), (0.8, 0.1, 0.1)) is None
+
+
+def test_an_end_inside_a_face_goes_back_to_the_last_edge() -> None:
+    faces = grid(3)
+    cuts = plan(faces, [inside(faces, (0.6, 0.3), (1.0, 0.2), (2.0, 0.0))])
+    assert cuts.inside() == []
+    places = [node.place(faces.points)[:2].tolist() for node in reached(cuts, 2)]
+    assert sorted(places) == [pytest.approx([1.0, 0.2]), [2.0, 0.0]]
+    assert plan(faces, [inside(faces, (0.6, 0.3), (0.7, 0.2))]).segments() == []
+
+
 def test_a_curve_beside_the_mesh_is_refused() -> None:
     faces = grid(2)
     with pytest.raises(CuttingError, match="does not run over the mesh near vertex 0"):

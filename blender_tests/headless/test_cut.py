@@ -350,6 +350,79 @@ def test_a_closed_chain_that_is_cut_keeps_its_seeds() -> None:
     assert len(session_on(obj).session.wires) == 4
 
 
+def seam_places(obj: bpy.types.Object) -> dict[tuple[float, float], int]:
+    """Return where the seams of a flat mesh in edit mode have vertices, and how many seams meet there."""
+    vertices = bpy.context.active_object.data.vertices
+    obj.update_from_editmode()
+    return {tuple(round(c, 5) for c in vertices[v].co[:2]): count for v, count in _counts(seams(obj)).items()}
+
+
+def test_where_wires_meet_inside_a_face_there_is_a_vertex_then() -> None:
+    obj = add_grid(5)
+    edit()
+    assert cut("(-0.8 -0.7 0.3) (0.1, 0.35, 0) (0.9 -0.3 0)") == {"FINISHED"}
+    assert agree(obj)
+    counts = seam_places(obj)
+    assert counts[0.1, 0.35] == 2
+    # An end inside a face goes back to the last edge, as with Blender's knife.
+    assert sorted(place for place, count in counts.items() if count == 1) == [
+        pytest.approx((-0.62857, -0.5), abs=1e-4),
+        pytest.approx((0.53077, 0.0), abs=1e-4),
+    ]
+    ends = {end for wire in session_on(obj).session.wires for end in (wire.start, wire.end)}
+    obj.update_from_editmode()
+    assert any((obj.data.vertices[v].co - Vector((0.1, 0.35, 0.0))).length < 1e-5 for v in ends)
+
+
+def test_a_closed_chain_of_places_cuts_an_island_out() -> None:
+    obj = add_grid(5)
+    edit()
+    corners = ((-0.7, -0.6), (0.7, -0.55), (0.1, 0.8))
+    text = " ".join(f"({x} {y} 0)" for x, y in (*corners, corners[0]))
+    assert cut(text) == {"FINISHED"}
+    assert islands(obj) == 2
+    counts = seam_places(obj)
+    assert set(counts.values()) == {2}
+    assert set(corners) <= set(counts)
+    assert agree(obj)
+
+
+def test_from_corner_to_corner_over_a_place_inside_the_only_face() -> None:
+    obj = add_grid(2)
+    edit()
+    assert cut("0 (0.1 0.4 0) 1") == {"FINISHED"}
+    assert islands(obj) == 2
+    assert seam_places(obj) == {(-1.0, -1.0): 1, (0.1, 0.4): 2, (1.0, -1.0): 1}
+
+
+def test_a_wire_that_stays_inside_a_face_cuts_nothing_and_says_so() -> None:
+    obj = add_grid(2)
+    edit()
+    with pytest.raises(RuntimeError, match="No wire leaves the face that it begins in"):
+        cut("(-0.5 0 0) (0.2 0.3 0)")
+    assert len(obj.data.polygons) == 1 and seams(obj) == []
+
+
+def test_places_are_mirrored() -> None:
+    obj = add_suzanne(1)
+    edit()
+    assert cut("(0.5 -0.8 0.4) (0.6 -0.5 -0.2) (0.3 -0.6 -0.6)", mirror={"X"}) == {"FINISHED"}
+    assert agree(obj)
+    bm = bmesh.from_edit_mesh(obj.data)
+    middles = [sum((v.co for v in edge.verts), Vector()) / 2 for edge in bm.edges if edge.seam]
+    missing = [m for m in middles if not any((n - Vector((-m.x, m.y, m.z))).length < 0.02 for n in middles)]
+    assert middles and not missing
+
+
+def test_places_snap_to_the_vertices_nearest_to_them() -> None:
+    obj = add_grid(5)
+    edit()
+    bpy.ops.mesh.seamwire_mark(chains="(-0.9 -0.95 0) (0.05 -0.9 0)", along="SURFACE")
+    assert seams(obj) == [(0, 1), (1, 2)]
+    with pytest.raises(RuntimeError, match="give no places"):
+        bpy.ops.mesh.seamwire_mark(chains="(-0.9 -0.9 0) 12", along="EDGES")
+
+
 def test_seams_cannot_be_cleared_by_a_cut() -> None:
     add_grid(5)
     edit()

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .network import Network, Snap, Wire, name
+from .network import FacePoint, Network, Snap, Wire, name
+from .solver import for_live
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -87,7 +88,8 @@ class CandidateWires:
         ValueError
             Where the seed is not part of the surface.
         """
-        self._engines.get(along).seed(seed.begins(along), forward=seed.forward and along == "EDGES")
+        begin = for_live(seed.begins(along), along)
+        self._engines.get(along).seed(begin, forward=seed.forward and along == "EDGES")
 
     def swap(self) -> str:
         """Bring the other wire forward; return why that cannot be, else nothing."""
@@ -108,7 +110,7 @@ class CandidateWires:
             return only_vertices(target.pick)
         goal, avoid = _goal(target, network, along)
         try:
-            found = self._engines.get(along).wires(goal)
+            found = self._engines.get(along).wires(for_live(goal, along))
         except ValueError as error:
             return str(error)
         self.finals = (found.wires[0].final, found.wires[1].final)
@@ -142,10 +144,13 @@ class CandidateWires:
 
 def _across(candidate: Candidate, follow: int, seed: Seed, target: Pick) -> Wire | None:
     vertices = tuple(int(v) for v in candidate.vertices)
-    if len(vertices) < 2 or len(candidate.points) < 2:
+    begin = seed.begins("SURFACE")
+    # Between points of one face there may be no edge to snap to.
+    least = 1 if isinstance(begin, FacePoint) or isinstance(target, FacePoint) else 2
+    if len(vertices) < least or len(candidate.points) < 2:
         return None
     points = np.array(candidate.points, dtype=np.float64)
-    return Wire("SURFACE", vertices, points, seed.vertex, target, follow=follow)
+    return Wire("SURFACE", vertices, points, begin, target, follow=follow)
 
 
 def _goal(target: Snap, network: Network, along: Along) -> tuple[Pick, int | None]:
@@ -160,4 +165,4 @@ def _goal(target: Snap, network: Network, along: Along) -> tuple[Pick, int | Non
 
 def only_vertices(edge: Pick) -> str:
     """Say that wires across the surface do not end at edges."""
-    return f"Across the surface wires begin and end at vertices, not at {name(edge)}"
+    return f"Across the surface wires begin and end at vertices and points of faces, not at {name(edge)}"

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from .geometry import nearest_on_segments
+from .geometry import barycentric, nearest_on_segments
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -132,6 +132,12 @@ class CutPlan:
         """Return all nodes, each once."""
         return list(dict.fromkeys(node for segment in self.segments() for node in segment))
 
+    def node_at(self, vertices: Sequence[int], weights: Sequence[float]) -> Node | None:
+        """Return the node at barycentric coordinates, or the one that was moved away from there; None: there is none."""
+        wanted = Node.between(vertices, weights, NEAR)
+        same = (node for node in self.nodes() if node.vertices == wanted.vertices and node.near(wanted))
+        return next(same, None)
+
     def inside(self) -> list[Node]:
         """Return the nodes inside polygons."""
         on_edges = {node for nodes in self.splits.values() for node in nodes}
@@ -146,7 +152,8 @@ def plan(faces: Faces, curves: Iterable[tuple[int, NDArray[np.float64]]]) -> Cut
     faces
         The mesh.
     curves
-        For each, the vertex that it begins at and its points, (k, 3); the last one is at a vertex.
+        For each, the vertex that it begins at, or a corner of the triangle that it begins in, and its points, (k, 3). An
+        end inside a polygon that no other curve leads on from goes back to the last edge.
 
     Raises
     ------
@@ -154,24 +161,36 @@ def plan(faces: Faces, curves: Iterable[tuple[int, NDArray[np.float64]]]) -> Cut
         Where a curve does not run over the mesh.
     """
     pieces: list[Piece] = []
+    ends: list[Node] = []
     for start, points in curves:
-        pieces += _without_detours(_walk(faces, start, points))
-    return _sorted_out(faces, _without_spurs(_together(_crossed(faces, _together(pieces)))))
+        own = _without_detours(_walk(faces, start, points))
+        ends += _ends(faces, own)
+        pieces += own
+    return _sorted_out(faces, _without_spurs(_together(_crossed(faces, _together(pieces))), ends))
+
+
+def _ends(faces: Faces, pieces: Sequence[Piece]) -> Iterator[Node]:
+    """Yield the first and the last node of a curve's pieces that are not inside a polygon."""
+    nodes = [node for one, two, _ in pieces for node in (one, two)]
+    for way in (nodes, nodes[::-1]):
+        on_rims = (n for n in way if len(n.vertices) == 1 or (len(n.vertices) == 2 and faces.is_edge(*n.vertices)))
+        yield from itertools.islice(on_rims, 1)
 
 
 def _walk(faces: Faces, start: int, points: NDArray[np.float64]) -> Iterator[Piece]:
     """Yield what a curve passes: from node to node, and the polygon between them."""
     here, polygons = Node((start,)), list(faces.polygons_at(start))
-    for point in points[1:]:
+    begins_there = bool(np.linalg.norm(points[0] - faces.points[start]) <= ON * np.ptp(points, axis=0).max())
+    for number, point in enumerate(points[begins_there:]):
         beside = [(row, polygon) for polygon in polygons for row in faces.rows_of(polygon)]
         corners = faces.triangles[[row for row, _ in beside]]
-        weights, off = _coordinates(faces.points[corners], point)
+        weights, off = barycentric(faces.points[corners], point)
         best = int(np.argmin(off)) if len(off) else -1
         if best < 0 or not off[best] < OFF:
             raise CuttingError(f"A wire does not run over the mesh near vertex {here.vertices[0]}")
         polygon = beside[best][1]
         there = _on_side(faces, polygon, Node.between(corners[best], weights[best], NEAR))
-        if there != here:
+        if there != here and (number or begins_there):
             yield here, there, polygon
         here = there
         # Where it goes on, the exact place says: the node may have been moved away from it.
@@ -210,38 +229,6 @@ def _without_detours(pieces: Iterable[Piece]) -> list[Piece]:
     return kept
 
 
-def _coordinates(
-    corners: NDArray[np.float64], point: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Find a point in triangles.
-
-    Parameters
-    ----------
-    corners
-        (k, 3, d) the triangles.
-    point
-        (d,)
-
-    Returns
-    -------
-    weights
-        (k, 3) barycentric coordinates of a place in each triangle that is the point or near it.
-    off
-        (k,) how far the point is from it, as part of the triangle's longest edge; infinite where that has no area.
-    """
-    a, u, v = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    w = point - a
-    uu, uv, vv, uw, vw = (np.einsum("ij,ij->i", p, q) for p, q in ((u, u), (u, v), (v, v), (u, w), (v, w)))
-    area = uu * vv - uv * uv
-    with np.errstate(divide="ignore", invalid="ignore"):
-        s, t = (vv * uw - uv * vw) / area, (uu * vw - uv * uw) / area
-        weights = np.clip(np.stack([1.0 - s - t, s, t], axis=1), 0.0, None)
-        weights /= weights.sum(axis=1, keepdims=True)
-        gaps = np.linalg.norm(np.einsum("ij,ijk->ik", weights, corners) - point, axis=1)
-        off = gaps / np.sqrt(np.maximum.reduce([uu, vv, uu - 2.0 * uv + vv]))
-    return weights, np.where(np.isfinite(off), off, np.inf)
-
-
 def _together(pieces: Iterable[Piece]) -> list[Piece]:
     """Let nodes that are near each other between the same vertices be one, and keep each piece once."""
     pieces = list(pieces)
@@ -267,13 +254,20 @@ def _together(pieces: Iterable[Piece]) -> list[Piece]:
     return list(kept.values())
 
 
-def _without_spurs(pieces: list[Piece]) -> list[Piece]:
-    """Leave out pieces that lead nowhere, which moving nodes leaves behind: curves end at vertices."""
+def _without_spurs(pieces: list[Piece], ends: Iterable[Node]) -> list[Piece]:
+    """Leave out pieces that lead nowhere, to none of the ends: what moving nodes leaves behind, and ends inside polygons."""
+    ends_at: dict[tuple[int, ...], list[Node]] = defaultdict(list)
+    for node in ends:
+        ends_at[node.vertices].append(node)
+
+    def may_go(node: Node) -> bool:
+        return len(node.vertices) > 1 and not any(node.near(end) for end in ends_at[node.vertices])
+
     beside: dict[Node, set[int]] = defaultdict(set)
     for number, (one, two, _) in enumerate(pieces):
         beside[one].add(number)
         beside[two].add(number)
-    waiting = [node for node, own in beside.items() if len(own) == 1 and len(node.vertices) > 1]
+    waiting = [node for node, own in beside.items() if len(own) == 1 and may_go(node)]
     left_out: set[int] = set()
     while waiting:
         for number in beside.pop(waiting.pop()):
@@ -281,7 +275,7 @@ def _without_spurs(pieces: list[Piece]) -> list[Piece]:
             for node in pieces[number][:2]:
                 if node in beside:
                     beside[node].discard(number)
-                    if len(beside[node]) == 1 and len(node.vertices) > 1:
+                    if len(beside[node]) == 1 and may_go(node):
                         waiting.append(node)
     return [piece for number, piece in enumerate(pieces) if number not in left_out]
 
@@ -437,7 +431,7 @@ class _Shape:
     def node_at(self, place: NDArray[np.float64]) -> Node:
         """Return the node at a place inside, (2,)."""
         corners = np.array([[self._place_of[vertex] for vertex in triangle] for triangle in self._triangles.tolist()])
-        weights, off = _coordinates(corners, place)
+        weights, off = barycentric(corners, place)
         best = int(np.argmin(off))
         return _on_side(self._faces, self._polygon, Node.between(self._triangles[best], weights[best], NEAR))
 

@@ -35,3 +35,35 @@ def nearest_on_segments(
     part = np.einsum("ij,ij->i", point - starts, along) / np.where(square > 0.0, square, 1.0)
     part = np.clip(part, 0.0, 1.0)[:, None]
     return part, np.linalg.norm(starts + part * along - point, axis=1)
+
+
+def barycentric(
+    corners: NDArray[np.float64], point: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Find a point in triangles.
+
+    Parameters
+    ----------
+    corners
+        (k, 3, d) the triangles.
+    point
+        (d,)
+
+    Returns
+    -------
+    weights
+        (k, 3) barycentric coordinates of a place in each triangle that is the point or near it.
+    off
+        (k,) how far the point is from it, as part of the triangle's longest edge; infinite where that has no area.
+    """
+    a, u, v = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    w = point - a
+    uu, uv, vv, uw, vw = (np.einsum("ij,ij->i", p, q) for p, q in ((u, u), (u, v), (v, v), (u, w), (v, w)))
+    area = uu * vv - uv * uv
+    with np.errstate(divide="ignore", invalid="ignore"):
+        s, t = (vv * uw - uv * vw) / area, (uu * vw - uv * uw) / area
+        weights = np.clip(np.stack([1.0 - s - t, s, t], axis=1), 0.0, None)
+        weights /= weights.sum(axis=1, keepdims=True)
+        gaps = np.linalg.norm(np.einsum("ij,ijk->ik", weights, corners) - point, axis=1)
+        off = gaps / np.sqrt(np.maximum.reduce([uu, vv, uu - 2.0 * uv + vv]))
+    return weights, np.where(np.isfinite(off), off, np.inf)

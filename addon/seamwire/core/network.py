@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from .geometry import nearest_on_segments
+from .geometry import barycentric, nearest_on_segments
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -23,8 +23,42 @@ if TYPE_CHECKING:
 Along = Literal["EDGES", "SURFACE"]
 """Where wires run: along the mesh's edges, or across its surface."""
 
-Pick = int | tuple[int, int]
-"""A vertex, or an edge by its two vertices."""
+
+@dataclass(frozen=True)
+class FacePoint:
+    """A point inside a triangle of the mesh: where wires across the surface begin and end that are to be cut into it.
+
+    Parameters
+    ----------
+    triangle
+        Its number among those that the surface was made of.
+    corners
+        Its vertices.
+    weights
+        Of each corner, 0 or more; their sum is 1.
+    """
+
+    triangle: int
+    corners: tuple[int, int, int]
+    weights: tuple[float, float, float]
+
+    @classmethod
+    def at(
+        cls, place: NDArray[np.float64], triangle: int, triangles: NDArray[np.int32], points: NDArray[np.float64]
+    ) -> FacePoint:
+        """Return the point of a triangle that a place is, (3,), or is near to; `points` are the vertices, (n, 3)."""
+        corners = triangles[triangle]
+        weights, _ = barycentric(points[corners][None], place)
+        return cls(int(triangle), tuple(corners.tolist()), tuple(weights[0].tolist()))
+
+    @property
+    def vertex(self) -> int:
+        """The corner that it has most of: there the edges end that a wire snaps to."""
+        return self.corners[self.weights.index(max(self.weights))]
+
+
+Pick = int | tuple[int, int] | FacePoint
+"""A vertex, an edge by its two vertices, or a point inside a triangle."""
 
 Edge = tuple[int, int]
 """An edge by its vertices; in results the smaller one first."""
@@ -105,16 +139,16 @@ class Seed:
 
     @property
     def vertex(self) -> int:
-        """The vertex that stands for the seed where wires cannot begin on edges."""
-        return self.pick[1] if isinstance(self.pick, tuple) else self.pick
+        """The vertex that stands for the seed where wires cannot begin on edges, nor inside triangles."""
+        return vertices_of(self.pick)[-1]
 
     def begins(self, along: Along) -> Pick:
         """Return where the wires begin that run one way."""
-        return self.vertex if along == "SURFACE" else self.pick
+        return self.pick if along == "EDGES" or isinstance(self.pick, FacePoint) else self.vertex
 
     def shown(self, along: Along) -> Pick:
         """Return where the seed is shown while wires run one way."""
-        return self.vertex if along == "SURFACE" else self.place
+        return self.place if along == "EDGES" else self.begins(along)
 
     def at(self, pick: Pick, along: Along) -> bool:
         """Whether a wire to a pick would end where it begins."""
@@ -391,7 +425,7 @@ class Network:
 
 def _goes_on(wire: Wire, start: Pick, heading: Pick | None) -> bool:
     """Whether what begins at a place, heading on from an edge, goes on from the end of a wire."""
-    return heading is not None and wire.last_edge == heading and undirected(wire.end) == undirected(start)
+    return heading is not None and wire.vertices[-2:] == heading and undirected(wire.end) == undirected(start)
 
 
 def undirected(pick: Pick | None) -> Pick | None:
@@ -401,12 +435,23 @@ def undirected(pick: Pick | None) -> Pick | None:
 
 def name(pick: Pick) -> str:
     """Return a pick as it is called in messages."""
+    if isinstance(pick, FacePoint):
+        return "this point"
     return f"edge {pick[0]}-{pick[1]}" if isinstance(pick, tuple) else f"vertex {pick}"
 
 
 def vertices_of(pick: Pick) -> tuple[int, ...]:
-    """Return the vertex, or both vertices of an edge."""
+    """Return the vertex, both vertices of an edge, or the vertex that stands for a point."""
+    if isinstance(pick, FacePoint):
+        return (pick.vertex,)
     return pick if isinstance(pick, tuple) else (pick,)
+
+
+def place_of(pick: Pick, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return where a pick is, of an edge its middle, (3,); `points` are the vertices, (n, 3)."""
+    if isinstance(pick, FacePoint):
+        return np.asarray(pick.weights) @ points[list(pick.corners)]
+    return points[list(vertices_of(pick))].mean(axis=0)
 
 
 def split(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[Wire, Wire] | None:
@@ -487,7 +532,7 @@ def _split_loop(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[Wi
 
 
 def _split_curve(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[Wire, Wire] | None:
-    if isinstance(pick, tuple) or pick not in wire.vertices[1:-1]:
+    if not isinstance(pick, int) or pick not in wire.vertices[1:-1]:
         return None
     at = wire.vertices.index(pick)
     place = points[pick]

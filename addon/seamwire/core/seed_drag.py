@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .network import Network, Snap, Wire, name, undirected, vertices_of
+from .candidates import only_vertices
+from .network import FacePoint, Network, Snap, Wire, name, undirected, vertices_of
+from .solver import for_live
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -62,7 +64,7 @@ class Leg:
         self.stays = wire.end if moving == "start" else wire.start
         self._points = points
         seed, forward, self._skip = _fixed_seed(network, wire, moving)
-        live.seed(seed, forward=forward)
+        live.seed(for_live(seed, wire.along), forward=forward)
 
     def trace(self, target: Pick, place: Pick, avoid: int | None = None) -> Courses:
         """Return the courses to a target.
@@ -81,7 +83,7 @@ class Leg:
         ValueError
             Where the target is not part of the surface.
         """
-        found = self.live.wires(target)
+        found = self.live.wires(for_live(target, self.wire.along))
         one, two = (self._wire(found.wires[index], index, place, avoid) for index in (0, 1))
         return Courses((one, two), found.shorter, found.final)
 
@@ -89,7 +91,8 @@ class Leg:
         vertices = tuple(int(vertex) for vertex in candidate.vertices)[self._skip :]
         if avoid in vertices:
             vertices = vertices[: vertices.index(avoid) + 1]
-        if len(vertices) < 2:
+        free = isinstance(place, FacePoint) or isinstance(self.stays, FacePoint)
+        if len(vertices) < (1 if free and self.wire.along == "SURFACE" else 2):
             return None
         points = np.array(candidate.points, dtype=np.float64)
         if self.moving == "start":
@@ -104,7 +107,7 @@ def _fixed_seed(network: Network, wire: Wire, moving: End) -> tuple[Pick, bool, 
     """Return where a leg's live wires begin, whether that is a directed edge, and how many vertices are not the leg's."""
     stays = wire.end if moving == "start" else wire.start
     if wire.along == "SURFACE":
-        return vertices_of(stays)[-1], False, 0
+        return stays if isinstance(stays, FacePoint) else vertices_of(stays)[-1], False, 0
     if moving == "end":
         before = network.before(wire)
         return (stays, False, 0) if before is None else (before.last_edge, True, 1)
@@ -197,7 +200,7 @@ class SeedDrag:
 
     def _refusal(self, pick: Pick) -> str:
         if isinstance(pick, tuple) and any(leg.wire.along == "SURFACE" for leg in self.legs):
-            return f"Across the surface wires begin and end at vertices, not at {name(pick)}"
+            return only_vertices(pick)
         if self.legs and all(undirected(leg.stays) == undirected(pick) for leg in self.legs):
             return "The wire would end where it begins: drop it instead"
         return ""

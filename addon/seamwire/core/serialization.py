@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .network import LOOP_NAMES, Network, Wire, undirected
+from .network import LOOP_NAMES, FacePoint, Network, Wire, undirected
 from .spatial_hash import SpatialHash
 from .strokes import Scribble
 
@@ -186,8 +186,8 @@ def wire_record(wire: Wire, places: NDArray[np.float64], to_object: NDArray[np.f
         "along": wire.along,
         "vertices": chain,
         "ends": places[[chain[0], chain[1] if wire.closed else chain[-1]]].astype(np.float32).tolist(),
-        "start": wire.start,
-        "end": wire.end,
+        "start": _stored(wire.start),
+        "end": _stored(wire.end),
         "closed": wire.closed,
         "heading": wire.heading,
         "follow": wire.follow,
@@ -231,6 +231,11 @@ def _checked_wire(record: Record) -> Record:
     ):
         raise ValueError
     return record
+
+
+def _stored(pick: Pick) -> int | tuple[int, int]:
+    """Return a pick as it is stored: seams end at vertices, so a point inside a triangle is known only until they are marked."""
+    return pick.vertex if isinstance(pick, FacePoint) else pick
 
 
 def pick_of(stored: int | list[int]) -> Pick:

@@ -18,7 +18,7 @@ from .extension import Extension
 from .history import History
 from .intent import Intent
 from .mirror_images import MirrorImages
-from .network import Network, Seed, Snap, Wire, name, undirected
+from .network import FacePoint, Network, Seed, Snap, Wire, name, undirected
 from .retrace import Retraces, other_way, retraced
 from .seam_wires import seam_chains, wires_along
 from .seed_drag import SeedDrag
@@ -927,7 +927,9 @@ class Session:
                 return self._refuse("The wire ends where it begins: click somewhere else")
             return self._refuse(self.message or f"No wire reaches {name(target.pick)}")
         ending = self._ending(target)
-        if ending is Intent.CLOSE and {edge for own in self.wires for edge in own.edges()}.issuperset(wire.edges()):
+        known = {edge for own in self.wires for edge in own.edges()}
+        # Of what is cut the snapped edges say nothing.
+        if ending is Intent.CLOSE and known.issuperset(wire.edges()) and not isinstance(wire.end, FacePoint):
             return self._refuse("The way back runs along the chain itself: place another seed first")
         wire = replace(
             wire,

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Literal, Protocol
 
 from .defaults import CLAMP_PERCENTILE, STRENGTHS
+from .network import FacePoint
 
 if TYPE_CHECKING:
     import numpy as np
@@ -60,6 +61,17 @@ class EmbeddingReport(Protocol):
     invalid_left: int
 
 
+End = int | tuple[int, int] | tuple[int, tuple[float, float, float]]
+"""A vertex, an edge by its two vertices, or a triangle and barycentric coordinates in it."""
+
+
+def for_live(pick: Pick, along: Along) -> End:
+    """Return a pick as live wires take it that run one way: along edges, of a point inside a triangle, its nearest vertex."""
+    if not isinstance(pick, FacePoint):
+        return pick
+    return pick.vertex if along == "EDGES" else (pick.triangle, pick.weights)
+
+
 class LiveWire(Protocol):
     """What a session asks of ``seamwire_core.LiveWire``.
 
@@ -67,10 +79,10 @@ class LiveWire(Protocol):
     final; where it cannot be built, all raise ValueError.
     """
 
-    def seed(self, pick: Pick, forward: bool = False) -> None:
+    def seed(self, pick: End, forward: bool = False) -> None:
         """Start the wires from a pick."""
 
-    def wires(self, target: Pick) -> Candidates:
+    def wires(self, target: End) -> Candidates:
         """Both wires to a target, as far as they are computed."""
 
     def loop(self, edge: Edge) -> Loop:

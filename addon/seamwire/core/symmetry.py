@@ -210,10 +210,10 @@ class Symmetry:
         mesh lacks an edge of an image, that falls into several, each drawn along its edges: see `one_sided`.
         """
         images = []
-        taken = {frozenset(wire.edges())}
+        taken = {frozenset(wire.edges()) or wire.vertices}
         for combination in _combinations(axes):
             for image in self._image(wire, combination):
-                edges = frozenset(image.edges())
+                edges = frozenset(image.edges()) or image.vertices
                 if edges not in taken:
                     taken.add(edges)
                     images.append(image)
@@ -229,6 +229,8 @@ class Symmetry:
         with self._lock:
             mapped, keys = self._partners_of(around, axes), self._edge_keys
         pairs = np.stack([mapped[:-1], mapped[1:]], axis=1)
+        if len(mapped) == 1:  # a wire without edges, between points of one face
+            return mapped, mapped >= 0
         there = (pairs >= 0).all(axis=1) & (pairs[:, 0] != pairs[:, 1])
         if keys is not None and len(keys):
             there &= among(self._key(pairs), keys)

@@ -14,6 +14,7 @@ import bmesh
 import numpy as np
 
 from ..core import cutting
+from ..core.network import FacePoint
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -73,10 +74,15 @@ def plan(cage: Cage, arrays: Arrays, curves: Iterable[tuple[int, NDArray[np.floa
     return cutting.plan(_CageFaces(cage, arrays), curves)
 
 
-def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int] = ()) -> Cut:
-    """Cut an edit mesh, and make seams of the cuts. Vertices, edges and faces, some vertices asked for too, have other numbers then."""
+def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = ()) -> Cut:
+    """Cut an edit mesh, and make seams of the cuts. Vertices, edges and faces have other numbers then.
+
+    `seeds` are vertices and points whose numbers then are asked for; of points, only those that the cuts go through have any.
+    """
     bm = cage.bm
-    seed_verts = [bm.verts[vertex] for vertex in seeds]
+    seeds = list(seeds)
+    seed_verts = [bm.verts[seed] for seed in seeds if isinstance(seed, int)]
+    at_points = [what.node_at(seed.corners, seed.weights) for seed in seeds if isinstance(seed, FacePoint)]
     faces = {polygon: bm.faces[polygon] for polygon in what.across}
     before = len(bm.verts)
     vert_of: dict[Node, bmesh.types.BMVert] = {}
@@ -95,6 +101,7 @@ def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int] = ()) -> Cut:
             part = (node.weights[1] - passed) / (1.0 - passed)
             _, last = bmesh.utils.edge_split(edge, last, part)
             vert_of[node], passed = last, node.weights[1]
+    seed_verts += [vert_of[node] for node in at_points if node is not None]
     seams = [bm.edges.get((vert_of[one], vert_of[two])) for one, two in what.along]
     uncut = 0
     for polygon, segments in what.across.items():
@@ -107,7 +114,10 @@ def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int] = ()) -> Cut:
         items.index_update()
     bmesh.update_edit_mesh(cage.mesh, loop_triangles=True, destructive=True)
     pairs = {(min(pair), max(pair)) for pair in ((edge.verts[0].index, edge.verts[1].index) for edge in seams)}
-    return Cut(tuple(sorted(pairs)), tuple(vert.index for vert in seed_verts), len(bm.verts) - before, uncut)
+    numbers = tuple(
+        vert.index for vert in seed_verts if vert.is_valid
+    )  # those inside a face that could not be cut went
+    return Cut(tuple(sorted(pairs)), numbers, len(bm.verts) - before, uncut)
 
 
 def _vert_inside(

@@ -17,6 +17,7 @@ import bpy
 import numpy as np
 
 from ..core import native
+from ..core.network import vertices_of
 from ..core.wire_labels import EdgeLabels
 
 if TYPE_CHECKING:
@@ -98,7 +99,7 @@ class Cage:
         """Say in words what keeps picks from being seeds; an empty string where nothing does."""
         count = self._counts[0]
         for pick in picks:
-            for vertex in pick if isinstance(pick, tuple) else (pick,):
+            for vertex in vertices_of(pick):
                 if vertex >= count:
                     return f"There is no vertex {vertex}: the mesh has {count}, numbered from 0"
                 if self.bm.verts[vertex].hide:

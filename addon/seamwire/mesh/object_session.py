@@ -3,16 +3,19 @@
 
 from __future__ import annotations
 
+import functools
 import threading
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
+from mathutils.bvhtree import BVHTree
 
 from ..core import native, serialization, wire_labels
+from ..core.cutting import CuttingError
 from ..core.defaults import CLAMP_PERCENTILE, STRENGTHS
-from ..core.network import edges_after
+from ..core.network import FacePoint, edges_after
 from ..core.seam_wires import wires_between
 from ..core.serialization import Archive, UnreadableError
 from ..core.session import Session
@@ -21,7 +24,7 @@ from ..core.wire_labels import EdgeLabels, Found, Places
 from . import cut, edit_mesh
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable
+    from collections.abc import Callable, Collection, Iterable, Sequence
 
     import seamwire_core
     from numpy.typing import NDArray
@@ -366,10 +369,27 @@ class ObjectSession:
         session.adopt(network, self.plain_seams)
         self._found = replace(self._found, network=session.network)
 
+    def finder(self) -> Callable[[Sequence[float]], FacePoint]:
+        """Return what finds the point of the visible surface that is nearest to a place in object coordinates."""
+        triangles, in_object = self.arrays.triangles, self.arrays.points @ self.arrays.to_object.T
+
+        @functools.cache
+        def tree() -> BVHTree:
+            return BVHTree.FromPolygons(in_object.tolist(), triangles.tolist(), all_triangles=True)
+
+        def find(place: Sequence[float]) -> FacePoint:
+            found, _, triangle, _ = tree().find_nearest(place)
+            return FacePoint.at(np.array(found), triangle, triangles, in_object)
+
+        return find
+
     def plan_cut(self, wires: Iterable[Wire]) -> CutPlan:
-        """Find what wires across the surface and their mirror images cut; raises `CuttingError`."""
+        """Find what wires across the surface and their mirror images cut; raises `CuttingError`, also where that is nothing."""
         curves = [(own.vertices[0], own.points) for wire in wires for own in (wire, *self.session.mirrored(wire))]
-        return cut.plan(self.cage, self.arrays, curves)
+        plan = cut.plan(self.cage, self.arrays, curves)
+        if not plan.segments():
+            raise CuttingError("No wire leaves the face that it begins in")
+        return plan
 
     def cut(self, plan: CutPlan, wires: Collection[Wire], kept: bool) -> cut.Cut:
         """Cut the mesh; what was cut are wires along its edges then, between the seeds of those across the surface.

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
+from ..core.network import FacePoint
 from ..mesh.settings import ALONG_ITEMS, FINISH_ITEMS, METRIC_ITEMS
 from .cut import cut_wires
 from .report import in_edit_mode, summary
@@ -26,7 +27,8 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
 
     chains: bpy.props.StringProperty(
         name="Chains",
-        description="Chains of seeds: vertex numbers, or edges as two numbers with a hyphen; semicolons between chains",
+        description="Chains of seeds: vertex numbers, edges as two numbers with a hyphen or, across the surface, places as"
+        " three coordinates in parentheses; semicolons between chains",
     )
     loops: bpy.props.StringProperty(
         name="Loops",
@@ -169,14 +171,16 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
         if self.finish == "CUT" and self.clear and self.along == "SURFACE":
             raise ValueError("A cut makes seams: it cannot clear them")
         loops = seed_text.parse_edges(self.loops)
-        seeds = [] if loops and not self.chains.strip() else seed_text.parse_chains(self.chains)
+        seeds = [] if loops and not self.chains.strip() else seed_text.parse_chains(self.chains, mesh.finder())
         strokes = seed_text.parse_scribbles(self.strokes)
         through = [stroke.vertices for stroke in strokes]
         problem = mesh.cage.problem_with(pick for chain in (*seeds, loops, *through) for pick in chain)
         if problem:
             raise ValueError(problem)
         if self.along == "SURFACE" and (loops or any(isinstance(pick, tuple) for chain in seeds for pick in chain)):
-            raise ValueError("Across the surface seeds are vertices: give vertex numbers, not edges")
+            raise ValueError("Across the surface seeds are vertices or places: give no edges")
+        if self.along == "EDGES" and any(isinstance(pick, FacePoint) for chain in seeds for pick in chain):
+            raise ValueError("Along edges seeds are vertices or edges: give no places")
         return seeds, loops, strokes
 
 

@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -14,37 +15,45 @@ if TYPE_CHECKING:
     from ..core.network import Edge, LoopKind, Pick
     from ..core.session import Session
 
+_TOKENS = re.compile(r"\([^()]*\)|[^\s,()]+|[()]")
 _TOKEN = re.compile(r"(\d+)(?:-(\d+))?")
 _VERTEX = re.compile(r"\d+")
 
 
-def parse_chains(text: str) -> list[list[Pick]]:
-    """Read chains of seeds, such as ``"0 512 88; 7-9 40 7-9"``.
+Place = tuple[float, float, float]
+"""In object coordinates."""
+
+
+def parse_chains(text: str, find: Callable[[Place], Pick]) -> list[list[Pick]]:
+    """Read chains of seeds, such as ``"0 512 88; 7-9 40 7-9"`` or ``"0 (0.1 -0.25 1)"``.
 
     Parameters
     ----------
     text
-        Chains separated by semicolons; in each, seeds separated by spaces or commas: a vertex number, or an edge as its
-        two vertex numbers with a hyphen between them.
+        Chains separated by semicolons; in each, seeds separated by spaces or commas: a vertex number, an edge as its
+        two vertex numbers with a hyphen between them, or a place in parentheses.
+    find
+        Returns the point of the surface that is nearest to a place.
 
     Raises
     ------
     ValueError
-        Where a seed is neither, or the one before it again, where a chain has fewer than two seeds, or where there is no
+        Where a seed is none of these, or the one before it again, where a chain has fewer than two seeds, or where there is no
         chain.
     """
     chains: list[list[Pick]] = []
     pick: Pick
     for number, part in enumerate((p for p in text.split(";") if p.strip()), start=1):
         chain: list[Pick] = []
-        for token in part.replace(",", " ").split():
+        for token in _TOKENS.findall(part):
             match = _TOKEN.fullmatch(token)
             if match is None:
-                raise ValueError(f"Chain {number}: '{token}' is neither a vertex number nor an edge such as 7-9")
-            first, second = match.groups()
-            if second is not None and int(first) == int(second):
-                raise ValueError(f"Chain {number}: '{token}' is not an edge: both its vertices are the same")
-            pick = int(first) if second is None else (int(first), int(second))
+                pick = find(_place(token, number))
+            else:
+                first, second = match.groups()
+                if second is not None and int(first) == int(second):
+                    raise ValueError(f"Chain {number}: '{token}' is not an edge: both its vertices are the same")
+                pick = int(first) if second is None else (int(first), int(second))
             if chain and undirected(chain[-1]) == undirected(pick):
                 raise ValueError(f"Chain {number}: '{token}' comes twice in a row: a wire needs two different ends")
             chain.append(pick)
@@ -54,6 +63,20 @@ def parse_chains(text: str) -> list[list[Pick]]:
     if not chains:
         raise ValueError("There are no chains of seeds: give vertex numbers such as '0 512 88; 7-9 40'")
     return chains
+
+
+def _place(token: str, chain: int) -> Place:
+    """Read a place such as ``"(0.1 -0.25 1)"``; raises ValueError."""
+    what = (
+        f"Chain {chain}: '{token}' is neither a vertex number, nor an edge such as 7-9, nor a place such as (0.1 0 2.5)"
+    )
+    try:
+        x, y, z = (float(part) for part in token[1:-1].replace(",", " ").split())
+    except ValueError:
+        raise ValueError(what) from None
+    if not (token.startswith("(") and all(map(math.isfinite, (x, y, z)))):
+        raise ValueError(what)
+    return x, y, z
 
 
 def parse_edges(text: str) -> list[Edge]:

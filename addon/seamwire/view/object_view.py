@@ -154,6 +154,7 @@ class ObjectView:
             cursor,
             vertices_only=self.session.along == "SURFACE",
             edges_only=plain,
+            anywhere=self.session.along == "SURFACE" and self.session.marking and settings.finish == "CUT",
             session=None if plain else self.session,
             xray=settings.xray,
             strength=self._strength if settings.snap and not plain else None,

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from ..core.network import edges_after
+from ..core.network import edges_after, place_of
 from . import text_overlay
 from .gpu_draw import Eye, Faces, Lines, blended, draw_dots
 from .theme import Looks, Style, hue_colors
@@ -47,9 +47,8 @@ class _Sheet:
             self._pieces.setdefault(style, []).append(self._points[pairs])
 
     def dot(self, style: Style, pick: Pick) -> None:
-        """Add a dot at a vertex, or on the middle of an edge."""
-        place = self._points[list(pick)].mean(axis=0) if isinstance(pick, tuple) else self._points[pick]
-        self._places.setdefault(style, []).append(place)
+        """Add a dot at a pick."""
+        self._places.setdefault(style, []).append(place_of(pick, self._points))
 
     def finish(self) -> None:
         self.lines = [Lines(style, np.concatenate(parts)) for style, parts in self._pieces.items()]

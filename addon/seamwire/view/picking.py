@@ -13,7 +13,7 @@ from mathutils import Vector
 
 from ..core import native
 from ..core.geometry import nearest_on_segments
-from ..core.network import Snap
+from ..core.network import FacePoint, Snap, place_of, vertices_of
 from .viewport import Projected
 
 if TYPE_CHECKING:
@@ -192,6 +192,7 @@ class Picker:
         *,
         vertices_only: bool,
         edges_only: bool = False,
+        anywhere: bool = False,
         session: Session | None = None,
         xray: bool = False,
         strength: NDArray[np.float64] | None = None,
@@ -209,6 +210,8 @@ class Picker:
             Pixels from the region's bottom left.
         vertices_only, edges_only
             Find vertices of the mesh alone, or edges.
+        anywhere
+            Of vertices alone, find only those that are meant, else the point of the surface under the cursor.
         session
             Whose seeds and wires can be found; without it neither they nor seams are.
         xray
@@ -227,7 +230,9 @@ class Picker:
         if xray:
             pick = self._pick_through(view, matrix, cursor, vertices_only, scale)
         else:
-            pick = self.pick(view, matrix, cursor, vertices_only, scale, edges_only)
+            pick = self._point_at(view, matrix, cursor, scale) if anywhere else None
+            if pick is None:
+                pick = self.pick(view, matrix, cursor, vertices_only, scale, edges_only)
         if pick is None or strength is None:
             return None if pick is None else Snap(pick)
         feature = self._feature_at(view, matrix, cursor, pick, strength, xray, scale)
@@ -288,7 +293,7 @@ class Picker:
         followed = {end for wire in session.wires if wire.id in moved for end in (wire.start, wire.end)}
         followed |= {end[::-1] for end in followed if isinstance(end, tuple)}
         picks = tuple(pick for pick in picks if pick not in followed)
-        places = [np.mean(self._points[list(p) if isinstance(p, tuple) else [p]], axis=0) for p in picks]
+        places = [place_of(pick, self._points) for pick in picks]
         wires = tuple(wire for wire in session.wires if wire.id not in moved)
         self._drawn = _Drawn(
             key,
@@ -328,7 +333,7 @@ class Picker:
         if self._strength[0] is not strength:
             self._strength = (strength, float(np.quantile(strength, FEATURE_QUANTILE)) if len(strength) else 0.0)
         radius = FEATURE_REACH * scale
-        frontier = [self._bm.verts[v] for v in (pick if isinstance(pick, tuple) else (pick,))]
+        frontier = [self._bm.verts[v] for v in (pick.corners if isinstance(pick, FacePoint) else vertices_of(pick))]
         seen = {v.index for v in frontier}
         near: list[int] = []
         while frontier and len(seen) < _MAX_NEAR:
@@ -434,6 +439,23 @@ class Picker:
         if index < 0:
             return None
         return pairs[index] if end is None or edges_only else pairs[index][end]
+
+    def _point_at(
+        self, view: View, matrix: Matrix, cursor: tuple[float, float], scale: float
+    ) -> int | FacePoint | None:
+        """Return the point of the surface under the cursor, or the vertex that is meant."""
+        hit = self._cast(view, matrix, cursor)
+        if hit is None:
+            return None
+        corners = self._triangles[hit[0]].tolist()
+        pixels = view.to_pixels(np.array([matrix @ self._bm.verts[vertex].co for vertex in corners], dtype=np.float64))
+        gaps = np.linalg.norm(pixels - np.asarray(cursor), axis=1)
+        if not np.isnan(gaps).any():
+            nearest = int(np.argmin(gaps))
+            shorter = np.linalg.norm(np.delete(pixels, nearest, axis=0) - pixels[nearest], axis=1).min()
+            if gaps[nearest] <= min(VERTEX_RADIUS * scale, VERTEX_SHARE * float(shorter)):
+                return corners[nearest]
+        return FacePoint.at(self._to_points @ np.array(hit[1]), hit[0], self._triangles, self._points)
 
     @cached_property
     def _loose(self) -> _Segments:
