@@ -78,3 +78,43 @@ def test_along_edges_nothing_is_cut(cutting: Desk) -> None:
     cutting.obj.update_from_editmode()
     assert len(cutting.obj.data.vertices) == 81
     assert len(seams(cutting.obj)) == 12
+
+
+def test_a_click_is_where_one_clicks(cutting: Desk) -> None:
+    session, ui = cutting.start(), cutting.ui
+    corners = ((-0.63, -0.56, 0.0), (0.69, -0.6, 0.0), (0.08, 0.7, 0.0))
+    ui.click(ui.on_screen(corners[0]), ctrl=True)
+    for number, corner in enumerate(corners[1:], start=1):
+        ui.click(ui.on_screen(corner))
+        ui.wait_until(lambda number=number: len(session.wires) == number)
+    for wire, corner in zip(session.wires, corners[1:], strict=True):
+        assert wire.points[-1] == pytest.approx(corner, abs=0.01), "a pixel or so"
+    near = ui.on_screen(corners[0])
+    ui.move((near[0] + 4.0, near[1]))
+    ui.wait_until(lambda: session.target is not None and session.target.to == "SEED")
+    ui.click((near[0] + 4.0, near[1]))  # closes the chain, which ends it
+    ui.wait_until(lambda: seams(cutting.obj) != [])
+    assert cutting.left_clean()
+    assert agree(cutting.obj)
+    cutting.obj.update_from_editmode()
+    vertices = np.array([v.co for v in cutting.obj.data.vertices])
+    for corner in corners:
+        assert np.linalg.norm(vertices - corner, axis=1).min() < 0.01
+    count = np.bincount(np.array(seams(cutting.obj)).ravel())
+    assert set(count[count > 0]) == {2}, "closed"
+
+
+def test_near_a_vertex_or_with_snap_a_click_takes_the_vertex(cutting: Desk) -> None:
+    session, ui = cutting.start(), cutting.ui
+    at = cutting.at(40)
+    ui.move((at[0] + 3.0, at[1] + 3.0))
+    ui.wait_until(lambda: session.target is not None)
+    assert session.target.pick == 40
+    ui.move(ui.on_screen((0.08, 0.09, 0.0)))
+    ui.wait_until(lambda: session.target.pick != 40)
+    assert not isinstance(session.target.pick, int)
+    settings().finish = "SNAP"
+    ui.move(ui.on_screen((0.09, 0.08, 0.0)))
+    ui.wait_until(lambda: isinstance(session.target.pick, int))
+    settings().finish = "CUT"
+    ui.key("ESC")
