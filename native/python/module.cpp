@@ -55,11 +55,11 @@ void check_size(const char* what, std::size_t size, const Surface& surface) {
 using MetricFunction = Metric (*)(const Surface&, const Curvature&, Follow, const Strength&, const Task&);
 
 Held<MetricObject> make_metric(MetricFunction function, const SurfaceObject& surface, const CurvatureObject& curvature,
-                               const std::string& follow, const Strength& strength) {
+                               const std::string& follow, const Strength& strength, const py::object& progress) {
   const Follow direction = follow_from(follow);
   check_size("curvature", curvature.curvature.k1.size(), *surface.surface);
-  return without_gil([&] {
-    return make_held<MetricObject>(function(*surface.surface, curvature.curvature, direction, strength, Task{}));
+  return Watch(progress).run([&](const Task& task) {
+    return make_held<MetricObject>(function(*surface.surface, curvature.curvature, direction, strength, task));
   });
 }
 
@@ -137,23 +137,27 @@ triangles : (m, 3) array_like of int
 edges : (e, 2) array_like of int, optional
     The real edges, where faces are polygons that have been triangulated, and edges without a face. None: every edge
     of a triangle.
+progress : callable, optional
+    Called now and then with the fraction done; returning False cancels.
 
 Raises
 ------
 ValueError
     Where an array has the wrong shape or type, a coordinate is not finite, a vertex number is out of range, an edge
     joins a vertex to itself, or there is no edge; the message names the element.
+Cancelled
 )")
-      .def(py::init([](const py::object& points, const py::object& triangles, const py::object& edges) {
+      .def(py::init([](const py::object& points, const py::object& triangles, const py::object& edges,
+                       const py::object& progress) {
              auto p = points_from(points, "points");
              auto t = triangles_from(triangles, "triangles");
              auto e = edges.is_none() ? std::nullopt : std::optional(edges_from(edges, "edges"));
-             return without_gil([&] {
-               return std::shared_ptr<SurfaceObject>(
-                   make_held<SurfaceObject>(std::make_shared<const Surface>(std::move(p), std::move(t), std::move(e))));
+             return Watch(progress).run([&](const Task& task) {
+               return std::shared_ptr<SurfaceObject>(make_held<SurfaceObject>(
+                   std::make_shared<const Surface>(std::move(p), std::move(t), std::move(e), task)));
              });
            }),
-           py::arg("points"), py::arg("triangles"), py::arg("edges") = py::none())
+           py::arg("points"), py::arg("triangles"), py::arg("edges") = py::none(), py::arg("progress") = py::none())
       .def_property_readonly("points",
                              array_of<SurfaceObject>([](const auto& s) -> auto& { return s.surface->points(); }),
                              "(n, 3) float64, as given.")
@@ -214,27 +218,40 @@ Of the model scaled to the unit cube, in 1 / side of the cube. 0 at vertices wit
 
   module.def(
       "principal_curvatures",
-      [](const SurfaceObject& surface) {
-        return without_gil([&] {
-          Curvature curvature = principal_curvatures(*surface.surface);
+      [](const SurfaceObject& surface, const py::object& progress) {
+        return Watch(progress).run([&](const Task& task) {
+          Curvature curvature = principal_curvatures(*surface.surface, task);
           auto difference = curvature.difference();
           return make_held<CurvatureObject>(CurvatureObject{std::move(curvature), std::move(difference)});
         });
       },
-      py::arg("surface"), R"(Principal curvatures at the vertices of a surface.
+      py::arg("surface"), py::arg("progress") = py::none(), R"(Principal curvatures at the vertices of a surface.
 
 Rusinkiewicz, "Estimating Curvatures and Their Derivatives on Triangle Meshes" (2004), with normals weighted as in Max,
-"Weights for Computing Vertex Normals from Facet Normals" (1999).)");
+"Weights for Computing Vertex Normals from Facet Normals" (1999).
+
+Parameters
+----------
+surface : Surface
+progress : callable, optional
+    Called now and then with the fraction done; returning False cancels.
+
+Raises
+------
+Cancelled
+)");
   module.def(
       "feature_metric",
       [](const SurfaceObject& surface, const CurvatureObject& curvature, const std::string& follow,
-         OptionalNumber gamma, OptionalNumber max_anisotropy, OptionalNumber clamp_percentile) {
+         OptionalNumber gamma, OptionalNumber max_anisotropy, OptionalNumber clamp_percentile,
+         const py::object& progress) {
         if (!gamma && !max_anisotropy) gamma = 0.1;
-        return make_metric(feature_metric, surface, curvature, follow, {gamma, max_anisotropy, clamp_percentile});
+        const Strength strength{gamma, max_anisotropy, clamp_percentile};
+        return make_metric(feature_metric, surface, curvature, follow, strength, progress);
       },
       py::arg("surface"), py::arg("curvature"), py::arg("follow") = "min", py::arg("gamma") = py::none(),
       py::arg("max_anisotropy") = py::none(), py::arg("clamp_percentile") = py::none(),
-      R"(The metric of the paper, eq. 5: l1 = 1 + gamma s, l2 = 1 / l1.
+      py::arg("progress") = py::none(), R"(The metric of the paper, eq. 5: l1 = 1 + gamma s, l2 = 1 / l1.
 
 Parameters
 ----------
@@ -249,33 +266,39 @@ max_anisotropy : float, optional
     At least 1: chooses gamma such that this is the largest anisotropy of a vertex.
 clamp_percentile : float, optional
     In (0, 100]: s above this percentile of its values counts as that value.
+progress : callable, optional
+    Called now and then with the fraction done; returning False cancels.
 
 Raises
 ------
 ValueError
     Where both or wrong parameters are given, or the curvature is of another surface.
+Cancelled
 )");
   module.def(
       "campen_metric",
       [](const SurfaceObject& surface, const CurvatureObject& curvature, const std::string& follow,
-         OptionalNumber alpha, OptionalNumber max_anisotropy) {
-        return make_metric(campen_metric, surface, curvature, follow, {alpha, max_anisotropy, std::nullopt});
+         OptionalNumber alpha, OptionalNumber max_anisotropy, const py::object& progress) {
+        return make_metric(campen_metric, surface, curvature, follow, {alpha, max_anisotropy, std::nullopt}, progress);
       },
       py::arg("surface"), py::arg("curvature"), py::arg("follow") = "min", py::arg("alpha") = py::none(),
-      py::arg("max_anisotropy") = py::none(), R"(The metric of Campen et al., eq. 3: l1 = alpha, l2 = 1.
+      py::arg("max_anisotropy") = py::none(), py::arg("progress") = py::none(),
+      R"(The metric of Campen et al., eq. 3: l1 = alpha, l2 = 1.
 
-One of alpha (at least 1) and max_anisotropy (at least 1; its square is alpha) is given; else ValueError.)");
+One of alpha (at least 1) and max_anisotropy (at least 1; its square is alpha) is given; else ValueError. `progress` as of
+`feature_metric`.)");
   module.def(
       "pottmann_kovacs_metric",
       [](const SurfaceObject& surface, const CurvatureObject& curvature, const std::string& follow, OptionalNumber beta,
-         OptionalNumber max_anisotropy) {
-        return make_metric(pottmann_kovacs_metric, surface, curvature, follow, {beta, max_anisotropy, std::nullopt});
+         OptionalNumber max_anisotropy, const py::object& progress) {
+        const Strength strength{beta, max_anisotropy, std::nullopt};
+        return make_metric(pottmann_kovacs_metric, surface, curvature, follow, strength, progress);
       },
       py::arg("surface"), py::arg("curvature"), py::arg("follow") = "min", py::arg("beta") = py::none(),
-      py::arg("max_anisotropy") = py::none(),
+      py::arg("max_anisotropy") = py::none(), py::arg("progress") = py::none(),
       R"(The metric of Pottmann et al. and Kovacs et al., eq. 4: l1 = k1^2 + beta, l2 = k2^2 + beta.
 
-One of beta (at least 0) and max_anisotropy (at least 1) is given; else ValueError.)");
+One of beta (at least 0) and max_anisotropy (at least 1) is given; else ValueError. `progress` as of `feature_metric`.)");
   module.def(
       "smoothed_curvatures",
       [](const SurfaceObject& surface, const CurvatureObject& curvature, double radius, const py::object& progress) {
@@ -295,11 +318,12 @@ ValueError
 )");
   module.def(
       "concave_metric",
-      [](const SurfaceObject& surface, const CurvatureObject& curvature, double strength) {
-        return without_gil(
-            [&] { return make_held<MetricObject>(concave_metric(*surface.surface, curvature.curvature, strength)); });
+      [](const SurfaceObject& surface, const CurvatureObject& curvature, double strength, const py::object& progress) {
+        return Watch(progress).run([&](const Task& task) {
+          return make_held<MetricObject>(concave_metric(*surface.surface, curvature.curvature, strength, task));
+        });
       },
-      py::arg("surface"), py::arg("curvature"), py::arg("strength") = 1.0,
+      py::arg("surface"), py::arg("curvature"), py::arg("strength") = 1.0, py::arg("progress") = py::none(),
       R"(The metric whose wires come nearest to cuts that people make: short along concave creases (docs/method.md).
 
 Parameters
@@ -310,20 +334,25 @@ curvature : Curvature
     Of that surface, best from `smoothed_curvatures`.
 strength : float
     At least 0: 0 gives the Euclidean metric, 1 the one that was measured.
+progress : callable, optional
+    Called now and then with the fraction done; returning False cancels.
 
 Raises
 ------
 ValueError
     Where the strength is negative, or the curvature is of another surface.
+Cancelled
 )");
   module.def(
       "euclidean_metric",
-      [](const SurfaceObject& surface, const CurvatureObject& curvature) {
+      [](const SurfaceObject& surface, const CurvatureObject& curvature, const py::object& progress) {
         check_size("curvature", curvature.curvature.k1.size(), *surface.surface);
-        return without_gil(
-            [&] { return make_held<MetricObject>(euclidean_metric(*surface.surface, curvature.curvature)); });
+        return Watch(progress).run([&](const Task& task) {
+          return make_held<MetricObject>(euclidean_metric(*surface.surface, curvature.curvature, task));
+        });
       },
-      py::arg("surface"), py::arg("curvature"), "The metric in which lengths are those of space.");
+      py::arg("surface"), py::arg("curvature"), py::arg("progress") = py::none(),
+      "The metric in which lengths are those of space; `progress` as of `feature_metric`.");
 }
 
 void bind_geodesics(py::module_& module) {
@@ -543,7 +572,7 @@ Cancelled
           throw InvalidInput("windows: only for one seed that is a vertex, without targets and max_distance");
         }
         return Watch(progress).run([&](const Task& task) {
-          const ExactGeodesics& geodesics = embedding->geodesics();
+          const ExactGeodesics& geodesics = embedding->geodesics(beginning(task));
           for (SurfacePoint& point : seeds) point = embedding->find(point, "seed");
           for (SurfacePoint& point : options.targets) point = embedding->find(point, "target");
           return make_held<FieldObject>(FieldObject{
@@ -581,7 +610,9 @@ Cancelled
   module.def(
       "snap_to_edges",
       [](const SurfaceObject& surface, const Wire& wire) {
-        return handed_over(without_gil([&] { return snap_to_edges(*surface.surface, surface.snap_graph(), wire); }));
+        return handed_over(Watch(py::none()).run([&](const Task& task) {
+          return snap_to_edges(*surface.surface, surface.snap_graph(task), wire);
+        }));
       },
       py::arg("surface"), py::arg("wire"),
       R"(The path of real edges that stays closest to a wire, from its start to its end.
@@ -637,8 +668,8 @@ ValueError
         const Pick pick = pick_from(seed, count, "seed");
         check_size("metric", metric.metric.size(), *surface.surface);
         return Watch(progress).run([&](const Task& task) {
-          return make_held<EdgeWiresObject>(
-              EdgeWiresObject{count, edge_wires(metric.edge_graph(surface.surface), pick, turning, forward, task)});
+          return make_held<EdgeWiresObject>(EdgeWiresObject{
+              count, edge_wires(metric.edge_graph(surface.surface, beginning(task)), pick, turning, forward, task)});
         });
       },
       py::arg("surface"), py::arg("metric"), py::arg("seed"), py::arg("turning") = 3.0, py::arg("forward") = false,
@@ -666,20 +697,34 @@ Cancelled
 )");
   module.def(
       "shortest_cycle",
-      [](const SurfaceObject& surface, const MetricObject& metric, const py::object& edge, double turning) {
+      [](const SurfaceObject& surface, const MetricObject& metric, const py::object& edge, double turning,
+         const py::object& progress) {
         const Edge through = edge_from(edge, surface.surface->vertex_count(), "edge");
         check_size("metric", metric.metric.size(), *surface.surface);
-        return Watch(py::none()).run([&](const Task& task) {
-          return shortest_cycle(*metric.edge_graph(surface.surface), through, turning, task);
+        return Watch(progress).run([&](const Task& task) {
+          return shortest_cycle(*metric.edge_graph(surface.surface, beginning(task)), through, turning, task);
         });
       },
       py::arg("surface"), py::arg("metric"), py::arg("edge"), py::arg("turning") = 20.0,
+      py::arg("progress") = py::none(),
       R"(The cheapest closed chain through an edge, its first vertex not repeated; empty where there is none.
+
+Parameters
+----------
+surface, metric
+    As of `edge_wires`.
+edge : (int, int)
+    By its two vertices.
+turning : float
+    q, not negative: what turning costs, in mean edge lengths.
+progress : callable, optional
+    Called now and then with the fraction done; returning False cancels.
 
 Raises
 ------
 ValueError
     Where the edge is not one of the surface's, turning is wrong, or the metric is of another surface.
+Cancelled
 )");
 }
 

@@ -28,7 +28,8 @@ namespace seamwire::python {
 
 namespace py = pybind11;
 
-/// A value built once, by the first thread that asks; the others wait. Ask without the GIL.
+/// A value built once, by the first thread that asks; the others wait, and where that one is stopped, one of them
+/// builds it. Ask without the GIL.
 template <class T>
 class Lazy {
  public:
@@ -72,8 +73,8 @@ Held<T> make_held(Arguments&&... arguments) {
 
 struct SurfaceObject {
   explicit SurfaceObject(std::shared_ptr<const Surface> built) : surface(std::move(built)) {}
-  const SnapGraph& snap_graph() const {
-    return snap_graph_.get([this] { return SnapGraph(*surface); });
+  const SnapGraph& snap_graph(const Task& task) const {
+    return snap_graph_.get([&] { return SnapGraph(*surface, task); });
   }
 
   std::shared_ptr<const Surface> surface;
@@ -94,10 +95,10 @@ struct CurvatureObject {
 struct MetricObject {
   explicit MetricObject(Metric computed) : metric(std::move(computed)) {}
   /// The graph of a surface in this metric. That of the last surface is kept; ask without the GIL.
-  std::shared_ptr<const EdgeGraph> edge_graph(const std::shared_ptr<const Surface>& surface) const {
+  std::shared_ptr<const EdgeGraph> edge_graph(const std::shared_ptr<const Surface>& surface, const Task& task) const {
     const std::scoped_lock lock(mutex_);
     if (!graph_ || graph_surface_.lock() != surface) {
-      graph_ = make_edge_graph(*surface, metric);
+      graph_ = make_edge_graph(*surface, metric, nullptr, task);
       graph_surface_ = surface;
     }
     return graph_;
@@ -120,8 +121,8 @@ struct EmbeddingObject {
 
   EmbeddingObject(std::shared_ptr<const Surface> of, Embedding computed)
       : surface(std::move(of)), embedding(std::move(computed)) {}
-  const ExactGeodesics& geodesics() const {
-    return geodesics_.get([this] { return ExactGeodesics(embedding.mesh); });
+  const ExactGeodesics& geodesics(const Task& task) const {
+    return geodesics_.get([&] { return ExactGeodesics(embedding.mesh, task); });
   }
   const EmbeddedPoints& points() const {
     return points_.get([this] { return EmbeddedPoints(*surface, embedding); });

@@ -98,13 +98,14 @@ ValueError
   module.def(
       "apply_scribbles",
       [](const SurfaceObject& surface, const MetricObject& metric, const std::vector<Scribble>& scribbles,
-         const std::optional<std::string>& follow) {
+         const std::optional<std::string>& follow, const py::object& progress) {
         const std::optional<Follow> meant = follow_from(follow);
-        return without_gil([&] {
-          return make_held<MetricObject>(apply_scribbles(*surface.surface, metric.metric, scribbles, meant));
+        return Watch(progress).run([&](const Task& task) {
+          return make_held<MetricObject>(apply_scribbles(*surface.surface, metric.metric, scribbles, meant, task));
         });
       },
       py::arg("surface"), py::arg("metric"), py::arg("scribbles"), py::arg("follow") = py::none(),
+      py::arg("progress") = py::none(),
       R"(The metric after scribbles, applied in their order (Section 5 of the paper).
 
 The list alone decides: without scribbles the result is the metric itself, and where two cross the later wins along its
@@ -118,12 +119,15 @@ metric : Metric
 scribbles : sequence of Scribble
 follow : {'min', 'max'}, optional
     Takes only those meant for that metric.
+progress : callable, optional
+    Called now and then with the fraction done; returning False cancels.
 
 Raises
 ------
 ValueError
     Where a scribble has a point that is off the mesh, with its number, or wrong parameters, or the metric is of
     another surface.
+Cancelled
 )");
 }
 

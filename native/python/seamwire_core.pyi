@@ -43,7 +43,13 @@ class SurfaceReport:
 class Surface:
     """A triangle mesh as people have it: points (n, 3), triangles (m, 3), real edges (e, 2) or None for every edge of a triangle."""
 
-    def __init__(self, points: ArrayLike, triangles: ArrayLike, edges: ArrayLike | None = None) -> None: ...
+    def __init__(
+        self,
+        points: ArrayLike,
+        triangles: ArrayLike,
+        edges: ArrayLike | None = None,
+        progress: Progress | None = None,
+    ) -> None: ...
     points: NDArray[np.float64]
     triangles: NDArray[np.int32]
     edges: NDArray[np.int32]
@@ -228,7 +234,7 @@ class LiveWire:
     def wait(self, seconds: float | None = None) -> bool:
         """For all running work, loops too."""
 
-def principal_curvatures(surface: Surface) -> Curvature: ...
+def principal_curvatures(surface: Surface, progress: Progress | None = None) -> Curvature: ...
 def feature_metric(
     surface: Surface,
     curvature: Curvature,
@@ -236,6 +242,7 @@ def feature_metric(
     gamma: float | None = None,
     max_anisotropy: float | None = None,
     clamp_percentile: float | None = None,
+    progress: Progress | None = None,
 ) -> Metric:
     """Eq. 5. Neither gamma nor max_anisotropy: gamma = 0.1."""
 
@@ -245,21 +252,29 @@ def campen_metric(
     follow: Literal["min", "max"] = "min",
     alpha: float | None = None,
     max_anisotropy: float | None = None,
+    progress: Progress | None = None,
 ) -> Metric: ...
 def smoothed_curvatures(
     surface: Surface, curvature: Curvature, radius: float = 0.01, progress: Progress | None = None
 ) -> Curvature: ...
-def concave_metric(surface: Surface, curvature: Curvature, strength: float = 1.0) -> Metric: ...
+def concave_metric(
+    surface: Surface, curvature: Curvature, strength: float = 1.0, progress: Progress | None = None
+) -> Metric: ...
 def pottmann_kovacs_metric(
     surface: Surface,
     curvature: Curvature,
     follow: Literal["min", "max"] = "min",
     beta: float | None = None,
     max_anisotropy: float | None = None,
+    progress: Progress | None = None,
 ) -> Metric: ...
-def euclidean_metric(surface: Surface, curvature: Curvature) -> Metric: ...
+def euclidean_metric(surface: Surface, curvature: Curvature, progress: Progress | None = None) -> Metric: ...
 def apply_scribbles(
-    surface: Surface, metric: Metric, scribbles: Sequence[Scribble], follow: Literal["min", "max"] | None = None
+    surface: Surface,
+    metric: Metric,
+    scribbles: Sequence[Scribble],
+    follow: Literal["min", "max"] | None = None,
+    progress: Progress | None = None,
 ) -> Metric: ...
 def embed(
     surface: Surface,
@@ -288,7 +303,13 @@ def edge_wires(
     forward: bool = False,
     progress: Progress | None = None,
 ) -> EdgeWires: ...
-def shortest_cycle(surface: Surface, metric: Metric, edge: Sequence[int], turning: float = 20.0) -> EdgeChain: ...
+def shortest_cycle(
+    surface: Surface,
+    metric: Metric,
+    edge: Sequence[int],
+    turning: float = 20.0,
+    progress: Progress | None = None,
+) -> EdgeChain: ...
 
 class RayTree:
     """Finds the first triangle that a ray meets; the tree is built on a thread, with the same answers before it is there."""

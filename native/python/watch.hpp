@@ -72,6 +72,11 @@ class Watch {
   std::exception_ptr error_;
 };
 
+/// For what is built once before the work itself: it can be stopped as that, and counts as nothing of it.
+inline Task beginning(const Task& task) {
+  return {.stop = task.stop, .progress = [progress = task.progress](double) { return !progress || progress(0.0); }};
+}
+
 /// work(), run without the GIL.
 template <class Work>
 auto without_gil(const Work& work) {

@@ -52,7 +52,7 @@ WORK = {
         "s = grid(60); m = sw.campen_metric(s, sw.principal_curvatures(s), alpha=100)",
         "sw.embed(s, m, progress=lambda fraction: None)",
     ),
-    "what cannot be stopped": ("p, t = meshes.grid(60)", "sw.principal_curvatures(sw.Surface(p, t))"),
+    "what cannot be stopped": ("s = grid(300)", "sw.face_segments(s, s.edges[::2])"),
     "waiting": ("s = grid(60); w = sw.LiveWire(s)", "w.seed(0); w.wait()"),
     "building a surface": ("p, t = meshes.grid(300)", "sw.LiveWire(p, t).wait_for_surface()"),
     "giving up live wires": ("p, t = meshes.grid(300)", "sw.LiveWire(p, t).seed(0)"),

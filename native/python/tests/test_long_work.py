@@ -116,14 +116,35 @@ def test_other_threads_run_meanwhile(
     pytest.fail(f"{call} holds the lock for more than a millisecond")
 
 
-@pytest.fixture(params=["embed", "distance_field", "edge_wires"])
+LONG = (
+    "Surface", "principal_curvatures", "smoothed_curvatures", "feature_metric", "campen_metric", "pottmann_kovacs_metric",
+    "concave_metric", "euclidean_metric", "apply_scribbles", "embed", "distance_field", "edge_wires", "shortest_cycle",
+)  # fmt: skip
+
+
+@pytest.fixture(params=LONG)
 def work(
     request: pytest.FixtureRequest, large: sw.Surface, large_metric: sw.Metric, embedding_of_large: sw.Embedding
 ) -> Work:
+    curvature = sw.principal_curvatures(large)
+    corners = large.triangles[:40, 0]
+    stroke = sw.Scribble(large.points[corners], vertices=corners)
     return {
+        "Surface": lambda progress: sw.Surface(large.points, large.triangles, progress=progress),
+        "principal_curvatures": lambda progress: sw.principal_curvatures(large, progress),
+        "smoothed_curvatures": lambda progress: sw.smoothed_curvatures(large, curvature, progress=progress),
+        "feature_metric": lambda progress: sw.feature_metric(large, curvature, progress=progress),
+        "campen_metric": lambda progress: sw.campen_metric(large, curvature, alpha=9.0, progress=progress),
+        "pottmann_kovacs_metric": lambda progress: sw.pottmann_kovacs_metric(
+            large, curvature, beta=1.0, progress=progress
+        ),
+        "concave_metric": lambda progress: sw.concave_metric(large, curvature, progress=progress),
+        "euclidean_metric": lambda progress: sw.euclidean_metric(large, curvature, progress),
+        "apply_scribbles": lambda progress: sw.apply_scribbles(large, large_metric, [stroke], progress=progress),
         "embed": lambda progress: sw.embed(large, large_metric, progress=progress),
         "distance_field": lambda progress: sw.distance_field(embedding_of_large, 0, progress=progress),
         "edge_wires": lambda progress: sw.edge_wires(large, large_metric, 0, progress=progress),
+        "shortest_cycle": lambda progress: sw.shortest_cycle(large, large_metric, large.edges[0], progress=progress),
     }[request.param]
 
 
@@ -178,6 +199,25 @@ def test_control_c_stops_long_work(embedding_of_large: sw.Embedding) -> None:
                 sw.distance_field(embedding_of_large, seed)
     finally:
         timer.join()
+
+
+def test_what_is_kept_can_be_given_up_and_made_again(large: sw.Surface) -> None:
+    curvature = sw.principal_curvatures(large)
+    metric = sw.euclidean_metric(large, curvature)
+    embedding = sw.embed(large, metric)
+    asked: list[float] = []
+
+    def go_on(fraction: float) -> bool:
+        asked.append(fraction)
+        return False
+
+    with pytest.raises(sw.Cancelled):
+        sw.distance_field(embedding, 0, max_distance=0.0, progress=go_on)
+    with pytest.raises(sw.Cancelled):
+        sw.edge_wires(large, metric, 0, progress=go_on)
+    assert asked == [0.0, 0.0], "before the first thing that counts as done"
+    assert sw.distance_field(embedding, 0).distances[0] == 0.0
+    assert len(sw.edge_wires(large, metric, 0).trace(9).vertices) > 1
 
 
 @pytest.mark.usefixtures("heeds_control_c")
