@@ -1,23 +1,30 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What Blender itself offers for picking chains of edges: the shortest path between edges, and the edge loop.
+"""What Blender itself offers for picking chains of edges.
 
 Blender's *Pick Shortest Path* in edge mode is Dijkstra's algorithm over edges, where a step from an edge to the next costs
-(|a| + |b|) (1 + (2 - sqrt|cos|) / 2), with the angle between the two. *Edge Loop Select* goes straight on at vertices of four edges, and
-along boundaries.
+(|a| + |b|) (1 + (2 - sqrt|cos|) / 2), with the angle between the two, or, by *Topology Distance*, 1. *Edge Loop Select* goes straight on at
+vertices of four edges, and along boundaries. *Select Linked Flat Faces* takes the faces around one that are reached over edges where
+neighbors meet in less than an angle, *Select Boundary Loop* their border; *Select Sharp Edges* takes all edges where they meet in more.
 """
 
 from itertools import pairwise
 
 import numpy as np
 from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import dijkstra
+from scipy.sparse.csgraph import connected_components, dijkstra
 from seams_engine import polygon_edges
 
 Pair = tuple[int, int]
 
 
 class BlenderEngine:
-    """Blender's shortest path and edge loop on one mesh, with the interface of seams_engine.SeamwireEngine."""
+    """Blender's selecting on one mesh, with the interface of seams_engine.SeamwireEngine.
+
+    `topology`: offer the path by topology distance as well, after the other one.
+    """
+
+    def __init__(self, topology: bool = False) -> None:
+        self._topology = topology
 
     def prepare(self, points: np.ndarray, offsets: np.ndarray, corners: np.ndarray) -> None:
         """Take a polygon mesh; points (n, 3), and face f has the corners corners[offsets[f]:offsets[f + 1]]."""
@@ -26,7 +33,9 @@ class BlenderEngine:
         self.number = {(int(a), int(b)): k for k, (a, b) in enumerate(self.edges)}
         self._link_faces(offsets, corners)
         self._step_costs(points)
-        self._trees: dict[int, np.ndarray] = {}
+        self._measure_angles(points, offsets, corners)
+        self._trees: dict[tuple[int, bool], np.ndarray] = {}
+        self._regions: dict[float, np.ndarray] = {}
 
     def _link_faces(self, offsets: np.ndarray, corners: np.ndarray) -> None:
         self.faces_of: list[set[int]] = [set() for _ in self.edges]
@@ -61,20 +70,67 @@ class BlenderEngine:
         rows, columns = np.array(list(data)).T
         self.graph = csr_matrix((np.maximum(list(data.values()), 1e-12), (rows, columns)), shape=self.graph.shape)
 
-    def wires(self, seed: Pair, targets: list[Pair], _forward: bool) -> list[list[list[int]]]:
-        """Offer the one path from a seed edge to each target edge, as its vertices."""
-        start = self.number[min(seed), max(seed)]
-        if start not in self._trees:
-            _, self._trees[start] = dijkstra(self.graph, indices=start, return_predecessors=True)
-        return [self._chain(start, self.number[min(target), max(target)]) for target in targets]
+    def _measure_angles(self, points: np.ndarray, offsets: np.ndarray, corners: np.ndarray) -> None:
+        """Find the angle, in degrees, in which the two faces of an edge meet; infinite where it has not two."""
+        normals = np.zeros((len(offsets) - 1, 3))
+        for face, (begin, end) in enumerate(pairwise(offsets)):
+            ring = points[corners[begin:end]]
+            normals[face] = np.cross(ring, np.roll(ring, -1, axis=0)).sum(axis=0)
+        normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30)
+        self._angles = np.full(len(self.edges), np.inf)
+        for k, faces in enumerate(self.faces_of):
+            if len(faces) == 2:
+                one, two = faces
+                self._angles[k] = np.degrees(np.arccos(np.clip(normals[one] @ normals[two], -1.0, 1.0)))
 
-    def _chain(self, start: int, target: int) -> list[list[int]]:
+    def sharp_edges(self, degrees: float) -> frozenset[Pair]:
+        """Return the edges that Select Sharp Edges takes."""
+        return frozenset(self._pair(k) for k in np.flatnonzero((self._angles > degrees) & np.isfinite(self._angles)))
+
+    def flat_borders(self, edge: Pair, degrees: float) -> list[frozenset[Pair]]:
+        """Return the borders of the flat faces on both sides of an edge, where it is on them."""
+        if degrees not in self._regions:
+            links = [sorted(self.faces_of[k]) for k in np.flatnonzero(self._angles < degrees)]
+            rows, columns = np.array(links, dtype=np.int64).reshape(-1, 2).T
+            count = 1 + max((face for faces in self.faces_of for face in faces), default=0)
+            joined = csr_matrix((np.ones(len(rows)), (rows, columns)), shape=(count, count))
+            self._regions[degrees] = connected_components(joined, directed=False)[1]
+        region = self._regions[degrees]
+        sides = [{int(region[face]) for face in faces} for faces in self.faces_of]
+        # A border has edges of which one face is inside, and one is not, or none is there.
+        borders = {
+            inside: frozenset(
+                self._pair(k)
+                for k, around in enumerate(sides)
+                if inside in around and (len(around) > 1 or len(self.faces_of[k]) == 1)
+            )
+            for inside in sides[self.number[edge]]
+        }
+        return [border for border in borders.values() if edge in border]
+
+    def _pair(self, number: int) -> Pair:
+        a, b = self.edges[number].tolist()
+        return a, b
+
+    def wires(self, seed: Pair, targets: list[Pair], _forward: bool) -> list[list[list[int]]]:
+        """Offer the paths from a seed edge to each target edge, as their vertices."""
+        start = self.number[min(seed), max(seed)]
+        kinds = (False, True) if self._topology else (False,)
+        for kind in kinds:
+            if (start, kind) not in self._trees:
+                _, tree = dijkstra(self.graph, indices=start, return_predecessors=True, unweighted=kind)
+                self._trees[start, kind] = tree
+        numbers = [self.number[min(target), max(target)] for target in targets]
+        found = [[self._chain(self._trees[start, kind], start, number) for kind in kinds] for number in numbers]
+        return [[chain for chain in chains if chain] for chains in found]
+
+    def _chain(self, tree: np.ndarray, start: int, target: int) -> list[int]:
         path = [target]
         while path[-1] != start:
-            path.append(int(self._trees[start][path[-1]]))
+            path.append(int(tree[path[-1]]))
             if path[-1] < 0:
                 return []
-        return [vertices_of([tuple(self.edges[k]) for k in reversed(path)])]
+        return vertices_of([self._pair(k) for k in reversed(path)])
 
     def loop(self, edge: Pair) -> list[int] | None:
         """Offer the closed edge loop through an edge, its first vertex not repeated; None where it is open."""

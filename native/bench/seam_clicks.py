@@ -8,8 +8,12 @@ Needs SciPy. Presses of a mouse button are counted:
 
 - Blender, edge mode: a click for the first edge of a chain, one for each shortest path from there on, and one for an edge loop, wherever
   one lies in the seams as a whole. A path may begin where an edge loop was clicked.
+- Blender with all it has: a path by topology distance too; the border of linked flat faces (15, 30 and 50 degrees) for one click, where
+  all of it belongs to the seams, the two commands and the angle for nothing; and Select Sharp Edges (30 degrees) for one, where all that
+  it takes does.
 - Seamwire: a click for a chain's seed, one for each wire, and one for each offer of the loop gesture: a closed loop, a strip or a way
   past poles up to seams drawn before, a whole strip, wherever one lies in the seams as a whole, and a single edge.
+- Beside the presses, the turns from one candidate to the next: of wires, and of the loop gesture's offers as below.
 - How often what the loop gesture is to take is what it offers first, and how many notches of the wheel it takes: over the edges of what is
   taken, about twelve of each, after what was taken before.
 - The same, mirrored: where the mesh is symmetric, edges whose images are seams too are drawn once, if that takes fewer clicks. Blender's
@@ -19,9 +23,11 @@ Needs SciPy. Presses of a mouse button are counted:
 from __future__ import annotations
 
 import argparse
+import functools
 import importlib
 import sys
 from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -38,8 +44,29 @@ if TYPE_CHECKING:
 
 Pair = tuple[int, int]
 Edges = frozenset[Pair]
+Mesh = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""Points, offsets of the faces, their corners."""
 
 _EDGES_TRIED = 12
+_FLAT = (15.0, 30.0, 50.0)
+_SHARP = 30.0
+
+
+@functools.total_ordering
+@dataclass(frozen=True)
+class Count:
+    """Presses of a button, and turns from one candidate to the next."""
+
+    presses: int = 0
+    turns: float = 0.0
+
+    def __add__(self, other: Count) -> Count:
+        """Return both together."""
+        return Count(self.presses + other.presses, self.turns + other.turns)
+
+    def __lt__(self, other: Count) -> bool:
+        """Whether it is fewer presses, or as many and fewer turns."""
+        return (self.presses, self.turns) < (other.presses, other.turns)
 
 
 def edges_of(chain: list[int], closed: bool) -> Edges:
@@ -49,33 +76,38 @@ def edges_of(chain: list[int], closed: bool) -> Edges:
 
 
 class Blender:
-    """Blender's edge mode on one mesh."""
+    """Blender's edge mode on one mesh; `everything`: with all it has."""
 
-    single_edge = 1
-    """Clicks for a chain of one edge: it is marked as soon as it is selected."""
     stops_at_seams = False
     path_begins_at_loop = True
 
-    def __init__(self, points: np.ndarray, offsets: np.ndarray, corners: np.ndarray) -> None:
-        self.engine = BlenderEngine()
-        self.engine.prepare(points, offsets, corners)
+    def __init__(self, mesh: Mesh, everything: bool) -> None:
+        self.engine = BlenderEngine(topology=everything)
+        self.engine.prepare(*mesh)
+        self._everything = everything
 
     def offers(self, edge: Pair, _stops: frozenset[int]) -> Iterable[Edges]:
         """Return what one click on an edge can take, besides wires."""
         yield edges_of(*self.engine.strip(edge))
+        if self._everything:
+            for degrees in _FLAT:
+                yield from self.engine.flat_borders(edge, degrees)
+
+    def at_once(self) -> Edges:
+        """Return what can be taken of the whole mesh by one command."""
+        return self.engine.sharp_edges(_SHARP) if self._everything else frozenset()
 
 
 class Seamwire:
-    """The tool on one mesh, with its defaults."""
+    """The tool on one mesh, with its defaults; `past_poles`: the way past poles is offered too."""
 
-    single_edge = 1
     stops_at_seams = True
     path_begins_at_loop = False
 
-    def __init__(self, points: np.ndarray, offsets: np.ndarray, corners: np.ndarray) -> None:
+    def __init__(self, mesh: Mesh, past_poles: bool) -> None:
         self.engine = SeamwireEngine()
-        self.engine.prepare(points, offsets, corners)
-        self._points = points
+        self.engine.prepare(*mesh)
+        self._points, self._past_poles = mesh[0], past_poles
         self._loops: dict[Pair, list[int] | None] = {}
 
     def offers(self, edge: Pair, stops: frozenset[int]) -> Iterable[Edges]:
@@ -87,8 +119,13 @@ class Seamwire:
             yield edges_of(loop, True)
         yield edges_of(*self.engine.strip(edge))
         yield edges_of(*self.engine.strip(edge, stops))
-        chain, closed = past_poles(self.engine.live, edge, list(stops))
-        yield edges_of(list(chain), closed)
+        if self._past_poles:
+            chain, closed = past_poles(self.engine.live, edge, list(stops))
+            yield edges_of(list(chain), closed)
+
+    def at_once(self) -> Edges:
+        """Return nothing: there is no such command."""
+        return frozenset()
 
     def notches(self, wanted: Edges, stops: frozenset[int], last: LoopKind | None) -> tuple[list[int], LoopKind | None]:
         """Return the place of what is taken among what its edges offer, for each edge that offers it, and what it is."""
@@ -108,45 +145,67 @@ class Seamwire:
 def clicks(
     measure: Any,  # noqa: ANN401
     near: dict[int, set[int]],
-    tool: Blender | Seamwire,
+    tool: Blender | Seamwire | _Without,
     seams: Edges,
     notches: list[list[int]] | None = None,
-) -> int:
+) -> Count:
     """Count the clicks for a set of seams: loops and strips where each saves the most, and wires for what is left.
 
     The places of what is taken among the offers, for some of its edges, are appended to `notches`.
     """
-    known: dict[tuple[tuple[int, ...], bool], int] = {}
+    known: dict[tuple[tuple[int, ...], bool], Count] = {}
 
-    def chain_clicks(chain: list[int], closed: bool) -> int:
+    def chain_clicks(chain: list[int], closed: bool) -> Count:
         key = (tuple(chain), closed)
         if key not in known:
-            single = not closed and len(chain) == 2
-            expert = None if single else measure.Expert(tool.engine, near, chain, closed)
-            known[key] = tool.single_edge if expert is None else 1 + expert.measure()[0][0]
+            if not closed and len(chain) == 2:
+                known[key] = Count(1)  # marked as soon as it is selected
+            else:
+                wires, turns, _ = measure.Expert(tool.engine, near, chain, closed).measure()[0]
+                known[key] = Count(1 + wires, turns)
         return known[key]
 
-    def wire_clicks(left: Edges) -> int:
-        return sum(chain_clicks(chain, closed) for chain, closed in measure.chains(sorted(left)))
+    def wire_clicks(left: Edges) -> Count:
+        return sum((chain_clicks(chain, closed) for chain, closed in measure.chains(sorted(left))), Count())
 
-    total, last = 0, None
+    at_once = tool.at_once()
+    if at_once and at_once <= seams:
+        rest = seams - at_once
+        with_it, without = clicks(measure, near, _Without(tool), rest), clicks(measure, near, _Without(tool), seams)
+        return min(Count(1) + with_it, without)
+    total, last = Count(), None
     for left in connected(seams):
         whole, taken, stops = left, 0, frozenset()
         while left:
             offered = {some for edge in left for some in tool.offers(edge, stops) if some <= whole}
             costs = {some: wire_clicks(left - some) for some in offered}
             best = min(costs, key=costs.__getitem__, default=None)
-            if best is None or costs[best] + 1 >= wire_clicks(left):
+            if best is None or costs[best].presses + 1 >= wire_clicks(left).presses:
                 break
-            if notches is not None and isinstance(tool, Seamwire):
+            if isinstance(tool, Seamwire):
                 places, last = tool.notches(best, stops, last)
-                notches += [places] if places else []
+                if notches is not None and places:
+                    notches.append(places)
+                total += Count(0, float(np.mean(places)) if places else 0.0)
             left, taken = left - best, taken + 1
             if tool.stops_at_seams:
                 stops |= {vertex for edge in best for vertex in edge}
         spared = min(taken, len(measure.chains(sorted(left)))) if tool.path_begins_at_loop else 0
-        total += wire_clicks(left) + taken - spared
+        total += wire_clicks(left) + Count(taken - spared)
     return total
+
+
+class _Without:
+    """A tool without what it can do at once."""
+
+    def __init__(self, tool: Blender | Seamwire) -> None:
+        self._tool = tool
+
+    def __getattr__(self, name: str) -> Any:  # noqa: ANN401
+        return getattr(self._tool, name)
+
+    def at_once(self) -> Edges:
+        return frozenset()
 
 
 def connected(seams: Edges) -> list[Edges]:
@@ -185,44 +244,66 @@ def image_of(mirror: Symmetry, axis: int, edge: Pair) -> Pair | None:
     return None if (image < 0).any() else (int(image.min()), int(image.max()))
 
 
+def mirrored(measure: Any, near: dict[int, set[int]], tool: Blender | Seamwire, mesh: Mesh, seams: Edges) -> Count:  # noqa: ANN401
+    """Count the clicks where one side is drawn, unless that takes more: who sees that leaves mirroring off."""
+    parts = drawn_once(mesh[0], seams)
+    return sum((clicks(measure, near, tool, part) for part in parts), Count())
+
+
+def mean_ratio(clicked: np.ndarray, beside: np.ndarray) -> str:
+    """Return the geometric mean of ratios with the interval that holds 95 % of what other choices of the models would give."""
+    logs = np.log(clicked / beside)
+    again = np.random.default_rng(0).choice(logs, (10_000, len(logs))).mean(axis=1)
+    low, high = np.exp(np.quantile(again, (0.025, 0.975)))
+    return f"{np.exp(logs.mean()):.2f} [{low:.2f}, {high:.2f}]"
+
+
+ROWS = {
+    "Blender": lambda mesh: Blender(mesh, everything=False),
+    "Blender, all it has": lambda mesh: Blender(mesh, everything=True),
+    "Seamwire": lambda mesh: Seamwire(mesh, past_poles=False),
+    "Seamwire, past poles": lambda mesh: Seamwire(mesh, past_poles=True),
+}
+WITHOUT = {"Blender, all it has": "Blender", "Seamwire, past poles": "Seamwire"}
+"""Who has more need not use it: what is chosen here, where it saves the most at once, may end with more clicks."""
+
+
 def main() -> None:
-    """Print a line a model, and the geometric mean of the ratios."""
+    """Print a line a model, then the table: presses, turns, and ratios to Blender's presses, not mirrored and mirrored."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("seams", type=Path)
     parser.add_argument("--models", nargs="*")
     chosen = parser.parse_args()
     sys.path.insert(0, str(chosen.seams))
     measure = importlib.import_module("measure")
-    rows, offered = [], []
+    table: dict[str, list[Count]] = {f"{row}{way}": [] for way in ("", ", mirrored") for row in ROWS}
+    offered = []
     for path in sorted((chosen.seams / "data").glob("*.npz")):
         if chosen.models and path.stem not in chosen.models:
             continue
         points, offsets, corners, near, listed = measure.load(str(path))
-        seams = frozenset(listed)
-        mesh = (points, offsets, corners)
-        tools = Blender(*mesh), Seamwire(*mesh)
-        notches: list[list[int]] = []
-        plain = [clicks(measure, near, tool, seams, notches) for tool in tools]
-        offered += notches
-        parts = drawn_once(points, seams)
-        # Whoever sees that mirroring costs more than it saves leaves it off.
-        mirrored = [
-            min(sum(clicks(measure, near, tool, part) for part in parts), most)
-            for tool, most in zip(tools, plain, strict=True)
-        ]
-        row = [*plain, *mirrored]
-        rows.append(row)
-        print(
-            "{:40s} {:5d} edges, clicks: {:4d} {:4d} mirrored: {:4d} {:4d}".format(path.stem, len(seams), *row),
-            flush=True,
-        )
-    table = np.array(rows, dtype=float)
-    ratios = np.exp(np.log(table[:, 1:] / table[:, :1]).mean(axis=0))
+        seams, mesh = frozenset(listed), (points, offsets, corners)
+        for row, make in ROWS.items():
+            tool = make(mesh)
+            notches: list[list[int]] = []
+            plain = clicks(measure, near, tool, seams, notches)
+            for way, count in (("", plain), (", mirrored", min(mirrored(measure, near, tool, mesh, seams), plain))):
+                less = table[f"{WITHOUT[row]}{way}"][-1:] if row in WITHOUT else []
+                table[f"{row}{way}"].append(min([count, *less]))
+        offered += notches  # of the last row, the tool as it is
+        presses = " ".join(f"{counts[-1].presses:4d}" for counts in table.values())
+        print(f"{path.stem:40s} {len(seams):5d} edges, clicks: {presses}", flush=True)
+    presses = {row: np.array([count.presses for count in counts], dtype=float) for row, counts in table.items()}
     print(
-        "{} models, ratio to Blender: Seamwire {:.3f}; mirrored: Blender {:.3f}, Seamwire {:.3f}".format(
-            len(rows), *ratios
-        )
+        f"{len(presses['Blender'])} models: presses, turns; presses to those of Blender, Blender mirrored, all of Blender mirrored"
     )
+    for row, counts in table.items():
+        ratios = [
+            mean_ratio(presses[row], presses[other])
+            for other in ("Blender", "Blender, mirrored", "Blender, all it has, mirrored")
+        ]
+        turns = sum(count.turns for count in counts)
+        print(f"{row:32s} {presses[row].sum():6.0f} {turns:6.0f}  " + "  ".join(ratios))
     first = np.mean([np.mean(np.array(places) == 0) for places in offered])
     turned = np.mean([np.mean(places) for places in offered])
     print(f"{len(offered)} loops and strips: offered first {first:.3f}, notches of the wheel {turned:.3f}")

@@ -73,5 +73,5 @@ class SeamwireEngine:
 
     def strip(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> tuple[list[int], bool]:
         """Offer the straight strip through the edge up to stops: its vertices, and whether it is closed."""
-        found = self.live.strip(edge, np.fromiter(stops, dtype=np.int32))
+        found = self.live.edge_loop(edge, np.fromiter(stops, dtype=np.int32))
         return list(found.vertices), found.closed
