@@ -35,7 +35,7 @@ class BlenderEngine:
         self._step_costs(points)
         self._measure_angles(points, offsets, corners)
         self._trees: dict[tuple[int, bool], np.ndarray] = {}
-        self._regions: dict[float, np.ndarray] = {}
+        self._borders: dict[float, dict[Pair, list[frozenset[Pair]]]] = {}
 
     def _link_faces(self, offsets: np.ndarray, corners: np.ndarray) -> None:
         self.faces_of: list[set[int]] = [set() for _ in self.edges]
@@ -89,24 +89,28 @@ class BlenderEngine:
 
     def flat_borders(self, edge: Pair, degrees: float) -> list[frozenset[Pair]]:
         """Return the borders of the flat faces on both sides of an edge, where it is on them."""
-        if degrees not in self._regions:
-            links = [sorted(self.faces_of[k]) for k in np.flatnonzero(self._angles < degrees)]
-            rows, columns = np.array(links, dtype=np.int64).reshape(-1, 2).T
-            count = 1 + max((face for faces in self.faces_of for face in faces), default=0)
-            joined = csr_matrix((np.ones(len(rows)), (rows, columns)), shape=(count, count))
-            self._regions[degrees] = connected_components(joined, directed=False)[1]
-        region = self._regions[degrees]
-        sides = [{int(region[face]) for face in faces} for faces in self.faces_of]
-        # A border has edges of which one face is inside, and one is not, or none is there.
-        borders = {
-            inside: frozenset(
-                self._pair(k)
-                for k, around in enumerate(sides)
-                if inside in around and (len(around) > 1 or len(self.faces_of[k]) == 1)
-            )
-            for inside in sides[self.number[edge]]
-        }
-        return [border for border in borders.values() if edge in border]
+        if degrees not in self._borders:
+            self._borders[degrees] = self._find_borders(degrees)
+        return self._borders[degrees].get(edge, [])
+
+    def _find_borders(self, degrees: float) -> dict[Pair, list[frozenset[Pair]]]:
+        """Return for each edge the borders that it is on: edges of which one face is inside, and one is not, or none is there."""
+        links = [sorted(self.faces_of[k]) for k in np.flatnonzero(self._angles < degrees)]
+        rows, columns = np.array(links, dtype=np.int64).reshape(-1, 2).T
+        count = 1 + max((face for faces in self.faces_of for face in faces), default=0)
+        joined = csr_matrix((np.ones(len(rows)), (rows, columns)), shape=(count, count))
+        region = connected_components(joined, directed=False)[1]
+        around: dict[int, set[Pair]] = {}
+        for k, faces in enumerate(self.faces_of):
+            beside = {int(region[face]) for face in faces}
+            if len(beside) > 1 or len(faces) == 1:
+                for inside in beside:
+                    around.setdefault(inside, set()).add(self._pair(k))
+        borders: dict[Pair, list[frozenset[Pair]]] = {}
+        for border in map(frozenset, around.values()):
+            for edge in border:
+                borders.setdefault(edge, []).append(border)
+        return borders
 
     def _pair(self, number: int) -> Pair:
         a, b = self.edges[number].tolist()

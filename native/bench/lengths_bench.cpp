@@ -131,7 +131,8 @@ void measure(const std::string& file, const Options& options) {
   }
   const double mine = median(solving), other = median(solving_theirs);
   std::printf(
-      "%-24s %8zu faces  built %.3f, solved %.4f s  Kirsanov: built %.3f, solved %.3f s  ratio %.1f, with building %.1f  "
+      "%-24s %8zu faces  built %.3f, solved %.4f s  Kirsanov: built %.3f, solved %.3f s  ratio %.1f, with building "
+      "%.1f  "
       "differs by %.1e at most, %.1e in the median\n",
       mesh_name(file, options.loop).c_str(), embedding.mesh.face_count(), building, mine, building_theirs, other,
       other / mine, (other + building_theirs) / (mine + building), quantile(differences, 1.0), median(differences));

@@ -70,7 +70,7 @@ struct CorridorPaths::Impl {
         queue(mesh->vertex_count()),
         cutter(*mesh) {}
 
-  void find_corridor(const PlacedPoint& target, const Task& task);
+  void find_corridor(const PlacedPoint& to, const Task& task);
 
   static constexpr float kUnknown = std::numeric_limits<float>::infinity();
 
@@ -148,14 +148,14 @@ IntrinsicPath CorridorPaths::path(std::int32_t target, const Task& task) {
   return path(SurfacePoint::at_vertex(target), task);
 }
 
-IntrinsicPath CorridorPaths::path(const SurfacePoint& to, const Task& task) {
+IntrinsicPath CorridorPaths::path(const SurfacePoint& target, const Task& task) {
   const GeodesicMesh& mesh = *impl_->mesh;
-  const PlacedPoint target = PlacedPoint::of(mesh, to, "target");
+  const PlacedPoint end = PlacedPoint::of(mesh, target, "target");
   task.check(0.0);
-  const std::int32_t corner = corner_of(mesh, target);
+  const std::int32_t corner = corner_of(mesh, end);
   impl_->from_seed.reach(corner, task);
   if (std::isinf(impl_->from_seed.at(corner))) return {};
-  impl_->find_corridor(target, task);
+  impl_->find_corridor(end, task);
 
   const Submesh part = impl_->cutter.cut(impl_->corridor);
   Task part_task{.stop = task.stop, .progress = {}};  // what is done of the part says little of the whole
@@ -165,10 +165,10 @@ IntrinsicPath CorridorPaths::path(const SurfacePoint& to, const Task& task) {
   const WavefrontResult result = propagate_wavefront(*part.mesh, sources, part_task, impl_->options.windows);
   const SolvedDistances solved{*part.mesh, result.distances, sources};
   std::optional<IntrinsicPath> path = trace_records(
-      solved, result.records, to_part(impl_->cutter, is_exact ? target : PlacedPoint::at_vertex(corner)), part_task);
+      solved, result.records, to_part(impl_->cutter, is_exact ? end : PlacedPoint::at_vertex(corner)), part_task);
   if (path) to_whole_mesh(part, *path);
   if (!path || !is_exact) {
-    path = shorten(mesh, impl_->cutter, path ? *path : impl_->from_seed.chain(corner), impl_->seed, target, part_task);
+    path = shorten(mesh, impl_->cutter, path ? *path : impl_->from_seed.chain(corner), impl_->seed, end, part_task);
   }
   to_external(mesh, *path);
   return std::move(*path);

@@ -41,7 +41,7 @@ void check_end(const Surface* surface, const SurfaceCache& cache, Along along, c
   if (along == Along::kEdges) {
     throw InvalidInput(what + ": along edges wires lead from vertices and edges, not from other points");
   }
-  const SurfacePoint& point = std::get<SurfacePoint>(end);
+  const auto& point = std::get<SurfacePoint>(end);
   check_index(point.face, cache.face_count, what + ": face", "faces");
   checked_barycentric(point.barycentric, what);
 }
