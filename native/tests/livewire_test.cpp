@@ -80,15 +80,11 @@ TEST(LiveWire, AcrossTheSurfaceGivesTheGeodesicsOfBothMetrics) {
   }
 }
 
-/// The corner of a face that is nearest to a point of it.
+/// The corner of its face that a point has most of.
 std::int32_t nearest_corner(const Surface& surface, const SurfacePoint& point) {
-  const Triangle& corners = surface.triangles()[static_cast<std::size_t>(point.face)];
-  const auto at = [&](std::int32_t v) -> const Vector& { return surface.points()[static_cast<std::size_t>(v)]; };
-  Vector place = Vector::Zero();
-  for (std::size_t i = 0; i < 3; ++i) place += point.barycentric[i] * at(corners[i]);
-  return *std::min_element(corners.begin(), corners.end(), [&](std::int32_t a, std::int32_t b) {
-    return (at(a) - place).norm() < (at(b) - place).norm();
-  });
+  const auto most = std::max_element(point.barycentric.begin(), point.barycentric.end());
+  return surface
+      .triangles()[static_cast<std::size_t>(point.face)][static_cast<std::size_t>(most - point.barycentric.begin())];
 }
 
 TEST(LiveWire, FromPointsOfFacesGivesTheGeodesicsBetweenThem) {

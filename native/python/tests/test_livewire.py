@@ -30,6 +30,36 @@ def test_across_the_surface_gives_both_geodesics_and_their_edges(surface: sw.Sur
         assert wire.length == traced.length
 
 
+def test_from_point_to_point_within_faces(surface: sw.Surface, curvature: sw.Curvature) -> None:
+    live = sw.LiveWire(surface)
+    seed, target = (40, (0.2, 0.5, 0.3)), (900, np.array([0.1, 0.8, 0.1]))
+    live.seed(seed)
+    live.wait()
+    for wire in live.wires(target).wires:
+        metric = sw.feature_metric(surface, curvature, follow=wire.follow, gamma=0.1)
+        traced = sw.distance_field(sw.embed(surface, metric), seed).trace_to(*target)
+        np.testing.assert_array_equal(wire.points, traced.points)
+        assert wire.length == traced.length
+        assert [wire.vertices[0], wire.vertices[-1]] == [surface.triangles[40][1], surface.triangles[900][1]]
+
+
+def test_what_is_no_point_of_a_face_is_refused(surface: sw.Surface) -> None:
+    live = sw.LiveWire(surface)
+    for wrong, why in (
+        ((1920, (1, 0, 0)), "pick: face 1920 is out of range: there are 1920 faces"),
+        ((5, (0.5, 0.6, -0.1)), "a barycentric coordinate is -0.1"),
+        ((5, (0.5, 0.5, 0.5)), "sum is 1.5, not 1"),
+        ((5, (0.5, 0.5)), "barycentric coordinates"),
+    ):
+        with pytest.raises(ValueError, match=why):
+            live.seed(wrong)
+    live.seed((5, (0.5, 0.2, 0.3)))
+    with pytest.raises(ValueError, match="target: face -1 is out of range"):
+        live.wires((-1, (1, 0, 0)))
+    with pytest.raises(ValueError, match="along edges wires lead from vertices and edges"):
+        sw.LiveWire(surface, along="edges").seed((5, (0.5, 0.2, 0.3)))
+
+
 def test_tells_what_became_of_its_embeddings(surface: sw.Surface, curvature: sw.Curvature) -> None:
     live = sw.LiveWire(surface, max_anisotropy=30.0)
     live.seed(3)

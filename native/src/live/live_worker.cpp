@@ -22,15 +22,12 @@ SurfacePoint point_of(const WireEnd& end) {
   return pick != nullptr ? SurfacePoint::at_vertex(pick->a) : std::get<SurfacePoint>(end);
 }
 
-/// A vertex itself, of another point the corner of its face that is nearest.
+/// A vertex itself, of another point the corner of its face that it has most of.
 std::int32_t nearest_vertex(const Surface& surface, const WireEnd& end) {
   const SurfacePoint point = point_of(end);
   if (point.vertex >= 0) return point.vertex;
-  const Triangle& corners = surface.triangles()[point.face];
-  Vector place = Vector::Zero();
-  for (std::size_t i = 0; i < 3; ++i) place += point.barycentric[i] * surface.points()[corners[i]];
-  return *std::ranges::min_element(
-      corners, {}, [&](std::int32_t corner) { return (surface.points()[corner] - place).squaredNorm(); });
+  const auto most = std::ranges::max_element(point.barycentric) - point.barycentric.begin();
+  return surface.triangles()[point.face][static_cast<std::size_t>(most)];
 }
 
 }  // namespace

@@ -62,11 +62,11 @@ class DistanceField {
   /// The shortest path from the source nearest to a point to that point, as to a vertex. Throws as distance().
   IntrinsicPath trace(const SurfacePoint& point, const Task& task = {}) const;
 
-  struct Data;  // the solver's own
-  /// By ExactGeodesics only.
+ private:
+  friend class ExactGeodesics;  // which makes them
+  struct Data;
   explicit DistanceField(std::shared_ptr<const Data> data);
 
- private:
   std::shared_ptr<const Data> data_;
 };
 

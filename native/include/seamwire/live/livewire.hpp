@@ -45,7 +45,7 @@ struct LiveWireOptions {
 
 /// One of the two wires from the seed to a target. `vertices` are the ends of the edges that would be marked: along
 /// edges the wire itself, across the surface the chain it snaps to. Where the wire begins or ends within a face, the
-/// chain does so at the corner of the face that is nearest in space.
+/// chain does so at the corner of the face that has the largest barycentric coordinate.
 struct LiveCandidate {
   Follow follow = Follow::kMin;                             ///< whose metric it is the shortest in
   std::vector<Vector> points;                               ///< in the caller's coordinates; empty: no such wire
