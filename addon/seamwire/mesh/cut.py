@@ -114,9 +114,8 @@ def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = ()) 
         items.index_update()
     bmesh.update_edit_mesh(cage.mesh, loop_triangles=True, destructive=True)
     pairs = {(min(pair), max(pair)) for pair in ((edge.verts[0].index, edge.verts[1].index) for edge in seams)}
-    numbers = tuple(
-        vert.index for vert in seed_verts if vert.is_valid
-    )  # those inside a face that could not be cut went
+    # Those inside a face that could not be cut went.
+    numbers = tuple(vert.index for vert in seed_verts if vert.is_valid)
     return Cut(tuple(sorted(pairs)), numbers, len(bm.verts) - before, uncut)
 
 
