@@ -6,8 +6,7 @@
 // Both get the same triangles, lengths and seeds, vertex 0 and N - 1 others (5 unless told); one thread, medians of
 // processor time. Building what is built once is told apart, and counted in the second ratio.
 //
-// That code takes positions, but looks at those of the source and its neighbors alone once its edges have lengths and
-// its triangles angles: so these are set to ours, and the neighbors moved, each to its own distance from the source.
+// That code takes positions, but from a vertex it looks at lengths and angles alone: so these are set to ours.
 // Its headers use memcpy() and do not say so.
 #include <cstring>
 // clang-format off
@@ -62,16 +61,8 @@ class Peer {
 
   void solve(std::int32_t seed) {
     geodesic::Vertex& source = mesh_.vertices()[index(seed)];
-    std::vector<std::pair<geodesic::Vertex*, std::array<double, 3>>> before;
-    for (unsigned i = 0; i < source.adjacent_edges().size(); ++i) {
-      geodesic::Edge& edge = *source.adjacent_edges()[i];
-      geodesic::Vertex& other = *edge.opposite_vertex(&source);
-      before.push_back({&other, {other.x(), other.y(), other.z()}});
-      other.set(source.x() + edge.length(), source.y(), source.z());
-    }
     std::vector<geodesic::SurfacePoint> sources{geodesic::SurfacePoint(&source)};
     algorithm_->propagate(sources);
-    for (const auto& [vertex, place] : before) vertex->set(place[0], place[1], place[2]);
   }
   double distance(std::size_t vertex) {
     geodesic::SurfacePoint point(&mesh_.vertices()[vertex]);

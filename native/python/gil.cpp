@@ -16,7 +16,7 @@ namespace {
 namespace py = pybind11;
 
 /// How long the end of the interpreter waits for threads inside the library. Work that can be stopped stops within
-/// milliseconds; what cannot, such as telling the segments of a million faces apart, is left behind.
+/// milliseconds; what cannot, such as waiting for a tree of rays over millions of faces, is left behind.
 constexpr std::chrono::seconds kPatience{1};
 
 enum class Phase {

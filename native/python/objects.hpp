@@ -29,18 +29,22 @@ namespace seamwire::python {
 namespace py = pybind11;
 
 /// A value built once, by the first thread that asks; the others wait, and where that one is stopped, one of them
-/// builds it. Ask without the GIL.
+/// builds it. What a progress function asks for while it is being built is built apart, and kept. Ask without the GIL.
 template <class T>
 class Lazy {
  public:
   template <class Make>
   const T& get(const Make& make) const {
-    std::call_once(once_, [&] { value_ = std::make_unique<const T>(make()); });
+    const std::scoped_lock lock(mutex_);
+    if (!value_) {
+      auto made = std::make_unique<const T>(make());
+      if (!value_) value_ = std::move(made);
+    }
     return *value_;
   }
 
  private:
-  mutable std::once_flag once_;
+  mutable std::recursive_mutex mutex_;
   mutable std::unique_ptr<const T> value_;
 };
 
@@ -97,17 +101,17 @@ struct MetricObject {
   /// The graph of a surface in this metric. That of the last surface is kept; ask without the GIL.
   std::shared_ptr<const EdgeGraph> edge_graph(const std::shared_ptr<const Surface>& surface, const Task& task) const {
     const std::scoped_lock lock(mutex_);
-    if (!graph_ || graph_surface_.lock() != surface) {
-      graph_ = make_edge_graph(*surface, metric, nullptr, task);
-      graph_surface_ = surface;
-    }
-    return graph_;
+    if (graph_ && graph_surface_.lock() == surface) return graph_;
+    auto made = make_edge_graph(*surface, metric, nullptr, task);
+    graph_ = made;
+    graph_surface_ = surface;
+    return made;
   }
 
   Metric metric;
 
  private:
-  mutable std::mutex mutex_;
+  mutable std::recursive_mutex mutex_;  // a progress function may ask for a graph
   mutable std::weak_ptr<const Surface> graph_surface_;
   mutable std::shared_ptr<const EdgeGraph> graph_;
 };

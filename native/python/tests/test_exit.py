@@ -109,8 +109,8 @@ def test_threads_that_hand_over_arrays(name: str) -> None:
 
 def test_work_that_returns_when_the_wait_for_it_is_over() -> None:
     """Those that come back when Python is being torn down sleep until the process ends."""
-    call = "sw.principal_curvatures(s)"
-    ended = quit_during("s = grid(1000)", call, delay=0.05, teardown=3.0, threads=4)
+    call = "sw.RayTree(p, t).wait()"  # which nothing stops
+    ended = quit_during("p, t = meshes.grid(1000)", call, delay=0.05, teardown=3.0, threads=4)
     assert (ended.returncode, ended.stderr) == (0, "")
 
 

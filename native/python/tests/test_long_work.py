@@ -220,6 +220,25 @@ def test_what_is_kept_can_be_given_up_and_made_again(large: sw.Surface) -> None:
     assert len(sw.edge_wires(large, metric, 0).trace(9).vertices) > 1
 
 
+def test_progress_may_ask_for_what_is_being_built(large: sw.Surface) -> None:
+    metric = sw.feature_metric(large, sw.principal_curvatures(large))
+    embedding = sw.embed(large, metric)
+    inner: list[object] = []
+
+    def ask(_: float) -> None:
+        if not inner:
+            inner.append(None)
+            inner.append(sw.edge_wires(large, metric, 0).trace(900).vertices)
+            inner.append(sw.distance_field(embedding, 0).distances)
+
+    chain = sw.edge_wires(large, metric, 0, progress=ask).trace(900)
+    np.testing.assert_array_equal(chain.vertices, inner[1])
+    inner.clear()
+    embedding = sw.embed(large, metric)
+    field = sw.distance_field(embedding, 0, progress=ask)
+    np.testing.assert_array_equal(field.distances, inner[2])
+
+
 @pytest.mark.usefixtures("heeds_control_c")
 def test_control_c_ends_waiting(large: sw.Surface) -> None:
     live = sw.LiveWire(large)
