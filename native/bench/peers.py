@@ -5,9 +5,10 @@
         [--programs build/bench/native/bench] [--plot GROWTH.svg]
 
 Needs numpy, pygeodesic and potpourri3d, and seamwire_core on the path; CGAL's solver is a program of its own, and our own benchmark adds
-what it counts. All get the same triangles and the same seeds, one thread. Prints the median processor time of a solve, how many times as
-long the others take, how far their distances are from ours, and the exponent with which each time grows with the faces; --plot draws that.
-Exact peers are left out above --most-faces. Peers run in a process of their own: some of them abort on meshes that are not manifold.
+what it counts. All get the same triangles and the same seeds, one thread. Prints processor time: what is built once, from points and
+triangles until a seed can be given, and the median of a solve; how many times as long the others take, for a solve alone and for both; how
+far their distances are from ours, and the exponent with which the time of a solve grows with the faces; --plot draws that. Exact peers are
+left out above --most-faces. Peers run in a process of their own: some of them abort on meshes that are not manifold.
 """
 
 import argparse
@@ -19,40 +20,49 @@ import tempfile
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
+import potpourri3d
+import seamwire_core as sw
 from numpy.typing import NDArray
+from pygeodesic import geodesic
 
 Array = NDArray[np.float64]
 Solve = Callable[[int], Array]
 
 
+class Result(NamedTuple):
+    """What one solver took, in seconds of processor time, and the distances from each seed, where it tells them."""
+
+    built: float
+    solved: float
+    fields: list[Array]
+
+
 def seamwire(points: Array, triangles: NDArray[np.int32]) -> Solve:
     """Return our exact solver, lengths in the mesh's own units."""
-    import seamwire_core as sw
-
     surface = sw.Surface(points, triangles)
     metric = sw.euclidean_metric(surface, sw.principal_curvatures(surface))
     embedding = sw.embed(surface, metric)
-    sw.distance_field(embedding, 0)  # the solver's own form of the mesh is made once
-    return lambda seed: sw.distance_field(embedding, seed).distances[: len(points)] / surface.scale
+    sw.distance_field(embedding, 0, max_distance=0.0)  # the solver's own form of the mesh is made once
+    return lambda seed: sw.distance_field(embedding, seed).distances / surface.scale
 
 
 def pygeodesic(points: Array, triangles: NDArray[np.int32]) -> Solve:
     """Return the exact solver of Surazhsky et al. (2005)."""
-    from pygeodesic import geodesic
-
     solver = geodesic.PyGeodesicAlgorithmExact(points, triangles)
     return lambda seed: solver.geodesicDistances(np.array([seed]))[0]
 
 
 def potpourri3d_heat(points: Array, triangles: NDArray[np.int32]) -> Solve:
     """Return the heat method of Crane et al. (2013), approximate."""
-    import potpourri3d
-
     solver = potpourri3d.MeshHeatMethodDistanceSolver(points, triangles)
     return solver.compute_distance
 
+
+MOST_FACES_OF_CGAL = 200_000
+"""Above, it takes more than 10 GB and minutes a seed."""
 
 SOLVERS = {"seamwire": seamwire, "pygeodesic": pygeodesic, "potpourri3d heat": potpourri3d_heat}
 
@@ -88,19 +98,22 @@ def loop_subdivided(points: Array, triangles: NDArray[np.int32]) -> tuple[Array,
 
 
 def run(name: str, points: Array, triangles: NDArray[np.int32], seeds: list[int], repeats: int, pipe: object) -> None:
-    """Solve from each seed; send the median time and the fields through the pipe."""
-    solve = SOLVERS[name](points, triangles)
-    times, fields = [], []
+    """Build what is built once, then solve from each seed; send the result, medians, through the pipe."""
+    built, times, fields = [], [], []
+    for _ in range(repeats):
+        start = time.process_time()
+        solve = SOLVERS[name](points, triangles)
+        built.append(time.process_time() - start)
     for seed in seeds:
         for _ in range(repeats):
             start = time.process_time()
             field = solve(seed)
             times.append(time.process_time() - start)
         fields.append(np.array(field))
-    pipe.send((statistics.median(times), fields))
+    pipe.send(Result(statistics.median(built), statistics.median(times), fields))
 
 
-def run_apart(name: str, *arguments: object) -> tuple[float, list[Array]] | None:
+def run_apart(name: str, *arguments: object) -> Result | None:
     """Return the result of run(), or None where the library ended the process."""
     receiver, sender = multiprocessing.Pipe(duplex=False)
     process = multiprocessing.Process(target=run, args=(name, *arguments, sender))
@@ -125,11 +138,12 @@ def off_file(points: Array, triangles: NDArray[np.int32]) -> Iterator[str]:
         yield file.name
 
 
-def run_cgal(program: Path, file: str, seeds: list[int]) -> float | None:
-    """Return the median time of CGAL's solver, or None where it fails."""
-    result = subprocess.run([program, file, *map(str, seeds)], capture_output=True, text=True, check=False)
+def run_program(program: Path, arguments: list[str], seeds: list[int]) -> Result | None:
+    """Return the times of a program that prints what building takes, then what each seed does; None where it fails."""
+    command = [str(program), *arguments, *map(str, seeds)]
+    result = subprocess.run(command, capture_output=True, text=True, check=False)
     times = [float(line.split()[0]) for line in result.stdout.splitlines()]
-    return statistics.median(times) if len(times) == len(seeds) else None
+    return Result(times[0], statistics.median(times[1:]), []) if len(times) == len(seeds) + 1 else None
 
 
 def run_own(program: Path, file: str) -> str:
@@ -138,10 +152,27 @@ def run_own(program: Path, file: str) -> str:
     return " ".join(line.partition(" faces ")[2].split())
 
 
-def compare(file: Path, loop: int, options: argparse.Namespace) -> tuple[int, dict[str, float]]:
-    """Print what each solver takes on a mesh, and how far it is from ours; return the faces and the times."""
-    import potpourri3d
+def report(name: str, result: Result | None, ours: Result | None = None) -> None:
+    """Print what a solver took; beside ours, how many times as long, and how far its distances are from ours."""
+    if result is None:
+        print(f"  {name:16} failed", flush=True)
+        return
+    line = f"  {name:16} built {result.built:8.4f} s, a solve {result.solved:9.4f} s"
+    if ours:
+        both = (result.built + result.solved) / (ours.built + ours.solved)
+        line += f"  {result.solved / ours.solved:6.1f} times as long, {both:6.1f} with what is built"
+    errors = []
+    for mine, other in zip(ours.fields, result.fields, strict=True) if ours and result.fields else ():
+        known = np.isfinite(mine) & (mine > 0) & (other < 1e50)
+        errors.append(np.abs(other[known] - mine[known]) / mine[known])
+    if errors:
+        error = np.concatenate(errors)
+        line += f"  differs by {error.max():.1e} at most, {error.mean():.1e} on average, {np.median(error):.1e} in the median"
+    print(line, flush=True)
 
+
+def compare(file: Path, loop: int, options: argparse.Namespace) -> tuple[int, dict[str, float]]:
+    """Compare the solvers on a file; return its faces and the times of a solve."""
     points, triangles = potpourri3d.read_mesh(str(file))
     points, triangles = np.ascontiguousarray(points, dtype=np.float64), np.ascontiguousarray(triangles, dtype=np.int32)
     for _ in range(loop):
@@ -149,46 +180,36 @@ def compare(file: Path, loop: int, options: argparse.Namespace) -> tuple[int, di
     random = np.random.default_rng(0)
     seeds = [0, *(int(v) for v in random.choice(np.unique(triangles), options.seeds - 1))]
     print(f"{file.name}{' loop' + str(loop) if loop else ''}: {len(triangles)} triangles, {len(seeds)} seeds")
-    times: dict[str, float] = {}
+    results = measure(points, triangles, seeds, options)
+    return len(triangles), {name: result.solved for name, result in results.items() if result}
+
+
+def measure(
+    points: Array, triangles: NDArray[np.int32], seeds: list[int], options: argparse.Namespace
+) -> dict[str, Result | None]:
+    """Measure and print what each solver takes on a mesh, and how far it is from ours."""
     ours = run_apart("seamwire", points, triangles, seeds, options.repeats)
+    report("seamwire", ours)
+    results = {"seamwire": ours}
     if ours is None:
-        print("  seamwire         failed", flush=True)
-        return len(triangles), times
-    times["seamwire"] = ours[0]
-    print(f"  seamwire         {ours[0]:9.4f} s", flush=True)
+        return results
+    exact = len(triangles) <= options.most_faces
     for name in SOLVERS:
-        too_many = name == "pygeodesic" and len(triangles) > options.most_faces
-        if name == "seamwire" or name in options.skip or too_many:
+        if name == "seamwire" or name in options.skip or (name == "pygeodesic" and not exact):
             continue
-        theirs = run_apart(name, points, triangles, seeds, 1 if name == "pygeodesic" else options.repeats)
-        if theirs is None:
-            print(f"  {name:16} failed", flush=True)
-            continue
-        errors = []
-        for mine, other in zip(ours[1], theirs[1], strict=True):
-            both = np.isfinite(mine) & (mine > 0) & (other < 1e50)
-            errors.append(np.abs(other[both] - mine[both]) / mine[both])
-        error = np.concatenate(errors)
-        times[name] = theirs[0]
-        print(
-            f"  {name:16} {theirs[0]:9.4f} s  {theirs[0] / ours[0]:6.1f} times as long  differs by {error.max():.1e} at most, "
-            f"{error.mean():.1e} on average, {np.median(error):.1e} in the median",
-            flush=True,
-        )
+        repeats = 1 if name == "pygeodesic" else options.repeats
+        results[name] = run_apart(name, points, triangles, seeds, repeats)
+        report(name, results[name], ours)
     if options.programs is None:
-        return len(triangles), times
+        return results
     with off_file(points, triangles) as path:
         print(f"  its own program: {run_own(options.programs / 'geodesics_bench', path)}", flush=True)
         cgal = options.programs / "cgal_bench"
-        if not cgal.exists() or len(triangles) > options.most_faces:
-            return len(triangles), times
-        theirs = run_cgal(cgal, path, seeds)
-    if theirs is None:
-        print("  CGAL             failed", flush=True)
-    else:
-        times["CGAL"] = theirs
-        print(f"  CGAL             {theirs:9.4f} s  {theirs / ours[0]:6.1f} times as long", flush=True)
-    return len(triangles), times
+        few = len(triangles) <= min(options.most_faces, MOST_FACES_OF_CGAL)
+        if cgal.exists() and few and "CGAL" not in options.skip:
+            results["CGAL"] = run_program(cgal, [path], seeds)
+            report("CGAL", results["CGAL"], ours)
+    return results
 
 
 def exponent(faces: list[int], times: list[float]) -> float:
@@ -240,7 +261,7 @@ def main() -> None:
     )
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--seeds", type=int, default=5)
-    parser.add_argument("--skip", action="append", default=[], choices=[n for n in SOLVERS if n != "seamwire"])
+    parser.add_argument("--skip", action="append", default=[], choices=["pygeodesic", "potpourri3d heat", "CGAL"])
     parser.add_argument("--most-faces", type=int, default=200_000, help="leave the exact peers out above")
     parser.add_argument(
         "--programs", type=Path, help="the folder with geodesics_bench and, where it was built, cgal_bench"
@@ -255,7 +276,7 @@ def main() -> None:
                 curves.setdefault(name, []).append((faces, seconds))
     for name, curve in curves.items():
         curve.sort()
-        if len({faces for faces, _ in curve}) > 1:
+        if len(options.loop or []) > 1:
             print(f"{name}: time grows with faces to the {exponent(*map(list, zip(*curve, strict=True))):.2f}")
     if options.plot:
         plot(curves, options.plot)
