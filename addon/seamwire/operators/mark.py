@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ..core.network import FacePoint
 from ..mesh.settings import ALONG_ITEMS, FINISH_ITEMS, METRIC_ITEMS
 from .cut import cut_wires
 from .report import in_edit_mode, summary
@@ -166,6 +165,7 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
 
     def _read(self, mesh: ObjectSession) -> tuple[list[list[Pick]], list[Edge], list[Stroke]]:
         """Return chains, loops and strokes; raises ValueError where they cannot be drawn."""
+        from ..core.network import FacePoint
         from . import seed_text
 
         if self.finish == "CUT" and self.clear and self.along == "SURFACE":
