@@ -611,7 +611,7 @@ Cancelled
       "snap_to_edges",
       [](const SurfaceObject& surface, const Wire& wire) {
         return handed_over(Watch(py::none()).run([&](const Task& task) {
-          return snap_to_edges(*surface.surface, surface.snap_graph(task), wire);
+          return snap_to_edges(*surface.surface, surface.snap_graph(beginning(task)), wire, task);
         }));
       },
       py::arg("surface"), py::arg("wire"),

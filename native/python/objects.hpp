@@ -3,6 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -19,6 +20,7 @@
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/surface/surface_point.hpp"
+#include "seamwire/task.hpp"
 #include "seamwire/wires/embedded_points.hpp"
 #include "seamwire/wires/snap.hpp"
 #include "seamwire/wires/wire.hpp"
@@ -28,14 +30,29 @@ namespace seamwire::python {
 
 namespace py = pybind11;
 
+/// Of what is built once for several threads. The thread that has it may lock it again: a progress function may ask for
+/// what is being built.
+class BuildingLock {
+ public:
+  /// Waits for the thread that has it; throws Cancelled where the task is told to stop meanwhile.
+  BuildingLock(std::recursive_timed_mutex& mutex, const Task& task) : lock_(mutex, std::defer_lock) {
+    while (!lock_.try_lock_for(kPeriod)) task.check(0.0);
+  }
+
+ private:
+  static constexpr std::chrono::milliseconds kPeriod{5};
+
+  std::unique_lock<std::recursive_timed_mutex> lock_;
+};
+
 /// A value built once, by the first thread that asks; the others wait, and where that one is stopped, one of them
 /// builds it. What a progress function asks for while it is being built is built apart, and kept. Ask without the GIL.
 template <class T>
 class Lazy {
  public:
   template <class Make>
-  const T& get(const Make& make) const {
-    const std::scoped_lock lock(mutex_);
+  const T& get(const Task& task, const Make& make) const {
+    const BuildingLock lock(mutex_, task);
     if (!value_) {
       auto made = std::make_unique<const T>(make());
       if (!value_) value_ = std::move(made);
@@ -44,7 +61,7 @@ class Lazy {
   }
 
  private:
-  mutable std::recursive_mutex mutex_;
+  mutable std::recursive_timed_mutex mutex_;
   mutable std::unique_ptr<const T> value_;
 };
 
@@ -78,7 +95,7 @@ Held<T> make_held(Arguments&&... arguments) {
 struct SurfaceObject {
   explicit SurfaceObject(std::shared_ptr<const Surface> built) : surface(std::move(built)) {}
   const SnapGraph& snap_graph(const Task& task) const {
-    return snap_graph_.get([&] { return SnapGraph(*surface, task); });
+    return snap_graph_.get(task, [&] { return SnapGraph(*surface, task); });
   }
 
   std::shared_ptr<const Surface> surface;
@@ -100,7 +117,7 @@ struct MetricObject {
   explicit MetricObject(Metric computed) : metric(std::move(computed)) {}
   /// The graph of a surface in this metric. That of the last surface is kept; ask without the GIL.
   std::shared_ptr<const EdgeGraph> edge_graph(const std::shared_ptr<const Surface>& surface, const Task& task) const {
-    const std::scoped_lock lock(mutex_);
+    const BuildingLock lock(mutex_, task);
     if (graph_ && graph_surface_.lock() == surface) return graph_;
     auto made = make_edge_graph(*surface, metric, nullptr, task);
     graph_ = made;
@@ -111,7 +128,7 @@ struct MetricObject {
   Metric metric;
 
  private:
-  mutable std::recursive_mutex mutex_;  // a progress function may ask for a graph
+  mutable std::recursive_timed_mutex mutex_;
   mutable std::weak_ptr<const Surface> graph_surface_;
   mutable std::shared_ptr<const EdgeGraph> graph_;
 };
@@ -126,15 +143,15 @@ struct EmbeddingObject {
   EmbeddingObject(std::shared_ptr<const Surface> of, Embedding computed)
       : surface(std::move(of)), embedding(std::move(computed)) {}
   const ExactGeodesics& geodesics(const Task& task) const {
-    return geodesics_.get([&] { return ExactGeodesics(embedding.mesh, task); });
+    return geodesics_.get(task, [&] { return ExactGeodesics(embedding.mesh, task); });
   }
   const EmbeddedPoints& points() const {
-    return points_.get([this] { return EmbeddedPoints(*surface, embedding); });
+    return points_.get(Task{}, [this] { return EmbeddedPoints(*surface, embedding); });
   }
   /// A point of the surface as one of the embedding; InvalidInput, which begins with `name`, where it has none.
   SurfacePoint find(const SurfacePoint& point, const std::string& name) const;
   const Edges& edges() const {
-    return edges_.get([this] { return list_edges(embedding.mesh); });
+    return edges_.get(Task{}, [this] { return list_edges(embedding.mesh); });
   }
 
   std::shared_ptr<const Surface> surface;

@@ -15,6 +15,7 @@
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/metric/scribble.hpp"
 #include "seamwire/wires/snap.hpp"
+#include "seamwire/wires/wire.hpp"
 #include "shapes.hpp"
 
 namespace seamwire {
@@ -99,6 +100,18 @@ TEST_F(Stops, TheGraphToSnapTo) {
   const Surface quads = shapes::quad_torus(160, 120).surface();  // whose diagonals are sorted
   expect_stops(quads.edges().size() * (1 + 4 + 2 * 4) + 3 * quads.face_count() + 10 * quads.face_count(),
                [&](const Task& task) { SnapGraph(quads, task); });
+}
+
+TEST_F(Stops, Snapping) {
+  const Embedding embedding = embed(surface, euclidean_metric(surface, principal_curvatures(surface)));
+  const ExactGeodesics geodesics(embedding.mesh);
+  const auto target = static_cast<std::int32_t>(vertices / 2);
+  const Wire wire = trace_wire(surface, embedding, geodesics.solve(0), target);
+  const SnapGraph graph(surface);
+  // Each edge of the chain was taken from the queue, and an integral is several steps long.
+  const std::size_t chain = snap_to_edges(surface, graph, wire).size();
+  expect_stops(chain * Poll::kSteps / Poll::kFewSteps,
+               [&](const Task& task) { snap_to_edges(surface, graph, wire, task); });
 }
 
 TEST_F(Stops, Embedding) {

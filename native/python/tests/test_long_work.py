@@ -239,6 +239,30 @@ def test_progress_may_ask_for_what_is_being_built(large: sw.Surface) -> None:
     np.testing.assert_array_equal(field.distances, inner[2])
 
 
+def test_who_waits_for_what_another_thread_builds_can_give_up(large: sw.Surface) -> None:
+    metric = sw.feature_metric(large, sw.principal_curvatures(large))
+    embedding = sw.embed(large, metric)
+    for build in (
+        lambda p: sw.edge_wires(large, metric, 0, progress=p),
+        lambda p: sw.distance_field(embedding, 0, progress=p),
+    ):
+        begun, may_go_on = threading.Event(), threading.Event()
+
+        def hold(_: float) -> None:
+            begun.set()  # noqa: B023
+            assert may_go_on.wait(60)  # noqa: B023
+
+        with ThreadPoolExecutor(1) as pool:
+            other = pool.submit(build, hold)
+            assert begun.wait(60)
+            try:
+                with pytest.raises(sw.Cancelled):
+                    build(lambda _: False)
+            finally:
+                may_go_on.set()
+            assert other.result() is not None
+
+
 @pytest.mark.usefixtures("heeds_control_c")
 def test_control_c_ends_waiting(large: sw.Surface) -> None:
     live = sw.LiveWire(large)

@@ -128,7 +128,7 @@ std::vector<CandidateWires::Found> CandidateWires::find_on_surface(const Prepare
   std::vector<Found> found;
   for (const std::int32_t v : fan.to) {
     Wire wire = trace_wire(surface(), *metric.embedding, field, v, task);
-    std::vector<std::int32_t> vertices = snap_to_edges(surface(), *metric.snap_graph, wire);
+    std::vector<std::int32_t> vertices = snap_to_edges(surface(), *metric.snap_graph, wire, task);
     found.push_back({std::move(vertices), std::move(wire.points), wire.length, wire.euclidean_length});
   }
   return found;

@@ -172,8 +172,7 @@ class Band {
 /// What a turn costs in 1 - its cosine and in the lengths of the edges on both sides of it: see docs/method.md.
 constexpr double kTurning = 0.5;
 
-/// Dijkstra's algorithm over the directed edges of a band, since a turn belongs to two edges. Empty where it does not
-/// connect the ends.
+/// Dijkstra's algorithm over the directed edges of a band, since a turn belongs to two edges.
 ///
 /// Nearly all of the time goes into the integrals that are the edges' costs, so an edge waits in the queue with a lower
 /// bound of its cost, which the distances of its ends give, and the integral is taken when it comes out and may still
@@ -202,14 +201,17 @@ class BandSearch {
     leaving_ = Csr<std::int32_t>(vertices_.numbers().size(), pairs);
   }
 
-  std::vector<std::int32_t> path(std::int32_t from_vertex, std::int32_t to_vertex) {
+  /// Empty where the band does not connect the ends. `done`: how much of the task was done before; this is half of it.
+  std::vector<std::int32_t> path(std::int32_t from_vertex, std::int32_t to_vertex, const Task& task, double done) {
     const std::int32_t from = vertices_.find(from_vertex), to = vertices_.find(to_vertex);
     if (from < 0 || to < 0) return {};
     states_.assign(heads_.size(), {});
     distances_.assign(vertices_.numbers().size(), -1.0);
     weights_.assign(heads_.size() / 2, -1.0);
     leave(from, -1);
+    Poll poll(task, done, done + 0.5, heads_.size(), Poll::kFewSteps);
     while (!queue_.empty()) {
+      poll.next();
       const Waiting next = queue_.top();
       queue_.pop();
       if (states_[next.edge].is_settled) continue;
@@ -331,9 +333,9 @@ class BandSearch {
   std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> queue_;
 };
 
-std::vector<std::int32_t> closest_path(const Surface& surface, const std::vector<std::int32_t>& edges,
-                                       const Wire& wire) {
-  return BandSearch(surface, edges, wire).path(wire.from, wire.to);
+std::vector<std::int32_t> closest_path(const Surface& surface, const std::vector<std::int32_t>& edges, const Wire& wire,
+                                       const Task& task, double done) {
+  return BandSearch(surface, edges, wire).path(wire.from, wire.to, task, done);
 }
 
 void check_wire(const Surface& surface, const Wire& wire) {
@@ -356,7 +358,8 @@ void check_wire(const Surface& surface, const Wire& wire) {
 
 }  // namespace
 
-std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire) {
+std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire,
+                                        const Task& task) {
   if (wire.points.empty()) return {};
   check_wire(surface, wire);
   const SnapData& data = *graph.data_;
@@ -368,19 +371,20 @@ std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph&
   Band band(surface, data);
   band.add(wire);
   band.add_neighbors();
-  std::vector<std::int32_t> path = closest_path(surface, band.edges(), wire);
+  std::vector<std::int32_t> path = closest_path(surface, band.edges(), wire, task, 0.0);
   if (!path.empty()) return path;
   // Polygons whose edges are not connected (one with a hole in it), or a wire over what is no real edge.
   DisjointSets connected(surface.vertex_count());
   std::size_t joined = 0;
   band.add_vertex(wire.from);
   do {
+    task.check(0.5);
     for (; joined < band.edges().size(); ++joined) {
       const Edge& edge = surface.edges()[band.edges()[joined]];
       connected.join(edge[0], edge[1]);
     }
     if (connected.find(wire.from) == connected.find(wire.to)) {
-      return closest_path(surface, band.edges(), wire);
+      return closest_path(surface, band.edges(), wire, task, 0.5);
     }
   } while (band.widen());
   return {};

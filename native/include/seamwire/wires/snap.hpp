@@ -21,7 +21,8 @@ class SnapGraph {
   explicit SnapGraph(const Surface& surface, const Task& task = {});
 
  private:
-  friend std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire);
+  friend std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire,
+                                                 const Task& task);
 
   std::shared_ptr<const SnapData> data_;
 };
@@ -32,7 +33,8 @@ class SnapGraph {
 /// two edges u, v that follow each other. Where these do not connect the ends, of the polygons around them, ring by
 /// ring. Connected, without a repeated vertex. Empty where the wire is, or where no path of edges leads.
 /// Takes time proportional to the faces crossed. Throws InvalidInput for a wire that is not on the surface, and a graph
-/// of a surface with other numbers of vertices, faces or edges.
-std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire);
+/// of a surface with other numbers of vertices, faces or edges; Cancelled.
+std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire,
+                                        const Task& task = {});
 
 }  // namespace seamwire
