@@ -24,7 +24,7 @@ class Blender:
     program
         What runs it: it takes Blender's arguments.
     name
-        As in ``scripts/blenders``: 3.4, 4.3, bpy-4.2, ...
+        As in ``scripts/blenders``: 3.4, 4.3, bpy-4.2, windows-4.2, ...
     user
         Its user folder.
     """
@@ -32,7 +32,8 @@ class Blender:
     def __init__(self, program: Path, name: str, user: Path) -> None:
         self.program = program
         self.user = user
-        self.is_python_module = name.startswith("bpy-")
+        self.is_windows = name.startswith("windows-")
+        self.is_python_module = self.is_windows or name.startswith("bpy-")
         self.has_extensions = name != "3.4"
         self.addon = "bl_ext.user_default.seamwire" if self.has_extensions else "seamwire"
         for folder in ("config", "scripts", "datafiles", "extensions"):
@@ -124,6 +125,10 @@ class Blender:
                 "bpy.ops.wm.save_userpref()\n"
             )
         return self.run(code)
+
+    def path(self, printed: str) -> Path:
+        """Return the path that this Blender printed as one of this system: Wine calls it a folder of its drive Z."""
+        return Path(printed.removeprefix("Z:").replace("\\", "/")) if self.is_windows else Path(printed)
 
 
 def printed(output: str, name: str) -> list[str]:

@@ -64,7 +64,7 @@ def test_installed_it_is_there_after_a_restart_and_marks_seams(installed: Blende
 def test_its_own_compiled_part_is_what_runs(installed: Blender) -> None:
     output = installed.run(MARK + "import seamwire_core; print('file:', seamwire_core.__file__)")
     (file,) = printed(output, "file")
-    assert Path(file).is_relative_to(installed.user)
+    assert installed.path(file).is_relative_to(installed.user)
 
 
 def test_removed_it_leaves_nothing(blender: Blender, package: Path) -> None:
@@ -136,17 +136,20 @@ def test_updating_while_blender_runs_brings_the_new_version_without_a_restart(
 def test_a_package_for_another_system_is_refused_in_words(blender: Blender, package: Path, tmp_path: Path) -> None:
     if not blender.has_extensions:
         pytest.skip("add-ons of this Blender do not tell what they run on")
+    system = package.stem.split("-", 2)[2]
     other = changed(
         package,
         tmp_path / "other.zip",
         "blender_manifest.toml",
-        lambda text: text.replace('"linux-x64"', '"windows-arm64"'),
+        lambda text: text.replace(f'"{system}"', '"windows-arm64"'),
     )
     _, output = blender.try_install(other)
-    assert re.search(
-        r"This platform \(linux-x64\) isn't one of \(windows-arm64\)", without_traceback_but_ours(output)
-    ), output
     assert not blender.addon_folder.exists()
+    if blender.is_windows:
+        pytest.skip("it was refused; under Wine the words of Blender's installer do not reach the operator")
+    assert re.search(
+        rf"This platform \({system}\) isn't one of \(windows-arm64\)", without_traceback_but_ours(output)
+    ), output
 
 
 def without_traceback_but_ours(output: str) -> str:
@@ -206,6 +209,8 @@ print("loaded:", "seamwire_core" in sys.modules)
 
 def test_enabling_costs_less_than_50_ms_of_blenders_start(installed: Blender) -> None:
     """Of the processor's time, the best of five starts without our add-on: what else the machine does only adds to it."""
+    if installed.is_windows:
+        pytest.skip("Wine takes its own time to find files")
     outputs = [installed.run(ENABLING, as_set_up=False) for _ in range(5)]
     seconds = [float(printed(output, "seconds")[0]) for output in outputs]
     assert min(seconds) < 0.05, seconds

@@ -107,8 +107,9 @@ void expect_sound(const Surface& surface) {
 }
 
 std::size_t boundary_edges_of_half_edges(const Surface& surface) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(surface.half_edges().edges(), [](const auto& e) { return e.is_boundary(); }));
+  std::size_t count = 0;
+  for (const auto& edge : surface.half_edges().edges()) count += edge.is_boundary() ? 1 : 0;
+  return count;
 }
 
 bool is_untouched(const SurfaceReport& report) {

@@ -16,12 +16,16 @@ from binaries import read_macho, read_portable
 
 TAGS = {
     "linux-x64": "manylinux_2_28_x86_64",
+    "linux-arm64": "manylinux_2_28_aarch64",
     "windows-x64": "win_amd64",
+    "macos-x64": "macosx_11_0_x86_64",
     "macos-arm64": "macosx_11_0_arm64",
 }
 SUFFIXES = {
     "linux-x64": ".cpython-{0}-x86_64-linux-gnu.so",
+    "linux-arm64": ".cpython-{0}-aarch64-linux-gnu.so",
     "windows-x64": ".cp{0}-win_amd64.pyd",
+    "macos-x64": ".cpython-{0}-darwin.so",
     "macos-arm64": ".cpython-{0}-darwin.so",
 }
 WINDOWS_SYSTEM = re.compile(r"(api-ms-win-[a-z0-9-]+|kernel32|ntdll|advapi32|user32|shell32|ole32|bcrypt)\.dll", re.I)
@@ -34,7 +38,7 @@ def faults_of_module(module: Path, platform: str, python: str) -> list[str]:
         own = f"python{python.replace('.', '')}.dll"
         faults = [f"it links {name}" for name in asked if not WINDOWS_SYSTEM.fullmatch(name) and name.lower() != own]
         return faults if own in map(str.lower, asked) else [*faults, f"it does not link {own}"]
-    if platform == "macos-arm64":
+    if platform.startswith("macos-"):
         found = read_macho(module)
         faults = [f"it links {name}" for name in found.libraries if name != "/usr/lib/libSystem.B.dylib"]
         machine = TAGS[platform].removeprefix("macosx_11_0_")

@@ -24,7 +24,8 @@ def count_newer(path: Path) -> dict[str, int]:
     """Return how many instructions above SSE4.2 each function has, by its mangled name."""
     found: dict[str, int] = {}
     function = ""
-    command = ["objdump", "-d", "--no-show-raw-insn", str(path)]
+    # LLVM's reads what is built for Windows and macOS as well.
+    command = ["llvm-objdump", "-d", "--no-show-raw-insn", str(path)]
     for line in subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines():
         if match := FUNCTION.match(line):
             function = match[1]
