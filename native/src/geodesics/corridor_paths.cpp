@@ -7,7 +7,8 @@
 //    1968), whose estimate is exact here, so that no vertex is looked at but those of the corridor and their
 //    neighbors;
 // 3. the exact wavefront over the triangles at those vertices, as a mesh of their own.
-// For a seed or a target within a face, the first two are from or to the corner of the face that is nearest.
+// For a seed or a target within a face, the first two are from or to the corner of the face that is nearest; the path
+// of the third is to the corner that the way is shortest over, and then shortened from point to point.
 #include "seamwire/geodesics/corridor_paths.hpp"
 
 #include <algorithm>
@@ -45,6 +46,20 @@ std::int32_t corner_of(const GeodesicMesh& mesh, const PlacedPoint& point) {
   if (point.vertex >= 0) return point.vertex;
   const auto& [face, weights] = point.faces.front();
   return mesh.half_edge(3 * face + static_cast<std::int32_t>(std::ranges::max_element(weights) - weights.begin())).tail;
+}
+
+/// A vertex itself; of a point, the corner of its faces over which the way to it is shortest.
+std::int32_t corner_on_the_way(const SolvedDistances& solved, const PlacedPoint& point) {
+  std::int32_t nearest = point.vertex;
+  double least = std::numeric_limits<double>::infinity();
+  point.for_each_corner(solved.mesh, [&](std::int32_t h, const Point2&, double from_corner) {
+    const std::int32_t corner = solved.mesh.half_edge(GeodesicMesh::previous(h)).tail;
+    const double length = solved.at(corner) + from_corner;
+    if (!(nearest < 0 || length < least)) return;
+    least = length;
+    nearest = corner;
+  });
+  return nearest;
 }
 
 /// The longest edge of its faces, 0 for a vertex.
@@ -164,8 +179,9 @@ IntrinsicPath CorridorPaths::path(const SurfacePoint& target, const Task& task) 
   const SourcePoints sources({to_part(impl_->cutter, impl_->seed)});
   const WavefrontResult result = propagate_wavefront(*part.mesh, sources, part_task, impl_->options.windows);
   const SolvedDistances solved{*part.mesh, result.distances, sources};
-  std::optional<IntrinsicPath> path = trace_records(
-      solved, result.records, to_part(impl_->cutter, is_exact ? end : PlacedPoint::at_vertex(corner)), part_task);
+  PlacedPoint traced = to_part(impl_->cutter, end);
+  if (!is_exact) traced = PlacedPoint::at_vertex(corner_on_the_way(solved, traced));
+  std::optional<IntrinsicPath> path = trace_records(solved, result.records, traced, part_task);
   if (path) to_whole_mesh(part, *path);
   if (!path || !is_exact) {
     path = shorten(mesh, impl_->cutter, path ? *path : impl_->from_seed.chain(corner), impl_->seed, end, part_task);
