@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The package, installed, updated and removed as a user does it, in user folders that nobody used before."""
 
+import io
 import re
 import zipfile
 from collections.abc import Callable
@@ -98,18 +99,34 @@ print("label:", bpy.ops.mesh.seamwire_mark.get_rna_type().name)
 """
 
 
+LATER = "0.9.9"
+
+
 def later_version(package: Path, folder: Path) -> Path:
-    """Make a package of version 0.9.9 whose operator has another label."""
+    """Make a package of the later version whose operator has another label."""
     label = re.compile(r'(bl_idname = "mesh\.seamwire_mark"\s+bl_label = )"[^"]*"')
     step = changed(package, folder / "1.zip", "operators/mark.py", lambda text: label.sub(r'\1"Mark Later"', text))
     step = changed(
-        step, folder / "2.zip", "__init__.py", lambda text: re.sub(r'"version": \(.*\)', '"version": (0, 9, 9)', text)
+        step,
+        folder / "2.zip",
+        "__init__.py",
+        lambda text: re.sub(r'"version": \(.*\)', f'"version": ({LATER.replace(".", ", ")})', text),
     )
     return changed(
         step,
-        folder / "seamwire-0.9.9.zip",
+        folder / f"seamwire-{LATER}.zip",
         "blender_manifest.toml",
-        lambda text: re.sub(r'^version = ".*"', 'version = "0.9.9"', text, flags=re.M),
+        lambda text: re.sub(r'^version = ".*"', f'version = "{LATER}"', text, flags=re.M),
+    )
+
+
+def update_command(blender: Blender, package: Path) -> str:
+    """Return what installs the package over the one that runs."""
+    if blender.has_extensions:
+        return f"bpy.ops.extensions.package_install_files(filepath={str(package)!r}, repo='user_default', overwrite=True)\n"
+    return (
+        f"bpy.ops.preferences.addon_install(filepath={str(package)!r}, overwrite=True)\n"
+        "bpy.ops.preferences.addon_enable(module='seamwire')\n"
     )
 
 
@@ -117,19 +134,59 @@ def test_updating_while_blender_runs_brings_the_new_version_without_a_restart(
     blender: Blender, package: Path, tmp_path: Path
 ) -> None:
     blender.install(package)
-    later = later_version(package, tmp_path)
-    if blender.has_extensions:
-        update = (
-            f"bpy.ops.extensions.package_install_files(filepath={str(later)!r}, repo='user_default', overwrite=True)\n"
-        )
-    else:
-        update = (
-            f"bpy.ops.preferences.addon_install(filepath={str(later)!r}, overwrite=True)\n"
-            "bpy.ops.preferences.addon_enable(module='seamwire')\n"
-        )
+    update = update_command(blender, later_version(package, tmp_path))
     again = MARK.replace("import bpy\n", "bpy.ops.wm.read_homefile(use_empty=True)\n")
     output = without_traceback(blender.run(MARK + update + again + VERSION))
     assert printed(output, "marked") == [MARKED, MARKED]
+    assert printed(output, "label") == ["Mark Later"]
+
+
+def with_later_compiled_part(package: Path, later: Path, target: Path) -> Path:
+    """Write a copy of a later package with a later compiled part, by its wheel's name and by what it says of itself."""
+    now = package.name.split("-")[1]
+    with zipfile.ZipFile(later) as source, zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as copy:
+        for entry in source.infolist():
+            content = source.read(entry)
+            if entry.filename.endswith(".whl"):
+                content = later_wheel(content, now)
+            elif entry.filename.endswith("blender_manifest.toml"):
+                content = content.replace(f"seamwire_core-{now}-".encode(), f"seamwire_core-{LATER}-".encode())
+            copy.writestr(entry.filename.replace(f"seamwire_core-{now}-", f"seamwire_core-{LATER}-"), content)
+    return target
+
+
+def later_wheel(content: bytes, now: str) -> bytes:
+    """Return a wheel of this version as one of the later version."""
+    said, says = (f"\0{version}\0".encode() for version in (now, LATER))
+    assert len(said) == len(says)
+    written = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(content)) as source, zipfile.ZipFile(written, "w") as copy:
+        for entry in source.infolist():
+            part = source.read(entry)
+            if Path(entry.filename).suffix in {".so", ".pyd"}:
+                assert part.count(said) == 1
+                part = part.replace(said, says)
+            copy.writestr(
+                entry.filename.replace(f"-{now}.", f"-{LATER}."),
+                part.replace(f"-{now}.".encode(), f"-{LATER}.".encode()),
+            )
+    return written.getvalue()
+
+
+def test_an_update_of_a_compiled_part_in_use_asks_for_a_restart_and_works_after_it(
+    blender: Blender, package: Path, tmp_path: Path
+) -> None:
+    """No system lets go of a loaded library, and Windows does not let it be overwritten or deleted either."""
+    blender.install(package)
+    later = with_later_compiled_part(package, later_version(package, tmp_path), tmp_path / "compiled.zip")
+    again = TRY.replace("import bpy\n", "bpy.ops.wm.read_homefile(use_empty=True)\n")
+    output = blender.run(MARK + update_command(blender, later) + again)
+    assert printed(output, "marked") == [MARKED]
+    (said,) = printed(output, "said")
+    assert f"was updated to {LATER} while its version" in said
+    assert "restart Blender" in said
+    output = without_traceback(blender.run(MARK + VERSION))
+    assert printed(output, "marked") == [MARKED]
     assert printed(output, "label") == ["Mark Later"]
 
 

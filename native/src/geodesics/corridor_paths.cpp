@@ -7,8 +7,8 @@
 //    1968), whose estimate is exact here, so that no vertex is looked at but those of the corridor and their
 //    neighbors;
 // 3. the exact wavefront over the triangles at those vertices, as a mesh of their own.
-// For a seed or a target within a face, the first two are from or to the corner of the face that is nearest; the path
-// of the third is to the corner that the way is shortest over, and then shortened from point to point.
+// For a seed or a target within a face, the first two are from or to the corner of the face that is nearest. Where few
+// windows of a list go on, the third gives paths to all corners, and the path is the shortest one around these.
 #include "seamwire/geodesics/corridor_paths.hpp"
 
 #include <algorithm>
@@ -48,18 +48,16 @@ std::int32_t corner_of(const GeodesicMesh& mesh, const PlacedPoint& point) {
   return mesh.half_edge(3 * face + static_cast<std::int32_t>(std::ranges::max_element(weights) - weights.begin())).tail;
 }
 
-/// A vertex itself; of a point, the corner of its faces over which the way to it is shortest.
-std::int32_t corner_on_the_way(const SolvedDistances& solved, const PlacedPoint& point) {
-  std::int32_t nearest = point.vertex;
-  double least = std::numeric_limits<double>::infinity();
-  point.for_each_corner(solved.mesh, [&](std::int32_t h, const Point2&, double from_corner) {
-    const std::int32_t corner = solved.mesh.half_edge(GeodesicMesh::previous(h)).tail;
-    const double length = solved.at(corner) + from_corner;
-    if (!(nearest < 0 || length < least)) return;
-    least = length;
-    nearest = corner;
-  });
-  return nearest;
+/// A vertex itself; of a point, the corners of its faces.
+std::vector<std::int32_t> corners_of(const GeodesicMesh& mesh, const PlacedPoint& point) {
+  std::vector<std::int32_t> corners;
+  if (point.vertex >= 0) corners.push_back(point.vertex);
+  for (const PlacedPoint::InFace& in : point.faces) {
+    for (std::int32_t h = 3 * in.face; h < 3 * in.face + 3; ++h) corners.push_back(mesh.half_edge(h).tail);
+  }
+  std::ranges::sort(corners);
+  corners.erase(std::ranges::unique(corners).begin(), corners.end());
+  return corners;
 }
 
 /// The longest edge of its faces, 0 for a vertex.
@@ -179,12 +177,22 @@ IntrinsicPath CorridorPaths::path(const SurfacePoint& target, const Task& task) 
   const SourcePoints sources({to_part(impl_->cutter, impl_->seed)});
   const WavefrontResult result = propagate_wavefront(*part.mesh, sources, part_task, impl_->options.windows);
   const SolvedDistances solved{*part.mesh, result.distances, sources};
-  PlacedPoint traced = to_part(impl_->cutter, end);
-  if (!is_exact) traced = PlacedPoint::at_vertex(corner_on_the_way(solved, traced));
-  std::optional<IntrinsicPath> path = trace_records(solved, result.records, traced, part_task);
-  if (path) to_whole_mesh(part, *path);
-  if (!path || !is_exact) {
-    path = shorten(mesh, impl_->cutter, path ? *path : impl_->from_seed.chain(corner), impl_->seed, end, part_task);
+  const PlacedPoint in_part = to_part(impl_->cutter, end);
+  std::optional<IntrinsicPath> path;
+  if (is_exact) {
+    path = trace_records(solved, result.records, in_part, part_task);
+    if (path) to_whole_mesh(part, *path);
+  }
+  if (!path) {
+    IntrinsicPath around;
+    for (const std::int32_t v : corners_of(*part.mesh, in_part)) {
+      std::optional<IntrinsicPath> traced = trace_records(solved, result.records, PlacedPoint::at_vertex(v), part_task);
+      if (!traced) continue;
+      to_whole_mesh(part, *traced);
+      around.points.insert(around.points.end(), traced->points.begin(), traced->points.end());
+    }
+    if (around.points.empty()) around = impl_->from_seed.chain(corner);
+    path = shorten(mesh, impl_->cutter, around, impl_->seed, end, part_task);
   }
   to_external(mesh, *path);
   return std::move(*path);

@@ -21,9 +21,9 @@ namespace seamwire {
 std::optional<IntrinsicPath> trace_records(const SolvedDistances& solved, const std::vector<TraceRecord>& records,
                                            const PlacedPoint& target, const Task& task = {});
 
-/// The shortest path from a source to a target, within the triangles at the vertices of a path between them, at the
-/// ends of the edges it crosses and around the faces of source and target; all in internal numbers. Of `path` only the
-/// points count.
+/// The shortest path from a source to a target, within the triangles at the vertices of paths between them, at the ends
+/// of the edges these cross and around the faces of source and target; all in internal numbers. Of `path` only the
+/// points count: it may be several, one after the other.
 IntrinsicPath shorten(const GeodesicMesh& mesh, SubmeshCutter& cutter, const IntrinsicPath& path,
                       const PlacedPoint& source, const PlacedPoint& target, const Task& task);
 
