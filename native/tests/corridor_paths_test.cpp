@@ -145,11 +145,10 @@ TEST_P(CorridorPathsOn, BetweenPointsOfFaces) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> length(1.02, 2.0);
   expect_paths_between_points(intrinsic(mesh), 1 + 1e-9, {.corridor_vertices = 100000, .windows = 0});
-  // Which points and lengths are drawn differs between C++ libraries; of 28,000 paths the longest was 1.06 times as
-  // long.
-  expect_paths_between_points(intrinsic(mesh), 1.1);
-  expect_paths_between_points(intrinsic(mesh), 1.2, {.corridor_vertices = 1});
-  expect_paths_between_points(intrinsic(mesh, [&](int, int) { return length(random); }), 1.1);
+  expect_paths_between_points(intrinsic(mesh), 1.05);
+  // Real paths are all that can be asked for around one chain of edges.
+  expect_paths_between_points(intrinsic(mesh), 1.5, {.corridor_vertices = 1});
+  expect_paths_between_points(intrinsic(mesh, [&](int, int) { return length(random); }), 1.05);
 }
 
 INSTANTIATE_TEST_SUITE_P(CorridorPaths, CorridorPathsOn, testing::Range(0, 7));
