@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Windows keeps a library that is loaded from being overwritten or deleted: an update says what to do then."""
+"""Windows keeps a library that is loaded from being overwritten or deleted: what is loaded is a copy, and an update asks for a restart."""
 
 import os
 import shutil
@@ -21,9 +21,12 @@ folder, wheels, addon = map(Path, sys.argv[1:])
 sys.path[:] = [str(addon), *(entry for entry in sys.path if not list(Path(entry).glob("seamwire_core*")))]
 from seamwire.core import native
 loaded = native.load(folder, wheels)
-file = Path(loaded.__file__)
+(file,) = folder.rglob("seamwire_core*.pyd")
+file.write_bytes(b"")
+shutil.rmtree(folder)
+copy = Path(loaded.__file__)
 try:
-    file.unlink()
+    copy.unlink()
     print("it was deleted")
 except PermissionError:
     print("it is in use")
@@ -37,14 +40,44 @@ except native.NativeError as error:
 """
 
 
-def test_an_update_of_what_is_loaded_asks_for_a_restart(tmp_path: Path) -> None:
-    wheels, folder = tmp_path / "Räder und Nähte", tmp_path / "_native"
-    wheels.mkdir()
+IN_PLACE = """
+import sys
+from pathlib import Path
+folder, wheels, addon = map(Path, sys.argv[1:])
+sys.path[:] = [str(addon), *(entry for entry in sys.path if not list(Path(entry).glob("seamwire_core*")))]
+from seamwire.core import native
+
+def refuse(_):
+    raise PermissionError("no right to write")
+
+native._copied = refuse
+print(Path(native.load(folder, wheels).__file__).is_relative_to(folder))
+"""
+
+
+def run(code: str, tmp_path: Path) -> list[str]:
+    """Return the lines that the code printed in a Python with a temporary folder of its own."""
+    wheels, folder, temporary = tmp_path / "Räder und Nähte", tmp_path / "_native", tmp_path / "Temp"
+    for made in (wheels, temporary / "seamwire_core-former"):
+        made.mkdir(parents=True)
     shutil.copy(os.environ["SEAMWIRE_WHEEL"], wheels)
     arguments = [str(folder), str(wheels), str(Path(__file__).parents[1])]
-    done = subprocess.run([sys.executable, "-c", UPDATE, *arguments], capture_output=True, text=True, encoding="utf-8")
+    environment = {**os.environ, "TEMP": str(temporary), "TMP": str(temporary)}
+    done = subprocess.run(
+        [sys.executable, "-c", code, *arguments], capture_output=True, text=True, encoding="utf-8", env=environment
+    )
     assert done.returncode == 0, done.stderr
-    in_use, sentence = done.stdout.splitlines()
+    return done.stdout.splitlines()
+
+
+def test_an_update_of_what_is_loaded_asks_for_a_restart(tmp_path: Path) -> None:
+    in_use, sentence = run(UPDATE, tmp_path)
     assert in_use == "it is in use"
     assert "was updated to 9.9.9 while its version" in sentence
     assert "restart Blender" in sentence
+    (copy,) = (tmp_path / "Temp").iterdir()
+    assert copy.name != "seamwire_core-former", "copies that nobody uses are removed"
+
+
+def test_where_no_copy_can_be_written_the_library_is_loaded_in_place(tmp_path: Path) -> None:
+    assert run(IN_PLACE, tmp_path) == ["True"]

@@ -75,7 +75,7 @@ class Blender:
         """
         before = f"ADDON = {self.addon!r}\n"
         if self.is_python_module and as_set_up:
-            before += "import addon_utils\nassert addon_utils.enable(ADDON) is not None\n"
+            before += "import addon_utils\nassert addon_utils.enable(ADDON, default_set=True) is not None\n"
         with tempfile.TemporaryDirectory(prefix="seamwire-test-") as folder:
             file = Path(folder) / "code.py"
             file.write_text(before + code)
@@ -105,9 +105,9 @@ class Blender:
             )
         return self.try_start("--background", "--python-exit-code", "3", "--python-expr", f"import bpy; {code}")
 
-    def remove(self) -> str:
-        """Uninstall the package, as a user does."""
-        if self.has_extensions and not self.is_python_module:
+    def remove(self, after: str = "") -> str:
+        """Uninstall the package, as a user does; in the Blender that ran the code `after`, if there is any."""
+        if self.has_extensions and not self.is_python_module and not after:
             return self.start("--command", "extension", "remove", "user_default.seamwire")
         if self.has_extensions:
             code = (
@@ -124,11 +124,15 @@ class Blender:
                 "    bpy.ops.preferences.addon_remove(module='seamwire')\n"
                 "bpy.ops.wm.save_userpref()\n"
             )
-        return self.run(code)
+        return self.run(after + code)
 
     def path(self, printed: str) -> Path:
-        """Return the path that this Blender printed as one of this system: Wine calls it a folder of its drive Z."""
-        return Path(printed.removeprefix("Z:").replace("\\", "/")) if self.is_windows else Path(printed)
+        """Return the path that this Blender printed as one of this system."""
+        if not self.is_windows:
+            return Path(printed)
+        drive, inside = printed.split(":", 1)
+        roots = {"Z": "", "C": str(self.program.parent / "prefix" / "drive_c")}
+        return Path(roots[drive] + inside.replace("\\", "/"))
 
 
 def printed(output: str, name: str) -> list[str]:

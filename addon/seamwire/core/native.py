@@ -3,11 +3,15 @@
 
 from __future__ import annotations
 
+import hashlib
 import importlib
+import shutil
 import sys
 import sysconfig
 import tempfile
 import zipfile
+from importlib.machinery import PathFinder
+from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -40,7 +44,7 @@ def load(folder: Path = FOLDER, wheels: Path = WHEELS) -> ModuleType:
     if NAME in sys.modules:
         return _of_this_package(sys.modules[NAME], wheels)
     try:
-        return _of_this_package(importlib.import_module(NAME), wheels)
+        return _of_this_package(_import(), wheels)
     except NativeError:
         raise
     except ImportError as error:
@@ -57,20 +61,63 @@ def load(folder: Path = FOLDER, wheels: Path = WHEELS) -> ModuleType:
     sys.path.insert(0, str(place))
     try:
         importlib.invalidate_caches()
-        return importlib.import_module(NAME)
+        return _import()
     except ImportError as error:
         raise NativeError(_sentence(place, wheels, installed, error)) from error
     finally:
         sys.path.remove(str(place))
 
 
+def _import() -> ModuleType:
+    """Import the module from where Python finds it; on Windows a copy of it.
+
+    Nobody can overwrite or delete a loaded library there, so Blender could neither update nor remove the add-on.
+    """
+    found = PathFinder.find_spec(NAME) if sys.platform == "win32" else None
+    if found is None or found.origin is None or not found.origin.endswith(".pyd"):
+        return importlib.import_module(NAME)
+    try:
+        copy = _copied(Path(found.origin))
+    except OSError:
+        # No room or no right to write: better one that cannot be updated while it runs than none.
+        return importlib.import_module(NAME)
+    spec = spec_from_file_location(NAME, copy)
+    module = module_from_spec(spec)
+    sys.modules[NAME] = module
+    try:
+        spec.loader.exec_module(module)
+    except BaseException:
+        del sys.modules[NAME]
+        raise
+    return module
+
+
+def _copied(library: Path) -> Path:
+    """Return a copy of the library in a folder named after its content; copies of others that nobody uses are removed."""
+    content = library.read_bytes()
+    folder = Path(tempfile.gettempdir()) / f"{NAME}-{hashlib.sha256(content).hexdigest()[:16]}"
+    for other in folder.parent.glob(f"{NAME}-*"):
+        if other != folder:
+            shutil.rmtree(other, ignore_errors=True)
+    copy = folder / library.name
+    if not copy.exists() or copy.read_bytes() != content:
+        with tempfile.TemporaryDirectory() as unfinished:
+            whole = Path(unfinished) / library.name
+            whole.write_bytes(content)
+            folder.mkdir(exist_ok=True)
+            whole.replace(copy)
+    return copy
+
+
 def _of_this_package(module: ModuleType, wheels: Path) -> ModuleType:
     # Python cannot let go of a compiled module: after an update in place the old one stays until Blender ends.
     versions = {_version(wheel) for wheel in wheels.glob("*.whl")}
     if versions and module.__version__ not in versions:
+        found = PathFinder.find_spec(NAME)
+        place = found.origin if found and found.origin else module.__file__
         raise NativeError(
             f"Seamwire was updated to {', '.join(sorted(versions))} while its version {module.__version__} was in use: "
-            f"restart Blender. If that does not help, remove the {NAME} in {Path(module.__file__).parent}"
+            f"restart Blender. If that does not help, remove the {NAME} in {Path(place).parent}"
         )
     return module
 

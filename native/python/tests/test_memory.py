@@ -34,7 +34,10 @@ print(before, asked())
 """
 
 
-@pytest.mark.skipif(not Path("/sys/kernel/mm/transparent_hugepage").exists(), reason="the system has no large pages")
+@pytest.mark.skipif(
+    not sys.platform.startswith("linux") or not Path("/sys/kernel/mm/transparent_hugepage").exists(),
+    reason="the system has no large pages",
+)
 def test_large_arrays_ask_for_large_pages() -> None:
     ran = subprocess.run([sys.executable, "-c", SCRIPT], capture_output=True, text=True, check=True, timeout=120)
     before, after = map(float, ran.stdout.split())
