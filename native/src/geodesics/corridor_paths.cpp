@@ -56,7 +56,7 @@ std::vector<std::int32_t> corners_of(const GeodesicMesh& mesh, const PlacedPoint
     for (std::int32_t h = 3 * in.face; h < 3 * in.face + 3; ++h) corners.push_back(mesh.half_edge(h).tail);
   }
   std::ranges::sort(corners);
-  corners.erase(std::ranges::unique(corners).begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   return corners;
 }
 
@@ -132,7 +132,7 @@ void CorridorPaths::Impl::find_corridor(const PlacedPoint& to, const Task& task)
     corridor.push_back(v);
     if (corridor.size() % kWorkBetweenChecks == 0) task.check(0.0);
     has_source = has_source || v == seed_corner;
-    for (const auto& [to, length] : mesh->hops(v)) relax(to, to_target[v] + length);
+    for (const auto& [head, hop] : mesh->hops(v)) relax(head, to_target[v] + hop);
   }
   for (const PlacedPoint* end : std::array<const PlacedPoint*, 2>{&seed, &to}) {
     for (const PlacedPoint::InFace& in : end->faces) corridor.push_back(mesh->half_edge(3 * in.face).tail);

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # shellcheck shell=bash disable=SC2034
-# What builds for Windows, and a Windows Python to run under Wine; to be sourced after common.sh.
+# What builds for other systems than this one; to be sourced after common.sh.
 
 TOOLS=$ROOT/build/package/tools
 # The Python that blender.org's Blender 4.2 to 5.0 have.
@@ -20,6 +20,15 @@ package_tools() {
   ZIG=$("$TOOLS/bin/python" -c 'import pathlib, ziglang; print(pathlib.Path(ziglang.__file__).with_name("zig"))')
 }
 
+# build_cross_tests PLATFORM: the library's tests, in the folder of the platform's wheels, so that the library is compiled once. scripts/package
+# was there before.
+build_cross_tests() {
+  local folder=$ROOT/build/package/$1/build log=$ROOT/build/configure-$1.log
+  PATH=$TOOLS/bin:$PATH cmake -S . -B "$folder" -DSEAMWIRE_TESTS=ON -DSEAMWIRE_GOOGLETEST_SOURCES=/usr/src/googletest/googletest >"$log" ||
+    { cat "$log"; return 1; }
+  PATH=$TOOLS/bin:$PATH cmake --build "$folder" --target seamwire_tests --parallel "$(nproc)"
+}
+
 # windows_dll PYTHON FOLDER: a Python's DLLs for Windows in the folder (scripts/lib/windows_python.py), with its import library.
 windows_dll() {
   local library=$2/python${1/./}.dll
@@ -29,6 +38,6 @@ windows_dll() {
 
 # What changes when scripts/lib/make_windows_python would make another one.
 windows_python_recipe() {
-  (cd "$ROOT/scripts/lib" && fingerprint make_windows_python windows.sh requirements-wine.txt python_launcher.c windows_python.py \
+  (cd "$ROOT/scripts/lib" && fingerprint make_windows_python cross.sh requirements-wine.txt python_launcher.c windows_python.py \
     windows-python.txt)
 }
