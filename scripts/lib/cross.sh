@@ -6,6 +6,12 @@ TOOLS=$ROOT/build/package/tools
 # The Python that blender.org's Blender 4.2 to 5.0 have.
 WINDOWS_PYTHON=3.11
 
+# alone COMMAND...: not while another script does what is run so; they share folders of build/package.
+alone() {
+  mkdir -p "$ROOT/build/package"
+  (flock 8; "$@") 8>"$ROOT/build/package/lock"
+}
+
 make_package_tools() {
   say "Tools for wheels in build/package/tools"
   rm -rf "$TOOLS"
@@ -13,10 +19,14 @@ make_package_tools() {
   "$TOOLS/bin/pip" install -q --disable-pip-version-check -r scripts/lib/requirements-package.txt
 }
 
-# Makes the tools that wheels are built with ready, and sets ZIG.
-package_tools() {
+get_package_tools() {
   [ -x "$TOOLS/bin/python" ] || rm -f build/stamps/package-tools
   once package-tools "$(fingerprint scripts/lib/requirements-package.txt) $ROOT" make_package_tools
+}
+
+# Makes the tools that wheels are built with ready, and sets ZIG.
+package_tools() {
+  alone get_package_tools
   ZIG=$("$TOOLS/bin/python" -c 'import pathlib, ziglang; print(pathlib.Path(ziglang.__file__).with_name("zig"))')
 }
 

@@ -3,7 +3,8 @@
 """A Windows Python under Wine, behind a command line of this system: ``windows_program.py FOLDER [ARGUMENT OF PYTHON...]``.
 
 FOLDER is one that ``scripts/lib/make_windows_python`` made. Where arguments and the environment name files of this system by their whole
-path, the program gets Windows' names of them. What it prints, errors too, comes out of the standard output, its lines ended as here; the exit code is its own.
+path, the program gets Windows' names of them. What it prints, errors too, comes out of the standard output, its lines ended as here; the
+exit code is its own.
 """
 
 import os
@@ -26,7 +27,11 @@ def windows_name(text: str) -> str:
 
 def windows_environment(folder: Path) -> dict[str, str]:
     """Return the environment for a program in that folder's Windows."""
-    names = {name: windows_name(value) for name, value in os.environ.items() if name.startswith(("BLENDER_", "SEAMWIRE_", "PYTHONPATH"))}
+    names = {
+        name: windows_name(value)
+        for name, value in os.environ.items()
+        if name.startswith(("BLENDER_", "SEAMWIRE_", "PYTHONPATH"))
+    }
     own = {
         "WINEPREFIX": str(folder / "prefix"),
         "WINEDEBUG": "-all",
@@ -57,4 +62,5 @@ def main() -> int:
     return process.returncode
 
 
-sys.exit(main())
+if __name__ == "__main__":
+    sys.exit(main())
