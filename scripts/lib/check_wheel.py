@@ -3,7 +3,8 @@
 
 ``check_wheel.py check PLATFORM PYTHON WHEEL``, ``check_wheel.py tag PLATFORM`` (of a wheel), ``check_wheel.py suffix PLATFORM PYTHON`` (of
 the module). PLATFORM is as Blender names it, PYTHON such as 3.11. Name, tags in the wheel and the compiled module must agree, and the
-module may ask for nothing but the system and that Python. Into the modules of Linux wheels auditwheel has looked before.
+module may ask for nothing but the system and that Python. Into the modules of wheels for Linux on x86-64 auditwheel has looked before; it
+knows the processor alone that it runs on.
 """
 
 import re
@@ -13,6 +14,7 @@ import zipfile
 from pathlib import Path
 
 from binaries import read_macho, read_portable
+from elftools.elf.elffile import ELFFile
 
 TAGS = {
     "linux-x64": "manylinux_2_28_x86_64",
@@ -31,6 +33,26 @@ SUFFIXES = {
 WINDOWS_SYSTEM = re.compile(r"(api-ms-win-[a-z0-9-]+|kernel32|ntdll|advapi32|user32|shell32|ole32|bcrypt)\.dll", re.I)
 
 
+LINUX_SYSTEM = re.compile(r"(ld-linux-aarch64|lib(c|m|dl|rt|pthread))\.so\.\d")
+
+
+def faults_of_elf(module: Path, machine: str, newest: tuple[int, int]) -> list[str]:
+    """Return a sentence for each thing that Linux on that processor with that glibc does not have."""
+    with module.open("rb") as file:
+        elf = ELFFile(file)
+        found = elf["e_machine"]
+        needed = [tag.needed for tag in elf.get_section_by_name(".dynamic").iter_tags("DT_NEEDED")]
+        versions = elf.get_section_by_name(".gnu.version_r")
+        asked = {version.name for _, of in versions.iter_versions() for version in of} if versions else set()
+    faults = [] if found == machine else [f"it is for {found}"]
+    faults += [f"it links {name}" for name in needed if not LINUX_SYSTEM.fullmatch(name)]
+    for name in sorted(asked):
+        match = re.fullmatch(r"GLIBC_(\d+)\.(\d+)(\.\d+)?", name)
+        if match is None or (int(match[1]), int(match[2])) > newest:
+            faults.append(f"it asks for {name}")
+    return faults
+
+
 def faults_of_module(module: Path, platform: str, python: str) -> list[str]:
     """Return a sentence for each library that the module asks for and that is not there by itself."""
     if platform == "windows-x64":
@@ -45,6 +67,8 @@ def faults_of_module(module: Path, platform: str, python: str) -> list[str]:
         if (found.machine, found.oldest_system) != (machine, "11.0"):
             faults.append(f"it is for {found.machine}, macOS {found.oldest_system}")
         return faults
+    if platform == "linux-arm64":
+        return faults_of_elf(module, "EM_AARCH64", (2, 28))
     return []
 
 

@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import platform
 import struct
+import subprocess
 import sys
 import zipfile
 from pathlib import Path
@@ -93,6 +95,22 @@ def test_name_and_tags_have_to_agree(tmp_path: Path, monkeypatch: pytest.MonkeyP
     named = wheel(tmp_path, "seamwire_core-1.0-cp311-cp311-win_amd64.whl", "cp311-cp311-linux_x86_64", b"")
     assert check_wheel.faults_of_wheel(named, "windows-x64", "3.11") == ["its tags are cp311-cp311-linux_x86_64"]
     assert len(check_wheel.faults_of_wheel(named, "windows-x64", "3.13")) == 3, "name, tags, module"
+
+
+@pytest.mark.skipif(platform.system() != "Linux", reason="the compiler makes no ELF files")
+def test_what_a_linux_module_asks_for_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "module.so"
+    code = "#include <string>\nstd::string text(int of) { return std::to_string(of) + std::string(99, ' '); }\n"
+    subprocess.run(["g++", "-shared", "-fPIC", "-x", "c++", "-", "-o", str(path)], input=code, text=True, check=True)
+    faults = check_wheel.faults_of_module(path, "linux-arm64", "3.11")
+    assert "it links libstdc++.so.6" in faults
+    assert any(fault.startswith("it asks for GLIBCXX_") for fault in faults)
+    assert not any("libc.so" in fault for fault in faults)
+    assert ("it is for EM_X86_64" in faults) == (platform.machine() == "x86_64")
+    plain = "int twice(int x) { return 2 * x; }\n"
+    subprocess.run(["gcc", "-shared", "-fPIC", "-x", "c", "-", "-o", str(path)], input=plain, text=True, check=True)
+    machine = "EM_X86_64" if platform.machine() == "x86_64" else "EM_AARCH64"
+    assert check_wheel.faults_of_elf(path, machine, (2, 28)) == []
 
 
 @pytest.mark.parametrize(
