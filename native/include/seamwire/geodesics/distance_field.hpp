@@ -44,9 +44,9 @@ class DistanceField {
   const std::vector<double>& distances() const;
 
   /// The shortest path from the seed to a vertex, in time proportional to the triangles it crosses. Its length is the
-  /// distance to rounding. Where the field is not exact, it is a real path all the same, with its true length: the
-  /// shortest one within the triangles around the path that the field tells; it may be longer than the geodesic, but
-  /// not shorter.
+  /// distance to rounding (1e-9 of it in the tests). Where the field is not exact, it is a real path all the same, with
+  /// its true length: the shortest one within the triangles around the path that the field tells; it may be longer than
+  /// the geodesic, but not shorter.
   ///
   /// Throws InvalidInput for a vertex out of range. Where the field is not exact, the work takes long enough for `task`
   /// to be looked at, and Cancelled may be thrown.
