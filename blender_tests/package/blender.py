@@ -114,6 +114,7 @@ class Blender:
                 "import bpy\n"
                 "repos = [repo.module for repo in bpy.context.preferences.extensions.repos]\n"
                 "bpy.ops.extensions.package_uninstall(repo_index=repos.index('user_default'), pkg_id='seamwire')\n"
+                "bpy.ops.wm.save_userpref()\n"
             )
         else:
             # The operator redraws the area that its button is in.
