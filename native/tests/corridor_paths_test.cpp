@@ -99,8 +99,7 @@ TEST_P(CorridorPathsOn, RandomLengths) {
   const auto [name, mesh] = exactness_meshes(2)[static_cast<std::size_t>(GetParam())];
   SCOPED_TRACE(name);
   std::mt19937 random(7);
-  std::uniform_real_distribution<double> length(1.02, 2.0);
-  expect_paths(intrinsic(mesh, [&](int, int) { return length(random); }), mesh.triangles[3][0], 1.05);
+  expect_paths(intrinsic(mesh, [&](int, int) { return points::draw(random, 1.02, 2.0); }), mesh.triangles[3][0], 1.05);
 }
 
 void expect_ends_at(const IntrinsicMesh& mesh, const PathPoint& end, const SurfacePoint& point) {
@@ -143,12 +142,10 @@ TEST_P(CorridorPathsOn, BetweenPointsOfFaces) {
   const auto [name, mesh] = exactness_meshes(2)[static_cast<std::size_t>(GetParam())];
   SCOPED_TRACE(name);
   std::mt19937 random(7);
-  std::uniform_real_distribution<double> length(1.02, 2.0);
   expect_paths_between_points(intrinsic(mesh), 1 + 1e-9, {.corridor_vertices = 100000, .windows = 0});
   expect_paths_between_points(intrinsic(mesh), 1.05);
-  // Real paths are all that can be asked for around one chain of edges.
-  expect_paths_between_points(intrinsic(mesh), 1.5, {.corridor_vertices = 1});
-  expect_paths_between_points(intrinsic(mesh, [&](int, int) { return length(random); }), 1.05);
+  expect_paths_between_points(intrinsic(mesh), 1.2, {.corridor_vertices = 1});
+  expect_paths_between_points(intrinsic(mesh, [&](int, int) { return points::draw(random, 1.02, 2.0); }), 1.05);
 }
 
 INSTANTIATE_TEST_SUITE_P(CorridorPaths, CorridorPathsOn, testing::Range(0, 7));

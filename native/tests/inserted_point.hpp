@@ -104,6 +104,16 @@ inline IntrinsicMesh insert(const IntrinsicMesh& mesh, const SurfacePoint& point
   return out;
 }
 
+/// A number from [from, to), the same with every C++ library: only its generators are told by the standard, not what
+/// its distributions make of them.
+inline double draw(std::mt19937& random, double from, double to) {
+  const auto low = static_cast<double>(random()), high = static_cast<double>(random());
+  return (low + high * 0x1p32) * 0x1p-64 * (to - from) + from;
+}
+inline std::int32_t draw_below(std::mt19937& random, std::size_t count) {
+  return static_cast<std::int32_t>(std::uint64_t{random()} * count >> 32);
+}
+
 struct Named {
   std::string name;
   SurfacePoint point;
@@ -112,18 +122,17 @@ struct Named {
 /// Points of all kinds: within faces, close to corners and edges, on edges, on the boundary where there is one.
 inline std::vector<Named> all_kinds(const IntrinsicMesh& mesh, unsigned seed) {
   std::mt19937 random(seed);
-  std::uniform_real_distribution<double> part(0.05, 0.95);
-  std::uniform_int_distribution<std::int32_t> any_face(0, static_cast<std::int32_t>(mesh.face_count()) - 1);
+  const auto any_face = [&] { return draw_below(random, mesh.face_count()); };
   const auto at = [](std::int32_t face, double a, double b, double c) {
     return SurfacePoint{.face = face, .barycentric = {a, b, c}};
   };
-  const double s = part(random), t = part(random);
-  std::vector<Named> out{{"within a face", at(any_face(random), s * t, s * (1 - t), 1 - s)},
-                         {"close to a corner", at(any_face(random), 1 - 3e-6, 1e-6, 2e-6)},
+  const double s = draw(random, 0.05, 0.95), t = draw(random, 0.05, 0.95);
+  std::vector<Named> out{{"within a face", at(any_face(), s * t, s * (1 - t), 1 - s)},
+                         {"close to a corner", at(any_face(), 1 - 3e-6, 1e-6, 2e-6)},
                          // Closer, and the lengths of a triangle between the two could not tell how close.
-                         {"close to an edge", at(any_face(random), 2e-3, t * 0.998, 0.998 * (1 - t))},
-                         {"on an edge", at(any_face(random), t, 0, 1 - t)},
-                         {"on an edge, close to its end", at(any_face(random), 1e-7, 1 - 1e-7, 0)}};
+                         {"close to an edge", at(any_face(), 2e-3, t * 0.998, 0.998 * (1 - t))},
+                         {"on an edge", at(any_face(), t, 0, 1 - t)},
+                         {"on an edge, close to its end", at(any_face(), 1e-7, 1 - 1e-7, 0)}};
   for (std::int32_t h = 0; index(h) < mesh.twins.size(); ++h) {
     if (mesh.twins[index(h)] >= 0 || mesh.twins.size() < 60) continue;
     SurfacePoint point{.face = h / 3};
