@@ -263,22 +263,3 @@ def test_a_package_for_another_python_says_so_in_words(blender: Blender, package
     output = without_traceback(output + blender.run(TRY))
     (said,) = printed(output, "said")
     assert "built for another Python or system" in said
-
-
-ENABLING = """
-import sys, time
-import addon_utils
-start = time.thread_time()
-addon_utils.enable(ADDON)
-print("seconds:", time.thread_time() - start)
-print("loaded:", "seamwire_core" in sys.modules)
-"""
-
-
-def test_enabling_costs_less_than_50_ms_of_blenders_start(installed: Blender) -> None:
-    """Of the processor's time, the best of five starts without our add-on: what else the machine does only adds to it."""
-    if installed.is_windows:
-        pytest.skip("Wine takes its own time to find files")
-    outputs = [installed.run(ENABLING, as_set_up=False) for _ in range(5)]
-    seconds = [float(printed(output, "seconds")[0]) for output in outputs]
-    assert min(seconds) < 0.05, seconds

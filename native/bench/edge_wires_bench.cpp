@@ -110,7 +110,7 @@ void register_case(const std::string& name, const Polygons& mesh) {
   const auto count = [data](benchmark::State& state) {
     state.counters["edges"] = static_cast<double>(data->surface.edges().size());
   };
-  const auto add = [&](const std::string& what, auto run) {
+  const auto add = [&](const std::string& what, const auto& run) {
     benchmark::RegisterBenchmark((what + "/" + name).c_str(), run)->Unit(benchmark::kMillisecond);
   };
   add("graph", [=](benchmark::State& state) {

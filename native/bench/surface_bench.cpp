@@ -174,7 +174,7 @@ int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string_view argument = argv[i], option = "--anisotropy=";
     if (argument.starts_with(option)) {
-      anisotropies.push_back(std::atof(argv[i] + option.size()));
+      anisotropies.push_back(std::strtod(argv[i] + option.size(), nullptr));
     } else {
       paths.emplace_back(argument);
     }

@@ -5,6 +5,8 @@
 
 #include <functional>
 
+#include "thread_end.hpp"
+
 namespace seamwire::python {
 
 /// Lets other Python threads run for as long as it lives, as pybind11's gil_scoped_release does, but survives the end
@@ -24,16 +26,12 @@ class GilRelease {
   GilRelease& operator=(const GilRelease&) = delete;
 
   /// Runs work() with the GIL; false where the interpreter is ending, and nothing was run. Python may end the thread in
-  /// the middle of work(), which must call C functions only and not throw: what comes out of it is taken for that end.
+  /// the middle of work(), which must call C functions only, own nothing and not throw (run_to_thread_end()).
   template <class Work>
-  bool with_gil(const Work& work) const {
+  bool with_gil(Work work) const {
     if (state_ == nullptr) return false;
     if (!take_for_callback()) return false;
-    try {
-      work();
-    } catch (...) {
-      sleep_for_ever();
-    }
+    run_to_thread_end([](void* data) { (*static_cast<Work*>(data))(); }, &work, [](void*) { sleep_for_ever(); });
     PyEval_SaveThread();
     return true;
   }

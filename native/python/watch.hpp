@@ -4,7 +4,6 @@
 #include <pybind11/pybind11.h>
 
 #include <chrono>
-#include <exception>
 #include <optional>
 #include <utility>
 
@@ -35,7 +34,7 @@ class Watch {
       task.progress = [&](double fraction) { return report(fraction, released); };
       return work(task);
     } catch (const Cancelled&) {
-      if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+      raised_.raise();
       leave_if_cut_off();
       throw;
     }
@@ -45,6 +44,30 @@ class Watch {
   using Clock = std::chrono::steady_clock;
   /// Taking the GIL may mean waiting for another thread to let it go (5 ms by default), so it is not done at each call.
   static constexpr std::chrono::milliseconds kPeriod{25};
+
+  /// What Python raised where no C++ exception may be made.
+  class Raised {
+   public:
+    Raised() = default;
+    ~Raised() {
+      for (PyObject* const part : {type_, value_, trace_}) Py_XDECREF(part);
+    }
+    Raised(const Raised&) = delete;
+    Raised& operator=(const Raised&) = delete;
+    /// Takes what Python is raising.
+    void fetch() { PyErr_Fetch(&type_, &value_, &trace_); }
+    /// Throws it, if there is any.
+    void raise() {
+      if (type_ == nullptr) return;
+      PyErr_Restore(std::exchange(type_, nullptr), std::exchange(value_, nullptr), std::exchange(trace_, nullptr));
+      throw py::error_already_set();
+    }
+
+   private:
+    PyObject* type_ = nullptr;
+    PyObject* value_ = nullptr;
+    PyObject* trace_ = nullptr;
+  };
 
   bool report(double fraction, const GilRelease& released) {
     if (is_cut_off()) return false;
@@ -63,13 +86,13 @@ class Watch {
       answer = object == nullptr ? -1 : object == Py_None ? 1 : PyObject_IsTrue(object);
       Py_XDECREF(object);
     }
-    if (answer < 0) error_ = std::make_exception_ptr(py::error_already_set());
+    if (answer < 0) raised_.fetch();
     return answer > 0;
   }
 
   py::object progress_;
   Clock::time_point next_;
-  std::exception_ptr error_;
+  Raised raised_;
 };
 
 /// For what is built once before the work itself: it can be stopped as that, and counts as nothing of it.

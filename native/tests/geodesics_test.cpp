@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <string>
 #include <thread>
@@ -227,7 +228,7 @@ TEST(Geodesics, ConeUnrollsToAPlane) {
   for (int i = 0; i < 5; ++i) mesh.triangles.push_back({5, i, (i + 1) % 5});
   const IntrinsicMesh cone = intrinsic(mesh, [](int, int) { return 1.0; });
   const DistanceField field = ExactGeodesics(cone).solve(0);
-  expect_distances(field.distances(), {0, 1, std::sqrt(3.0), std::sqrt(3.0), 1, 1}, 1e-14);
+  expect_distances(field.distances(), {0, 1, std::numbers::sqrt3, std::numbers::sqrt3, 1, 1}, 1e-14);
   expect_paths_as_long_as_distances(cone, field);
 }
 

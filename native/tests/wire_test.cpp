@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <queue>
 #include <set>
 
@@ -115,7 +116,7 @@ struct Bisected {
     embedding.mesh = {.vertex_count = 4,
                       .triangles = {{0, 3, 2}, {3, 1, 2}},
                       .twins = {-1, 5, -1, -1, -1, 1},
-                      .lengths = {1, 1, std::sqrt(2), 1, std::sqrt(2), 1},
+                      .lengths = {1, 1, std::numbers::sqrt2, 1, std::numbers::sqrt2, 1},
                       .loose_edges = {{1, 3, 1}}};
     embedding.points = {{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {1, 0, 0}};
     embedding.source_face = {0, 0};

@@ -2,14 +2,22 @@
 # shellcheck shell=bash disable=SC2034
 # What builds for other systems than this one; to be sourced after common.sh.
 
-TOOLS=$ROOT/build/package/tools
+WORK=$ROOT/build/package
+TOOLS=$WORK/tools
 # The Python that blender.org's Blender 4.2 to 5.0 have.
 WINDOWS_PYTHON=3.11
 
+# Which Debian, or Ubuntu, has which Python; Debian's unstable has what is newer.
+declare -A SUITES=([3.10]=jammy [3.11]=bookworm [3.13]=trixie)
+UBUNTU=http://archive.ubuntu.com/ubuntu
+
+# suite_of PYTHON
+suite_of() { echo "${SUITES[$1]:-sid}"; }
+
 # alone COMMAND...: not while another script does what is run so; they share folders of build/package.
 alone() {
-  mkdir -p "$ROOT/build/package"
-  (flock 8; "$@") 8>"$ROOT/build/package/lock"
+  mkdir -p "$WORK"
+  (flock 8; "$@") 8>"$WORK/lock"
 }
 
 make_package_tools() {
@@ -30,10 +38,62 @@ package_tools() {
   ZIG=$("$TOOLS/bin/python" -c 'import pathlib, ziglang; print(pathlib.Path(ziglang.__file__).with_name("zig"))')
 }
 
+# get_from SUITE KIND COMMAND...: runs apt-get with the lists of that Debian or Ubuntu, without touching this system's apt. KIND: deb, deb-src.
+# The command's downloads land in the folder printed. ARCHITECTURE: without it amd64.
+get_from() {
+  local suite=$1 kind=$2 apt=$WORK/apt/$1 mirror key=/usr/share/keyrings/debian-archive-keyring.gpg
+  shift 2
+  if [ "$suite" = jammy ]; then
+    mirror=$UBUNTU
+    key=$(get_ubuntu_key) || { echo "$key"; return 1; }
+  else
+    mirror=$(debian_mirror)
+    [ -n "$mirror" ] || { echo "this system's apt knows no Debian mirror"; return 1; }
+  fi
+  rm -rf "$apt"
+  mkdir -p "$apt"/{lists/partial,cache/archives/partial,state,got}
+  printf '%s [signed-by=%s] %s %s main\n' "$kind" "$key" "$mirror" "$suite" >"$apt/sources.list"
+  : >"$apt/status"
+  local options=(-q -o "Dir::Etc::SourceList=$apt/sources.list" -o Dir::Etc::SourceParts=/dev/null -o "Dir::State=$apt/state"
+    -o "Dir::State::Lists=$apt/lists" -o "Dir::State::status=$apt/status" -o "Dir::Cache=$apt/cache"
+    -o "APT::Architecture=${ARCHITECTURE:-amd64}" -o Acquire::Check-Valid-Until=false -o Acquire::Languages=none -o APT::Sandbox::User=)
+  apt-get "${options[@]}" update >&2 || { echo "the package lists of $suite cannot be had"; return 1; }
+  (cd "$apt/got" && apt-get "${options[@]}" "$@" >&2) || { echo "$suite cannot be asked for ${*: -1} today"; return 1; }
+  echo "$apt/got"
+}
+
+# Prints the file of the key that Ubuntu's lists are signed with, from Debian's package.
+get_ubuntu_key() {
+  local key=$WORK/keys/usr/share/keyrings/ubuntu-archive-keyring.gpg got
+  if [ ! -f "$key" ]; then
+    got=$(get_from trixie deb download ubuntu-keyring) || { echo "$got"; return 1; }
+    dpkg-deb -x "$got"/ubuntu-keyring_*.deb "$WORK/keys"
+  fi
+  echo "$key"
+}
+
+# The system's libraries that Python and its modules link.
+PYTHON_LIBRARIES=(libc6 libgcc-s1 libstdc++6 libbz2-1.0 libcrypt1 libdb5.3 libexpat1 libffi8 liblzma5 libncursesw6 libreadline8
+  libsqlite3-0 libssl3 libtinfo6 libuuid1 zlib1g)
+
+# linux_python PYTHON FOLDER [ARCHITECTURE]: that Python in FOLDER/usr/bin, as its Debian or Ubuntu has it; for another ARCHITECTURE than this
+# machine's with the libraries it needs.
+linux_python() {
+  local python=$1 folder=$2 suite got packages=("python$1-minimal" "libpython$1-minimal" "libpython$1-stdlib") package
+  [ ! -x "$folder/usr/bin/python$python" ] || return 0
+  suite=$(suite_of "$python")
+  [ $# -lt 3 ] || packages+=("${PYTHON_LIBRARIES[@]}")
+  got=$(ARCHITECTURE=${3:-} get_from "$suite" deb download "${packages[@]}") || { echo "$got"; return 1; }
+  rm -rf "$folder"
+  for package in "$got"/*.deb; do dpkg-deb -x "$package" "$folder.new"; done
+  rm -rf "$WORK/apt/$suite"
+  mv "$folder.new" "$folder"
+}
+
 # build_cross_tests PLATFORM: the library's tests, in the folder of the platform's wheels, so that the library is compiled once. scripts/package
 # was there before.
 build_cross_tests() {
-  local folder=$ROOT/build/package/$1/build log=$ROOT/build/configure-$1.log
+  local folder=$WORK/$1/build log=$ROOT/build/configure-$1.log
   PATH=$TOOLS/bin:$PATH cmake -S . -B "$folder" -DSEAMWIRE_TESTS=ON -DSEAMWIRE_GOOGLETEST_SOURCES=/usr/src/googletest/googletest >"$log" ||
     { cat "$log"; return 1; }
   PATH=$TOOLS/bin:$PATH cmake --build "$folder" --target seamwire_tests --parallel "$(nproc)"

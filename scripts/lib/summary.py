@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Counts what ``scripts/test`` ran: ``summary.py REPORTS [SECONDS]``. Ends with 1 when anything failed.
 
-REPORTS holds ``stages.txt``, a line ``name exit-code seconds`` a stage, and for each stage ``name.xml`` or ``name.*.xml`` in JUnit's form,
-or ``name.txt`` with a line ``passed|failed what`` a check. ``blenders.txt`` is there where other Blenders than the installed one were asked
-for, with a line ``ready|skipped|failed what`` for each: one that cannot be had is named, one that does not start is a failure, and so is a
-run in which none was ready. SECONDS is how long all of it took.
+REPORTS holds ``stages.txt``, a line ``name exit-code seconds processor-seconds`` a stage, and for each stage ``name.xml`` or ``name.*.xml``
+in JUnit's form, or ``name.txt`` with a line ``passed|failed what`` a check. ``blenders.txt`` is there where other Blenders than the
+installed one were asked for, with a line ``ready|skipped|failed what`` for each: one that cannot be had is named, one that does not start is
+a failure, and so is a run in which none was ready. SECONDS is how long all of it took.
 """
 
 import sys
@@ -91,10 +91,10 @@ def summarize(reports: Path, seconds: int | None = None) -> int:
     lines = []
     stages = reports / "stages.txt"
     for line in stages.read_text().splitlines() if stages.exists() else []:
-        name, code, took = line.split()
+        name, code, took, used = line.split()
         counts = count_stage(reports, name, int(code))
         total += counts
-        lines += [f"{name} took {took} s", f"{name}: {counts}"]
+        lines += [f"{name} took {took} s, {used} s of the processor", f"{name}: {counts}"]
     if (reports / "blenders.txt").exists():
         counts, without = count_blenders(reports / "blenders.txt")
         total += counts

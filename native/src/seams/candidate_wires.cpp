@@ -151,6 +151,7 @@ std::vector<CandidateWires::Found> CandidateWires::find_along_edges(const Prepar
   for (const std::int32_t v : fan.to) {
     EdgeChain chain = wires.trace({.a = v});
     std::vector<Vector> points;
+    points.reserve(chain.vertices.size());
     for (const std::int32_t vertex : chain.vertices) points.push_back(surface().points()[vertex]);
     double euclidean = 0.0;
     for (std::size_t i = 1; i < points.size(); ++i) euclidean += (points[i] - points[i - 1]).norm();

@@ -144,7 +144,7 @@ class Seclusion {
   double hollow_at(std::int32_t v) const {
     // Normals point outwards where k > 0 is convex.
     const double k1 = curvature_.k1[v], k2 = curvature_.k2[v];
-    const double concave = std::max(-std::min(k1, k2), 0.0), convex = std::max(std::max(k1, k2), 0.0);
+    const double concave = std::max(-std::min(k1, k2), 0.0), convex = std::max({k1, k2, 0.0});
     return concave / (concave + convex + kDeep);
   }
   /// The part of the hemisphere above a vertex that the surface itself covers, weighted by the cosine.
@@ -635,6 +635,7 @@ std::vector<std::vector<Choice>> SeamPlanner::Impl::shortened(const Choice& wire
   }
   std::vector<Choice> stretches;
   std::vector<std::vector<CandidateWire>> found = wires.find(fans, task);
+  stretches.reserve(fans.size());
   for (std::size_t i = 0; i < fans.size(); ++i) {
     stretches.push_back(make_choice(fans[i].from, fans[i].to.front(), std::move(found[i].front()), seclusion));
   }

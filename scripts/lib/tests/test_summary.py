@@ -27,13 +27,17 @@ def told(reports: Path, capsys: pytest.CaptureFixture[str], files: dict[str, str
 
 
 def test_all_passed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    files = {"stages.txt": "cpp 0 12\nlint 0 3\n", "cpp.xml": PASSED, "lint.txt": "passed ruff\npassed clang-tidy\n"}
+    files = {
+        "stages.txt": "cpp 0 12 5\nlint 0 3 5\n",
+        "cpp.xml": PASSED,
+        "lint.txt": "passed ruff\npassed clang-tidy\n",
+    }
     code, lines = told(tmp_path, capsys, files)
     assert code == 0
     assert lines == [
-        "cpp took 12 s",
+        "cpp took 12 s, 5 s of the processor",
         "cpp: 1 passed, 0 failed",
-        "lint took 3 s",
+        "lint took 3 s, 5 s of the processor",
         "lint: 2 passed, 0 failed",
         "3 passed, 0 failed",
     ]
@@ -42,10 +46,10 @@ def test_all_passed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
 @pytest.mark.parametrize(
     "files",
     [
-        {"stages.txt": "cpp 8 12\n", "cpp.xml": FAILED},
-        {"stages.txt": "cpp 8 12\n", "cpp.xml": ERROR},
-        {"stages.txt": "lint 1 12\n", "lint.txt": "passed ruff\nfailed clang-tidy\n"},
-        {"stages.txt": "window 0 12\n", "window.test_a.xml": PASSED, "window.test_b.xml": FAILED},
+        {"stages.txt": "cpp 8 12 5\n", "cpp.xml": FAILED},
+        {"stages.txt": "cpp 8 12 5\n", "cpp.xml": ERROR},
+        {"stages.txt": "lint 1 12 5\n", "lint.txt": "passed ruff\nfailed clang-tidy\n"},
+        {"stages.txt": "window 0 12 5\n", "window.test_a.xml": PASSED, "window.test_b.xml": FAILED},
     ],
     ids=["failure", "error", "check", "one of two files"],
 )
@@ -62,11 +66,11 @@ def test_failures_that_reports_tell_are_counted_once(
     [
         {},
         {"stages.txt": ""},
-        {"stages.txt": "cpp 0 12\n"},
-        {"stages.txt": "cpp 139 12\n", "cpp.xml": PASSED},
-        {"stages.txt": "cpp 0 12\n", "cpp.xml": "<testsuite>"},
-        {"stages.txt": "cpp 0 12\n", "cpp.xml": SKIPPED},
-        {"stages.txt": "cpp 0 12\n", "cpp.xml": DISABLED},
+        {"stages.txt": "cpp 0 12 5\n"},
+        {"stages.txt": "cpp 139 12 5\n", "cpp.xml": PASSED},
+        {"stages.txt": "cpp 0 12 5\n", "cpp.xml": "<testsuite>"},
+        {"stages.txt": "cpp 0 12 5\n", "cpp.xml": SKIPPED},
+        {"stages.txt": "cpp 0 12 5\n", "cpp.xml": DISABLED},
     ],
     ids=["no stage", "empty", "no report", "crash after the report", "broken report", "all skipped", "all disabled"],
 )
@@ -78,7 +82,7 @@ def test_stage_without_a_sound_report_fails(
 
 def test_skipped_blender_is_named_and_the_rest_counts(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     blenders = "ready 3.4\nskipped 5.2: skipped: needs root (log)\n"
-    files = {"stages.txt": "headless-3.4 0 9\n", "headless-3.4.xml": PASSED, "blenders.txt": blenders}
+    files = {"stages.txt": "headless-3.4 0 9 5\n", "headless-3.4.xml": PASSED, "blenders.txt": blenders}
     code, lines = told(tmp_path, capsys, files)
     assert code == 0
     assert lines[-2:] == ["Blender 5.2: skipped: needs root (log)", "1 passed, 0 failed"]
@@ -86,7 +90,7 @@ def test_skipped_blender_is_named_and_the_rest_counts(tmp_path: Path, capsys: py
 
 @pytest.mark.parametrize("blenders", ["", "skipped 3.4: skipped: no network (log)\n"], ids=["none", "all skipped"])
 def test_run_without_any_blender_fails(tmp_path: Path, capsys: pytest.CaptureFixture[str], blenders: str) -> None:
-    code, lines = told(tmp_path, capsys, {"stages.txt": "cpp 0 12\n", "cpp.xml": PASSED, "blenders.txt": blenders})
+    code, lines = told(tmp_path, capsys, {"stages.txt": "cpp 0 12 5\n", "cpp.xml": PASSED, "blenders.txt": blenders})
     assert code == 1
     assert "failed: Blender: no Blender could be had" in lines
     assert lines[-1] == "1 passed, 1 failed"
@@ -94,7 +98,7 @@ def test_run_without_any_blender_fails(tmp_path: Path, capsys: pytest.CaptureFix
 
 def test_blender_that_does_not_start_fails(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     blenders = "ready 3.4\nfailed 4.3: failed: it was installed, but does not start: (log)\n"
-    files = {"stages.txt": "headless-3.4 0 9\n", "headless-3.4.xml": PASSED, "blenders.txt": blenders}
+    files = {"stages.txt": "headless-3.4 0 9 5\n", "headless-3.4.xml": PASSED, "blenders.txt": blenders}
     code, lines = told(tmp_path, capsys, files)
     assert code == 1
     assert "failed: Blender: 4.3: failed: it was installed, but does not start: (log)" in lines
@@ -102,7 +106,7 @@ def test_blender_that_does_not_start_fails(tmp_path: Path, capsys: pytest.Captur
 
 
 def test_time_of_all_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (tmp_path / "stages.txt").write_text("cpp 0 12\n")
+    (tmp_path / "stages.txt").write_text("cpp 0 12 5\n")
     (tmp_path / "cpp.xml").write_text(PASSED)
     assert summary.summarize(tmp_path, 1894) == 0
     assert capsys.readouterr().out.splitlines()[-2:] == ["all took 31 min 34 s", "1 passed, 0 failed"]
