@@ -3,8 +3,8 @@
 
 REPORTS holds ``stages.txt``, a line ``name exit-code seconds processor-seconds`` a stage, and for each stage ``name.xml`` or ``name.*.xml``
 in JUnit's form, or ``name.txt`` with a line ``passed|failed what`` a check. ``blenders.txt`` is there where other Blenders than the
-installed one were asked for, with a line ``ready|skipped|failed what`` for each: one that cannot be had is named, one that does not start is
-a failure, and so is a run in which none was ready. SECONDS is how long all of it took.
+installed one were asked for, with a line ``ready|skipped|failed what`` for each: one that cannot be had is named, one that does not start
+is a failure, and so is a run in which none was ready. SECONDS is how long all of it took.
 """
 
 import sys

@@ -13,8 +13,8 @@
 namespace seamwire {
 namespace {
 
-using OpenMesh::HalfedgeHandle;
 using OpenMesh::FaceHandle;
+using OpenMesh::HalfedgeHandle;
 
 // Faces whose corners memory is asked for in advance.
 constexpr std::size_t kAhead = 8;
