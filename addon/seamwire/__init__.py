@@ -26,6 +26,7 @@ _PARTS = (
     "operators.take_over",
     "operators.suggest",
     "operators.islands",
+    "operators.edge_marks",
     "operators.unwrap",
     "operators.worst_island",
     "operators.draw",

@@ -12,6 +12,7 @@ from desk import Desk, choose, leave
 from scene import add_grid, chain, edit, seams
 from seamwire.mesh.settings import TOOL
 from seamwire.operators.report import running
+from seamwire.view import text_overlay
 from seamwire.view.edited_objects import edited
 
 
@@ -32,6 +33,30 @@ def test_the_first_click_with_the_tool_places_a_seed(desk: Desk, modifiers: dict
     assert desk.running, "the tool stays: the next click begins again"
     ui.key("ESC")
     assert desk.left_clean()
+
+
+def test_the_island_under_the_mouse_is_named(desk: Desk) -> None:
+    ui = desk.ui
+    desk.choose()
+    assert edited.front.overlay.pointed_island is None, "the mesh as a whole is no news"
+    ui.click(desk.at(27))
+    ui.click(desk.at(35))
+    ui.wait_until(lambda: len(desk.session.wires) == 1)
+
+    def named(place: tuple[float, float, float]) -> list[str]:
+        ui.move(ui.on_screen(place))
+        overlay = edited.front.overlay
+        ui.wait_until(lambda: not overlay.busy)
+        lines = text_overlay.lines(desk.session, overlay._islands.newest, pointed=overlay.pointed_island)
+        return [line for line in lines if line.startswith("Island ")]
+
+    larger, smaller = (0.03, 0.55, 0.0), (0.03, -0.7, 0.0)
+    assert named(larger) == ["Island 1: 80 triangles, a disc"], "while a chain is drawn"
+    ui.key("RET")
+    assert named(smaller) == ["Island 2: 48 triangles, a disc"]
+    assert named(larger) == ["Island 1: 80 triangles, a disc"]
+    ui.move((ui.region.width - 140.0, 60.0))
+    assert edited.front.overlay.pointed_island is None
 
 
 def test_a_click_beside_the_mesh_begins_nothing(desk: Desk) -> None:

@@ -7,6 +7,7 @@ import heapq
 import threading
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -55,6 +56,11 @@ class Islands:
     missing: NDArray[np.int64]
     cut: bool
     pieces: tuple[tuple[int, NDArray[np.int32]], ...]
+
+    @cached_property
+    def sizes(self) -> NDArray[np.int64]:
+        """(count,) how many triangles each has."""
+        return np.bincount(self.labels, minlength=self.count)
 
 
 class IslandMaker:

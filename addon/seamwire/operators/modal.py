@@ -542,6 +542,7 @@ class Chain:
     def _hover(self, place: Place, event: bpy.types.Event) -> None:
         loop = self.keys.previews_loop(event)
         view, snap = edited.find(place, plain=loop)
+        edited.point_at(view, place)
         if view is not None and view is not edited.front:
             self.session.hover(None)
             # A live wire stays with its object until there is a click on another.
@@ -564,7 +565,7 @@ class Chain:
         self._set_timer(any(view.busy for view in edited.views()))
         state = (
             id(self.view),
-            tuple(view.session.revision for view in edited.views()),
+            tuple((view.session.revision, view.overlay.pointed_island) for view in edited.views()),
             round(100.0 * session.progress),
             session.computing,
             session.waiting_clicks,

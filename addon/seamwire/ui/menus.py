@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Menu entries that choose the tool, suggest wires, make wires of seams, cut wires, unwrap, show stretch, and select and store islands."""
+"""Menu entries that choose the tool, suggest, take over and cut wires, unwrap, show stretch, select and store islands, and mark seams."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ def _draw_menu(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
     menu.layout.operator("mesh.seamwire_worst_island")
     menu.layout.operator("mesh.seamwire_select_islands_to_cut")
     menu.layout.operator_menu_enum("mesh.seamwire_store_islands", "kind")
+    menu.layout.operator_menu_enum("mesh.seamwire_mark_seams_as", "kind")
 
 
 def register() -> None:

@@ -159,6 +159,7 @@ class EditedObjects:
         if self.problem:
             return
         view, snap = (None, None) if place is None else self.find(place)
+        self.point_at(view, place)
         if self.front is not None and view is not self.front:
             self.front.session.hover(None)
         if view is not None:
@@ -167,6 +168,12 @@ class EditedObjects:
             view.session.hover(snap)
         self.watch()
         self.show()
+
+    def point_at(self, view: ObjectView | None, place: Place | None) -> None:
+        """Let the overlay name the island under the mouse, which is on that object if anywhere."""
+        for each in self.views():
+            hit = each.surface_at(place.view, place.cursor) if each is view and place is not None else None
+            each.overlay.pointed = None if hit is None else hit[1]
 
     def pause(self) -> None:
         """Light up nothing until the objects are forgotten: doing so raised."""
@@ -248,7 +255,10 @@ class EditedObjects:
         """Show the sessions as they are now, where that is something new."""
         for view in self.views():
             view.show(front=view is self.front, help_rows=help_rows)
-        state = [(id(view), view.session.revision, view.session.progress) for view in self.views()]
+        state = [
+            (id(view), view.session.revision, view.session.progress, view.overlay.pointed_island)
+            for view in self.views()
+        ]
         state.append((id(self.front), bool(help_rows)))
         if state != self._shown:
             self._shown = state

@@ -129,6 +129,8 @@ class Overlay:
         self.features = False
         self.cuts = False
         self.front = True
+        self.pointed: int | None = None
+        """The triangle under the mouse; None: it is elsewhere."""
         self.stroke: tuple[NDArray[np.float64], bool] | None = None
         self.help_rows: Sequence[text_overlay.Row] | None = None
         self.poll()
@@ -166,6 +168,14 @@ class Overlay:
             self._islands.want(self._asked, cuts(self._session, self._seams))
         newest = self._islands.newest
         return newest is not None and newest.key != self._tinted
+
+    @property
+    def pointed_island(self) -> int | None:
+        """The island under the mouse; None where there is none, or nothing that tells islands apart."""
+        found = None if self._islands is None else self._islands.newest
+        if found is None or not found.cut or found.count < 2 or self.pointed is None:
+            return None
+        return int(found.labels[self.pointed])
 
     # Drawing
 
@@ -223,7 +233,9 @@ class Overlay:
         with blended("NONE"):
             if self._looks.text:
                 found = None if self._islands is None else self._islands.newest
-                lines = text_overlay.lines(self._session, found, xray=self.xray, features=self.features)
+                lines = text_overlay.lines(
+                    self._session, found, xray=self.xray, features=self.features, pointed=self.pointed_island
+                )
                 text_overlay.draw(lines, (left, bottom), scale, bpy.context.preferences.themes[0].view_3d.space.text_hi)
             if self.heat is not None:
                 self.heat.draw_legend(room, scale)

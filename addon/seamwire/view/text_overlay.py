@@ -38,7 +38,16 @@ def _islands(islands: Islands) -> str:
     )
 
 
-def lines(session: Session, islands: Islands | None, xray: bool = False, features: bool = False) -> list[str]:
+def _island(islands: Islands, number: int) -> str:
+    """Say which island that is, and what it needs."""
+    size, cuts = int(islands.sizes[number]), int(islands.missing[number])
+    needs = f"{cuts} more cut{'s' if cuts != 1 else ''} needed" if cuts else "a disc"
+    return f"Island {number + 1}: {size} triangle{'s' if size != 1 else ''}, {needs}"
+
+
+def lines(
+    session: Session, islands: Islands | None, xray: bool = False, features: bool = False, pointed: int | None = None
+) -> list[str]:
     """Return what is to be read, top line first.
 
     Parameters
@@ -49,6 +58,8 @@ def lines(session: Session, islands: Islands | None, xray: bool = False, feature
         What the seams cut the mesh into; None where that is not known.
     xray, features
         Whether picking goes through the mesh, and whether seeds snap to features.
+    pointed
+        The island under the mouse; None where there is none.
     """
     found = []
     if session.loop_choice is not None:
@@ -57,6 +68,8 @@ def lines(session: Session, islands: Islands | None, xray: bool = False, feature
         found.append(LOOP_NAMES[session.loop_choice].capitalize() + which)
     if islands is not None:
         found.append(_islands(islands))
+        if pointed is not None:
+            found.append(_island(islands, pointed))
     way = "Along edges" if session.along == "EDGES" else "Across the surface"
     metric = _METRICS.get(session.metric, session.metric)
     strength = "" if session.metric == "euclidean" else f"strength {session.strength:.3g}"

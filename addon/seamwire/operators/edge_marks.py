@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Operator that marks seams as something else too: sharp, creased, beveled, drawn by Freestyle."""
+
+from __future__ import annotations
+
+import bpy
+
+from .report import count, in_edit_mode
+
+
+class MESH_OT_seamwire_mark_seams_as(bpy.types.Operator):
+    """Mark the visible seams as something else too; they stay seams"""  # noqa: D400 - a tooltip
+
+    bl_idname = "mesh.seamwire_mark_seams_as"
+    bl_label = "Mark Seams As"
+    bl_options = {"REGISTER", "UNDO"}
+
+    kind: bpy.props.EnumProperty(
+        name="As",
+        description="What seams are marked as",
+        items=(
+            ("SHARP", "Sharp", "Edges that shading does not smooth"),
+            ("CREASE", "Crease", "Edges that subdivision keeps, with weight 1"),
+            ("BEVEL", "Bevel Weight", "Edges that the bevel modifier bevels, with weight 1"),
+            ("FREESTYLE", "Freestyle Edge", "Edges that Freestyle can draw"),
+        ),
+    )
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Whether a mesh is in edit mode."""
+        return in_edit_mode(cls, context)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Mark those of all objects in edit mode."""
+        from ..mesh.edge_marks import copy_seams
+
+        marked = copy_seams(list(context.objects_in_mode_unique_data), self.kind)
+        if not marked:
+            self.report({"WARNING"}, "No seam is visible")
+            return {"CANCELLED"}
+        self.report({"INFO"}, f"{count(marked, 'edge')} marked")
+        return {"FINISHED"}
+
+
+def register() -> None:
+    """Add the operator."""
+    bpy.utils.register_class(MESH_OT_seamwire_mark_seams_as)
+
+
+def unregister() -> None:
+    """Remove it."""
+    bpy.utils.unregister_class(MESH_OT_seamwire_mark_seams_as)
