@@ -482,6 +482,34 @@ TEST(Geodesics, CancelIsHeardWhileThatIsHandedOn) {
   EXPECT_THROW(geodesics.solve(0, cancelled), Cancelled);
 }
 
+/// Part of a plane pulled together until it is a speck; what joins it to the rest is thinner than rounding. Unfolding
+/// that moves what lies beyond by more than the speck is wide.
+IntrinsicMesh with_speck(unsigned seed) {
+  shapes::Mesh mesh = shapes::bumpy(shapes::grid(8, 0.3, seed), 0.05, seed);
+  const Vector center(0.5, 0.5, 0.0);
+  for (Vector& point : mesh.points) {
+    if ((point - center).norm() < 0.3) point = center + 1e-9 * (point - center);
+  }
+  return intrinsic(mesh);
+}
+
+// Lines that lead nowhere go on along edges. Unfolding loses most digits here, so the bound is far from rounding.
+TEST(Geodesics, PathsOverTrianglesThinnerThanRoundingLeadToTheSeed) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const IntrinsicMesh mesh = with_speck(seed);
+    const ExactGeodesics geodesics(mesh);
+    for (std::int32_t from = 0; from < mesh.vertex_count; from += 5) {
+      const DistanceField field = geodesics.solve(from);
+      for (std::int32_t v = 0; v < mesh.vertex_count; ++v) {
+        const IntrinsicPath path = field.trace(v);
+        ASSERT_EQ(path.points.front().vertex, from);
+        ASSERT_EQ(path.points.back().vertex, v);
+        EXPECT_LE(length_of(mesh, path), 1.2 * field.distances()[index(v)] + 1e-8) << from << " to " << v;
+      }
+    }
+  }
+}
+
 TEST(Geodesics, TracesOfABoundedFieldCanBeCancelled) {
   const ExactGeodesics geodesics(intrinsic(shapes::bumpy(shapes::icosphere(4), 0.1)));
   std::stop_source stop;

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from math import cos, radians, sin
 from typing import TYPE_CHECKING
@@ -19,7 +20,8 @@ if TYPE_CHECKING:
     from seamwire.core.network import Wire
 
 SIZE = 720
-SAMPLES = 64
+SAMPLES = int(os.environ.get("SEAMWIRE_DEMO_SAMPLES", "64"))
+"""Of light, a pixel; the tests, where nobody looks at the pictures, take fewer."""
 BACKDROP = (0.93, 0.94, 0.95)
 CLAY = (0.62, 0.64, 0.68)
 WIRE = (0.95, 0.22, 0.03)

@@ -15,7 +15,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -178,24 +177,20 @@ IntrinsicPath CorridorPaths::path(const SurfacePoint& target, const Task& task) 
   const WavefrontResult result = propagate_wavefront(*part.mesh, sources, part_task, impl_->options.windows);
   const SolvedDistances solved{*part.mesh, result.distances, sources};
   const PlacedPoint in_part = to_part(impl_->cutter, end);
-  std::optional<IntrinsicPath> path;
+  IntrinsicPath path;
   if (is_exact) {
     path = trace_records(solved, result.records, in_part, part_task);
-    if (path) to_whole_mesh(part, *path);
-  }
-  if (!path) {
-    IntrinsicPath around;
+    to_whole_mesh(part, path);
+  } else {
     for (const std::int32_t v : corners_of(*part.mesh, in_part)) {
-      std::optional<IntrinsicPath> traced = trace_records(solved, result.records, PlacedPoint::at_vertex(v), part_task);
-      if (!traced) continue;
-      to_whole_mesh(part, *traced);
-      around.points.insert(around.points.end(), traced->points.begin(), traced->points.end());
+      IntrinsicPath traced = trace_records(solved, result.records, PlacedPoint::at_vertex(v), part_task);
+      to_whole_mesh(part, traced);
+      path.points.insert(path.points.end(), traced.points.begin(), traced.points.end());
     }
-    if (around.points.empty()) around = impl_->from_seed.chain(corner);
-    path = shorten(mesh, impl_->cutter, around, impl_->seed, end, part_task);
+    path = shorten(mesh, impl_->cutter, path, impl_->seed, end, part_task);
   }
-  to_external(mesh, *path);
-  return std::move(*path);
+  to_external(mesh, path);
+  return path;
 }
 
 }  // namespace seamwire

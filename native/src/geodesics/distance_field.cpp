@@ -3,26 +3,14 @@
 
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "detail/index.hpp"
-#include "geodesics/delta_stepping.hpp"
 #include "geodesics/path_tracing.hpp"
 #include "geodesics/submesh.hpp"
 
 namespace seamwire {
 namespace {
-
-/// A path along edges and hops, for records that cannot be followed. That has not been seen on any mesh, but nothing
-/// excludes it for stretched windows.
-IntrinsicPath chain_of_hops(const GeodesicMesh& mesh, std::int32_t seed, std::int32_t vertex, const Task& task) {
-  DeltaStepping distances(mesh, seed);
-  distances.reach(vertex, task);
-  return distances.chain(vertex);
-}
 
 /// Of a point, or of the corners of its faces the one over which it is nearest.
 std::int32_t nearest_vertex(const SolvedDistances& solved, const PlacedPoint& point) {
@@ -36,10 +24,6 @@ std::int32_t nearest_vertex(const SolvedDistances& solved, const PlacedPoint& po
     nearest = corner;
   });
   return nearest;
-}
-
-std::string name(const SurfacePoint& point) {
-  return point.vertex >= 0 ? "vertex " + std::to_string(point.vertex) : "a point of face " + std::to_string(point.face);
 }
 
 }  // namespace
@@ -64,21 +48,19 @@ IntrinsicPath DistanceField::trace(const SurfacePoint& point, const Task& task) 
   const GeodesicMesh& mesh = *data_->mesh;
   const PlacedPoint target = PlacedPoint::of(mesh, point, "point");
   const SolvedDistances solved{mesh, data_->distances, data_->sources, data_->radius};
-  std::optional<IntrinsicPath> path;
+  IntrinsicPath path;
   if (data_->is_exact) {
     if (target.vertex >= 0 && std::isinf(solved.at(target.vertex))) return {};
     path = trace_records(solved, data_->records, target, task);
-    if (!path) throw std::logic_error("the path to " + name(point) + " cannot be traced");
   } else {
     const std::int32_t vertex = nearest_vertex(solved, target);
     if (std::isinf(solved.at(vertex))) return {};
     path = trace_records(solved, data_->records, PlacedPoint::at_vertex(vertex));
-    if (!path) path = chain_of_hops(mesh, data_->sources[0].vertex, vertex, task);
     SubmeshCutter cutter(mesh);
-    path = shorten(mesh, cutter, *path, data_->sources[0], target, task);
+    path = shorten(mesh, cutter, path, data_->sources[0], target, task);
   }
-  to_external(mesh, *path);
-  return std::move(*path);
+  to_external(mesh, path);
+  return path;
 }
 
 double DistanceField::distance(const SurfacePoint& point, const Task& task) const {

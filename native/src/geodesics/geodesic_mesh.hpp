@@ -70,6 +70,16 @@ class GeodesicMesh {
   /// Half-edges that leave a vertex, of all its umbrellas.
   std::span<const std::int32_t> out(std::int32_t vertex) const { return out_[vertex]; }
   std::span<const Loose> loose(std::int32_t vertex) const { return loose_[vertex]; }
+  /// Calls see(to, h, length) for each edge of a vertex, once; h is a half-edge of it, -1 for one without a face.
+  template <class See>
+  void for_each_edge(std::int32_t vertex, const See& see) const {
+    for (const std::int32_t h : out(vertex)) {
+      const HalfEdge& edge = half_edge(h);
+      see(edge.tip, h, edge.length);
+      if (edge.left < 0) see(edge.apex, previous(h), edge.left_length);  // else that of the corner beside
+    }
+    for (const auto& [to, length] : loose(vertex)) see(to, -1, length);
+  }
   /// The hops from a vertex: along each of its edges, those without a face too, and over the edges opposite to it where
   /// that is a shortcut. Without the latter, distances along hops on a regular mesh are up to 41 % too long.
   std::span<const Hop> hops(std::int32_t vertex) const { return hops_[vertex]; }

@@ -7,8 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <queue>
 #include <stdexcept>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
+#include <vector>
 
 #include "geodesics/wavefront.hpp"
 
@@ -22,7 +27,8 @@ constexpr double kSnapWidth = 1e-7;
 /// ... if the distances say so, up to this part of the whole. The other side of such a vertex would be a guess.
 constexpr double kSnapDistance = 1e-11;
 /// How far (in parts of the triangle's longest side) unfolding may have moved the source from its vertex.
-constexpr double kSameVertex = 1e-6;
+constexpr double kSameVertex = 1e-6;  /// A vertex is as near to a source as another one up to this factor.
+constexpr double kAsNear = 1.0 + 1e-6;
 
 Point2 to_twin(const HalfEdge& h, const Point2& p) { return {h.length - p.x, -p.y}; }
 
@@ -38,7 +44,7 @@ class Tracer {
       : mesh_(solved.mesh), distances_(solved.distances), sources_(solved.sources), records_(records) {}
 
   /// On from a path that ends at the vertex.
-  std::optional<IntrinsicPath> run(std::int32_t vertex, IntrinsicPath path) {
+  IntrinsicPath run(std::int32_t vertex, IntrinsicPath path) {
     path_ = std::move(path);
     while (!is_point(vertex)) {
       const TraceRecord& record = records_[static_cast<std::size_t>(vertex)];
@@ -48,17 +54,7 @@ class Tracer {
         break;
       }
       if (record.half_edge >= 0) {
-        const auto length = path_.length;
-        const auto points = path_.points.size(), faces = path_.faces.size();
-        std::int32_t next = follow_line(vertex, record, Beside::kSkip);
-        if (next < 0) {
-          path_.points.resize(points);
-          path_.faces.resize(faces);
-          path_.length = length;
-          next = follow_line(vertex, record, Beside::kRemember);
-        }
-        if (next < 0) return std::nullopt;
-        vertex = next;
+        vertex = follow(vertex, record);
       } else {
         const bool is_loose = record.half_edge == TraceRecord::kLooseEdge;
         add_vertex(record.source, is_loose ? -1 : ~record.half_edge, record.x);
@@ -76,10 +72,21 @@ class Tracer {
 
   /// A vertex beside the line, from which to go on if the line leads nowhere; with the path's state when it was passed.
   struct Passed {
+    /// Of the whole path over it.
     double length = std::numeric_limits<double>::infinity();
     std::int32_t vertex = -1, half_edge = -1;
     double segment = 0.0, path_length = 0.0;
     std::size_t points = 0;
+  };
+
+  /// A chain of edges, on which the path goes on, and the length of the whole path along it.
+  struct Detour {
+    struct Edge {
+      std::int32_t to = -1, half_edge = -1;
+      double length = 0.0;
+    };
+    double length;
+    std::vector<Edge> edges;
   };
 
   /// Whether what a record names is a point in a face, no vertex.
@@ -114,6 +121,28 @@ class Tracer {
   void add_crossing(std::int32_t half_edge, double x, std::int32_t behind, double length) {
     add_segment(behind, length);
     path_.points.push_back({.half_edge = half_edge, .t = x / mesh_.half_edge(half_edge).length});
+  }
+
+  /// From `vertex` towards its source, to the vertex that is returned. Where the line leads nowhere, over a vertex
+  /// beside it or along edges, whichever way is shorter.
+  std::int32_t follow(std::int32_t vertex, const TraceRecord& record) {
+    const auto length = path_.length;
+    const auto points = path_.points.size(), faces = path_.faces.size();
+    const auto go_back = [&] {
+      path_.points.resize(points);
+      path_.faces.resize(faces);
+      path_.length = length;
+    };
+    if (const std::int32_t next = follow_line(vertex, record, Beside::kSkip); next >= 0) return next;
+    go_back();
+    const Detour along_edges = find_detour(vertex);
+    if (const std::int32_t next = follow_line(vertex, record, Beside::kRemember);
+        next >= 0 && best_.length - length <= along_edges.length) {
+      return next;
+    }
+    go_back();
+    for (const Detour::Edge& edge : along_edges.edges) add_vertex(edge.to, edge.half_edge, edge.length);
+    return along_edges.edges.back().to;
   }
 
   /// From `vertex` straight towards its source. Returns the vertex to go on from: the source, or one on the way; where
@@ -171,10 +200,10 @@ class Tracer {
     const Point2 line{source.x - from.x, source.y - from.y}, aside{at_u.x - from.x, at_u.y - from.y};
     const bool is_near = std::abs(cross(line, aside)) <= kSnapWidth * base * norm(line);
     if ((!is_near && beside == Beside::kSkip) || !(at(u) < at(vertex))) return false;
-    const double length = at(u) + norm(aside);
-    const Passed candidate{length, u, half_edge, distance(here, at_u), path_.length, path_.points.size()};
-    if (length < best_.length) best_ = candidate;
-    if (!is_near || std::abs(length - at(vertex)) > kSnapDistance * at(vertex)) return false;
+    const double segment = distance(here, at_u);
+    const Passed candidate{path_.length + segment + at(u), u, half_edge, segment, path_.length, path_.points.size()};
+    if (candidate.length < best_.length) best_ = candidate;
+    if (!is_near || std::abs(at(u) + norm(aside) - at(vertex)) > kSnapDistance * at(vertex)) return false;
     best_ = candidate;
     return true;
   }
@@ -187,18 +216,64 @@ class Tracer {
     return best_.vertex;
   }
 
+  /// Whether a vertex is a source, or the corner of a face with one that it is reached from straight.
+  bool is_beside_source(std::int32_t vertex) const {
+    const TraceRecord& record = records_[static_cast<std::size_t>(vertex)];
+    return record.half_edge == TraceRecord::kNone || (record.half_edge >= 0 && record.y >= 0);
+  }
+
+  /// Along edges to the next vertex that is nearer to the source, or as near and not yet tried. Lines lead nowhere
+  /// where triangles are so thin that unfolding one moves the source by more than their width, and perhaps among
+  /// stretched windows.
+  Detour find_detour(std::int32_t vertex) {
+    tried_.insert(vertex);
+    struct Reached {
+      double length;
+      std::int32_t from;
+      Detour::Edge edge;
+    };
+    std::unordered_map<std::int32_t, Reached> reached{{vertex, {0.0, -1, {}}}};
+    std::unordered_set<std::int32_t> done;
+    using Entry = std::pair<double, std::int32_t>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;  // by the length of the whole path
+    queue.emplace(at(vertex), vertex);
+    std::int32_t next = -1;
+    while (next < 0) {
+      if (queue.empty()) throw std::logic_error("no edges lead to where a path comes from");
+      const auto [whole, v] = queue.top();
+      queue.pop();
+      if (!done.insert(v).second) continue;
+      const bool is_as_near = whole <= kAsNear * at(vertex) && !tried_.contains(v);
+      if (at(v) < at(vertex) || is_as_near || is_beside_source(v)) next = v;
+      const double so_far = reached.at(v).length;
+      mesh_.for_each_edge(v, [&, from = v](std::int32_t to, std::int32_t half_edge, double length) {
+        const Reached by_edge{so_far + length, from, {to, half_edge, length}};
+        const auto [known, is_new] = reached.try_emplace(to, by_edge);
+        if (!is_new && !(by_edge.length < known->second.length)) return;
+        known->second = by_edge;
+        queue.emplace(by_edge.length + at(to), to);
+      });
+    }
+    tried_.insert(next);
+    Detour detour{.length = reached.at(next).length + at(next), .edges = {}};
+    for (std::int32_t v = next; v != vertex; v = reached.at(v).from) detour.edges.push_back(reached.at(v).edge);
+    std::ranges::reverse(detour.edges);
+    return detour;
+  }
+
   const GeodesicMesh& mesh_;
   const std::vector<double>& distances_;
   const SourcePoints& sources_;
   const std::vector<TraceRecord>& records_;
   IntrinsicPath path_;
   Passed best_;
+  std::unordered_set<std::int32_t> tried_;  ///< vertices that detours began or ended at
 };
 
 }  // namespace
 
-std::optional<IntrinsicPath> trace_records(const SolvedDistances& solved, const std::vector<TraceRecord>& records,
-                                           const PlacedPoint& target, const Task& task) {
+IntrinsicPath trace_records(const SolvedDistances& solved, const std::vector<TraceRecord>& records,
+                            const PlacedPoint& target, const Task& task) {
   if (target.vertex >= 0) {
     return Tracer(solved, records)
         .run(target.vertex, {.points = {{.vertex = target.vertex}}, .faces = {}, .length = 0});
@@ -230,11 +305,10 @@ IntrinsicPath shorten(const GeodesicMesh& mesh, SubmeshCutter& cutter, const Int
   const Submesh part = cutter.cut(vertices);
   const SourcePoints sources({to_part(cutter, source)});
   const WavefrontResult result = propagate_wavefront(*part.mesh, sources, task);
-  std::optional<IntrinsicPath> shorter =
+  IntrinsicPath shorter =
       trace_records({*part.mesh, result.distances, sources}, result.records, to_part(cutter, target), task);
-  if (!shorter) throw std::logic_error("a path cannot be traced");
-  to_whole_mesh(part, *shorter);
-  return std::move(*shorter);
+  to_whole_mesh(part, shorter);
+  return shorter;
 }
 
 PlacedPoint to_part(const SubmeshCutter& cutter, PlacedPoint point) {

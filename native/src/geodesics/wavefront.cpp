@@ -234,16 +234,9 @@ class Wavefront {
   /// Relaxes the ends of the edges at v.
   void relax_neighbors(std::int32_t v) {
     const double from = distance(v);
-    for (const std::int32_t h : mesh_.out(v)) {
-      const HalfEdge& edge = mesh_.half_edge(h);
-      relax(edge.tip, from + edge.length, {.x = edge.length, .half_edge = ~h, .source = v});
-      if (edge.left >= 0) continue;  // the edge to the apex is that to the tip in the corner beside
-      const std::int32_t before = GeodesicMesh::previous(h);
-      relax(edge.apex, from + edge.left_length, {.x = edge.left_length, .half_edge = ~before, .source = v});
-    }
-    for (const auto& [to, length] : mesh_.loose(v)) {
-      relax(to, from + length, {.x = length, .half_edge = TraceRecord::kLooseEdge, .source = v});
-    }
+    mesh_.for_each_edge(v, [&](std::int32_t to, std::int32_t h, double length) {
+      relax(to, from + length, {.x = length, .half_edge = h < 0 ? TraceRecord::kLooseEdge : ~h, .source = v});
+    });
   }
 
   /// Emits windows from v, a source: paths run from it along its edges, and straight over its triangles.
