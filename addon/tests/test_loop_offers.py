@@ -3,10 +3,13 @@
 
 from __future__ import annotations
 
+import threading
 from dataclasses import replace
 
-from grid import POINTS, Grid, symmetry
+from fake_live import grid_edges, grid_triangles
+from grid import POINTS, SIZE, Grid, symmetry
 from seamwire.core.edge_loops import LoopOffers, taken
+from seamwire.core.flat_regions import FlatRegions
 from seamwire.core.network import Network, undirected
 from seamwire.core.stops import Stops
 
@@ -41,6 +44,38 @@ def test_another_edge_or_none_lets_them_vanish() -> None:
     assert offers.aim(None)
     assert offers.wire is None
     assert not offers.missing
+
+
+def test_borders_of_flat_regions_are_offered_last() -> None:
+    edge = (0, 1)
+    without = loops(Grid()).find(edge, Network())
+    flat = FlatRegions(POINTS, grid_triangles(SIZE), grid_edges(SIZE))
+    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, flat)
+    found = offers.find(edge, Network())
+    assert [one.kind for one in found] == [*(one.kind for one in without), "FLAT"], (
+        "once, though the same at each angle"
+    )
+    rows = range(SIZE)
+    sides = {(x, y) for x in rows for y in rows if {x, y} & {0, SIZE - 1}}
+    assert {(vertex % SIZE, vertex // SIZE) for vertex in found[-1].vertices} == sides
+    assert found[-1].closed
+    assert set(found[-1].edges()) == offers.flat_border(edge[::-1])
+
+
+def test_until_all_triangles_are_looked_at_nothing_is_offered() -> None:
+    flat = FlatRegions(POINTS, grid_triangles(SIZE), grid_edges(SIZE))
+    go_on = threading.Event()
+    flat._thread = threading.Thread(target=go_on.wait)
+    flat._thread.start()
+    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, flat)
+    offers.aim(EDGE)
+    assert offers.find(EDGE, Network()) == ()
+    offers.stop_waiting()
+    assert not offers.final
+    go_on.set()
+    flat._thread.join()
+    assert offers.find(EDGE, Network())
+    assert offers.final
 
 
 def test_nothing_is_offered_until_it_is_computed() -> None:

@@ -169,7 +169,8 @@ class Monkey:
                 around = [*wire.vertices, *wire.vertices[:1]] if wire.closed else list(wire.vertices)
                 assert np.array_equal(wire.points, self.points[around])
         assert (session.loop_choice is None) == (session.loop_offers == ())
-        assert len(set(session.loop_offers)) == len(session.loop_offers)
+        offers = session._loops.offers
+        assert len({frozenset(offer.edges()) for offer in offers}) == len(offers)
         assert session.intent is not None
 
 

@@ -50,6 +50,26 @@ def test_what_is_the_same_as_something_else_is_taken_all_the_same() -> None:
         assert seams(obj) == []
 
 
+def test_the_border_of_a_flat_region_is_taken() -> None:
+    bpy.ops.mesh.primitive_cube_add()
+    edit()
+    bpy.ops.mesh.subdivide(number_cuts=2)
+    obj = bpy.context.active_object
+    obj.update_from_editmode()
+    top = [edge.vertices[:] for edge in obj.data.edges if all(obj.data.vertices[v].co.z > 0.99 for v in edge.vertices)]
+    around = sorted(
+        tuple(sorted(pair)) for pair in top if all(max(map(abs, obj.data.vertices[v].co[:2])) > 0.99 for v in pair)
+    )
+    assert len(around) == 12
+    first, second = around[0]
+    assert mark(loops=f"{first}-{second}", take="FLAT") == {"FINISHED"}
+    marked = seams(obj)
+    assert len(marked) == 12, "one of the two faces beside the edge"
+    assert (first, second) in marked
+    with pytest.raises(RuntimeError, match="No border of flat region runs through edge"):
+        mark(loops=next(f"{a}-{b}" for a, b in map(sorted, top) if (a, b) not in around), take="FLAT")
+
+
 def test_what_there_is_not_is_said() -> None:
     obj = add_object([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [], [(0, 1), (1, 2)])
     obj.data.edges[0].use_seam = True

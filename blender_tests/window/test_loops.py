@@ -113,6 +113,20 @@ def test_a_whole_strip_is_taken_across_seams(desk: Desk) -> None:
     assert take(desk, "WHOLE", 40, 41) == sorted([*chain(*range(36, 45)), (34, 43)])
 
 
+def test_the_border_of_a_flat_region_is_taken(desk: Desk) -> None:
+    bm = bmesh.from_edit_mesh(desk.obj.data)
+    for vertex in bm.verts:
+        vertex.co.z += max(vertex.co.x, 0.0)  # folded by 45 degrees along the middle column
+    bmesh.update_edit_mesh(desk.obj.data)
+    marked = take(desk, "FLAT", 40, 49)
+    fold = chain(*range(4, 81, 9))
+    assert set(fold) < set(marked)
+    columns = sorted({vertex % 9 for edge in marked for vertex in edge})
+    assert columns in ([0, 1, 2, 3, 4], [4, 5, 6, 7, 8]), "one of the two halves"
+    assert len(marked) == 24
+    assert desk.session.wires[0].closed
+
+
 def test_a_closed_loop_is_taken(desk: Desk) -> None:
     marked = take(desk, "CLOSED", 40, 41)
     assert (40, 41) in marked

@@ -63,6 +63,7 @@ class Said:
     scribbles: tuple[Drawn, ...] = ()
     loop_offers: tuple[str, ...] = ()
     loop_choice: str | None = None
+    loop_number: int = 0
     revision: int = 0
     network_revision: int = 0
 
@@ -457,8 +458,8 @@ def test_the_text_names_what_a_click_on_the_edge_would_take(sight: Sight) -> Non
     loop = sight.wire(30, 31, 32, 41, 50, 49, 48, 39)
     offers = ("CLOSED", "STRIP", "WHOLE")
     seen = [
-        text_pixels(sight.pixels(loop_preview=loop, loop_offers=offers, loop_choice=choice))
-        for choice in (*offers, None)
+        text_pixels(sight.pixels(loop_preview=loop, loop_offers=offers, loop_choice=choice, loop_number=number))
+        for number, choice in enumerate((*offers, None))
     ]
     for one, two in pairwise(seen):
         assert (one != two).sum() > 5

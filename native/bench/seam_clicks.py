@@ -12,7 +12,8 @@ Needs SciPy. Presses of a mouse button are counted:
   all of it belongs to the seams, the two commands and the angle for nothing; and Select Sharp Edges (30 degrees) for one, where all that
   it takes does.
 - Seamwire: a click for a chain's seed, one for each wire, and one for each offer of the loop gesture: a closed loop, a strip or a way
-  past poles up to seams drawn before, a whole strip, wherever one lies in the seams as a whole, and a single edge.
+  past poles up to seams drawn before, a whole strip, the border of a flat region, wherever one lies in the seams as a whole, and a
+  single edge.
 - Beside the presses, the turns from one candidate to the next: of wires, and of the loop gesture's offers as below.
 - How often what the loop gesture is to take is what it offers first, and how many notches of the wheel it takes: over the edges of what is
   taken, about twelve of each, after what was taken before.
@@ -37,6 +38,7 @@ from seams_engine import SeamwireEngine
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
 from seamwire.core.edge_loops import find_offers, past_poles  # these know no Blender
+from seamwire.core.flat_regions import FlatRegions
 from seamwire.core.symmetry import Symmetry
 
 if TYPE_CHECKING:
@@ -99,15 +101,17 @@ class Blender:
 
 
 class Seamwire:
-    """The tool on one mesh, with its defaults; `past_poles`: the way past poles is offered too."""
+    """The tool on one mesh, with its defaults; `past_poles`, `flat`: the way past poles, borders of flat regions are offered too."""
 
     stops_at_seams = True
     path_begins_at_loop = False
 
-    def __init__(self, mesh: Mesh, past_poles: bool) -> None:
+    def __init__(self, mesh: Mesh, past_poles: bool, flat: bool) -> None:
         self.engine = SeamwireEngine()
         self.engine.prepare(*mesh)
         self._points, self._past_poles = mesh[0], past_poles
+        surface = self.engine.surface
+        self._flat = FlatRegions(mesh[0], surface.triangles, surface.edges) if flat else None
         self._loops: dict[Pair, list[int] | None] = {}
 
     def offers(self, edge: Pair, stops: frozenset[int]) -> Iterable[Edges]:
@@ -122,6 +126,9 @@ class Seamwire:
         if self._past_poles:
             chain, closed = past_poles(self.engine.live, edge, list(stops))
             yield edges_of(list(chain), closed)
+        if self._flat is not None:
+            for border in self._flat.borders(edge):
+                yield edges_of(list(border), True)
 
     def at_once(self) -> Edges:
         """Return nothing: there is no such command."""
@@ -133,7 +140,9 @@ class Seamwire:
         for edge in sorted(wanted)[:: max(1, len(wanted) // _EDGES_TRIED)]:
             final = False
             while not final:
-                offers, final = find_offers(self.engine.live, edge, list(stops), self._points, 0.0, stops, last)
+                offers, final = find_offers(
+                    self.engine.live, edge, list(stops), self._points, 0.0, stops, last, self._flat
+                )
                 self.engine.live.wait()
             place = next((i for i, offer in enumerate(offers) if set(offer.edges()) == wanted), None)
             if place is not None:
@@ -261,10 +270,15 @@ def mean_ratio(clicked: np.ndarray, beside: np.ndarray) -> str:
 ROWS = {
     "Blender": lambda mesh: Blender(mesh, everything=False),
     "Blender, all it has": lambda mesh: Blender(mesh, everything=True),
-    "Seamwire": lambda mesh: Seamwire(mesh, past_poles=False),
-    "Seamwire, past poles": lambda mesh: Seamwire(mesh, past_poles=True),
+    "Seamwire": lambda mesh: Seamwire(mesh, past_poles=False, flat=False),
+    "Seamwire, past poles": lambda mesh: Seamwire(mesh, past_poles=True, flat=False),
+    "Seamwire, flat borders": lambda mesh: Seamwire(mesh, past_poles=True, flat=True),
 }
-WITHOUT = {"Blender, all it has": "Blender", "Seamwire, past poles": "Seamwire"}
+WITHOUT = {
+    "Blender, all it has": "Blender",
+    "Seamwire, past poles": "Seamwire",
+    "Seamwire, flat borders": "Seamwire, past poles",
+}
 """Who has more need not use it: what is chosen here, where it saves the most at once, may end with more clicks."""
 
 

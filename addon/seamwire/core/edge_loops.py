@@ -17,12 +17,13 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from .flat_regions import FlatRegions
     from .network import Edge, LoopKind, Network, Pick
     from .solver import Engines, LiveWire
     from .stops import Stops
 
 
-_BY_KIND: Mapping[LoopKind, float] = {"CLOSED": 0.0, "PAST": 0.2, "STRIP": 0.5, "WHOLE": 0.7}
+_BY_KIND: Mapping[LoopKind, float] = {"CLOSED": 0.0, "PAST": 0.2, "STRIP": 0.5, "WHOLE": 0.7, "FLAT": 0.8}
 _LOOP_CROSSES = 0.7
 _STRIP_CROSSES = 0.2
 """How unlikely an offer is, in corners of a loop; being of another kind than what was taken last counts as a corner, too.
@@ -45,12 +46,17 @@ class LoopOffers:
         Where strips end.
     points
         (n, 3) vertices of the mesh.
+    flat
+        Finds the borders of flat regions; None: they are not offered.
     """
 
-    def __init__(self, engines: Engines, stops: Stops, points: NDArray[np.float64]) -> None:
+    def __init__(
+        self, engines: Engines, stops: Stops, points: NDArray[np.float64], flat: FlatRegions | None = None
+    ) -> None:
         self._engines = engines
         self._stops = stops
         self._points = points
+        self._flat = flat
         self.wanted = False
         """Whether the offers are asked for."""
         self.edge: Pick | None = None
@@ -108,6 +114,11 @@ class LoopOffers:
         self.choice = (self.choice + 1) % len(self.offers)
         return ""
 
+    def flat_border(self, edge: Edge) -> set[Edge]:
+        """Return the likeliest border of a flat region beside an edge, by its edges; empty: there is none."""
+        border = next(self._flat.borders(edge), ()) if self._flat is not None else ()
+        return {undirected(pair) for pair in zip(border, border[1:] + border[:1], strict=True)}
+
     def find(self, pick: Pick, network: Network, kept: Wire | None = None) -> tuple[Wire, ...]:
         """Return what a click on an edge may take; nothing, too, while it is computed, see `final`.
 
@@ -144,6 +155,7 @@ class LoopOffers:
             self._engines.strengths["EDGES"],
             kept=self._stops.kept(network),
             last=next((wire.kind for wire in reversed(network.wires) if wire.kind is not None), None),
+            flat=self._flat,
         )
         return offers if own is None or not self.final else (replace(own, offers=()), *others(own, offers))
 
@@ -168,6 +180,7 @@ def find_offers(
     strength: float,
     kept: NDArray[np.int64] | Collection[int] = (),
     last: LoopKind | None = None,
+    flat: FlatRegions | None = None,
 ) -> tuple[tuple[Wire, ...], bool]:
     """Return what one click on an edge may take, the likeliest first, and whether that is computed; until then nothing.
 
@@ -188,6 +201,8 @@ def find_offers(
         The vertices of seams and kept wires: what leads across them is less likely.
     last
         What was taken last: that is likely to be taken again; None: nothing yet.
+    flat
+        Finds the borders of flat regions beside the edge; None: they are not offered.
 
     Raises
     ------
@@ -195,7 +210,8 @@ def find_offers(
         Where the edge is not part of the surface.
     """
     loop = live.loop(edge)
-    if not loop.final:
+    is_flat_known = flat is None or flat.ready()
+    if not (loop.final and is_flat_known):
         return (), False
     found = [_wire("CLOSED", loop.vertices, True, edge, points, strength)]
     if stops is not None:
@@ -204,6 +220,8 @@ def find_offers(
         found.append(_wire("PAST", *past_poles(live, edge, stops), edge, points))
     chain = live.edge_loop(edge, ())
     found.append(_wire("WHOLE", chain.vertices, chain.closed, edge, points))
+    if flat is not None:
+        found += [_wire("FLAT", border, True, edge, points, strength) for border in flat.borders(edge)]
     # Of those that run along the same edges the first.
     different = {frozenset(wire.edges()): wire for wire in reversed(found) if wire is not None}
     offers = [wire for wire in found if wire in different.values()]
@@ -221,7 +239,7 @@ def _unlikeliness(
     inner = wire.vertices if wire.closed else wire.vertices[1:-1]
     crossings = min(int(among(np.array(inner, dtype=np.int64), kept).sum()), _MOST_CROSSINGS)
     cost = _BY_KIND[wire.kind] + (wire.kind != last)
-    if wire.kind == "CLOSED":
+    if wire.kind in {"CLOSED", "FLAT"}:
         return cost + _LOOP_CROSSES * crossings + min(corners(live, wire.vertices, points), _MOST_CORNERS)
     return cost + _STRIP_CROSSES * crossings
 

@@ -65,15 +65,16 @@ Edge = tuple[int, int]
 
 End = Literal["start", "end"]
 
-LoopKind = Literal["CLOSED", "STRIP", "PAST", "WHOLE"]
+LoopKind = Literal["CLOSED", "STRIP", "PAST", "WHOLE", "FLAT"]
 """What a click on an edge takes: the closed loop of the metric, the straight strip up to what is there already, the same past
-poles, the whole strip."""
+poles, the whole strip, the border of a flat region."""
 
 LOOP_NAMES: Mapping[LoopKind, str] = {
     "CLOSED": "closed loop",
     "STRIP": "strip",
     "PAST": "strip past poles",
     "WHOLE": "whole strip",
+    "FLAT": "border of flat region",
 }
 """What the artist reads of them."""
 

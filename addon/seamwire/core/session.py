@@ -15,6 +15,7 @@ from .candidates import CandidateWires, only_vertices
 from .defaults import CLAMP_PERCENTILE, CLAMP_RANGE, STRENGTH_RANGE, STRENGTH_STEP, STRENGTHS
 from .edge_loops import LoopOffers, taken
 from .extension import Extension
+from .flat_regions import FlatRegions
 from .history import History
 from .intent import Intent
 from .mirror_images import MirrorImages
@@ -112,7 +113,8 @@ class Session:
         self._network = Network()
         self._history = History()
         self._candidates = CandidateWires(self._engines, points)
-        self._loops = LoopOffers(self._engines, self._stops, points)
+        flat = None if triangles is None or edges is None else FlatRegions(points, triangles, edges)
+        self._loops = LoopOffers(self._engines, self._stops, points, flat)
         self._extension = Extension(self._engines, self._stops, points)
         self._drag: SeedDrag | None = None
         self._retraces = Retraces(self._engines, points)
@@ -657,10 +659,19 @@ class Session:
         """What a click on the edge under the cursor takes as a whole, while that is asked for."""
         return self._loops.wire
 
+    def flat_border(self, edge: Edge) -> set[Edge]:
+        """Return the likeliest border of a flat region beside an edge, by its edges; empty: there is none."""
+        return self._loops.flat_border(edge)
+
     @property
     def loop_offers(self) -> tuple[LoopKind, ...]:
         """What such a click may take, each once, the default first: `toggle` goes from one to the next."""
         return self._loops.kinds
+
+    @property
+    def loop_number(self) -> int:
+        """The place among them of the one that is shown."""
+        return self._loops.choice
 
     @property
     def loop_choice(self) -> LoopKind | None:

@@ -46,6 +46,7 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
                 "Straight on as well where other than four edges meet, up to seams, other wires and the mirror",
             ),
             ("WHOLE", "Whole Strip", "Straight on both ways, across seams and wires"),
+            ("FLAT", "Border of Flat Region", "Around the faces beside the edge that meet at small angles"),
         ),
         default="FIRST",
     )

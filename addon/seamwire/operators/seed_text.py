@@ -139,7 +139,10 @@ def _turn_to(session: Session, edge: Edge, kind: LoopKind) -> bool:
             edges[session.loop_choice] = set(session.loop_preview.edges())
         session.toggle()
     wanted: LoopKind | None = kind
-    if kind not in edges:
+    if kind == "FLAT" and kind not in edges:
+        border = session.flat_border(edge)
+        wanted = next((other for other, own in edges.items() if own == border), None)
+    elif kind not in edges:
         closed, strip = edges.get("CLOSED"), edges.get("STRIP")
         if kind == "CLOSED" or closed is None:
             wanted = "STRIP" if kind in {"PAST", "WHOLE"} and strip is not None else None

@@ -99,7 +99,7 @@ def _click(session: Session) -> Iterator[Deed]:
     """Yield what a click does, and what it would do after toggling."""
     offers, offer = session.loop_offers, session.loop_choice
     if offer is not None:
-        number = offers.index(offer)
+        number = session.loop_number
         which = f", {number + 1} of {len(offers)}" if len(offers) > 1 else ""
         yield Action.LOOP, f"Add {_offer(offer)}{which}"
         if which:

@@ -64,7 +64,7 @@ def lines(
     found = []
     if session.loop_choice is not None:
         offers = session.loop_offers
-        which = f" ({offers.index(session.loop_choice) + 1} of {len(offers)})" if len(offers) > 1 else ""
+        which = f" ({session.loop_number + 1} of {len(offers)})" if len(offers) > 1 else ""
         found.append(LOOP_NAMES[session.loop_choice].capitalize() + which)
     if islands is not None:
         found.append(_islands(islands))
