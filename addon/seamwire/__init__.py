@@ -24,6 +24,7 @@ _PARTS = (
     "operators.mark",
     "operators.cut",
     "operators.take_over",
+    "operators.gaps",
     "operators.suggest",
     "operators.islands",
     "operators.edge_marks",

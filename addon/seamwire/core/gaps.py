@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Gaps in seams: a cut that ends just before it meets another one, or a border, keeps two islands from separating."""
+
+from __future__ import annotations
+
+import heapq
+from dataclasses import dataclass
+from itertools import islice
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .seam_wires import seam_chains
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from numpy.typing import NDArray
+
+_DETOUR = 4.0
+"""A gap has no way along cuts and borders that is shorter than it by this factor: else its ends are joined as it is."""
+_MOST_LOOKED_AT = 50_000
+"""Vertices around an end: one from which nothing is met among so many lies in the middle of nowhere."""
+
+
+@dataclass(frozen=True)
+class Gap:
+    """Where a cut ends, and what it nearly meets.
+
+    Parameters
+    ----------
+    end
+        The vertex at the cut's end.
+    target
+        A vertex of a cut or of the border, the nearest along edges that the cut does not lead to soon.
+    length
+        Of the shortest way between them along edges.
+    """
+
+    end: int
+    target: int
+    length: float
+
+
+def find_gaps(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    edges: NDArray[np.int32],
+    seams: NDArray[np.int32],
+    longest: float = 0.5,
+) -> list[Gap]:
+    """Find the gaps of a mesh's seams, shortest first; where two ends face each other there is one for both.
+
+    Parameters
+    ----------
+    points
+        (n, 3) vertices.
+    triangles
+        (m, 3) what the polygons are divided into.
+    edges
+        (e, 2) edges of the polygons.
+    seams
+        (k, 2) those of them that are seams.
+    longest
+        Of a gap, in lengths of the cut that ends there, as far as it leads without meeting others. So a dart, which ends in
+        the middle of a face on purpose, has none.
+    """
+    border = border_edges(triangles, edges)
+    cuts, mesh = _Ways(points, np.concatenate([seams, border])), _Ways(points, edges)
+    on_border = set(border.ravel().tolist())
+    found: dict[frozenset[int], Gap] = {}
+    for chain in seam_chains(seams):
+        length = float(np.linalg.norm(np.diff(points[chain], axis=0), axis=1).sum())
+        for end in {chain[0], chain[-1]} - on_border:
+            if len(cuts.beside(end)) == 1:
+                gap = _gap_at(mesh, cuts, end, longest * length)
+                if gap is not None:
+                    found.setdefault(frozenset((gap.end, gap.target)), gap)
+    return sorted(found.values(), key=lambda gap: (gap.length, gap.end))
+
+
+def border_edges(triangles: NDArray[np.int32], edges: NDArray[np.int32]) -> NDArray[np.int32]:
+    """Return those edges, (b, 2), that one triangle alone has."""
+    sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    count = 1 + int(max(triangles.max(initial=0), edges.max(initial=0)))
+    keys, counts = np.unique(sides[:, 0].astype(np.int64) * count + sides[:, 1], return_counts=True)
+    ends = np.sort(edges, axis=1).astype(np.int64)
+    return edges[np.isin(ends[:, 0] * count + ends[:, 1], keys[counts == 1])]
+
+
+class _Ways:
+    """Shortest ways along some edges of a mesh."""
+
+    def __init__(self, points: NDArray[np.float64], edges: NDArray[np.int32]) -> None:
+        self._points = points
+        tails, heads = np.concatenate([edges, edges[:, ::-1]]).T
+        order = np.argsort(tails, kind="stable")
+        self._heads = heads[order]
+        self._begin = np.searchsorted(tails[order], np.arange(len(points) + 1))
+
+    def beside(self, vertex: int) -> NDArray[np.int32]:
+        """Return the vertices that share an edge with one."""
+        return self._heads[self._begin[vertex] : self._begin[vertex + 1]]
+
+    def nearest(self, start: int, longest: float) -> Iterator[tuple[int, float]]:
+        """Yield vertices and their distances from one, nearest first (Dijkstra's algorithm), up to a distance."""
+        reached, done = {start: 0.0}, set()
+        queue = [(0.0, start)]
+        while queue:
+            distance, vertex = heapq.heappop(queue)
+            if vertex in done:
+                continue
+            done.add(vertex)
+            yield vertex, distance
+            beside = self.beside(vertex)
+            steps = np.linalg.norm(self._points[beside] - self._points[vertex], axis=1)
+            for other, so_far in zip(beside.tolist(), (distance + steps).tolist(), strict=True):
+                if so_far <= longest and so_far < reached.get(other, np.inf):
+                    reached[other] = so_far
+                    heapq.heappush(queue, (so_far, other))
+
+
+def _gap_at(mesh: _Ways, cuts: _Ways, end: int, longest: float) -> Gap | None:
+    """Return the gap at the end of a cut; None: there is none up to that length."""
+    along = dict(cuts.nearest(end, _DETOUR * longest))
+    for vertex, distance in islice(mesh.nearest(end, longest), _MOST_LOOKED_AT):
+        if len(cuts.beside(vertex)) and along.get(vertex, np.inf) > _DETOUR * distance:
+            return Gap(end, vertex, distance)
+    return None

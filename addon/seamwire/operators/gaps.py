@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that closes gaps in seams."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import bpy
+
+from .report import count, in_edit_mode
+
+if TYPE_CHECKING:
+    from ..core.gaps import Gap
+    from ..mesh.object_session import ObjectSession
+
+
+class MESH_OT_seamwire_close_gaps(bpy.types.Operator):
+    """Draw wires from the ends of seams that just miss another seam, or the border, and so keep two islands from separating"""  # noqa: D400 - a tooltip
+
+    bl_idname = "mesh.seamwire_close_gaps"
+    bl_label = "Close Gaps in Seams"
+    bl_options = {"REGISTER", "UNDO"}
+
+    longest: bpy.props.FloatProperty(
+        name="Longest Gap",
+        description="As part of the seam's length that ends there, as far as that meets no other: shorter ends are darts",
+        default=0.5,
+        min=0.0,
+        soft_max=2.0,
+    )
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Whether a mesh is in edit mode."""
+        return in_edit_mode(cls, context)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Draw wires over the gaps of all objects in edit mode, then write them: where one object fails, none is changed."""
+        from ..core.native import NativeError
+        from ..mesh import edit_mesh
+
+        try:
+            found = self._find(context)
+            if not found:
+                self.report({"INFO"}, "No seam ends just before another one, or before the border")
+                return {"CANCELLED"}
+            closed = sum(self._close(mesh, gaps) for mesh, gaps in found.items())
+        except (ValueError, NativeError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        if not closed:
+            self.report({"ERROR"}, "No gap could be closed")
+            return {"CANCELLED"}
+        marked = sum(mesh.write(mesh.plan())[0] for mesh in found)
+        edit_mesh.live_unwrap(context)
+        self.report({"INFO"}, f"{count(closed, 'gap')} closed, {count(marked, 'edge')} marked")
+        return {"FINISHED"}
+
+    def _find(self, context: bpy.types.Context) -> dict[ObjectSession, list[Gap]]:
+        """Return the gaps of each object that has some."""
+        from ..core.gaps import find_gaps
+        from ..mesh.object_session import ObjectSession
+
+        found = {}
+        for obj in context.objects_in_mode_unique_data:
+            try:
+                mesh = ObjectSession(obj)
+            except ValueError:
+                continue  # nothing of it is visible
+            arrays = mesh.arrays
+            gaps = find_gaps(arrays.points, arrays.triangles, arrays.edges, arrays.seams, self.longest)
+            if gaps:
+                found[mesh] = gaps
+        return found
+
+    def _close(self, mesh: ObjectSession, gaps: list[Gap]) -> int:
+        """Draw a wire over each gap that none before has closed, mirrored too; return how many there are."""
+        from . import seed_text
+
+        mesh.make_live.wait()
+        session, closed = mesh.session, 0
+        before = set(session.wires)
+        for gap in gaps:
+            new = [wire for wire in session.wires if wire not in before]
+            if any(gap.end in edge for wire in new for edge in wire.claims()):
+                continue
+            for problem in seed_text.draw_chains(session, [[gap.end, gap.target]]):
+                self.report({"WARNING"}, problem)
+            closed += len(session.wires) > len(before) + len(new)
+        return closed
+
+
+def register() -> None:
+    """Add the operator."""
+    bpy.utils.register_class(MESH_OT_seamwire_close_gaps)
+
+
+def unregister() -> None:
+    """Remove it."""
+    bpy.utils.unregister_class(MESH_OT_seamwire_close_gaps)

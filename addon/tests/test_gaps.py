@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where cuts end just before they meet another one: on a plate of 9 x 9 vertices, vertex 9 * row + column."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from fake_live import grid_edges, grid_points, grid_triangles
+from numpy.typing import NDArray
+from seamwire.core.gaps import Gap, border_edges, find_gaps
+
+SIZE = 9
+ROW = tuple(range(36, 45))
+
+
+def seams(*chains: tuple[int, ...] | range) -> NDArray[np.int32]:
+    return np.array([pair for chain in chains for pair in pairwise(chain)], dtype=np.int32).reshape(-1, 2)
+
+
+def gaps(*chains: tuple[int, ...] | range, longest: float = 0.5) -> list[Gap]:
+    return find_gaps(grid_points(SIZE), grid_triangles(SIZE), grid_edges(SIZE), seams(*chains), longest)
+
+
+def test_the_border_is_of_edges_with_one_triangle() -> None:
+    border = border_edges(grid_triangles(SIZE), grid_edges(SIZE))
+    assert len(border) == 4 * (SIZE - 1)
+    rows, columns = np.divmod(border, SIZE)
+    on_side = [(ends == side).all(axis=1) for ends in (rows, columns) for side in (0, SIZE - 1)]
+    assert np.logical_or.reduce(on_side).all()
+
+
+def test_a_cut_that_ends_before_another_one_or_the_border_has_a_gap() -> None:
+    assert gaps(ROW, (4, 13, 22, 31)) == [Gap(31, 40, 1.0)]
+    assert gaps((19, 20, 21, 22, 23, 24, 25)) == [Gap(19, 18, 1.0), Gap(25, 26, 1.0)]
+
+
+def test_what_is_closed_has_none() -> None:
+    assert gaps() == []
+    assert gaps(ROW) == [], "from border to border"
+    assert gaps(ROW, (4, 13, 22, 31, 40)) == []
+    assert gaps((20, 21, 22, 31, 40, 39, 38, 29, 20)) == [], "a circle"
+
+
+def test_two_ends_that_face_each_other_have_one_gap() -> None:
+    assert [{gap.end, gap.target} for gap in gaps(range(36, 40), range(40, 45))] == [{39, 40}]
+    assert [{gap.end, gap.target} for gap in gaps(range(36, 40), range(41, 45), longest=0.7)] == [{39, 41}]
+
+
+def test_a_gap_is_no_longer_than_a_part_of_its_cut() -> None:
+    assert gaps(ROW, (4, 13, 22)) == [], "as long as the cut"
+    assert gaps(ROW, (4, 13, 22), longest=1.0) == [Gap(22, 40, 2.0)]
+
+
+def test_what_the_cut_itself_leads_to_soon_is_not_across_a_gap() -> None:
+    around = (36, 37, 38, 39, 40, 41, 32, 23, 22, 21, 30)
+    assert gaps(around) == [Gap(30, 39, 1.0)]
+    assert gaps((4, 13, 22), longest=9.0) == [], "a dart: along it and the border it is not much farther than across"
