@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How many gaps are found in artists' seams, and whether one that is made in them is found.
+
+    python native/bench/seam_gaps.py SEAMS
+
+SEAMS is as for seam_clicks.py. Of each chain of eight edges or more one edge is taken out, not near its ends, and put back before the
+next; the gap is found where its two sides are one of those that are told.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import sys
+from pathlib import Path
+
+import numpy as np
+from seams_engine import fan_triangles, polygon_edges
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
+from seamwire.core.gaps import border_edges, find_gaps  # these know no Blender
+from seamwire.core.seam_wires import seam_chains
+
+_SHORTEST = 8
+_NEAR_END = 3
+
+
+def main() -> None:
+    """Print a line a model, then the sums."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("seams", type=Path)
+    chosen = parser.parse_args()
+    sys.path.insert(0, str(chosen.seams))
+    measure = importlib.import_module("measure")
+    draw = np.random.default_rng(1)
+    sums = np.zeros(4, dtype=int)
+    for path in sorted((chosen.seams / "data").glob("*.npz")):
+        points, offsets, corners, _, listed = measure.load(str(path))
+        edges, triangles = polygon_edges(offsets, corners), fan_triangles(offsets, corners)
+        edges = edges[edges[:, 0] != edges[:, 1]]
+        seams = np.array(sorted(listed)).reshape(-1, 2)
+        ends = set(np.flatnonzero(np.bincount(seams.ravel()) == 1)) - set(border_edges(triangles, edges).ravel())
+        counts = [len(ends), len(find_gaps(points, triangles, edges, seams)), 0, 0]
+        for chain in seam_chains(seams):
+            if len(chain) <= _SHORTEST:
+                continue
+            at = int(draw.integers(_NEAR_END, len(chain) - 1 - _NEAR_END))
+            gap = set(chain[at : at + 2])
+            found = find_gaps(points, triangles, edges, seams[[set(pair) != gap for pair in seams.tolist()]])
+            counts[2] += 1
+            counts[3] += any({one.end, one.target} == gap for one in found)
+        sums += counts
+        print(
+            f"{path.stem:40s} {counts[0]:4d} open ends, {counts[1]:3d} gaps; of {counts[2]:3d} made {counts[3]:3d} found",
+            flush=True,
+        )
+    print("{} open ends, {} gaps; of {} made {} found".format(*sums))
+
+
+if __name__ == "__main__":
+    main()
