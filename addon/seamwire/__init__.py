@@ -25,6 +25,7 @@ _PARTS = (
     "operators.cut",
     "operators.take_over",
     "operators.gaps",
+    "operators.repeat",
     "operators.suggest",
     "operators.islands",
     "operators.edge_marks",

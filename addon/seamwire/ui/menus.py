@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Menu entries: choose the tool; suggest, take over, close and cut wires; unwrap, show stretch, select and store islands, mark seams."""
+"""Menu entries: choose the tool; suggest, take over, repeat, close and cut wires; unwrap, show stretch; select, store and mark islands."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ def _draw_menu(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
     entry.name, entry.space_type = TOOL, "VIEW_3D"
     menu.layout.operator("mesh.seamwire_suggest")
     menu.layout.operator("mesh.seamwire_take_over")
+    menu.layout.operator("mesh.seamwire_repeat")
     menu.layout.operator("mesh.seamwire_close_gaps")
     menu.layout.operator("mesh.seamwire_cut")
     menu.layout.operator("mesh.seamwire_unwrap")
