@@ -36,7 +36,9 @@ def test_what_was_drawn_last_is_drawn_on_all_that_is_alike(bolts: bpy.types.Obje
     ring = len(seams(bolts))
     assert bpy.ops.mesh.seamwire_repeat() == {"FINISHED"}
     assert agree(bolts)
-    assert [parts(bolts).count(part) for part in range(4)] == [2 * ring] * 4, "both ends of each: their edges are as long"
+    assert [parts(bolts).count(part) for part in range(4)] == [2 * ring] * 4, (
+        "both ends of each: their edges are as long"
+    )
     before = snapshot(bolts)
     assert bpy.ops.mesh.seamwire_repeat() == {"CANCELLED"}, "it is everywhere"
     assert snapshot(bolts) == before
