@@ -23,6 +23,7 @@ _PARTS = (
     "ui.preferences",
     "operators.mark",
     "operators.cut",
+    "operators.slide",
     "operators.take_over",
     "operators.gaps",
     "operators.repeat",

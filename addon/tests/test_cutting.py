@@ -9,57 +9,11 @@ from collections import defaultdict
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from polygons import Polygons
 from seamwire.core.cutting import NEAR, CutPlan, CuttingError, Node, plan
 
 
-class Flat:
-    """Polygons in the plane, as triangles that fan out from their first corners."""
-
-    def __init__(self, points: NDArray[np.float64], polygons: list[list[int]]) -> None:
-        self.points = np.column_stack([points, np.zeros(len(points))])
-        self._polygons = polygons
-        cut = [(a, b, c, p) for p, (a, *rest) in enumerate(polygons) for b, c in itertools.pairwise(rest)]
-        self.triangles = np.array([row[:3] for row in cut], dtype=np.int32)
-        self._rows = defaultdict(list)
-        for row, (*_, polygon) in enumerate(cut):
-            self._rows[polygon].append(row)
-        self._around = defaultdict(list)
-        for polygon, corners in enumerate(polygons):
-            for corner in corners:
-                self._around[corner].append(polygon)
-        sides = (pair for corners in polygons for pair in itertools.pairwise([*corners, corners[0]]))
-        self._edges = {frozenset(side) for side in sides}
-
-    def polygons_at(self, vertex: int) -> list[int]:
-        return self._around[vertex]
-
-    def rows_of(self, polygon: int) -> list[int]:
-        return self._rows[polygon]
-
-    def corners(self, polygon: int) -> list[int]:
-        return self._polygons[polygon]
-
-    def is_edge(self, a: int, b: int) -> bool:
-        return frozenset((a, b)) in self._edges
-
-    def straight(self, start: int, end: int) -> tuple[int, NDArray[np.float64]]:
-        """Return the straight curve between two vertices, with a point wherever it passes a side of a triangle."""
-        a, b = self.points[start, :2], self.points[end, :2]
-        parts = {0.0, 1.0}
-        for triangle in self.triangles:
-            for c, d in itertools.pairwise([*triangle, triangle[0]]):
-                u, v, w = b - a, self.points[d, :2] - self.points[c, :2], self.points[c, :2] - a
-                area = u[0] * v[1] - u[1] * v[0]
-                if abs(area) < 1e-12:
-                    continue
-                s, t = (w[0] * v[1] - w[1] * v[0]) / area, (w[0] * u[1] - w[1] * u[0]) / area
-                if 0.0 <= s <= 1.0 and -1e-12 <= t <= 1.0 + 1e-12:
-                    parts.add(round(float(s), 12))
-        places = np.array(sorted(parts))[:, None]
-        return start, self.points[start] * (1.0 - places) + self.points[end] * places
-
-
-def grid(size: int, dice: np.random.Generator | None = None) -> Flat:
+def grid(size: int, dice: np.random.Generator | None = None) -> Polygons:
     """Return a grid of size x size quads, vertex y * (size + 1) + x at (x, y); with dice its inner vertices are moved and some
     of its quads are triangles."""
     count = size + 1
@@ -72,7 +26,7 @@ def grid(size: int, dice: np.random.Generator | None = None) -> Flat:
     if dice is not None:
         inner = (points > 0.0).all(axis=1) & (points < size).all(axis=1)
         points[inner] += dice.uniform(-0.2, 0.2, (int(inner.sum()), 2))
-    return Flat(points, polygons)
+    return Polygons(points, polygons)
 
 
 def reached(cuts: CutPlan, start: int) -> set[Node]:
@@ -88,7 +42,7 @@ def reached(cuts: CutPlan, start: int) -> set[Node]:
     return found
 
 
-def crossings(faces: Flat, own: list[tuple[Node, Node]]) -> int:
+def crossings(faces: Polygons, own: list[tuple[Node, Node]]) -> int:
     """Count pairs of cuts that cross where they have no node."""
 
     def side(p: NDArray[np.float64], q: NDArray[np.float64], r: NDArray[np.float64]) -> float:
@@ -190,7 +144,7 @@ def test_random_lines_join_their_ends_and_cross_in_nodes_only(number: int) -> No
         assert min(gaps) < 0.15
 
 
-def inside(faces: Flat, *places: tuple[float, float]) -> tuple[int, NDArray[np.float64]]:
+def inside(faces: Polygons, *places: tuple[float, float]) -> tuple[int, NDArray[np.float64]]:
     """Return the curve through places, the first of them in the triangle of quad 0 that has the corner 1."""
     return 1, np.array([(x, y, 0.0) for x, y in places])
 

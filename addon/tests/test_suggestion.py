@@ -61,3 +61,10 @@ def test_wires_of_a_plan() -> None:
         np.testing.assert_array_equal(wire.points, CUBE[list(wire.vertices)])
         assert (wire.along, wire.strength, wire.marks, wire.mirror) == ("EDGES", 10.0, True, ())
         assert wire.follow == ("min", "max").index(planned.follow)
+
+
+def test_many_triangles_are_cut_and_quads_are_not() -> None:
+    many = np.arange(6_000, dtype=np.int32)
+    assert best_finish(many) == "CUT"
+    assert best_finish(many[:500]) == "SNAP"
+    assert best_finish(many // 2) == "SNAP"

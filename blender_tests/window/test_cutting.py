@@ -118,3 +118,68 @@ def test_near_a_vertex_or_with_snap_a_click_takes_the_vertex(cutting: Desk) -> N
     ui.wait_until(lambda: isinstance(session.target.pick, int))
     settings().finish = "CUT"
     ui.key("ESC")
+
+
+def test_a_chain_is_slid_when_it_ends_in_one_step_of_undo(cutting: Desk) -> None:
+    settings().finish = "SLIDE"
+    session, ui = cutting.start(), cutting.ui
+    places = np.array([v.co for v in cutting.obj.data.vertices])
+    ui.click(cutting.at(20), ctrl=True)
+    ui.click(cutting.at(33))  # one row up on the way to the sixth column
+    ui.wait_until(lambda: len(session.wires) == 1)
+    snapped = session.wires[0].vertices
+    ui.key("RET")
+    assert cutting.left_clean()
+    assert agree(cutting.obj)
+    assert set(seams(cutting.obj)) == set(chain(*snapped))
+    wire = places[[20, 33]]
+    steps = np.linalg.norm(np.diff(places[list(snapped)], axis=0), axis=1).sum()
+    assert length(cutting) < 0.5 * (steps + np.linalg.norm(wire[1] - wire[0]))
+    (kept,) = cutting.session.wires
+    assert kept.finish == "SLIDE"
+    assert kept.along == "SURFACE"
+    ui.key("Z", ctrl=True)
+    obj = bpy.data.objects[cutting.name]
+    obj.update_from_editmode()
+    assert np.array_equal([v.co for v in obj.data.vertices], places)
+    assert seams(obj) == []
+
+
+def test_each_wire_is_finished_as_was_said_when_it_was_kept(cutting: Desk) -> None:
+    session, ui = cutting.start(), cutting.ui
+    count = len(cutting.obj.data.vertices)
+    settings().finish = "SNAP"
+    ui.click(cutting.at(0), ctrl=True)
+    ui.click(cutting.at(20))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    settings().finish = "CUT"
+    ui.click(cutting.at(53))
+    ui.wait_until(lambda: len(session.wires) == 2)
+    settings().finish = "SLIDE"
+    ui.click(cutting.at(78))
+    ui.wait_until(lambda: len(session.wires) == 3)
+    before = np.array([v.co for v in cutting.obj.data.vertices])
+    ui.key("RET")
+    assert cutting.left_clean()
+    assert agree(cutting.obj)
+    assert sorted((wire.along, wire.finish) for wire in cutting.session.wires) == [
+        ("EDGES", "SNAP"),
+        ("SURFACE", "SLIDE"),
+        ("SURFACE", "SNAP"),
+    ]
+    cutting.obj.update_from_editmode()
+    after = np.array([v.co for v in cutting.obj.data.vertices])
+    assert len(after) > count, "one was cut"
+    assert np.abs(after[:count] - before).max() > 1e-3, "one was slid"
+
+
+def test_auto_snaps_on_quads(cutting: Desk) -> None:
+    settings().finish = "AUTO"
+    session, ui = cutting.start(), cutting.ui
+    ui.click(cutting.at(0), ctrl=True)
+    ui.click(cutting.at(44))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.key("RET")
+    cutting.obj.update_from_editmode()
+    assert len(cutting.obj.data.vertices) == 81
+    assert [wire.along for wire in cutting.session.wires] == ["SURFACE"]

@@ -23,6 +23,10 @@ if TYPE_CHECKING:
 Along = Literal["EDGES", "SURFACE"]
 """Where wires run: along the mesh's edges, or across its surface."""
 
+Finish = Literal["SNAP", "SLIDE", "CUT"]
+"""What becomes the seam of a wire across the surface: the edges nearest to it, these with their vertices slid onto it, or itself, cut
+into the faces."""
+
 
 @dataclass(frozen=True)
 class FacePoint:
@@ -188,6 +192,8 @@ class Wire:
         The other of the two, where it runs elsewhere; it has no alternative itself.
     strength
         The metric's largest anisotropy when it was found; 0: not known, or it needs none.
+    finish
+        Across the surface, what becomes its seam when its chain ends.
     kind
         What it is of what one click on an edge offers; None: it was drawn.
     through
@@ -213,6 +219,7 @@ class Wire:
     follow: int = 0
     alternative: Wire | None = None
     strength: float = 0.0
+    finish: Finish = "SNAP"
     kind: LoopKind | None = None
     through: Edge | None = None
     offers: tuple[Wire, ...] = ()
@@ -244,7 +251,9 @@ class Wire:
         """Return its alternative in its place. There must be one."""
         assert self.alternative is not None
         back = replace(self, alternative=None)
-        return replace(self.alternative, id=self.id, marks=self.marks, mirror=self.mirror, alternative=back)
+        return replace(
+            self.alternative, id=self.id, marks=self.marks, mirror=self.mirror, finish=self.finish, alternative=back
+        )
 
     def drawn(self, **course: object) -> Wire:
         """Return it with another course, which is none that a click on an edge offered."""

@@ -196,6 +196,8 @@ def wire_record(wire: Wire, places: NDArray[np.float64], to_object: NDArray[np.f
     }
     if wire.kind is not None:
         record["kind"], record["through"] = wire.kind, wire.through
+    if wire.finish != "SNAP":
+        record["finish"] = wire.finish
     if wire.along == "SURFACE":
         record["curve"] = _packed(wire.points @ to_object.T)
         record["places"] = _packed(places[chain])
@@ -216,6 +218,7 @@ def _checked_wire(record: Record) -> Record:
         and record["follow"] in (0, 1)
         and np.isfinite(float(record["strength"]))
         and all(axis in (0, 1, 2) for axis in record["mirror"])
+        and record.get("finish", "SNAP") in ("SNAP", "SLIDE", "CUT")
         and (record["heading"] is None or isinstance(pick_of(record["heading"]), tuple))
     )
     if not sound:

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
-    from .network import Along, Edge, LoopKind, Pick
+    from .network import Along, Edge, Finish, LoopKind, Pick
     from .solver import LiveWire, MetricName
     from .strokes import ActsOn
 
@@ -87,7 +87,8 @@ class Session:
     lets them follow that.
 
     Methods that do something return whether it was done; where it was not, `message` says why, in words for the
-    artist. `revision` grows with every change of what is to be seen, `network_revision` with every change of the kept wires.
+    artist. `finish` is that of wires that are kept from here on. `revision` grows with every change of what is to be seen,
+    `network_revision` with every change of the kept wires.
     """
 
     def __init__(
@@ -123,6 +124,7 @@ class Session:
         # Made at once: what they compute first takes longest.
         self._progress = self._engines.get(along).progress()
         self.along: Along = along
+        self.finish: Finish = "SNAP"
         self.marking = True
         self.message = ""
         self.revision = 0
@@ -947,6 +949,7 @@ class Session:
             marks=self.marking,
             mirror=self._network.mirror,
             strength=self.strength,
+            finish=self.finish if self.along == "SURFACE" and self.marking else "SNAP",
             alternative=live.other if live.final else None,
         )
         network = self._network.joined(target, self._points).with_drawn(wire, target.pick, ending is not None)

@@ -15,8 +15,10 @@ if TYPE_CHECKING:
     import seamwire_core
     from numpy.typing import NDArray
 
-    from .network import Along
+    from .network import Along, Finish
 
+_DENSE = 5_000
+"""Triangles of a mesh from which on they are taken for those of a scan or a sculpt."""
 _NARROWER = 0.6
 """What is left of an island's spread where it was stretched too much."""
 _SEEDS = 24, 400
@@ -31,8 +33,23 @@ def best_along(polygons: NDArray[np.int32]) -> Along:
     polygons
         (m,) the face that each triangle is part of.
     """
+    return "EDGES" if _most_are_quads(polygons) else "SURFACE"
+
+
+def best_finish(polygons: NDArray[np.int32]) -> Finish:
+    """Return what had best become the seam of a wire across the surface: where triangles are many and small, nobody placed them.
+
+    Parameters
+    ----------
+    polygons
+        As those of `best_along`.
+    """
+    return "CUT" if len(polygons) >= _DENSE and not _most_are_quads(polygons) else "SNAP"
+
+
+def _most_are_quads(polygons: NDArray[np.int32]) -> bool:
     _, triangles = np.unique(polygons, return_counts=True)
-    return "EDGES" if (triangles > 1).mean() > 0.5 else "SURFACE"
+    return bool((triangles > 1).mean() > 0.5)
 
 
 def spread_of(angle: float) -> float:

@@ -357,6 +357,7 @@ class _Wires:
             images=piece.images,
             follow=1 if record["follow"] else 0,
             strength=float(record["strength"]),
+            finish=record.get("finish", "SNAP"),
             kind=None if through is None else record["kind"],
             through=through,
             # A copy of a wire, or one whose vertices have other numbers now, is still that of its record.

@@ -46,7 +46,7 @@ class Cut:
     uncut: int
 
 
-class _CageFaces:
+class CageFaces:
     """The visible faces of an edit mesh, and the triangles that they were read as."""
 
     def __init__(self, cage: Cage, arrays: Arrays) -> None:
@@ -55,23 +55,27 @@ class _CageFaces:
         self._bm = cage.bm
 
     def polygons_at(self, vertex: int) -> Sequence[int]:
+        """Return the visible faces around a vertex."""
         return [face.index for face in self._bm.verts[vertex].link_faces if not face.hide]
 
     def rows_of(self, polygon: int) -> Sequence[int]:
+        """Return the triangles of a face."""
         # Of the same type, or all of the array would be converted.
         bounds = np.array((polygon, polygon + 1), dtype=self._polygons.dtype)
         return range(*np.searchsorted(self._polygons, bounds).tolist())
 
     def corners(self, polygon: int) -> Sequence[int]:
+        """Return the vertices around a face."""
         return [vert.index for vert in self._bm.faces[polygon].verts]
 
     def is_edge(self, a: int, b: int) -> bool:
+        """Whether two vertices have an edge between them."""
         return self._bm.edges.get((self._bm.verts[a], self._bm.verts[b])) is not None
 
 
 def plan(cage: Cage, arrays: Arrays, curves: Iterable[tuple[int, NDArray[np.float64]]]) -> CutPlan:
     """Find what curves cut, each with the vertex that it begins at; raises `CuttingError`, before anything is changed."""
-    return cutting.plan(_CageFaces(cage, arrays), curves)
+    return cutting.plan(CageFaces(cage, arrays), curves)
 
 
 def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = ()) -> Cut:

@@ -12,7 +12,7 @@ import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from ..core import native, serialization, wire_labels
+from ..core import native, serialization, sliding, wire_labels
 from ..core.cutting import CuttingError
 from ..core.defaults import CLAMP_PERCENTILE, STRENGTHS
 from ..core.network import FacePoint, edges_after
@@ -20,8 +20,9 @@ from ..core.seam_wires import wires_between
 from ..core.serialization import Archive, UnreadableError
 from ..core.session import Session
 from ..core.strokes import on_mesh
+from ..core.suggestion import best_finish
 from ..core.wire_labels import EdgeLabels, Found, Places
-from . import cut, edit_mesh
+from . import cut, edit_mesh, slide
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Sequence
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.cutting import CutPlan
-    from ..core.network import Along, Network, Wire
+    from ..core.network import Along, Finish, Network, Wire
     from ..core.solver import LiveWire
     from .settings import SeamwireSettings
 
@@ -175,12 +176,21 @@ class ObjectSession:
         """Take over the tool's settings."""
         session = self.session
         session.switch(settings.along)
+        session.finish = self.finish(settings)
         session.set_metric(settings.metric)
         session.set_clamp(settings.clamp)
         session.set_strength("EDGES", settings.strength_edges)
         session.set_strength("SURFACE", settings.strength_surface)
         if session.marking == settings.clear:
             session.toggle_marking()
+
+    def finish(self, settings: SeamwireSettings) -> Finish:
+        """Return what becomes the seam of wires across the surface here."""
+        return self._best_finish if settings.finish == "AUTO" else settings.finish
+
+    @functools.cached_property
+    def _best_finish(self) -> Finish:
+        return best_finish(self.arrays.polygons)
 
     def tell(self, settings: SeamwireSettings) -> None:
         """Write back what keys changed."""
@@ -417,6 +427,30 @@ class ObjectSession:
         after.take_over(wires_between(free, done.seeds, after.arrays.points))
         after.write(after.plan())
         return done
+
+    def slide(self, wires: Collection[Wire]) -> int:
+        """Slide the vertices of snapped wires, and of their mirror images, onto the wires; return how many were moved.
+
+        The mesh has these wires. Where something was moved, this session is over.
+        """
+        own = {wire: [wire, *self.session.mirrored(wire)] for wire in wires}
+        courses = [(image.vertices, image.points) for images in own.values() for image in images]
+        seams = {edge for images in own.values() for image in images for edge in image.edges()}
+        stiff = slide.stiff_vertices(self.cage, {vertex for chain, _ in courses for vertex in chain}, seams)
+        moves = sliding.plan(cut.CageFaces(self.cage, self.arrays), courses, stiff)
+        if moves:
+            slide.carry_out(self.obj, self.cage, moves)
+            # What the mesh keeps of a wire tells where its vertices are: it is written anew, its curve as it was.
+            after = ObjectSession(self.obj)
+            curve_of = {wire.vertices: wire.points for wire in wires}
+            network = after.session.network
+            kept = [
+                wire.changed(points=curve_of[wire.vertices]) if wire.vertices in curve_of else wire
+                for wire in network.wires
+            ]
+            after.session.adopt(replace(network, wires=tuple(kept)), after.plain_seams)
+            after.write(after.plan())
+        return len(moves)
 
     def drop_changes(self, network: Network) -> None:
         """Go back to a network that the session had, whatever was drawn since."""

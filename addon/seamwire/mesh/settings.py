@@ -24,7 +24,12 @@ ALONG_ITEMS = (
 )
 FINISH_ITEMS = (
     ("SNAP", "Snap", "The edges that lie nearest to it", 0),
+    ("SLIDE", "Slide", "The edges that lie nearest to it, with their vertices slid onto it", 2),
     ("CUT", "Cut", "The wire itself, cut into the faces", 1),
+)
+TOOL_FINISH_ITEMS = (
+    ("AUTO", "Auto", "Cut where the mesh is of many triangles, as scans and sculpts are; else snap", 3),
+    *FINISH_ITEMS,
 )
 METRIC_ITEMS = (
     ("feature", "Features", "Follow ridges, valleys and lines of curvature", 0),
@@ -79,7 +84,8 @@ class SeamwireSettings(bpy.types.PropertyGroup):
     finish: bpy.props.EnumProperty(
         name="Finish",
         description="What becomes the seam of a wire across the surface when its chain ends",
-        items=FINISH_ITEMS,
+        items=TOOL_FINISH_ITEMS,
+        default="AUTO",
         update=_changed,
     )
     metric: bpy.props.EnumProperty(

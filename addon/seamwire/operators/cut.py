@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from .report import count, in_edit_mode
+from .slide import wires_across
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -30,23 +31,8 @@ class MESH_OT_seamwire_cut(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Take the snapped seams of the wires away, and cut along them."""
-        from ..core.native import NativeError
-        from ..mesh.object_session import ObjectSession
-
-        wires: dict[ObjectSession, list[Wire]] = {}
-        for obj in context.objects_in_mode_unique_data:
-            try:
-                mesh = ObjectSession(obj)
-            except NativeError as error:
-                self.report({"ERROR"}, str(error))
-                return {"CANCELLED"}
-            except ValueError:
-                continue  # nothing of it is visible, and so no wire
-            if mesh.problem:
-                self.report({"WARNING"}, mesh.problem)
-            wires[mesh] = [wire for wire in mesh.session.wires if wire.along == "SURFACE" and wire.marks]
-        if not any(wires.values()):
-            self.report({"ERROR"}, "No kept wire runs across the surface")
+        wires = wires_across(self, context)
+        if not wires:
             return {"CANCELLED"}
         return cut_wires(self, context, wires, kept=True)
 

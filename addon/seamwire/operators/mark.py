@@ -10,6 +10,7 @@ import bpy
 from ..mesh.settings import ALONG_ITEMS, FINISH_ITEMS, METRIC_ITEMS
 from .cut import cut_wires
 from .report import in_edit_mode, summary
+from .slide import slide_wires
 
 if TYPE_CHECKING:
     from ..core.network import Edge, Pick, Wire
@@ -119,9 +120,12 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
             touched += len({edge for wire in new_wires[mesh] for edge in wire.claims()})
             marked, cleared = mesh.write(plan)
             new, old = new + marked, old + cleared
+        told = summary(wires, new, old, touched)
+        if self.finish == "SLIDE" and self.along == "SURFACE" and not self.clear:
+            told = f"{told}, {slide_wires(new_wires)}"
         if new or old:
             edit_mesh.live_unwrap(context)
-        self.report({"INFO"}, summary(wires, new, old, touched))
+        self.report({"INFO"}, told)
         return {"FINISHED"}
 
     def _chosen(self, context: bpy.types.Context) -> list[bpy.types.Object]:
@@ -151,6 +155,7 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
         if self.strength:
             session.set_strength(self.along, self.strength)
         session.set_metric(self.metric)
+        session.finish = self.finish
         if self.properties.is_property_set("mirror"):
             session.set_mirror("XYZ".index(axis) for axis in self.mirror)
         if self.clear:

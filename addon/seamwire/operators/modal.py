@@ -12,6 +12,7 @@ import bpy
 from ..core.cutting import CuttingError
 from ..core.network import Network
 from ..mesh import settings as chosen
+from ..mesh.object_session import ObjectSession
 from ..view.edited_objects import edited
 from ..view.viewport import Place, place_of
 from . import bindings, navigation
@@ -183,29 +184,45 @@ class Chain:
             return
         known = {wire.id for wire in before.wires}
         wires = sum(wire.id not in known for wire in view.session.network.wires)
+        before_ids = {id(wire) for wire in before.wires}
+        changed = {wire.id for wire in view.session.network.wires if id(wire) not in before_ids}
         marked, cleared = self._write(view, adopt=True)
         self._drawn, self._saved, problem = None, False, ""
-        cut = self._cut(view, known)
+        finished = self._finish_wires(view, changed)
         if undo_step:
             if (marked or cleared) and context.mode == "EDIT_MESH":
                 problem = unwrap_after_chain(context)
             bpy.ops.ed.undo_push(message=title)
-        self.told.append(f"{title}: {cut or summary(wires, marked, cleared)}{problem and f'. {problem}'}")
+        self.told.append(f"{title}: {finished or summary(wires, marked, cleared)}{problem and f'. {problem}'}")
 
     @staticmethod
-    def _cut(view: ObjectView, known: set[int]) -> str:
-        """Cut new wires across the surface, where the artist wants that; return what was done, in words."""
-        new = [wire for wire in view.session.wires if wire.id not in known and wire.along == "SURFACE" and wire.marks]
-        if not new or chosen.settings().finish != "CUT" or not view.mesh.alive():
+    def _finish_wires(view: ObjectView, changed: set[int]) -> str:
+        """Slide and cut those of the changed wires across the surface that are to be; return what was done, in words."""
+        mesh = view.mesh
+        if not mesh.alive():
             return ""
-        try:
-            plan = view.mesh.plan_cut(new)
-        except CuttingError as error:
-            return f"not cut: {error}"
-        cut = view.mesh.cut(plan, new, kept=True)
-        edited.forget(view)
-        done = f"{count(len(new), 'wire')} cut, {count(len(cut.edges), 'edge')} marked"
-        return f"{done}, {gaps(cut.uncut)}" if cut.uncut else done
+        wires = [wire for wire in mesh.session.wires if wire.id in changed and wire.along == "SURFACE" and wire.marks]
+        slid = [wire for wire in wires if wire.finish == "SLIDE"]
+        cut = [wire for wire in wires if wire.finish == "CUT"]
+        told = []
+        if slid:
+            moved = mesh.slide(slid)
+            told.append(f"{count(len(slid), 'wire')} slid, {count(moved, 'vertex', 'vertices')} moved")
+            if moved and cut:
+                mesh, drawn = ObjectSession(view.obj), {wire.vertices for wire in cut}
+                cut = [wire for wire in mesh.session.wires if wire.vertices in drawn]
+        if cut:
+            try:
+                plan = mesh.plan_cut(cut)
+            except CuttingError as error:
+                told.append(f"not cut: {error}")
+            else:
+                done = mesh.cut(plan, cut, kept=True)
+                told.append(f"{count(len(cut), 'wire')} cut, {count(len(done.edges), 'edge')} marked")
+                told += [gaps(done.uncut)] if done.uncut else []
+        if told:
+            edited.forget(view)
+        return ", ".join(told)
 
     def save(self) -> None:
         """Write what is drawn so far to the mesh, so that Blender saves it; the chain goes on."""

@@ -12,6 +12,7 @@ import bpy
 from ..mesh.settings import ALONG_ITEMS, FINISH_ITEMS
 from .cut import cut_wires
 from .report import count, in_edit_mode
+from .slide import slide_wires
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -244,6 +245,8 @@ class MESH_OT_seamwire_suggest(bpy.types.Operator):
                 for suggestion in suggestions:
                     suggestion.take_back()
                 return {"CANCELLED"}
+        if self.finish == "SLIDE" and across:
+            slide_wires(across)
         problem = self._unwrap(context)
         if problem:
             self.report({"WARNING"}, problem)

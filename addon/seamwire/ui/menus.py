@@ -19,6 +19,7 @@ def _draw_menu(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
     menu.layout.operator("mesh.seamwire_repeat")
     menu.layout.operator("mesh.seamwire_close_gaps")
     menu.layout.operator("mesh.seamwire_cut")
+    menu.layout.operator("mesh.seamwire_slide")
     menu.layout.operator("mesh.seamwire_unwrap")
     menu.layout.operator("mesh.seamwire_worst_island")
     menu.layout.operator("mesh.seamwire_select_islands_to_cut")

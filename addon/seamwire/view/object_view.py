@@ -154,7 +154,7 @@ class ObjectView:
             cursor,
             vertices_only=self.session.along == "SURFACE",
             edges_only=plain,
-            anywhere=self.session.along == "SURFACE" and self.session.marking and settings.finish == "CUT",
+            anywhere=self.session.along == "SURFACE" and self.session.marking and self.session.finish == "CUT",
             session=None if plain else self.session,
             xray=settings.xray,
             strength=self._strength if settings.snap and not plain else None,
@@ -192,6 +192,5 @@ class ObjectView:
         settings = chosen.settings()
         self.overlay.xray = settings.xray
         self.overlay.features = settings.snap
-        self.overlay.cuts = settings.finish == "CUT"
         self.overlay.front = front
         self.overlay.help_rows = help_rows

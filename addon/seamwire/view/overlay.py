@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from ..core.islands import IslandMaker
-    from ..core.network import Edge, Pick, Wire
+    from ..core.network import Edge, Finish, Pick, Wire
     from ..core.session import Session
     from .stretch_heat import StretchHeat
 
@@ -85,8 +85,6 @@ class Overlay:
         Draw what lies behind the mesh like what lies before it.
     features
         Whether seeds snap to features: said in the text.
-    cuts
-        Whether live wires across the surface will be cut into it: the edges that they snap to do not matter then.
     front
         Whether this object is the one under the cursor: its session is the one that the text tells of.
     stroke
@@ -127,7 +125,6 @@ class Overlay:
         self._seams_read = 0
         self.xray = False
         self.features = False
-        self.cuts = False
         self.front = True
         self.pointed: int | None = None
         """The triangle under the mouse; None: it is elsewhere."""
@@ -283,7 +280,7 @@ class Overlay:
     def _live_sheet(self) -> _Sheet:
         """Return what changes with every move of the cursor."""
         session = self._session
-        key = (session.revision, self.cuts)
+        key = (session.revision, session.finish)
         if self._live[0] == key:
             return self._live[1]
         looks, sheet = self._looks, _Sheet(self._points)
@@ -294,9 +291,10 @@ class Overlay:
         if session.other is not None:
             sheet.curve(looks.other, session.other.points)
         for wire in session.moved:
-            self._add_live(sheet, wire, looks.active)
+            self._add_live(sheet, wire, looks.active, wire.finish)
         if session.active is not None:
-            self._add_live(sheet, session.active, looks.computing if session.preliminary else looks.active)
+            style = looks.computing if session.preliminary else looks.active
+            self._add_live(sheet, session.active, style, session.finish)
         if session.loop_preview is not None:
             self._add_live(sheet, session.loop_preview, looks.loop)
         if session.end_preview is not None:
@@ -307,11 +305,12 @@ class Overlay:
         self._live = (key, sheet)
         return sheet
 
-    def _add_live(self, sheet: _Sheet, wire: Wire, style: Style) -> None:
+    def _add_live(self, sheet: _Sheet, wire: Wire, style: Style, finish: Finish = "SNAP") -> None:
         looks = self._looks
         for image in self._session.mirrored(wire):
             sheet.edges(looks.mirrored_live, image.edges())
-        if wire.along == "SURFACE" and not (self.cuts and wire.marks):
+        # Where the seam will be the wire, the edges that it snaps to do not matter.
+        if wire.along == "SURFACE" and not (finish != "SNAP" and wire.marks):
             sheet.edges(looks.will_mark if wire.marks else looks.clear, wire.edges())
         sheet.curve(style, wire.points)
         if not wire.marks and wire.along == "EDGES":

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Vertices of an edit mesh slid over its faces: what corners hold and shape keys stay where they are on the surface."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from typing import TYPE_CHECKING
+
+import bmesh
+import bpy
+import numpy as np
+from mathutils import Vector
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+
+    from numpy.typing import NDArray
+
+    from ..core.network import Edge
+    from ..core.sliding import Move
+    from .edit_mesh import Cage
+
+    Value = Vector | float
+    Read = Callable[[bmesh.types.BMLoop], Value]
+    Write = Callable[[bmesh.types.BMLoop, Value], None]
+
+_NESTED = (4, 2, 0)
+"""From this Blender on at the latest; 3.4 does not do it."""
+_SAME = 6
+"""Digits that corners around a vertex have in common where they hang together, as in one island of a UV map."""
+
+
+def stiff_vertices(cage: Cage, vertices: Iterable[int], seams: Collection[Edge]) -> set[int]:
+    """Return those of some vertices that must stay: on sharp and creased edges, between materials, on seams other than those given."""
+    bm = cage.bm
+    layers = bm.edges.layers
+    crease = layers.crease.active if hasattr(layers, "crease") else layers.float.get("crease_edge")
+
+    def holds(edge: bmesh.types.BMEdge) -> bool:
+        one, two = sorted(vert.index for vert in edge.verts)
+        return (
+            not edge.smooth
+            or (crease is not None and edge[crease] > 0.0)
+            or len({face.material_index for face in edge.link_faces}) > 1
+            or (edge.seam and (one, two) not in seams)
+        )
+
+    return {vertex for vertex in vertices if any(map(holds, bm.verts[vertex].link_edges))}
+
+
+def carry_out(obj: bpy.types.Object, cage: Cage, moves: Mapping[int, Move]) -> None:
+    """Move vertices. What corners of faces hold follows as with Blender's own sliding: UVs, colors and other numbers."""
+    bm = cage.bm
+    spans = {vertex: ([bm.verts[corner] for corner in move.corners], move.weights) for vertex, move in moves.items()}
+    # All is read before anything is written: neighbors move as well.
+    places = {vertex: _mean([corner.co for corner in corners], weights) for vertex, (corners, weights) in spans.items()}
+    keys = [(layer, dict(_of_key(spans, layer))) for layer in bm.verts.layers.shape.values()]
+    corners = [(write, list(_of_corners(bm, moves, places, read))) for read, write in _corner_layers(bm)]
+    follows = _keys_that_follow(obj)
+    for vertex, place in places.items():
+        vert = bm.verts[vertex]
+        offset = place - vert.co
+        for number, (layer, wanted) in enumerate(keys):
+            if number != obj.active_shape_key_index:  # that is `vert.co`
+                vert[layer] = wanted[vertex] - offset if number in follows else wanted[vertex]
+        vert.co = place
+    for write, values in corners:
+        for corner, value in values:
+            write(corner, value)
+    bm.normal_update()
+    bmesh.update_edit_mesh(cage.mesh, loop_triangles=True, destructive=False)
+
+
+def _mean(values: Sequence[Value], weights: Sequence[float]) -> Value:
+    first, *rest = (value * weight for value, weight in zip(values, weights, strict=True))
+    for value in rest:
+        first = first + value
+    return first
+
+
+def _of_key(
+    spans: Mapping[int, tuple[Sequence[bmesh.types.BMVert], Sequence[float]]], layer: bmesh.types.BMLayerItem
+) -> Iterator[tuple[int, Vector]]:
+    """Yield where vertices go in a shape key."""
+    for vertex, (corners, weights) in spans.items():
+        yield vertex, _mean([corner[layer] for corner in corners], weights)
+
+
+def _keys_that_follow(obj: bpy.types.Object) -> set[int]:
+    """Return the numbers of the shape keys that Blender moves with the edited one: those relative to it, in later Blenders to such too."""
+    keys = obj.data.shape_keys
+    if keys is None or not keys.use_relative:
+        return set()
+    blocks = list(keys.key_blocks)
+    edited = blocks[obj.active_shape_key_index]
+
+    def leads_there(block: bpy.types.ShapeKey) -> bool:
+        passed = []
+        while block not in passed:
+            passed.append(block)
+            block = block.relative_key
+            if block == edited:
+                return True
+            if bpy.app.version < _NESTED:
+                break
+        return False
+
+    return {number for number, block in enumerate(blocks) if block != edited and leads_there(block)}
+
+
+def _corner_layers(bm: bmesh.types.BMesh) -> Iterator[tuple[Read, Write]]:
+    """Yield how to read and how to write each layer of numbers at the corners of faces."""
+    layers = bm.loops.layers
+    for layer in layers.uv.values():
+        yield _of_uv(layer)
+    for name in ("color", "float_color", "float", "float_vector"):
+        for layer in getattr(layers, name).values():
+            yield _of_numbers(layer)
+
+
+def _of_uv(layer: bmesh.types.BMLayerItem) -> tuple[Read, Write]:
+    def write(corner: bmesh.types.BMLoop, value: Vector) -> None:
+        corner[layer].uv = value
+
+    return lambda corner: corner[layer].uv.copy(), write
+
+
+def _of_numbers(layer: bmesh.types.BMLayerItem) -> tuple[Read, Write]:
+    def read(corner: bmesh.types.BMLoop) -> Value:
+        value = corner[layer]
+        return value if isinstance(value, float) else Vector(value)
+
+    def write(corner: bmesh.types.BMLoop, value: Value) -> None:
+        corner[layer] = value
+
+    return read, write
+
+
+def _of_corners(
+    bm: bmesh.types.BMesh, moves: Mapping[int, Move], places: Mapping[int, Vector], read: Read
+) -> Iterator[tuple[bmesh.types.BMLoop, Value]]:
+    """Yield the corners around vertices that move, and what a layer has there.
+
+    Where the layer hangs together with the face that a vertex moves into, that is what it has at the place there; beyond a seam of
+    it what each face has is continued to that place, and the mean of those taken that hang together.
+    """
+    for vertex, move in moves.items():
+        inside = {corner.vert.index: read(corner) for corner in bm.faces[move.polygon].loops}
+        there = _mean([inside[corner] for corner in move.corners], move.weights)
+        groups: dict[tuple[float, ...], list[bmesh.types.BMLoop]] = defaultdict(list)
+        for corner in bm.verts[vertex].link_loops:
+            groups[_rounded(read(corner))].append(corner)
+        for key, group in groups.items():
+            value = there
+            if key != _rounded(inside[vertex]):
+                beyond = [_continued(corner, places[vertex], read) for corner in group]
+                value = _mean(beyond, [1.0 / len(beyond)] * len(beyond))
+            for corner in group:
+                yield corner, value
+
+
+def _rounded(value: Value) -> tuple[float, ...]:
+    return tuple(round(part, _SAME) for part in ((value,) if isinstance(value, float) else value))
+
+
+def _continued(corner: bmesh.types.BMLoop, place: Vector, read: Read) -> Value:
+    """Return what a face's layer has at a place, continued from the triangle of a corner and those beside it."""
+    three = (corner.link_loop_prev, corner, corner.link_loop_next)
+    return _mean([read(one) for one in three], _affine([one.vert.co for one in three], place))
+
+
+def _affine(corners: Sequence[Vector], place: Vector) -> NDArray[np.float64]:
+    """Return the weights of three corners whose mean is nearest to a place; any of them may be negative."""
+    a, b, c = map(np.array, corners)
+    sides = np.stack([b - a, c - a], axis=1)
+    (s, t), *_ = np.linalg.lstsq(sides, np.array(place) - a, rcond=None)
+    return np.array([1.0 - s - t, s, t])
