@@ -52,8 +52,8 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     shown; to both final ones; and from a move of the cursor to the next wire.
     """
     from seamwire.core import session
+    from seamwire.core.live_maker import LiveMaker
     from seamwire.mesh import edit_mesh
-    from seamwire.mesh.object_session import LiveMaker
     from seamwire.operators.modal import TICK
     from seamwire.view import picking, viewport
 

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from mathutils import Matrix
 from scene import add_grid, add_layers, chain, edit, seams, snapshot
+from seamwire.core.live_maker import LiveMaker
 from seamwire.mesh import edit_mesh
-from seamwire.mesh.object_session import LiveMaker, ObjectSession
+from seamwire.mesh.object_session import ObjectSession
 from stored import agree, chains, forget, session_on, wired, write
 
 ROW = tuple(range(36, 45))

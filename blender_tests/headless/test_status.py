@@ -4,10 +4,10 @@
 import bpy
 import pytest
 from scene import add_grid, edit
+from seamwire.core.live_maker import LiveMaker
 from seamwire.core.network import Snap
 from seamwire.core.session import Session
 from seamwire.mesh import edit_mesh
-from seamwire.mesh.object_session import LiveMaker
 from seamwire.operators.bindings import Action, Bindings, Key
 from seamwire.ui.status_bar import Status, hints
 

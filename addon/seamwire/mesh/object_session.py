@@ -12,9 +12,9 @@ import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from ..core import native, serialization, sliding, wire_labels
+from ..core import serialization, sliding, wire_labels
 from ..core.cutting import CuttingError
-from ..core.defaults import CLAMP_PERCENTILE, STRENGTHS
+from ..core.live_maker import LiveMaker
 from ..core.network import FacePoint, edges_after
 from ..core.seam_wires import wires_between
 from ..core.serialization import Archive, UnreadableError
@@ -27,12 +27,10 @@ from . import cut, edit_mesh, slide
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Sequence
 
-    import seamwire_core
     from numpy.typing import NDArray
 
     from ..core.cutting import CutPlan
     from ..core.network import Along, Finish, Network, Wire
-    from ..core.solver import LiveWire
     from .settings import SeamwireSettings
 
 FIRST_VERSION = "seamwire"
@@ -42,49 +40,6 @@ _MOMENT = 0.1
 
 _archive = Archive()
 """All records that this Blender has seen: undo brings back labels whose records no mesh holds any more."""
-
-
-class LiveMaker:
-    """Makes the library's live wires on a mesh, on one surface, which they build on threads of their own.
-
-    Parameters
-    ----------
-    arrays
-        The mesh.
-    """
-
-    def __init__(self, arrays: edit_mesh.Arrays) -> None:
-        self._core = native.load()
-        self._arrays = arrays
-        self._first: seamwire_core.LiveWire | None = None
-
-    def __call__(self, along: Along) -> LiveWire:
-        """Return live wires for one way of running."""
-        if self._first is not None:
-            return self._first.sibling(**_options(along))
-        arrays = self._arrays
-        self._first = self._core.LiveWire(arrays.points, arrays.triangles, arrays.edges, **_options(along))
-        return self._first
-
-    def wait(self) -> seamwire_core.Surface:
-        """Wait for the surface, once there are live wires, and return it; any thread may.
-
-        Raises
-        ------
-        ValueError
-            Where the mesh is none that wires can run on.
-        """
-        assert self._first is not None
-        self._first.wait_for_surface()
-        return self._first.surface
-
-    def face_segments(self, cuts: NDArray[np.int32]) -> NDArray[np.int32]:
-        """Return the island of each triangle where edges are cut; it waits for the surface."""
-        return self._core.face_segments(self.wait(), cuts)
-
-
-def _options(along: Along) -> dict[str, object]:
-    return {"along": along.lower(), "max_anisotropy": STRENGTHS[along], "clamp_percentile": CLAMP_PERCENTILE}
 
 
 def mirror_axes(mesh: bpy.types.Mesh) -> tuple[int, ...]:
