@@ -27,6 +27,7 @@ _PARTS = (
     "operators.take_over",
     "operators.gaps",
     "operators.repeat",
+    "operators.network_files",
     "operators.suggest",
     "operators.islands",
     "operators.edge_marks",

@@ -67,3 +67,47 @@ def barycentric(
         gaps = np.linalg.norm(np.einsum("ij,ijk->ik", weights, corners) - point, axis=1)
         off = gaps / np.sqrt(np.maximum.reduce([uu, vv, uu - 2.0 * uv + vv]))
     return weights, np.where(np.isfinite(off), off, np.inf)
+
+
+def vertex_normals(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
+    """Return unit normals of vertices, (n, 3), those of their triangles weighted by area; zero where there is none.
+
+    Parameters
+    ----------
+    points
+        (n, 3)
+    triangles
+        (m, 3)
+    """
+    corners = points[triangles]
+    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    rows = triangles.reshape(-1)
+    sums = np.stack([np.bincount(rows, np.repeat(column, 3), len(points)) for column in areas.T], axis=1)
+    lengths = np.linalg.norm(sums, axis=1, keepdims=True)
+    return np.divide(sums, lengths, out=np.zeros_like(sums), where=lengths > 0.0)
+
+
+def creases(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
+    """Return the largest angle, in degrees, between two triangles that share a side at each vertex, (n,).
+
+    Parameters
+    ----------
+    points
+        (n, 3)
+    triangles
+        (m, 3)
+    """
+    corners = points[triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    normals = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0.0)
+    sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64), axis=1)
+    order = np.lexsort((sides[:, 1], sides[:, 0]))
+    shared = np.flatnonzero((sides[order[1:]] == sides[order[:-1]]).all(axis=1))
+    one, other = order[shared], order[shared + 1]
+    cosines = np.einsum("ij,ij->i", normals[one // 3], normals[other // 3])
+    angles = np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0)))
+    largest = np.zeros(len(points))
+    for column in sides[one].T:
+        np.maximum.at(largest, column, angles)
+    return largest

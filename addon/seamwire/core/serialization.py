@@ -39,7 +39,7 @@ _TOLERANCE = 1e-4
 Record = dict[str, Any]
 
 
-_DAMAGED = (
+DAMAGED = (
     ValueError,
     TypeError,
     KeyError,
@@ -93,12 +93,12 @@ class Archive:
                 raise NewerError("The wires of this mesh were drawn with a newer Seamwire: they stay as they are")
             (body,) = rest
             data = json.loads(zlib.decompress(base64.b64decode(body, validate=True)))
-            archive.wires = {_number(number): _checked_wire(record) for number, record in data["wires"].items()}
+            archive.wires = {_number(number): checked_wire(record) for number, record in data["wires"].items()}
             archive.strokes = {_number(number): dict(record) for number, record in data["strokes"].items()}
             archive._sets = {_number(label): tuple(map(int, members)) for label, members in data["sets"].items()}
         except NewerError:
             raise
-        except _DAMAGED as error:
+        except DAMAGED as error:
             raise UnreadableError("The wires stored with this mesh cannot be read; its seams are untouched") from error
         return archive
 
@@ -199,12 +199,12 @@ def wire_record(wire: Wire, places: NDArray[np.float64], to_object: NDArray[np.f
     if wire.finish != "SNAP":
         record["finish"] = wire.finish
     if wire.along == "SURFACE":
-        record["curve"] = _packed(wire.points @ to_object.T)
-        record["places"] = _packed(places[chain])
+        record["curve"] = packed(wire.points @ to_object.T)
+        record["places"] = packed(places[chain])
     return json.loads(json.dumps(record))  # tuples become lists, as they will be when it is read again
 
 
-def _checked_wire(record: Record) -> Record:
+def checked_wire(record: Record) -> Record:
     """Return a record that was read, where nothing in it can be misunderstood; raises ValueError, TypeError, KeyError."""
     vertices = record["vertices"]
     ends = np.array(record["ends"], dtype=np.float64)
@@ -230,7 +230,7 @@ def _checked_wire(record: Record) -> Record:
     ):
         raise ValueError
     if record["along"] == "SURFACE" and (
-        len(_unpacked(record["curve"])) < 2 or len(_unpacked(record["places"])) != len(vertices)
+        len(unpacked(record["curve"])) < 2 or len(unpacked(record["places"])) != len(vertices)
     ):
         raise ValueError
     return record
@@ -260,20 +260,55 @@ def stored_curve(
     """Return the curve of a wire across the surface where its vertices have not moved, as `Wire.points` are; else None."""
     if record["along"] != "SURFACE":
         return None
-    before = _unpacked(record["places"])
+    before = unpacked(record["places"])
     now = places[list(vertices)]
     if before.shape != now.shape or len(now) == 0:
         return None
     if np.abs(before - now).max() > tolerance(places):
         return None
-    return _unpacked(record["curve"]) @ np.linalg.inv(to_object).T
+    return unpacked(record["curve"]) @ np.linalg.inv(to_object).T
 
 
-def _packed(points: NDArray[np.float64]) -> str:
+def wire_of(record: Record, points: NDArray[np.float64], to_object: NDArray[np.float64]) -> Wire:
+    """Return the wire of a record on the mesh that it was made on, by its numbers; its mirror images are to be found.
+
+    Parameters
+    ----------
+    record
+        That was checked.
+    points
+        (n, 3) vertices as the session has them.
+    to_object
+        (3, 3) takes them to object coordinates.
+    """
+    vertices, closed = tuple(record["vertices"]), record["closed"]
+    curve = stored_curve(record, vertices, points @ to_object.T, to_object)
+    through = undirected(pick_of(record["through"])) if record.get("kind") in LOOP_NAMES else None
+    heading = None if record["heading"] is None else pick_of(record["heading"])
+    return Wire(
+        record["along"],
+        vertices,
+        points[list(vertices + vertices[:1] if closed else vertices)] if curve is None else curve,
+        pick_of(record["start"]),
+        pick_of(record["end"]),
+        closed=closed,
+        mirror=tuple(record["mirror"]),
+        heading=heading if isinstance(heading, tuple) else None,
+        follow=record["follow"],
+        strength=float(record["strength"]),
+        finish=record.get("finish", "SNAP"),
+        kind=record["kind"] if isinstance(through, tuple) else None,
+        through=through if isinstance(through, tuple) else None,
+    )
+
+
+def packed(points: NDArray[np.float64]) -> str:
+    """Write (k, 3) points in single precision."""
     return base64.b64encode(np.ascontiguousarray(points, dtype="<f4").tobytes()).decode()
 
 
-def _unpacked(text: str) -> NDArray[np.float64]:
+def unpacked(text: str) -> NDArray[np.float64]:
+    """Read what `packed` wrote; raises ValueError where it is something else."""
     points = np.frombuffer(base64.b64decode(text, validate=True), dtype="<f4").reshape(-1, 3).astype(np.float64)
     if not np.isfinite(points).all():
         raise ValueError
@@ -287,10 +322,10 @@ def stroke_record(stroke: Scribble, places: NDArray[np.float64], to_object: NDAr
     """Return what there is to keep of a stroke; parameters as those of `wire_record`, and how many strokes came before."""
     numbers = np.unique(stroke.corners)
     return {
-        "points": _packed(stroke.points @ to_object.T),
+        "points": packed(stroke.points @ to_object.T),
         "corners": stroke.corners.tolist(),
         "vertices": numbers.tolist(),
-        "places": _packed(places[numbers]),
+        "places": packed(places[numbers]),
         "vertex_count": len(places),
         "attracts": stroke.attracts,
         "acts_on": stroke.acts_on,
@@ -330,11 +365,11 @@ def stored_stroke(
         same_numbers = int(record["vertex_count"]) == len(places) and any(
             len(corner.intersection(edge)) >= shared for edge in begins
         )
-        mapped, _ = matched(numbers, _unpacked(record["places"]), places, same_numbers)
+        mapped, _ = matched(numbers, unpacked(record["places"]), places, same_numbers)
         number_of = dict(zip(numbers.tolist(), mapped.tolist(), strict=True))
-        points = _unpacked(record["points"]) @ np.linalg.inv(to_object).T
+        points = unpacked(record["points"]) @ np.linalg.inv(to_object).T
         return stroke_of(record, points, number_of)
-    except _DAMAGED:
+    except DAMAGED:
         return None
 
 
@@ -423,14 +458,14 @@ def load_first_version(
         tries = [reader.network(same_numbers) for same_numbers in ((True, False) if same_count else (False,))]
         network = max(tries, key=lambda one: len(one.wires))
         stored = sum(bool(item["marks"]) for item in data["wires"])
-    except _DAMAGED:
+    except DAMAGED:
         return Network(), "The wires stored with this mesh cannot be read; its seams are untouched"
     missing = stored - len(network.wires)
     return network, f"{missing} of {stored} stored wires are seams no more, or hidden" if missing else ""
 
 
 class _FirstVersion:
-    """A network of version 1, to be found on a mesh; anything of `_DAMAGED` is raised where it is none."""
+    """A network of version 1, to be found on a mesh; anything of `DAMAGED` is raised where it is none."""
 
     def __init__(
         self, data: Record, points: NDArray[np.float64], edges: NDArray[np.int32], seams: NDArray[np.int32]

@@ -16,6 +16,7 @@ from ..core import serialization, sliding, wire_labels
 from ..core.cutting import CuttingError
 from ..core.live_maker import LiveMaker
 from ..core.network import FacePoint, edges_after
+from ..core.network_file import NetworkFile
 from ..core.seam_wires import wires_between
 from ..core.serialization import Archive, UnreadableError
 from ..core.session import Session
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
 
     from ..core.cutting import CutPlan
     from ..core.network import Along, Finish, Network, Wire
+    from ..core.strokes import Scribble
     from .settings import SeamwireSettings
 
 FIRST_VERSION = "seamwire"
@@ -319,10 +321,33 @@ class ObjectSession:
             self.session.adopt(replace(plan.network, seed=None), self.plain_seams)
         return written
 
-    def add(self, wires: Iterable[Wire]) -> None:
-        """Go on with more wires, found elsewhere; `write` marks their edges."""
+    def add(self, wires: Iterable[Wire], strokes: Iterable[Scribble] = ()) -> None:
+        """Go on with more wires and strokes, found elsewhere; `write` marks their edges, and those of mirror images."""
         session = self.session
-        session.adopt(replace(session.network, wires=(*session.wires, *wires), seed=None), self.plain_seams)
+        drawn = (*session.wires, *map(self._with_images, wires))
+        scribbles = (*session.scribbles, *(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in strokes))
+        session.adopt(replace(session.network, wires=drawn, scribbles=scribbles, seed=None), self.plain_seams)
+
+    def _with_images(self, wire: Wire) -> Wire:
+        if wire.images is not None or not wire.mirror:
+            return wire
+        wire = replace(wire, images=())
+        edges = dict.fromkeys(edge for image in self.session.mirrored(wire) for edge in image.edges())
+        return replace(wire, images=tuple(edges))
+
+    def network_file(self, settings: SeamwireSettings) -> NetworkFile:
+        """Return the network as it is saved to a file."""
+        arrays = self.arrays
+        return NetworkFile.of(
+            self.session.kept,
+            arrays.points,
+            arrays.triangles,
+            arrays.edges,
+            name=self.cage.mesh.name,
+            metric=settings.metric,
+            clamp=settings.clamp,
+            to_object=arrays.to_object,
+        )
 
     def take_over(self, wires: Iterable[Wire]) -> None:
         """Go on with wires along seams of the mesh: `write` makes these edges theirs, so that they go where the wires go."""

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Networks saved and loaded: ``mesh.seamwire_save_network``, ``mesh.seamwire_load_network``."""
+
+from pathlib import Path
+
+import bpy
+import pytest
+from scene import add_grid, add_suzanne, edit, head, seams, snapshot
+from stored import agree, chains
+
+
+@pytest.fixture
+def drawn(tmp_path: Path) -> tuple[bpy.types.Object, Path]:
+    """Suzanne with wires, a loop and a stroke, and the file of these."""
+    obj = add_suzanne()
+    edit()
+    a, b, c, d, e = head(obj, 5)
+    bpy.ops.mesh.seamwire_mark(chains=f"{a} {b} {c}", strokes=f"{a} {d}")
+    bpy.ops.mesh.seamwire_mark(chains=f"{d} {e}", along="SURFACE", mirror={"X"})
+    path = tmp_path / "net.json"
+    assert bpy.ops.mesh.seamwire_save_network(filepath=str(path)) == {"FINISHED"}
+    return obj, path
+
+
+def test_another_copy_of_the_mesh_gets_the_same_seams_and_wires(drawn: tuple[bpy.types.Object, Path]) -> None:
+    obj, path = drawn
+    wanted, wires = seams(obj), chains(obj)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    copy = add_suzanne()
+    edit()
+    assert bpy.ops.mesh.seamwire_load_network(filepath=str(path)) == {"FINISHED"}
+    assert seams(copy) == wanted
+    assert chains(copy) == wires
+    assert agree(copy)
+    again = path.with_name("again.json")
+    bpy.ops.mesh.seamwire_save_network(filepath=str(again))
+    assert again.read_text().splitlines()[4:] == path.read_text().splitlines()[4:]
+    before = snapshot(copy)
+    bpy.ops.mesh.seamwire_load_network(filepath=str(path))
+    assert snapshot(copy) == before, "what is there already is not drawn again"
+
+
+def test_another_mesh_is_refused_and_stays_as_it_is(drawn: tuple[bpy.types.Object, Path]) -> None:
+    bpy.ops.object.mode_set(mode="OBJECT")
+    grid = add_grid(9)
+    edit()
+    before = snapshot(grid)
+    with pytest.raises(RuntimeError, match="of a mesh with 507 vertices, and this one has 81"):
+        bpy.ops.mesh.seamwire_load_network(filepath=str(drawn[1]))
+    assert snapshot(grid) == before
+
+
+def test_what_is_no_network_is_refused(drawn: tuple[bpy.types.Object, Path]) -> None:
+    obj, path = drawn
+    before = snapshot(obj)
+    path.write_bytes(b"\xff\xfe")
+    with pytest.raises(RuntimeError, match="cannot be read"):
+        bpy.ops.mesh.seamwire_load_network(filepath=str(path))
+    with pytest.raises(RuntimeError, match="cannot be read"):
+        bpy.ops.mesh.seamwire_load_network(filepath=str(path.with_name("none.json")))
+    assert snapshot(obj) == before
+
+
+def test_a_file_that_cannot_be_written_leaves_nothing_behind(drawn: tuple[bpy.types.Object, Path]) -> None:
+    folder = drawn[1].parent
+    (folder / "taken.json").mkdir()
+    with pytest.raises(RuntimeError, match="cannot be written"):
+        bpy.ops.mesh.seamwire_save_network(filepath=str(folder / "taken.json"))
+    assert sorted(path.name for path in folder.iterdir()) == ["net.json", "taken.json"]
+
+
+def test_without_wires_there_is_nothing_to_save(tmp_path: Path) -> None:
+    add_suzanne()
+    edit()
+    with pytest.raises(RuntimeError, match="no wires to save"):
+        bpy.ops.mesh.seamwire_save_network(filepath=str(tmp_path / "none.json"))
+    assert list(tmp_path.iterdir()) == []
