@@ -19,6 +19,7 @@
 
 #include "seamwire/edges/edge_loop.hpp"
 #include "seamwire/edges/edge_wires.hpp"
+#include "seamwire/edges/fit_chain.hpp"
 #include "seamwire/edges/shortest_cycle.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/errors.hpp"
@@ -305,6 +306,14 @@ void check_edge_wires(Bytes& from, const Patience& patience, const Surface& surf
   const std::vector<std::int32_t> loop = shortest_cycle(*graph, edge, turning, patience.task()).vertices;
   check_chain(surface, loop);
   require(loop.empty() || (loop.size() > 2 && is_edge(surface, loop.front(), loop.back())), "a loop is closed");
+  for (const Scribble& scribble : scribbles) {
+    const bool in_faces = scribble.faces.size() == scribble.points.size() &&
+                          std::ranges::all_of(scribble.faces, [](std::int32_t face) { return face >= 0; });
+    if (!in_faces) continue;
+    const FittedChain fitted = fit_chain(surface, *adjacency, {scribble.points, scribble.faces});
+    check_chain(surface, fitted.vertices);
+    require(fitted.places.size() == fitted.vertices.size(), "each vertex of a fitted chain has a place");
+  }
 }
 
 void check_plan(Bytes& from, const Patience& patience, const Surface& surface) {

@@ -204,6 +204,17 @@ void bind_live_wire(py::module_& module) {
         return "<EdgeLoop: " + std::to_string(loop.vertices.size()) + " vertices" + (loop.closed ? ", closed>" : ">");
       });
 
+  py::class_<FittedChain>(module, "FittedChain", "The chain of edges that fits a line.")
+      .def_property_readonly(
+          "vertices", [](const py::object& self) { return view(self.cast<const FittedChain&>().vertices, self); },
+          "(k,) int32, in the line's order; empty where no edge fits.")
+      .def_property_readonly(
+          "places", [](const py::object& self) { return view(self.cast<const FittedChain&>().places, self); },
+          "(k,) float64: where on the line each is; i + x is the part x of the way from point i to the next.")
+      .def("__repr__", [](const FittedChain& chain) {
+        return "<FittedChain: " + std::to_string(chain.vertices.size()) + " vertices>";
+      });
+
   py::class_<LiveWireObject, HeldLiveWire>(
       module, "LiveWire",
       R"(Two wires from a seed to any target, each metric computed on a thread of its own.
@@ -493,6 +504,28 @@ Raises
 ------
 ValueError
     Where the edge is not one of the surface's.
+)")
+      .def(
+          "fit_chain",
+          [](const LiveWireObject& object, const py::object& points, const py::object& faces, const py::object& begin,
+             const py::object& end) {
+            const LineGiven line(points, faces, begin, end, object.vertex_count);
+            return without_gil([&] {
+              return std::make_unique<FittedChain>(object.live->fit_chain(line.drawn(), line.begin, line.end));
+            });
+          },
+          py::arg("points"), py::arg("faces"), py::arg("begin") = py::none(), py::arg("end") = py::none(),
+          R"(The chain of edges that fits a line; as the function `fit_chain`, along edges only.
+
+Returns
+-------
+FittedChain
+    Without vertices, too, where it cannot be told yet.
+
+Raises
+------
+ValueError
+    As `fit_chain`, and where wires do not run along edges.
 )")
       .def(
           "embeddings",

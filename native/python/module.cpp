@@ -726,9 +726,58 @@ ValueError
     Where the edge is not one of the surface's, turning is wrong, or the metric is of another surface.
 Cancelled
 )");
+  module.def(
+      "fit_chain",
+      [](const SurfaceObject& surface, const py::object& points, const py::object& faces, const py::object& begin,
+         const py::object& end, const py::object& progress) {
+        const LineGiven line(points, faces, begin, end, surface.surface->vertex_count());
+        return Watch(progress).run([&](const Task& task) {
+          return fit_chain(*surface.surface, surface.edge_adjacency(task), line.drawn(), line.begin, line.end);
+        });
+      },
+      py::arg("surface"), py::arg("points"), py::arg("faces"), py::arg("begin") = py::none(),
+      py::arg("end") = py::none(), py::arg("progress") = py::none(),
+      R"(The chain of edges that fits a line drawn on a surface best.
+
+It begins at the vertex nearest to the line's first point and ends at the one nearest to its last. Of all chains that go
+along the line it has the least sum of l (1 + 32 d^2 / h^2) + h / 4 (1 - cos kappa): l is an edge's length, d^2 the mean
+square distance of its ends and its middle to the line, kappa the turn onto it, h the median length of the edges at the
+line's faces. Where the line turns back over itself, so does the chain; where no edges lead on, it ends.
+
+Parameters
+----------
+surface : Surface
+points : (k, 3) array_like of float
+    In the caller's coordinates, in drawing order.
+faces : (k,) array_like of int
+    The triangle that each lies in.
+begin, end : int, optional
+    Vertices where the chain begins and ends instead, which should be near the line's.
+progress : callable, optional
+    Called now and then where the first line of a surface takes longer; returning False cancels.
+
+Returns
+-------
+FittedChain
+    Without vertices: no edge fits.
+
+Raises
+------
+ValueError
+    Where the arrays have the wrong shape or type or differ in length, a coordinate is not finite, or a face or a vertex
+    is not part of the surface.
+Cancelled
+)");
 }
 
 }  // namespace
+
+LineGiven::LineGiven(py::handle points_given, py::handle faces_given, py::handle from, py::handle to,
+                     std::size_t vertex_count)
+    : points(points_from(points_given, "points")), faces(numbers_from(faces_given, "faces")) {
+  if (!from.is_none()) begin = vertex_from(from, vertex_count, "begin");
+  if (!to.is_none()) end = vertex_from(to, vertex_count, "end");
+}
 
 SurfacePoint EmbeddingObject::find(const SurfacePoint& point, const std::string& name) const {
   if (point.vertex >= 0) return point;

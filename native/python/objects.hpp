@@ -13,6 +13,7 @@
 
 #include "gil.hpp"
 #include "seamwire/edges/edge_wires.hpp"
+#include "seamwire/edges/fit_chain.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/live/livewire.hpp"
@@ -98,10 +99,15 @@ struct SurfaceObject {
     return snap_graph_.get(task, [&] { return SnapGraph(*surface, task); });
   }
 
+  const EdgeAdjacency& edge_adjacency(const Task& task) const {
+    return *edge_adjacency_.get(task, [&] { return make_edge_adjacency(*surface, task); });
+  }
+
   std::shared_ptr<const Surface> surface;
 
  private:
   Lazy<SnapGraph> snap_graph_;
+  Lazy<std::shared_ptr<const EdgeAdjacency>> edge_adjacency_;
 };
 
 struct ReportObject {
@@ -163,6 +169,16 @@ struct EmbeddingObject {
   Lazy<ExactGeodesics> geodesics_;
   Lazy<Edges> edges_;
   Lazy<EmbeddedPoints> points_;
+};
+
+/// A line drawn on a surface, as Python gives it: points, their faces, and the vertices it is to begin and end at.
+struct LineGiven {
+  LineGiven(py::handle points, py::handle faces, py::handle from, py::handle to, std::size_t vertex_count);
+  DrawnLine drawn() const { return {points, faces}; }
+
+  std::vector<Vector> points;
+  std::vector<std::int32_t> faces;
+  std::optional<std::int32_t> begin, end;
 };
 
 struct FieldObject {

@@ -155,6 +155,10 @@ class EdgeLoop:
     vertices: NDArray[np.int32]  # in order; where it is closed, the first one is not given twice
     closed: bool
 
+class FittedChain:
+    vertices: NDArray[np.int32]  # in the line's order; empty: no edge fits
+    places: NDArray[np.float64]  # where on the line each is: i + x, the part x of the way from point i to the next
+
 class LiveWires:
     wires: tuple[LiveCandidate, LiveCandidate]
     shorter: int
@@ -225,6 +229,10 @@ class LiveWire:
         """Return the straightest way on, from the edge's second vertex; its length is that in the unit cube. No vertices: not ready."""
     def edge_loop(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> EdgeLoop:
         """Return the edge loop through an edge, as modellers select it, up to poles, boundaries and stops. No vertices: not ready."""
+    def fit_chain(
+        self, points: ArrayLike, faces: ArrayLike, begin: int | None = None, end: int | None = None
+    ) -> FittedChain:
+        """As the function, along edges only. No vertices: none fit, or not ready."""
     def embeddings(self) -> tuple[LiveEmbedding | None, LiveEmbedding | None]:
         """Return what became of them across the surface; None where one is not prepared, and along edges."""
     def feature_strength(self) -> NDArray[np.float64] | None:
@@ -310,6 +318,15 @@ def shortest_cycle(
     turning: float = 20.0,
     progress: Progress | None = None,
 ) -> EdgeChain: ...
+def fit_chain(
+    surface: Surface,
+    points: ArrayLike,
+    faces: ArrayLike,
+    begin: int | None = None,
+    end: int | None = None,
+    progress: Progress | None = None,
+) -> FittedChain:
+    """Return the chain of edges that fits a line drawn on a surface best, from its beginning to its end, or to where edges end."""
 
 class RayTree:
     """Finds the first triangle that a ray meets; the tree is built on a thread, with the same answers before it is there."""

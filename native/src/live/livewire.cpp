@@ -255,6 +255,15 @@ EdgeLoop LiveWire::edge_loop(const Edge& edge, std::span<const std::int32_t> sto
   return fans ? seamwire::edge_loop(**fans, edge, stops) : EdgeLoop{};
 }
 
+FittedChain LiveWire::fit_chain(const DrawnLine& line, std::optional<std::int32_t> begin,
+                                std::optional<std::int32_t> end) const {
+  if (impl_->settings.along != Along::kEdges)
+    throw InvalidInput("lines are fitted along edges, not across the surface");
+  const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
+  const auto fans = surface ? impl_->surface_cache->fans.peek() : nullptr;
+  return fans ? seamwire::fit_chain(*surface, **fans, line, begin, end) : FittedChain{};
+}
+
 std::shared_ptr<const std::vector<double>> LiveWire::feature_strength() const {
   impl_->surface_cache->rethrow_failure();
   std::shared_ptr<const CurvatureCache> curvatures = impl_->surface_cache->curvatures.peek();

@@ -12,6 +12,7 @@
 
 #include "seamwire/edges/edge_loop.hpp"
 #include "seamwire/edges/edge_wires.hpp"
+#include "seamwire/edges/fit_chain.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/metric/scribble.hpp"
 #include "seamwire/surface/surface.hpp"
@@ -138,6 +139,9 @@ class LiveWire {
   EdgeChain extend_straight(const Edge& edge, std::span<const std::int32_t> stops) const;
   /// seamwire::edge_loop(); no vertices where it cannot be told yet.
   EdgeLoop edge_loop(const Edge& edge, std::span<const std::int32_t> stops) const;
+  /// seamwire::fit_chain(); no vertices, too, where it cannot be told yet. Along edges only.
+  FittedChain fit_chain(const DrawnLine& line, std::optional<std::int32_t> begin = std::nullopt,
+                        std::optional<std::int32_t> end = std::nullopt) const;
   /// s of eq. 5 at each vertex; null while it is being computed.
   std::shared_ptr<const std::vector<double>> feature_strength() const;
 
