@@ -8,7 +8,7 @@ from math import pi
 import numpy as np
 import pytest
 import seamwire_core as sw
-from seamwire.core.suggestion import best_along, narrowed, planned_wires, seeds_for, spread_of, spreads
+from seamwire.core.suggestion import best_along, best_finish, narrowed, planned_wires, seeds_for, spread_of, spreads
 
 CUBE = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], dtype=np.float64)
 SIDES = np.array([(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)])

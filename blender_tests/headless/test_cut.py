@@ -11,7 +11,10 @@ import numpy as np
 import pytest
 from mathutils import Vector
 from scene import add_grid, add_layers, add_suzanne, edit, head, items_of, layer_kinds, plain, seams, snapshot
+from seamwire.core.network import Network
+from seamwire.mesh.cut import CUTS
 from seamwire.mesh.edit_mesh import LABELS
+from seamwire.mesh.object_session import ObjectSession
 from stored import agree, session_on, write
 
 
@@ -167,6 +170,7 @@ def test_layers_come_out_as_blenders_own_bisect_leaves_them() -> None:
         bpy.data.objects.remove(obj)
     ours, blenders = found
     assert ours.pop(f"edges int {LABELS}"), "the wires"
+    assert ours.pop(f"edges int {CUTS}") and ours.pop(f"verts int {CUTS}"), "what the cut made"
     assert ours.keys() == blenders.keys()
     for name in ours:
         assert ours[name] == blenders[name], name
@@ -444,3 +448,131 @@ def test_hidden_faces_are_not_cut() -> None:
     assert cut("0 76") == {"FINISHED"}
     bm = bmesh.from_edit_mesh(obj.data)
     assert sum(face.hide for face in bm.faces) == hidden
+
+
+def drag(obj: bpy.types.Object, seed: int, to: int) -> None:
+    """Drag a seed of a kept wire to another vertex, as the tool does."""
+    mesh = session_on(obj)
+    session, before = mesh.session, mesh.session.network
+    assert session.drag(seed)
+    session.drag_to(to)
+    session.wait()
+    session.drag_to(to)
+    assert session.drag_end()
+    _finish(mesh, before)
+
+
+def _finish(mesh: ObjectSession, before: Network) -> None:
+    same = set(map(id, before.wires))
+    changed = {wire.id for wire in mesh.session.network.wires if id(wire) not in same}
+    write(mesh)
+    mesh.finish_wires(before, changed)
+
+
+def content(obj: bpy.types.Object) -> dict[str, object]:
+    """Return what a mesh holds by place, without the layers of wires and cuts."""
+    return {name: value for name, value in by_place(obj).items() if CUTS not in name and LABELS not in name}
+
+
+def vertex_near(obj: bpy.types.Object, place: tuple[float, float, float]) -> int:
+    bm = bmesh.from_edit_mesh(obj.data)
+    return min(bm.verts, key=lambda v: (v.co - Vector(place)).length).index
+
+
+def test_a_dragged_seed_of_a_cut_wire_takes_the_old_cut_back() -> None:
+    found = []
+    for dragged in (True, False):
+        obj = add_grid(9)
+        add_layers(obj)
+        edit()
+        if dragged:
+            cut("0 44")
+            drag(obj, 44, 80 - 18)
+        else:
+            cut("0 62")
+        assert agree(obj)
+        (wire,) = session_on(obj).session.wires
+        assert wire.is_cut
+        found.append(content(obj))
+        bpy.ops.object.mode_set(mode="OBJECT")
+        assert not obj.data.validate(verbose=True)
+        bpy.data.objects.remove(obj)
+    assert found[0].keys() == found[1].keys()
+    for name in found[0]:
+        assert found[0][name] == found[1][name], name
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_removing_a_cut_wire_gives_the_mesh_back_as_it_was(shape: str) -> None:
+    make, seeds_of = SHAPES[shape]
+    obj = make()
+    seeds = seeds_of(obj)
+    edit()
+    before = content(obj)
+    assert cut("{} {} {}; {} {}".format(*seeds)) == {"FINISHED"}
+    mesh = session_on(obj)
+    network = mesh.session.network
+    for wire in network.wires:
+        mesh.session.drop(wire)
+    _finish(mesh, network)
+    assert seams(obj) == []
+    after = content(obj)
+    for name in before:
+        assert after[name] == before[name], name
+
+
+def test_what_another_wire_was_cut_along_stays_where_one_is_taken_back() -> None:
+    obj = add_grid(9)
+    edit()
+    cut("0 44; 8 45")
+    mesh = session_on(obj)
+    network = mesh.session.network
+    ends = {frozenset((wire.start, wire.end)) for wire in network.wires}
+    assert len(ends) == 4, "they cross"
+    for wire in network.wires:
+        if {wire.start, wire.end} & {0, 44}:
+            mesh.session.drop(wire)
+    _finish(mesh, network)
+    assert agree(obj)
+    a, b = Vector((1.0, -1.0, 0.0)), Vector((-1.0, 0.25, 0.0))
+    bm = bmesh.from_edit_mesh(obj.data)
+    lengths = sum(edge.calc_length() for edge in bm.edges if edge.seam)
+    assert lengths == pytest.approx((a - b).length, rel=1e-5)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert not obj.data.validate(verbose=True)
+
+
+def test_mirror_images_of_a_cut_follow_its_seed() -> None:
+    obj = add_grid(9)
+    obj.data.use_mirror_x = True
+    edit()
+    cut("1 38", mirror={"X"})
+    (wire,) = session_on(obj).session.wires
+    assert wire.mirror == (0,)
+    assert wire.images
+    drag(obj, vertex_near(obj, (-0.5, 0.0, 0.0)), vertex_near(obj, (-0.25, 0.5, 0.0)))
+    assert agree(obj)
+    bm = bmesh.from_edit_mesh(obj.data)
+    middles = [tuple(round(x, 4) for x in sum((v.co for v in e.verts), Vector()) / 2) for e in bm.edges if e.seam]
+    assert middles
+    assert {(-x + 0.0, y, z) for x, y, z in middles} == set(middles)
+    straight = Vector((-0.75, -1.0, 0.0)) - Vector((-0.25, 0.5, 0.0))
+    assert sum(e.calc_length() for e in bm.edges if e.seam) == pytest.approx(2.0 * straight.length, rel=1e-5)
+
+
+def test_undo_of_a_drag_brings_the_old_cut_back() -> None:
+    obj = add_grid(9)
+    edit()
+    cut("0 44")
+    bpy.ops.ed.undo_push(message="cut")
+    # What undo has brought back once has the normals that it brings back.
+    bpy.ops.ed.undo_push(message="again")
+    bpy.ops.ed.undo()
+    name = obj.name
+    obj = bpy.data.objects[name]
+    before = snapshot(obj)
+    drag(obj, 44, 62)
+    bpy.ops.ed.undo_push(message="dragged")
+    assert snapshot(obj) != before
+    bpy.ops.ed.undo()
+    assert snapshot(bpy.data.objects[name]) == before

@@ -193,7 +193,7 @@ class Wire:
     strength
         The metric's largest anisotropy when it was found; 0: not known, or it needs none.
     finish
-        Across the surface, what becomes its seam when its chain ends.
+        Across the surface, what becomes its seam when its chain ends; along edges "CUT" says that it was cut into the faces.
     kind
         What it is of what one click on an edge offers; None: it was drawn.
     through
@@ -240,6 +240,17 @@ class Wire:
     def last_edge(self) -> Edge:
         """Its last edge in the direction that it runs."""
         return self.vertices[-2], self.vertices[-1]
+
+    @property
+    def is_cut(self) -> bool:
+        """Whether it was cut into the faces, and runs along edges for that reason alone."""
+        return self.along == "EDGES" and self.finish == "CUT"
+
+    def uncut(self) -> Wire:
+        """Return a wire that was cut as one across the surface, whose other courses run there; any other as it is."""
+        if not self.is_cut:
+            return self
+        return self.changed(along="SURFACE", heading=None, start=self.vertices[0], end=self.vertices[-1])
 
     def like(self, other: Wire) -> bool:
         """Whether another wire runs the same way."""

@@ -141,6 +141,9 @@ class SeedDrag:
     """
 
     def __init__(self, engines: Engines, network: Network, seed: Pick, points: NDArray[np.float64]) -> None:
+        # Wires that were cut go across the surface anew.
+        own = {wire.id for wire, _ in network.at(seed)}
+        network = replace(network, wires=tuple(wire.uncut() if wire.id in own else wire for wire in network.wires))
         ends = network.at(seed)
         live = network.seed
         if not ends and (live is None or undirected(live.place) != undirected(seed)):

@@ -294,7 +294,7 @@ class Session:
         if own.alternative is not None:
             return self._retrace(own, own.alternative)
         try:
-            self._retraces.add(self._network, own)
+            self._retraces.add(self._network, own.uncut())
         except ValueError as error:
             return self._refuse(str(error))
         self._read_progress()

@@ -6,7 +6,7 @@ Blender's own operations on the edit mesh do it, those that its knife is made of
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -15,6 +15,7 @@ import numpy as np
 
 from ..core import cutting
 from ..core.network import FacePoint
+from .edit_mesh import LABELS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -22,6 +23,9 @@ if TYPE_CHECKING:
     from ..core.cutting import CutPlan, Node
     from ..core.network import Edge
     from .edit_mesh import Arrays, Cage
+
+CUTS = ".seamwire_cut"
+"""The layer of vertices, and of edges, that is 1 where a cut made them: those can be taken back."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +37,7 @@ class Cut:
     edges
         What the wires run along now, by their vertices.
     seeds
-        The vertices that were asked for, by the numbers that they have now.
+        The vertices and points that were asked for, and the numbers of the vertices there now.
     vertices
         How many vertices are new.
     uncut
@@ -41,7 +45,7 @@ class Cut:
     """
 
     edges: tuple[Edge, ...]
-    seeds: tuple[int, ...]
+    seeds: Mapping[int | FacePoint, int]
     vertices: int
     uncut: int
 
@@ -84,9 +88,11 @@ def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = ()) 
     `seeds` are vertices and points whose numbers then are asked for; of points, only those that the cuts go through have any.
     """
     bm = cage.bm
+    # First of all: a new layer makes what was found before invalid.
+    of_verts, of_edges = _cut_layers(bm)
     seeds = list(seeds)
-    seed_verts = [bm.verts[seed] for seed in seeds if isinstance(seed, int)]
-    at_points = [what.node_at(seed.corners, seed.weights) for seed in seeds if isinstance(seed, FacePoint)]
+    seed_verts = {seed: bm.verts[seed] for seed in seeds if isinstance(seed, int)}
+    at_points = {seed: what.node_at(seed.corners, seed.weights) for seed in seeds if isinstance(seed, FacePoint)}
     faces = {polygon: bm.faces[polygon] for polygon in what.across}
     before = len(bm.verts)
     vert_of: dict[Node, bmesh.types.BMVert] = {}
@@ -105,11 +111,14 @@ def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = ()) 
             part = (node.weights[1] - passed) / (1.0 - passed)
             _, last = bmesh.utils.edge_split(edge, last, part)
             vert_of[node], passed = last, node.weights[1]
-    seed_verts += [vert_of[node] for node in at_points if node is not None]
+    seed_verts |= {seed: vert_of[node] for seed, node in at_points.items() if node is not None}
+    for node, vert in vert_of.items():
+        if len(node.vertices) > 1:
+            vert[of_verts] = 1
     seams = [bm.edges.get((vert_of[one], vert_of[two])) for one, two in what.along]
     uncut = 0
     for polygon, segments in what.across.items():
-        edges = _split(bm, faces[polygon], [(vert_of[one], vert_of[two]) for one, two in segments])
+        edges = _split(bm, faces[polygon], [(vert_of[one], vert_of[two]) for one, two in segments], of_edges)
         uncut += len(edges) < len(segments)
         seams += edges
     for edge in seams:
@@ -119,8 +128,49 @@ def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = ()) 
     bmesh.update_edit_mesh(cage.mesh, loop_triangles=True, destructive=True)
     pairs = {(min(pair), max(pair)) for pair in ((edge.verts[0].index, edge.verts[1].index) for edge in seams)}
     # Those inside a face that could not be cut went.
-    numbers = tuple(vert.index for vert in seed_verts if vert.is_valid)
+    numbers = {seed: vert.index for seed, vert in seed_verts.items() if vert.is_valid}
     return Cut(tuple(sorted(pairs)), numbers, len(bm.verts) - before, uncut)
+
+
+def _cut_layers(bm: bmesh.types.BMesh) -> tuple[bmesh.types.BMLayerItem, bmesh.types.BMLayerItem]:
+    """Return the layers of vertices and of edges that tell what cuts made."""
+    layers = tuple(items.layers.int.get(CUTS) or items.layers.int.new(CUTS) for items in (bm.verts, bm.edges))
+    for items in (bm.verts, bm.edges, bm.faces):
+        items.ensure_lookup_table()
+    return layers
+
+
+def take_back(cage: Cage, edges: Iterable[Edge]) -> int:
+    """Join what cuts along some edges parted, and return how many edges went.
+
+    Only edges that cuts made go, and the vertices that cuts made on them, where all that is left is one edge that passes there
+    and no wire has. Vertices, edges and faces have other numbers then.
+    """
+    bm = cage.bm
+    of_verts, of_edges, labels = (
+        bm.verts.layers.int.get(CUTS),
+        bm.edges.layers.int.get(CUTS),
+        bm.edges.layers.int.get(LABELS),
+    )
+    if of_verts is None or of_edges is None:
+        return 0
+    found = [edge for a, b in edges if (edge := bm.edges.get((bm.verts[a], bm.verts[b]))) is not None]
+    verts = {vert for edge in found for vert in edge.verts if vert[of_verts]}
+    count = len(bm.edges)
+    bmesh.ops.dissolve_edges(bm, edges=[edge for edge in found if edge[of_edges]], use_verts=False)
+    gone = count - len(bm.edges)
+    passed = [
+        vert
+        for vert in verts
+        if vert.is_valid
+        and len(vert.link_edges) == 2
+        and not any(labels is not None and edge[labels] for edge in vert.link_edges)
+    ]
+    bmesh.ops.dissolve_verts(bm, verts=passed)
+    for items in (bm.verts, bm.edges, bm.faces):
+        items.index_update()
+    bmesh.update_edit_mesh(cage.mesh, loop_triangles=True, destructive=True)
+    return gone
 
 
 def _vert_inside(
@@ -145,11 +195,15 @@ def _split(
     bm: bmesh.types.BMesh,
     face: bmesh.types.BMFace,
     segments: Sequence[tuple[bmesh.types.BMVert, bmesh.types.BMVert]],
+    of_edges: bmesh.types.BMLayerItem,
 ) -> list[bmesh.types.BMEdge]:
     """Split a face along edges between its corners and vertices inside it; return those edges, none where that cannot be done."""
     selected = face.select
     known = [bm.edges.get(segment) for segment in segments]
     edges = [bm.edges.new(segment) if edge is None else edge for edge, segment in zip(known, segments, strict=True)]
+    for edge, before in zip(edges, known, strict=True):
+        if before is None:
+            edge[of_edges] = 1
     try:
         parts = bmesh.utils.face_split_edgenet(face, edges)
     except ValueError:

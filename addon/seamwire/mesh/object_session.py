@@ -5,17 +5,17 @@ from __future__ import annotations
 
 import functools
 import threading
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from ..core import serialization, sliding, wire_labels
+from ..core import cutting, serialization, sliding, wire_labels
 from ..core.cutting import CuttingError
 from ..core.live_maker import LiveMaker
-from ..core.network import FacePoint, edges_after
+from ..core.network import FacePoint, edges_after, vertices_of
 from ..core.network_file import NetworkFile
 from ..core.seam_wires import wires_between
 from ..core.serialization import Archive, UnreadableError
@@ -26,12 +26,12 @@ from ..core.wire_labels import EdgeLabels, Found, Places
 from . import cut, edit_mesh, slide
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterable, Sequence
+    from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 
     from numpy.typing import NDArray
 
     from ..core.cutting import CutPlan
-    from ..core.network import Along, Finish, Network, Wire
+    from ..core.network import Along, Edge, Finish, Network, Wire
     from ..core.strokes import Scribble
     from .settings import SeamwireSettings
 
@@ -47,6 +47,34 @@ _archive = Archive()
 def mirror_axes(mesh: bpy.types.Mesh) -> tuple[int, ...]:
     """Return the axes over which Blender mirrors what is done to a mesh."""
     return tuple(axis for axis, name in enumerate("xyz") if getattr(mesh, f"use_mirror_{name}"))
+
+
+@dataclass(frozen=True)
+class Finished:
+    """What became of wires across the surface when their chain ended.
+
+    Parameters
+    ----------
+    slid, moved
+        How many wires were slid onto, and how many vertices were.
+    cut, edges, uncut
+        How many wires were cut into the faces, how many edges they run along, and how many faces could not be cut.
+    problem
+        Why nothing was cut.
+    taken_back
+        How many edges of former cuts went, where nothing was cut in their place.
+    """
+
+    slid: int = 0
+    moved: int = 0
+    cut: int = 0
+    edges: int = 0
+    uncut: int = 0
+    problem: str = ""
+    taken_back: int = 0
+
+    def __bool__(self) -> bool:
+        return self != Finished()
 
 
 class ObjectSession:
@@ -381,7 +409,7 @@ class ObjectSession:
             raise CuttingError("No wire leaves the face that it begins in")
         return plan
 
-    def cut(self, plan: CutPlan, wires: Collection[Wire], kept: bool) -> cut.Cut:
+    def cut(self, plan: CutPlan, wires: Collection[Wire], kept: bool = False, before: Network | None = None) -> cut.Cut:
         """Cut the mesh; what was cut are wires along its edges then, between the seeds of those across the surface.
 
         Vertices, edges and faces have other numbers then: this session is over.
@@ -394,19 +422,115 @@ class ObjectSession:
             What is cut.
         kept
             Whether the mesh has these wires already: their snapped edges cease to be seams.
+        before
+            A network that the mesh had: what wires of it were cut along that are there no more is taken back first.
+
+        Raises
+        ------
+        CuttingError
+            Where a wire cannot be cut into the mesh without the cuts taken back; these, and the wires, are gone then.
         """
+        images = [replace(image, mirror=()) for wire in wires for image in self.session.mirrored(wire)]
         if kept:
             for wire in wires:
                 self.session.drop(wire)
             self.write(self.plan())
+        left = [] if before is None else self._left_cuts(before)
+        if left:
+            cut.take_back(self.cage, left)
+            after = ObjectSession(self.obj)
+            # Those of images as well: there is no chain of edges to be mirrored yet.
+            placed = after._placed((*wires, *images))
+            return after.cut(after.plan_cut(placed), placed)
         seeds = {end for wire in wires for end in (wire.start, wire.end)}
         done = cut.carry_out(self.cage, plan, seeds)
         after = ObjectSession(self.obj)
         taken = {edge for wire in after.session.wires for edge in wire.claims()}
-        free = np.array([edge for edge in done.edges if edge not in taken], dtype=np.int32).reshape(-1, 2)
-        after.take_over(wires_between(free, done.seeds, after.arrays.points))
+        after.take_over(after._cut_wires({edge for edge in done.edges if edge not in taken}, wires, done.seeds))
         after.write(after.plan())
         return done
+
+    def take_back_cuts(self, before: Network) -> int:
+        """Take back what wires of a network before were cut along that are there no more; return how many edges went.
+
+        Where there are any, this session is over.
+        """
+        left = self._left_cuts(before)
+        return cut.take_back(self.cage, left) if left else 0
+
+    def _left_cuts(self, before: Network) -> list[Edge]:
+        """Return the edges that wires of a network were cut along, and that are no seams now."""
+        own = {edge for wire in before.wires if wire.is_cut for edge in wire.claims()}
+        return [edge for edge in sorted(own) if not self.cage.is_seam(edge)]
+
+    def _placed(self, wires: Iterable[Wire]) -> list[Wire]:
+        """Return wires across a mesh with other vertices and faces, but the same surface, as wires across this mesh."""
+        find = self.finder()
+
+        def seed_at(place: NDArray[np.float64]) -> int | FacePoint:
+            point = find((self.arrays.to_object @ place).tolist())
+            return point.vertex if max(point.weights) > 1.0 - cutting.NEAR else point
+
+        placed = []
+        for wire in wires:
+            start, end = seed_at(wire.points[0]), seed_at(wire.points[-1])
+            vertices = (*vertices_of(start), *vertices_of(end))
+            placed.append(wire.changed(vertices=vertices, start=start, end=end, images=()))
+        return placed
+
+    def _cut_wires(
+        self, edges: set[Edge], wires: Collection[Wire], seeds: Mapping[int | FacePoint, int]
+    ) -> Iterator[Wire]:
+        """Yield wires along edges that others were cut along, between their seeds; what is the image of one is no other."""
+        pairs = np.array(sorted(edges), dtype=np.int32).reshape(-1, 2)
+        between = list(wires_between(pairs, set(seeds.values()), self.arrays.points))
+        origin = {frozenset((seeds.get(wire.start), seeds.get(wire.end))): wire for wire in wires}
+        mirrors = {wire.mirror for wire in wires}
+        shared = mirrors.pop() if len(mirrors) == 1 else ()
+        between.sort(key=lambda wire: frozenset((wire.start, wire.end)) not in origin)
+        left = set(edges)
+        for wire in between:
+            if left.isdisjoint(wire.edges()):
+                continue
+            own = origin.get(frozenset((wire.start, wire.end)))
+            left.difference_update(wire.edges())
+            wire = replace(wire, finish="CUT", mirror=shared, images=())
+            if own is not None:
+                wire = replace(wire, follow=own.follow, strength=own.strength, mirror=own.mirror)
+            images = {edge for image in self.session.mirrored(wire) for edge in image.edges()}
+            if left.issuperset(images):
+                left.difference_update(images)
+                yield replace(wire, images=None)
+            else:
+                yield replace(wire, mirror=())
+
+    def finish_wires(self, before: Network, changed: Collection[int]) -> Finished:
+        """Let the changed wires across the surface be what they are to be, slid or cut, and take back cuts that are wires' no more.
+
+        The mesh has these wires. Where anything was done, this session is over.
+
+        Parameters
+        ----------
+        before
+            The network before the changes.
+        changed
+            The numbers of the wires that are new since, or have another course.
+        """
+        wires = [wire for wire in self.session.wires if wire.id in changed and wire.along == "SURFACE" and wire.marks]
+        slid = [wire for wire in wires if wire.finish == "SLIDE"]
+        to_cut = [wire for wire in wires if wire.finish == "CUT"]
+        mesh, moved = self, self.slide(slid) if slid else 0
+        if moved:
+            mesh, drawn = ObjectSession(self.obj), {wire.vertices for wire in to_cut}
+            to_cut = [wire for wire in mesh.session.wires if wire.vertices in drawn]
+        finished = Finished(len(slid), moved)
+        if to_cut:
+            try:
+                done = mesh.cut(mesh.plan_cut(to_cut), to_cut, kept=True, before=before)
+            except CuttingError as error:
+                return replace(finished, problem=str(error))
+            return replace(finished, cut=len(to_cut), edges=len(done.edges), uncut=done.uncut)
+        return replace(finished, taken_back=mesh.take_back_cuts(before))
 
     def slide(self, wires: Collection[Wire]) -> int:
         """Slide the vertices of snapped wires, and of their mirror images, onto the wires; return how many were moved.

@@ -9,10 +9,8 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ..core.cutting import CuttingError
 from ..core.network import Network
 from ..mesh import settings as chosen
-from ..mesh.object_session import ObjectSession
 from ..view.edited_objects import edited
 from ..view.viewport import Place, place_of
 from . import bindings, navigation
@@ -184,11 +182,11 @@ class Chain:
             return
         known = {wire.id for wire in before.wires}
         wires = sum(wire.id not in known for wire in view.session.network.wires)
-        before_ids = {id(wire) for wire in before.wires}
-        changed = {wire.id for wire in view.session.network.wires if id(wire) not in before_ids}
+        same = {id(wire) for wire in before.wires}
+        changed = {wire.id for wire in view.session.network.wires if id(wire) not in same}
         marked, cleared = self._write(view, adopt=True)
         self._drawn, self._saved, problem = None, False, ""
-        finished = self._finish_wires(view, changed)
+        finished = self._finish_wires(view, before, changed)
         if undo_step:
             if (marked or cleared) and context.mode == "EDIT_MESH":
                 problem = unwrap_after_chain(context)
@@ -196,32 +194,25 @@ class Chain:
         self.told.append(f"{title}: {finished or summary(wires, marked, cleared)}{problem and f'. {problem}'}")
 
     @staticmethod
-    def _finish_wires(view: ObjectView, changed: set[int]) -> str:
-        """Slide and cut those of the changed wires across the surface that are to be; return what was done, in words."""
-        mesh = view.mesh
-        if not mesh.alive():
+    def _finish_wires(view: ObjectView, before: Network, changed: set[int]) -> str:
+        """Let the changed wires be finished, and return what was done, in words."""
+        if not view.mesh.alive():
             return ""
-        wires = [wire for wire in mesh.session.wires if wire.id in changed and wire.along == "SURFACE" and wire.marks]
-        slid = [wire for wire in wires if wire.finish == "SLIDE"]
-        cut = [wire for wire in wires if wire.finish == "CUT"]
+        done = view.mesh.finish_wires(before, changed)
+        if not done:
+            return ""
+        edited.forget(view)
         told = []
-        if slid:
-            moved = mesh.slide(slid)
-            told.append(f"{count(len(slid), 'wire')} slid, {count(moved, 'vertex', 'vertices')} moved")
-            if moved and cut:
-                mesh, drawn = ObjectSession(view.obj), {wire.vertices for wire in cut}
-                cut = [wire for wire in mesh.session.wires if wire.vertices in drawn]
-        if cut:
-            try:
-                plan = mesh.plan_cut(cut)
-            except CuttingError as error:
-                told.append(f"not cut: {error}")
-            else:
-                done = mesh.cut(plan, cut, kept=True)
-                told.append(f"{count(len(cut), 'wire')} cut, {count(len(done.edges), 'edge')} marked")
-                told += [gaps(done.uncut)] if done.uncut else []
-        if told:
-            edited.forget(view)
+        if done.slid:
+            told.append(f"{count(done.slid, 'wire')} slid, {count(done.moved, 'vertex', 'vertices')} moved")
+        if done.cut:
+            told.append(f"{count(done.cut, 'wire')} cut, {count(done.edges, 'edge')} marked")
+        if done.uncut:
+            told.append(gaps(done.uncut))
+        if done.problem:
+            told.append(f"not cut: {done.problem}")
+        if done.taken_back:
+            told.append("cut taken back")
         return ", ".join(told)
 
     def save(self) -> None:
