@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Chains across the surface that are cut into the faces when they end."""
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
-from desk import Desk
-from scene import chain, seams
+from desk import Desk, drag, draw
+from scene import chain, seams, snapshot
 from seamwire.mesh.settings import settings
-from stored import agree, chains
+from stored import agree, chains, session_on
 
 
 @pytest.fixture
@@ -120,7 +121,22 @@ def test_near_a_vertex_or_with_snap_a_click_takes_the_vertex(cutting: Desk) -> N
     ui.key("ESC")
 
 
+def soften(cutting: Desk) -> None:
+    """Take away what vertices do not slide off: creases, sharp edges, borders between materials."""
+    bm = bmesh.from_edit_mesh(cutting.obj.data)
+    for face in bm.faces:
+        face.material_index = 0
+    crease = (
+        bm.edges.layers.crease.active if hasattr(bm.edges.layers, "crease") else bm.edges.layers.float["crease_edge"]
+    )
+    for edge in bm.edges:
+        edge.smooth, edge[crease] = True, 0.0
+    bmesh.update_edit_mesh(cutting.obj.data)
+    bpy.ops.ed.undo_push(message="Soft")
+
+
 def test_a_chain_is_slid_when_it_ends_in_one_step_of_undo(cutting: Desk) -> None:
+    soften(cutting)
     settings().finish = "SLIDE"
     session, ui = cutting.start(), cutting.ui
     places = np.array([v.co for v in cutting.obj.data.vertices])
@@ -135,7 +151,7 @@ def test_a_chain_is_slid_when_it_ends_in_one_step_of_undo(cutting: Desk) -> None
     wire = places[[20, 33]]
     steps = np.linalg.norm(np.diff(places[list(snapped)], axis=0), axis=1).sum()
     assert length(cutting) < 0.5 * (steps + np.linalg.norm(wire[1] - wire[0]))
-    (kept,) = cutting.session.wires
+    (kept,) = session_on(cutting.obj).session.wires
     assert kept.finish == "SLIDE"
     assert kept.along == "SURFACE"
     ui.key("Z", ctrl=True)
@@ -146,6 +162,7 @@ def test_a_chain_is_slid_when_it_ends_in_one_step_of_undo(cutting: Desk) -> None
 
 
 def test_each_wire_is_finished_as_was_said_when_it_was_kept(cutting: Desk) -> None:
+    soften(cutting)
     session, ui = cutting.start(), cutting.ui
     count = len(cutting.obj.data.vertices)
     settings().finish = "SNAP"
@@ -162,8 +179,8 @@ def test_each_wire_is_finished_as_was_said_when_it_was_kept(cutting: Desk) -> No
     ui.key("RET")
     assert cutting.left_clean()
     assert agree(cutting.obj)
-    assert sorted((wire.along, wire.finish) for wire in cutting.session.wires) == [
-        ("EDGES", "SNAP"),
+    assert sorted((wire.along, wire.finish) for wire in session_on(cutting.obj).session.wires) == [
+        ("EDGES", "CUT"),
         ("SURFACE", "SLIDE"),
         ("SURFACE", "SNAP"),
     ]
@@ -183,3 +200,65 @@ def test_auto_snaps_on_quads(cutting: Desk) -> None:
     cutting.obj.update_from_editmode()
     assert len(cutting.obj.data.vertices) == 81
     assert [wire.along for wire in cutting.session.wires] == ["SURFACE"]
+
+
+def drawn_cut(cutting: Desk, start: int, end: int) -> None:
+    """Draw a wire with the tool and let it be cut."""
+    cutting.choose()
+    session = draw(cutting, start, end)
+    assert not cutting.running, session.message
+    assert agree(cutting.obj)
+
+
+def distance(cutting: Desk, one: int, two: int) -> float:
+    vertices = cutting.obj.data.vertices
+    return (vertices[one].co - vertices[two].co).length
+
+
+def test_a_dragged_seed_of_a_cut_wire_is_one_step_and_leaves_no_old_cut(cutting: Desk) -> None:
+    drawn_cut(cutting, 0, 44)
+    cutting.obj.update_from_editmode()
+    count, ui = len(cutting.obj.data.vertices), cutting.ui
+    drag(cutting, cutting.at(44), cutting.at(61))
+    ui.wait_until(lambda: not cutting.running)
+    assert cutting.left_clean()
+    assert agree(cutting.obj)
+    assert length(cutting) == pytest.approx(distance(cutting, 0, 61), rel=1e-6)
+    used = {vertex for edge in seams(cutting.obj) for vertex in edge}
+    assert all(vertex in used or vertex < 81 for vertex in range(len(cutting.obj.data.vertices))), "an old cut is left"
+    ui.key("Z", ctrl=True)
+    cutting.obj.update_from_editmode()
+    assert len(cutting.obj.data.vertices) == count
+    assert length(cutting) == pytest.approx(distance(cutting, 0, 44), rel=1e-6)
+    assert agree(cutting.obj)
+
+
+def test_a_drag_of_a_cut_wire_that_is_given_up_changes_nothing(cutting: Desk) -> None:
+    drawn_cut(cutting, 0, 44)
+    before, ui = snapshot(cutting.obj), cutting.ui
+    ui.move(cutting.at(44))
+    ui.event("LEFTMOUSE", "PRESS", cutting.at(44))
+    ui.move(cutting.at(61))
+    ui.wait_until(lambda: any(wire.along == "SURFACE" for wire in cutting.session.moved))
+    ui.key("ESC")
+    ui.event("LEFTMOUSE", "RELEASE", cutting.at(61))
+    assert cutting.left_clean()
+    assert snapshot(cutting.obj) == before
+    assert agree(cutting.obj)
+
+
+def test_a_removed_cut_wire_takes_its_cut_back(cutting: Desk) -> None:
+    drawn_cut(cutting, 0, 44)
+    ui = cutting.ui
+    vertices = cutting.obj.data.vertices
+    middle = next(v for v in range(81, len(vertices)))
+    ui.move(cutting.at(middle))
+    ui.key("X")
+    ui.wait_until(lambda: not seams(cutting.obj))
+    assert cutting.left_clean()
+    cutting.obj.update_from_editmode()
+    assert len(cutting.obj.data.vertices) == 81
+    assert len(cutting.obj.data.polygons) == 64
+    ui.key("Z", ctrl=True)
+    assert agree(cutting.obj)
+    assert length(cutting) > 0

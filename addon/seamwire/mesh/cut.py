@@ -143,8 +143,8 @@ def _cut_layers(bm: bmesh.types.BMesh) -> tuple[bmesh.types.BMLayerItem, bmesh.t
 def take_back(cage: Cage, edges: Iterable[Edge]) -> int:
     """Join what cuts along some edges parted, and return how many edges went.
 
-    Only edges that cuts made go, and the vertices that cuts made on them, where all that is left is one edge that passes there
-    and no wire has. Vertices, edges and faces have other numbers then.
+    Only edges that cuts made go, but not those of hidden faces, and the vertices that cuts made on them, where all that is left is
+    one edge that passes there and no wire has. Vertices, edges and faces have other numbers then.
     """
     bm = cage.bm
     of_verts, of_edges, labels = (
@@ -157,7 +157,8 @@ def take_back(cage: Cage, edges: Iterable[Edge]) -> int:
     found = [edge for a, b in edges if (edge := bm.edges.get((bm.verts[a], bm.verts[b]))) is not None]
     verts = {vert for edge in found for vert in edge.verts if vert[of_verts]}
     count = len(bm.edges)
-    bmesh.ops.dissolve_edges(bm, edges=[edge for edge in found if edge[of_edges]], use_verts=False)
+    cuts = [edge for edge in found if edge[of_edges] and not any(face.hide for face in edge.link_faces)]
+    bmesh.ops.dissolve_edges(bm, edges=cuts, use_verts=False)
     gone = count - len(bm.edges)
     passed = [
         vert
