@@ -28,6 +28,7 @@ _PARTS = (
     "operators.gaps",
     "operators.repeat",
     "operators.network_files",
+    "operators.transfer",
     "operators.suggest",
     "operators.islands",
     "operators.edge_marks",

@@ -7,7 +7,6 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
-import jsonschema
 import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points
@@ -98,6 +97,7 @@ def test_it_is_written_the_same_after_it_was_read(network: Network) -> None:
 
 
 def test_the_schema_holds(network: Network) -> None:
+    jsonschema = pytest.importorskip("jsonschema")
     validator = jsonschema.Draft202012Validator(SCHEMA)
     validator.check_schema(SCHEMA)
     data = json.loads(written(network).text())

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -111,3 +112,42 @@ def creases(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArra
     for column in sides[one].T:
         np.maximum.at(largest, column, angles)
     return largest
+
+
+@dataclass(frozen=True)
+class Moments:
+    """Where a surface lies, whatever its triangles are.
+
+    Parameters
+    ----------
+    middle
+        (3,) its center of area.
+    axes
+        (3, 3) its principal axes, the longest first, each as long as the standard deviation along it.
+    """
+
+    middle: NDArray[np.float64]
+    axes: NDArray[np.float64]
+
+    @classmethod
+    def of(cls, points: NDArray[np.float64], triangles: NDArray[np.int32]) -> Moments:
+        """Return those of a mesh; of one without an area, zeros."""
+        corners = points[triangles]
+        areas = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+        total = float(areas.sum())
+        if not total > 0.0:
+            return cls(np.zeros(3), np.zeros((3, 3)))
+        middles = corners.mean(axis=1)
+        middle = areas @ middles / total
+        off = np.concatenate([corners.transpose(1, 0, 2), middles[None]]) - middle
+        # Over a triangle the square is that of its corners and thrice that of its middle, each a twelfth and nine twelfths.
+        weights = np.array([1.0, 1.0, 1.0, 9.0]) / 12.0
+        square = np.einsum("c,m,cmi,cmj->ij", weights, areas, off, off) / total
+        values, vectors = np.linalg.eigh(square)
+        axes = (vectors * np.sqrt(np.maximum(values, 0.0))).T[::-1]
+        return cls(middle, axes)
+
+    @property
+    def size(self) -> float:
+        """The standard deviation in all directions together."""
+        return float(np.linalg.norm(self.axes))

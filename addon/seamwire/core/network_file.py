@@ -18,7 +18,7 @@ import numpy as np
 
 from . import serialization
 from .defaults import CLAMP_PERCENTILE
-from .geometry import creases, vertex_normals
+from .geometry import Moments, creases, vertex_normals
 from .network import FacePoint, place_of, undirected
 from .serialization import Record
 
@@ -48,15 +48,15 @@ class Origin:
         How it was called.
     vertices, edges, triangles
         How many it had; edges and triangles that were hidden are not counted.
-    bounds
-        (2, 3) its least and largest object coordinates.
+    moments
+        Where its surface lies, in object coordinates.
     """
 
     name: str
     vertices: int
     edges: int
     triangles: int
-    bounds: NDArray[np.float64]
+    moments: Moments
 
 
 @dataclass(frozen=True)
@@ -164,7 +164,6 @@ class NetworkFile:
         matrix = np.eye(3) if to_object is None else to_object
         places = points @ matrix.T
         normals, angles = vertex_normals(places, triangles), creases(places, triangles)
-        bounds = np.stack([places.min(axis=0), places.max(axis=0)]) if len(places) else np.zeros((2, 3))
 
         def facing(pick: Pick) -> NDArray[np.float64]:
             normal = place_of(pick, normals)
@@ -177,7 +176,7 @@ class NetworkFile:
             chain = list(wire.vertices)
             courses.append(Course(record, places[chain], normals[chain], angles[chain]))
         return cls(
-            Origin(name, len(points), len(edges), len(triangles), bounds),
+            Origin(name, len(points), len(edges), len(triangles), Moments.of(places, triangles)),
             metric,
             clamp,
             tuple(SeedPlace(pick, place_of(pick, places), facing(pick)) for pick in kept.seeds()),
@@ -201,7 +200,8 @@ class NetworkFile:
                 "vertices": origin.vertices,
                 "edges": origin.edges,
                 "triangles": origin.triangles,
-                "bounds": _rounded(origin.bounds),
+                "middle": _rounded(origin.moments.middle),
+                "axes": _rounded(origin.moments.axes),
             },
             "metric": self.metric,
             "clamp": round(float(self.clamp), 4),
@@ -247,7 +247,8 @@ class NetworkFile:
             where = "mesh"
             mesh = data["mesh"]
             counts = [_count(mesh[key]) for key in ("vertices", "edges", "triangles")]
-            origin = Origin(str(mesh["name"]), *counts, _points(mesh["bounds"], 2))
+            moments = Moments(_point(mesh["middle"]), _points(mesh["axes"], 3))
+            origin = Origin(str(mesh["name"]), *counts, moments)
             where = "metric"
             metric, clamp = data["metric"], float(data["clamp"])
             if metric not in _METRICS or not 0.0 < clamp <= 100.0:

@@ -83,7 +83,7 @@ class ObjectSession:
     Parameters
     ----------
     obj
-        A mesh object in edit mode.
+        A mesh object in edit mode; in another mode it can be read, and not drawn on.
     along
         How wires run at first.
 
@@ -102,7 +102,8 @@ class ObjectSession:
 
     def __init__(self, obj: bpy.types.Object, along: Along = "EDGES") -> None:
         self.obj = obj
-        self.cage: edit_mesh.Cage | edit_mesh.StoredMesh = edit_mesh.Cage(obj)
+        self.cage: edit_mesh.Cage | edit_mesh.StoredMesh
+        self.cage = edit_mesh.Cage(obj) if obj.mode == "EDIT" else edit_mesh.StoredMesh(obj.data)
         self.arrays = edit_mesh.read(obj)
         self.make_live = LiveMaker(self.arrays)
         self.session = Session(
@@ -350,24 +351,17 @@ class ObjectSession:
         return written
 
     def add(self, wires: Iterable[Wire], strokes: Iterable[Scribble] = ()) -> None:
-        """Go on with more wires and strokes, found elsewhere; `write` marks their edges, and those of mirror images."""
+        """Go on with more wires and strokes, found elsewhere; `write` marks their edges."""
         session = self.session
-        drawn = (*session.wires, *map(self._with_images, wires))
+        drawn = (*session.wires, *wires)
         scribbles = (*session.scribbles, *(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in strokes))
         session.adopt(replace(session.network, wires=drawn, scribbles=scribbles, seed=None), self.plain_seams)
 
-    def _with_images(self, wire: Wire) -> Wire:
-        if wire.images is not None or not wire.mirror:
-            return wire
-        wire = replace(wire, images=())
-        edges = dict.fromkeys(edge for image in self.session.mirrored(wire) for edge in image.edges())
-        return replace(wire, images=tuple(edges))
-
-    def network_file(self, settings: SeamwireSettings) -> NetworkFile:
-        """Return the network as it is saved to a file."""
+    def network_file(self, settings: SeamwireSettings, more: Iterable[Wire] = ()) -> NetworkFile:
+        """Return the network, and more wires, as they are saved to a file."""
         arrays = self.arrays
         return NetworkFile.of(
-            self.session.kept,
+            replace(self.session.kept, wires=(*self.session.wires, *more)),
             arrays.points,
             arrays.triangles,
             arrays.edges,

@@ -11,6 +11,7 @@ from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 from ..mesh.settings import settings
 from .report import count, in_edit_mode
+from .transfer import ALIGN, MIRROR_ITEMS, PLACE_ITEMS, axis_of, write_and_report
 
 if TYPE_CHECKING:
     from ..core.network_file import NetworkFile
@@ -87,6 +88,14 @@ class MESH_OT_seamwire_load_network(bpy.types.Operator, ImportHelper):
 
     filename_ext = SUFFIX
     filter_glob: bpy.props.StringProperty(default=f"*{SUFFIX}", options={"HIDDEN"})
+    place: bpy.props.EnumProperty(name="Place", description="How seeds are placed", items=PLACE_ITEMS, default="AUTO")
+    mirror: bpy.props.EnumProperty(
+        name="Mirror",
+        description="The axis over which the network is mirrored first",
+        items=MIRROR_ITEMS,
+        default="NONE",
+    )
+    align: bpy.props.BoolProperty(name="Align", description=ALIGN, default=True)
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -96,28 +105,17 @@ class MESH_OT_seamwire_load_network(bpy.types.Operator, ImportHelper):
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Read the file, and write its wires to the mesh."""
         from ..core.native import NativeError
-        from ..mesh import edit_mesh
         from ..mesh.object_session import ObjectSession
+        from ..mesh.transfer import carry_over
 
         try:
             network = read_network(self.filepath)
             mesh = ObjectSession(context.active_object)
-            problem = network.problem_with(mesh.cage.vertex_count, mesh.arrays.edges)
-            if problem:
-                raise ValueError(problem)
+            found = carry_over(mesh, network, place=self.place, mirror=axis_of(self.mirror), align=self.align)
         except (ValueError, NativeError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        arrays = mesh.arrays
-        wires = network.wires(arrays.points, arrays.to_object)
-        there = {wire.vertices for wire in mesh.session.wires}
-        new = [wire for wire in wires if wire.vertices not in there]
-        mesh.add(new, network.strokes_on(arrays.points, arrays.to_object))
-        marked, _ = mesh.write(mesh.plan())
-        edit_mesh.live_unwrap(context)
-        already = f", {len(wires) - len(new)} there already" if len(new) < len(wires) else ""
-        self.report({"INFO"}, f"{count(len(new), 'wire')} loaded{already}, {count(marked, 'edge')} marked")
-        return {"FINISHED"}
+        return write_and_report(self, context, mesh, found)
 
 
 CLASSES = (MESH_OT_seamwire_save_network, MESH_OT_seamwire_load_network)

@@ -96,6 +96,23 @@ def parse_edges(text: str) -> list[Edge]:
     return edges
 
 
+def parse_pairs(text: str) -> list[Edge]:
+    """Read pairs of vertices of two meshes, such as ``"7-12 40-41"``.
+
+    Raises
+    ------
+    ValueError
+        Where one of them is none.
+    """
+    pairs: list[Edge] = []
+    for token in text.replace(",", " ").replace(";", " ").split():
+        match = _TOKEN.fullmatch(token)
+        if match is None or match[2] is None:
+            raise ValueError(f"Pairs: '{token}' is not a pair of vertices such as 7-12")
+        pairs.append((int(match[1]), int(match[2])))
+    return pairs
+
+
 def draw_loops(session: Session, edges: Iterable[Edge], kind: LoopKind | None = None) -> list[str]:
     """Take the loops or strips through edges without a hand.
 

@@ -18,6 +18,7 @@ def _draw_menu(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
     menu.layout.operator("mesh.seamwire_take_over")
     menu.layout.operator("mesh.seamwire_repeat")
     menu.layout.operator("mesh.seamwire_close_gaps")
+    menu.layout.operator("mesh.seamwire_transfer")
     menu.layout.operator("mesh.seamwire_load_network")
     menu.layout.operator("mesh.seamwire_save_network")
     menu.layout.operator("mesh.seamwire_cut")

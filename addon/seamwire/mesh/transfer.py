@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Networks of files and of other objects on the mesh of an object in edit mode."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from ..core import transfer
+from ..core.placing import Shape
+from .object_session import ObjectSession
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import bpy
+
+    from ..core.network import Edge
+    from ..core.network_file import NetworkFile
+    from ..core.transfer import Transfer
+    from .edit_mesh import Arrays
+    from .settings import SeamwireSettings
+
+Place = Literal["AUTO", "NUMBERS", "SURFACE", "PAIRS"]
+"""How the places of seeds are found: by vertex numbers, by the nearest surface, by distances to pairs of vertices; AUTO: by numbers
+where the topology is the same, else by pairs where there are some, else by the surface."""
+
+
+def shape_of(arrays: Arrays) -> Shape:
+    """Return a mesh as it takes part in a transfer."""
+    return Shape(arrays.points, arrays.triangles, arrays.edges, arrays.to_object)
+
+
+def network_of(source: ObjectSession, settings: SeamwireSettings) -> NetworkFile:
+    """Return the network of an object; its seams without wires are wires in it, and stay as they are in the mesh.
+
+    Raises
+    ------
+    ValueError
+        Where it has no seams.
+    """
+    session = source.session
+    found = tuple(session.wires_along(source.plain_seams))
+    if not session.wires and not found:
+        raise ValueError(f"{source.obj.name} has no seams")
+    return source.network_file(settings, found)
+
+
+def pairs_of_groups(source: bpy.types.Object, target: bpy.types.Object) -> list[Edge]:
+    """Return a vertex of each object for every name that vertex groups of both have: the one in the group's middle."""
+    there = {group.name: group.index for group in target.vertex_groups}
+    pairs = []
+    for group in source.vertex_groups:
+        ends = [_middle(source, group.index), _middle(target, there.get(group.name, -1))]
+        if None not in ends:
+            pairs.append((ends[0], ends[1]))
+    return pairs
+
+
+def _middle(obj: bpy.types.Object, group: int) -> int | None:
+    """Return the vertex that is nearest to the middle of a group; None: the group is empty."""
+    members, weights = [], []
+    for vertex in obj.data.vertices:
+        for membership in vertex.groups:
+            if membership.group == group and membership.weight > 0.0:
+                members.append(vertex.index)
+                weights.append(membership.weight)
+    if not members:
+        return None
+    places = np.array([obj.data.vertices[index].co for index in members])
+    middle = np.average(places, axis=0, weights=weights)
+    return members[int(np.linalg.norm(places - middle, axis=1).argmin())]
+
+
+def carry_over(
+    target: ObjectSession,
+    file: NetworkFile,
+    *,
+    place: Place = "AUTO",
+    mirror: int | None = None,
+    align: bool = True,
+    source: Shape | None = None,
+    pairs: Sequence[Edge] = (),
+) -> Transfer:
+    """Find what a network is on a mesh; nothing is written.
+
+    Parameters
+    ----------
+    target
+        The mesh.
+    file
+        The network.
+    place
+        How seeds are placed.
+    mirror, align
+        As ``core.transfer.by_surface`` takes them; `mirror` rules out the other ways.
+    source
+        The mesh that the network was drawn on; None: it is not at hand, and pairs are of no use.
+    pairs
+        Vertices of both.
+
+    Raises
+    ------
+    ValueError
+        Where that cannot be.
+    """
+    arrays = target.arrays
+    shape = shape_of(arrays)
+    if mirror is not None and place in {"NUMBERS", "PAIRS"}:
+        raise ValueError("A network is mirrored onto a surface: place it by that, not by numbers or pairs")
+    if place == "AUTO":
+        same = mirror is None and not file.problem_with(target.cage.vertex_count, arrays.edges)
+        place = "NUMBERS" if same else "PAIRS" if pairs and mirror is None else "SURFACE"
+    if place == "NUMBERS":
+        return transfer.by_numbers(file, shape, topology=target.cage.mesh.use_mirror_topology)
+    if place == "SURFACE":
+        return transfer.by_surface(file, shape, mirror=mirror, align=align, live=target.make_live)
+    if source is None:
+        raise ValueError("Pairs need the object that the network was drawn on")
+    return transfer.by_landmarks(file, source, shape, pairs, live=target.make_live)
+
+
+def write(target: ObjectSession, found: Transfer) -> tuple[int, int]:
+    """Let a mesh have what `carry_over` found; return how many wires it did not have, and how many edges became seams."""
+    there = {wire.vertices for wire in target.session.wires}
+    new = [wire for wire in found.wires if wire.vertices not in there]
+    target.add(new, found.strokes)
+    marked, _ = target.write(target.plan())
+    return len(new), marked

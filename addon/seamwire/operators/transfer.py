@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that brings the seams of another object to the active one."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import bpy
+
+from ..mesh.settings import settings
+from .report import count, in_edit_mode
+
+if TYPE_CHECKING:
+    from ..core.transfer import Transfer
+    from ..mesh.object_session import ObjectSession
+
+PLACE_ITEMS = (
+    ("AUTO", "Automatic", "By vertex numbers where both meshes have the same topology, else by pairs or the surface"),
+    ("NUMBERS", "Vertex Numbers", "Vertex by vertex, on a mesh of the same topology"),
+    ("SURFACE", "Nearest Surface", "At the nearest point, on a mesh of about the same shape"),
+)
+MIRROR_ITEMS = (("NONE", "None", ""), ("X", "X", ""), ("Y", "Y", ""), ("Z", "Z", ""))
+ALIGN = "Move, turn and scale the network onto the mesh, where it does not lie on it as it is"
+_MOST_TOLD = 12
+"""Of what could not be placed; the rest is counted."""
+
+
+def axis_of(name: str) -> int | None:
+    """Return the axis of an item of `MIRROR_ITEMS`."""
+    return None if name == "NONE" else "XYZ".index(name)
+
+
+def write_and_report(
+    operator: bpy.types.Operator, context: bpy.types.Context, mesh: ObjectSession, found: Transfer
+) -> set[str]:
+    """Write what was found to the mesh, and say how sure it is and what is missing."""
+    from ..core.transfer import WORDS
+    from ..mesh import edit_mesh
+    from ..mesh.transfer import write
+
+    told = [*found.lost, *(seed.text for seed in found.seeds if seed.confidence < WORDS[1][0])]
+    for text in told[:_MOST_TOLD]:
+        operator.report({"WARNING"}, text[:1].upper() + text[1:])
+    if len(told) > _MOST_TOLD:
+        operator.report({"WARNING"}, f"And {len(told) - _MOST_TOLD} more that are doubtful or missing")
+    if not found.wires and not found.strokes:
+        operator.report({"ERROR"}, "No wire has a place on this mesh")
+        return {"CANCELLED"}
+    wires, marked = write(mesh, found)
+    edit_mesh.live_unwrap(context)
+    parts = [count(wires, "wire")]
+    if wires < len(found.wires):
+        parts.append(f"{len(found.wires) - wires} there already")
+    parts.append(f"{count(marked, 'edge')} marked")
+    if found.seeds:
+        parts.append(f"seeds: {found.summary}")
+    if found.added:
+        parts.append(f"{count(found.added, 'seed')} added in between")
+    if found.lost:
+        parts.append(f"{len(found.lost)} not placed")
+    operator.report({"INFO"}, ", ".join(parts))
+    return {"FINISHED"}
+
+
+class MESH_OT_seamwire_transfer(bpy.types.Operator):
+    """Draw the seams of another object on the active mesh, whatever its topology, and say how sure each seed is"""  # noqa: D400 - a tooltip
+
+    bl_idname = "mesh.seamwire_transfer"
+    bl_label = "Transfer Seamwires"
+    bl_options = {"REGISTER", "UNDO"}
+
+    source: bpy.props.StringProperty(
+        name="Source", description="The object that has the seams; empty: the other one that is selected"
+    )
+    place: bpy.props.EnumProperty(
+        name="Place",
+        description="How seeds are placed",
+        items=(
+            *PLACE_ITEMS,
+            ("PAIRS", "Pairs", "By distances along the surface to pairs of vertices, in whatever pose"),
+        ),
+        default="AUTO",
+    )
+    pairs: bpy.props.StringProperty(
+        name="Pairs",
+        description="Vertices that are the same point of both: the source's and this mesh's with a hyphen; empty: the middles of"
+        " vertex groups with the same names",
+    )
+    mirror: bpy.props.EnumProperty(
+        name="Mirror",
+        description="The axis over which the seams are mirrored first",
+        items=MIRROR_ITEMS,
+        default="NONE",
+    )
+    align: bpy.props.BoolProperty(name="Align", description=ALIGN, default=True)
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Whether a mesh is in edit mode."""
+        return in_edit_mode(cls, context)
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Show what there is to choose."""
+        layout = self.layout
+        layout.use_property_split = True
+        layout.prop_search(self, "source", bpy.data, "objects")
+        layout.prop(self, "place")
+        pairs = layout.row()
+        pairs.enabled = self.place in {"AUTO", "PAIRS"}
+        pairs.prop(self, "pairs")
+        surface = layout.column()
+        surface.enabled = self.place in {"AUTO", "SURFACE"}
+        surface.prop(self, "mirror")
+        surface.prop(self, "align")
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Read the source, and write its seams to the active mesh."""
+        from ..core.native import NativeError
+        from ..mesh import transfer
+        from ..mesh.object_session import ObjectSession
+        from .seed_text import parse_pairs
+
+        target = context.active_object
+        try:
+            source = self._source(context)
+            pairs = parse_pairs(self.pairs)
+            if not pairs and self.place == "PAIRS":
+                target.update_from_editmode()
+                pairs = transfer.pairs_of_groups(source, target)
+                if len(pairs) < 3:
+                    raise ValueError(
+                        f"Give three pairs of vertices at least: the objects have {count(len(pairs), 'vertex group')} in common"
+                    )
+            drawn = ObjectSession(source)
+            if drawn.problem:
+                self.report({"WARNING"}, drawn.problem)
+            network = transfer.network_of(drawn, settings(context))
+            mesh = ObjectSession(target)
+            found = transfer.carry_over(
+                mesh,
+                network,
+                place=self.place,
+                mirror=axis_of(self.mirror),
+                align=self.align,
+                source=transfer.shape_of(drawn.arrays),
+                pairs=pairs,
+            )
+        except (ValueError, NativeError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return write_and_report(self, context, mesh, found)
+
+    def _source(self, context: bpy.types.Context) -> bpy.types.Object:
+        """Return the object that has the seams; raises ValueError where it is not clear which."""
+        target = context.active_object
+        if self.source:
+            obj = bpy.data.objects.get(self.source)
+            if obj is None:
+                raise ValueError(f"There is no object {self.source}")
+            found = [obj]
+        else:
+            found = [obj for obj in context.selected_objects if obj.type == "MESH" and obj.data != target.data]
+        if len(found) != 1 or found[0].type != "MESH" or found[0].data == target.data:
+            raise ValueError("Select one other mesh object beside the active one, or name the source")
+        return found[0]
+
+
+def register() -> None:
+    """Add the operator."""
+    bpy.utils.register_class(MESH_OT_seamwire_transfer)
+
+
+def unregister() -> None:
+    """Remove it."""
+    bpy.utils.unregister_class(MESH_OT_seamwire_transfer)
