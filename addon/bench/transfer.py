@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Seams of artists, transferred to the same models with another topology: ``scripts/bench MODELS SEAMS transfer`` runs this in Blender.
+
+Each model of the folder, as ``native/bench/seam_clicks.py`` wants it, gets its seams as a network, which goes to the model decimated to
+a half and to a quarter of its triangles, remeshed with voxels, subdivided, and to the first of these once more moved, turned and
+scaled. A line each: the share of marked edges whose middles lie within one edge of the artist's seams, and the share of the artist's
+within one edge of what was marked, an edge being the longer one of the target's there and the artist's on average; how
+many wires have no place; seconds.
+"""
+
+import itertools
+import sys
+import time
+from pathlib import Path
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+from numpy.typing import NDArray
+
+CHANGES = ("half", "quarter", "voxels", "subdivided", "half, moved")
+
+
+def add(path: Path) -> tuple[bpy.types.Object, list[tuple[int, int]]]:
+    """Add a model; return it and its seams."""
+    with np.load(path) as data:
+        points, corners, offsets, seams = (data[name] for name in ("points", "corners", "offsets", "seams"))
+    faces = [corners[a:b].tolist() for a, b in itertools.pairwise(offsets)]
+    mesh = bpy.data.meshes.new(path.stem)
+    mesh.from_pydata(points.tolist(), [], faces)
+    obj = bpy.data.objects.new(path.stem, mesh)
+    bpy.context.collection.objects.link(obj)
+    wanted = {(min(pair), max(pair)) for pair in seams.tolist()}
+    for edge in mesh.edges:
+        edge.use_seam = tuple(sorted(edge.vertices)) in wanted
+    return obj, sorted(wanted)
+
+
+def changed(source: bpy.types.Object, change: str) -> bpy.types.Object:
+    """Return a copy without seams and with another topology."""
+    obj = bpy.data.objects.new(change, source.data.copy())
+    bpy.context.collection.objects.link(obj)
+    bpy.context.view_layer.objects.active = obj
+    obj.data.edges.foreach_set("use_seam", np.zeros(len(obj.data.edges), dtype=bool))
+    if change == "subdivided":
+        modifier = obj.modifiers.new("change", "SUBSURF")
+        modifier.levels, modifier.subdivision_type = 1, "SIMPLE"
+    elif change == "voxels":
+        modifier = obj.modifiers.new("change", "REMESH")
+        modifier.mode, modifier.voxel_size = "VOXEL", max(obj.dimensions) / 120.0
+    else:
+        modifier = obj.modifiers.new("change", "DECIMATE")
+        modifier.ratio = 0.25 if change == "quarter" else 0.5
+    with bpy.context.temp_override(object=obj, active_object=obj):
+        bpy.ops.object.modifier_apply(modifier=modifier.name)
+    if change.endswith("moved"):
+        turn = Matrix.Rotation(0.7, 4, (1.0, 2.0, 3.0))
+        obj.data.transform(Matrix.Translation((7.0, -3.0, 1.0)) @ turn @ Matrix.Scale(1.7, 4))
+    return obj
+
+
+def near(places: NDArray, starts: NDArray, ends: NDArray, reach: NDArray) -> float:
+    """Return the share of places that are within reach of some segments."""
+    from seamwire.core.geometry import nearest_on_segments
+
+    if not len(places) or not len(starts):
+        return 0.0
+    gaps = np.array([nearest_on_segments(place, starts, ends)[1].min() for place in places])
+    return float((gaps <= reach).mean())
+
+
+def measure(path: Path) -> None:
+    """Print a line for each change."""
+    from seamwire.core import transfer
+    from seamwire.mesh.object_session import ObjectSession
+    from seamwire.mesh.settings import settings
+    from seamwire.mesh.transfer import network_of, shape_of
+
+    source, wanted = add(path)
+    drawn = ObjectSession(source)
+    file = network_of(drawn, settings())
+    artist = drawn.arrays.points[np.array(wanted)]
+    for change in CHANGES:
+        target = changed(source, change)
+        if not len(target.data.polygons):
+            continue
+        shape = shape_of(ObjectSession(target).arrays)
+        began = time.perf_counter()
+        found = transfer.by_surface(file, shape)
+        seconds = time.perf_counter() - began
+        marked = transfer.seams(found)
+        places = shape.places
+        if change.endswith("moved"):
+            back = np.array(Matrix.Rotation(-0.7, 3, (1.0, 2.0, 3.0)))
+            places = (places - (7.0, -3.0, 1.0)) @ back.T / 1.7
+        edges = places[marked]
+        edge = shape.spacing[marked].mean(axis=1) / (1.7 if change.endswith("moved") else 1.0)
+        middles = artist.mean(axis=1)
+        edge = np.maximum(edge, np.linalg.norm(artist[:, 0] - artist[:, 1], axis=1).mean())
+        within = near(edges.mean(axis=1), artist[:, 0], artist[:, 1], edge)
+        reached = near(middles, edges[:, 0], edges[:, 1], np.full(len(middles), edge.mean() if len(edge) else 0.0))
+        wires = len(file.courses)
+        print(
+            f"   {path.stem[:30]:30} {change:12} {len(shape.triangles):7} triangles, {within:6.1%} within, {reached:6.1%} reached, "
+            f"{len(found.lost):3} of {wires:3} lost, {found.added:4} seeds added, {seconds:6.2f} s"
+        )
+    for obj in list(bpy.data.objects):
+        bpy.data.objects.remove(obj)
+
+
+if __name__ == "__main__":
+    import addon_utils
+
+    addon_utils.enable("seamwire", default_set=True)
+    for name in sys.argv[sys.argv.index("--") + 1 :]:
+        measure(Path(name))
