@@ -21,10 +21,11 @@ class FakeCandidate:
 
 @dataclass
 class FakeWires:
-    """Both candidates."""
+    """The candidates."""
 
-    wires: tuple[FakeCandidate, FakeCandidate]
-    shorter: int
+    wires: tuple[FakeCandidate, ...]
+    active: int
+    settled: bool
     final: bool
 
 
@@ -123,7 +124,7 @@ class FakeLive:
             points = grid_points(self.size)[path] if path else np.empty((0, 3))
             length = float(len(path)) if path else float("inf")
             candidates.append(FakeCandidate(points, np.array(path, dtype=np.int32), length, self.ready[index]))
-        return FakeWires((candidates[0], candidates[1]), self.shorter, all(self.ready))
+        return FakeWires(tuple(candidates), self.shorter, all(self.ready), all(self.ready))
 
     def loop(self, edge: tuple[int, int]) -> FakeChain:
         a, b = edge

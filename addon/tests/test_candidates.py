@@ -21,11 +21,11 @@ def test_the_shorter_one_is_active_until_the_other_is_brought_forward() -> None:
     assert candidates.active.vertices == (0, 6, 7, 8)
     assert candidates.swap() == ""
     assert candidates.active.vertices == (0, 1, 2, 8)
-    assert candidates.other.vertices == (0, 6, 7, 8)
+    assert candidates.others[0].vertices == (0, 6, 7, 8)
 
 
 def test_there_is_no_other_where_both_run_alike_or_nothing_is_computed() -> None:
-    assert aimed(3)[0].swap() == "Both wires run along the same edges here"
+    assert aimed(3)[0].swap() == "All wires run along the same edges here"
     assert aimed(8, ready=(False, False))[0].swap() == "There is no next candidate yet"
 
 

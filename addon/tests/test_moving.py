@@ -211,4 +211,4 @@ def test_while_a_seed_is_dragged_a_toggled_wire_stays_with_its_metric() -> None:
     session.drag(7)
     session.drag_to(8)
     assert courses(session) == [(0, 6, 7, 8)]
-    assert session.wires[0].alternative.vertices == (0, 1, 2, 8)
+    assert session.wires[0].alternatives[0].vertices == (0, 1, 2, 8)

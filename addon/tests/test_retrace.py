@@ -6,7 +6,7 @@ from __future__ import annotations
 import pytest
 from grid import POINTS, SIZE, Grid, wire
 from seamwire.core.network import Network
-from seamwire.core.retrace import Retraces, other_way, retraced
+from seamwire.core.retrace import Retraces, retraced
 
 CORNER = wire(0, 1, 7)
 
@@ -22,8 +22,8 @@ def test_a_wire_takes_its_other_way_as_soon_as_that_is_computed() -> None:
     [(own, courses)] = retraces.poll()
     assert own is CORNER
     assert not retraces
-    other = other_way(own, courses)
-    assert [one.vertices for one in retraced(network, own, other).wires] == [(0, 6, 7)]
+    others = courses.others(own)
+    assert [one.vertices for one in retraced(network, own, others).wires] == [(0, 6, 7)]
 
 
 def test_where_both_ways_are_one_there_is_no_other() -> None:
@@ -31,8 +31,8 @@ def test_where_both_ways_are_one_there_is_no_other() -> None:
     straight = wire(0, 1, 2)
     retraces.add(Network((straight,)), straight)
     [(own, courses)] = retraces.poll()
-    with pytest.raises(ValueError, match="Both wires run along the same edges here"):
-        retraced(Network((straight,)), own, other_way(own, courses))
+    with pytest.raises(ValueError, match="All wires run along the same edges here"):
+        retraced(Network((straight,)), own, courses.others(own))
 
 
 def test_a_target_that_is_not_there_any_more_is_told_of() -> None:

@@ -25,7 +25,7 @@ def test_hovering_shows_both_wires_and_the_shorter_is_active() -> None:
     session.click(0)
     session.hover(7)
     assert session.active.vertices == (0, 6, 7)
-    assert session.other.vertices == (0, 1, 7)
+    assert session.others[0].vertices == (0, 1, 7)
 
 
 def test_toggling_makes_the_other_active_until_a_wire_is_kept() -> None:
@@ -57,7 +57,7 @@ def test_where_both_wires_agree_there_is_nothing_to_toggle() -> None:
     session = Table().session
     session.click(0)
     session.hover(3)
-    assert session.other is None
+    assert not session.others
     assert not session.toggle()
     assert "same edges" in session.message
 

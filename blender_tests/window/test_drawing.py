@@ -206,7 +206,7 @@ def test_wires_that_are_being_computed_come_when_they_are_ready(desk: Desk, monk
                 self.live.wait()
                 return self.live.wires(target)
             nothing = type("Nothing", (), {"points": [], "vertices": [], "length": math.inf, "final": False})()
-            return type("Wires", (), {"wires": (nothing, nothing), "shorter": 0, "final": False})()
+            return type("Wires", (), {"wires": (nothing, nothing), "active": 0, "settled": False, "final": False})()
 
     make = object_session.LiveMaker
     monkeypatch.setattr(make, "__call__", lambda self, along, call=make.__call__: Slow(call(self, along)))

@@ -102,8 +102,8 @@ def test_w_takes_the_next_candidate_and_the_wheel_zooms(cone: Desk) -> None:
     session, ui = cone.start(), cone.ui
     ui.click(cone.at(20))
     ui.move(cone.at(61))
-    ui.wait_until(lambda: session.other is not None)
-    active, other = session.active.vertices, session.other.vertices
+    ui.wait_until(lambda: session.others)
+    active, other = session.active.vertices, session.others[0].vertices
     ui.key("W")
     assert session.active.vertices == other
     ui.wheel(up=True, alt=True)
@@ -129,8 +129,8 @@ def test_the_wheel_takes_the_next_candidate_where_it_is_given_to_it(cone: Desk) 
         assert ui.view.view_distance < distance, "no wire is live"
         ui.click(cone.at(20))
         ui.move(cone.at(61))
-        ui.wait_until(lambda: session.other is not None)
-        other, distance = session.other.vertices, ui.view.view_distance
+        ui.wait_until(lambda: session.others)
+        other, distance = session.others[0].vertices, ui.view.view_distance
         ui.wheel(up=True)
         assert session.active.vertices == other
         assert ui.view.view_distance == distance
@@ -310,8 +310,8 @@ def test_a_kept_wire_takes_its_other_path(cone: Desk, capfd: pytest.CaptureFixtu
     session, ui = cone.choose(), cone.ui
     ui.click(cone.at(20))
     ui.move(cone.at(61))
-    ui.wait_until(lambda: session.other is not None)
-    other = session.other.vertices
+    ui.wait_until(lambda: session.others)
+    other = session.others[0].vertices
     ui.click(cone.at(61))
     ui.wait_until(lambda: len(session.wires) == 1)
     ui.key("RET")

@@ -116,7 +116,7 @@ def test_escape_ends_work_that_takes_long(desk: Desk, monkeypatch: pytest.Monkey
     ui.wait_until(lambda: not session.computing)
     engine = session._engines.get(session.along)
     nothing = type("Nothing", (), {"points": [], "vertices": [], "length": 0.0, "final": False})()
-    answer = type("Wires", (), {"wires": (nothing, nothing), "shorter": 0, "final": False})()
+    answer = type("Wires", (), {"wires": (nothing, nothing), "active": 0, "settled": False, "final": False})()
 
     class Endless:
         """Live wires that are never ready."""

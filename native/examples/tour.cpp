@@ -141,7 +141,7 @@ int main() {
   live.wait();
   both = live.wires({.a = target});
   say("the shorter of two live wires, edges",
-      static_cast<double>(both.wires[static_cast<std::size_t>(both.shorter)].vertices.size() - 1));
+      static_cast<double>(both.wires[static_cast<std::size_t>(both.active)].vertices.size() - 1));
   //! [live]
 
   //! [islands]

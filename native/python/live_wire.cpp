@@ -143,7 +143,7 @@ Along along_from(const std::string& name) {
 
 void bind_live_wire(py::module_& module) {
   const OptionArguments with;
-  py::class_<CandidateObject>(module, "LiveCandidate", "One of the two wires from the seed to a target.")
+  py::class_<CandidateObject>(module, "LiveCandidate", "One of the wires from the seed to a target.")
       .def_property_readonly(
           "follow", [](const CandidateObject& c) { return name_of(c.get().follow); },
           "'min' or 'max': the metric it is short in.")
@@ -163,23 +163,30 @@ void bind_live_wire(py::module_& module) {
                (c.get().final ? std::to_string(c.get().points.size()) + " points>" : "not yet>");
       });
 
-  py::class_<LiveWiresObject>(module, "LiveWires", "The two wires from the seed to a target.")
+  py::class_<LiveWiresObject>(module, "LiveWires", "The wires from the seed to a target.")
       .def_property_readonly(
           "wires",
           [](const LiveWiresObject& w) {
-            return py::make_tuple(CandidateObject{w.wires, 0}, CandidateObject{w.wires, 1});
+            py::tuple found(w.wires->wires.size());
+            for (std::size_t i = 0; i < found.size(); ++i) found[i] = CandidateObject{w.wires, i};
+            return found;
           },
-          "(LiveCandidate, LiveCandidate): that of M_min, that of M_max.")
+          "tuple of LiveCandidate: that of M_min, that of M_max.")
       .def_property_readonly(
-          "shorter", [](const LiveWiresObject& w) { return w.wires->shorter; },
-          "Index of the one that is shorter in its own metric (Section 5 of the paper).")
+          "active", [](const LiveWiresObject& w) { return w.wires->active; },
+          "Index of the one to be offered first: the one that is shorter in its own metric (Section 5 of the paper); "
+          "of "
+          "'concave' the first, unless that turns out not to reach the target.")
       .def_property_readonly(
-          "final", [](const LiveWiresObject& w) { return w.wires->final(); }, "Whether both are.")
+          "settled", [](const LiveWiresObject& w) { return w.wires->settled; },
+          "Whether the active one is final, and stays the active one whatever the others will be.")
+      .def_property_readonly(
+          "final", [](const LiveWiresObject& w) { return w.wires->final(); }, "Whether all are.")
       .def("__repr__", [](const LiveWiresObject& w) {
-        return "<LiveWires: shorter " + std::to_string(w.wires->shorter) + (w.wires->final() ? ", final>" : ">");
+        return "<LiveWires: active " + std::to_string(w.wires->active) + (w.wires->final() ? ", final>" : ">");
       });
 
-  py::class_<LiveEmbedding>(module, "LiveEmbedding", "What became of the embedding of one of the two metrics.")
+  py::class_<LiveEmbedding>(module, "LiveEmbedding", "What became of the embedding of one of the metrics.")
       .def_readonly("invalid_left", &LiveEmbedding::invalid_left, "Triangles that wires lead around.")
       .def_readonly("hit_cap", &LiveEmbedding::hit_cap, "Whether the cap ended the subdivision.")
       .def_readonly("clamped_edges", &LiveEmbedding::clamped_edges, "Edges with other lengths than the metric's.")
@@ -217,7 +224,7 @@ void bind_live_wire(py::module_& module) {
 
   py::class_<LiveWireObject, HeldLiveWire>(
       module, "LiveWire",
-      R"(Two wires from a seed to any target, each metric computed on a thread of its own.
+      R"(Wires from a seed to any target, one for each metric of a family, each computed on a thread of its own.
 
 ``LiveWire(surface, ...)``, or ``LiveWire(points, triangles, edges=None, *, ...)``, which copies the arrays, returns at
 once and builds the surface on the live wire's own threads. Until it is there all methods but `wait` and
@@ -427,7 +434,7 @@ ValueError
             const Edge through = edge_from(edge, object.vertex_count, "edge");
             return without_gil([&] { return std::make_unique<LiveLoop>(object.live->loop(through)); });
           },
-          py::arg("edge"), R"(The closed chain through an edge, the cheaper of the two metrics'; along edges only.
+          py::arg("edge"), R"(The closed chain through an edge, the cheapest of the metrics'; along edges only.
 
 It is computed in the background: the first call for an edge starts it, in place of that for another edge. Ask again
 until the answer is final.
@@ -531,14 +538,14 @@ ValueError
           "embeddings",
           [](const LiveWireObject& object) {
             const auto found = without_gil([&] { return object.live->embeddings(); });
-            return py::make_tuple(found[0], found[1]);
+            return py::tuple(py::cast(found));
           },
           R"(What became of the embeddings across the surface.
 
 Returns
 -------
 tuple of LiveEmbedding or None
-    Of M_min and M_max; None where it is not prepared yet, and along edges.
+    In the order of the wires; None where it is not prepared yet, and along edges.
 )")
       .def(
           "feature_strength",

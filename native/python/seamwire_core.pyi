@@ -160,8 +160,9 @@ class FittedChain:
     places: NDArray[np.float64]  # where on the line each is: i + x, the part x of the way from point i to the next
 
 class LiveWires:
-    wires: tuple[LiveCandidate, LiveCandidate]
-    shorter: int
+    wires: tuple[LiveCandidate, ...]
+    active: int
+    settled: bool
     final: bool
 
 class LiveWire:
@@ -233,7 +234,7 @@ class LiveWire:
         self, points: ArrayLike, faces: ArrayLike, begin: int | None = None, end: int | None = None
     ) -> FittedChain:
         """As the function, along edges only. No vertices: none fit, or not ready."""
-    def embeddings(self) -> tuple[LiveEmbedding | None, LiveEmbedding | None]:
+    def embeddings(self) -> tuple[LiveEmbedding | None, ...]:
         """Return what became of them across the surface; None where one is not prepared, and along edges."""
     def feature_strength(self) -> NDArray[np.float64] | None:
         """Return s of eq. 5 per vertex, None while it is computed."""

@@ -47,7 +47,7 @@ LiveWires fresh_wires(const std::shared_ptr<const Surface>& surface, const LiveW
 
 void expect_equal(const LiveWires& got, const LiveWires& expected) {
   EXPECT_TRUE(got.final());
-  EXPECT_EQ(got.shorter, expected.shorter);
+  EXPECT_EQ(got.active, expected.active);
   for (std::size_t which = 0; which < 2; ++which) {
     EXPECT_EQ(got.wires[which].points, expected.wires[which].points);
     EXPECT_EQ(got.wires[which].vertices, expected.wires[which].vertices);
@@ -75,7 +75,7 @@ TEST(LiveWire, AcrossTheSurfaceGivesTheGeodesicsOfBothMetrics) {
       EXPECT_EQ(got.faces, expected.faces);
       EXPECT_EQ(got.length, expected.length);
       EXPECT_EQ(got.vertices, snap_to_edges(*surface, graph, expected));
-      EXPECT_EQ(wires.shorter, wires.wires[1].length < wires.wires[0].length ? 1 : 0);
+      EXPECT_EQ(wires.active, wires.wires[1].length < wires.wires[0].length ? 1 : 0);
     }
   }
 }
@@ -332,7 +332,7 @@ TEST(LiveWire, AVertexWithoutAPathHasAFinalWireWithoutPoints) {
       EXPECT_TRUE(wire.points.empty() && wire.vertices.empty());
       EXPECT_EQ(wire.length, std::numeric_limits<double>::infinity());
     }
-    EXPECT_EQ(wires.shorter, 0);
+    EXPECT_EQ(wires.active, 0);
   }
 }
 
@@ -398,13 +398,13 @@ TEST(LiveWire, OfConcaveCreasesTheFirstWireLeadsAndTheSecondIsTheShortestPath) {
   const Metric metric = concave_metric(*surface, smoothed_curvatures(*surface, principal_curvatures(*surface), 0.01));
   const Embedding embedding = embed(*surface, metric);
   EXPECT_NEAR(wires.wires[0].length, ExactGeodesics(embedding.mesh).solve(7).distances()[333], 1e-12);
-  EXPECT_EQ(wires.shorter, 0);
+  EXPECT_EQ(wires.active, 0);
   // Half as strong by either of the two; so strong that the second is shorter, the first leads all the same.
   const LiveWireOptions half{.family = MetricFamily::kConcave, .strength = {.parameter = 0.5}};
   const LiveWireOptions same{.family = MetricFamily::kConcave, .strength = {.max_anisotropy = 10.5}};
   expect_equal(fresh_wires(surface, half, {7}, {333}), fresh_wires(surface, same, {7}, {333}));
   const LiveWireOptions strong{.family = MetricFamily::kConcave, .strength = {.parameter = 50.0}};
-  EXPECT_EQ(fresh_wires(surface, strong, {7}, {333}).shorter, 0);
+  EXPECT_EQ(fresh_wires(surface, strong, {7}, {333}).active, 0);
 }
 
 TEST(LiveWire, WhileTheMetricChangesTheWiresAreTheFormerOnesAndNotFinal) {
@@ -497,12 +497,12 @@ TEST(LiveWire, AStrokeForOneMetricLeavesWhatIsPreparedForTheOther) {
   Scribble one, two;
   one.acts_on_max = two.acts_on_max = false;
   two.rings = 3;
-  const auto after = [](const MetricPair& before, const std::vector<Scribble>& scribbles) {
-    auto metrics = std::make_unique<MetricPair>(MetricFamily::kFeature, Strength{}, scribbles);
+  const auto after = [](const MetricSet& before, const std::vector<Scribble>& scribbles) {
+    auto metrics = std::make_unique<MetricSet>(MetricFamily::kFeature, Strength{}, scribbles);
     metrics->go_on_from(before);
     return metrics;
   };
-  const MetricPair none(MetricFamily::kFeature, {}, {});
+  const MetricSet none(MetricFamily::kFeature, {}, {});
   const auto with_one = after(none, {one}), with_both = after(*with_one, {one, two});
   EXPECT_EQ(with_one->prepared[1], none.prepared[1]);
   EXPECT_NE(with_one->prepared[0], none.prepared[0]);
@@ -554,7 +554,7 @@ TEST(LiveWire, AfterManyChangesOfTheStrokesWiresAreThoseOfTheListAlone) {
     fresh.seed({7});
     ASSERT_TRUE(fresh.wait());
     const LiveWires is = live.wires({333}), expected = fresh.wires({333});
-    EXPECT_EQ(is.shorter, expected.shorter);
+    EXPECT_EQ(is.active, expected.active);
     for (std::size_t which = 0; which < 2; ++which) {
       // Triangles may have other numbers, so sums are in another order.
       EXPECT_NEAR(is.wires[which].length, expected.wires[which].length, 1e-12);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The candidate wires: both ways from the seed to what is under the cursor, until one of them is kept."""
+"""The candidate wires: the ways from the seed to what is under the cursor, until one of them is kept."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .network import FacePoint, Network, Snap, Wire, name
+from .network import FacePoint, Network, Snap, Wire, distinct, name
 from .solver import for_live
 
 if TYPE_CHECKING:
@@ -17,8 +17,11 @@ if TYPE_CHECKING:
     from .solver import Candidate, Engines
 
 
+SAME_EDGES = "All wires run along the same edges here"
+
+
 class CandidateWires:
-    """What is under the cursor, and both wires that lead there from the seed.
+    """What is under the cursor, and the wires that lead there from the seed, one for each metric.
 
     Parameters
     ----------
@@ -32,53 +35,69 @@ class CandidateWires:
         self._engines = engines
         self._points = points
         self.target: Snap | None = None
-        self.wires: tuple[Wire | None, Wire | None] = (None, None)
-        self.finals = (True, True)
-        self.shorter = 0
+        self.wires: tuple[Wire | None, ...] = ()
+        self.finals: tuple[bool, ...] = ()
+        self.leading = 0
+        """The one that is the active one unless the artist brings another forward."""
+        self.settled = True
+        """Whether it is computed, and stays the leading one."""
         self.chosen: int | None = None
         """The one that the artist brought forward."""
 
     @property
     def final(self) -> bool:
-        """Whether both wires are computed."""
+        """Whether all wires are computed."""
         return all(self.finals)
 
     @property
     def active_index(self) -> int:
-        """Which of the two a click would keep."""
-        index = self.shorter if self.chosen is None else self.chosen
-        # While one wire is computed and the other is not, show the one there is.
-        return index if self.wires[index] is not None or self.wires[1 - index] is None else 1 - index
+        """Which of them a click would keep."""
+        index = self.leading if self.chosen is None else self.chosen
+        # While that one is not computed and another is, show the one there is.
+        there = (at for at in self._order(index) if self.wires[at] is not None)
+        return next(there, index)
 
     @property
     def active(self) -> Wire | None:
         """The wire that a click would keep."""
-        return self.wires[self.active_index]
+        return self.wires[self.active_index] if self.wires else None
 
     @property
-    def other(self) -> Wire | None:
-        """The other one; None where both run along the same edges."""
-        other, active = self.wires[1 - self.active_index], self.active
-        return None if other is None or (active is not None and active.like(other)) else other
+    def others(self) -> tuple[Wire, ...]:
+        """Those that run elsewhere, each once, in the order in which they come forward after the active one."""
+        return distinct(self.wires[at] for at in self._order(self.active_index))[1:]
+
+    @property
+    def number(self) -> int:
+        """The place of the active wire among those that run differently, beginning with the leading one, from 0."""
+        active = self.active
+        ways = distinct(self.wires[at] for at in self._order(self.leading))
+        return next((place for place, way in enumerate(ways) if active is not None and way.like(active)), 0)
 
     @property
     def active_final(self) -> bool:
         """Whether the wire that a click would keep is computed."""
         return self.active is not None and self.finals[self.active_index]
 
+    def _order(self, first: int) -> list[int]:
+        """Return the wires' numbers in the order in which they come forward, from one of them on."""
+        count = len(self.wires)
+        return [(first + step) % count for step in range(count)]
+
     @property
     def decided(self) -> bool:
         """Whether the wire that a click would keep is computed, and will not be another one when the rest is."""
-        return self.active_final and (self.final or self.active_index == self.chosen)
+        index = self.active_index
+        return self.active_final and (self.final or index == self.chosen or (self.settled and index == self.leading))
 
     @property
     def shown(self) -> tuple[object, ...]:
         """What changes when something else is to be seen."""
-        return self.target, self.shorter, self.finals, self.wires
+        return self.target, self.leading, self.finals, self.wires
 
     def clear(self) -> None:
         """Show no wires, and what is under the cursor still."""
-        self.wires, self.finals = (None, None), (True, True)
+        self.wires, self.finals, self.settled = (), (), True
 
     def sow(self, seed: Seed, along: Along) -> None:
         """Let wires that run one way begin at a seed from here on.
@@ -92,15 +111,16 @@ class CandidateWires:
         self._engines.get(along).seed(begin, forward=seed.forward and along == "EDGES")
 
     def swap(self) -> str:
-        """Bring the other wire forward; return why that cannot be, else nothing."""
-        if self.other is None:
+        """Bring the next wire forward; return why that cannot be, else nothing."""
+        others = self.others
+        if not others:
             same = self.final and self.active is not None
-            return "Both wires run along the same edges here" if same else "There is no next candidate yet"
-        self.chosen = 1 - self.active_index
+            return SAME_EDGES if same else "There is no next candidate yet"
+        self.chosen = others[0].follow
         return ""
 
     def aim(self, target: Snap | None, network: Network, along: Along) -> str:
-        """Find both wires from a network's seed to a target; return why there is none, else nothing."""
+        """Find the wires from a network's seed to a target; return why there is none, else nothing."""
         self.target = target
         self.clear()
         seed = network.seed
@@ -113,19 +133,17 @@ class CandidateWires:
             found = self._engines.get(along).wires(for_live(goal, along))
         except ValueError as error:
             return str(error)
-        self.finals = (found.wires[0].final, found.wires[1].final)
-        self.shorter = found.shorter
+        self.finals = tuple(wire.final for wire in found.wires)
+        self.leading, self.settled = found.active, found.settled
+        if self.chosen is not None and self.chosen >= len(found.wires):
+            self.chosen = None  # the metric that is used now has no such wire
         if along == "SURFACE":
-            self.wires = (
-                _across(found.wires[0], 0, seed, target.pick),
-                _across(found.wires[1], 1, seed, target.pick),
-            )
+            self.wires = tuple(_across(wire, follow, seed, target.pick) for follow, wire in enumerate(found.wires))
         else:
-            self.wires = (
-                self._along_edges(found.wires[0], 0, seed, target.pick, avoid),
-                self._along_edges(found.wires[1], 1, seed, target.pick, avoid),
+            self.wires = tuple(
+                self._along_edges(wire, follow, seed, target.pick, avoid) for follow, wire in enumerate(found.wires)
             )
-        return f"No wire reaches {name(target.pick)}" if self.final and self.wires == (None, None) else ""
+        return f"No wire reaches {name(target.pick)}" if self.final and not any(self.wires) else ""
 
     def _along_edges(
         self, candidate: Candidate, follow: int, seed: Seed, target: Pick, avoid: int | None

@@ -69,6 +69,9 @@ Edge = tuple[int, int]
 
 End = Literal["start", "end"]
 
+FOLLOWS: tuple[Literal["min", "max"], ...] = ("min", "max")
+"""What the library calls its wires, by `Wire.follow`: they follow the direction of least curvature, that of most."""
+
 LoopKind = Literal["CLOSED", "STRIP", "PAST", "WHOLE", "FLAT"]
 """What a click on an edge takes: the closed loop of the metric, the straight strip up to what is there already, the same past
 poles, the whole strip, the border of a flat region."""
@@ -187,9 +190,10 @@ class Wire:
     heading
         The directed edge that it goes on from, where it begins at the end of another wire.
     follow
-        Which of the library's two wires it is: 0 follows the direction of least curvature, 1 that of most.
-    alternative
-        The other of the two, where it runs elsewhere; it has no alternative itself.
+        Which of the library's wires it is, see `FOLLOWS`.
+    alternatives
+        The others of them that run elsewhere, each once, in the order in which they come forward; they have no
+        alternatives themselves.
     strength
         The metric's largest anisotropy when it was found; 0: not known, or it needs none.
     finish
@@ -217,7 +221,7 @@ class Wire:
     images: tuple[Edge, ...] | None = None
     heading: Edge | None = None
     follow: int = 0
-    alternative: Wire | None = None
+    alternatives: tuple[Wire, ...] = ()
     strength: float = 0.0
     finish: Finish = "SNAP"
     kind: LoopKind | None = None
@@ -259,16 +263,21 @@ class Wire:
         return self.points.shape == other.points.shape and bool(np.allclose(self.points, other.points, rtol=1e-6))
 
     def toggled(self) -> Wire:
-        """Return its alternative in its place. There must be one."""
-        assert self.alternative is not None
-        back = replace(self, alternative=None)
+        """Return its next alternative in its place, itself as the last one after that. There must be one."""
+        following, *rest = self.alternatives
+        back = replace(self, alternatives=())
         return replace(
-            self.alternative, id=self.id, marks=self.marks, mirror=self.mirror, finish=self.finish, alternative=back
+            following,
+            id=self.id,
+            marks=self.marks,
+            mirror=self.mirror,
+            finish=self.finish,
+            alternatives=(*rest, back),
         )
 
     def drawn(self, **course: object) -> Wire:
         """Return it with another course, which is none that a click on an edge offered."""
-        return self.changed(**course, images=None, alternative=None, kind=None, through=None, offers=())
+        return self.changed(**course, images=None, alternatives=(), kind=None, through=None, offers=())
 
     def anew(self, **changes: object) -> Wire:
         """Return it as another wire, with changes."""
@@ -447,6 +456,15 @@ class Network:
 def _goes_on(wire: Wire, start: Pick, heading: Pick | None) -> bool:
     """Whether what begins at a place, heading on from an edge, goes on from the end of a wire."""
     return heading is not None and wire.vertices[-2:] == heading and undirected(wire.end) == undirected(start)
+
+
+def distinct(ways: Iterable[Wire | None]) -> tuple[Wire, ...]:
+    """Return the wires among these without those that run like an earlier one."""
+    found: list[Wire] = []
+    for way in ways:
+        if way is not None and not any(way.like(earlier) for earlier in found):
+            found.append(way)
+    return tuple(found)
 
 
 def undirected(pick: Pick | None) -> Pick | None:

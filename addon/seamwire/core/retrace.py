@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from .candidates import SAME_EDGES
 from .seed_drag import Courses, Leg
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class Retraces:
-    """The kept wires that are to take their other way, while that is computed.
+    """The kept wires that are to take their next way, while that is computed.
 
     Parameters
     ----------
@@ -72,8 +73,8 @@ class Retraces:
                 yield leg.wire, courses
 
 
-def retraced(network: Network, own: Wire, other: Wire | None) -> Network:
-    """Return a network where a wire runs another way.
+def retraced(network: Network, own: Wire, others: tuple[Wire, ...]) -> Network:
+    """Return a network where a wire runs the next other way.
 
     Parameters
     ----------
@@ -81,28 +82,21 @@ def retraced(network: Network, own: Wire, other: Wire | None) -> Network:
         Has the wire.
     own
         The wire.
-    other
-        The other way; None: there is none.
+    others
+        The other ways, the next one first.
 
     Raises
     ------
     ValueError
         Where no way is left; the text is a sentence for the artist.
     """
-    if other is None:
-        raise ValueError("Both wires run along the same edges here")
+    if not others:
+        raise ValueError(SAME_EDGES)
+    other, *rest = others
     after = network.after(own)
     if after is not None and isinstance(own.end, tuple) and other.last_edge == own.last_edge[::-1]:
         # What goes on from the edge leaves it over this vertex: arriving there is enough.
         other = replace(other, vertices=other.vertices[:-1], points=other.points[:-1])
         if len(other.vertices) < 2:
             raise ValueError("There is no other way to this seed")
-    return network.with_courses({own.id: replace(own, alternative=other).toggled()})
-
-
-def other_way(own: Wire, courses: Courses) -> Wire | None:
-    """Return which of both courses a wire does not take; None: both run as it does."""
-    others = [way for way in courses.ways if way is not None and not way.like(own)]
-    if not others:
-        return None
-    return others[-1] if own.follow == 0 else others[0]
+    return network.with_courses({own.id: replace(own, alternatives=(other, *rest)).toggled()})

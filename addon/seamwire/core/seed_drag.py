@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .candidates import only_vertices
-from .network import FacePoint, Network, Snap, Wire, name, undirected, vertices_of
+from .network import FacePoint, Network, Snap, Wire, distinct, name, undirected, vertices_of
 from .solver import for_live
 
 if TYPE_CHECKING:
@@ -21,18 +21,25 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Courses:
-    """Both ways that a wire may take, as far as they are computed; `shorter` says which is."""
+    """The ways that a wire may take, one for each metric, as far as they are computed; `leading` is offered first."""
 
-    ways: tuple[Wire | None, Wire | None] = (None, None)
-    shorter: int = 0
+    ways: tuple[Wire | None, ...] = ()
+    leading: int = 0
     final: bool = False
 
     def following(self, follow: int) -> Wire | None:
-        """Return the way of one metric with the other as its alternative; where there is none, the other."""
-        wire, other = self.ways[follow], self.ways[1 - follow]
-        if wire is None or other is None:
-            return wire or other
-        return replace(wire, alternative=None if wire.like(other) else other)
+        """Return the way of one metric with the others as its alternatives; where there is none, the next of them."""
+        way, *others = self.in_order(follow if follow < len(self.ways) else self.leading) or (None,)
+        return way and replace(way, alternatives=tuple(others))
+
+    def others(self, own: Wire) -> tuple[Wire, ...]:
+        """Return the ways that a wire does not take, in the order in which they come forward after its own."""
+        return tuple(way for way in self.in_order(own.follow + 1) if not way.like(own))
+
+    def in_order(self, first: int) -> tuple[Wire, ...]:
+        """Return the ways that differ, in the order in which they come forward, from that of one metric on."""
+        count = len(self.ways)
+        return distinct(self.ways[(first + step) % count] for step in range(count))
 
 
 class Leg:
@@ -84,8 +91,8 @@ class Leg:
             Where the target is not part of the surface.
         """
         found = self.live.wires(for_live(target, self.wire.along))
-        one, two = (self._wire(found.wires[index], index, place, avoid) for index in (0, 1))
-        return Courses((one, two), found.shorter, found.final)
+        ways = tuple(self._wire(wire, follow, place, avoid) for follow, wire in enumerate(found.wires))
+        return Courses(ways, found.active, found.final)
 
     def _wire(self, candidate: Candidate, follow: int, place: Pick, avoid: int | None) -> Wire | None:
         vertices = tuple(int(vertex) for vertex in candidate.vertices)[self._skip :]

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .network import LOOP_NAMES, FacePoint, Network, Wire, undirected
+from .network import FOLLOWS, LOOP_NAMES, FacePoint, Network, Wire, undirected
 from .spatial_hash import SpatialHash
 from .strokes import Scribble
 
@@ -215,7 +215,7 @@ def checked_wire(record: Record) -> Record:
         and ends.shape == (2, 3)
         and np.isfinite(ends).all()
         and record["along"] in ("EDGES", "SURFACE")
-        and record["follow"] in (0, 1)
+        and record["follow"] in range(len(FOLLOWS))
         and np.isfinite(float(record["strength"]))
         and all(axis in (0, 1, 2) for axis in record["mirror"])
         and record.get("finish", "SNAP") in ("SNAP", "SLIDE", "CUT")

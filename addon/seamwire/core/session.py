@@ -19,13 +19,13 @@ from .flat_regions import FlatRegions
 from .history import History
 from .intent import Intent
 from .mirror_images import MirrorImages
-from .network import FacePoint, Network, Seed, Snap, Wire, name, undirected
-from .retrace import Retraces, other_way, retraced
+from .network import FOLLOWS, FacePoint, Network, Seed, Snap, Wire, name, undirected
+from .retrace import Retraces, retraced
 from .seam_wires import seam_chains, wires_along
 from .seed_drag import SeedDrag
 from .solver import Engines
 from .stops import Stops
-from .strokes import FOR_WIRES, OffMeshError, Scribble, drawn, for_library, through_vertices
+from .strokes import OffMeshError, Scribble, drawn, for_library, through_vertices
 from .symmetry import Symmetry
 
 if TYPE_CHECKING:
@@ -213,7 +213,7 @@ class Session:
         return self._change(replace(self._network, wires=(*self.wires, wire)))
 
     def toggle(self) -> bool:
-        """Make the other of the two wires the active one, until it is kept; of what is offered for an edge, the next."""
+        """Make the next of the wires the active one, until it is kept; of what is offered for an edge, the next."""
         part = self._loops if self._loops.wanted else self._candidates
         why = part.swap()
         if why:
@@ -282,7 +282,7 @@ class Session:
     # Changing kept wires
 
     def toggle_kept(self, wire: Wire) -> bool:
-        """Let a kept wire take its other way, that of the other metric; one from a click on an edge, what is next there."""
+        """Let a kept wire take its next way, that of another metric; one from a click on an edge, what is next there."""
         self._calm()
         own = self._network.find(wire)
         if own is None:
@@ -291,8 +291,8 @@ class Session:
             return self._next_kept(own)
         if own.closed:
             return self._refuse("A loop has no other way")
-        if own.alternative is not None:
-            return self._retrace(own, own.alternative)
+        if own.alternatives:
+            return self._retrace(own, own.alternatives)
         try:
             self._retraces.add(self._network, own.uncut())
         except ValueError as error:
@@ -483,7 +483,7 @@ class Session:
         attracts
             Whether wires follow it; else crossing it is short, and following it long.
         acts_on
-            Which of the two wires it is meant for; None: the active one while a wire is live, else both.
+            Which of the wires it is meant for; None: the active one while a wire is live, else both.
         radius
             How far it reaches, in the points' units; None: ten rings of vertices.
         """
@@ -500,9 +500,9 @@ class Session:
         self.drag_cancel()
         chosen = self._candidates.chosen
         if acts_on is None and self._network.seed is not None:
-            # The wire that the stroke is for stays the active one, even where the other is shorter now.
+            # The wire that the stroke is for stays the active one, even where another is shorter now.
             chosen = self._candidates.active_index
-            acts_on = FOR_WIRES[chosen]
+            acts_on = FOLLOWS[chosen]
         scribble = Scribble(*stroke, attracts=attracts, acts_on=acts_on or "both", radius=radius)
         return self._scribbled((*self._network.scribbles, scribble), chosen)
 
@@ -647,9 +647,14 @@ class Session:
         return self._candidates.active
 
     @property
-    def other(self) -> Wire | None:
-        """The wire that the wheel would bring forward; None where both run along the same edges."""
-        return self._candidates.other
+    def others(self) -> tuple[Wire, ...]:
+        """The other wires that run elsewhere, in the order in which the wheel brings them forward."""
+        return self._candidates.others
+
+    @property
+    def candidate_number(self) -> int:
+        """The place of the active wire among those that run differently, the one that is offered first at 0."""
+        return self._candidates.number
 
     @property
     def preliminary(self) -> bool:
@@ -868,7 +873,7 @@ class Session:
         self._settle()
         if network.seed is not None and back and back[-1] != "both":
             # As when it was drawn: the wire that a stroke is for is the active one.
-            self._candidates.chosen = FOR_WIRES.index(back[-1])
+            self._candidates.chosen = FOLLOWS.index(back[-1])
 
     def _settle(self) -> None:
         """Let the parts follow a new network."""
@@ -901,7 +906,7 @@ class Session:
         return True
 
     def _aim(self, target: Snap | None, again: bool = False) -> None:
-        """Find both wires to a target; `again`: also where it is the same as before."""
+        """Find the wires to a target; `again`: also where it is the same as before."""
         live = self._candidates
         if target == live.target and not again and live.final and self._loops.final:
             return
@@ -950,7 +955,7 @@ class Session:
             mirror=self._network.mirror,
             strength=self.strength,
             finish=self.finish if self.along == "SURFACE" and self.marking else "SNAP",
-            alternative=live.other if live.final else None,
+            alternatives=live.others if live.final else (),
         )
         network = self._network.joined(target, self._points).with_drawn(wire, target.pick, ending is not None)
         if not self._change(network):
@@ -1016,11 +1021,11 @@ class Session:
             if isinstance(courses, ValueError):
                 self._refuse(str(courses))
             elif own is not None:  # else it was dropped in the meantime
-                self._retrace(own, other_way(own, courses))
+                self._retrace(own, courses.others(own))
 
-    def _retrace(self, own: Wire, other: Wire | None) -> bool:
+    def _retrace(self, own: Wire, others: tuple[Wire, ...]) -> bool:
         try:
-            network = retraced(self._network, own, other)
+            network = retraced(self._network, own, others)
         except ValueError as error:
             return self._refuse(str(error))
         return self._change(network)

@@ -21,7 +21,7 @@ MetricName = Literal["feature", "campen", "pottmann_kovacs", "concave", "euclide
 
 
 class Candidate(Protocol):
-    """One of the two wires from the seed to a target, as the library gives it."""
+    """One of the wires from the seed to a target, as the library gives it."""
 
     points: NDArray[np.float64]
     vertices: NDArray[np.int32]
@@ -30,10 +30,11 @@ class Candidate(Protocol):
 
 
 class Candidates(Protocol):
-    """Both wires and which of them is shorter in its own metric."""
+    """The wires, one for each metric; which of them leads, and whether that will stay so."""
 
-    wires: tuple[Candidate, Candidate]
-    shorter: int
+    wires: Sequence[Candidate]
+    active: int
+    settled: bool
     final: bool
 
 
@@ -83,7 +84,7 @@ class LiveWire(Protocol):
         """Start the wires from a pick."""
 
     def wires(self, target: End) -> Candidates:
-        """Both wires to a target, as far as they are computed."""
+        """Return the wires to a target, as far as they are computed."""
 
     def loop(self, edge: Edge) -> Loop:
         """Return the closed chain through an edge, as far as it is computed."""
@@ -108,8 +109,8 @@ class LiveWire(Protocol):
     def feature_strength(self) -> NDArray[np.float64] | None:
         """Return how strong the features are at the vertices; None as long as that is computed."""
 
-    def embeddings(self) -> tuple[EmbeddingReport | None, EmbeddingReport | None]:
-        """Return what became of both metrics' embeddings; None where there is none, or not yet."""
+    def embeddings(self) -> Sequence[EmbeddingReport | None]:
+        """Return what became of the metrics' embeddings; None where there is none, or not yet."""
 
     def progress(self) -> float:
         """Fraction of the running work that is done."""

@@ -15,8 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 ActsOn = Literal["both", "min", "max"]
-FOR_WIRES: tuple[ActsOn, ActsOn] = ("min", "max")
-"""What a stroke for the first of the two wires acts on, and one for the second."""
+"""Which of `FOLLOWS` a stroke acts on; "both": on all."""
 
 _OFF_MESH = 0.05
 """How far from its triangle a point may be, as part of the mesh's longest side: what the library takes."""

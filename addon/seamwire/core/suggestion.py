@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .network import Wire
+from .network import FOLLOWS, Wire
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
@@ -68,7 +68,7 @@ def planned_wires(plan: seamwire_core.SeamPlan, along: Along, strength: float) -
     return [
         Wire(
             along, tuple(wire.vertices.tolist()), np.array(wire.points), *wire.seeds,
-            follow=0 if wire.follow == "min" else 1, strength=strength,
+            follow=FOLLOWS.index(wire.follow), strength=strength,
         )
         for wire in plan.wires
     ]  # fmt: skip

@@ -264,7 +264,7 @@ class Symmetry:
             end=start if closed else vertices[-1],
             closed=closed,
             heading=None,
-            alternative=None,
+            alternatives=(),
         )
 
 

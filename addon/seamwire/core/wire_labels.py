@@ -355,7 +355,7 @@ class _Wires:
             closed=closed,
             mirror=tuple(record["mirror"]),
             images=piece.images,
-            follow=1 if record["follow"] else 0,
+            follow=int(record["follow"]),
             strength=float(record["strength"]),
             finish=record.get("finish", "SNAP"),
             kind=None if through is None else record["kind"],

@@ -108,7 +108,7 @@ def _click(session: Session) -> Iterator[Deed]:
     click = _CLICKS.get(session.intent.name)
     if click:
         yield Action.CLICK, click
-    if session.seed is not None and session.other is not None:
+    if session.seed is not None and session.others:
         yield Action.NEXT, "Next Candidate"
 
 

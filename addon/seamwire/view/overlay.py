@@ -288,8 +288,8 @@ class Overlay:
         if hovered is not None:
             sheet.curve(looks.hovered, hovered.points)
             sheet.curve(looks.kept if hovered.marks else looks.clear, hovered.points)
-        if session.other is not None:
-            sheet.curve(looks.other, session.other.points)
+        for wire in reversed(session.others):
+            sheet.curve(looks.other, wire.points)
         for wire in session.moved:
             self._add_live(sheet, wire, looks.active, wire.finish)
         if session.active is not None:

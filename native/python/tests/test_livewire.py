@@ -21,7 +21,7 @@ def test_across_the_surface_gives_both_geodesics_and_their_edges(surface: sw.Sur
     both = live.wires(500)
     assert both.final
     assert [wire.follow for wire in both.wires] == ["min", "max"]
-    assert both.shorter == int(both.wires[1].length < both.wires[0].length)
+    assert both.active == int(both.wires[1].length < both.wires[0].length)
     for wire in both.wires:
         metric = sw.feature_metric(surface, curvature, follow=wire.follow, gamma=0.1)
         traced = sw.distance_field(sw.embed(surface, metric), 3).trace(500)

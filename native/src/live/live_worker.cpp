@@ -38,7 +38,7 @@ bool has_edge(const Surface& surface, const Edge& edge) {
 }
 
 LiveWorker::LiveWorker(std::size_t which, std::shared_ptr<SurfaceCache> surface_cache,
-                       std::shared_ptr<MetricPair> metrics, const LiveSettings& settings)
+                       std::shared_ptr<MetricSet> metrics, const LiveSettings& settings)
     : which_(which),
       surface_cache_(std::move(surface_cache)),
       settings_(settings),
@@ -58,7 +58,7 @@ void LiveWorker::request_stop() {
   changed_.notify_all();
 }
 
-void LiveWorker::change_metric(std::shared_ptr<MetricPair> metrics) {
+void LiveWorker::change_metric(std::shared_ptr<MetricSet> metrics) {
   const MutexLock lock(mutex_);
   metrics_.swap(metrics);
   ++request_;

@@ -43,7 +43,7 @@ struct LiveSettings {
   std::optional<double> loop_turning;
 };
 
-/// One of the two threads behind a LiveWire, for one of the metrics. It builds the surface where nobody does yet,
+/// One of the threads behind a LiveWire, for one of the metrics. It builds the surface where nobody does yet,
 /// prepares the metric, then answers the newest seed and after it the newest loop; what it is at is stopped where it is
 /// no longer wanted. None of the members waits for that but wait_until_idle() and the destructor.
 ///
@@ -51,7 +51,7 @@ struct LiveSettings {
 /// while the thread does it, such memory is handed over to dropped_, from which the thread frees it without the mutex.
 class LiveWorker {
  public:
-  LiveWorker(std::size_t which, std::shared_ptr<SurfaceCache> surface_cache, std::shared_ptr<MetricPair> metrics,
+  LiveWorker(std::size_t which, std::shared_ptr<SurfaceCache> surface_cache, std::shared_ptr<MetricSet> metrics,
              const LiveSettings& settings);
   /// Waits until the thread has ended.
   ~LiveWorker();
@@ -62,7 +62,7 @@ class LiveWorker {
   void request_stop();
 
   /// The solution stays, as that of a former metric, until the same seed has one in this metric. The loop is forgotten.
-  void change_metric(std::shared_ptr<MetricPair> metrics);
+  void change_metric(std::shared_ptr<MetricSet> metrics);
   /// Drops the solution of the former seed. The seed was checked, an edge where there is a surface.
   void seed(const WireEnd& seed, bool forward);
 
@@ -94,7 +94,7 @@ class LiveWorker {
  private:
   struct SeedJob {
     std::int64_t request;
-    std::shared_ptr<MetricPair> metrics;
+    std::shared_ptr<MetricSet> metrics;
     std::optional<WireEnd> seed;
     bool is_forward;
     std::shared_ptr<const SeedSolution> before;
@@ -148,7 +148,7 @@ class LiveWorker {
   mutable std::condition_variable_any changed_;  // what is asked for, and what has been answered
 
   // What is asked for.
-  std::shared_ptr<MetricPair> metrics_ SEAMWIRE_GUARDED_BY(mutex_);
+  std::shared_ptr<MetricSet> metrics_ SEAMWIRE_GUARDED_BY(mutex_);
   std::int64_t request_ SEAMWIRE_GUARDED_BY(mutex_) = 0;  // grows with each seed and each change of the metric
   std::optional<WireEnd> seed_ SEAMWIRE_GUARDED_BY(mutex_);
   bool is_forward_ SEAMWIRE_GUARDED_BY(mutex_) = false;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <span>
 #include <string>
 #include <utility>
@@ -64,8 +65,22 @@ void check_options(const LiveWireOptions& options) {
   }
 }
 
-std::shared_ptr<MetricPair> new_metrics(const LiveWireOptions& options) {
-  return std::make_shared<MetricPair>(options.family, options.strength, std::vector<Scribble>());
+std::shared_ptr<MetricSet> new_metrics(const LiveWireOptions& options) {
+  return std::make_shared<MetricSet>(options.family, options.strength, std::vector<Scribble>());
+}
+
+/// Which of the wires leads, whichever is shorter.
+std::optional<std::size_t> leader_of(MetricFamily family) {
+  return family == MetricFamily::kConcave ? std::optional<std::size_t>(0) : std::nullopt;
+}
+
+void choose_active(LiveWires& found, MetricFamily family) {
+  const std::vector<LiveCandidate>& wires = found.wires;
+  const std::optional<std::size_t> leader = leader_of(family);
+  const bool it_leads = leader && (!wires[*leader].final || !wires[*leader].points.empty());
+  const auto shortest = std::ranges::min_element(wires, {}, &LiveCandidate::length) - wires.begin();
+  found.active = static_cast<int>(it_leads ? *leader : static_cast<std::size_t>(shortest));
+  found.settled = found.final() || (it_leads && wires[*leader].final);
 }
 
 LiveSettings settings_of(const LiveWireOptions& options) {
@@ -77,13 +92,12 @@ LiveSettings settings_of(const LiveWireOptions& options) {
 /// What the members of a LiveWire have in common. The mutex is held only for a look at what it guards, never while a
 /// worker is asked, which has one of its own.
 struct LiveWire::Impl {
-  Impl(const std::shared_ptr<SurfaceCache>& on, const std::shared_ptr<MetricPair>& by, const LiveSettings& with)
-      : surface_cache(on),
-        settings(with),
-        metrics_(by),
-        workers{LiveWorker(0, on, by, with), LiveWorker(1, on, by, with)} {}
+  Impl(const std::shared_ptr<SurfaceCache>& on, const std::shared_ptr<MetricSet>& by, const LiveSettings& with)
+      : surface_cache(on), settings(with), metrics_(by) {
+    for (std::size_t which = 0; which < kMostMetrics; ++which) workers.emplace_back(which, on, by, with);
+  }
   ~Impl() {
-    for (LiveWorker& worker : workers) worker.request_stop();  // both, before the first of them is waited for
+    for (LiveWorker& worker : workers) worker.request_stop();  // all, before the first of them is waited for
   }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
@@ -99,11 +113,11 @@ struct LiveWire::Impl {
       if (const std::exception_ptr error = worker.error()) std::rethrow_exception(error);
     }
   }
-  std::shared_ptr<MetricPair> metrics() const {
+  std::shared_ptr<MetricSet> metrics() const {
     const MutexLock lock(mutex_);
     return metrics_;
   }
-  void change_metrics(const std::shared_ptr<MetricPair>& to) {
+  void change_metrics(const std::shared_ptr<MetricSet>& to) {
     {
       const MutexLock lock(mutex_);
       metrics_ = to;  // the workers have the former ones still, so they are not freed here
@@ -125,11 +139,11 @@ struct LiveWire::Impl {
 
  private:
   mutable Mutex mutex_;
-  std::shared_ptr<MetricPair> metrics_ SEAMWIRE_GUARDED_BY(mutex_);
+  std::shared_ptr<MetricSet> metrics_ SEAMWIRE_GUARDED_BY(mutex_);
   std::optional<WireEnd> seed_ SEAMWIRE_GUARDED_BY(mutex_);
 
  public:
-  std::array<LiveWorker, 2> workers;  // last, so that they end first
+  std::deque<LiveWorker> workers;  // of the metrics; last, so that they end first
 };
 
 LiveWire::LiveWire(std::shared_ptr<const Surface> surface, const LiveWireOptions& options) {
@@ -166,15 +180,15 @@ std::shared_ptr<const Surface> LiveWire::surface() const { return impl_->surface
 void LiveWire::set_metric(MetricFamily family, const Strength& strength) {
   check_metric(family, strength);
   impl_->surface_cache->rethrow_failure();
-  auto to = std::make_shared<MetricPair>(family, strength, impl_->metrics()->scribbles);
+  auto to = std::make_shared<MetricSet>(family, strength, impl_->metrics()->scribbles);
   impl_->change_metrics(to);  // the former metric is held here no longer, so it is not freed here
 }
 
 void LiveWire::set_scribbles(std::vector<Scribble> scribbles) {
   impl_->surface_cache->rethrow_failure();
-  std::shared_ptr<MetricPair> now = impl_->metrics();
+  std::shared_ptr<MetricSet> now = impl_->metrics();
   if (scribbles == now->scribbles) return;
-  auto to = std::make_shared<MetricPair>(now->family, now->strength, std::move(scribbles));
+  auto to = std::make_shared<MetricSet>(now->family, now->strength, std::move(scribbles));
   to->go_on_from(*now);
   now = nullptr;  // before the workers may free it, so that this is not the thread that does
   impl_->change_metrics(to);
@@ -196,8 +210,10 @@ LiveWires LiveWire::Impl::wires(const WireEnd& target) {
   if (!seed) throw InvalidInput("there is no seed that wires could start from");
   check_end(surface.get(), *surface_cache, settings.along, *seed, "seed");  // it may have been too early before
   rethrow();
+  const std::shared_ptr<MetricSet> metrics = this->metrics();
   LiveWires result;
-  for (std::size_t which = 0; which < kFollow.size(); ++which) {
+  result.wires.resize(metrics->count);
+  for (std::size_t which = 0; which < metrics->count; ++which) {
     LiveWorker& worker = workers[which];
     LiveCandidate& wire = result.wires[which];
     wire.follow = kFollow[which];
@@ -213,9 +229,7 @@ LiveWires LiveWire::Impl::wires(const WireEnd& target) {
     }
     if (solution) worker.release(std::move(solution));
   }
-  const bool second_is_shorter = result.wires[1].length < result.wires[0].length;
-  const bool first_leads = metrics()->family == MetricFamily::kConcave && !result.wires[0].points.empty();
-  result.shorter = second_is_shorter && !first_leads ? 1 : 0;
+  choose_active(result, metrics->family);
   return result;
 }
 
@@ -226,13 +240,13 @@ LiveLoop LiveWire::loop(const Edge& edge) {
   impl_->rethrow();
   for (LiveWorker& worker : impl_->workers) worker.find_loop({std::min(edge[0], edge[1]), std::max(edge[0], edge[1])});
   if (!surface) return {};
-  EdgeChain cheaper;
+  EdgeChain cheapest;
   for (const LiveWorker& worker : impl_->workers) {
     std::optional<EdgeChain> loop = worker.loop();
     if (!loop) return {};
-    if (loop->length < cheaper.length) cheaper = std::move(*loop);
+    if (loop->length < cheapest.length) cheapest = std::move(*loop);
   }
-  return {.vertices = std::move(cheaper.vertices), .length = cheaper.length, .final = true};
+  return {.vertices = std::move(cheapest.vertices), .length = cheapest.length, .final = true};
 }
 
 EdgeChain LiveWire::extend_straight(const Edge& edge, std::span<const std::int32_t> stops) const {
@@ -270,10 +284,10 @@ std::shared_ptr<const std::vector<double>> LiveWire::feature_strength() const {
   return curvatures ? std::shared_ptr<const std::vector<double>>(curvatures, &curvatures->difference) : nullptr;
 }
 
-std::array<std::optional<LiveEmbedding>, 2> LiveWire::embeddings() const {
+std::vector<std::optional<LiveEmbedding>> LiveWire::embeddings() const {
   impl_->surface_cache->rethrow_failure();
-  const std::shared_ptr<MetricPair> metrics = impl_->metrics();
-  std::array<std::optional<LiveEmbedding>, 2> found;
+  const std::shared_ptr<MetricSet> metrics = impl_->metrics();
+  std::vector<std::optional<LiveEmbedding>> found(metrics->count);
   for (std::size_t which = 0; which < found.size(); ++which) {
     const std::shared_ptr<const Prepared> prepared = metrics->prepared[which]->peek();
     if (!prepared || !prepared->embedding) continue;
@@ -288,9 +302,10 @@ std::array<std::optional<LiveEmbedding>, 2> LiveWire::embeddings() const {
 
 double LiveWire::progress() const {
   impl_->surface_cache->rethrow_failure();
+  const std::size_t count = impl_->metrics()->count;
   double sum = 0.0;
-  for (const LiveWorker& worker : impl_->workers) sum += worker.progress();
-  return sum / static_cast<double>(kFollow.size());
+  for (std::size_t which = 0; which < count; ++which) sum += impl_->workers[which].progress();
+  return sum / static_cast<double>(count);
 }
 
 bool LiveWire::wait(double seconds) const {

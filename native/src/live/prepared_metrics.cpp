@@ -16,7 +16,7 @@ double concave_strength(const Strength& strength) {
   return strength.parameter ? *strength.parameter : (*strength.max_anisotropy - 1.0) / (kConcaveUnit - 1.0);
 }
 
-Metric make_metric(SurfaceCache& surface_cache, const Curvature& curvature, Follow follow, const MetricPair& metrics,
+Metric make_metric(SurfaceCache& surface_cache, const Curvature& curvature, Follow follow, const MetricSet& metrics,
                    const Task& task) {
   const Surface& surface = surface_cache.surface();
   switch (metrics.family) {
@@ -70,8 +70,8 @@ std::shared_ptr<const Surface> SurfaceCache::surface_now(const std::stop_token& 
   });
 }
 
-void MetricPair::go_on_from(const MetricPair& metrics) {
-  for (std::size_t which = 0; which < kFollow.size(); ++which) {
+void MetricSet::go_on_from(const MetricSet& metrics) {
+  for (std::size_t which = 0; which < count; ++which) {
     // In this order: what is former is forgotten only when the metric is prepared.
     std::shared_ptr<const Prepared> from = metrics.former(which);
     if (std::shared_ptr<const Prepared> made = metrics.prepared[which]->peek()) from = std::move(made);
@@ -81,7 +81,7 @@ void MetricPair::go_on_from(const MetricPair& metrics) {
   }
 }
 
-Prepared prepare(SurfaceCache& surface_cache, Along along, MetricPair& metrics, std::size_t which,
+Prepared prepare(SurfaceCache& surface_cache, Along along, MetricSet& metrics, std::size_t which,
                  const std::stop_token& stop) {
   const bool on_surface = along == Along::kSurface;
   const Surface& surface = surface_cache.surface();

@@ -21,6 +21,8 @@
 namespace seamwire {
 
 inline constexpr std::array kFollow = {Follow::kMin, Follow::kMax};
+/// How many metrics a live wire may have at once.
+inline constexpr std::size_t kMostMetrics = kFollow.size();
 
 /// Fractions of the first seed's work, preparation included, at which its parts begin.
 inline constexpr double kEmbedBegins = 0.1, kSolveBegins = 0.5;
@@ -101,15 +103,17 @@ struct Prepared {
   std::shared_ptr<const EdgeGraph> graph;
 };
 
-/// The two metrics of one family and strength, after the scribbles. Shared by forks.
-struct MetricPair {
-  MetricPair(MetricFamily of, const Strength& with, std::vector<Scribble> after)
-      : family(of), strength(with), scribbles(std::move(after)) {}
+/// The metrics of one family and strength, after the scribbles; the first `count` of kFollow. Shared by forks.
+struct MetricSet {
+  MetricSet(MetricFamily of, const Strength& with, std::vector<Scribble> after)
+      : family(of), strength(with), scribbles(std::move(after)) {
+    for (auto& metric : prepared) metric = std::make_shared<ComputedOnce<Prepared>>();
+  }
 
   /// After other scribbles than these metrics, of one family and strength: a metric for which they are the same is
   /// shared. Embeddings of the other are made from those of `metrics`, or, where these are not there yet, from what
   /// they would have been made from: scribbles change little.
-  void go_on_from(const MetricPair& metrics);
+  void go_on_from(const MetricSet& metrics);
   std::shared_ptr<const Prepared> former(std::size_t which) const {
     const MutexLock lock(mutex_);
     return former_[which];
@@ -124,18 +128,18 @@ struct MetricPair {
   const MetricFamily family;
   const Strength strength;
   const std::vector<Scribble> scribbles;
-  std::array<std::shared_ptr<ComputedOnce<Prepared>>, 2> prepared = {std::make_shared<ComputedOnce<Prepared>>(),
-                                                                     std::make_shared<ComputedOnce<Prepared>>()};
-  std::array<std::atomic<double>, 2> fractions = {};  // of the preparation
+  const std::size_t count = kMostMetrics;
+  std::array<std::shared_ptr<ComputedOnce<Prepared>>, kMostMetrics> prepared;
+  std::array<std::atomic<double>, kMostMetrics> fractions = {};  // of the preparation
 
  private:
   mutable Mutex mutex_;
-  std::array<std::shared_ptr<const Prepared>, 2> former_ SEAMWIRE_GUARDED_BY(mutex_);
+  std::array<std::shared_ptr<const Prepared>, kMostMetrics> former_ SEAMWIRE_GUARDED_BY(mutex_);
 };
 
-/// Makes what one of the two metrics needs; throws Cancelled where `stop` tells it to. The metric's fractions of
+/// Makes what one of the metrics needs; throws Cancelled where `stop` tells it to. The metric's fractions of
 /// progress are told to `metrics`.
-Prepared prepare(SurfaceCache& surface_cache, Along along, MetricPair& metrics, std::size_t which,
+Prepared prepare(SurfaceCache& surface_cache, Along along, MetricSet& metrics, std::size_t which,
                  const std::stop_token& stop);
 
 }  // namespace seamwire

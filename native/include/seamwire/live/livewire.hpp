@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -44,7 +44,7 @@ struct LiveWireOptions {
   std::optional<double> loop_turning = std::nullopt;
 };
 
-/// One of the two wires from the seed to a target. `vertices` are the ends of the edges that would be marked: along
+/// One of the wires from the seed to a target. `vertices` are the ends of the edges that would be marked: along
 /// edges the wire itself, across the surface the chain it snaps to. Where the wire begins or ends within a face, the
 /// chain does so at the corner of the face that has the largest barycentric coordinate.
 struct LiveCandidate {
@@ -56,12 +56,15 @@ struct LiveCandidate {
   bool final = false;  ///< false: still being computed; what is here, if anything, will be replaced
 };
 
-/// Both wires to a target.
+/// The wires to a target.
 struct LiveWires {
-  std::array<LiveCandidate, 2> wires;  ///< that of M_min, that of M_max
-  int shorter = 0;  ///< the one shorter in its own metric (Section 5); of kConcave the first, where there is one
-  /// Whether both are.
-  bool final() const { return wires[0].final && wires[1].final; }
+  std::vector<LiveCandidate> wires;  ///< one for each metric, in the order of Follow
+  /// The one to be offered first: the one shorter in its own metric (Section 5); of kConcave the first, unless that
+  /// turns out not to reach the target.
+  int active = 0;
+  bool settled = false;  ///< whether `active` is final, and stays the active one whatever the others will be
+  /// Whether all are.
+  bool final() const { return std::ranges::all_of(wires, &LiveCandidate::final); }
 };
 
 /// A closed chain of edges.
@@ -80,9 +83,9 @@ struct LiveEmbedding {
   double worst_clamp = 1.0;       ///< by that factor at most, 1 or more
 };
 
-/// Both metrics for one surface, each computed on a thread of its own; seed, then the two wires to any target (Section
-/// 5). All members may be called from one thread at a time, surface() and wait_for_surface() from others meanwhile;
-/// none but wait() and wait_for_surface() waits for the computation.
+/// The metrics of one family for a surface, each computed on a thread of its own; seed, then a wire in each to any
+/// target (Section 5). All members may be called from one thread at a time, surface() and wait_for_surface() from
+/// others meanwhile; none but wait() and wait_for_surface() waits for the computation.
 ///
 /// Where the surface is still being built, the members keep what they are given and answer that nothing is there yet
 /// and nothing final; an edge that turns out not to be part of the surface is refused at a later call. Where it cannot
@@ -132,7 +135,7 @@ class LiveWire {
   /// To any point of the surface, across the surface only.
   LiveWires wires_to(const SurfacePoint& target) const;
 
-  /// The closed chain through an edge, the cheaper of the two metrics'; along edges only. The first call for an edge
+  /// The closed chain through an edge, the cheapest of the metrics'; along edges only. The first call for an edge
   /// starts the search, in place of that for another edge; ask again until the answer is final. A seed goes first.
   LiveLoop loop(const Edge& edge);
   /// seamwire::extend_straight(), with the way's length in the unit cube; no vertices where it cannot be told yet.
@@ -145,8 +148,8 @@ class LiveWire {
   /// s of eq. 5 at each vertex; null while it is being computed.
   std::shared_ptr<const std::vector<double>> feature_strength() const;
 
-  /// Of M_min and M_max across the surface, as far as they are prepared; along edges none.
-  std::array<std::optional<LiveEmbedding>, 2> embeddings() const;
+  /// One for each metric, in the order of the wires: across the surface, as far as they are prepared; along edges none.
+  std::vector<std::optional<LiveEmbedding>> embeddings() const;
 
   /// Fraction of the preparation and the seed's work that is done, 0 until the surface is there, 1 when all is.
   double progress() const;
