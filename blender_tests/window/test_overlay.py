@@ -42,7 +42,9 @@ class Said:
 
     wires: tuple[Wire, ...] = ()
     active: Wire | None = None
-    other: Wire | None = None
+    others: tuple[Wire, ...] = ()
+    candidate_number: int = 0
+    finish: str = "SNAP"
     loop_preview: Wire | None = None
     end_preview: Wire | None = None
     moved: tuple[Wire, ...] = ()
@@ -199,14 +201,15 @@ def test_the_active_wire_stands_out_from_the_other_and_from_the_mesh(sight: Sigh
     show.shading(sight.ui, name)
     try:
         empty = sight.pixels()
-        seen = sight.pixels(active=sight.wire(*range(36, 45)), other=sight.wire(36, 45, 54, 63, 64, 65, 66))
+        other, last = sight.wire(36, 45, 54, 63, 64, 65, 66), sight.wire(36, 27, 18, 9, 10, 11, 12)
+        seen = sight.pixels(active=sight.wire(*range(36, 45)), others=(other, last))
         for vertex in range(38, 42):
             place = sight.at(vertex, vertex + 1)
             assert has(seen, place, "orange"), f"the active wire at {vertex}"
             assert not has(empty, place, "orange"), "nothing of that color was there before"
-        beside = sight.at(64, 65)
-        assert not has(seen, beside, "orange")
-        assert has(seen, beside, "blue", chroma=0.25)
+        for beside in (sight.at(64, 65), sight.at(10, 11)):
+            assert not has(seen, beside, "orange")
+            assert has(seen, beside, "blue", chroma=0.25)
         wide = width(seen, crossing(sight, 39, 40))
         thin = width(seen, crossing(sight, 64, 65))
         assert wide >= thin + 2, "the active one is wider too, for those who see no colors"
