@@ -5,7 +5,7 @@
 # SEAMWIRE_OPENMESH_SOURCES: a folder that holds src/OpenMesh/Core, as in OpenMesh's releases, or OpenMesh/src/..., as in
 # the source package of its Python module.
 
-set(openmesh_root "${SEAMWIRE_OPENMESH_SOURCES}")
+file(TO_CMAKE_PATH "${SEAMWIRE_OPENMESH_SOURCES}" openmesh_root)
 if(EXISTS "${openmesh_root}/OpenMesh/src/OpenMesh/Core")
   string(APPEND openmesh_root "/OpenMesh")
 endif()

@@ -14,11 +14,16 @@ class Portable(NamedTuple):
 
 
 class MachO(NamedTuple):
-    """What a macOS library names: the processor, the libraries it loads, and the oldest system it runs on."""
+    """What a macOS library tells: the processor, the libraries it loads, the oldest system it runs on, and whether it is signed.
+
+    ``looked_up`` are the symbols that it names no library for: they have to be in the program that loads it.
+    """
 
     machine: str
     libraries: list[str]
     oldest_system: str
+    looked_up: list[str]
+    is_signed: bool
 
 
 def read_portable(path: Path) -> Portable:
@@ -62,7 +67,7 @@ def read_portable(path: Path) -> Portable:
 
 
 def read_macho(path: Path) -> MachO:
-    """Return what the load commands of a Mach-O file tell (<mach-o/loader.h>).
+    """Return what the load commands and the symbols of a Mach-O file tell (<mach-o/loader.h>, <mach-o/nlist.h>).
 
     Raises
     ------
@@ -74,7 +79,7 @@ def read_macho(path: Path) -> MachO:
     machines = {0x01000007: "x86_64", 0x0100000C: "arm64"}
     if magic != 0xFEEDFACF or processor not in machines:
         raise ValueError(f"{path.name} is no Mach-O file for x86-64 or arm64")
-    libraries, oldest, at = [], "", 32
+    libraries, looked_up, oldest, is_signed, at = [], [], "", False, 32
     for _ in range(commands):
         command, size = struct.unpack_from("<II", data, at)
         # LC_LOAD_DYLIB, LC_LOAD_WEAK_DYLIB, LC_REEXPORT_DYLIB
@@ -84,5 +89,13 @@ def read_macho(path: Path) -> MachO:
         elif command in (0x24, 0x32):  # LC_VERSION_MIN_MACOSX, LC_BUILD_VERSION
             (version,) = struct.unpack_from("<8xI" if command == 0x24 else "<12xI", data, at)
             oldest = f"{version >> 16}.{version >> 8 & 0xFF}"
+        elif command == 0x2:  # LC_SYMTAB
+            symbols, count, names, _ = struct.unpack_from("<8x4I", data, at)
+            for name, kind, told in struct.iter_unpack("<IBxH8x", data[symbols : symbols + 16 * count]):
+                # External, undefined (N_EXT, N_UNDF), from DYNAMIC_LOOKUP_ORDINAL, for which Zig's linker writes 0 here.
+                if kind == 0x1 and told >> 8 in (0xFE, 0):
+                    looked_up.append(data[names + name : data.index(b"\0", names + name)].decode())
+        elif command == 0x1D:  # LC_CODE_SIGNATURE
+            is_signed = True
         at += size
-    return MachO(machines[processor], libraries, oldest)
+    return MachO(machines[processor], libraries, oldest, looked_up, is_signed)

@@ -30,9 +30,8 @@ SUFFIXES = {
     "macos-x64": ".cpython-{0}-darwin.so",
     "macos-arm64": ".cpython-{0}-darwin.so",
 }
+PYTHON_SYMBOL = re.compile(r"__?Py")
 WINDOWS_SYSTEM = re.compile(r"(api-ms-win-[a-z0-9-]+|kernel32|ntdll|advapi32|user32|shell32|ole32|bcrypt)\.dll", re.I)
-
-
 LINUX_SYSTEM = re.compile(r"(ld-linux-aarch64|lib(c|m|dl|rt|pthread))\.so\.\d")
 
 
@@ -66,7 +65,9 @@ def faults_of_module(module: Path, platform: str, python: str) -> list[str]:
         machine = TAGS[platform].removeprefix("macosx_11_0_")
         if (found.machine, found.oldest_system) != (machine, "11.0"):
             faults.append(f"it is for {found.machine}, macOS {found.oldest_system}")
-        return faults
+        faults += [f"nothing has {name}" for name in found.looked_up if not PYTHON_SYMBOL.match(name)]
+        # That processor runs nothing that is not signed, if by nobody.
+        return faults if machine != "arm64" or found.is_signed else [*faults, "it is not signed"]
     if platform == "linux-arm64":
         return faults_of_elf(module, "EM_AARCH64", (2, 28))
     return []

@@ -18,7 +18,7 @@ LEFT_OUT = {"__pycache__", "_native"}
 
 def manifest(wheels: list[Path], platforms: list[str]) -> str:
     """Return the add-on's manifest with what this package holds and where it runs."""
-    text = (ADDON / "blender_manifest.toml").read_text()
+    text = (ADDON / "blender_manifest.toml").read_text("utf-8")
     lines = ["", "platforms = [", *(f'  "{platform}",' for platform in platforms), "]"]
     lines += ["wheels = [", *(f'  "./wheels/{wheel.name}",' for wheel in wheels), "]"]
     return text.rstrip("\n") + "\n" + "\n".join(lines) + "\n"
@@ -27,10 +27,14 @@ def manifest(wheels: list[Path], platforms: list[str]) -> str:
 def versions() -> dict[str, str]:
     """Return the version as each file that has to tell it does."""
     found = {
-        "blender_manifest.toml": re.search(r'^version = "(.+)"$', (ADDON / "blender_manifest.toml").read_text(), re.M),
-        "pyproject.toml": re.search(r'^version = "(.+)"$', (ROOT / "pyproject.toml").read_text(), re.M),
-        "CMakeLists.txt": re.search(r"^project\(seamwire VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(), re.M),
-        "__init__.py": re.search(r'"version": \((\d+), (\d+), (\d+)\)', (ADDON / "__init__.py").read_text()),
+        "blender_manifest.toml": re.search(
+            r'^version = "(.+)"$', (ADDON / "blender_manifest.toml").read_text("utf-8"), re.M
+        ),
+        "pyproject.toml": re.search(r'^version = "(.+)"$', (ROOT / "pyproject.toml").read_text("utf-8"), re.M),
+        "CMakeLists.txt": re.search(
+            r"^project\(seamwire VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text("utf-8"), re.M
+        ),
+        "__init__.py": re.search(r'"version": \((\d+), (\d+), (\d+)\)', (ADDON / "__init__.py").read_text("utf-8")),
     }
     missing = [name for name, match in found.items() if match is None]
     if missing:

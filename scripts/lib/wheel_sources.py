@@ -20,8 +20,8 @@ def main() -> None:
     """Download and unpack, unless the folder is as this file and the list want it."""
     folder = Path(sys.argv[1])
     stamp = folder / "stamp"
-    wanted = REQUIREMENTS.read_text() + Path(__file__).read_text()
-    if stamp.exists() and stamp.read_text() == wanted:
+    wanted = REQUIREMENTS.read_text("utf-8") + Path(__file__).read_text("utf-8")
+    if stamp.exists() and stamp.read_text("utf-8") == wanted:
         return
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
@@ -45,7 +45,7 @@ def main() -> None:
         with zipfile.ZipFile(wheel) as archive:
             archive.extractall(downloads / "eigen")
         shutil.move(downloads / "eigen" / "cmeel.prefix", folder / "eigen")
-    stamp.write_text(wanted)
+    stamp.write_text(wanted, "utf-8")
 
 
 if __name__ == "__main__":

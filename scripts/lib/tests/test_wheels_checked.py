@@ -9,6 +9,7 @@ import subprocess
 import sys
 import zipfile
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -51,12 +52,28 @@ def portable(imports: list[str], exports: list[str]) -> bytes:
     return (start + header + options + section).ljust(STORED, b"\0") + bytes(content)
 
 
-def macho(oldest: int, libraries: list[str]) -> bytes:
+def macho(oldest: int, libraries: list[str], looked_up: list[str], signed: bool) -> bytes:
+    """Return a library for arm64 that has nothing but load commands and the symbols that it asks for."""
     names = [name.encode().ljust(48, b"\0") for name in libraries]
     commands = [struct.pack("<6I", 0xC, 24 + len(name), 24, 0, 0, 0) + name for name in names]
     commands.append(struct.pack("<6I", 0x32, 24, 1, oldest, oldest, 0))
-    size = sum(map(len, commands))
-    return struct.pack("<8I", 0xFEEDFACF, 0x0100000C, 0, 6, len(commands), size, 0, 0) + b"".join(commands)
+    if signed:
+        commands.append(struct.pack("<4I", 0x1D, 16, 0, 0))
+    # The first symbol is in the first of the libraries, the second is its own.
+    symbols = [
+        ("_malloc", 0x1, 1 << 8),
+        ("_own", 0xF, 0),
+        *((name, 0x1, 0xFE00 * (i % 2)) for i, name in enumerate(looked_up)),
+    ]
+    size = sum(map(len, commands)) + 24
+    table, texts = b"", b"\0"
+    for name, kind, told in symbols:
+        table += struct.pack("<IBxH8x", len(texts), kind, told)
+        texts += name.encode() + b"\0"
+    start = 32 + size
+    commands.append(struct.pack("<6I", 0x2, 24, start, len(symbols), start + len(table), len(texts)))
+    header = struct.pack("<8I", 0xFEEDFACF, 0x0100000C, 0, 6, len(commands), size, 0, 0)
+    return header + b"".join(commands) + table + texts
 
 
 def test_the_tables_of_a_windows_dll_are_read(tmp_path: Path) -> None:
@@ -113,17 +130,23 @@ def test_what_a_linux_module_asks_for_is_read(tmp_path: Path) -> None:
     assert check_wheel.faults_of_elf(path, machine, (2, 28)) == []
 
 
+SYSTEM = "/usr/lib/libSystem.B.dylib"
+
+
 @pytest.mark.parametrize(
-    ("oldest", "libraries", "faults"),
+    ("told", "faults"),
     [
-        (11 << 16, ["/usr/lib/libSystem.B.dylib"], []),
-        (11 << 16, ["/usr/lib/libSystem.B.dylib", "/usr/lib/libc++.1.dylib"], ["it links /usr/lib/libc++.1.dylib"]),
-        (13 << 16, ["/usr/lib/libSystem.B.dylib"], ["it is for arm64, macOS 13.0"]),
+        ({}, []),
+        ({"libraries": [SYSTEM, "/usr/lib/libc++.1.dylib"]}, ["it links /usr/lib/libc++.1.dylib"]),
+        ({"oldest": 13 << 16}, ["it is for arm64, macOS 13.0"]),
+        ({"looked_up": ["_PyErr_Clear", "_tbb_malloc"]}, ["nothing has _tbb_malloc"]),
+        ({"signed": False}, ["it is not signed"]),
     ],
 )
-def test_the_load_commands_of_a_macos_module_are_read(
-    tmp_path: Path, oldest: int, libraries: list[str], faults: list[str]
+def test_a_macos_module_asks_for_its_python_and_the_system_alone_and_is_signed(
+    tmp_path: Path, told: dict[str, Any], faults: list[str]
 ) -> None:
+    sound = {"oldest": 11 << 16, "libraries": [SYSTEM], "looked_up": ["_PyErr_Clear", "__Py_Dealloc"], "signed": True}
     path = tmp_path / "module.so"
-    path.write_bytes(macho(oldest, libraries))
+    path.write_bytes(macho(**{**sound, **told}))
     assert check_wheel.faults_of_module(path, "macos-arm64", "3.11") == faults
