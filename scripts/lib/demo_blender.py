@@ -6,16 +6,18 @@ Opens a mesh, has ``mesh.seamwire_suggest`` mark a network of wires, unwraps, an
 
 from __future__ import annotations
 
+import os
 import sys
 import time
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parent))
+sys.path.insert(0, str(Path(__file__).parents[2] / "batch"))
 
 import addon_utils
 import bpy
-import demo_pictures
 import numpy as np
+from seamwire_batch import pictures
+from seamwire_batch.assets import IMPORTERS
 
 MOST_TRIANGLES = 400_000
 
@@ -41,11 +43,10 @@ def suzanne() -> bpy.types.Object:
 
 def load(path: Path) -> bpy.types.Object:
     """Read a mesh file, all its objects joined into one without a transformation."""
-    importers = {".obj": _import_obj, ".ply": _import_ply, ".stl": _import_stl}
-    if path.suffix.lower() not in importers:
+    if path.suffix.lower() not in {".obj", ".ply", ".stl"}:
         raise DemoError(f"{path.name}: only OBJ, PLY and STL files can be opened")
     try:
-        importers[path.suffix.lower()](str(path))
+        IMPORTERS[path.suffix.lower()](str(path))
     except (RuntimeError, ValueError, OSError, IndexError, KeyError) as error:
         raise DemoError(f"{path.name} cannot be read: not a sound {path.suffix[1:].upper()} file") from error
     meshes = [obj for obj in bpy.context.scene.objects if obj.type == "MESH" and len(obj.data.polygons) > 0]
@@ -61,24 +62,6 @@ def load(path: Path) -> bpy.types.Object:
     return bpy.context.object
 
 
-def _import_obj(path: str) -> None:
-    bpy.ops.wm.obj_import(filepath=path)
-
-
-def _import_ply(path: str) -> None:
-    if hasattr(bpy.ops.wm, "ply_import") and bpy.app.version >= (4, 0, 0):
-        bpy.ops.wm.ply_import(filepath=path)
-    else:
-        bpy.ops.import_mesh.ply(filepath=path)
-
-
-def _import_stl(path: str) -> None:
-    if hasattr(bpy.ops.wm, "stl_import") and bpy.app.version >= (4, 1, 0):
-        bpy.ops.wm.stl_import(filepath=path)
-    else:
-        bpy.ops.import_mesh.stl(filepath=path)
-
-
 def column(items: bpy.types.bpy_prop_collection, name: str, kind: type, width: int) -> np.ndarray:
     """Read one property of all elements."""
     values = np.empty(len(items) * width, dtype=kind)
@@ -86,7 +69,7 @@ def column(items: bpy.types.bpy_prop_collection, name: str, kind: type, width: i
     return values.reshape(-1, width)
 
 
-def suggest(obj: bpy.types.Object) -> demo_pictures.Network:
+def suggest(obj: bpy.types.Object) -> pictures.Network:
     """Mark seams with the add-on's operator; return the wires that the mesh has then, and see that the seams are theirs."""
     from seamwire.mesh.object_session import ObjectSession
     from seamwire.mesh.seam_islands import labels_of
@@ -97,7 +80,7 @@ def suggest(obj: bpy.types.Object) -> demo_pictures.Network:
         if result != {"FINISHED"}:
             raise DemoError("nothing to cut: the whole mesh is flat enough to be unwrapped as it is")
         drawn = ObjectSession(obj)
-        network = demo_pictures.Network(list(drawn.session.wires), labels_of(drawn.arrays))
+        network = pictures.Network(list(drawn.session.wires), labels_of(drawn.arrays))
     except RuntimeError as error:
         raise DemoError(str(error).strip()) from error
     finally:
@@ -159,8 +142,14 @@ def run(folder: Path, path: Path | None) -> None:
     )
 
     started = time.monotonic()
-    scene = demo_pictures.Scene(
-        obj, network, triangles, column(mesh.loop_triangles, "polygon_index", np.int32, 1).ravel()
+    scene = pictures.Scene(
+        obj,
+        network,
+        triangles,
+        column(mesh.loop_triangles, "polygon_index", np.int32, 1).ravel(),
+        samples=int(
+            os.environ.get("SEAMWIRE_DEMO_SAMPLES", "64")
+        ),  # nobody looks at the tests' pictures: they take fewer
     )
     scene.pictures(folder, obj.name, tell)
     tell(f"pictures made in {time.monotonic() - started:.1f} s")

@@ -49,28 +49,25 @@ def network_of(source: ObjectSession, settings: SeamwireSettings) -> NetworkFile
 
 def pairs_of_groups(source: bpy.types.Object, target: bpy.types.Object) -> list[Edge]:
     """Return a vertex of each object for every name that vertex groups of both have: the one in the group's middle."""
-    there = {group.name: group.index for group in target.vertex_groups}
-    pairs = []
-    for group in source.vertex_groups:
-        ends = [_middle(source, group.index), _middle(target, there.get(group.name, -1))]
-        if None not in ends:
-            pairs.append((ends[0], ends[1]))
-    return pairs
+    here, there = group_middles(source), group_middles(target)
+    return [(here[name], there[name]) for name in here if name in there]
 
 
-def _middle(obj: bpy.types.Object, group: int) -> int | None:
-    """Return the vertex that is nearest to the middle of a group; None: the group is empty."""
-    members, weights = [], []
+def group_middles(obj: bpy.types.Object) -> dict[str, int]:
+    """Return by their names the vertex that is nearest to the middle of each vertex group that has any."""
+    members: dict[int, list[tuple[int, float]]] = {}
     for vertex in obj.data.vertices:
         for membership in vertex.groups:
-            if membership.group == group and membership.weight > 0.0:
-                members.append(vertex.index)
-                weights.append(membership.weight)
-    if not members:
-        return None
-    places = np.array([obj.data.vertices[index].co for index in members])
-    middle = np.average(places, axis=0, weights=weights)
-    return members[int(np.linalg.norm(places - middle, axis=1).argmin())]
+            if membership.weight > 0.0:
+                members.setdefault(membership.group, []).append((vertex.index, membership.weight))
+    middles = {}
+    for group in obj.vertex_groups:
+        if group.index in members:
+            numbers, weights = zip(*members[group.index], strict=True)
+            places = np.array([obj.data.vertices[number].co for number in numbers])
+            middle = np.average(places, axis=0, weights=weights)
+            middles[group.name] = numbers[int(np.linalg.norm(places - middle, axis=1).argmin())]
+    return middles
 
 
 def carry_over(

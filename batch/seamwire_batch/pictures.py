@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The demo's pictures: wires on the model, islands in colors, a checked texture, the UV layout. Rendered by Cycles, no display needed."""
+"""Pictures of a model in Blender: its seams, islands in colors, a checked texture, the UV layout. By Cycles, no display needed."""
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
 from math import cos, radians, sin
 from typing import TYPE_CHECKING
@@ -19,9 +18,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from seamwire.core.network import Wire
 
-SIZE = 720
-SAMPLES = int(os.environ.get("SEAMWIRE_DEMO_SAMPLES", "64"))
-"""Of light, a pixel; the tests, where nobody looks at the pictures, take fewer."""
 BACKDROP = (0.93, 0.94, 0.95)
 CLAY = (0.62, 0.64, 0.68)
 WIRE = (0.95, 0.22, 0.03)
@@ -67,12 +63,27 @@ class Scene:
         What was marked on it.
     triangles, polygon_of
         Its triangles and the polygon that each lies in.
+    size
+        Of a picture, in pixels.
+    samples
+        Of light, a pixel.
+    seeds
+        Whether seeds are shown.
     """
 
     def __init__(
-        self, obj: bpy.types.Object, network: Network, triangles: NDArray[np.int32], polygon_of: NDArray[np.int32]
+        self,
+        obj: bpy.types.Object,
+        network: Network,
+        triangles: NDArray[np.int32],
+        polygon_of: NDArray[np.int32],
+        size: int = 720,
+        samples: int = 64,
+        seeds: bool = True,
     ) -> None:
         self._obj = obj
+        self._size = size
+        self._samples = samples
         self._mesh = obj.data
         self._made: list[bpy.types.ID] = []
         corners = np.array([vertex.co for vertex in self._mesh.vertices])
@@ -86,7 +97,7 @@ class Scene:
         self._paint()
         self._smooth()
         self._wires = self._make_wires(network)
-        self._seeds = self._make_seeds(network)
+        self._seeds = self._make_seeds(network) if seeds else []
         self._light()
         self._render_settings()
 
@@ -112,9 +123,20 @@ class Scene:
             np.concatenate([images["wires-front"], images["islands-front"], images["uv"]], axis=1),
             np.concatenate([images["wires-back"], images["islands-back"], images["checked"]], axis=1),
         ]
-        _save(np.concatenate(rows[::-1], axis=0), folder / f"{name}.png")
+        save(np.concatenate(rows[::-1], axis=0), folder / f"{name}.png")
         for tile in (*images, ""):
             tell(str(folder / f"{name}{'-' if tile else ''}{tile}.png"))
+
+    def strip(self, path: Path) -> None:
+        """Render the model with its seams, with a checked texture, and its layout side by side into a file."""
+        view = (-60.0, 18.0)
+        tiles = []
+        for material, with_wires in ((self._island_material(), True), (self._checked(), False)):
+            self._show(material, with_wires)
+            self._look_from(*view)
+            tiles.append(self._render(path))
+        tiles.append(self._uv_layout(path))
+        save(np.concatenate(tiles, axis=1), path)
 
     def clean(self) -> None:
         """Leave the model in its islands' colors with its wires, ready to be worked on."""
@@ -153,7 +175,7 @@ class Scene:
         bpy.context.scene.collection.objects.link(wires)
         return wires
 
-    def _make_seeds(self, network: Network) -> bpy.types.Object:
+    def _make_seeds(self, network: Network) -> list[bpy.types.Object]:
         seeds = sorted({seed for wire in network.wires for seed in (wire.start, wire.end)})
         bpy.ops.mesh.primitive_uv_sphere_add(segments=16, ring_count=8, radius=0.016 * self._radius)
         ball = bpy.context.object
@@ -167,12 +189,12 @@ class Scene:
                 bpy.context.scene.collection.objects.link(one)
             one.location = self._mesh.vertices[seed].co
             one.parent = parent
-        return parent
+        return list(parent.children)
 
     def _show(self, material: bpy.types.Material, with_wires: bool) -> None:
         self._mesh.materials.clear()
         self._mesh.materials.append(material)
-        for item in (self._wires, *self._seeds.children):
+        for item in (self._wires, *self._seeds):
             item.hide_render = not with_wires
             item.hide_viewport = not with_wires
 
@@ -241,10 +263,10 @@ class Scene:
         scene = bpy.context.scene
         scene.render.engine = "CYCLES"
         scene.cycles.device = "CPU"
-        scene.cycles.samples = SAMPLES
+        scene.cycles.samples = self._samples
         scene.cycles.use_denoising = False  # Debian's Blender has no denoiser
         scene.cycles.max_bounces = 3
-        scene.render.resolution_x = scene.render.resolution_y = SIZE
+        scene.render.resolution_x = scene.render.resolution_y = self._size
         scene.render.resolution_percentage = 100
         scene.render.film_transparent = True
         scene.view_settings.view_transform = "Standard"
@@ -254,10 +276,10 @@ class Scene:
     def _render(self, path: Path) -> NDArray[np.float32]:
         bpy.context.scene.render.filepath = str(path)
         bpy.ops.render.render(write_still=True)
-        picture = _load(path)
+        picture = load(path)
         # The pixels' colors are already multiplied by their alpha when Blender reads a straight PNG as premultiplied; blend either way.
         flat = picture[:, :, :3] * picture[:, :, 3:] + np.array(BACKDROP) * (1 - picture[:, :, 3:])
-        _save(flat, path)
+        save(flat, path)
         return flat
 
     # The UV layout
@@ -303,8 +325,8 @@ class Scene:
             one.hide_render = False
         bpy.data.objects.remove(item)
         bpy.data.meshes.remove(sheet)
-        _draw_lines(picture, (flat - 0.5) / width + 0.5, corners)
-        _save(picture, path)
+        _draw_lines(picture, (flat - 0.5) / width + 0.5, corners, self._size)
+        save(picture, path)
         return picture
 
 
@@ -345,25 +367,28 @@ def _material(name: str, color: tuple[float, float, float], roughness: float) ->
     return material
 
 
-def _draw_lines(picture: NDArray[np.float32], places: NDArray[np.float32], corners: list[tuple[int, ...]]) -> None:
+def _draw_lines(
+    picture: NDArray[np.float32], places: NDArray[np.float32], corners: list[tuple[int, ...]], size: int
+) -> None:
     """Darken the pixels under the faces' edges; places are in the unit square."""
     starts = np.concatenate(corners)
     ends = np.concatenate([np.roll(corner, -1) for corner in corners])
-    one, two = places[starts] * SIZE, places[ends] * SIZE
+    one, two = places[starts] * size, places[ends] * size
     # A point every half pixel; four subsamples of a pixel make the line soft.
     steps = max(2, int(2 * np.linalg.norm(two - one, axis=1).max(initial=1.0)) + 1)
     steps = min(steps, 400)
-    hits = np.zeros((2 * SIZE, 2 * SIZE), dtype=bool)
+    hits = np.zeros((2 * size, 2 * size), dtype=bool)
     for share in np.linspace(0.0, 1.0, steps):
-        at = (2 * (one + share * (two - one))).astype(np.int64).clip(0, 2 * SIZE - 1)
+        at = (2 * (one + share * (two - one))).astype(np.int64).clip(0, 2 * size - 1)
         hits[at[:, 1], at[:, 0]] = True
-    cover = hits.reshape(SIZE, 2, SIZE, 2).mean(axis=(1, 3))[:, :, None]
+    cover = hits.reshape(size, 2, size, 2).mean(axis=(1, 3))[:, :, None]
     # Where faces are smaller than the lines between them, lines would paint over everything.
     strength = 0.6 * min(1.0, 0.25 / max(float(cover[cover > 0].mean()) ** 2, 0.25)) if (cover > 0).any() else 0.0
     picture *= 1.0 - strength * cover
 
 
-def _load(path: Path) -> NDArray[np.float32]:
+def load(path: Path) -> NDArray[np.float32]:
+    """Read a picture, (height, width, 4), bottom row first."""
     image = bpy.data.images.load(str(path))
     width, height = image.size
     pixels = np.empty(width * height * 4, dtype=np.float32)
@@ -372,7 +397,8 @@ def _load(path: Path) -> NDArray[np.float32]:
     return pixels.reshape(height, width, 4)
 
 
-def _save(picture: NDArray[np.float32], path: Path) -> None:
+def save(picture: NDArray[np.float32], path: Path) -> None:
+    """Write a picture, (height, width, 3), bottom row first, as PNG."""
     height, width = picture.shape[:2]
     image = bpy.data.images.new("Picture", width, height)
     pixels = np.ones((height, width, 4), dtype=np.float32)

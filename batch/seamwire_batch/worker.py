@@ -1,0 +1,496 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One asset in Blender: ``blender --background --factory-startup --python worker.py -- JOB``, or Python with ``bpy``.
+
+JOB is a JSON file of `jobs.Job`; what was done goes into ``result.json`` of the job's folder, whole or not at all, beside the files that
+were made. What the asset cannot have is an error in there; a Blender that ends without is a crash.
+"""
+
+from __future__ import annotations
+
+import importlib
+import json
+import pkgutil
+import sys
+import time
+import traceback
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if "seamwire_batch" not in sys.modules:
+    # Its folder may lie among packages for another Python: they must not stand before Blender's own.
+    _folder = Path(__file__).resolve().parent
+    _spec = spec_from_file_location(
+        "seamwire_batch", _folder / "__init__.py", submodule_search_locations=[str(_folder)]
+    )
+    sys.modules["seamwire_batch"] = module_from_spec(_spec)
+    _spec.loader.exec_module(sys.modules["seamwire_batch"])
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    import bpy
+    import numpy as np
+
+
+def limit_memory(megabytes: int) -> None:
+    """Let this process take so much more memory than it has now; what asks for more fails."""
+    import resource
+
+    pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
+    most = pages * resource.getpagesize() + megabytes * (1 << 20)
+    resource.setrlimit(resource.RLIMIT_AS, (most, most))
+
+
+def end_with_parent() -> None:
+    """Let Linux end this process where the one that started it is killed."""
+    import ctypes
+    import signal
+
+    ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
+
+
+def peak_memory() -> float:
+    """Return the most memory that this process had, in megabytes; 0: not known."""
+    try:
+        # What getrusage tells is at least what the process had that started this one.
+        lines = Path("/proc/self/status").read_text(encoding="ascii").splitlines()
+    except OSError:
+        return 0.0
+    return next((int(line.split()[1]) / 1024.0 for line in lines if line.startswith("VmHWM:")), 0.0)
+
+
+def enable_addon(folder: str | None) -> None:
+    """Enable the add-on that is installed, or lies in a folder; raises AssetError."""
+    import addon_utils
+
+    from seamwire_batch.assets import AssetError
+
+    if folder:
+        sys.path.insert(0, folder)
+        names = ["seamwire"]
+    else:
+        names = [module.__name__ for module in addon_utils.modules() if module.__name__.split(".")[-1] == "seamwire"]
+    for name in names:
+        module = addon_utils.enable(name, default_set=True)
+        if module is not None:
+            # By one name, whatever it is installed as.
+            for part in pkgutil.walk_packages(module.__path__, f"{name}."):
+                importlib.import_module(part.name)
+            for known in [known for known in sys.modules if known == name or known.startswith(f"{name}.")]:
+                sys.modules[f"seamwire{known.removeprefix(name)}"] = sys.modules[known]
+            return
+    raise AssetError("The add-on Seamwire is not installed in this Blender: name its folder with --addon")
+
+
+def values_for(operator: Any, given: dict[str, str]) -> dict[str, Any]:  # noqa: ANN401 - bpy.ops has no type
+    """Return arguments of an operator, read from text by the kinds of its properties; raises AssetError."""
+    from seamwire_batch.assets import AssetError
+
+    properties = operator.get_rna_type().properties
+    values: dict[str, Any] = {}
+    for key, text in given.items():
+        if key not in properties or key == "rna_type":
+            raise AssetError(f"{operator.idname_py()} has no argument {key}")
+        kind = properties[key].type
+        try:
+            if kind == "BOOLEAN":
+                values[key] = {"true": True, "1": True, "false": False, "0": False}[text.lower()]
+            elif kind == "INT":
+                values[key] = int(text)
+            elif kind == "FLOAT":
+                values[key] = float(text)
+            elif kind == "ENUM" and properties[key].is_enum_flag:
+                values[key] = set(text.replace(",", " ").split())
+            else:
+                values[key] = text
+        except (KeyError, ValueError) as error:
+            raise AssetError(f"{key}={text}: not what {operator.idname_py()} takes there") from error
+    return values
+
+
+class Run:
+    """The work on one asset.
+
+    Parameters
+    ----------
+    job
+        As `jobs.Job` has it.
+    """
+
+    def __init__(self, job: dict[str, Any]) -> None:
+        self._job = job
+        self._folder = Path(job["folder"])
+        self.warnings: list[str] = []
+
+    def source(self) -> dict[str, Any]:
+        """Write the networks of a source asset, one file for each object that has seams, and return their names."""
+        import numpy as np
+
+        from seamwire_batch.assets import AssetError, mesh_objects, open_asset
+
+        open_asset(Path(self._job["asset"]))
+        from seamwire.mesh.object_session import ObjectSession
+        from seamwire.mesh.settings import settings
+        from seamwire.mesh.transfer import group_middles, network_of
+
+        made: dict[str, str] = {}
+        for obj in mesh_objects():
+            mesh = ObjectSession(obj)
+            try:
+                network = network_of(mesh, settings())
+            except ValueError:
+                continue
+            stem = f"source-{len(made)}"
+            (self._folder / f"{stem}.json").write_text(network.text(), encoding="utf-8")
+            groups = group_middles(obj)
+            arrays = mesh.arrays
+            np.savez(
+                self._folder / f"{stem}.npz",
+                points=arrays.points,
+                triangles=arrays.triangles,
+                edges=arrays.edges,
+                to_object=arrays.to_object,
+                groups=np.array(list(groups)),
+                middles=np.array(list(groups.values()), dtype=np.int64),
+            )
+            made[obj.name] = stem
+        if not made:
+            raise AssetError("The source has no seams")
+        return {"sources": made}
+
+    def asset(self) -> dict[str, Any]:
+        """Open the asset, mark, unwrap, write, and return what it has then."""
+        import bpy
+
+        from seamwire_batch.assets import AssetError, mesh_objects, open_asset, write_asset
+
+        job = self._job
+        path = Path(job["asset"])
+        open_asset(path)
+        objects = mesh_objects()
+        if job["object"]:
+            objects = [obj for obj in objects if obj.name == job["object"]]
+        if not objects:
+            named = f" called {job['object']}" if job["object"] else ""
+            raise AssetError(f"There is no mesh object{named} with faces in it")
+        objects = self._chosen(objects)
+        for obj in objects:
+            with _editing(obj):
+                self._mark(obj)
+                if any(edge.use_seam for edge in _seams(obj)) or not obj.data.uv_layers:
+                    bpy.ops.mesh.select_all(action="SELECT")
+                    bpy.ops.mesh.seamwire_unwrap()
+                bpy.ops.mesh.seamwire_store_islands(kind="ATTRIBUTE")
+        numbers = self._measured(objects)
+        self._save_networks(objects)
+        write_asset(self._folder / job["output"])
+        if job["pictures"]:
+            self._picture(objects)
+        return numbers
+
+    # Ways of marking
+
+    def _chosen(self, objects: list[bpy.types.Object]) -> list[bpy.types.Object]:
+        """Return the objects that get seams: where one network is for one mesh, which one must be clear."""
+        from seamwire_batch.assets import AssetError
+
+        job = self._job
+        if job["way"] == "suggest" or len(objects) == 1:
+            return objects
+        if job["way"] == "source":
+            found = [obj for obj in objects if _plain(obj.name) in map(_plain, job["sources"])]
+            if found:
+                return found
+        if job["way"] == "network":
+            name = json.loads(Path(job["network"]).read_text(encoding="utf-8")).get("mesh", {}).get("name", "")
+            found = [obj for obj in objects if _plain(name) in {_plain(obj.name), _plain(obj.data.name)}]
+            if len(found) == 1:
+                return found
+        names = ", ".join(obj.name for obj in objects[:5])
+        raise AssetError(f"It has {len(objects)} mesh objects ({names}): say with --object which one gets the seams")
+
+    def _mark(self, obj: bpy.types.Object) -> None:
+        import bpy
+
+        way = self._job["way"]
+        if way in {"mark", "suggest"}:
+            operator = getattr(bpy.ops.mesh, f"seamwire_{way}")
+            options = values_for(operator, self._job["arguments"])
+            if way == "suggest":
+                options["unwrap"] = False
+            self._call(obj, lambda: operator(**options))
+            return
+        from seamwire.core.network_file import NetworkFile
+        from seamwire.core.placing import Shape
+        from seamwire.mesh.object_session import ObjectSession
+        from seamwire.mesh.transfer import carry_over, group_middles, write
+
+        from seamwire_batch.assets import AssetError
+
+        network, shape, pairs = self._job["network"], None, []
+        if way == "source":
+            import numpy as np
+
+            stem = self._source_of(obj)
+            network = f"{stem}.json"
+            with np.load(f"{stem}.npz") as data:
+                shape = Shape(data["points"], data["triangles"], data["edges"], data["to_object"])
+                groups = dict(zip(data["groups"].tolist(), data["middles"].tolist(), strict=True))
+            pairs = [tuple(pair) for pair in self._job["pairs"]]
+            if not pairs and self._job["place"] == "PAIRS":
+                obj.update_from_editmode()
+                here = group_middles(obj)
+                pairs = [(groups[name], here[name]) for name in groups if name in here]
+        mesh = ObjectSession(obj)
+        if mesh.problem:
+            self.warnings.append(f"{obj.name}: {mesh.problem}")
+        found = carry_over(
+            mesh,
+            NetworkFile.parse(Path(network).read_text(encoding="utf-8")),
+            place=self._job["place"],
+            mirror=self._job["mirror"],
+            align=self._job["align"],
+            source=shape,
+            pairs=pairs,
+        )
+        self.warnings += [f"{obj.name}: {text}" for text in found.lost]
+        self.warnings += [f"{obj.name}: {seed.text}" for seed in found.seeds if seed.confidence < 0.6]
+        if not found.wires:
+            raise AssetError(f"{obj.name}: no wire has a place on this mesh")
+        write(mesh, found)
+
+    def _source_of(self, obj: bpy.types.Object) -> str:
+        from seamwire_batch.assets import AssetError
+
+        sources = self._job["sources"]
+        named = [stem for name, stem in sources.items() if _plain(name) == _plain(obj.name)]
+        if not named and len(sources) == 1:
+            named = list(sources.values())
+        if len(named) != 1:
+            raise AssetError(
+                f"{obj.name}: the source has seams on {len(sources)} objects, and none is called like this one"
+            )
+        return named[0]
+
+    def _call(self, obj: bpy.types.Object, operator: Any) -> None:  # noqa: ANN401
+        """Call an operator that says what it could not do."""
+        from seamwire_batch.assets import AssetError
+
+        try:
+            done = operator()
+        except (RuntimeError, TypeError) as error:
+            raise AssetError(f"{obj.name}: {str(error).strip().removeprefix('Error: ')}") from error
+        if done != {"FINISHED"}:
+            self.warnings.append(f"{obj.name}: nothing was marked")
+
+    # What it has then
+
+    def _measured(self, objects: list[bpy.types.Object]) -> dict[str, Any]:
+        """Return the counts of seams and islands, and how many times longer or larger triangles are in the map on average and at worst."""
+        import numpy as np
+        from seamwire.mesh import edit_mesh
+        from seamwire.mesh.seam_islands import labels_of, stretch_of
+
+        seams = islands = faces = 0
+        angles, areas, weights, worst = [], [], [], 0.0
+        for obj in objects:
+            with _editing(obj):
+                arrays = edit_mesh.read(obj)
+                labels = labels_of(arrays)
+                stretch = stretch_of(obj, arrays, labels)
+            seams += len(arrays.seams)
+            faces += len(obj.data.polygons)
+            islands += int(labels.max(initial=-1)) + 1
+            if stretch is not None:
+                angles.append(stretch.angle)
+                areas.append(stretch.area)
+                weights.append(stretch.areas)
+                worst = max(worst, float(np.maximum(stretch.angle, stretch.area).max()))
+        mean = [0.0, 0.0]
+        if weights and np.concatenate(weights).sum() > 0.0:
+            mean = [float(np.average(np.concatenate(one), weights=np.concatenate(weights))) for one in (angles, areas)]
+        else:
+            self.warnings.append("It has no UV map to measure")
+        return {
+            "objects": len(objects),
+            "faces": faces,
+            "seams": seams,
+            "islands": islands,
+            "angle": round(2.0 ** mean[0], 4),
+            "area": round(2.0 ** mean[1], 4),
+            "worst": round(2.0**worst, 4),
+        }
+
+    def _save_networks(self, objects: list[bpy.types.Object]) -> None:
+        """Write the seams of each object as a network beside the asset: few formats keep seams."""
+        from seamwire.mesh.object_session import ObjectSession
+        from seamwire.mesh.settings import settings
+        from seamwire.mesh.transfer import network_of
+
+        for number, obj in enumerate(objects):
+            with _editing(obj):
+                try:
+                    network = network_of(ObjectSession(obj), settings())
+                except ValueError:
+                    continue
+            name = f"{self._job['name']}.{number}.json" if len(objects) > 1 else f"{self._job['name']}.json"
+            (self._folder / name).write_text(network.text(), encoding="utf-8")
+
+    def _picture(self, objects: list[bpy.types.Object]) -> None:
+        """Render the objects together; a picture that cannot be made is a warning."""
+        from seamwire.core.seam_wires import wires_between
+        from seamwire.mesh import edit_mesh
+        from seamwire.mesh.seam_islands import labels_of
+
+        from seamwire_batch.pictures import Network, Scene
+
+        try:
+            whole = _joined(objects)
+            arrays = edit_mesh.read(whole)
+            wires = list(wires_between(arrays.seams, (), arrays.points))
+            network = Network(wires, labels_of(arrays))
+            scene = Scene(
+                whole,
+                network,
+                arrays.triangles,
+                arrays.polygons,
+                size=self._job["size"],
+                samples=self._job["samples"],
+                seeds=False,
+            )
+            scene.strip(self._folder / f"{self._job['name']}.png")
+        except (RuntimeError, ValueError, OSError) as error:
+            self.warnings.append(f"No picture: {str(error).strip()}")
+
+
+def _plain(name: str) -> str:
+    """Return a name without the number that Blender puts behind one that is there twice, and without an ending of a file."""
+    head, dot, tail = name.rpartition(".")
+    return head if dot and tail.isdigit() else name
+
+
+def _seams(obj: bpy.types.Object) -> Iterator[bpy.types.MeshEdge]:
+    obj.update_from_editmode()
+    return iter(obj.data.edges)
+
+
+class _editing:  # noqa: N801 - reads as a statement
+    """Edit mode for one object alone, hidden or not."""
+
+    def __init__(self, obj: bpy.types.Object) -> None:
+        self._obj = obj
+
+    def __enter__(self) -> None:
+        import bpy
+
+        from seamwire_batch.assets import AssetError
+
+        obj = self._obj
+        for other in bpy.context.view_layer.objects:
+            if other.select_get():
+                other.select_set(False)
+        self._was = obj.hide_get(), obj.hide_viewport, obj.hide_select
+        obj.hide_viewport = obj.hide_select = False
+        obj.hide_set(False)
+        bpy.context.view_layer.objects.active = obj
+        obj.select_set(True)
+        try:
+            bpy.ops.object.mode_set(mode="EDIT")
+        except RuntimeError as error:
+            raise AssetError(f"{obj.name} cannot be edited: {str(error).strip().removeprefix('Error: ')}") from error
+
+    def __exit__(self, *_: object) -> None:
+        import bpy
+
+        bpy.ops.object.mode_set(mode="OBJECT")
+        hidden, self._obj.hide_viewport, self._obj.hide_select = self._was
+        self._obj.hide_set(hidden)
+
+
+def _joined(objects: list[bpy.types.Object]) -> bpy.types.Object:
+    """Return one object made of several, where they are, alone in a new scene."""
+    import bmesh
+    import bpy
+
+    joined = bmesh.new()
+    for obj in objects:
+        mesh = obj.data.copy()
+        for layer in [layer.name for layer in mesh.uv_layers if layer != mesh.uv_layers.active]:
+            mesh.uv_layers.remove(mesh.uv_layers[layer])
+        if mesh.uv_layers:
+            mesh.uv_layers[0].name = "UVMap"
+        mesh.transform(obj.matrix_world)
+        joined.from_mesh(mesh)
+        bpy.data.meshes.remove(mesh)
+    mesh = bpy.data.meshes.new("Whole")
+    joined.to_mesh(mesh)
+    joined.free()
+    mesh.attributes.update()
+    whole = bpy.data.objects.new("Whole", mesh)
+    scene = bpy.data.scenes.new("Pictures")
+    bpy.context.window.scene = scene
+    scene.collection.objects.link(whole)
+    return whole
+
+
+def sheet(job: dict[str, Any]) -> dict[str, Any]:
+    """Put pictures one above the other, two columns, into one."""
+    import numpy as np
+
+    from seamwire_batch.pictures import load, save
+
+    columns: list[list[np.ndarray]] = [[], []]
+    for number, path in enumerate(job["pictures"]):
+        columns[number % 2].append(load(Path(path))[:, :, :3])
+    if not columns[0]:
+        return {}
+    height = max(len(column) for column in columns)
+    blank = np.full_like(columns[0][0], 0.93)
+    rows = []
+    for row in range(height):
+        pair = [column[row] if row < len(column) else blank for column in columns]
+        rows.append(np.concatenate(pair, axis=1))
+    save(np.concatenate(rows[::-1], axis=0), Path(job["folder"]) / "sheet.png")
+    return {}
+
+
+def main() -> int:
+    """Do the job that the last argument names."""
+    job = json.loads(Path(sys.argv[sys.argv.index("--") + 1]).read_text(encoding="utf-8"))
+    if sys.platform == "linux":
+        end_with_parent()
+    if job.get("memory"):
+        limit_memory(int(job["memory"]))
+    began = time.perf_counter()
+    result: dict[str, Any] = {"error": None}
+    run = None
+    from seamwire_batch.assets import AssetError
+
+    try:
+        if job["kind"] == "sheet":
+            result |= sheet(job)
+        else:
+            enable_addon(job["addon"])
+            run = Run(job)
+            result |= run.source() if job["kind"] == "source" else run.asset()
+    except (AssetError, ValueError) as error:
+        result["error"] = str(error).strip() or type(error).__name__
+    except MemoryError:
+        result["error"] = "Out of memory"
+    except Exception as error:
+        traceback.print_exc()
+        result["error"] = f"{type(error).__name__}: {str(error).strip()}"
+    result["warnings"] = [] if run is None else run.warnings
+    result["inside"] = round(time.perf_counter() - began, 3)
+    result["megabytes"] = round(peak_memory(), 1)
+    folder = Path(job["folder"])
+    (folder / "result.part").write_text(json.dumps(result), encoding="utf-8")
+    (folder / "result.part").rename(folder / "result.json")
+    return 0
+
+
+if __name__ == "__main__":
+    code = main()
+    sys.stdout.flush()
+    sys.exit(code)

@@ -1,0 +1,242 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs over many assets, with a stand-in for Blender: what one asset does costs that one alone, and a run that was killed goes on."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from seamwire_batch import cli
+from seamwire_batch.jobs import Job, Journal, Machine, Options, UsageError, find_assets
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="processes end otherwise there")
+
+ASSETS = {
+    "a.obj": "a",
+    "b.stl": "crash",
+    "c.glb": "c",
+    "d.ply": "fail",
+    "e.fbx": "hang",
+    "f.obj": "exit",
+    "g.blend": "memory",
+}
+ENDS = {
+    "a.obj": "done",
+    "b.stl": "crashed",
+    "c.glb": "done",
+    "d.ply": "failed",
+    "e.fbx": "hung",
+    "f.obj": "crashed",
+    "g.blend": "memory",
+}
+
+
+class Place:
+    """Folders of assets and of results, and the command line for them."""
+
+    def __init__(self, folder: Path, assets: dict[str, str]) -> None:
+        self.assets, self.out = folder / "assets", folder / "out"
+        self.blender = folder / "fake_blender.py"
+        shutil.copy(Path(__file__).with_name("fake_blender.py"), self.blender)
+        (folder / "net.json").write_text("{}")
+        self.network = folder / "net.json"
+        for name, content in assets.items():
+            path = self.assets / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(content)
+
+    def words(self, *more: str) -> list[str]:
+        command = [
+            "--blender",
+            f"{sys.executable} {self.blender}",
+            "--network",
+            str(self.network),
+            "--out",
+            str(self.out),
+        ]
+        return [str(self.assets), *command, *more]
+
+    def run(self, *more: str) -> int:
+        return cli.main(self.words(*more))
+
+    def calls(self) -> list[str]:
+        path = self.blender.with_name("calls.txt")
+        return path.read_text().split() if path.exists() else []
+
+    def rows(self) -> dict[str, dict[str, str]]:
+        text = (self.out / "results.csv").read_text()
+        return {row["name"]: row for row in csv.DictReader(io.StringIO(text))}
+
+    def results(self) -> set[str]:
+        return {path.relative_to(self.out).as_posix() for path in self.out.rglob("*") if path.is_file()}
+
+
+@pytest.fixture
+def place(tmp_path: Path) -> Place:
+    return Place(tmp_path, ASSETS)
+
+
+def test_each_asset_ends_as_it_does_and_the_others_are_done(place: Place) -> None:
+    before = {path: path.read_bytes() for path in place.assets.iterdir()}
+    assert place.run("--limit", "2", "--memory", "64", "--jobs", "3") == 1
+    assert {name: row["status"] for name, row in place.rows().items()} == ENDS
+    assert (place.out / "a.obj").read_text() == "A"
+    assert place.results() == {
+        *("a.obj", "a.obj.png", "c.glb", "c.glb.png", "journal.jsonl", "results.csv", "results.md", "sheet.png"),
+    }, "nothing is left of what did not end well"
+    assert {path: path.read_bytes() for path in place.assets.iterdir()} == before
+    rows = place.rows()
+    assert rows["b.stl"]["error"] == "Blender ended with signal SIGSEGV"
+    assert rows["e.fbx"]["error"] == "Not finished after 2 s"
+    assert rows["g.blend"]["error"] == "More than 64 MB"
+    text = (place.out / "results.md").read_text()
+    assert "7 assets: 2 done, 1 failed, 2 crashed, 1 hung, 1 memory." in text
+    assert "- d.ply: It is no good" in text and "- a.obj: a\\|b" in text and "![c.glb](<c.glb.png>)" in text
+
+
+def test_what_hangs_is_ended_with_its_children(tmp_path: Path) -> None:
+    place = Place(tmp_path, {"e.fbx": "hang"})
+    place.run("--limit", "1")
+    for text in place.blender.with_name("pids.txt").read_text().split():
+        for _ in range(50):
+            if not Path(f"/proc/{text}").exists() or " Z " in Path(f"/proc/{text}/stat").read_text():
+                break
+            time.sleep(0.02)
+        else:
+            pytest.fail(f"process {text} runs still")
+
+
+def test_a_run_goes_on_and_only_what_changed_is_done_again(place: Place) -> None:
+    place.run("--limit", "1")
+    first = place.calls()
+    assert len(first) == len(ASSETS)
+    assert place.run("--limit", "1") == 1
+    assert place.calls() == first, "what failed is left alone too"
+    (place.assets / "a.obj").write_text("changed")
+    (place.assets / "f.obj").write_text("well now")
+    (place.out / "c.glb").unlink()
+    place.run("--limit", "1")
+    assert sorted(place.calls()[len(first) :]) == ["a.obj", "c.glb", "f.obj"]
+    assert (place.out / "a.obj").read_text() == "CHANGED"
+    assert place.rows()["f.obj"]["status"] == "done"
+    before = len(place.calls())
+    place.run("--limit", "1", "--retry")
+    assert sorted(place.calls()[before:]) == ["b.stl", "d.ply", "e.fbx", "g.blend"]
+    before = len(place.calls())
+    place.network.write_text('{"another": 1}')
+    place.run("--limit", "1")
+    assert len(place.calls()) - before == len(ASSETS), "another network: all anew"
+
+
+def test_after_a_kill_nothing_is_half_and_the_rest_is_done(tmp_path: Path) -> None:
+    place = Place(tmp_path, {f"{number:02}.obj": "slow" for number in range(8)})
+    environment = {**os.environ, "PYTHONPATH": str(Path(cli.__file__).parents[1])}
+    process = subprocess.Popen(
+        [sys.executable, "-m", "seamwire_batch.cli", *place.words()], env=environment, stdout=subprocess.DEVNULL
+    )
+    for _ in range(400):
+        if len(Journal(place.out).read()) >= 2:
+            break
+        time.sleep(0.025)
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    done = {path.name for path in place.out.glob("*.obj")}
+    assert 2 <= len(done) < 8
+    assert all((place.out / name).read_text() == "SLOW" for name in done)
+    recorded = set(Journal(place.out).read())
+    time.sleep(0.7)  # the one that was being worked on ends, and its result goes nowhere
+    before = place.calls()
+    assert place.run() == 0
+    assert {path.name for path in place.out.glob("*.obj")} == {f"{number:02}.obj" for number in range(8)}
+    assert set(place.calls()[len(before) :]).isdisjoint(recorded)
+    assert not (place.out / ".parts").exists()
+
+
+def test_a_torn_line_of_the_journal_costs_that_line(tmp_path: Path) -> None:
+    journal = Journal(tmp_path)
+    journal.add({"name": "a", "status": "done"})
+    with (tmp_path / "journal.jsonl").open("ab") as file:
+        file.write(b'{"name": "b", "sta')
+    assert set(journal.read()) == {"a"}
+    journal.add({"name": "c", "status": "failed"})
+    journal.add({"name": "a", "status": "hung"})
+    assert {name: record["status"] for name, record in journal.read().items()} == {"a": "hung", "c": "failed"}
+
+
+def test_a_source_is_read_once(place: Place, tmp_path: Path) -> None:
+    source = tmp_path / "shirt.blend"
+    source.write_text("")
+    words = [word for word in place.words("--limit", "1") if word not in {"--network", str(place.network)}]
+    assert cli.main([*words, "--source", str(source), "--place", "pairs", "--pairs", "1-2 3-4 5-6"]) == 1
+    assert place.rows()["a.obj"]["status"] == "done"
+    assert len(place.calls()) == len(ASSETS)
+
+
+def test_folders_keep_their_shape_and_formats_without_uvs_become_blend(tmp_path: Path) -> None:
+    place = Place(tmp_path, {"x/a.stl": "a", "y/a.stl": "b", "a.obj": "c"})
+    assert place.run("--recursive") == 0
+    assert {"x/a.stl.blend", "y/a.stl.blend", "a.obj"} <= place.results()
+    assert place.run("--recursive", "--format", "glb") == 0
+    assert {"x/a.stl.glb", "a.obj.glb"} <= place.results()
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--network", "NET", "--mark", "chains=0 1"], "one of --network"),
+        ([], "one of --network"),
+        (["--mark", "chains"], "give NAME=VALUE"),
+        (["--network", "none.json"], "no file none.json"),
+        (["--network", "NET", "--pairs", "1"], "not a pair"),
+        (["--network", "NET", "--place", "pairs"], "needs --source"),
+        (["--network", "NET", "--blender", "/no/blender"], "no Blender '/no/blender'"),
+        (["--network", "NET", "--addon", "/nowhere"], "no folder seamwire in /nowhere"),
+        (["--network", "NET", "--list", "none.txt"], "--list"),
+        (["--network", "NET", "--out", "ASSETS"], "no assets"),
+        (["--network", "NET", "nothing.txt"], "neither a folder nor one of"),
+    ],
+)
+def test_what_cannot_be_done_is_said_before_anything_begins(
+    place: Place, words: list[str], message: str, capsys: pytest.CaptureFixture
+) -> None:
+    names = {"NET": str(place.network), "ASSETS": str(place.assets)}
+    known = ["--blender", f"{sys.executable} {place.blender}", "--out", str(place.out), str(place.assets)]
+    assert cli.main([*known, *(names.get(word, word) for word in words)]) == 2
+    assert message in capsys.readouterr().err
+    assert not place.out.exists() and place.calls() == []
+
+
+def test_results_do_not_go_over_assets(tmp_path: Path) -> None:
+    place = Place(tmp_path, {"x/a.obj": "a", "y/a.obj": "b"})
+    with pytest.raises(UsageError, match="the same results"):
+        find_assets([str(place.assets / "x"), str(place.assets / "y")], place.out, recursive=False)
+    assert cli.main([*place.words()[1:], str(place.assets / "x" / "a.obj"), "--out", str(place.assets / "x")]) == 2
+
+
+def test_a_list_names_assets_and_one_that_is_gone_is_a_failure(place: Place, tmp_path: Path) -> None:
+    listed = tmp_path / "list.txt"
+    listed.write_text(f"{place.assets / 'a.obj'}\n\n{place.assets / 'gone.obj'}\n")
+    assert cli.main([*place.words()[1:], "--list", str(listed)]) == 1
+    assert {name: row["status"] for name, row in place.rows().items()} == {"a.obj": "done", "gone.obj": "failed"}
+
+
+def test_options_tell_results_apart() -> None:
+    one = Options("mark", arguments={"chains": "0 1"})
+    assert one.fingerprint() == Options("mark", arguments={"chains": "0 1"}).fingerprint()
+    assert one.fingerprint() != Options("mark", arguments={"chains": "0 2"}).fingerprint()
+    assert one.fingerprint() != Options("mark", arguments={"chains": "0 1"}, align=False).fingerprint()
+
+
+def test_a_job_is_told_as_json(tmp_path: Path) -> None:
+    job = Job("/a/b.STL", "x/b.STL", "/out", Options("suggest"), Machine(("blender",)))
+    told = json.loads(json.dumps(job.told(tmp_path)))
+    assert (told["name"], told["output"], told["way"]) == ("b.STL", "b.STL.blend", "suggest")
