@@ -28,6 +28,7 @@ def _import_ply(path: str) -> None:
         bpy.ops.wm.ply_import(filepath=path)
     else:
         bpy.ops.import_mesh.ply(filepath=path)
+    _weld()
 
 
 def _import_stl(path: str) -> None:
@@ -46,7 +47,14 @@ def _import_gltf(path: str) -> None:
     if "bool" not in vars(np):
         np.bool = np.bool_
     bpy.ops.import_scene.gltf(filepath=path)
-    # The format has a vertex for each normal and each place in a UV map; seams run along edges of a connected mesh.
+    _weld()
+
+
+def _weld() -> None:
+    """Make one of vertices at one place.
+
+    Formats that have a vertex for each normal and each place in a UV map part meshes there; seams run along edges of connected ones.
+    """
     for mesh in bpy.data.meshes:
         bm = bmesh.new()
         bm.from_mesh(mesh)
@@ -135,6 +143,15 @@ def mesh_objects() -> list[bpy.types.Object]:
         if obj.type == "MESH" and len(obj.data.polygons) and obj.library is None and obj.data.library is None:
             found.setdefault(obj.data, obj)
     return list(found.values())
+
+
+def unwrap() -> None:
+    """Unwrap all of what is in edit mode along its seams, islands of one scale, packed."""
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.uv.unwrap(method="ANGLE_BASED", margin=0.01)
+    bpy.ops.uv.select_all(action="SELECT")
+    bpy.ops.uv.average_islands_scale()
+    bpy.ops.uv.pack_islands(margin=0.01)
 
 
 def _first_line(error: Exception) -> str:

@@ -27,8 +27,6 @@ if "seamwire_batch" not in sys.modules:
     _spec.loader.exec_module(sys.modules["seamwire_batch"])
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     import bpy
     import numpy as np
 
@@ -163,7 +161,7 @@ class Run:
         """Open the asset, mark, unwrap, write, and return what it has then."""
         import bpy
 
-        from seamwire_batch.assets import AssetError, mesh_objects, open_asset, write_asset
+        from seamwire_batch.assets import AssetError, mesh_objects, open_asset, unwrap, write_asset
 
         job = self._job
         path = Path(job["asset"])
@@ -178,9 +176,7 @@ class Run:
         for obj in objects:
             with _editing(obj):
                 self._mark(obj)
-                if any(edge.use_seam for edge in _seams(obj)) or not obj.data.uv_layers:
-                    bpy.ops.mesh.select_all(action="SELECT")
-                    bpy.ops.mesh.seamwire_unwrap()
+                unwrap()
                 bpy.ops.mesh.seamwire_store_islands(kind="ATTRIBUTE")
         numbers = self._measured(objects)
         self._save_networks(objects)
@@ -368,11 +364,6 @@ def _plain(name: str) -> str:
     """Return a name without the number that Blender puts behind one that is there twice, and without an ending of a file."""
     head, dot, tail = name.rpartition(".")
     return head if dot and tail.isdigit() else name
-
-
-def _seams(obj: bpy.types.Object) -> Iterator[bpy.types.MeshEdge]:
-    obj.update_from_editmode()
-    return iter(obj.data.edges)
 
 
 class _editing:  # noqa: N801 - reads as a statement

@@ -22,7 +22,7 @@ def test_the_table_has_no_key_that_the_tool_has_not() -> None:
     assert named == Bindings().rows()
 
 
-@pytest.mark.parametrize("page", ["README.md", "docs/guide.md", "docs/install.md"])
+@pytest.mark.parametrize("page", ["README.md", "docs/guide.md", "docs/install.md", "docs/batch.md"])
 def test_every_picture_and_page_that_is_linked_is_there(page: str) -> None:
     path = ROOT / page
     links = re.findall(r"\]\((?!https?:)([^)#]+)\)", path.read_text(encoding="utf-8"))

@@ -17,7 +17,7 @@ import addon_utils
 import bpy
 import numpy as np
 from seamwire_batch import pictures
-from seamwire_batch.assets import IMPORTERS
+from seamwire_batch.assets import IMPORTERS, unwrap
 
 MOST_TRIANGLES = 400_000
 
@@ -92,17 +92,6 @@ def suggest(obj: bpy.types.Object) -> pictures.Network:
     return network
 
 
-def unwrap(obj: bpy.types.Object) -> None:
-    """Unwrap along the seams, islands of one scale, packed."""
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
-    bpy.ops.uv.unwrap(method="ANGLE_BASED", margin=0.01)
-    bpy.ops.uv.select_all(action="SELECT")
-    bpy.ops.uv.average_islands_scale()
-    bpy.ops.uv.pack_islands(margin=0.01)
-    bpy.ops.object.mode_set(mode="OBJECT")
-
-
 def stretch(obj: bpy.types.Object, points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     """Return for each triangle how much longer the longest direction in the unwrapping is than the shortest: 1 is none."""
     from seamwire.core.stretch import Stretch
@@ -135,7 +124,9 @@ def run(folder: Path, path: Path | None) -> None:
         f"{len(network.wires)} wires {'across the surface' if across else 'along edges'}, {network.islands.max() + 1} islands: "
         f"mesh.seamwire_suggest took {time.monotonic() - started:.1f} s"
     )
-    unwrap(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    unwrap()
+    bpy.ops.object.mode_set(mode="OBJECT")
     ratio = stretch(obj, points, triangles)
     tell(
         f"unwrapped; stretch {np.median(ratio):.2f} in the median, {np.percentile(ratio, 95):.2f} for 95 % of the triangles"
