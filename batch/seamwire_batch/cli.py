@@ -79,6 +79,11 @@ def parser() -> argparse.ArgumentParser:
     what.add_argument(
         "--addon", metavar="FOLDER", default="", help="the folder that has the add-on's folder, if it is not installed"
     )
+    what.add_argument("--engine", choices=("here", "dask"), default="here", help="what works on the assets (here)")
+    what.add_argument("--scheduler", metavar="ADDRESS", default="", help="of Dask, such as tcp://10.0.0.1:8786")
+    what.add_argument(
+        "--shard", metavar="I/N", type=_shard, default=(0, 0), help="the Ith of N runs with one --out: without tables"
+    )
     what.add_argument("--jobs", metavar="N", type=_positive, default=1, help="how many at once (1)")
     what.add_argument("--limit", metavar="SECONDS", type=float, default=600.0, help="most time for an asset (600)")
     what.add_argument(
@@ -94,6 +99,13 @@ def _positive(text: str) -> int:
     if number < 1:
         raise ValueError
     return number
+
+
+def _shard(text: str) -> tuple[int, int]:
+    number, count = (int(part) for part in text.split("/"))
+    if not 1 <= number <= count:
+        raise ValueError
+    return number, count
 
 
 def options_of(arguments: argparse.Namespace) -> Options:
@@ -174,9 +186,42 @@ def on_this_machine(at_once: int) -> Engine:
     return work
 
 
-def read_source(options: Options, machine: Machine, out: Path, fingerprint: str) -> dict[str, str]:
+def on_dask(scheduler: str) -> Engine:
+    """Return what works on assets on a Dask cluster, whose workers see the same files by the same names and have this package.
+
+    Where a worker is lost, Dask gives its asset to another one.
+    """
+    try:
+        from distributed import Client, as_completed
+    except ImportError as error:
+        raise UsageError("--engine dask needs Dask: pip install distributed") from error
+    if not scheduler:
+        raise UsageError("--engine dask needs --scheduler")
+    try:
+        client = Client(scheduler, timeout=20, set_as_default=False)
+    except (OSError, ValueError) as error:
+        raise UsageError(f"--scheduler {scheduler}: {error}") from error
+
+    def work(jobs: Sequence[Job], fingerprint: str) -> Iterator[dict[str, Any]]:
+        with client:
+            futures = client.map(process.run, jobs, [fingerprint] * len(jobs), pure=False)
+            job_of = dict(zip(futures, jobs, strict=True))
+            # Held by their names alone: what is done need not be kept until all are.
+            del futures
+            for future in as_completed(job_of):
+                job = job_of.pop(future)
+                try:
+                    record = future.result()
+                except Exception as error:  # whatever the cluster does to a task costs that asset
+                    record = process.lost(job, fingerprint, f"{type(error).__name__}: {error}")
+                yield record
+
+    return work
+
+
+def read_source(options: Options, machine: Machine, out: Path, name: str) -> dict[str, str]:
     """Make networks of the objects of a source asset, in a Blender of its own; return their files' stems by the objects' names."""
-    folder = out / PARTS / f"source-{fingerprint}"
+    folder = out / PARTS / f"source-{name}"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     told = {
@@ -214,7 +259,7 @@ def write_tables(out: Path, records: Sequence[dict[str, Any]], machine: Machine,
 def work(arguments: argparse.Namespace) -> int:
     """Do what was asked for; return the exit code."""
     options, machine = options_of(arguments), machine_of(arguments)
-    engine = on_this_machine(arguments.jobs)
+    engine = on_dask(arguments.scheduler) if arguments.engine == "dask" else on_this_machine(arguments.jobs)
     out = Path(arguments.out).resolve()
     given = list(arguments.assets)
     if arguments.list:
@@ -230,22 +275,29 @@ def work(arguments: argparse.Namespace) -> int:
         if (out / Path(name).parent).resolve() == path.parent:
             raise UsageError(f"Results would lie beside the asset {path}: choose another --out")
     out.mkdir(parents=True, exist_ok=True)
-    journal = Journal(out)
+    shard, shards = arguments.shard
+    journal = Journal(out, shard)
     records = {} if arguments.fresh else journal.read()
-    # What a run left that was killed.
-    shutil.rmtree(out / PARTS, ignore_errors=True)
+    if not shard:
+        # What a run left that was killed.
+        shutil.rmtree(out / PARTS, ignore_errors=True)
     fingerprint = options.fingerprint()
     jobs = [Job(str(path), name, str(out), options, machine) for path, name in assets]
+    if shard:
+        jobs = jobs[shard - 1 :: shards]
     left = [job for job in jobs if not is_done(records.get(job.name), job, fingerprint, arguments.retry)]
     if len(left) < len(jobs):
         print(f"{len(jobs) - len(left)} of {len(jobs)} assets were worked on before", flush=True)
     if left and options.way == "source":
-        sources = read_source(options, machine, out, fingerprint)
+        sources = read_source(options, machine, out, str(shard))
         left = [Job(job.asset, job.name, job.out, options, machine, sources) for job in left]
     for number, record in enumerate(engine(left, fingerprint), start=1):
         journal.add(record)
         records[record["name"]] = record
         print(f"[{number}/{len(left)}] {record['name']}: {_line(record)}", flush=True)
+    if shard:
+        # Failures are for the run that makes the tables to tell.
+        return 0
     ours = [records[job.name] for job in jobs]
     write_tables(out, ours, machine, options.pictures)
     shutil.rmtree(out / PARTS, ignore_errors=True)

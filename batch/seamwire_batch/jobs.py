@@ -6,13 +6,13 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from collections.abc import Iterable, Iterator
+import time
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
 SUFFIXES = (".blend", ".obj", ".fbx", ".glb", ".ply", ".stl")
-JOURNAL = "journal.jsonl"
 PARTS = ".parts"
 """The folder in the results where assets are worked on; what is left of a run that was killed lies there, and counts for nothing."""
 
@@ -177,31 +177,30 @@ class Journal:
     ----------
     out
         The folder of results.
+    shard
+        Which of several runs at once this is, each of which writes a file of its own; 0: the only one.
     """
 
-    def __init__(self, out: Path) -> None:
-        self._path = out / JOURNAL
+    def __init__(self, out: Path, shard: int = 0) -> None:
+        self._out = out
+        self._path = out / (f"journal-{shard}.jsonl" if shard else "journal.jsonl")
 
     def read(self) -> dict[str, dict[str, Any]]:
-        """Return the last record of each asset, by the names of their results."""
+        """Return the last record of each asset, by the names of their results, whichever run wrote it."""
         records: dict[str, dict[str, Any]] = {}
-        for line in self._lines():
-            try:
-                record = json.loads(line)
-                records[record["name"]] = record
-            except (ValueError, KeyError, TypeError):
-                continue  # the line that was being written
+        for path in sorted(self._out.glob("journal*.jsonl")):
+            for line in path.read_text(encoding="utf-8", errors="replace").split("\n"):
+                try:
+                    record = json.loads(line)
+                    if record["time"] >= records.get(record["name"], record)["time"]:
+                        records[record["name"]] = record
+                except (ValueError, KeyError, TypeError):
+                    continue  # the line that was being written
         return records
-
-    def _lines(self) -> Iterator[str]:
-        try:
-            text = self._path.read_text(encoding="utf-8", errors="replace")
-        except FileNotFoundError:
-            return iter(())
-        return iter(text.split("\n"))
 
     def add(self, record: dict[str, Any]) -> None:
         """Write a record to the disk, on a line of its own also behind one that was torn."""
+        record = {**record, "time": time.time()}
         with self._path.open("ab+") as file:
             torn = file.tell() > 0 and self._last(file) != b"\n"
             file.write((b"\n" if torn else b"") + json.dumps(record, sort_keys=True).encode() + b"\n")

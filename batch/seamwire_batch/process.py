@@ -48,8 +48,7 @@ def run(job: Job, fingerprint: str) -> dict[str, Any]:
     """
     out = Path(job.out)
     began = time.monotonic()
-    stamp = stamp_of(Path(job.asset))
-    record: dict[str, Any] = {"name": job.name, "asset": job.asset, "options": fingerprint, "stamp": stamp}
+    record = _record(job, fingerprint)
     with _folder(out) as folder:
         status, result = start(job.machine, job.told(folder), folder)
         if status == "done":
@@ -61,6 +60,15 @@ def run(job: Job, fingerprint: str) -> dict[str, Any]:
                 file.replace(target / file.name)
     record |= {"status": status, "seconds": round(time.monotonic() - began, 2), **result}
     return record
+
+
+def lost(job: Job, fingerprint: str, why: str) -> dict[str, Any]:
+    """Return the record of an asset of which nothing came back."""
+    return {**_record(job, fingerprint), "status": "crashed", "seconds": 0.0, "error": why, "warnings": []}
+
+
+def _record(job: Job, fingerprint: str) -> dict[str, Any]:
+    return {"name": job.name, "asset": job.asset, "options": fingerprint, "stamp": stamp_of(Path(job.asset))}
 
 
 class _folder:  # noqa: N801 - reads as a statement

@@ -3,11 +3,8 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 import os
-import shutil
 import signal
 import subprocess
 import sys
@@ -15,69 +12,11 @@ import time
 from pathlib import Path
 
 import pytest
+from place import ASSETS, ENDS, Place
 from seamwire_batch import cli
 from seamwire_batch.jobs import Job, Journal, Machine, Options, UsageError, find_assets
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="processes end otherwise there")
-
-ASSETS = {
-    "a.obj": "a",
-    "b.stl": "crash",
-    "c.glb": "c",
-    "d.ply": "fail",
-    "e.fbx": "hang",
-    "f.obj": "exit",
-    "g.blend": "memory",
-}
-ENDS = {
-    "a.obj": "done",
-    "b.stl": "crashed",
-    "c.glb": "done",
-    "d.ply": "failed",
-    "e.fbx": "hung",
-    "f.obj": "crashed",
-    "g.blend": "memory",
-}
-
-
-class Place:
-    """Folders of assets and of results, and the command line for them."""
-
-    def __init__(self, folder: Path, assets: dict[str, str]) -> None:
-        self.assets, self.out = folder / "assets", folder / "out"
-        self.blender = folder / "fake_blender.py"
-        shutil.copy(Path(__file__).with_name("fake_blender.py"), self.blender)
-        (folder / "net.json").write_text("{}")
-        self.network = folder / "net.json"
-        for name, content in assets.items():
-            path = self.assets / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(content)
-
-    def words(self, *more: str) -> list[str]:
-        command = [
-            "--blender",
-            f"{sys.executable} {self.blender}",
-            "--network",
-            str(self.network),
-            "--out",
-            str(self.out),
-        ]
-        return [str(self.assets), *command, *more]
-
-    def run(self, *more: str) -> int:
-        return cli.main(self.words(*more))
-
-    def calls(self) -> list[str]:
-        path = self.blender.with_name("calls.txt")
-        return path.read_text().split() if path.exists() else []
-
-    def rows(self) -> dict[str, dict[str, str]]:
-        text = (self.out / "results.csv").read_text()
-        return {row["name"]: row for row in csv.DictReader(io.StringIO(text))}
-
-    def results(self) -> set[str]:
-        return {path.relative_to(self.out).as_posix() for path in self.out.rglob("*") if path.is_file()}
 
 
 @pytest.fixture
@@ -240,3 +179,20 @@ def test_a_job_is_told_as_json(tmp_path: Path) -> None:
     job = Job("/a/b.STL", "x/b.STL", "/out", Options("suggest"), Machine(("blender",)))
     told = json.loads(json.dumps(job.told(tmp_path)))
     assert (told["name"], told["output"], told["way"]) == ("b.STL", "b.STL.blend", "suggest")
+
+
+def test_several_runs_share_the_folder_and_the_last_one_tells(place: Place) -> None:
+    for number in (1, 2, 3):
+        assert place.run("--limit", "1", "--shard", f"{number}/3") == 0
+        assert not (place.out / "results.csv").exists()
+    calls = place.calls()
+    assert sorted(calls) == sorted(ASSETS)
+    assert place.run("--limit", "1") == 1
+    assert place.calls() == calls
+    assert {name: row["status"] for name, row in place.rows().items()} == {**ENDS, "g.blend": "crashed"}
+
+
+def test_dask_without_a_scheduler_is_refused(place: Place, capsys: pytest.CaptureFixture) -> None:
+    pytest.importorskip("distributed")
+    assert place.run("--engine", "dask") == 2
+    assert "needs --scheduler" in capsys.readouterr().err
