@@ -2,12 +2,17 @@
 """How far wires between two points of a person's boundary run from that boundary, for several strengths of the metric.
 
     python native/bench/human_cuts.py PSB_FOLDER [--models N] [--boundaries N] [--seed N]
+    python native/bench/human_cuts.py PSB_FOLDER --clicks N [--models N] [--subdivide N] [--seed N]
 
 PSB_FOLDER holds off/N.off and seg/N_k.seg (a segment number per face) of Chen, Golovinskiy, Funkhouser, "A Benchmark for 3D Mesh
 Segmentation" (2009). A boundary is a chain of edges between two segments, closed or from junction to junction. On each one sampled a
 vertex is joined to those a third and a half of the boundary's length further on, across the surface. Distances are from 200 points evenly
 along the wire to the nearest point of the boundary, in percent of the length of the person's boundary between the two vertices. Models are
 weighted alike; intervals hold 95 % of 2000 bootstrap samples of models. Needs numpy, and seamwire_core on the path.
+
+With --clicks, what one click gives: `closed_wires` in the concave metric from vertices of closed boundaries, so many a model. Distances
+are between closed lines there, in thousandths of the unit cube: the mean, over 200 points evenly along each of the two, of how far the
+other one is. Another person's line is the one of his or hers that is nearest to the first person's. Times are of the processor.
 """
 
 import argparse
@@ -177,6 +182,137 @@ def measure(
     return np.array(rows)
 
 
+@dataclass(frozen=True)
+class Click:
+    """What one click gave, in thousandths of the unit cube."""
+
+    first: float  # distance of the first loop from the person's line; inf: there is none
+    best: float  # of the best of three
+    others: tuple[float, ...]  # of each other person's nearest line
+    field_time: float  # milliseconds
+    loops_time: float
+
+
+def apart(one: Points, two: Points) -> float:
+    """Return how far two lines are from each other, on average both ways."""
+    return float((distances(one, two).mean() + distances(two, one).mean()) / 2)
+
+
+def subdivided(points: Points, triangles: Triangles) -> tuple[Points, Triangles]:
+    """Cut each triangle in four at the middles of its edges."""
+    sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    edges, of_side = np.unique(sides, axis=0, return_inverse=True)
+    ab, bc, ca = (of_side.reshape(-1, 3) + len(points)).T
+    a, b, c = triangles.T
+    finer = np.stack([a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca], axis=1).reshape(-1, 3)
+    return np.vstack([points, points[edges].mean(axis=1)]), finer.astype(np.int32)
+
+
+def click_on(embedding: sw.Embedding, scale: float, vertex: int, line: Points, others: list[list[Points]]) -> Click:
+    """Ask for the loops through a vertex of a person's line."""
+    began = time.process_time()
+    field = sw.distance_field(embedding, vertex)
+    solved = time.process_time()
+    loops = field.closed_wires(3)
+    ended = time.process_time()
+    off = [1000 * scale * apart(loop.points, line) for loop in loops]
+    peers = tuple(1000 * scale * min(apart(other, line) for other in theirs) for theirs in others if theirs)
+    return Click(
+        off[0] if off else np.inf,
+        min(off, default=np.inf),
+        peers,
+        1000 * (solved - began),
+        1000 * (ended - solved),
+    )
+
+
+def clicks(
+    file: Path, labels: list[Path], count: int, levels: int, random: np.random.Generator
+) -> tuple[list[Click], int]:
+    """Click on vertices of people's closed boundaries of one model; return what that gave, and the number of triangles."""
+    points, triangles = read_off(file)
+    lines = {
+        seg.stem: [
+            (b.vertices, points[b.vertices])
+            for b in boundaries(triangles, np.loadtxt(seg, dtype=np.int32))
+            if b.closed and len(b.vertices) > FEWEST_EDGES
+        ]
+        for seg in labels
+    }
+    pool = [(person, vertices, line) for person, own in lines.items() for vertices, line in own]
+    if not pool:
+        return [], len(triangles)
+    for _ in range(levels):
+        points, triangles = subdivided(points, triangles)
+    surface = sw.Surface(points, triangles)
+    curvature = sw.smoothed_curvatures(surface, sw.principal_curvatures(surface), 0.01)
+    embedding = sw.embed(surface, sw.concave_metric(surface, curvature))
+    sw.distance_field(embedding, 0)  # what all have in common is not a click's
+    found = []
+    for _ in range(count):
+        person, vertices, line = pool[random.integers(len(pool))]
+        others = [[other for _, other in own] for name, own in lines.items() if name != person]
+        found.append(click_on(embedding, surface.scale, int(random.choice(vertices)), line, others))
+    return found, len(triangles)
+
+
+def print_clicks(per_model: list[list[Click]], faces: list[int], random: np.random.Generator) -> None:
+    """Print what clicks gave, models weighted alike."""
+    draws = random.integers(0, len(per_model), (2000, len(per_model)))
+
+    def share(value: Callable[[Click], float]) -> str:
+        means = np.array([np.mean([value(click) for click in clicks]) for clicks in per_model])
+        low, high = np.percentile(means[draws].mean(axis=1), (2.5, 97.5))
+        return f"{100 * means.mean():.0f} % ({100 * low:.0f} to {100 * high:.0f})"
+
+    def within(other: tuple[float, ...], limit: float) -> float:
+        return float(np.mean(np.array(other) <= limit)) if other else 0.0
+
+    everything = [click for clicks in per_model for click in clicks]
+    rows: dict[str, tuple[Callable[[Click, float], float], list[float]]] = {
+        "first loop": (lambda click, limit: click.first <= limit, [click.first for click in everything]),
+        "best of three": (lambda click, limit: click.best <= limit, [click.best for click in everything]),
+        "another person": (
+            lambda click, limit: within(click.others, limit),
+            [other for click in everything for other in click.others],
+        ),
+    }
+    print(f"{len(everything)} clicks on {len(per_model)} models of {np.median(faces):.0f} triangles")
+    print("| | within 10 | within 20 | median |")
+    print("|---|---|---|---|")
+    for name, (is_within, off) in rows.items():
+        near, fair = (
+            share(lambda click, limit=limit, is_within=is_within: is_within(click, limit)) for limit in (10.0, 20.0)
+        )
+        print(f"| {name} | {near} | {fair} | {np.median(off):.1f} |")
+    nearer = share(lambda click: bool(click.others) and click.first < np.mean(click.others))
+    print(
+        f"the first loop is nearer than the mean other person: {nearer}; none: {share(lambda c: not np.isfinite(c.first))}"
+    )
+    field, loops = (np.array([getattr(click, name) for click in everything]) for name in ("field_time", "loops_time"))
+    print(
+        f"milliseconds, medians (90th percentiles): field {np.median(field):.1f} ({np.percentile(field, 90):.1f}),"
+        f" loops after it {np.median(loops):.1f} ({np.percentile(loops, 90):.1f})"
+    )
+
+
+def measure_clicks(options: argparse.Namespace) -> None:
+    """Click on models, print."""
+    per_model, faces = [], []
+    for file in sample(options.folder, options.models, np.random.default_rng(options.seed)):
+        random = np.random.default_rng((options.seed, int(file.stem)))
+        labels = sorted((options.folder / "seg").glob(f"{file.stem}_*.seg"))
+        found, count = clicks(file, labels, options.clicks, options.subdivide, random)
+        if not found:
+            print(f"{file.name}: no closed boundary of {FEWEST_EDGES} edges", file=sys.stderr)
+            continue
+        per_model.append(found)
+        faces.append(count)
+        near = [np.mean([getattr(c, name) <= 10 for c in found]) for name in ("first", "best")]
+        print(f"{file.name}: {count} triangles, first {near[0]:.2f}, best {near[1]:.2f}", file=sys.stderr, flush=True)
+    print_clicks(per_model, faces, np.random.default_rng(options.seed))
+
+
 def sample(folder: Path, count: int, random: np.random.Generator) -> list[Path]:
     """Choose models, from as many categories as there are."""
     by_category: dict[int, list[Path]] = defaultdict(list)
@@ -223,7 +359,12 @@ def main() -> None:
     parser.add_argument("--models", type=int, default=38)
     parser.add_argument("--boundaries", type=int, default=3, help="of each model")
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--clicks", type=int, default=0, help="on each model: measure loops from one click instead")
+    parser.add_argument("--subdivide", type=int, default=0, help="each triangle in four, so often, for --clicks")
     options = parser.parse_args()
+    if options.clicks:
+        measure_clicks(options)
+        return
 
     per_model: dict[str, list[Points]] = defaultdict(list)
     made, wires, edges = [], 0, []

@@ -33,6 +33,7 @@
 #include "seamwire/surface/segments.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/task.hpp"
+#include "seamwire/wires/closed_wires.hpp"
 #include "seamwire/wires/snap.hpp"
 #include "seamwire/wires/wire.hpp"
 
@@ -254,6 +255,11 @@ void check_wires(Bytes& from, const Patience& patience, const Surface& surface, 
       exact ? solver.solve(seed, patience.task())
             : solver.solve_bounded(seed, 1 + static_cast<std::uint32_t>(from.below(8)), patience.task());
   if (exact) check_field(embedding.mesh, field);
+  for (const ClosedWire& loop : closed_wires(surface, embedding, field, 3, patience.task())) {
+    require(!loop.wire.points.empty() && loop.wire.points.front() == loop.wire.points.back(),
+            "a closed wire is closed");
+    require(std::isfinite(loop.wire.length), "a closed wire has a length");
+  }
   CorridorPaths quick(solver, seed);
   const SnapGraph graph(surface);
   for (std::int32_t left = 1 + from.below(3); left > 0; --left) {

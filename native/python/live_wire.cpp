@@ -202,6 +202,49 @@ void bind_live_wire(py::module_& module) {
         return "<LiveLoop: " + (loop.final ? std::to_string(loop.vertices.size()) + " vertices>" : "not yet>");
       });
 
+  py::class_<LiveCandidate>(module, "LivePiece", "A piece of a closed cut.")
+      .def_property_readonly(
+          "points", [](const py::object& self) { return view(self.cast<const LiveCandidate&>().points, self); },
+          "(p, 3) float64, in the caller's coordinates.")
+      .def_property_readonly(
+          "faces", [](const py::object& self) { return view(self.cast<const LiveCandidate&>().faces, self); },
+          "(p - 1,) int32: the triangle each segment lies in; -1 along an edge without a face.")
+      .def_property_readonly(
+          "vertices", [](const py::object& self) { return view(self.cast<const LiveCandidate&>().vertices, self); },
+          "(k,) int32: the chain of edges that it snaps to; a single one where both ends are nearest to that.")
+      .def("__repr__",
+           [](const LiveCandidate& c) { return "<LivePiece: " + std::to_string(c.points.size()) + " points>"; });
+
+  py::class_<LiveClosedWire>(module, "LiveClosedWire", "A closed cut through a point of the surface.")
+      .def_readonly("pieces", &LiveClosedWire::pieces,
+                    "list of LivePiece: they follow each other from the point around to it.")
+      .def_property_readonly(
+          "joints",
+          [](const LiveClosedWire& wire) {
+            py::list joints;
+            for (const SurfacePoint& joint : wire.joints) {
+              const auto& [a, b, c] = joint.barycentric;
+              joints.append(py::make_tuple(joint.face, py::make_tuple(a, b, c)));
+            }
+            return joints;
+          },
+          "list of (int, (3,) tuple): where one piece ends and the next begins, a triangle and barycentric "
+          "coordinates.")
+      .def_readonly("separates", &LiveClosedWire::separates, "As of ClosedWire.")
+      .def_readonly("turn", &LiveClosedWire::turn, "As of ClosedWire.")
+      .def_readonly("length", &LiveClosedWire::length, "In the metric, of the model scaled to the unit cube.")
+      .def("__repr__", [](const LiveClosedWire& wire) {
+        return "<LiveClosedWire: " + std::to_string(wire.pieces.size()) + " pieces>";
+      });
+
+  py::class_<LiveClosedWires>(module, "LiveClosedWires", "The closed cuts through a point.")
+      .def_readonly("cuts", &LiveClosedWires::cuts,
+                    "list of LiveClosedWire, best first; empty: nothing suggests one, or not yet.")
+      .def_readonly("final", &LiveClosedWires::final, "False: still being computed.")
+      .def("__repr__", [](const LiveClosedWires& wires) {
+        return "<LiveClosedWires: " + std::to_string(wires.cuts.size()) + (wires.final ? ", final>" : ">");
+      });
+
   py::class_<EdgeLoop>(module, "EdgeLoop", "A run of edges straight through a mesh.")
       .def_property_readonly(
           "vertices", [](const py::object& self) { return view(self.cast<const EdgeLoop&>().vertices, self); },
@@ -447,6 +490,36 @@ Raises
 ------
 ValueError
     Where the edge is not one of the surface's, or wires do not run along edges.
+)")
+      .def(
+          "closed_wires",
+          [](const LiveWireObject& object, const py::object& through) {
+            const auto at = wire_end_from(through, object.vertex_count, object.face_count, "through");
+            const auto* point = std::get_if<SurfacePoint>(&at);
+            if (point == nullptr && std::get<Pick>(at).is_edge()) {
+              throw InvalidInput("through: closed wires lead through vertices and points of triangles, not edges");
+            }
+            const SurfacePoint place = point != nullptr ? *point : SurfacePoint::at_vertex(std::get<Pick>(at).a);
+            return without_gil([&] { return std::make_unique<LiveClosedWires>(object.live->closed_wires(place)); });
+          },
+          py::arg("through"), R"(The closed cuts through a point, at most three, best first; across the surface only.
+
+They are short in M_min, or what the metric has in its place: 'concave' is meant for it. They are computed in the
+background: the first call for a point starts it, in place of that for another one. Ask again until the answer is final.
+
+Parameters
+----------
+through : int or (int, (3,) array_like)
+    A vertex, or a point by a face and three barycentric coordinates.
+
+Returns
+-------
+LiveClosedWires
+
+Raises
+------
+ValueError
+    Where the point is not part of the surface, or wires do not run across it.
 )")
       .def(
           "extend_straight",

@@ -14,6 +14,7 @@
 #include "objects.hpp"
 #include "seamwire/edges/shortest_cycle.hpp"
 #include "seamwire/errors.hpp"
+#include "seamwire/wires/closed_wires.hpp"
 #include "watch.hpp"
 
 namespace seamwire::python {
@@ -430,6 +431,26 @@ The first vertices are those of the surface, with their numbers; new ones are mi
                std::to_string(w.points.size()) + " points, length " + number(w.length) + ">";
       });
 
+  py::class_<ClosedWire>(module, "ClosedWire", "A closed cut through a seed.")
+      .def_property_readonly("points", array_of<ClosedWire>([](const auto& w) -> auto& { return w.wire.points; }),
+                             "(p, 3) float64, in the caller's coordinates; the first and the last one are the seed.")
+      .def_property_readonly("faces", array_of<ClosedWire>([](const auto& w) -> auto& { return w.wire.faces; }),
+                             "(p - 1,) int32: the triangle each segment lies in; -1 along an edge without a face.")
+      .def_property_readonly(
+          "length", [](const ClosedWire& w) { return w.wire.length; },
+          "In the metric, of the model scaled to the unit cube.")
+      .def_property_readonly(
+          "euclidean_length", [](const ClosedWire& w) { return w.wire.euclidean_length; },
+          "Of the points, of the model scaled to the unit cube.")
+      .def_readonly("separates", &ClosedWire::separates,
+                    "Whether the surface falls into two along it; False: it runs around or through a handle.")
+      .def_readonly("turn", &ClosedWire::turn,
+                    "At the seed, in radians: 0 where it runs smoothly through it, pi where it turns back.")
+      .def("__repr__", [](const ClosedWire& w) {
+        return "<ClosedWire: " + std::to_string(w.wire.points.size()) + " points, length " + number(w.wire.length) +
+               (w.separates ? ", separates>" : ", around a handle>");
+      });
+
   py::class_<FieldObject, Held<FieldObject>>(module, "DistanceField", "Distances from a seed to every vertex.")
       .def_property_readonly(
           "seed", [](const FieldObject& f) { return f.field.seed(); },
@@ -510,6 +531,41 @@ ValueError
           py::arg("face"), py::arg("barycentric"), R"(The shortest path from the nearest seed to any point of a face.
 
 Parameters, what it returns and raises: as distance() and trace(). An end that is no vertex has the number -1.
+)")
+      .def(
+          "closed_wires",
+          [](const FieldObject& object, const py::object& count, const py::object& progress) {
+            const auto most = PyNumber_AsSsize_t(count.ptr(), nullptr);  // what is too large is clamped
+            if (most == -1 && PyErr_Occurred() != nullptr) throw py::error_already_set();
+            if (most < 0) throw InvalidInput("count: expected a number that is not negative");
+            const EmbeddingObject& on = *object.embedding;
+            return Watch(progress).run([&](const Task& task) {
+              return closed_wires(*on.surface, on.embedding, object.field, static_cast<std::size_t>(most), task);
+            });
+          },
+          py::arg("count") = 3, py::arg("progress") = py::none(),
+          R"(The closed cuts through the seed that the surface suggests, best first.
+
+Each is two shortest wires and the edge of the embedding at whose ends they meet, on the far side; it is short, and turns
+little at the seed (docs/method.md, Section 6). In a `concave_metric` these are nearest to what people draw.
+
+Parameters
+----------
+count : int
+    At most so many.
+progress : callable, optional
+    Called now and then with the fraction done; returning False cancels.
+
+Returns
+-------
+list of ClosedWire
+    Empty where nothing suggests a loop: on a plane; and where wires in all directions meet at one place, as on a sphere.
+
+Raises
+------
+ValueError
+    Where the field has several seeds, or count is negative.
+Cancelled
 )")
       .def("__repr__", [](const FieldObject& f) {
         return "<DistanceField: from " + std::to_string(f.field.seed()) + " to " +

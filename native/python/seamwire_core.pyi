@@ -114,6 +114,14 @@ class Wire:
     length: float
     euclidean_length: float
 
+class ClosedWire:
+    points: NDArray[np.float64]  # the first and the last one are the seed
+    faces: NDArray[np.int32]
+    length: float
+    euclidean_length: float
+    separates: bool  # False: it runs around or through a handle
+    turn: float  # at the seed, radians: 0 where it runs smoothly through it
+
 class DistanceField:
     seed: int  # -1: several, or a point that is no vertex
     is_exact: bool
@@ -124,6 +132,8 @@ class DistanceField:
         """Return the exact distance of a point of a face; barycentric is (3,), 0 or more, its sum 1."""
     def trace_to(self, face: int, barycentric: ArrayLike) -> Wire:
         """Return the shortest path to such a point."""
+    def closed_wires(self, count: int = 3, progress: Progress | None = None) -> list[ClosedWire]:
+        """Return the closed cuts through the seed that the surface suggests, at most `count`, best first; empty: none."""
 
 class EdgeChain:
     vertices: NDArray[np.int32]
@@ -149,6 +159,22 @@ class LiveEmbedding:
 class LiveLoop:
     vertices: NDArray[np.int32]  # the first one not given twice; empty: none, or not yet
     length: float
+    final: bool
+
+class LivePiece:
+    points: NDArray[np.float64]
+    faces: NDArray[np.int32]
+    vertices: NDArray[np.int32]  # the edges that it snaps to
+
+class LiveClosedWire:
+    pieces: list[LivePiece]  # from the point around to it
+    joints: list[tuple[int, tuple[float, float, float]]]  # where one piece ends and the next begins
+    separates: bool
+    turn: float
+    length: float
+
+class LiveClosedWires:
+    cuts: list[LiveClosedWire]  # best first; empty: nothing suggests one, or not yet
     final: bool
 
 class EdgeLoop:
@@ -226,6 +252,8 @@ class LiveWire:
     def wires(self, target: Pick | SurfacePoint) -> LiveWires: ...
     def loop(self, edge: tuple[int, int]) -> LiveLoop:
         """In the background, the newest edge asked for; ask again until the answer is final. A seed goes first."""
+    def closed_wires(self, through: int | tuple[int, ArrayLike]) -> LiveClosedWires:
+        """As `loop`, the closed cuts through a point of the surface, at most three."""
     def extend_straight(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> EdgeChain:
         """Return the straightest way on, from the edge's second vertex; its length is that in the unit cube. No vertices: not ready."""
     def edge_loop(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> EdgeLoop:

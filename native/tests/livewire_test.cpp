@@ -18,6 +18,7 @@
 #include "seamwire/edges/shortest_cycle.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
+#include "seamwire/wires/closed_wires.hpp"
 #include "shapes.hpp"
 
 namespace seamwire {
@@ -219,6 +220,61 @@ TEST(LiveWire, TheLoopIsTheCheaperOfBothMetrics) {
     EXPECT_EQ(loop.length, least);
     EXPECT_GE(loop.vertices.size(), 3u);
   }
+}
+
+TEST(LiveWire, ClosedWiresAreThoseOfTheFirstMetricsField) {
+  const auto surface = shared(shapes::torus(40, 24));
+  LiveWire live(surface, {.family = MetricFamily::kConcave, .strength = {.parameter = 1.0}});
+  const Curvature smoothed = smoothed_curvatures(*surface, principal_curvatures(*surface), 0.01);
+  const Embedding embedding = embed(*surface, concave_metric(*surface, smoothed, 1.0));
+  const ExactGeodesics geodesics(embedding.mesh);
+  for (const std::int32_t through : {0, 100, 500}) {  // without a seed, the newest counts
+    live.closed_wires(SurfacePoint::at_vertex(7));
+    live.closed_wires(SurfacePoint::at_vertex(through));
+    ASSERT_TRUE(live.wait());
+    const LiveClosedWires found = live.closed_wires(SurfacePoint::at_vertex(through));
+    ASSERT_TRUE(found.final);
+    const std::vector<ClosedWire> expected = closed_wires(*surface, embedding, geodesics.solve(through));
+    ASSERT_EQ(found.cuts.size(), expected.size());
+    ASSERT_FALSE(expected.empty());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const LiveClosedWire& cut = found.cuts[i];
+      EXPECT_EQ(cut.length, expected[i].wire.length);
+      ASSERT_EQ(cut.pieces.size(), 3U);
+      ASSERT_EQ(cut.joints.size(), 2U);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const LiveCandidate &piece = cut.pieces[k], &next = cut.pieces[(k + 1) % 3];
+        EXPECT_EQ(piece.points.back(), next.points.front());
+        EXPECT_EQ(piece.faces.size() + 1, piece.points.size());
+        EXPECT_EQ(piece.vertices.back(), next.vertices.front());
+      }
+      EXPECT_EQ(cut.pieces[0].vertices.front(), through);
+    }
+  }
+}
+
+TEST(LiveWire, OnALargeSurfaceClosedWiresAreThereBeforeTheyAreFinal) {
+  const auto surface = shared(shapes::torus(300, 200));
+  LiveWire live(surface, {.family = MetricFamily::kEuclidean});
+  const SurfacePoint through = SurfacePoint::at_vertex(0);
+  live.wait();
+  LiveClosedWires early = live.closed_wires(through);
+  while (early.cuts.empty() && !early.final) early = live.closed_wires(through);
+  ASSERT_FALSE(early.cuts.empty());
+  EXPECT_FALSE(early.final);
+  live.wait();
+  const LiveClosedWires late = live.closed_wires(through);
+  ASSERT_TRUE(late.final);
+  ASSERT_FALSE(late.cuts.empty());
+  EXPECT_NEAR(late.cuts[0].length, early.cuts[0].length, 0.02 * late.cuts[0].length);
+}
+
+TEST(LiveWire, ClosedWiresLeadThroughPointsOfTheSurface) {
+  const auto surface = shared(shapes::torus(24, 16));
+  LiveWire live(surface), along_edges(surface, kAlongEdges);
+  EXPECT_THROW(live.closed_wires(SurfacePoint::at_vertex(24 * 16)), InvalidInput);
+  EXPECT_THROW(live.closed_wires({.face = -1, .barycentric = {1, 0, 0}}), InvalidInput);
+  EXPECT_THROW(along_edges.closed_wires(SurfacePoint::at_vertex(0)), InvalidInput);
 }
 
 TEST(LiveWire, BeforeItIsFinalAWireIsARealPathThatMayBeLonger) {

@@ -44,6 +44,45 @@ def test_from_point_to_point_within_faces(surface: sw.Surface, curvature: sw.Cur
         assert [wire.vertices[0], wire.vertices[-1]] == [surface.triangles[40][1], surface.triangles[900][1]]
 
 
+@pytest.mark.parametrize("through", [3, (40, (0.2, 0.5, 0.3))])
+def test_closed_wires_are_those_of_the_field_in_pieces(
+    surface: sw.Surface, curvature: sw.Curvature, through: object
+) -> None:
+    live = sw.LiveWire(surface, metric="concave")
+    assert not live.closed_wires(through).final
+    assert live.wait()
+    found = live.closed_wires(through)
+    assert found.final
+    metric = sw.concave_metric(surface, sw.smoothed_curvatures(surface, curvature))
+    expected = sw.distance_field(sw.embed(surface, metric), through).closed_wires()
+    assert expected
+    assert [cut.length for cut in found.cuts] == [loop.length for loop in expected]
+    for cut, loop in zip(found.cuts, expected, strict=True):
+        assert (cut.separates, cut.turn) == (loop.separates, loop.turn)
+        assert (len(cut.pieces), len(cut.joints)) == (3, 2)
+        lengths = [np.linalg.norm(np.diff(piece.points, axis=0), axis=1).sum() for piece in cut.pieces]
+        assert sum(lengths) * surface.scale == pytest.approx(loop.euclidean_length)
+        assert max(lengths) < 0.45 * sum(lengths)
+        ends = [piece.points[[0, -1]] for piece in cut.pieces]
+        for one, two, (face, weights) in zip(ends, ends[1:], cut.joints, strict=False):
+            np.testing.assert_array_equal(one[1], two[0])
+            np.testing.assert_allclose(weights @ surface.points[surface.triangles[face]], one[1], atol=1e-9)
+        np.testing.assert_array_equal(ends[0][0], ends[-1][1])
+        for piece, after in zip(cut.pieces, cut.pieces[1:] + cut.pieces[:1], strict=True):
+            assert len(piece.faces) == len(piece.points) - 1
+            assert piece.vertices[-1] == after.vertices[0]
+
+
+def test_closed_wires_lead_through_points_of_the_surface(surface: sw.Surface) -> None:
+    live = sw.LiveWire(surface)
+    with pytest.raises(ValueError, match="through: vertex 99999 is out of range"):
+        live.closed_wires(99999)
+    with pytest.raises(ValueError, match="not edges"):
+        live.closed_wires((3, 4))
+    with pytest.raises(ValueError, match="across the surface, not along edges"):
+        sw.LiveWire(surface, along="edges").closed_wires(3)
+
+
 def test_what_is_no_point_of_a_face_is_refused(surface: sw.Surface) -> None:
     live = sw.LiveWire(surface)
     for wrong, why in (

@@ -48,6 +48,74 @@ def test_a_wire_lies_on_the_faces_it_names(surface: sw.Surface, field: sw.Distan
         assert wire.euclidean_length == pytest.approx(steps.sum() * surface.scale, rel=1e-12)
 
 
+def rod(around: int = 24, rows: int = 60) -> sw.Surface:
+    """Return a closed rod of radius 0.1 and length 1 along z; vertex `around * row + i` is on a row."""
+    along = 1.2 * (np.arange(rows) + 0.5) / rows
+    radius, height = np.minimum(0.1, np.minimum(along, 1.2 - along)), np.clip(along - 0.1, 0, 1)
+    angle = 2 * np.pi * np.arange(around) / around
+    side = np.stack(
+        [np.outer(radius, np.cos(angle)), np.outer(radius, np.sin(angle)), np.repeat(height[:, None], around, 1)], -1
+    )
+    i, j = np.meshgrid(np.arange(around), np.arange(rows - 1))
+    a, b = (j * around + i).ravel(), (j * around + (i + 1) % around).ravel()
+    ends = np.arange(around)
+    last, bottom = (rows - 1) * around, around * rows
+    triangles = np.concatenate(
+        [
+            np.stack([a, b, b + around], 1),
+            np.stack([a, b + around, a + around], 1),
+            np.stack([np.full(around, bottom), (ends + 1) % around, ends], 1),
+            np.stack([np.full(around, bottom + 1), last + ends, last + (ends + 1) % around], 1),
+        ]
+    )
+    return sw.Surface(np.concatenate([side.reshape(-1, 3), [[0, 0, 0], [0, 0, 1]]]), triangles)
+
+
+def concave_field(surface: sw.Surface, seed: object) -> sw.DistanceField:
+    curvature = sw.smoothed_curvatures(surface, sw.principal_curvatures(surface))
+    return sw.distance_field(sw.embed(surface, sw.concave_metric(surface, curvature)), seed)
+
+
+@pytest.mark.parametrize("seed", [24 * 30, (24 * 30, (0.2, 0.3, 0.5))])
+def test_around_a_limb_the_closed_wire_is_its_ring(seed: object) -> None:
+    surface = rod()
+    loops = concave_field(surface, seed).closed_wires()
+    assert 1 <= len(loops) <= 3
+    ring = loops[0]
+    assert ring.separates
+    assert ring.turn < 0.2
+    assert ring.euclidean_length == pytest.approx(2 * np.pi * 0.1 * surface.scale, rel=0.02)
+    assert len(ring.faces) == len(ring.points) - 1
+    np.testing.assert_allclose(ring.points[0], ring.points[-1], atol=1e-12)
+    assert np.ptp(ring.points[:, 2]) < 0.025
+    corners = surface.points[surface.triangles[ring.faces]]
+    for ends in (ring.points[:-1], ring.points[1:]):
+        assert distance_to_triangles(ends, corners).max() < 1e-9
+
+
+def test_the_closed_wire_around_a_handle_does_not_separate() -> None:
+    loops = concave_field(sw.Surface(*meshes.torus(60, 30)), 0).closed_wires(1)
+    assert [loop.separates for loop in loops] == [False]
+    assert "handle" in repr(loops[0])
+
+
+def test_where_nothing_suggests_one_there_is_no_closed_wire() -> None:
+    assert concave_field(sw.Surface(*meshes.grid(12)), 80).closed_wires() == []
+    assert concave_field(rod(), 24 * 60).closed_wires() == [], "from the middle of an end"
+
+
+def test_closed_wires_refuse_what_they_cannot_be() -> None:
+    surface = sw.Surface(*meshes.torus(20, 10))
+    field = concave_field(surface, 0)
+    assert field.closed_wires(0) == []
+    with pytest.raises(ValueError, match="count: expected a number that is not negative"):
+        field.closed_wires(-1)
+    with pytest.raises(ValueError, match="closed wires lead through one seed: the field has 2"):
+        concave_field(surface, [0, 5]).closed_wires()
+    with pytest.raises(sw.Cancelled):
+        field.closed_wires(progress=lambda _: False)
+
+
 def test_a_snapped_wire_is_a_simple_chain_in_the_faces_around_it(surface: sw.Surface, field: sw.DistanceField) -> None:
     all_edges = set(map(tuple, surface.edges.tolist()))
     of_face = sides(surface.triangles)

@@ -6,9 +6,19 @@
 #include <utility>
 
 #include "seamwire/edges/shortest_cycle.hpp"
+#include "seamwire/wires/closed_wires.hpp"
+#include "wires/wire_pieces.hpp"
 
 namespace seamwire {
 namespace {
+
+/// How many closed wires there are to choose from, and of how many pieces each is: one that is shorter than half of it
+/// is the shortest way between its ends.
+constexpr std::size_t kClosedWires = 3, kPiecesOfClosedWire = 3;
+/// From so many faces on the exact field takes longer than one likes to wait, and closed wires from a field of so many
+/// windows come first.
+constexpr std::size_t kManyFaces = 50'000;
+constexpr std::uint32_t kWindowsBefore = 4;
 
 double loop_turning_for(std::size_t edges) { return std::max(20.0, std::sqrt(static_cast<double>(edges)) / 4.0); }
 
@@ -62,7 +72,7 @@ void LiveWorker::change_metric(std::shared_ptr<MetricSet> metrics) {
   const MutexLock lock(mutex_);
   metrics_.swap(metrics);
   ++request_;
-  loop_edge_ = {-1, -1};
+  loop_through_ = Edge{-1, -1};
   loop_handled_ = loop_request_;
   if (metrics_->prepared[which_] != metrics->prepared[which_]) preparing_.request_stop();
   solving_.request_stop();
@@ -107,11 +117,11 @@ void LiveWorker::release(std::shared_ptr<const SeedSolution> solution) {
   changed_.notify_all();
 }
 
-void LiveWorker::find_loop(const Edge& edge) {
+void LiveWorker::find_loop(const LoopPlace& through) {
   const MutexLock lock(mutex_);
-  if (loop_edge_ == edge) return;
+  if (loop_through_ == through) return;
   ++loop_request_;
-  loop_edge_ = edge;
+  loop_through_ = through;
   if (is_at_loop_) solving_.request_stop();
   changed_.notify_all();
 }
@@ -120,6 +130,12 @@ std::optional<EdgeChain> LiveWorker::loop() const {
   const MutexLock lock(mutex_);
   if (loop_handled_ != loop_request_) return std::nullopt;
   return loop_;
+}
+
+LiveClosedWires LiveWorker::closed_wires() const {
+  const MutexLock lock(mutex_);
+  if (closed_wires_for_ != loop_request_) return {.cuts = {}, .final = loop_handled_ == loop_request_};
+  return closed_wires_;
 }
 
 double LiveWorker::progress() const {
@@ -175,7 +191,7 @@ std::optional<LiveWorker::Job> LiveWorker::next_job() {
   is_at_loop_ = handled_ == request_;
   if (is_at_loop_) {
     return LoopJob{.request = loop_request_,
-                   .edge = loop_edge_,
+                   .through = loop_through_,
                    .prepared = metrics_->prepared[which_]->peek(),
                    .solving = solving_.get_token()};
   }
@@ -215,12 +231,18 @@ void LiveWorker::work_on(SeedJob job) {
 
 void LiveWorker::work_on(const LoopJob& job) {
   EdgeChain loop;
+  LiveClosedWires closed;
   std::exception_ptr error;
   bool is_cancelled = false;
+  const auto* edge = std::get_if<Edge>(&job.through);
   try {
-    if (job.prepared && has_edge(surface(), job.edge)) {  // LiveWire::loop() refuses others
+    if (!job.prepared) {
+      // Why is known already.
+    } else if (edge == nullptr) {
+      closed = find_closed_wires(job, std::get<WireEnd>(job.through));
+    } else if (has_edge(surface(), *edge)) {  // LiveWire::loop() refuses others
       const double turning = settings_.loop_turning.value_or(loop_turning_for(surface().edges().size()));
-      loop = shortest_cycle(*job.prepared->graph, job.edge, turning, {.stop = job.solving, .progress = {}});
+      loop = shortest_cycle(*job.prepared->graph, *edge, turning, {.stop = job.solving, .progress = {}});
     }
   } catch (const Cancelled&) {
     is_cancelled = true;  // by a newer loop, which counts then, or by a seed, which goes first
@@ -234,7 +256,42 @@ void LiveWorker::work_on(const LoopJob& job) {
   if (is_cancelled || job.request != loop_request_) return;
   loop_handled_ = job.request;
   loop_ = std::move(loop);
+  closed.final = true;
+  closed_wires_ = std::move(closed);
+  closed_wires_for_ = job.request;
   if (error) error_ = std::move(error);
+}
+
+/// First, where the field takes long, those that a bounded number of windows tells, which can be seen meanwhile.
+LiveClosedWires LiveWorker::find_closed_wires(const LoopJob& job, const WireEnd& through) {
+  const Prepared& prepared = *job.prepared;
+  const std::optional<SurfacePoint> seed = prepared.points->find(point_of(through), "through");
+  if (!seed) return {};
+  const Task task{.stop = job.solving, .progress = {}};
+  const auto of_field = [&](const DistanceField& field) {
+    LiveClosedWires found;
+    for (ClosedWire& cut : seamwire::closed_wires(surface(), *prepared.embedding, field, kClosedWires, task)) {
+      LiveClosedWire closed{
+          .pieces = {}, .joints = {}, .separates = cut.separates, .turn = cut.turn, .length = cut.wire.length};
+      cut.wire.from = cut.wire.to = nearest_vertex(surface(), through);
+      for (WirePiece& piece : cut_in_pieces(surface(), cut.wire, kPiecesOfClosedWire)) {
+        closed.pieces.push_back(snapped(prepared, std::move(piece.wire), task));
+        closed.joints.push_back(piece.end);
+      }
+      if (!closed.joints.empty()) closed.joints.pop_back();  // that is the point itself
+      found.cuts.push_back(std::move(closed));
+    }
+    return found;
+  };
+  if (seed->vertex >= 0 && prepared.embedding->mesh.face_count() > kManyFaces) {
+    LiveClosedWires early = of_field(prepared.geodesics->solve_bounded(seed->vertex, kWindowsBefore, task));
+    const MutexLock lock(mutex_);
+    if (job.request == loop_request_) {
+      closed_wires_ = std::move(early);
+      closed_wires_for_ = job.request;
+    }
+  }
+  return of_field(prepared.geodesics->solve(std::array{*seed}, {}, task));
 }
 
 /// Null where there is no seed, or none that is part of the surface.
@@ -314,9 +371,13 @@ LiveCandidate LiveWorker::candidate_of(const Prepared& prepared, Wire wire, cons
                                        const WireEnd& target) const {
   wire.from = nearest_vertex(surface(), seed);
   wire.to = nearest_vertex(surface(), target);
+  return snapped(prepared, std::move(wire));
+}
+
+LiveCandidate LiveWorker::snapped(const Prepared& prepared, Wire wire, const Task& task) const {
   LiveCandidate candidate;
   candidate.follow = kFollow[which_];
-  candidate.vertices = snap_to_edges(surface(), *prepared.snap_graph, wire);
+  candidate.vertices = snap_to_edges(surface(), *prepared.snap_graph, wire, task);
   candidate.length = wire.length;
   candidate.points = std::move(wire.points);
   candidate.faces = std::move(wire.faces);

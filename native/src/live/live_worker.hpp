@@ -26,6 +26,9 @@ bool has_edge(const Surface& surface, const Edge& edge);
 /// Where wires begin, or what they lead to: across the surface a vertex or another point, along edges a pick.
 using WireEnd = std::variant<Pick, SurfacePoint>;
 
+/// What closed wires lead through: along edges an edge, across the surface a vertex or another point.
+using LoopPlace = std::variant<Edge, WireEnd>;
+
 /// The wires of one metric from one seed: across the surface a field, along edges chains, which may still be at work.
 /// Neither: no wires begin there.
 struct SeedSolution {
@@ -79,10 +82,13 @@ class LiveWorker {
   /// The wire from a seed to a target.
   LiveCandidate candidate(const SeedSolution& solution, const WireEnd& seed, const WireEnd& target) const;
 
-  /// Searches the loop through an edge, `edge[0] < edge[1]`, unless it is the one searched for last.
-  void find_loop(const Edge& edge);
-  /// nullopt until it is found.
+  /// Along edges searches the loop through an edge, `edge[0] < edge[1]`, across the surface the closed wires through a
+  /// point, unless it is the one searched for last.
+  void find_loop(const LoopPlace& through);
+  /// Along edges; nullopt until it is found.
   std::optional<EdgeChain> loop() const;
+  /// Across the surface.
+  LiveClosedWires closed_wires() const;
 
   /// Fraction of the newest seed's work, preparation included, that is done.
   double progress() const;
@@ -102,7 +108,7 @@ class LiveWorker {
   };
   struct LoopJob {
     std::int64_t request;
-    Edge edge;
+    LoopPlace through;
     std::shared_ptr<const Prepared> prepared;  // null: that failed
     std::stop_token solving;
   };
@@ -121,12 +127,14 @@ class LiveWorker {
   std::optional<Job> next_job();
   void work_on(SeedJob job);
   void work_on(const LoopJob& job);
+  LiveClosedWires find_closed_wires(const LoopJob& job, const WireEnd& through);
   std::shared_ptr<const SeedSolution> solve(const SeedJob& job);
   std::shared_ptr<const SeedSolution> find_field(const SeedJob& job, const std::shared_ptr<const Prepared>& prepared,
                                                  Task task);
   std::shared_ptr<const SeedSolution> find_chains(const SeedJob& job, const std::shared_ptr<const Prepared>& prepared,
                                                   const Task& task);
   void make_preview(const SeedJob& job, const Prepared& prepared, CorridorPaths& paths, std::int64_t& answered);
+  LiveCandidate snapped(const Prepared& prepared, Wire wire, const Task& task = {}) const;
   LiveCandidate candidate_of(const Prepared& prepared, Wire wire, const WireEnd& seed, const WireEnd& target) const;
   const Surface& surface() const { return surface_cache_->surface(); }
 
@@ -154,7 +162,7 @@ class LiveWorker {
   bool is_forward_ SEAMWIRE_GUARDED_BY(mutex_) = false;
   std::optional<WireEnd> target_ SEAMWIRE_GUARDED_BY(mutex_);  // of the preview
   std::int64_t loop_request_ SEAMWIRE_GUARDED_BY(mutex_) = 0;
-  Edge loop_edge_ SEAMWIRE_GUARDED_BY(mutex_) = {-1, -1};
+  LoopPlace loop_through_ SEAMWIRE_GUARDED_BY(mutex_) = Edge{-1, -1};
   std::stop_source preparing_ SEAMWIRE_GUARDED_BY(mutex_);  // of the running job
   std::stop_source solving_ SEAMWIRE_GUARDED_BY(mutex_);
 
@@ -166,9 +174,11 @@ class LiveWorker {
   std::exception_ptr error_ SEAMWIRE_GUARDED_BY(mutex_);
   std::int64_t loop_handled_ SEAMWIRE_GUARDED_BY(mutex_) = 0;
   EdgeChain loop_ SEAMWIRE_GUARDED_BY(mutex_);
-  bool has_failed_ SEAMWIRE_GUARDED_BY(mutex_) = false;    // there is no surface
-  bool is_at_loop_ SEAMWIRE_GUARDED_BY(mutex_) = false;    // the running job is one
-  bool was_prepared_ SEAMWIRE_GUARDED_BY(mutex_) = false;  // when the last SeedJob began
+  LiveClosedWires closed_wires_ SEAMWIRE_GUARDED_BY(mutex_);
+  std::int64_t closed_wires_for_ SEAMWIRE_GUARDED_BY(mutex_) = -1;  // the loop request that they answer, final or not
+  bool has_failed_ SEAMWIRE_GUARDED_BY(mutex_) = false;             // there is no surface
+  bool is_at_loop_ SEAMWIRE_GUARDED_BY(mutex_) = false;             // the running job is one
+  bool was_prepared_ SEAMWIRE_GUARDED_BY(mutex_) = false;           // when the last SeedJob began
   Dropped dropped_ SEAMWIRE_GUARDED_BY(mutex_);
 
   std::jthread thread_;  // last, so that all else is there when it begins

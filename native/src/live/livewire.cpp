@@ -238,7 +238,8 @@ LiveLoop LiveWire::loop(const Edge& edge) {
   const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
   check_edge(surface.get(), edge);
   impl_->rethrow();
-  for (LiveWorker& worker : impl_->workers) worker.find_loop({std::min(edge[0], edge[1]), std::max(edge[0], edge[1])});
+  for (LiveWorker& worker : impl_->workers)
+    worker.find_loop(Edge{std::min(edge[0], edge[1]), std::max(edge[0], edge[1])});
   if (!surface) return {};
   EdgeChain cheapest;
   for (const LiveWorker& worker : impl_->workers) {
@@ -247,6 +248,18 @@ LiveLoop LiveWire::loop(const Edge& edge) {
     if (loop->length < cheapest.length) cheapest = std::move(*loop);
   }
   return {.vertices = std::move(cheapest.vertices), .length = cheapest.length, .final = true};
+}
+
+LiveClosedWires LiveWire::closed_wires(const SurfacePoint& through) {
+  if (impl_->settings.along != Along::kSurface)
+    throw InvalidInput("closed wires run across the surface, not along edges");
+  const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
+  const WireEnd end = end_at(through);
+  check_end(surface.get(), *impl_->surface_cache, Along::kSurface, end, "through");
+  impl_->rethrow();
+  LiveWorker& worker = impl_->workers[0];
+  worker.find_loop(end);
+  return surface ? worker.closed_wires() : LiveClosedWires{};
 }
 
 EdgeChain LiveWire::extend_straight(const Edge& edge, std::span<const std::int32_t> stops) const {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "detail/index.hpp"
+#include "wires/path_position.hpp"
 
 namespace seamwire {
 
@@ -15,19 +16,6 @@ namespace {
 /// Sine of the largest angle between pieces of one line. What is left out changes the length by its square, which is
 /// nothing in double precision.
 constexpr double kCollinear = 1e-11;
-
-Vector position(const Embedding& embedding, const PathPoint& point) {
-  if (point.vertex >= 0) return embedding.points[point.vertex];
-  if (point.face >= 0) {
-    const Triangle& corners = embedding.mesh.triangles[point.face];
-    Vector sum = Vector::Zero();
-    for (std::size_t i = 0; i < 3; ++i) sum += point.barycentric[i] * embedding.points[corners[i]];
-    return sum;
-  }
-  const Vector& tail = embedding.points[embedding.mesh.tail(point.half_edge)];
-  const Vector& tip = embedding.points[embedding.mesh.tip(point.half_edge)];
-  return (1.0 - point.t) * tail + point.t * tip;
-}
 
 bool straight(const Vector& a, const Vector& b, const Vector& c) {
   const Vector u = b - a, v = c - b;
@@ -64,6 +52,26 @@ void check_path(const Surface& surface, const Embedding& embedding, const Intrin
 }
 
 }  // namespace
+
+Vector position(const Embedding& embedding, const PathPoint& point) {
+  if (point.vertex >= 0) return embedding.points[point.vertex];
+  if (point.face >= 0) {
+    const Triangle& corners = embedding.mesh.triangles[point.face];
+    Vector sum = Vector::Zero();
+    for (std::size_t i = 0; i < 3; ++i) sum += point.barycentric[i] * embedding.points[corners[i]];
+    return sum;
+  }
+  const Vector& tail = embedding.points[embedding.mesh.tail(point.half_edge)];
+  const Vector& tip = embedding.points[embedding.mesh.tip(point.half_edge)];
+  return (1.0 - point.t) * tail + point.t * tip;
+}
+
+void check_field(const Embedding& embedding, const DistanceField& field) {
+  if (field.distances().size() != embedding.points.size()) {
+    throw InvalidInput("the field is of another embedding: it has " + std::to_string(field.distances().size()) +
+                       " vertices, the embedding " + std::to_string(embedding.points.size()));
+  }
+}
 
 Wire map_wire(const Surface& surface, const Embedding& embedding, const IntrinsicPath& path) {
   Wire wire;
@@ -115,10 +123,7 @@ Wire trace_wire(const Surface& surface, const Embedding& embedding, const Distan
 
 Wire trace_wire(const Surface& surface, const Embedding& embedding, const DistanceField& field,
                 const SurfacePoint& point, const Task& task) {
-  if (field.distances().size() != embedding.points.size()) {
-    throw InvalidInput("the field is of another embedding: it has " + std::to_string(field.distances().size()) +
-                       " vertices, the embedding " + std::to_string(embedding.points.size()));
-  }
+  check_field(embedding, field);
   Wire wire = map_wire(surface, embedding, field.trace(point, task));
   if (const std::int32_t seed = field.seed(); seed >= 0) wire.from = index(seed) < surface.vertex_count() ? seed : -1;
   return wire;

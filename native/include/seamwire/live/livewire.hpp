@@ -74,6 +74,22 @@ struct LiveLoop {
   bool final = false;                                       ///< false: still being computed
 };
 
+/// A closed cut through a point of the surface, in pieces of about the same length that follow each other from the
+/// point around to it. Each is the shortest wire between its ends, but for the place at which the cut's halves meet.
+struct LiveClosedWire {
+  std::vector<LiveCandidate> pieces;  ///< three, or fewer where one of them would begin on an edge without a face
+  std::vector<SurfacePoint> joints;   ///< where one piece ends and the next one begins, within faces
+  bool separates = true;              ///< as ClosedWire has it
+  double turn = 0.0;                  ///< as ClosedWire has it
+  double length = std::numeric_limits<double>::infinity();  ///< in the metric, of the model scaled to the unit cube
+};
+
+/// What closed_wires() finds.
+struct LiveClosedWires {
+  std::vector<LiveClosedWire> cuts;  ///< best first; empty: nothing suggests one, or they are not found yet
+  bool final = false;                ///< false: still being computed
+};
+
 /// What became of one metric's embedding: see Embedding. Across the surface wires lead around triangles that are not
 /// valid, as around holes.
 struct LiveEmbedding {
@@ -138,6 +154,10 @@ class LiveWire {
   /// The closed chain through an edge, the cheapest of the metrics'; along edges only. The first call for an edge
   /// starts the search, in place of that for another edge; ask again until the answer is final. A seed goes first.
   LiveLoop loop(const Edge& edge);
+  /// The closed cuts through a point, at most three, in M_min, or what the metric's family has in its place; across the
+  /// surface only. Of M_min's thread; asked for as loop(). On a large surface what a bounded number of windows tells is
+  /// there first, and not final. Throws InvalidInput where the point is none.
+  LiveClosedWires closed_wires(const SurfacePoint& through);
   /// seamwire::extend_straight(), with the way's length in the unit cube; no vertices where it cannot be told yet.
   EdgeChain extend_straight(const Edge& edge, std::span<const std::int32_t> stops) const;
   /// seamwire::edge_loop(); no vertices where it cannot be told yet.

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "seamwire/wires/wire.hpp"
+
+namespace seamwire {
+
+/// A closed cut through the seed of a field: two of its shortest wires, to the ends of an edge, and that edge.
+struct ClosedWire {
+  Wire wire;              ///< from the seed to the seed, which is its first point and again its last one
+  bool separates = true;  ///< false: the surface stays in one piece, the loop runs around or through a handle
+  double turn = 0.0;  ///< at the seed, in radians: 0 where the loop goes smoothly through it, pi where it turns back
+};
+
+/// The closed cuts through the seed of a field over `embedding` that the surface suggests, at most `count`, best first;
+/// docs/method.md, Section 6, has the equations. They belong to the cut locus of the seed, where shortest wires that
+/// leave it on different sides meet (found by a tree of the vertices and a tree of the faces, Erickson and Whittlesey,
+/// "Greedy Optimal Homotopy and Homology Generators", 2005), and are the places there at which the loop is short and
+/// turns little at the seed.
+///
+/// A loop that separates has at least 0.3 % of the area of its part of the surface on either side. A hole counts as
+/// something that a loop may run around. Empty where nothing suggests one: on a plane, where no two wires meet, and
+/// where wires in all directions meet at one place, as on a sphere, or from the tip of a limb. Other parts of the
+/// surface, vertices without a face and what is beyond the field's radius are left alone. `concave_metric()` is the one
+/// in which loops are nearest to those that people draw.
+///
+/// Throws InvalidInput where the field has several sources, or is of another embedding, and where the embedding is not
+/// one of the surface, as far as sizes tell; Cancelled.
+std::vector<ClosedWire> closed_wires(const Surface& surface, const Embedding& embedding, const DistanceField& field,
+                                     std::size_t count = 3, const Task& task = {});
+
+}  // namespace seamwire

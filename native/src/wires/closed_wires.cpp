@@ -1,0 +1,552 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "seamwire/wires/closed_wires.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "detail/disjoint_sets.hpp"
+#include "detail/index.hpp"
+#include "detail/poll.hpp"
+#include "wires/path_position.hpp"
+#include "wires/polyline.hpp"
+
+namespace seamwire {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Of the area of a part of the surface: what a loop has on its smaller side at least.
+constexpr double kLeastArea = 0.003;
+/// The direction of a wire is that of its beginning, so long, in the unit cube, but no more than this part of the wire.
+constexpr double kBeginning = 0.02, kMostOfWire = 0.25;
+/// What ln L of a loop may be more than the best J, for J to be asked for: J is ln L and at most 2.
+constexpr double kFartherThanBest = 1.0;
+/// A loop that turns more goes back the way it came.
+constexpr double kMostTurn = 2.0;
+/// How much a minimum of J lies below the pass to a lower one.
+constexpr double kLeastPersistence = 0.05;
+/// What the angles of a loop's triangle (the seed and the ends of the edge) are more than those of a flat one: the
+/// curvature that it encloses (Gauss-Bonnet), at least.
+constexpr double kLeastExcess = 0.5;
+/// Of a loop's length: how far the middles of its two halves are from each other at least, and two loops on average.
+constexpr double kLeastWidth = 0.02, kLeastApart = 0.03;
+/// Of a loop's length: how far from the place where its halves meet other wires are looked at, and how many at most.
+constexpr double kAround = 0.03;
+constexpr std::size_t kMostAround = 96;
+/// Wires leave in all directions if no two that are neighbors are further apart.
+constexpr double kLargestGap = std::numbers::pi / 3;
+/// Points along a loop at which its distance from another one is measured.
+constexpr std::size_t kSamples = 64;
+
+/// The edges of an embedding's triangles, each as one of its half-edges; and what lies on their sides: triangles, and
+/// beyond a boundary the hole that it surrounds, as one more face, numbered after them.
+struct Edges {
+  explicit Edges(const IntrinsicMesh& mesh, const Task& task) : face_count(mesh.face_count()) {
+    std::vector<std::int32_t> hole_of(3 * face_count, -1);
+    half_edges.reserve(3 * face_count / 2 + 1);
+    const Poll poll(task, 0.0, 0.1, 3 * face_count);
+    for (std::int32_t h = 0; index(h) < 3 * face_count; ++h) {
+      poll.at(index(h));
+      const std::int32_t twin = mesh.twins[h];
+      if (twin < h && twin >= 0) continue;
+      half_edges.push_back(h);
+      if (twin >= 0) continue;
+      if (hole_of[h] < 0) {
+        const auto hole = static_cast<std::int32_t>(face_count + hole_count++);
+        for (std::int32_t at = h; hole_of[at] < 0; at = next_of_boundary(mesh, at)) hole_of[at] = hole;
+      }
+      holes.push_back(hole_of[h]);
+    }
+  }
+  std::size_t count() const { return half_edges.size(); }
+
+  std::size_t face_count, hole_count = 0;
+  std::vector<std::int32_t> half_edges;
+  std::vector<std::int32_t> holes;  // of the edges of boundaries, in their order
+
+ private:
+  static std::int32_t next_of_boundary(const IntrinsicMesh& mesh, std::int32_t h) {
+    const auto next = [](std::int32_t g) { return g % 3 == 2 ? g - 2 : g + 1; };
+    h = next(h);
+    while (mesh.twins[h] >= 0) h = next(mesh.twins[h]);
+    return h;
+  }
+};
+
+/// A bijection that scatters numbers (the finalizer of SplitMix64, Steele, Lea, Flood, 2014).
+std::uint64_t scattered(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15U;
+  x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
+  x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
+  return x ^ (x >> 31U);
+}
+
+/// A loop of the cut locus, by the edge at which its halves meet.
+struct CutEdge {
+  std::int32_t half_edge;
+  double length;  // L, in the metric
+  bool separates;
+};
+
+class CutLocus {
+ public:
+  CutLocus(const Surface& surface, const Embedding& embedding, const DistanceField& field, const Task& task)
+      : surface_(surface),
+        embedding_(embedding),
+        mesh_(embedding.mesh),
+        field_(field),
+        task_(task),
+        normal_(normal_at(field.sources().front())) {}
+
+  std::vector<ClosedWire> best(std::size_t count);
+
+ private:
+  struct Rated {
+    CutEdge edge;
+    double turn, cost;  // J
+  };
+
+  Vector normal_at(const SurfacePoint& seed) const;
+  double distance(std::int32_t vertex) const { return field_.distances()[vertex]; }
+  std::vector<std::uint8_t> tree(const Edges& edges) const;
+  std::vector<CutEdge> find() const;
+  Vector span(std::int32_t face) const;
+  std::vector<Vector> line(const IntrinsicPath& path) const;
+  Vector direction(const IntrinsicPath& path) const;
+  const Vector& direction_to(std::int32_t vertex);
+  double turn_of(const CutEdge& edge);
+  std::vector<Rated> rate(std::vector<CutEdge> edges);
+  std::vector<Rated> minima(std::vector<Rated> rated) const;
+  std::vector<SurfacePoint> around(std::int32_t half_edge, double radius) const;
+  bool is_met_from_all_sides(std::int32_t half_edge, double radius) const;
+  std::optional<ClosedWire> loop(const Rated& rated) const;
+
+  const Surface& surface_;
+  const Embedding& embedding_;
+  const IntrinsicMesh& mesh_;
+  const DistanceField& field_;
+  const Task& task_;
+  const Vector normal_;  // at the seed: unit, or 0
+  std::unordered_map<std::int32_t, Vector> directions_;
+};
+
+/// The point of a line at a distance along it.
+Vector point_at(const std::vector<Vector>& line, double distance) {
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const double step = (line[i] - line[i - 1]).norm();
+    if (distance < step) return line[i - 1] + (distance / step) * (line[i] - line[i - 1]);
+    distance -= step;
+  }
+  return line.back();
+}
+
+double length_of(const std::vector<Vector>& line) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < line.size(); ++i) length += (line[i] - line[i - 1]).norm();
+  return length;
+}
+
+/// Twice the area, along the normal.
+Vector CutLocus::span(std::int32_t face) const {
+  const auto& [a, b, c] = mesh_.triangles[face];
+  const Vector& p = embedding_.points[a];
+  return (embedding_.points[b] - p).cross(embedding_.points[c] - p);
+}
+
+/// Of the triangles around a vertex, or of the one that a point is in.
+Vector CutLocus::normal_at(const SurfacePoint& seed) const {
+  Vector sum = Vector::Zero();
+  for (std::int32_t f = 0; index(f) < mesh_.face_count(); ++f) {
+    const bool counts = seed.vertex < 0 ? f == seed.face : std::ranges::count(mesh_.triangles[f], seed.vertex) > 0;
+    if (counts) sum += span(f);
+  }
+  const double length = sum.norm();
+  return length > 0 ? Vector(sum / length) : Vector::Zero();
+}
+
+std::vector<Vector> CutLocus::line(const IntrinsicPath& path) const {
+  std::vector<Vector> points;
+  points.reserve(path.points.size());
+  for (const PathPoint& at : path.points) points.push_back(position(embedding_, at));
+  return points;
+}
+
+/// Which edges join each vertex to the seed, over vertices that are ever nearer; and where the mesh has none that is
+/// (a wire may reach a vertex through a triangle whose other corners are further from the seed), to what else is near.
+std::vector<std::uint8_t> CutLocus::tree(const Edges& edges) const {
+  struct Up {
+    double length = kInfinity;
+    std::int32_t to = -1, edge = -1;
+  };
+  std::vector<Up> up(index(mesh_.vertex_count));
+  const auto see = [&](std::int32_t a, std::int32_t b, double length, std::int32_t edge) {
+    if (distance(b) < distance(a)) std::swap(a, b);
+    if (!(distance(a) < distance(b))) return;
+    if (distance(a) + length < up[b].length) up[b] = {distance(a) + length, a, edge};
+  };
+  for (std::size_t e = 0; e < edges.count(); ++e) {
+    const std::int32_t h = edges.half_edges[e];
+    see(mesh_.tail(h), mesh_.tip(h), mesh_.lengths[h], static_cast<std::int32_t>(e));
+  }
+  for (const LooseEdge& edge : mesh_.loose_edges) see(edge.a, edge.b, edge.length, -1);
+  task_.check(0.2);
+
+  std::vector<std::uint8_t> is_in(edges.count(), 0);
+  DisjointSets parts(up.size());
+  for (std::int32_t v = 0; v < mesh_.vertex_count; ++v) {
+    if (up[v].to < 0) continue;
+    parts.join(v, up[v].to);
+    if (up[v].edge >= 0) is_in[up[v].edge] = 1;
+  }
+  struct Bridge {
+    double length;
+    std::int32_t edge, a, b;
+  };
+  std::vector<Bridge> bridges;
+  const auto see_bridge = [&](std::int32_t a, std::int32_t b, double length, std::int32_t edge) {
+    const double whole = distance(a) + distance(b) + length;
+    if (std::isfinite(whole) && parts.find(a) != parts.find(b)) bridges.push_back({whole, edge, a, b});
+  };
+  for (const LooseEdge& edge : mesh_.loose_edges) see_bridge(edge.a, edge.b, edge.length, -1);
+  for (std::size_t e = 0; e < edges.count(); ++e) {
+    const std::int32_t h = edges.half_edges[e];
+    see_bridge(mesh_.tail(h), mesh_.tip(h), mesh_.lengths[h], static_cast<std::int32_t>(e));
+  }
+  std::ranges::sort(bridges, {}, [](const Bridge& bridge) { return std::pair(bridge.length, bridge.edge); });
+  for (const Bridge& bridge : bridges) {
+    if (parts.join(bridge.a, bridge.b) && bridge.edge >= 0) is_in[bridge.edge] = 1;
+  }
+  task_.check(0.25);
+  return is_in;
+}
+
+/// The faces are joined, over edges that are not in the tree of the vertices, by the spanning tree (in each part) whose
+/// L are largest. Each of its edges, and each edge that is in neither tree, closes a loop of the tree of the vertices.
+/// That loop has on one side the faces which hang on the edge in the tree of the faces, unless an edge of neither tree
+/// leads from one side to the other: then it does not separate.
+std::vector<CutEdge> CutLocus::find() const {
+  const Edges edges(mesh_, task_);
+  const std::vector<std::uint8_t> is_in_tree = tree(edges);
+
+  struct Side {
+    std::int32_t a, b;
+  };
+  struct Closing {
+    std::uint64_t key;  // the longest first
+    std::int32_t half_edge;
+    Side faces;
+  };
+  std::vector<Closing> closing;
+  closing.reserve(edges.count());
+  std::size_t holes_seen = 0;
+  for (std::size_t e = 0; e < edges.count(); ++e) {
+    const std::int32_t h = edges.half_edges[e], twin = mesh_.twins[h];
+    const std::int32_t other = twin < 0 ? edges.holes[holes_seen++] : twin / 3;
+    if (is_in_tree[e] != 0) continue;
+    const double length = distance(mesh_.tail(h)) + distance(mesh_.tip(h)) + mesh_.lengths[h];
+    // Numbers that are not negative are ordered as their bits are. Half of them is more than enough.
+    const std::uint64_t bits = std::bit_cast<std::uint64_t>(length) >> 32U;
+    closing.push_back({(~bits << 32U) | e, h, {h / 3, other}});
+  }
+  task_.check(0.3);
+  std::ranges::sort(closing, {}, &Closing::key);
+  task_.check(0.45);
+
+  // Edges of the tree of the faces are found from its leaves on: a leaf has one, the sum (bit by bit) of all its edges.
+  struct Face {
+    double area = 0.0;
+    std::uint64_t crossing = 0;
+    std::int32_t degree = 0, edges = 0;
+  };
+  std::vector<Face> faces(edges.face_count + edges.hole_count);
+  for (std::size_t f = 0; f < edges.face_count; ++f) faces[f].area = span(static_cast<std::int32_t>(f)).norm();
+  DisjointSets parts(faces.size());
+  std::vector<std::int32_t> left_over;
+  for (std::size_t i = 0; i < closing.size(); ++i) {
+    const auto [a, b] = closing[i].faces;
+    const auto number = static_cast<std::int32_t>(i);
+    if (parts.join(a, b)) {
+      for (const std::int32_t f : {a, b}) {
+        ++faces[f].degree;
+        faces[f].edges ^= number;
+      }
+    } else {
+      left_over.push_back(number);
+      const std::uint64_t hash = scattered(i);
+      faces[a].crossing ^= hash;
+      faces[b].crossing ^= hash;
+    }
+  }
+  task_.check(0.55);
+
+  struct Cut {
+    std::int32_t edge, hanging;
+  };
+  std::vector<Cut> cuts;
+  cuts.reserve(faces.size());
+  for (std::int32_t leaf = 0; index(leaf) < faces.size(); ++leaf) {
+    for (std::int32_t f = leaf; faces[f].degree == 1;) {
+      const std::int32_t edge = faces[f].edges;
+      const auto [a, b] = closing[edge].faces;
+      const std::int32_t other = a == f ? b : a;
+      cuts.push_back({edge, f});
+      faces[f].degree = 0;
+      --faces[other].degree;
+      faces[other].edges ^= edge;
+      faces[other].area += faces[f].area;
+      faces[other].crossing ^= faces[f].crossing;
+      f = other;
+    }
+  }
+  // What is left of each part is a face that has the area of all.
+  std::vector<double> whole(faces.size(), 0.0);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    double& of = whole[parts.find(static_cast<std::int32_t>(f))];
+    of = std::max(of, faces[f].area);
+  }
+  task_.check(0.6);
+
+  std::vector<CutEdge> found;
+  const auto add = [&](std::int32_t edge, bool separates) {
+    const std::int32_t h = closing[edge].half_edge;
+    const double length = distance(mesh_.tail(h)) + distance(mesh_.tip(h)) + mesh_.lengths[h];
+    if (std::isfinite(length)) found.push_back({h, length, separates});
+  };
+  for (const auto& [edge, hanging] : cuts) {
+    const bool separates = faces[hanging].crossing == 0;
+    const double all = whole[parts.find(hanging)], side = std::min(faces[hanging].area, all - faces[hanging].area);
+    if (!separates || side >= kLeastArea * all) add(edge, separates);
+  }
+  for (const std::int32_t edge : left_over) add(edge, false);
+  return found;
+}
+
+/// Of the beginning of a wire, in the tangent plane: unit, 0 where it has no length there.
+Vector CutLocus::direction(const IntrinsicPath& path) const {
+  const std::vector<Vector> points = line(path);
+  const double most = std::min(kBeginning / surface_.scale(), kMostOfWire * length_of(points));
+  Vector along = point_at(points, most) - points.front();
+  along -= along.dot(normal_) * normal_;
+  const double length = along.norm();
+  return length > 0 ? Vector(along / length) : Vector::Zero();
+}
+
+const Vector& CutLocus::direction_to(std::int32_t vertex) {
+  const auto [entry, is_new] = directions_.try_emplace(vertex);
+  if (is_new) entry->second = direction(field_.trace(vertex, task_));
+  return entry->second;
+}
+
+double CutLocus::turn_of(const CutEdge& edge) {
+  const Vector a = direction_to(mesh_.tail(edge.half_edge)), b = direction_to(mesh_.tip(edge.half_edge));
+  if (a.isZero(0) || b.isZero(0)) return std::numbers::pi;
+  return std::atan2(a.cross(b).norm(), -a.dot(b));
+}
+
+std::vector<CutLocus::Rated> CutLocus::rate(std::vector<CutEdge> edges) {
+  std::ranges::sort(edges, {}, [](const CutEdge& edge) { return std::pair(edge.length, edge.half_edge); });
+  std::vector<Rated> rated;
+  double best = kInfinity;
+  for (const CutEdge& edge : edges) {
+    const double log = std::log(edge.length);
+    if (log > best + kFartherThanBest) break;
+    if (rated.size() % Poll::kFewSteps == 0) task_.check(0.6);
+    const double turn = turn_of(edge), cost = log + 1.0 - std::cos(turn);
+    rated.push_back({edge, turn, cost});
+    best = std::min(best, cost);
+  }
+  return rated;
+}
+
+/// The minima of J, over edges of which those are neighbors that share a triangle: edges come in ascending J, and where
+/// one joins two sets, the higher minimum ends.
+std::vector<CutLocus::Rated> CutLocus::minima(std::vector<Rated> rated) const {
+  std::ranges::sort(rated, {}, [](const Rated& r) { return std::pair(r.cost, r.edge.half_edge); });
+  std::unordered_map<std::int32_t, std::int32_t> seen_at;  // one edge that has come of a triangle
+  DisjointSets sets(rated.size());                         // named after the first, so the lowest, of each
+  std::vector<std::uint8_t> is_lasting(rated.size(), 1);
+  for (std::size_t i = 0; i < rated.size(); ++i) {
+    const std::int32_t h = rated[i].edge.half_edge;
+    for (const std::int32_t side : {h, mesh_.twins[h]}) {
+      if (side < 0) continue;
+      const auto number = static_cast<std::int32_t>(i);
+      const auto [entry, is_first] = seen_at.try_emplace(side / 3, number);
+      if (is_first) continue;
+      const std::int32_t a = sets.find(entry->second), b = sets.find(number);
+      if (a == b) continue;
+      const std::int32_t higher = std::max(a, b);
+      if (rated[i].cost - rated[higher].cost < kLeastPersistence) is_lasting[higher] = 0;
+      sets.join(a, b);
+    }
+  }
+  std::vector<Rated> lasting;
+  for (std::size_t i = 0; i < rated.size(); ++i) {
+    if (is_lasting[i] != 0) lasting.push_back(rated[i]);
+  }
+  return lasting;
+}
+
+/// Points of the embedding on a sphere about the place on an edge at which wires over its ends are equally long: where
+/// the sphere crosses edges, between these places in each triangle, and towards what is beyond it of the triangles at
+/// the edge.
+std::vector<SurfacePoint> CutLocus::around(std::int32_t half_edge, double radius) const {
+  const auto point = [this](std::int32_t v) -> const Vector& { return embedding_.points[v]; };
+  const std::int32_t a = mesh_.tail(half_edge), b = mesh_.tip(half_edge);
+  const double along = std::clamp(0.5 + (distance(b) - distance(a)) / (2.0 * mesh_.lengths[half_edge]), 0.0, 1.0);
+  const Vector center = (1.0 - along) * point(a) + along * point(b);
+  std::vector<SurfacePoint> found;
+  std::unordered_set<std::int32_t> seen;
+  std::vector<std::int32_t> front;
+  const auto enter = [&](std::int32_t h) {
+    if (h >= 0 && seen.insert(h / 3).second) front.push_back(h / 3);
+  };
+  enter(half_edge);
+  enter(mesh_.twins[half_edge]);
+  const std::size_t first_faces = front.size();
+  for (std::size_t next = 0; next < front.size(); ++next) {
+    const std::int32_t face = front[next];
+    std::vector<std::array<double, 3>> crossings;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int32_t h = 3 * face + static_cast<std::int32_t>(i);
+      const Vector from = point(mesh_.tail(h)) - center, step = point(mesh_.tip(h)) - point(mesh_.tail(h));
+      // |from + t step| = radius
+      const double p = from.dot(step), q = step.squaredNorm(), r = from.squaredNorm() - radius * radius;
+      const double root = p * p - q * r;
+      if (!(root >= 0 && q > 0)) continue;
+      const double low = (-p - std::sqrt(root)) / q, high = (-p + std::sqrt(root)) / q;
+      if (low > 1 || high < 0) continue;
+      enter(mesh_.twins[h]);
+      for (const double t : {low, high}) {
+        if (!(t > 0 && t < 1)) continue;
+        std::array<double, 3> at{};
+        at[i] = 1.0 - t;
+        at[(i + 1) % 3] = t;
+        crossings.push_back(at);
+      }
+    }
+    for (const std::array<double, 3>& at : crossings) found.push_back({.face = face, .barycentric = at});
+    if (crossings.size() == 2) {
+      std::array<double, 3> middle{};
+      for (std::size_t i = 0; i < 3; ++i) middle[i] = 0.5 * (crossings[0][i] + crossings[1][i]);
+      found.push_back({.face = face, .barycentric = middle});
+    }
+    if (next >= first_faces) continue;
+    const std::int32_t h = next == 0 ? half_edge : mesh_.twins[half_edge];
+    const double apart = (point(mesh_.apex(h)) - center).norm();
+    if (!(apart > radius)) continue;
+    const double t = radius / apart, at_tail = next == 0 ? 1.0 - along : along;
+    std::array<double, 3> at{};
+    at[index(h % 3)] = (1.0 - t) * at_tail;
+    at[index((h % 3 + 1) % 3)] = (1.0 - t) * (1.0 - at_tail);
+    at[index((h % 3 + 2) % 3)] = t;
+    found.push_back({.face = face, .barycentric = at});
+  }
+  return found;
+}
+
+/// Whether wires to the places around an edge leave the seed in all directions. Then the loop over it is one of many.
+bool CutLocus::is_met_from_all_sides(std::int32_t half_edge, double radius) const {
+  const std::vector<SurfacePoint> points = around(half_edge, radius);
+  const std::size_t step = points.size() / kMostAround + 1;
+  std::vector<Vector> directions;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    const IntrinsicPath path = field_.trace(points[i], task_);
+    if (path.points.empty()) continue;
+    const Vector along = direction(path);
+    if (along.isZero(0)) return false;
+    directions.push_back(along);
+    spread += along * along.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
+  std::vector<double> angles;
+  for (const Vector& along : directions) {
+    angles.push_back(std::atan2(along.dot(solver.eigenvectors().col(1)), along.dot(solver.eigenvectors().col(2))));
+  }
+  std::ranges::sort(angles);
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    const double next = i + 1 < angles.size() ? angles[i + 1] : angles.front() + 2.0 * std::numbers::pi;
+    if (next - angles[i] > kLargestGap) return false;
+  }
+  return !angles.empty();
+}
+
+/// The loop over an edge, where it is one that the surface suggests.
+std::optional<ClosedWire> CutLocus::loop(const Rated& rated) const {
+  const std::int32_t h = rated.edge.half_edge;
+  IntrinsicPath path = field_.trace(mesh_.tail(h), task_);
+  const IntrinsicPath back = field_.trace(mesh_.tip(h), task_);
+  const std::vector<Vector> there = line(path), other = line(back);
+  const double length_there = length_of(there), length_other = length_of(other);
+  const double edge = (other.back() - there.back()).norm(), whole = length_there + edge + length_other;
+  const Vector middle = point_at(there, length_there / 2), other_middle = point_at(other, length_other / 2);
+  if (!((middle - other_middle).norm() >= kLeastWidth * whole)) return std::nullopt;
+  const auto angle_to = [&](const Vector& along, const std::vector<Vector>& wire, double length) {
+    const double most = std::min(kBeginning / surface_.scale(), kMostOfWire * length);
+    const Vector back_along = point_at(wire, length - most) - wire.back();
+    return std::atan2(along.cross(back_along).norm(), along.dot(back_along));
+  };
+  const Vector along = other.back() - there.back();
+  const double excess = angle_to(along, there, length_there) + angle_to(-along, other, length_other) - rated.turn;
+  if (!(excess >= kLeastExcess)) return std::nullopt;
+  if (is_met_from_all_sides(h, kAround * whole)) return std::nullopt;
+  path.points.insert(path.points.end(), back.points.rbegin(), back.points.rend());
+  path.faces.push_back(h / 3);
+  path.faces.insert(path.faces.end(), back.faces.rbegin(), back.faces.rend());
+  path.length += mesh_.lengths[h] + back.length;
+  return ClosedWire{
+      .wire = map_wire(surface_, embedding_, path), .separates = rated.edge.separates, .turn = rated.turn};
+}
+
+/// The mean distance of a loop's points from another one.
+double mean_distance(const std::vector<Vector>& loop, const Polyline& other) {
+  const double step = length_of(loop) / kSamples;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    sum += other.distance(point_at(loop, step * static_cast<double>(i)), kInfinity);
+  }
+  return sum / kSamples;
+}
+
+std::vector<ClosedWire> CutLocus::best(std::size_t count) {
+  std::vector<ClosedWire> loops;
+  std::vector<Polyline> lines;
+  for (const Rated& rated : minima(rate(find()))) {
+    if (loops.size() == count) break;
+    task_.check(0.9);
+    if (rated.turn > kMostTurn) continue;
+    std::optional<ClosedWire> next = loop(rated);
+    if (!next) continue;
+    const std::vector<Vector>& points = next->wire.points;
+    const double apart = kLeastApart * length_of(points);
+    if (std::ranges::any_of(lines, [&](const Polyline& l) { return mean_distance(points, l) <= apart; })) continue;
+    lines.emplace_back(points);
+    loops.push_back(std::move(*next));
+  }
+  return loops;
+}
+
+}  // namespace
+
+std::vector<ClosedWire> closed_wires(const Surface& surface, const Embedding& embedding, const DistanceField& field,
+                                     std::size_t count, const Task& task) {
+  check_field(embedding, field);
+  if (field.sources().size() != 1) {
+    throw InvalidInput("closed wires lead through one seed: the field has " + std::to_string(field.sources().size()));
+  }
+  if (count == 0) return {};
+  return CutLocus(surface, embedding, field, task).best(count);
+}
+
+}  // namespace seamwire

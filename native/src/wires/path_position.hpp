@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "seamwire/embedding/embedding.hpp"
+#include "seamwire/geodesics/distance_field.hpp"
+
+namespace seamwire {
+
+/// Where a point of a path over an embedding is, in the caller's coordinates.
+Vector position(const Embedding& embedding, const PathPoint& point);
+
+/// Throws InvalidInput where a field is of another embedding, as far as sizes tell.
+void check_field(const Embedding& embedding, const DistanceField& field);
+
+}  // namespace seamwire
