@@ -142,7 +142,9 @@ def main() -> None:
         triangles = np.array([triangle.vertices[:] for triangle in mesh.loop_triangles], dtype=np.int32)
         points = np.array([vertex.co[:] for vertex in mesh.vertices], dtype=np.float64)
         measure = Measure(points, triangles)
-        ours = measure(*uvs_after(obj, bpy.ops.mesh.seamwire_suggest, limit="STRETCH", stretch=float(bound)))
+        ours = measure(
+            *uvs_after(obj, bpy.ops.mesh.seamwire_suggest, limit="STRETCH", stretch=float(bound), finish="SNAP")
+        )
         smarts = (
             measure(*uvs_after(obj, bpy.ops.uv.smart_project, angle_limit=np.radians(angle), island_margin=0.0))
             for angle in SMART_ANGLES

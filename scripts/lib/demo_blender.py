@@ -111,22 +111,27 @@ def run(folder: Path, path: Path | None) -> None:
     obj = suzanne() if path is None else load(path)
     mesh = obj.data
     mesh.calc_loop_triangles()
-    triangles = column(mesh.loop_triangles, "vertices", np.int32, 3)
-    if len(triangles) > MOST_TRIANGLES:
-        raise DemoError(f"{len(triangles)} triangles: the demo takes {MOST_TRIANGLES} at most")
-    points = column(mesh.vertices, "co", np.float32, 3).astype(np.float64)
-    tell(f"{obj.name}: {len(points)} vertices, {len(mesh.polygons)} faces")
+    if len(mesh.loop_triangles) > MOST_TRIANGLES:
+        raise DemoError(f"{len(mesh.loop_triangles)} triangles: the demo takes {MOST_TRIANGLES} at most")
+    tell(f"{obj.name}: {len(mesh.vertices)} vertices, {len(mesh.polygons)} faces")
 
     started = time.monotonic()
     network = suggest(obj)
-    across = sum(wire.along == "SURFACE" for wire in network.wires)
+    if any(wire.is_cut for wire in network.wires):
+        where = f"cut into the faces, {len(mesh.vertices)} vertices now"
+    else:
+        across = any(wire.along == "SURFACE" for wire in network.wires)
+        where = "across the surface" if across else "along edges"
     tell(
-        f"{len(network.wires)} wires {'across the surface' if across else 'along edges'}, {network.islands.max() + 1} islands: "
+        f"{len(network.wires)} wires {where}, {network.islands.max() + 1} islands: "
         f"mesh.seamwire_suggest took {time.monotonic() - started:.1f} s"
     )
     bpy.ops.object.mode_set(mode="EDIT")
     unwrap()
     bpy.ops.object.mode_set(mode="OBJECT")
+    mesh.calc_loop_triangles()
+    points = column(mesh.vertices, "co", np.float32, 3).astype(np.float64)
+    triangles = column(mesh.loop_triangles, "vertices", np.int32, 3)
     ratio = stretch(obj, points, triangles)
     tell(
         f"unwrapped; stretch {np.median(ratio):.2f} in the median, {np.percentile(ratio, 95):.2f} for 95 % of the triangles"

@@ -27,7 +27,7 @@ FINISH_ITEMS = (
     ("SLIDE", "Slide", "The edges that lie nearest to it, with their vertices slid onto it", 2),
     ("CUT", "Cut", "The wire itself, cut into the faces", 1),
 )
-TOOL_FINISH_ITEMS = (
+AUTO_FINISH_ITEMS = (
     ("AUTO", "Auto", "Cut where the mesh is of many triangles, as scans and sculpts are; else snap", 3),
     *FINISH_ITEMS,
 )
@@ -84,7 +84,7 @@ class SeamwireSettings(bpy.types.PropertyGroup):
     finish: bpy.props.EnumProperty(
         name="Finish",
         description="What becomes the seam of a wire across the surface when its chain ends",
-        items=TOOL_FINISH_ITEMS,
+        items=AUTO_FINISH_ITEMS,
         default="AUTO",
         update=_changed,
     )

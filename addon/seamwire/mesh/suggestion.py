@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core import native
 from ..core.defaults import CLAMP_PERCENTILE, STRENGTHS
-from ..core.suggestion import best_along, narrowed, planned_wires, spread_of, spreads
+from ..core.suggestion import best_along, best_finish, narrowed, planned_wires, spread_of, spreads
 from .object_session import ObjectSession, mirror_axes
 from .seam_islands import Worst, stretch_of, worst_island
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import seamwire_core
     from numpy.typing import NDArray
 
-    from ..core.network import Along, Wire
+    from ..core.network import Along, Finish, Wire
 
 
 _MORE_SEEDS = 120
@@ -42,8 +42,8 @@ class Suggestion:
         Whether they come in pairs where the mesh is symmetric.
     seeds
         How many seeds there are to begin with.
-    cut
-        Whether wires across the surface are to be cut into the faces.
+    finish
+        What becomes the seam of wires across the surface; None: as is best for the mesh.
 
     Attributes
     ----------
@@ -60,13 +60,15 @@ class Suggestion:
         Where no edge is visible, or the compiled part is missing.
     """
 
-    def __init__(self, obj: bpy.types.Object, along: Along | None, symmetric: bool, seeds: int, cut: bool) -> None:
+    def __init__(
+        self, obj: bpy.types.Object, along: Along | None, symmetric: bool, seeds: int, finish: Finish | None
+    ) -> None:
         self._core = native.load()
         self.mesh = ObjectSession(obj)
         self.along: Along = along or best_along(self.mesh.arrays.polygons)
         self._symmetric = symmetric
         self._seeds, self._most_seeds = seeds, seeds << _MOST_DOUBLINGS
-        self._cut = cut and self.along == "SURFACE"
+        self.finish: Finish = finish or best_finish(self.mesh.arrays.polygons)
         self._mirror = mirror_axes(obj.data)
         self._planner: seamwire_core.SeamPlanner | None = None
         self._limits: NDArray[np.float64] | None = None
@@ -104,7 +106,8 @@ class Suggestion:
         assert self._planner is not None
         if self._limits is None:
             self._limits = np.full(len(self.mesh.arrays.triangles), max_spread)
-        self.plan = self._planner.plan(max_spread=self._limits, islands=islands, may_start_on_others=not self._cut)
+        cuts = self.along == "SURFACE" and self.finish == "CUT"
+        self.plan = self._planner.plan(max_spread=self._limits, islands=islands, may_start_on_others=not cuts)
         self.wires = planned_wires(self.plan, self.along, STRENGTHS[self.along])
 
     def write(self) -> None:

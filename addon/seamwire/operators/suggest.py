@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ..mesh.settings import ALONG_ITEMS, FINISH_ITEMS
+from ..mesh.settings import ALONG_ITEMS, AUTO_FINISH_ITEMS
 from .cut import cut_wires
 from .report import count, in_edit_mode
 from .slide import slide_wires
@@ -78,7 +78,10 @@ class MESH_OT_seamwire_suggest(bpy.types.Operator):
         default="AUTO",
     )
     finish: bpy.props.EnumProperty(
-        name="Finish", description="What becomes the seam of a wire across the surface", items=FINISH_ITEMS
+        name="Finish",
+        description="What becomes the seam of a wire across the surface",
+        items=AUTO_FINISH_ITEMS,
+        default="AUTO",
     )
     symmetric: bpy.props.BoolProperty(
         name="Symmetric", description="Wires come in pairs where the mesh is symmetric", default=True
@@ -180,11 +183,11 @@ class MESH_OT_seamwire_suggest(bpy.types.Operator):
         from ..mesh.suggestion import Suggestion
 
         seeds = seeds_for(self._spread, self._islands)
-        along = None if self.along == "AUTO" else self.along
+        along, finish = (None if chosen == "AUTO" else chosen for chosen in (self.along, self.finish))
         found, problem = [], "No face is visible"
         for obj in context.objects_in_mode_unique_data:
             try:
-                suggestion = Suggestion(obj, along, self.symmetric, seeds, self.finish == "CUT")
+                suggestion = Suggestion(obj, along, self.symmetric, seeds, finish)
             except NativeError as error:
                 self.report({"ERROR"}, str(error))
                 return []
@@ -236,17 +239,17 @@ class MESH_OT_seamwire_suggest(bpy.types.Operator):
             self.report({"INFO"}, "The islands are discs already, and within the limit: nothing to add")
             return {"CANCELLED"}
         islands = sum(suggestion.plan.island_count for suggestion in suggestions)
-        across = {s.mesh: s.wires for s in suggestions if s.along == "SURFACE" and s.wires}
-        if self.finish == "CUT" and across:
-            for suggestion in suggestions:
-                if suggestion.mesh in across:
+        across = [suggestion for suggestion in suggestions if suggestion.along == "SURFACE" and suggestion.wires]
+        to_cut = {suggestion.mesh: suggestion.wires for suggestion in across if suggestion.finish == "CUT"}
+        if to_cut:
+            for suggestion in across:
+                if suggestion.mesh in to_cut:
                     suggestion.take_back()
-            if cut_wires(self, context, across) == {"CANCELLED"}:
+            if cut_wires(self, context, to_cut) == {"CANCELLED"}:
                 for suggestion in suggestions:
                     suggestion.take_back()
                 return {"CANCELLED"}
-        if self.finish == "SLIDE" and across:
-            slide_wires(across)
+        slide_wires({suggestion.mesh: suggestion.wires for suggestion in across if suggestion.finish == "SLIDE"})
         problem = self._unwrap(context)
         if problem:
             self.report({"WARNING"}, problem)
