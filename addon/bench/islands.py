@@ -5,6 +5,7 @@ Each is to stretch no island more than STRETCH times: the means over its area of
 other in the UV map, and of how many times larger or smaller than the mean of the mesh. Ours takes that bound; of the others the coarsest
 setting is used that keeps it, or comes nearest to it. A line each: islands, length of the seams (of the model
 scaled to the unit cube), mean stretch by angle and by area, that of the worst island by either, and seconds, unwrapping included.
+With ``--pictures`` before MESH, a picture a mesh in build/demo, the three from left to right.
 """
 
 import sys
@@ -14,13 +15,16 @@ from dataclasses import dataclass
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
+sys.path.insert(0, str(Path(__file__).parents[2] / "batch"))
 
 import addon_utils
 import bpy
 import numpy as np
 from bench_meshes import load
 from numpy.typing import NDArray
+from seamwire_batch import pictures
 
+PICTURES = Path(__file__).parents[2] / "build/demo"
 SMART_ANGLES = (89.0, 80.0, 66.0, 50.0, 35.0, 20.0)
 XATLAS_COSTS = (32.0, 16.0, 8.0, 4.0, 2.0, 1.0, 0.5)
 
@@ -35,6 +39,7 @@ class Result:
     area: float
     worst: float
     seconds: float
+    labels: NDArray[np.int32]
 
     def line(self) -> str:
         """Return it as a line of the table."""
@@ -79,7 +84,7 @@ class Measure:
         angle, area = (2.0 ** float(np.average(one, weights=islands.areas)) for one in (islands.angle, islands.area))
         worst = 2.0 ** float(np.maximum(islands.angle, islands.area).max())
         length = float(np.linalg.norm(end - begin, axis=1).sum() * self._scale)
-        return Result(len(islands.areas), length, angle, area, worst, seconds)
+        return Result(len(islands.areas), length, angle, area, worst, seconds, labels.astype(np.int32))
 
 
 def first_within(results: Iterable[Result], bound: float) -> Result:
@@ -128,10 +133,29 @@ def xatlas_uvs(points: NDArray[np.float64], triangles: NDArray[np.int32], cost: 
     return uvs[indices.ravel()].astype(np.float32), seconds
 
 
+def draw(name: str, results: Iterable[Result], triangles: NDArray[np.int32]) -> None:
+    """Render the islands of each result side by side."""
+    tiles = []
+    for result in results:
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        obj = load(name)
+        network = pictures.Network([], result.labels)
+        scene = pictures.Scene(obj, network, triangles, polygons_of(obj.data), seeds=False)
+        tiles.append(scene.islands(PICTURES / "islands.png"))
+    pictures.save(np.concatenate(tiles, axis=1), PICTURES / f"islands-{Path(name).stem}.png")
+
+
+def polygons_of(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
+    """Return the polygon of each of a mesh's triangles, (m,)."""
+    mesh.calc_loop_triangles()
+    return np.array([triangle.polygon_index for triangle in mesh.loop_triangles], dtype=np.int32)
+
+
 def main() -> None:
     """Measure every mesh named on the command line."""
     bound, *names = sys.argv[sys.argv.index("--") + 1 :]
-    for name in names:
+    drawn = names[0] == "--pictures"
+    for name in names[drawn:]:
         bpy.ops.wm.read_factory_settings(use_empty=True)
         addon_utils.enable("seamwire", default_set=True)
         obj = load(name)
@@ -152,8 +176,11 @@ def main() -> None:
         atlases = (measure(*xatlas_uvs(points, triangles, cost)) for cost in XATLAS_COSTS)
         print(f"{Path(name).stem}, {len(triangles)} triangles, bound {bound}")
         print(f"   ours              {ours.line()}")
-        print(f"   Smart UV Project  {first_within(smarts, float(bound)).line()}")
-        print(f"   xatlas            {first_within(atlases, float(bound)).line()}", flush=True)
+        smart, atlas = (first_within(results, float(bound)) for results in (smarts, atlases))
+        print(f"   Smart UV Project  {smart.line()}")
+        print(f"   xatlas            {atlas.line()}", flush=True)
+        if drawn:
+            draw(name, (ours, smart, atlas), triangles)
 
 
 main()

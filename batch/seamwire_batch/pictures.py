@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from seamwire.core.network import Wire
 
+FRONT, BACK = (-60.0, 18.0), (125.0, 18.0)
+"""Azimuth and elevation of the cameras, degrees."""
 BACKDROP = (0.93, 0.94, 0.95)
 CLAY = (0.62, 0.64, 0.68)
 WIRE = (0.95, 0.22, 0.03)
@@ -105,13 +107,12 @@ class Scene:
         """Render everything into NAME-*.png, and all of it side by side into NAME.png."""
         folder.mkdir(parents=True, exist_ok=True)
         clay, islands, checked = self._clay(), self._island_material(), self._checked()
-        front, back = (-60.0, 18.0), (125.0, 18.0)
         tiles = [
-            ("wires-front", clay, front, True),
-            ("islands-front", islands, front, False),
-            ("wires-back", clay, back, True),
-            ("islands-back", islands, back, False),
-            ("checked", checked, front, False),
+            ("wires-front", clay, FRONT, True),
+            ("islands-front", islands, FRONT, False),
+            ("wires-back", clay, BACK, True),
+            ("islands-back", islands, BACK, False),
+            ("checked", checked, FRONT, False),
         ]
         images = {}
         for tile, material, view, with_wires in tiles:
@@ -127,13 +128,18 @@ class Scene:
         for tile in (*images, ""):
             tell(str(folder / f"{name}{'-' if tile else ''}{tile}.png"))
 
+    def islands(self, path: Path) -> NDArray[np.float32]:
+        """Render the islands in their colors from the front into a file, and return the picture, bottom row first."""
+        self._show(self._island_material(), False)
+        self._look_from(*FRONT)
+        return self._render(path)
+
     def strip(self, path: Path) -> None:
         """Render the model with its seams, with a checked texture, and its layout side by side into a file."""
-        view = (-60.0, 18.0)
         tiles = []
         for material, with_wires in ((self._island_material(), True), (self._checked(), False)):
             self._show(material, with_wires)
-            self._look_from(*view)
+            self._look_from(*FRONT)
             tiles.append(self._render(path))
         tiles.append(self._uv_layout(path))
         save(np.concatenate(tiles, axis=1), path)
