@@ -191,6 +191,27 @@ def test_parts_that_do_not_hang_together_are_told() -> None:
     assert len(found.lost) == 1 and "no wire leads from vertex" in found.lost[0]
 
 
+def test_what_hangs_together_stays_on_one_part() -> None:
+    """Of two tubes, one in the other, the outer one was thicker: some of it is nearer to the inner one now."""
+    ends_there = [ring * 16 for ring in range(5, 30)]
+    drawn = NetworkFile.of(Network((wire(SOURCE, ends_there),)), SOURCE.points, SOURCE.triangles, SOURCE.edges)
+    inner, outer = tube(16, 41), tube(16, 41)
+    closer = np.where(np.abs(outer.points[:, :1] - 0.9) < 0.2, 1.2, 1.03)
+    inside = np.where(np.abs(outer.points[:, :1] - 0.9) < 0.2, 1.02, 0.9)
+    count = len(inner.points)
+    target = Shape(
+        np.concatenate([inner.points, outer.points]),
+        np.concatenate([inner.triangles, outer.triangles + count]).astype(np.int32),
+        np.concatenate([inner.edges, outer.edges + count]).astype(np.int32),
+    )
+    target.points[:count, 1:] *= inside
+    target.points[count:, 1:] *= closer
+    found = by_surface(drawn, target, align=False)
+    assert found.lost == []
+    assert all(min(one.vertices) >= count for one in found.wires), "all on the outer one"
+    assert pieces(found) == 1
+
+
 @pytest.mark.parametrize("bend", [0.2, 0.4])
 def test_pairs_find_another_pose_with_another_topology(file: NetworkFile, bend: float) -> None:
     straight, target = tube(24, 61), tube(24, 61, bend)

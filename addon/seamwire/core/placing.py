@@ -214,8 +214,15 @@ class Surface:
         lengths = np.linalg.norm(normals, axis=1, keepdims=True)
         self._normals = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0.0)
 
+    @cached_property
+    def parts(self) -> NDArray[np.int32]:
+        """(m,) which of the parts that hang together each triangle belongs to."""
+        shape, core = self._shape, native.load()
+        whole = core.Surface(shape.places, shape.triangles, shape.edges)
+        return np.asarray(core.face_segments(whole, np.empty((0, 2), dtype=np.int32)))
+
     def nearest(
-        self, places: NDArray[np.float64], normals: NDArray[np.float64] | None = None
+        self, places: NDArray[np.float64], normals: NDArray[np.float64] | None = None, part: int | None = None
     ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
         """Return the triangle that is nearest to each place, its point there, and how far away that is; (k,), (k, 3), (k,).
 
@@ -225,6 +232,8 @@ class Surface:
             (k, 3) in object coordinates.
         normals
             (k, 3) triangles that face away from these do not count, unless all do: thin cloth has two sides.
+        part
+            The only one of the parts that counts; None: all.
         """
         triangles = np.empty(len(places), dtype=np.int64)
         found = np.empty((len(places), 3))
@@ -237,6 +246,9 @@ class Surface:
                 facing = normals[start : start + step] @ self._normals.T >= 0.0
                 facing[~facing.any(axis=1)] = True
                 middle[~facing] = np.inf
+            if part is not None:
+                middle[:, self.parts != part] = np.inf
+                middle[np.isinf(middle).all(axis=1)] = np.where(self.parts == part, 0.0, np.inf)
             # A triangle lies within its radius of its middle: what is farther than the nearest middle at least is not looked at.
             reach = (middle + self._radii).min(axis=1)
             for row in range(len(some)):
@@ -289,7 +301,11 @@ class Surface:
         return float(gaps[gaps <= np.quantile(gaps, _TRIMMED)].mean())
 
     def place(
-        self, points: NDArray[np.float64], normals: NDArray[np.float64], spacing: NDArray[np.float64] | float = 0.0
+        self,
+        points: NDArray[np.float64],
+        normals: NDArray[np.float64],
+        spacing: NDArray[np.float64] | float = 0.0,
+        part: int | None = None,
     ) -> Placed:
         """Place points that lie near.
 
@@ -299,13 +315,15 @@ class Surface:
             (k, 3) in object coordinates.
         spacing
             (k,) how long the edges are there that they came from.
+        part
+            As `nearest` takes it.
 
         Returns
         -------
         Placed
             How far the surface is, in edges, and whether it faces the same way, say how sure each is.
         """
-        triangles, found, gaps = self.nearest(points, normals)
+        triangles, found, gaps = self.nearest(points, normals, part)
         edges = np.maximum(self._shape.spacing[self._shape.triangles[triangles]].mean(axis=1), spacing)
         near = 1.0 / (1.0 + (gaps / np.maximum(edges, 1e-300)) ** 2)
         agree = np.einsum("ij,ij->i", normals, self._normals[triangles])

@@ -174,17 +174,18 @@ def by_surface(
         moved = Moments(way.of(moments.middle[None])[0], way.of_normals(moments.axes))
         way = surface.align(points, moved).after(way)
 
-    def place(course: Course, axes: tuple[int, ...]) -> Placed:
+    def place(course: Course, axes: tuple[int, ...], part: int | None = None) -> Placed:
         own = way
         for axis in axes:
             own = own.after(Similarity.mirroring(axis))
-        return surface.place(own.of(course.places), own.of_normals(course.normals), own.scale * _spacing(course))
+        spacing = own.scale * _spacing(course)
+        return surface.place(own.of(course.places), own.of_normals(course.normals), spacing, part)
 
     def stroke(points: NDArray[np.float64]) -> Placed:
         moved = way.of(points)
         return surface.place(moved, np.zeros_like(moved), float(target.spacing.mean()))
 
-    return _Tracing(file, target, surface, live or LiveMaker(target)).run(place, stroke)
+    return _Tracing(file, target, surface, live or LiveMaker(target)).run(place, stroke, place)
 
 
 def by_landmarks(
@@ -296,8 +297,9 @@ class _Tracing:
         self,
         place: Callable[[Course, tuple[int, ...]], Placed],
         place_stroke: Callable[[NDArray[np.float64]], Placed],
+        place_on: Callable[[Course, tuple[int, ...], int], Placed] | None = None,
     ) -> Transfer:
-        """Draw all; parameters say where a course's vertices and a stroke's points are."""
+        """Draw all; parameters say where a course's vertices and a stroke's points are, and where on one part of the target alone."""
         result = self._result
         for number, record in enumerate(self._file.strokes, start=1):
             stroke = self._stroke(record, place_stroke(unpacked(record["points"])))
@@ -306,14 +308,42 @@ class _Tracing:
             else:
                 result.strokes.append(stroke)
         self._scribbles = [for_library(stroke) for stroke in result.strokes]
-        pieces = []
-        for course in self._file.courses:
-            for axes in _images(course.record["mirror"]):
-                pieces.append(self._placed(course, axes, place(course, axes)))
+        runs = [(course, axes) for course in self._file.courses for axes in _images(course.record["mirror"])]
+        placed = [place(*run) for run in runs]
+        if place_on is not None:
+            for group in _connected(runs):
+                self._keep_together(group, runs, placed, place_on)
+        pieces = [self._placed(*run, found) for run, found in zip(runs, placed, strict=True)]
         self._find_seeds(pieces)
         for piece in self._cut(pieces):
             result.wires += self._wires(piece)
         return result
+
+    def _keep_together(
+        self,
+        group: list[int],
+        runs: list[tuple[Course, tuple[int, ...]]],
+        placed: list[Placed],
+        place_on: Callable[[Course, tuple[int, ...], int], Placed],
+    ) -> None:
+        """Place what hangs together on the one part of the target that has most of it, as far as it has a place there."""
+        parts = self._surface.parts
+        known = [placed[row].triangles[placed[row].confidence >= _LEAST] for row in group]
+        counts = np.bincount(parts[np.concatenate(known)])
+        if np.count_nonzero(counts) < 2:
+            return
+        part = int(counts.argmax())
+        for row in group:
+            before = placed[row]
+            if (parts[before.triangles] == part).all():
+                continue
+            there = place_on(*runs[row], part)
+            moved = (parts[before.triangles] != part) & (there.confidence >= _LEAST)
+            placed[row] = Placed(
+                np.where(moved, there.triangles, before.triangles),
+                np.where(moved[:, None], there.places, before.places),
+                np.where(moved, there.confidence, before.confidence),
+            )
 
     def _placed(self, course: Course, axes: tuple[int, ...], placed: Placed) -> _Piece:
         vertices = list(course.record["vertices"])
@@ -530,6 +560,23 @@ class _Tracing:
             float(record["eta"]), int(record["rings"]), None if record["radius"] is None else float(record["radius"]),
         )  # fmt: skip
         return on_mesh(stroke, shape.points, shape.triangles)
+
+
+def _connected(runs: Sequence[tuple[Course, tuple[int, ...]]]) -> list[list[int]]:
+    """Return which courses, by their rows, hang together on the mesh that they come from."""
+    group_of: dict[Key, list[int]] = {}
+    groups: dict[int, list[int]] = {}
+    for row, (course, axes) in enumerate(runs):
+        merged = [row]
+        for vertex in course.record["vertices"]:
+            other = group_of.get((axes, vertex))
+            if other is not None and other is not merged:
+                merged = [*other, *(one for one in merged if one not in other)]
+        for one in merged:
+            groups[one] = merged
+            for vertex in runs[one][0].record["vertices"]:
+                group_of[runs[one][1], vertex] = merged
+    return list({id(group): group for group in groups.values()}.values())
 
 
 def _images(axes: Sequence[int]) -> list[tuple[int, ...]]:
