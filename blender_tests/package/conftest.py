@@ -11,6 +11,9 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 from blender import Blender
 
+USER = "Анна Müller"
+"""The user's folder: many have such letters, and spaces."""
+
 
 @pytest.fixture(scope="session")
 def package() -> Path:
@@ -21,13 +24,13 @@ def package() -> Path:
 @pytest.fixture
 def blender(tmp_path: Path) -> Blender:
     """A Blender that nobody used before."""
-    return Blender(Path(os.environ["BLENDER"]), os.environ["SEAMWIRE_BLENDER_NAME"], tmp_path / "user")
+    return Blender(Path(os.environ["BLENDER"]), os.environ["SEAMWIRE_BLENDER_NAME"], tmp_path / USER)
 
 
 @pytest.fixture(scope="module")
 def installed(tmp_path_factory: pytest.TempPathFactory, package: Path) -> Blender:
     """A Blender with the package installed; tests must leave it so."""
-    user = tmp_path_factory.mktemp("installed")
+    user = tmp_path_factory.mktemp("installed") / USER
     blender = Blender(Path(os.environ["BLENDER"]), os.environ["SEAMWIRE_BLENDER_NAME"], user)
     blender.install(package)
     return blender
