@@ -55,9 +55,13 @@ print(Path(native.load(folder, wheels).__file__).is_relative_to(folder))
 """
 
 
+TEMPORARY = "Анна Müller/Temp"
+"""It is below the user's folder, whose name has any letters."""
+
+
 def run(code: str, tmp_path: Path) -> list[str]:
     """Return the lines that the code printed in a Python with a temporary folder of its own."""
-    wheels, folder, temporary = tmp_path / "Räder und Nähte", tmp_path / "_native", tmp_path / "Temp"
+    wheels, folder, temporary = tmp_path / "Räder und Nähte", tmp_path / "_native", tmp_path / TEMPORARY
     for made in (wheels, temporary / "seamwire_core-former"):
         made.mkdir(parents=True)
     shutil.copy(os.environ["SEAMWIRE_WHEEL"], wheels)
@@ -75,7 +79,7 @@ def test_an_update_of_what_is_loaded_asks_for_a_restart(tmp_path: Path) -> None:
     assert in_use == "it is in use"
     assert "was updated to 9.9.9 while its version" in sentence
     assert "restart Blender" in sentence
-    (copy,) = (tmp_path / "Temp").iterdir()
+    (copy,) = (tmp_path / TEMPORARY).iterdir()
     assert copy.name != "seamwire_core-former", "copies that nobody uses are removed"
 
 

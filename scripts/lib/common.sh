@@ -9,6 +9,8 @@ ROOT=$PWD
 # Debian's own tools, whatever stands before them: the add-on's module must be built for the Python that Blender embeds.
 export PATH=/usr/bin:/bin:/usr/sbin:/sbin:$PATH
 unset PYTHONPATH PYTHONHOME
+# Files may have any letters, and programs speak English, also where no language is set, as in a container.
+export LC_ALL=C.UTF-8
 PYTHON=/usr/bin/python3
 VENV=$ROOT/.venv
 
