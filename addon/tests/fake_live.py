@@ -45,6 +45,31 @@ class FakeChain:
     closed: bool = False
 
 
+@dataclass
+class FakePiece:
+    """A piece of a closed cut."""
+
+    points: NDArray[np.float64]
+    vertices: NDArray[np.int32]
+
+
+@dataclass
+class FakeCut:
+    """A closed cut."""
+
+    pieces: list[FakePiece]
+    joints: list[tuple[int, tuple[float, float, float]]]
+    separates: bool
+
+
+@dataclass
+class FakeCuts:
+    """The closed cuts through a point."""
+
+    cuts: list[FakeCut]
+    final: bool
+
+
 def grid_edges(size: int) -> NDArray[np.int32]:
     """Return the edges of that grid."""
     numbers = np.arange(size * size).reshape(size, size)
@@ -71,7 +96,8 @@ class FakeLive:
 
     The first is shorter, unless `shorter` says otherwise. Vertices in `islands` are reached by no wire. Forks begin as
     `fork_ready` says; a new metric makes it ready as `metric_ready` says, and until it is the wires are `stale` ones.
-    Loops go straight on at their corners, as around a limb, or turn off there, as `boxes`. Across the surface the
+    Loops go straight on at their corners, as around a limb, or turn off there, as `boxes`. Closed cuts may be there `early`,
+    before they are final. Across the surface the
     embeddings leave `holes`.
     """
 
@@ -87,6 +113,8 @@ class FakeLive:
     metric_ready: tuple[bool, bool] = (True, True)
     stale: bool = False
     boxes: bool = False
+    early: bool = False
+    through: list[object] = field(default_factory=list)
     rings: dict[tuple[int, int], int] = field(default_factory=dict)
     forks: list[FakeLive] = field(default_factory=list)
     metrics: list[tuple[str, float | None, float | None]] = field(default_factory=list)
@@ -136,6 +164,31 @@ class FakeLive:
             for way in (ring, ring[::-1]):
                 self.rings |= {(way[i - 2], way[i - 1]): way[i] for i in range(len(way))}
         return FakeChain(np.array(ring, dtype=np.int32))
+
+    def closed_wires(self, through: object) -> FakeCuts:
+        """Squares of two cells, to the right of a vertex and to its left; the second does not separate. On `islands` none."""
+        if not 0 <= through < self.size**2:
+            raise ValueError(f"vertex {through} is not part of the surface")
+        self.through.append(through)
+        if not (all(self.ready) or self.early) or through in self.islands:
+            return FakeCuts([], all(self.ready))
+        return FakeCuts([self._square(through, 1), self._square(through, -1)], all(self.ready))
+
+    def _square(self, corner: int, dx: int) -> FakeCut:
+        up = self.size if corner + 2 * self.size < self.size**2 else -self.size
+        ring = [
+            corner,
+            *(corner + dx * x + up * y for x, y in ((1, 0), (2, 0), (2, 1), (2, 2), (1, 2), (0, 2), (0, 1))),
+        ]
+        ring = [*ring, corner]
+        chains = [ring[:4], ring[3:7], ring[6:]]
+        triangles = grid_triangles(self.size).tolist()
+        joints = []
+        for chain in chains[:2]:
+            at = next(i for i, corners in enumerate(triangles) if chain[-1] in corners)
+            joints.append((at, tuple(0.8 if v == chain[-1] else 0.1 for v in triangles[at])))
+        pieces = [FakePiece(grid_points(self.size)[chain], np.array(chain, dtype=np.int32)) for chain in chains]
+        return FakeCut(pieces, joints, separates=dx > 0)
 
     def extend_straight(self, edge: tuple[int, int], stops: list[int]) -> FakeChain:
         if isinstance(stops, tuple) and edge in self.rings:  # asked without a list of stops: for a loop, not for a wire

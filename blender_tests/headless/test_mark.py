@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What ``mesh.seamwire_mark`` marks, and that it changes nothing else."""
 
+import collections
+import functools
+
 import bmesh
 import bpy
 import numpy as np
@@ -367,6 +370,32 @@ def test_loops_are_taken_alone_or_beside_chains() -> None:
     assert seams(obj) == middle
     with pytest.raises(RuntimeError, match="not an edge"):
         bpy.ops.mesh.seamwire_mark(loops="7")
+
+
+def test_across_the_surface_closed_cuts_are_taken_through_vertices_and_places() -> None:
+    bpy.ops.mesh.primitive_cylinder_add(vertices=24, radius=0.3, depth=4.0, end_fill_type="TRIFAN")
+    obj = bpy.context.active_object
+    edit()
+    bpy.ops.mesh.subdivide(number_cuts=15)
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.index_update()
+    middle = next(v.index for v in bm.verts if abs(v.co.z) < 1e-6)
+    height = {v.index: v.co.z for v in bm.verts}
+    mark = functools.partial(bpy.ops.mesh.seamwire_mark, along="SURFACE")
+    assert mark(loops=f"{middle} (0.3 0 1.2)") == {"FINISHED"}
+    marked = seams(obj)
+    for low, high in ((-0.4, 0.4), (0.8, 1.6)):
+        ring = [edge for edge in marked if all(low < height[v] < high for v in edge)]
+        count = collections.Counter(v for edge in ring for v in edge)
+        assert len(ring) >= 24
+        assert set(count.values()) == {2}, "it is closed"
+    tip = next(v.index for v in bmesh.from_edit_mesh(obj.data).verts if v.co.xy.length < 1e-6)
+    with pytest.raises(RuntimeError, match=f"Vertex {tip}: The shape suggests no closed cut here"):
+        mark(loops=str(tip))
+    with pytest.raises(RuntimeError, match="not through edge 3-4"):
+        mark(loops="3-4")
+    with pytest.raises(RuntimeError, match="leave out what to take"):
+        mark(loops="3", take="STRIP")
 
 
 def test_live_unwrap_follows_the_seams_and_leaves_the_selection() -> None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .network import Wire, undirected
+from .offers import Offers
 from .stops import ranked
 from .symmetry import among
 
@@ -35,7 +36,7 @@ _MOST_PIECES = 64
 """Straight pieces of a loop that are looked at: over triangles it may have as many as edges."""
 
 
-class LoopOffers:
+class LoopOffers(Offers):
     """What one click on the edge under the cursor may take, while that is asked for.
 
     Parameters
@@ -50,69 +51,20 @@ class LoopOffers:
         Finds the borders of flat regions; None: they are not offered.
     """
 
+    SINGLE = "Nothing else runs through this edge"
+
     def __init__(
         self, engines: Engines, stops: Stops, points: NDArray[np.float64], flat: FlatRegions | None = None
     ) -> None:
+        super().__init__()
         self._engines = engines
         self._stops = stops
         self._points = points
         self._flat = flat
-        self.wanted = False
-        """Whether the offers are asked for."""
-        self.edge: Pick | None = None
-        """What they are for, an edge with its smaller vertex first."""
-        self.offers: tuple[Wire, ...] = ()
-        """No two alike, the likeliest first; empty: not computed."""
-        self.choice = 0
-        """The one that is shown."""
-        self.final = True
-        """Whether nothing is computed for them any more."""
 
-    @property
-    def wire(self) -> Wire | None:
-        """The offer that is shown."""
-        return self.offers[self.choice] if self.offers else None
-
-    @property
-    def kinds(self) -> tuple[LoopKind, ...]:
-        """What the offers are."""
-        return tuple(offer.kind for offer in self.offers if offer.kind is not None)
-
-    @property
-    def missing(self) -> bool:
-        """Whether offers are asked for that are not there."""
-        return self.wanted and not self.offers
-
-    def clear(self) -> None:
-        """Show none, and forget what was chosen; what is asked for is asked for still."""
-        self.edge, self.offers, self.choice, self.final = None, (), 0, True
-
-    def stop_waiting(self) -> None:
-        """Let nothing be computed any more, unless it is asked for and not there."""
-        self.final = self.final or not self.missing
-
-    def aim(self, edge: Edge | None) -> bool:
-        """Ask for the offers for an edge, or for none; return whether others vanish because of that."""
-        self.wanted = edge is not None
-        if self.edge is None or (edge is not None and self.edge == undirected(edge)):
-            return False
-        vanish = bool(self.offers)
-        self.clear()
-        return vanish
-
-    def show(self, pick: Pick, offers: tuple[Wire, ...]) -> bool:
-        """Show what was found for a pick; return whether there is anything."""
-        self.edge, self.offers = undirected(pick), offers
-        return bool(offers)
-
-    def swap(self) -> str:
-        """Show the next offer; return why that cannot be, else nothing."""
-        if not self.offers:
-            return "There is no loop yet"
-        if len(self.offers) == 1:
-            return "Nothing else runs through this edge"
-        self.choice = (self.choice + 1) % len(self.offers)
-        return ""
+    def takes(self, pick: Pick) -> bool:
+        """Whether it is an edge."""
+        return isinstance(pick, tuple)
 
     def flat_border(self, edge: Edge) -> set[Edge]:
         """Return the likeliest border of a flat region beside an edge, by its edges; empty: there is none."""

@@ -72,9 +72,10 @@ End = Literal["start", "end"]
 FOLLOWS: tuple[Literal["min", "max"], ...] = ("min", "max")
 """What the library calls its wires, by `Wire.follow`: they follow the direction of least curvature, that of most."""
 
-LoopKind = Literal["CLOSED", "STRIP", "PAST", "WHOLE", "FLAT"]
-"""What a click on an edge takes: the closed loop of the metric, the straight strip up to what is there already, the same past
-poles, the whole strip, the border of a flat region."""
+LoopKind = Literal["CLOSED", "STRIP", "PAST", "WHOLE", "FLAT", "ACROSS", "HANDLE"]
+"""What a click takes as a whole. On an edge: the closed loop of the metric, the straight strip up to what is there already, the same
+past poles, the whole strip, the border of a flat region. On a point of the surface: a closed cut that separates, or one around or
+through a handle, which does not."""
 
 LOOP_NAMES: Mapping[LoopKind, str] = {
     "CLOSED": "closed loop",
@@ -82,6 +83,8 @@ LOOP_NAMES: Mapping[LoopKind, str] = {
     "PAST": "strip past poles",
     "WHOLE": "whole strip",
     "FLAT": "border of flat region",
+    "ACROSS": "closed cut",
+    "HANDLE": "cut of a handle",
 }
 """What the artist reads of them."""
 

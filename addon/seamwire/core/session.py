@@ -26,6 +26,7 @@ from .seed_drag import SeedDrag
 from .solver import Engines
 from .stops import Stops
 from .strokes import OffMeshError, Scribble, drawn, for_library, through_vertices
+from .surface_loops import SurfaceLoops
 from .symmetry import Symmetry
 
 if TYPE_CHECKING:
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from .network import Along, Edge, Finish, LoopKind, Pick
+    from .offers import Offers
     from .solver import LiveWire, MetricName
     from .strokes import ActsOn
 
@@ -59,7 +61,7 @@ class Session:
     Parameters
     ----------
     make_live
-        Makes the live wires for one way of running; called once for each way that is used.
+        Makes the live wires for one way of running; called once for each way that is used, and once for closed cuts.
     points
         (n, 3) coordinates of the mesh's vertices.
     along
@@ -115,7 +117,9 @@ class Session:
         self._history = History()
         self._candidates = CandidateWires(self._engines, points)
         flat = None if triangles is None or edges is None else FlatRegions(points, triangles, edges)
-        self._loops = LoopOffers(self._engines, self._stops, points, flat)
+        self._edge_loops = LoopOffers(self._engines, self._stops, points, flat)
+        self._cuts = SurfaceLoops(self._engines, triangles)
+        self._told_none = False
         self._extension = Extension(self._engines, self._stops, points)
         self._drag: SeedDrag | None = None
         self._retraces = Retraces(self._engines, points)
@@ -140,14 +144,14 @@ class Session:
         snap
             What is under the cursor; None: nothing. A pick alone stands for one on the plain mesh.
         loop
-            Show the loop through it instead, where it is an edge and wires run along edges.
+            Show the loop through it instead: along edges where it is an edge, across the surface where it is none.
         """
         if self._queue:
             return
         target = None if snap is None else Snap.of(snap)
         self._aim(target)
-        asked = loop and self.along == "EDGES" and target is not None and isinstance(target.pick, tuple)
-        self.revision += self._loops.aim(target.pick if asked else None)
+        asked = target.pick if loop and target is not None and self._loops.takes(target.pick) else None
+        self.revision += self._loops.aim(asked)
         self._show_offers()
 
     def click(self, snap: Snap | Pick) -> bool:
@@ -194,11 +198,14 @@ class Session:
         """
         target = Snap.of(snap)
         edge = target.pick
-        if self.along != "EDGES" or not isinstance(edge, tuple):
-            return self._refuse("Loops are taken along edges: double-click on an edge")
+        if not self._loops.takes(edge):
+            on = "an edge" if self.along == "EDGES" else "a vertex or a point of a face"
+            return self._refuse(f"Loops are taken through {on}, not through {name(edge)}")
         self.drag_cancel()
         shown = self._loops
         choice = shown.choice if shown.edge == undirected(edge) else 0
+        if self.along == "SURFACE":
+            return self._cut_around(target, choice)
         self._take_back_click(edge)
         own = self._network.taken_through(edge)
         if own is not None and own.marks == self.marking:
@@ -211,6 +218,25 @@ class Session:
             return self._refuse(self.message or f"No edges run on from {name(edge)}")
         wire = replace(taken(offers, min(choice, len(offers) - 1), self.marking), mirror=self._network.mirror)
         return self._change(replace(self._network, wires=(*self.wires, wire)))
+
+    def _cut_around(self, target: Snap, choice: int) -> bool:
+        """Keep a closed cut through a point: the one that is shown, else the best."""
+        offers = self._find_offers(target.pick)
+        if not self._cuts.final:
+            return self._postpone("loop", target)
+        if not offers:
+            return self._refuse(self.message or self._cuts.NONE)
+        pieces = self._cuts.take(target.pick, offers[min(choice, len(offers) - 1)])
+        wires = [
+            piece.anew(
+                marks=self.marking,
+                mirror=self._network.mirror,
+                strength=self.strength,
+                finish=self.finish if self.marking else "SNAP",
+            )
+            for piece in pieces
+        ]
+        return self._change(replace(self._network, wires=(*self.wires, *wires)))
 
     def toggle(self) -> bool:
         """Make the next of the wires the active one, until it is kept; of what is offered for an edge, the next."""
@@ -405,8 +431,9 @@ class Session:
         self.along = along
         self._candidates.chosen = None
         self._candidates.clear()
-        self._loops.wanted = False
-        self._loops.clear()
+        for offers in (self._edge_loops, self._cuts):
+            offers.wanted = False
+            offers.clear()
         if self._network.seed is not None and not self._sow(self._network.seed):
             self.along = before
             return False
@@ -576,7 +603,7 @@ class Session:
             Whether there is something new to be seen.
         """
         drag = self._drag
-        still = self._candidates.final and self._loops.final and (drag is None or drag.final)
+        still = self._candidates.final and self._offers_final and (drag is None or drag.final)
         if still and not self.computing and not self._queue and not self._retraces:
             return False
         before = (self.revision, round(self._progress, 2))
@@ -668,7 +695,7 @@ class Session:
 
     def flat_border(self, edge: Edge) -> set[Edge]:
         """Return the likeliest border of a flat region beside an edge, by its edges; empty: there is none."""
-        return self._loops.flat_border(edge)
+        return self._edge_loops.flat_border(edge)
 
     @property
     def loop_offers(self) -> tuple[LoopKind, ...]:
@@ -725,7 +752,7 @@ class Session:
     @property
     def computing(self) -> bool:
         """Whether the library still works on what is shown."""
-        return self._progress < 1.0 or not self._loops.final
+        return self._progress < 1.0 or not self._offers_final
 
     @property
     def _wires_computing(self) -> bool:
@@ -830,6 +857,15 @@ class Session:
         """Return the images that a wire has, or would have if it were kept now, as far as the mesh has their edges."""
         return self._images.of(wire, self.network)
 
+    @property
+    def _loops(self) -> Offers:
+        """What a click offers as a whole, for the way that wires run now."""
+        return self._edge_loops if self.along == "EDGES" else self._cuts
+
+    @property
+    def _offers_final(self) -> bool:
+        return self._edge_loops.final and self._cuts.final
+
     # From one network to the next
 
     def _refuse(self, why: str) -> bool:
@@ -908,7 +944,7 @@ class Session:
     def _aim(self, target: Snap | None, again: bool = False) -> None:
         """Find the wires to a target; `again`: also where it is the same as before."""
         live = self._candidates
-        if target == live.target and not again and live.final and self._loops.final:
+        if target == live.target and not again and live.final and self._offers_final:
             return
         before = (live.shown, self.message)
         self._read_progress()
@@ -976,7 +1012,9 @@ class Session:
         """Return what a click on an edge may take, first what one has `kept`; nothing, too, while it is computed."""
         self._read_progress()
         try:
-            return self._loops.find(pick, self._network, kept)
+            # What a click on an edge offers is found along edges, however wires run now.
+            offers = self._edge_loops if isinstance(pick, tuple) else self._cuts
+            return offers.find(pick, self._network, kept)
         except ValueError as error:
             self.message = str(error)
             return ()
@@ -985,15 +1023,22 @@ class Session:
         """Show what a click on the edge under the cursor may take, as soon as it is asked for and computed."""
         if not any(queued.kind in {"loop", "offer"} for queued in self._queue):
             self._loops.stop_waiting()
-        if self._loops.missing and self.target is not None:
-            self.revision += self._loops.show(self.target.pick, self._find_offers(self.target.pick))
+        loops = self._loops
+        if loops.unfinished and self.target is not None:
+            self.revision += loops.show(self.target.pick, self._find_offers(self.target.pick))
+        none = bool(loops.NONE) and loops.missing and loops.final
+        if none != self._told_none and (not none or not self.message):
+            self._told_none = none
+            if none or self.message == self._cuts.NONE:
+                self.message = loops.NONE if none else ""
+                self.revision += 1
 
     def _next_kept(self, own: Wire, steps: int = 1) -> bool:
         """Let a wire that a click on an edge took be what that offers next, or some steps on."""
         assert own.through is not None
         if not own.offers:
             offers = self._find_offers(own.through, own)[1:]
-            if not self._loops.final:
+            if not self._edge_loops.final:
                 return self._postpone("offer", Snap(own.through, "WIRE", own))
             if not offers:
                 return self._refuse(self.message or "Nothing else runs through this edge")
@@ -1052,7 +1097,7 @@ class Session:
         head = self._queue[0]
         self._aim(head.snap, again=True)
         if head.kind in {"loop", "offer"}:
-            waits = not self._find_offers(head.snap.pick) and self.computing
+            waits = not (self._find_offers(head.snap.pick) and self._offers_final) and self.computing
         else:
             waits = not self._candidates.decided and self._wires_computing
         if waits:
@@ -1075,7 +1120,9 @@ class Session:
         drag = [] if self._drag is None else self._drag.lives()
         # What a click on an edge offers is found along edges, however wires run now.
         offers = [self._engines.get("EDGES")] if any(queued.kind == "offer" for queued in self._queue) else []
-        return [self._engines.get(self.along), *offers, *self._retraces.lives(), *drag]
+        waits = any(queued.kind == "loop" and self._cuts.takes(queued.snap.pick) for queued in self._queue)
+        cuts = [self._engines.cuts()] if self._cuts.wanted or waits else []
+        return [self._engines.get(self.along), *offers, *cuts, *self._retraces.lives(), *drag]
 
     def _read_progress(self) -> None:
         """Look how much is computed; before wires are asked for: what is not final after the work is done stays so."""

@@ -56,6 +56,27 @@ class EdgeLoop(Chain, Protocol):
     closed: bool
 
 
+class Piece(Chain, Protocol):
+    """A piece of a closed cut, and the chain of edges that it snaps to."""
+
+    points: NDArray[np.float64]
+
+
+class ClosedCut(Protocol):
+    """A closed cut across the surface: pieces from a point around to it, and where each but the last ends."""
+
+    pieces: Sequence[Piece]
+    joints: Sequence[tuple[int, Sequence[float]]]
+    separates: bool
+
+
+class ClosedCuts(Protocol):
+    """The closed cuts through a point, best first; none where nothing suggests one, or where they are not `final` yet."""
+
+    cuts: Sequence[ClosedCut]
+    final: bool
+
+
 class EmbeddingReport(Protocol):
     """What the library says of a mesh that wires run across."""
 
@@ -88,6 +109,9 @@ class LiveWire(Protocol):
 
     def loop(self, edge: Edge) -> Loop:
         """Return the closed chain through an edge, as far as it is computed."""
+
+    def closed_wires(self, through: End) -> ClosedCuts:
+        """Return the closed cuts across the surface through a point, as far as they are computed."""
 
     def extend_straight(self, edge: Edge, stops: Iterable[int]) -> Chain:
         """Return the straight way on from the end of a directed edge until a stop, a boundary or itself."""
@@ -140,6 +164,7 @@ class Engines:
     ) -> None:
         self._make = make
         self._lives: dict[Along, LiveWire] = {}
+        self._cuts: LiveWire | None = None
         self.strengths: dict[Along, float] = {**STRENGTHS, **strengths}
         self.metric: MetricName = "feature"
         self.clamp = CLAMP_PERCENTILE
@@ -157,6 +182,15 @@ class Engines:
                 self._lives[along].set_scribbles(self._scribbles)
         return self._lives[along]
 
+    def cuts(self) -> LiveWire:
+        """Return the live wires that find closed cuts across the surface: in the metric of concave creases, whatever wires are."""
+        if self._cuts is None:
+            self._cuts = self._make("SURFACE")
+            self._tell_cuts()
+            if self._scribbles:
+                self._cuts.set_scribbles(self._scribbles)
+        return self._cuts
+
     def use(self, metric: MetricName, strengths: Mapping[Along, float], clamp: float) -> None:
         """Compute with another metric from here on; forks that were made before keep theirs."""
         before = self.metric, self.strengths, self.clamp
@@ -164,12 +198,15 @@ class Engines:
         for along in self._lives:
             if (metric, strengths[along], clamp) != (before[0], before[1][along], before[2]):
                 self._tell_metric(along)
+        if strengths["SURFACE"] != before[1]["SURFACE"]:
+            self._tell_cuts()
 
     def follow(self, scribbles: Sequence[Scribble]) -> None:
         """Compute with other strokes from here on; forks that were made before keep theirs."""
         self._scribbles = [self._make_scribble(scribble) for scribble in scribbles]
-        for live in self._lives.values():
-            live.set_scribbles(self._scribbles)
+        for live in (*self._lives.values(), self._cuts):
+            if live is not None:
+                live.set_scribbles(self._scribbles)
 
     def warning(self, along: Along) -> str:
         """Return that wires which run one way have to lead around triangles; empty where they have not, or it was said."""
@@ -180,6 +217,10 @@ class Engines:
         self._told = count
         what = "1 triangle" if count == 1 else f"{count} triangles"
         return f"{what} could not be made valid: wires lead around {'it' if count == 1 else 'them'}"
+
+    def _tell_cuts(self) -> None:
+        if self._cuts is not None:
+            self._cuts.set_metric("concave", max_anisotropy=self.strengths["SURFACE"])
 
     def _tell_metric(self, along: Along) -> None:
         self._lives[along].set_metric(self.metric, max_anisotropy=self.strengths[along], clamp_percentile=self.clamp)

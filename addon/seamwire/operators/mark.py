@@ -13,7 +13,7 @@ from .report import in_edit_mode, summary
 from .slide import slide_wires
 
 if TYPE_CHECKING:
-    from ..core.network import Edge, Pick, Wire
+    from ..core.network import Pick, Wire
     from ..mesh.object_session import ObjectSession
     from .seed_text import Stroke
 
@@ -32,7 +32,8 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
     )
     loops: bpy.props.StringProperty(
         name="Loops",
-        description="Edges, each as two vertex numbers with a hyphen: the closed loop through each of them is taken",
+        description="Edges, each as two vertex numbers with a hyphen: the closed loop through each of them is taken. Across the"
+        " surface vertex numbers, or places as three coordinates in parentheses: the closed cut through each that the shape suggests",
     )
     take: bpy.props.EnumProperty(
         name="Take",
@@ -169,21 +170,25 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
         ]
         return mesh, [f"{prefix}{problem}" for problem in problems]
 
-    def _read(self, mesh: ObjectSession) -> tuple[list[list[Pick]], list[Edge], list[Stroke]]:
+    def _read(self, mesh: ObjectSession) -> tuple[list[list[Pick]], list[Pick], list[Stroke]]:
         """Return chains, loops and strokes; raises ValueError where they cannot be drawn."""
         from ..core.network import FacePoint
         from . import seed_text
 
         if self.finish == "CUT" and self.clear and self.along == "SURFACE":
             raise ValueError("A cut makes seams: it cannot clear them")
-        loops = seed_text.parse_edges(self.loops)
+        across = self.along == "SURFACE" and self.loops.strip()
+        loops: list[Pick] = []
+        loops += seed_text.parse_points(self.loops, mesh.finder()) if across else seed_text.parse_edges(self.loops)
         seeds = [] if loops and not self.chains.strip() else seed_text.parse_chains(self.chains, mesh.finder())
         strokes = seed_text.parse_scribbles(self.strokes)
         through = [stroke.vertices for stroke in strokes]
         problem = mesh.cage.problem_with(pick for chain in (*seeds, loops, *through) for pick in chain)
         if problem:
             raise ValueError(problem)
-        if self.along == "SURFACE" and (loops or any(isinstance(pick, tuple) for chain in seeds for pick in chain)):
+        if across and self.take != "FIRST":
+            raise ValueError("Across the surface there is one kind of loop: leave out what to take")
+        if self.along == "SURFACE" and any(isinstance(pick, tuple) for chain in seeds for pick in chain):
             raise ValueError("Across the surface seeds are vertices or places: give no edges")
         if self.along == "EDGES" and any(isinstance(pick, FacePoint) for chain in seeds for pick in chain):
             raise ValueError("Along edges seeds are vertices or edges: give no places")

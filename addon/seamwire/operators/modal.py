@@ -22,6 +22,7 @@ from .report import count, running, status_makers, summary
 from .unwrap import unwrap_after_chain
 
 if TYPE_CHECKING:
+    from ..core.network import Snap
     from ..core.session import Session
     from ..view.object_view import ObjectView
 
@@ -427,7 +428,7 @@ class Chain:
             session.start(snap)
             session.hover(snap)
             self._note("Draw Wires")
-        elif action is Action.LOOP and session.along == "EDGES" and isinstance(snap.pick, tuple):
+        elif action is Action.LOOP and self._is_loop(session, snap, event):
             session.loop(snap)
             self._note("Add Loop")
         elif session.seed is None and not session.waiting_clicks and snap.to in {"SEED", "WIRE"}:
@@ -437,6 +438,12 @@ class Chain:
         else:
             session.click(snap)
             self._note("Draw Wires")
+
+    def _is_loop(self, session: Session, snap: Snap, event: bpy.types.Event) -> bool:
+        """Whether a click takes what runs around: across the surface not the second one of a double click, which ends a wire."""
+        if session.along == "SURFACE":
+            return self.keys.previews_loop(event)
+        return isinstance(snap.pick, tuple)
 
     def _begin_stroke(self, action: Action, place: Place, event: bpy.types.Event) -> None:
         self._begun = True

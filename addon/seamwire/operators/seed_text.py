@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..core.network import LOOP_NAMES, undirected
+from ..core.network import LOOP_NAMES, name, undirected
 
 if TYPE_CHECKING:
     from ..core.network import Edge, LoopKind, Pick
@@ -48,7 +48,7 @@ def parse_chains(text: str, find: Callable[[Place], Pick]) -> list[list[Pick]]:
         for token in _TOKENS.findall(part):
             match = _TOKEN.fullmatch(token)
             if match is None:
-                pick = find(_place(token, number))
+                pick = find(_place(token, f"Chain {number}"))
             else:
                 first, second = match.groups()
                 if second is not None and int(first) == int(second):
@@ -65,11 +65,9 @@ def parse_chains(text: str, find: Callable[[Place], Pick]) -> list[list[Pick]]:
     return chains
 
 
-def _place(token: str, chain: int) -> Place:
-    """Read a place such as ``"(0.1 -0.25 1)"``; raises ValueError."""
-    what = (
-        f"Chain {chain}: '{token}' is neither a vertex number, nor an edge such as 7-9, nor a place such as (0.1 0 2.5)"
-    )
+def _place(token: str, where: str) -> Place:
+    """Read a place such as ``"(0.1 -0.25 1)"``; raises ValueError, which begins with where it is."""
+    what = f"{where}: '{token}' is neither a vertex number, nor an edge such as 7-9, nor a place such as (0.1 0 2.5)"
     try:
         x, y, z = (float(part) for part in token[1:-1].replace(",", " ").split())
     except ValueError:
@@ -113,17 +111,32 @@ def parse_pairs(text: str) -> list[Edge]:
     return pairs
 
 
-def draw_loops(session: Session, edges: Iterable[Edge], kind: LoopKind | None = None) -> list[str]:
-    """Take the loops or strips through edges without a hand.
+def parse_points(text: str, find: Callable[[Place], Pick]) -> list[Pick]:
+    """Read vertices and places, such as ``"12 (0.1 -0.25 1)"``; `find` as of `parse_chains`.
+
+    Raises
+    ------
+    ValueError
+        Where one of them is neither.
+    """
+    tokens = _TOKENS.findall(text.replace(";", " "))
+    edge = next((token for token in tokens if _TOKEN.fullmatch(token) and not _VERTEX.fullmatch(token)), None)
+    if edge is not None:
+        raise ValueError(f"Loops: across the surface they lead through vertices or places, not through edge {edge}")
+    return [int(token) if _VERTEX.fullmatch(token) else find(_place(token, "Loops")) for token in tokens]
+
+
+def draw_loops(session: Session, picks: Iterable[Pick], kind: LoopKind | None = None) -> list[str]:
+    """Take the loops or strips through edges, or the closed cuts through points of the surface, without a hand.
 
     Parameters
     ----------
     session
-        That draws along edges.
-    edges
-        The edges, one after the other.
+        That draws along edges, or across the surface.
+    picks
+        The edges or points, one after the other.
     kind
-        What is taken; None: what a click offers first.
+        What is taken through edges; None: what a click offers first.
 
     Returns
     -------
@@ -131,15 +144,17 @@ def draw_loops(session: Session, edges: Iterable[Edge], kind: LoopKind | None = 
         What could not be done, in words.
     """
     problems = []
-    for edge in edges:
+    for pick in picks:
         before = session.wires
-        if kind is not None and not _turn_to(session, edge, kind):
-            problems.append(f"No {LOOP_NAMES[kind]} runs through edge {edge[0]}-{edge[1]}")
+        if kind is not None and isinstance(pick, tuple) and not _turn_to(session, pick, kind):
+            problems.append(f"No {LOOP_NAMES[kind]} runs through {name(pick)}")
             continue
-        done = session.loop(edge)
+        done = session.loop(pick)
         session.wait()
         if not done or session.wires == before:
-            problems.append(session.message or f"The loop through edge {edge[0]}-{edge[1]} is there already")
+            # What the shape suggests nothing at, has to be said.
+            why = session.message or f"The loop through {name(pick)} is there already"
+            problems.append(why if isinstance(pick, tuple) else f"{name(pick).capitalize()}: {why}")
     return problems
 
 

@@ -131,8 +131,8 @@ def _wires(session: Session) -> Iterator[Deed]:
         if session.seed is None and (wire.kind is not None or not wire.closed):
             yield Action.NEXT, "Swap Path"
     on_edge = session.target is not None and isinstance(session.target.pick, tuple)
-    if session.along == "EDGES" and session.loop_choice is None and on_edge:
-        yield Action.LOOP, "Loop"
+    if session.loop_choice is None and session.target is not None and on_edge == (session.along == "EDGES"):
+        yield Action.LOOP, "Loop" if on_edge else "Closed Cut"
     if session.can_undo:
         yield Action.UNDO, "Undo"
 

@@ -128,7 +128,7 @@ class EditedObjects:
     # What is under the mouse
 
     def find(self, place: Place, plain: bool = False) -> tuple[ObjectView | None, Snap | None]:
-        """Return which object is under the mouse, and what of it; `plain`: the mesh's nearest edge, as loops need it."""
+        """Return which object is under the mouse, and what of it; `plain`: what loops lead through."""
         found = [view for obj in _in_edit_mode() if (view := self._at(obj, place)) is not None]
         if len(found) > 1:
             depths = [(view.depth(place.view, place.cursor), view) for view in found]

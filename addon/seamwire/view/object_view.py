@@ -144,7 +144,10 @@ class ObjectView:
             return False
 
     def snap(self, view: View, cursor: tuple[float, float], plain: bool = False) -> Snap | None:
-        """Return what is under the cursor; `plain`: the mesh's nearest edge, whatever was drawn on it, as loops need it."""
+        """Return what is under the cursor; `plain`: what loops lead through, whatever was drawn on it.
+
+        That is the mesh's nearest edge, or across the surface its nearest vertex or the point itself.
+        """
         settings = chosen.settings()
         if settings.snap and self._strength is None:
             self._strength = self.session.feature_strength()
@@ -153,7 +156,7 @@ class ObjectView:
             self.obj.matrix_world,
             cursor,
             vertices_only=self.session.along == "SURFACE",
-            edges_only=plain,
+            edges_only=plain and self.session.along == "EDGES",
             anywhere=self.session.along == "SURFACE" and self.session.marking and self.session.finish == "CUT",
             session=None if plain else self.session,
             xray=settings.xray,

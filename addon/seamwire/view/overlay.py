@@ -296,7 +296,7 @@ class Overlay:
             style = looks.computing if session.preliminary else looks.active
             self._add_live(sheet, session.active, style, session.finish)
         if session.loop_preview is not None:
-            self._add_live(sheet, session.loop_preview, looks.loop)
+            self._add_live(sheet, session.loop_preview, looks.loop, session.finish)
         if session.end_preview is not None:
             self._add_live(sheet, session.end_preview, looks.end)
         self._add_seeds(sheet)

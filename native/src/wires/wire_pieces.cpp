@@ -4,8 +4,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace seamwire {
 namespace {

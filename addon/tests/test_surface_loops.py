@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Closed cuts across the surface: what one click on a point offers."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from fake_live import grid_edges
+from seamwire.core.network import FacePoint
+from seamwire.core.session import Intent, Session
+from seamwire.core.surface_loops import SurfaceLoops
+from table import SIZE, Table, chain
+
+RIGHT = (8, 9, 10, 16, 22, 21, 20, 14)
+LEFT = (8, 7, 6, 12, 18, 19, 20, 14)
+"""The squares through vertex 8."""
+
+
+def table(**options: object) -> Table:
+    return Table("SURFACE", **options)
+
+
+def edges(*ring: int) -> list[tuple[int, int]]:
+    return chain(*ring, ring[0])
+
+
+def test_the_best_cut_is_shown_and_toggling_goes_through_the_others() -> None:
+    session = table().session
+    session.hover(8, loop=True)
+    assert session.loop_offers == ("ACROSS", "HANDLE")
+    preview = session.loop_preview
+    assert preview.vertices == RIGHT
+    assert preview.closed
+    np.testing.assert_array_equal(preview.points[0], preview.points[-1])
+    assert session.intent is Intent.LOOP
+    assert session.toggle()
+    assert (session.loop_preview.vertices, session.loop_choice) == (LEFT, "HANDLE")
+    assert session.toggle()
+    assert session.loop_preview.vertices == RIGHT
+    session.hover(8)
+    assert session.loop_preview is None
+
+
+@pytest.mark.parametrize("keep", ["click", "loop"])
+def test_the_cut_that_is_shown_is_kept_as_a_closed_chain_of_wires(keep: str) -> None:
+    session = table().session
+    session.finish = "CUT"
+    session.hover(8, loop=True)
+    session.toggle()
+    assert getattr(session, keep)(8)
+    assert session.edges_to_mark() == edges(*LEFT)
+    wires = session.wires
+    assert len(wires) == 3
+    assert [wire.start for wire in wires] == [wires[-1].end, wires[0].end, wires[1].end]
+    assert wires[0].start == 8
+    assert all(isinstance(wire.end, FacePoint) for wire in wires[:2])
+    assert {(wire.along, wire.finish, wire.closed, wire.kind) for wire in wires} == {("SURFACE", "CUT", False, None)}
+    assert len(session.seeds()) == 3
+    assert session.undo()
+    assert session.wires == (), "one step"
+
+
+def test_after_it_was_taken_it_is_not_offered_again_until_another_point() -> None:
+    session = table().session
+    session.hover(8, loop=True)
+    session.click(8)
+    session.hover(8, loop=True)
+    session.poll()
+    assert session.loop_preview is None
+    session.hover(9, loop=True)
+    assert session.loop_preview is not None
+    session.hover(8, loop=True)
+    assert session.loop_preview is not None
+
+
+def test_where_nothing_suggests_one_it_says_so_until_it_is_not_asked_for_any_more() -> None:
+    session = table(islands=(8,)).session
+    session.hover(8, loop=True)
+    assert session.loop_preview is None
+    assert session.message == SurfaceLoops.NONE
+    revision = session.revision
+    session.hover(8, loop=True)
+    session.poll()
+    assert session.revision == revision, "nothing new to be seen"
+    session.hover(9, loop=True)
+    assert session.message == ""
+    session.hover(8, loop=True)
+    session.hover(8)
+    assert session.message == ""
+    assert not session.loop(8)
+    assert session.message == SurfaceLoops.NONE
+
+
+def test_until_it_is_computed_nothing_is_shown_and_a_click_waits() -> None:
+    it = table(metric_ready=(False, False))
+    session = it.session
+    session.hover(8, loop=True)
+    assert session.loop_preview is None
+    assert session.message == ""
+    assert session.computing
+    assert session.loop(8)
+    assert session.waiting_clicks == 1
+    it.compute()
+    assert session.waiting_clicks == 0
+    assert session.edges_to_mark() == edges(*RIGHT)
+
+
+def test_what_is_there_early_is_shown_and_refined_while_the_cursor_rests() -> None:
+    it = table(metric_ready=(False, False), early=True)
+    session = it.session
+    session.hover(8, loop=True)
+    assert session.loop_preview.vertices == RIGHT
+    assert session.computing
+    revision = session.revision
+    session.poll()
+    assert session.revision == revision, "the same is not drawn anew"
+    assert session.click(8)
+    assert session.wires == (), "what is not final is not kept"
+    it.compute()
+    assert session.edges_to_mark() == edges(*RIGHT)
+    assert not session.computing
+
+
+def test_cuts_are_found_in_the_concave_metric_whatever_wires_are() -> None:
+    it = table()
+    it.session.set_metric("campen")
+    it.session.hover(8, loop=True)
+    assert it.lives["SURFACE"].metrics == [("concave", 20.0, None)]
+    it.session.set_strength("SURFACE", 40.0)
+    assert it.lives["SURFACE"].metrics[-1] == ("concave", 40.0, None)
+
+
+def test_a_cut_clears_seams_where_wires_do() -> None:
+    session = table(seams=edges(*RIGHT)).session
+    session.toggle_marking()
+    session.loop(8)
+    assert session.edges_to_clear() == edges(*RIGHT)
+
+
+def test_edges_have_none_across_the_surface_and_points_none_along_edges() -> None:
+    session = table().session
+    assert not session.loop((8, 9))
+    assert "not through edge 8-9" in session.message
+    session.switch("EDGES")
+    assert not session.loop(8)
+    assert "not through vertex 8" in session.message
+
+
+def test_without_triangles_there_is_none() -> None:
+    made = table()
+    session = Session(made.session._engines._make, made.points, "SURFACE", edges=grid_edges(SIZE))
+    session.hover(8, loop=True)
+    assert session.loop_preview is None

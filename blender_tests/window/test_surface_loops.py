@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Closed cuts across the surface: Alt over a point shows what a click takes, the wheel and W go through the best three."""
+
+import math
+from collections import Counter
+
+import pytest
+import ui as driver
+from desk import GREEN, Desk, shows
+from scene import add_object, seams
+from seamwire.core.surface_loops import SurfaceLoops
+from seamwire.mesh.settings import settings
+from seamwire.operators.report import running
+from seamwire.ui import status_bar
+
+AROUND, ROWS = 24, 41
+
+
+def limb(ui: driver.Ui) -> Desk:
+    """A closed rod along y with a waist in its middle, seen from above; vertex row * AROUND + 0 is on top of a row."""
+    points, faces = [], []
+    for row in range(ROWS):
+        y = -1.0 + 2.0 * row / (ROWS - 1)
+        radius = 0.3 - 0.1 * math.exp(-((y / 0.25) ** 2))
+        for i in range(AROUND):
+            angle = 2.0 * math.pi * i / AROUND
+            points.append((radius * math.sin(angle), y, radius * math.cos(angle)))
+    for row in range(ROWS - 1):
+        for i in range(AROUND):
+            a, b = row * AROUND + i, row * AROUND + (i + 1) % AROUND
+            faces.append((a, a + AROUND, b + AROUND, b))
+    points += [(0.0, -1.15, 0.0), (0.0, 1.15, 0.0)]
+    last = (ROWS - 1) * AROUND
+    for i in range(AROUND):
+        j = (i + 1) % AROUND
+        faces += [(i, j, len(points) - 2), (last + j, last + i, len(points) - 1)]
+    return Desk(ui, add_object(points, faces))
+
+
+@pytest.fixture
+def desk(ui: driver.Ui) -> Desk:
+    made = limb(ui)
+    settings().along = "SURFACE"
+    return made
+
+
+WAIST = 20 * AROUND
+
+
+def offer(desk: Desk, vertex: int) -> tuple[float, float]:
+    """With the tool chosen, point at a vertex and hold Alt; return where that is."""
+    desk.choose()
+    place = desk.at(vertex)
+    desk.ui.move(place)
+    desk.ui.event("LEFT_ALT", "PRESS", place, alt=True)
+    desk.ui.wait_until(lambda: not desk.session.computing)
+    return place
+
+
+def said() -> str:
+    return "; ".join(text for _, text in status_bar.hints(status_bar.status_of(running[0])))
+
+
+def test_alt_over_a_limb_shows_the_cut_around_it_and_a_click_takes_it(desk: Desk) -> None:
+    ui = desk.ui
+    place = offer(desk, WAIST)
+    session = desk.session
+    assert session.loop_choice == "ACROSS"
+    assert "Add Closed Cut" in said()
+    assert shows(ui.pixels(), desk.at(WAIST + 3), GREEN)
+    preview = session.loop_preview
+    assert abs(preview.points[:, 1]).max() < 0.06, "it goes around the waist"
+    shown = sorted(preview.edges())
+    ui.click(place, alt=True)
+    assert len(session.wires) == 3
+    ui.event("LEFT_ALT", "RELEASE", place)
+    assert desk.left_clean()
+    marked = seams(desk.obj)
+    assert marked == shown
+    assert set(Counter(v for edge in marked for v in edge).values()) == {2}, "it is closed"
+    ui.key("Z", ctrl=True)
+    assert seams(desk.obj) == []
+
+
+def test_it_can_be_cut_into_the_faces(desk: Desk) -> None:
+    settings().finish = "CUT"
+    ui, count = desk.ui, len(desk.obj.data.vertices)
+    place = offer(desk, WAIST)
+    ui.click(place, alt=True)
+    ui.event("LEFT_ALT", "RELEASE", place)
+    assert desk.left_clean()
+    obj = desk.obj
+    obj.update_from_editmode()
+    marked = seams(obj)
+    assert set(Counter(v for edge in marked for v in edge).values()) == {2}, "it is closed"
+    length = sum((obj.data.vertices[a].co - obj.data.vertices[b].co).length for a, b in marked)
+    assert length == pytest.approx(2.0 * math.pi * 0.2, rel=0.03)
+    assert len(obj.data.vertices) >= count
+
+
+def test_where_nothing_suggests_one_the_status_bar_says_so(desk: Desk) -> None:
+    ui = desk.ui
+    ui.look((0.0, 0.0, 0.7071, 0.7071), (0.0, 0.0, 0.0), 4.0)  # from behind
+    place = offer(desk, ROWS * AROUND + 1)
+    assert desk.session.loop_preview is None
+    assert SurfaceLoops.NONE in said()
+    ui.event("LEFT_ALT", "RELEASE", place)
+    assert not desk.running
+    assert desk.unchanged()
