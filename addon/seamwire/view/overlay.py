@@ -10,7 +10,7 @@ import numpy as np
 from mathutils import Matrix
 
 from ..core.network import edges_after, place_of
-from . import text_overlay
+from . import legend, text_overlay
 from .gpu_draw import Eye, Faces, Lines, blended, draw_dots
 from .theme import Looks, Style, hue_colors
 
@@ -234,8 +234,8 @@ class Overlay:
                     self._session, found, xray=self.xray, features=self.features, pointed=self.pointed_island
                 )
                 text_overlay.draw(lines, (left, bottom), scale, bpy.context.preferences.themes[0].view_3d.space.text_hi)
-            if self.heat is not None:
-                self.heat.draw_legend(room, scale)
+            if self.heat is not None and (of_heat := self.heat.legend()) is not None:
+                legend.draw([of_heat], room, scale)
             if self.help_rows is not None:
                 text_overlay.draw_table(self.help_rows, (left, bottom, width, height), scale)
 

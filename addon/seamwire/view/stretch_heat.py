@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
+from ..core import color_maps
 from ..core.stretch import Stretch
 from ..mesh import uv_map
 from . import gpu_draw
+from .legend import Legend
 from .theme import Style
 
 if TYPE_CHECKING:
@@ -26,21 +28,14 @@ HOT = 1.0
 """Octaves that are red: twice as long one way, or an area twice too large or small."""
 _STEPS = 32
 _OPACITY = 0.8
-_RAMP = ((0.13, 0.22, 0.78), (0.10, 0.66, 0.86), (0.30, 0.76, 0.32), (0.98, 0.86, 0.16), (0.74, 0.04, 0.12))
-"""From blue to red, at equal distances. Yellow is the lightest: where it turns to red is seen without color too. The red is
-darker than that of seams, which are seen on it."""
 _OUTLINE = Style((1.0, 1.0, 1.0, 1.0), 8.0, halo=2.0, lift=2.5)
 """Wider than the seams that lie on it."""
-_TEXT: Color = (0.93, 0.93, 0.93, 1.0)
-_GROUND: Color = (0.07, 0.07, 0.08, 0.8)
 _NAMES = {"ANGLE": "Stretch of angles", "AREA": "Stretch of areas"}
 
 
 def heat_colors(opacity: float = 1.0) -> list[Color]:
     """Return the colors from no stretch to the most."""
-    at = np.linspace(0.0, len(_RAMP) - 1.0, _STEPS)
-    red, green, blue = (np.interp(at, np.arange(len(_RAMP)), column) for column in zip(*_RAMP, strict=True))
-    return [(float(r), float(g), float(b), opacity) for r, g, b in zip(red, green, blue, strict=True)]
+    return color_maps.steps(color_maps.STRETCH, _STEPS, opacity)
 
 
 @dataclass(frozen=True)
@@ -199,48 +194,19 @@ class StretchHeat:
             self._outline = summary, gpu_draw.Lines(_OUTLINE, ends) if len(ends) else None
         return self._outline[1]
 
-    def legend(self) -> list[str]:
-        """Return what is written beside the colors; nothing where no stretch is to be seen."""
+    def legend(self) -> Legend | None:
+        """Return what the colors mean; None where no stretch is to be seen."""
         if self._kind == "NONE":
-            return []
+            return None
         if self._missing:
-            return ["No UV map: unwrap to see its stretch"]
+            return Legend(("No UV map: unwrap to see its stretch",))
         lines, summary = [_NAMES[self._kind]], self.summary()
         if summary is not None:
             lines.append(f"Mean {times(summary.mean)}")
             if summary.worst is not None:
                 lines.append(f"Worst of {summary.count} islands {times(summary.value)}, outlined")
-        return lines
-
-    def draw_legend(self, room: tuple[float, float, float, float], scale: float) -> None:
-        """Draw the colors with their numbers in the lower right corner of a room: left, bottom, width, height."""
-        lines = self.legend()
-        if not lines:
-            return
-        left, bottom, width, _ = room
-        size = gpu_draw.text_size(scale)
-        gpu_draw.set_text(size)
-        wide = max(14.0 * size, *(gpu_draw.text_width(line) for line in lines))
-        bar = 0.0 if self._missing else 2.6 * size
-        right = left + width - 1.2 * size
-        low = bottom + 1.1 * size
-        x, high = right - wide - size, low + bar + 1.5 * size * len(lines) + 0.6 * size
-        gpu_draw.draw_rectangle((x, low), (right, high), _GROUND, 4.0 * scale)
-        x += 0.5 * size
-        if bar:
-            colors = heat_colors()
-            step = wide / len(colors)
-            for i, color in enumerate(colors):
-                # One over the other, so that no gap is left between them.
-                gpu_draw.draw_rectangle((x + i * step, low + 1.7 * size), (x + wide, low + 2.5 * size), color)
-            for part, align in ((0.0, 0.0), (0.5, 0.5), (1.0, 1.0)):
-                text = times(part * HOT) + ("+" if part == 1.0 else "")
-                at = x + part * wide - align * gpu_draw.text_width(text)
-                gpu_draw.draw_text(text, (at, low + 0.55 * size), _TEXT, shadow=False)
-        y = high - 1.4 * size
-        for line in lines:
-            gpu_draw.draw_text(line, (x, y), _TEXT, shadow=False)
-            y -= 1.5 * size
+        marks = tuple((part, times(part * HOT) + ("+" if part == 1.0 else "")) for part in (0.0, 0.5, 1.0))
+        return Legend(tuple(lines), heat_colors(), marks)
 
 
 def times(octaves: float) -> str:
