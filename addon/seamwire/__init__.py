@@ -34,12 +34,14 @@ _PARTS = (
     "operators.edge_marks",
     "operators.unwrap",
     "operators.worst_island",
+    "operators.store_view",
     "operators.draw",
     "operators.hover",
     "ui.keymap",
     "ui.toolbar",
     "ui.status_bar",
     "ui.menus",
+    "ui.views_panel",
 )
 
 

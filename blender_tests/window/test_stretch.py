@@ -78,7 +78,7 @@ def colored(pixels: np.ndarray, desk: Desk, corners: tuple[int, int]) -> bool:
 def test_stretched_faces_are_red_and_others_blue_where_overlays_are_shown(desk: Desk) -> None:
     desk.choose()
     lay_out(desk, right=2.0)
-    settings().stretch = "ANGLE"
+    settings().heat = "ANGLE"
     desk.ui.wait_until(lambda: heat().shown)
     desk.ui.wait_until(lambda: heat().values.max() > 0.9 * HOT)
     pixels = screen(desk)
@@ -87,7 +87,7 @@ def test_stretched_faces_are_red_and_others_blue_where_overlays_are_shown(desk: 
     desk.ui.space.overlay.show_overlays = False
     assert not colored(screen(desk), desk, RIGHT)
     desk.ui.space.overlay.show_overlays = True
-    settings().stretch = "NONE"
+    settings().heat = "NONE"
     assert not colored(screen(desk), desk, RIGHT)
 
 
@@ -108,7 +108,7 @@ def test_a_map_that_changes_is_measured_once_and_only_where_it_changed(
         edge.seam = all(abs(v.co.x) < 1e-6 for v in edge.verts)
     bmesh.update_edit_mesh(desk.obj.data)
     desk.choose()
-    settings().stretch = "ANGLE"
+    settings().heat = "ANGLE"
     desk.ui.wait_until(lambda: bool(measured))
     assert measured[0] == 128
     desk.ui.wait_until(lambda: edited.front.overlay._islands.newest is not None)
@@ -131,7 +131,7 @@ def test_a_map_that_changes_is_measured_once_and_only_where_it_changed(
 def test_areas_are_compared_with_the_mean_and_a_missing_map_is_told_of(desk: Desk) -> None:
     desk.choose()
     lay_out(desk, right=3.0)
-    settings().stretch = "AREA"
+    settings().heat = "AREA"
     desk.ui.wait_until(lambda: heat().shown and heat().values.max() > 0.5)
     # 1 and 3 of a mean of 2.
     assert np.unique(heat().values.round(3)) == pytest.approx([np.log2(1.5), 1.0], abs=1e-3)
@@ -146,7 +146,7 @@ def test_areas_are_compared_with_the_mean_and_a_missing_map_is_told_of(desk: Des
 
 def test_a_chain_unwraps_what_it_changed_in_its_own_step_of_undo(desk: Desk, capfd: pytest.CaptureFixture[str]) -> None:
     settings().unwrap = True
-    settings().stretch = "ANGLE"
+    settings().heat = "ANGLE"
     desk.choose()
     before = uvs(desk)
     draw(desk, 36, 44)

@@ -146,6 +146,20 @@ std::vector<std::int32_t> numbers_from(py::handle value, const std::string& name
   return to;
 }
 
+std::vector<double> values_from(py::handle value, const std::string& name) {
+  const PythonCall calling;
+  const py::array given = py::array(py::module_::import("numpy").attr("asarray")(value));
+  if (given.ndim() != 1)
+    throw InvalidInput(name + ": expected real numbers of shape (n,), got shape " + shape_of(given));
+  if (given.shape(0) == 0) return {};  // of no dtype in particular
+  const py::array column = rows_from(given.attr("reshape")(-1, 1), 1, "fiu", "real numbers", name);
+  const py::array array = column.attr("astype")("float64");
+  const Layout from(array);
+  std::vector<double> to(from.rows);
+  for (std::size_t row = 0; row < from.rows; ++row) to[row] = load<double>(from.at(row, 0));
+  return to;
+}
+
 namespace {
 
 /// The number of one of `count` elements of a kind, "vertex" or "face".

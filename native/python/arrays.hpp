@@ -28,6 +28,8 @@ std::vector<Triangle> triangles_from(py::handle value, const std::string& name);
 std::vector<Edge> edges_from(py::handle value, const std::string& name);
 /// Numbers of vertices or faces, -1 for none, of shape (n,).
 std::vector<std::int32_t> numbers_from(py::handle value, const std::string& name);
+/// Real numbers of shape (n,).
+std::vector<double> values_from(py::handle value, const std::string& name);
 
 /// A point of a surface as Python gives it: a vertex number; or a pair of a face number and three barycentric
 /// coordinates, or these two by themselves. Which coordinates are none is not looked at.

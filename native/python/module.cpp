@@ -398,6 +398,13 @@ The first vertices are those of the surface, with their numbers; new ones are mi
       .def_property_readonly(
           "clamped_edges", [](const EmbeddingObject& e) { return e.embedding.clamped_edges; },
           "Number of edges whose length is not the metric's, so that triangles be valid that bisection left.")
+      .def_property_readonly("hole_faces",
+                             array_of<EmbeddingObject>([](const auto& e) -> auto& { return e.embedding.hole_faces; }),
+                             "(k,) int32: the surface's triangles in which some stayed invalid, ascending.")
+      .def_property_readonly("repaired_faces", array_of<EmbeddingObject>([](const auto& e) -> auto& {
+                               return e.embedding.repaired_faces;
+                             }),
+                             "(k,) int32: those with an edge whose length is not the metric's, ascending.")
       .def_property_readonly(
           "worst_clamp", [](const EmbeddingObject& e) { return e.embedding.worst_clamp; },
           "The largest factor, up or down, between such a length and the metric's; 1: there is none.")
@@ -884,4 +891,5 @@ stop and raise SystemExit. Arrays that a result hands out are read-only views of
   bind_rays(module);
   bind_faces(module);
   bind_seams(module);
+  bind_views(module);
 }

@@ -68,6 +68,8 @@ class Metric:
     normals: NDArray[np.float64]  # (n, 3)
     tensors: NDArray[np.float64]  # (n, 3, 3)
     max_anisotropy: float
+    def ellipses(self, of: Literal["norm", "reach"] = "norm") -> NDArray[np.float64]:
+        """Return (n, 2, 3), the semi-axes at each vertex, the longer one first: as in Figures 3 and 6, or how far length 1 reaches."""
 
 class Scribble:
     """A stroke on a surface, its points each in the triangle of `faces` or at the vertex of `vertices` (-1: see the other)."""
@@ -101,7 +103,9 @@ class Embedding:
     invalid_before: int
     faces_added: int
     invalid_left: int
+    hole_faces: NDArray[np.int32]  # the surface's triangles in which some stayed invalid
     clamped_edges: int
+    repaired_faces: NDArray[np.int32]  # those with such an edge
     worst_clamp: float
     hit_cap: bool
     unreachable: NDArray[np.int32]
@@ -128,6 +132,8 @@ class DistanceField:
     radius: float  # distances beyond it are inf
     distances: NDArray[np.float64]  # (n,) at the caller's vertices
     def trace(self, vertex: int) -> Wire: ...
+    def trace_many(self, vertices: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.float64]]:
+        """Return the points of all paths, (p, 3), where each begins, (k + 1,), and their lengths, (k,)."""
     def distance(self, face: int, barycentric: ArrayLike) -> float:
         """Return the exact distance of a point of a face; barycentric is (3,), 0 or more, its sum 1."""
     def trace_to(self, face: int, barycentric: ArrayLike) -> Wire:
@@ -330,6 +336,14 @@ def distance_field(
     max_distance: float | None = None,
 ) -> DistanceField:
     """Of several seeds the nearest one counts. Stops when the targets' distances are known, or at max_distance."""
+
+def invalid_faces(surface: Surface, metric: Metric) -> NDArray[np.int32]:
+    """Return the triangles that are invalid in a metric before any bisection."""
+
+def isolines(
+    surface: Surface, values: ArrayLike, levels: ArrayLike
+) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
+    """Return segments (k, 2, 3) where values at the vertices, (n,), reach levels, with the triangle and the level of each."""
 
 def snap_to_edges(surface: Surface, wire: Wire) -> NDArray[np.int32]: ...
 def edge_wires(

@@ -261,6 +261,7 @@ TEST(EmbeddingEnds, SayingHowManyLengthsAreNotTheMetrics) {
       const Embedding embedding = embed(torus, feature_metric(torus, of_torus, follow, {.max_anisotropy = a}));
       EXPECT_EQ(embedding.clamped_edges, 0U) << a;
       EXPECT_EQ(embedding.worst_clamp, 1.0) << a;
+      EXPECT_TRUE(embedding.repaired_faces.empty()) << a;
     }
   }
   const Surface bumpy = shapes::bumpy(shapes::icosphere(3), 0.05).surface();
@@ -297,6 +298,10 @@ TEST(EmbeddingEnds, SayingHowManyLengthsAreNotTheMetrics) {
   const Embedding embedding =
       embed(sliver, feature_metric(sliver, principal_curvatures(sliver), Follow::kMin, {.max_anisotropy = 1000}));
   EXPECT_GT(embedding.clamped_edges, 10U);
+  // An edge has two triangles, of one face.
+  EXPECT_FALSE(embedding.repaired_faces.empty());
+  EXPECT_LE(embedding.repaired_faces.size(), embedding.clamped_edges);
+  for (const std::int32_t f : embedding.repaired_faces) EXPECT_GT(std::ranges::count(embedding.source_face, f), 1);
   EXPECT_GT(embedding.worst_clamp, 1.1);
 }
 

@@ -86,6 +86,55 @@ TEST(Embed, RefinesUntilEveryTriangleIsValid) {
   }
 }
 
+// A surface in a metric that makes many of its triangles invalid.
+struct Strong {
+  explicit Strong(const Mesh& mesh, double a = 40) : surface(mesh.surface()) {
+    const Curvature curvature = principal_curvatures(surface);
+    metric = feature_metric(surface, curvature, Follow::kMax, {.max_anisotropy = a});
+  }
+
+  Surface surface;
+  Metric metric;
+};
+
+TEST(InvalidFaces, AreTheOnesThatAreBisected) {
+  const Strong on(shapes::bumpy(shapes::icosphere(3), 0.05));
+  const Embedding embedding = embed(on.surface, on.metric);
+  const std::vector<std::int32_t> faces = invalid_faces(on.surface, on.metric);
+  EXPECT_GT(faces.size(), 20U);
+  EXPECT_EQ(faces.size(), embedding.invalid_before);
+  for (const std::int32_t face : faces) EXPECT_GT(std::ranges::count(embedding.source_face, face), 1);
+  EXPECT_TRUE(embedding.hole_faces.empty());
+}
+
+TEST(InvalidFaces, HaveTheCallersNumbersWhereFacesAreLeftOutOrHaveNoArea) {
+  // Face 0 is degenerate and left out, face 2 has no area.
+  const Surface surface({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {.5, .5, 0}},
+                        {{0, 0, 1}, {0, 1, 2}, {0, 2, 4}, {0, 4, 3}, {4, 2, 3}});
+  EXPECT_EQ(invalid_faces(surface, identity_metric(surface)), std::vector<std::int32_t>{2});
+  EXPECT_EQ(embed(surface, identity_metric(surface)).invalid_before, 1U);
+}
+
+TEST(Embed, NamesTheFacesThatHolesAreIn) {
+  const Strong on(shapes::bumpy(shapes::icosphere(3), 0.05));
+  const Embedding embedding = embed(on.surface, on.metric, {.max_faces_added = 4});
+  ASSERT_GT(embedding.invalid_left, 0U);
+  EXPECT_FALSE(embedding.hole_faces.empty());
+  EXPECT_LE(embedding.hole_faces.size(), embedding.invalid_left);
+  // What is missing of a face's area is a hole.
+  std::map<std::int32_t, double> areas;
+  const auto area = [](const std::vector<Vector>& points, const Triangle& t) {
+    return (points[at(t[1])] - points[at(t[0])]).cross(points[at(t[2])] - points[at(t[0])]).norm() / 2;
+  };
+  for (std::size_t t = 0; t < embedding.mesh.face_count(); ++t) {
+    areas[embedding.source_face[t]] += area(embedding.points, embedding.mesh.triangles[t]);
+  }
+  for (std::int32_t f = 0; at(f) < on.surface.face_count(); ++f) {
+    const bool is_whole = areas[f] > 0.999 * area(on.surface.points(), on.surface.triangles()[at(f)]);
+    EXPECT_EQ(is_whole, !std::ranges::binary_search(embedding.hole_faces, f)) << f;
+  }
+}
+
 TEST(Embed, NewVerticesAreInTheCallersCoordinates) {
   Mesh mesh = shapes::grid(6);
   for (Vector& p : mesh.points) p = Vector(100, 200, 300) + 50 * p;

@@ -311,6 +311,23 @@ TEST(EdgeLength, IsOfTheModelInTheUnitCubeAndTheSameBothWays) {
   EXPECT_EQ(edge_length(surface, metric, 0, 6), edge_length(surface, metric, 6, 0));
 }
 
+TEST(PrincipalAxes, AreThoseThatATensorIsMadeOf) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> coordinate(-1, 1), exponent(-4, 4);
+  for (int i = 0; i < 100; ++i) {
+    const Vector n = Vector(coordinate(random), coordinate(random), coordinate(random)).normalized();
+    const Vector e1 = n.cross(Vector(coordinate(random), coordinate(random), coordinate(random))).normalized();
+    const Vector e2 = n.cross(e1);
+    const double l2 = std::exp(exponent(random)), l1 = l2 * (1 + std::exp(exponent(random)));
+    const PrincipalAxes axes = principal_axes({n, l1 * e1 * e1.transpose() + l2 * e2 * e2.transpose()});
+    EXPECT_NEAR(axes.l1 / l1, 1, 1e-12);
+    EXPECT_NEAR(axes.l2 / l2, 1, 1e-9);
+    EXPECT_NEAR(std::abs(axes.e1.dot(e1)), 1, 1e-12);
+    EXPECT_NEAR((axes.e1.cross(axes.e2) - n).norm(), 0, 1e-12);
+  }
+  EXPECT_TRUE(principal_axes({Vector::Zero(), Eigen::Matrix3d::Identity()}).e1.isZero(0));
+}
+
 TEST(MidpointTensor, IsNeverMoreAnisotropicThanTheEnds) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> uniform(-1, 1);

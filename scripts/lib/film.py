@@ -438,7 +438,7 @@ def stretch(film: Film) -> None:
     """Take the stretch of a UV map before and after a cut, with the islands unwrapped that it changed."""
     film.filming = False
     stage(film)
-    settings().stretch, settings().unwrap = "AREA", True
+    settings().heat, settings().unwrap = "AREA", True
     film.obj.data.use_mirror_x = True
     start(film)
     for edges, name in (((film.edge(EYE), film.middle_edge(0.0, -0.45, 0.9)), "before"), ((film.edge(EAR),), "after")):

@@ -115,6 +115,13 @@ class Cage:
     def _edge(self, pair: tuple[int, int]) -> bmesh.types.BMEdge | None:
         return self.bm.edges.get((self.bm.verts[pair[0]], self.bm.verts[pair[1]]))
 
+    def active_vertex(self) -> int | None:
+        """Return the vertex that was selected last; None where it was none, or is hidden."""
+        active = self.bm.select_history.active
+        if not isinstance(active, bmesh.types.BMVert) or active.hide:
+            return None
+        return active.index
+
     def is_seam(self, pair: tuple[int, int]) -> bool:
         """Whether there is such an edge, and it is a seam."""
         edge = self._edge(pair)

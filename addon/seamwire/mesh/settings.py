@@ -44,9 +44,20 @@ METRIC_ITEMS = (
     ("euclidean", "Shortest Path", "Run as short as possible, whatever the shape", 3),
 )
 STRETCH_ITEMS = (
-    ("NONE", "None", "The islands are tinted instead", 0),
     ("ANGLE", "Angle", "How much longer faces are one way than the other in the UV map than on the model", 1),
     ("AREA", "Area", "How much larger or smaller faces are in the UV map than the mean of the mesh", 2),
+)
+HEAT_ITEMS = (
+    ("NONE", "None", "The islands are tinted instead", 0),
+    ("ANGLE", "Stretch of Angles", STRETCH_ITEMS[0][2], 1),
+    ("AREA", "Stretch of Areas", STRETCH_ITEMS[1][2], 2),
+    ("STRENGTH", "Feature Strength", "How much the surface bends more one way than the other: s of the metric", 3),
+    ("CONCAVITY", "Concavity", "Which way the surface bends most, and how much: valleys and ridges", 4),
+    ("DISTANCE", "Distance", "How far all is from the seed, or from a selected vertex, in the metric", 5),
+)
+SHOWN_METRIC_ITEMS = (
+    ("MIN", "Along Features", "That of the wire along ridges and valleys", 0),
+    ("MAX", "Across Features", "That of the other wire", 1),
 )
 
 
@@ -121,10 +132,41 @@ class SeamwireSettings(bpy.types.PropertyGroup):
     xray: bpy.props.BoolProperty(
         name="X-Ray", description="Show wires, and pick, through the mesh", default=False, update=_changed
     )
-    stretch: bpy.props.EnumProperty(
-        name="Show Stretch",
-        description="Color faces by how much the active UV map stretches them, from blue to red",
-        items=STRETCH_ITEMS,
+    heat: bpy.props.EnumProperty(
+        name="Heat",
+        description="Color faces by a number, told by a legend",
+        items=HEAT_ITEMS,
+        update=_changed,
+    )
+    show_ellipses: bpy.props.BoolProperty(
+        name="Ellipses",
+        description="Show the metric: in each ellipse's direction wires run as far as it is long at the same cost",
+        update=_changed,
+    )
+    show_paths: bpy.props.BoolProperty(
+        name="Shortest Paths",
+        description="Show the shortest paths from the seed, or from a selected vertex, to many vertices, by their length",
+        update=_changed,
+    )
+    show_bands: bpy.props.BoolProperty(
+        name="Distance Bands",
+        description="Show lines of equal distance from the seed, or from a selected vertex, evenly spaced",
+        update=_changed,
+    )
+    show_invalid: bpy.props.BoolProperty(
+        name="Invalid Triangles",
+        description="Show triangles that the metric makes invalid, and what became of them",
+        update=_changed,
+    )
+    shown_metric: bpy.props.EnumProperty(
+        name="Shown Metric",
+        description="Which of both wires' metrics is shown",
+        items=SHOWN_METRIC_ITEMS,
+        update=_changed,
+    )
+    views_in_object_mode: bpy.props.BoolProperty(
+        name="Seamwire Views",
+        description="Show what the metric sees of the active object in Object Mode too",
         update=_changed,
     )
     unwrap: bpy.props.BoolProperty(

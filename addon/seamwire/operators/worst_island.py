@@ -21,7 +21,7 @@ class MESH_OT_seamwire_worst_island(bpy.types.Operator):
     kind: bpy.props.EnumProperty(
         name="Stretch",
         description="What counts; where not given, what the tool shows, or else angles",
-        items=STRETCH_ITEMS[1:],
+        items=STRETCH_ITEMS,
         options={"SKIP_SAVE"},
     )
 
@@ -36,7 +36,7 @@ class MESH_OT_seamwire_worst_island(bpy.types.Operator):
         from ..mesh import edit_mesh
         from ..mesh.seam_islands import worst_island
 
-        if not self.properties.is_property_set("kind") and settings(context).stretch == "AREA":
+        if not self.properties.is_property_set("kind") and settings(context).heat == "AREA":
             self.kind = "AREA"
         found = []
         for obj in context.objects_in_mode_unique_data:

@@ -25,6 +25,7 @@ def _draw_menu(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
     menu.layout.operator("mesh.seamwire_slide")
     menu.layout.operator("mesh.seamwire_unwrap")
     menu.layout.operator("mesh.seamwire_worst_island")
+    menu.layout.operator_menu_enum("mesh.seamwire_store_view", "view")
     menu.layout.operator("mesh.seamwire_select_islands_to_cut")
     menu.layout.operator_menu_enum("mesh.seamwire_store_islands", "kind")
     menu.layout.operator_menu_enum("mesh.seamwire_mark_seams_as", "kind")

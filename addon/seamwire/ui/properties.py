@@ -10,6 +10,28 @@ from ..mesh.settings import settings
 if TYPE_CHECKING:
     import bpy
 
+    from ..mesh.settings import SeamwireSettings
+
+
+VIEWS = (
+    ("show_ellipses", "MESH_CIRCLE"),
+    ("show_paths", "PARTICLE_PATH"),
+    ("show_bands", "PHYSICS"),
+    ("show_invalid", "MOD_TRIANGULATE"),
+)
+"""Toggles of what the metric sees, with their icons."""
+
+
+def draw_views(chosen: SeamwireSettings, layout: bpy.types.UILayout) -> None:
+    """Show what can be seen of the metric, in a column."""
+    layout.prop(chosen, "heat")
+    column = layout.column(heading="Show")
+    for name, _ in VIEWS:
+        column.prop(chosen, name)
+    sub = layout.column()
+    sub.active = any(getattr(chosen, name) for name, _ in VIEWS) or chosen.heat == "DISTANCE"
+    sub.prop(chosen, "shown_metric")
+
 
 def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
     """Show the settings, in a row in headers and in a column elsewhere."""
@@ -26,7 +48,10 @@ def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout) -> Non
         layout.prop(chosen, "clear", toggle=True)
         layout.prop(chosen, "snap", text="", icon="SNAP_ON" if chosen.snap else "SNAP_OFF")
         layout.prop(chosen, "xray", text="", icon="XRAY")
-        layout.prop(chosen, "stretch", text="Stretch")
+        layout.prop(chosen, "heat", text="Heat")
+        row = layout.row(align=True)
+        for name, icon in VIEWS:
+            row.prop(chosen, name, text="", icon=icon)
         return  # Blender shows the mirror of the mesh right beside
     layout.use_property_split = True
     layout.use_property_decorate = False
@@ -40,7 +65,7 @@ def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout) -> Non
     column = layout.column(heading="Snap")
     column.prop(chosen, "snap", text="Features")
     layout.prop(chosen, "xray")
-    layout.prop(chosen, "stretch")
+    draw_views(chosen, layout)
     layout.prop(chosen, "unwrap")
     if obj is not None and obj.type == "MESH":
         row = layout.row(align=True, heading="Mirror")

@@ -17,7 +17,7 @@ from .theme import HALO, Color, Style
 from .viewport import clipping_planes
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -287,12 +287,89 @@ class Faces:
 
     def draw_over(self, eye: Eye, colors: Sequence[Color]) -> None:
         """Draw what is seen of them over the mesh, with opacity, in the view that Blender is drawing now."""
-        if sees_through(bpy.context.space_data):
-            # Else all layers of the mesh would be tinted, one over the other, and no wire would be seen to be hidden.
-            with unseen():
-                self.draw(eye, colors, 0.0)
-        with blended("LESS_EQUAL"):
-            self.draw(eye, colors, _OVER)
+        _draw_over(lambda lift: self.draw(eye, colors, lift))
+
+
+class ShadedFaces:
+    """Triangles of one mesh with a color at each vertex, handed to the GPU once.
+
+    Parameters
+    ----------
+    points
+        (n, 3).
+    triangles
+        (m, 3).
+    colors
+        (n, 4).
+    """
+
+    def __init__(
+        self, points: NDArray[np.float64], triangles: NDArray[np.integer], colors: NDArray[np.float64]
+    ) -> None:
+        self._shader = gpu.shader.from_builtin("SMOOTH_COLOR")
+        self._batch = batch_for_shader(
+            self._shader,
+            "TRIS",
+            {"pos": np.ascontiguousarray(points, np.float32), "color": np.ascontiguousarray(colors, np.float32)},
+            indices=np.ascontiguousarray(triangles, dtype=np.uint32),
+        )
+
+    def draw(self, eye: Eye, lift: float) -> None:
+        """Draw them under the depth test that is set."""
+        with gpu.matrix.push_pop():
+            gpu.matrix.load_matrix(eye.lifted(lift))
+            self._shader.bind()
+            self._batch.draw(self._shader)
+
+    def draw_over(self, eye: Eye) -> None:
+        """Draw what is seen of them over the mesh, as `Faces.draw_over`."""
+        _draw_over(lambda lift: self.draw(eye, lift))
+
+
+def _draw_over(draw: Callable[[float], None]) -> None:
+    if sees_through(bpy.context.space_data):
+        # Else all layers of the mesh would be tinted, one over the other, and no wire would be seen to be hidden.
+        with unseen():
+            draw(0.0)
+    with blended("LESS_EQUAL"):
+        draw(_OVER)
+
+
+class ColoredLines:
+    """Segments with a color each, handed to the GPU once.
+
+    Parameters
+    ----------
+    ends
+        (k, 2, 3).
+    colors
+        (k, 4).
+    width
+        In pixels at a display scale of 1.
+    lift
+        As `Style.lift`.
+    """
+
+    def __init__(self, ends: NDArray[np.float64], colors: NDArray[np.float64], width: float, lift: float = 3.0) -> None:
+        self._shader = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
+        self._width, self._lift = width, lift
+        self._batch = batch_for_shader(
+            self._shader,
+            "LINES",
+            {
+                "pos": np.ascontiguousarray(ends.reshape(-1, 3), np.float32),
+                "color": np.ascontiguousarray(np.repeat(colors, 2, axis=0), np.float32),
+            },
+        )
+
+    def draw(self, eye: Eye) -> None:
+        """Draw them under the depth test that is set."""
+        with gpu.matrix.push_pop():
+            gpu.matrix.load_matrix(eye.lifted(self._lift))
+            self._shader.bind()
+            self._shader.uniform_float("viewportSize", eye.size)
+            self._shader.uniform_float("lineWidth", self._width * eye.scale)
+            self._batch.draw(self._shader)
 
 
 # On the screen: pixels of the region from its bottom left

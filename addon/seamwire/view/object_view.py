@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ..core import islands
+from ..core import islands, native
+from ..core.solver import for_live
 from ..mesh import settings as chosen
 from ..mesh.object_session import ObjectSession
+from .metric_views import MetricViews
 from .overlay import Overlay
 from .picking import REACH, Picker, stroke_at
 from .stretch_heat import StretchHeat
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from ..core.metric_fields import Source
     from ..core.network import Snap
     from ..core.session import Session
     from ..core.strokes import Scribble
@@ -65,6 +68,7 @@ class ObjectView:
         self.mesh.follow(settings)
         arrays = self.mesh.arrays
         self._islands = islands.IslandMaker(arrays.triangles, self.mesh.make_live.face_segments, HUES)
+        self.views = MetricViews(arrays, native.load(), self.mesh.make_live.wait)
         self._picker = Picker(self.mesh.cage.bm, arrays, self.mesh.plain_seams)
         self.overlay = Overlay(
             self.session,
@@ -76,6 +80,7 @@ class ObjectView:
             seams=arrays.seams,
             preferences=chosen.preferences(),
             heat=StretchHeat(arrays, self._islands),
+            views=self.views,
         )
         self._strength: NDArray[np.float64] | None = None
         self.name = obj.name_full
@@ -96,6 +101,7 @@ class ObjectView:
     def close(self) -> None:
         """Let go of what works on threads."""
         self._islands.close()
+        self.views.close()
 
     def refresh(self, obj: bpy.types.Object) -> bool:
         """Take over what the mesh holds now; return False where it is another one, see `ObjectSession.refresh`."""
@@ -119,22 +125,35 @@ class ObjectView:
         self.measure(anew=True)
 
     def measure(self, anew: bool = False) -> None:
-        """Measure the stretch that the settings ask for, where it is not known or `anew`."""
+        """Compute what the settings show, and measure the stretch of UVs where it is not known or `anew`."""
+        self._follow_views()
         if self.stale and not anew:
             return  # of a mesh that is read anew soon
         stale = self.stale
-        if self.overlay.heat.follow(self.obj, chosen.settings().stretch, anew):
+        if self.overlay.heat.follow(self.obj, chosen.settings().heat, anew):
             self.was_read()
             self.stale = stale
+
+    def _follow_views(self) -> None:
+        self.views.follow(chosen.settings(), self.session.along, self._source())
+
+    def _source(self) -> Source | None:
+        """Return where distances are shown from: the seed of the chain, else the active vertex, else the last seed."""
+        pick = self.session.seed_place
+        if pick is None and self.mesh.alive():
+            pick = self.mesh.cage.active_vertex()
+        if pick is None:
+            pick = next(reversed(self.session.seeds()), None)
+        return None if pick is None else for_live(pick, "SURFACE")
 
     @property
     def busy(self) -> bool:
         """Whether something is being computed: `poll` is to be called now and then."""
-        return self.mesh.busy or self.overlay.busy
+        return self.mesh.busy or self.overlay.busy or self.views.busy
 
     def poll(self) -> bool:
         """Take in what was computed; return whether there is something new to be seen."""
-        return any((self.session.poll(), self.overlay.poll()))
+        return any((self.session.poll(), self.overlay.poll(), self.views.poll()))
 
     def shows(self, update: bpy.types.DepsgraphUpdate) -> bool:
         """Whether an update of Blender's tells of a change of the mesh, whichever it is."""
@@ -193,6 +212,7 @@ class ObjectView:
     def show(self, front: bool, help_rows: Sequence[Row] | None) -> None:
         """Let the overlay follow."""
         settings = chosen.settings()
+        self._follow_views()
         self.overlay.xray = settings.xray
         self.overlay.features = settings.snap
         self.overlay.front = front

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from ..core.islands import IslandMaker
     from ..core.network import Edge, Finish, Pick, Wire
     from ..core.session import Session
+    from .metric_views import MetricViews
     from .stretch_heat import StretchHeat
 
 _NO_ROOM = (0.0, 0.0, 0.0, 0.0)
@@ -78,6 +79,8 @@ class Overlay:
         The add-on's, see `Looks.of`.
     heat
         The stretch of the UV map, drawn in place of the islands' tint where there is something to be seen of it.
+    views
+        What the metric sees of the mesh; its heat is drawn there too.
 
     Attributes
     ----------
@@ -105,6 +108,7 @@ class Overlay:
         seams: ArrayLike = (),
         preferences: object | None = None,
         heat: StretchHeat | None = None,
+        views: MetricViews | None = None,
     ) -> None:
         self._session = session
         self._obj = obj
@@ -114,6 +118,7 @@ class Overlay:
         self._seams = np.asarray(seams, dtype=np.int32).reshape(-1, 2)
         self._preferences = preferences
         self.heat = heat
+        self._views = views
         self._to_object = Matrix(to_object.tolist()).to_4x4()
         self._looks = self._current_looks()
         self._kept: tuple[object, _Sheet] = (None, _Sheet(points))
@@ -190,8 +195,12 @@ class Overlay:
         eye = Eye(bpy.context.region_data, self._obj.matrix_world @ self._to_object)
         if self.heat is not None and self.heat.shown:
             self.heat.draw(eye)
+        elif self._views is not None and self._views.has_heat:
+            self._views.draw_heat(eye)
         else:
             self._draw_tint(eye)
+        if self._views is not None:
+            self._views.draw_lines(eye)
         passes = [("NONE", False)] if self.xray else [("GREATER", True), ("LESS_EQUAL", False)]
         for test, hidden in passes:
             with blended(test):
@@ -234,10 +243,14 @@ class Overlay:
                     self._session, found, xray=self.xray, features=self.features, pointed=self.pointed_island
                 )
                 text_overlay.draw(lines, (left, bottom), scale, bpy.context.preferences.themes[0].view_3d.space.text_hi)
-            if self.heat is not None and (of_heat := self.heat.legend()) is not None:
-                legend.draw([of_heat], room, scale)
+            legend.draw(self._legends(), room, scale)
             if self.help_rows is not None:
                 text_overlay.draw_table(self.help_rows, (left, bottom, width, height), scale)
+
+    def _legends(self) -> list[legend.Legend]:
+        of_heat = None if self.heat is None else self.heat.legend()
+        others = [] if self._views is None else self._views.legends()
+        return others if of_heat is None else [of_heat, *others]
 
     # What there is to draw
 

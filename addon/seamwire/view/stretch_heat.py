@@ -100,7 +100,7 @@ class StretchHeat:
         obj
             Whose mesh it is.
         kind
-            ``NONE``, ``ANGLE`` or ``AREA``.
+            ``ANGLE`` or ``AREA``; of anything else nothing is shown.
         anew
             Whether its UVs may be others than they were; else they are read where that was not yet done.
 
@@ -109,7 +109,8 @@ class StretchHeat:
         bool
             Whether they were read.
         """
-        if kind == "NONE":
+        if kind not in _NAMES:
+            kind = "NONE"
             # What changes meanwhile is read when it is to be seen again.
             self._kind, self._known = kind, self._known and not anew
             return False

@@ -348,6 +348,9 @@ Embedding BisectedMesh::to_embedding(bool is_scheme_local) && {
     }
     for (std::int32_t& f : origins) f = surface.face_of_half_edge_face()[f];
   }
+  for (const std::int32_t f : holes) out.hole_faces.push_back(origins[f]);
+  std::ranges::sort(out.hole_faces);
+  out.hole_faces.erase(std::unique(out.hole_faces.begin(), out.hole_faces.end()), out.hole_faces.end());
   // Each edge of holes alone, once.
   const auto is_hole = [&](std::int32_t f) { return std::binary_search(holes.begin(), holes.end(), f); };
   for (const std::int32_t f : holes) {

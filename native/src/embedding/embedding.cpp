@@ -12,6 +12,7 @@
 #include "embedding/length_repair.hpp"
 #include "embedding/re_embedding.hpp"
 #include "metric/metric_check.hpp"
+#include "surface/face_height.hpp"
 
 namespace seamwire {
 namespace {
@@ -41,12 +42,20 @@ std::size_t later_budget(const Surface& surface, std::size_t cap) {
   return std::min(std::max(kLeastLaterBudget, kLaterBudget * surface.face_count()), cap / 4);
 }
 
+void sort_and_unify(std::vector<std::int32_t>& numbers) {
+  std::ranges::sort(numbers);
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
 // The result of bisection, and of length repair after it.
 Embedding finished(Bisection&& bisection, const LengthRepair& repair, const Task& task) {
+  const std::vector<std::int32_t>& face_of = bisection.mesh().surface.face_of_half_edge_face();
   Embedding out = std::move(bisection).to_embedding();
   out.hit_cap = out.hit_cap || repair.hit_cap;
   out.clamped_edges = repair.clamped_edges;
   out.worst_clamp = repair.worst_clamp;
+  for (const std::int32_t f : repair.faces) out.repaired_faces.push_back(face_of[f]);
+  sort_and_unify(out.repaired_faces);
   task.check(1);
   return out;
 }
@@ -118,6 +127,23 @@ Embedding re_embed(const Surface& surface, const Metric& former, const Metric& m
   if (!out) return embed(surface, metric, options, task);
   task.check(1);
   return std::move(*out);
+}
+
+std::vector<std::int32_t> invalid_faces(const Surface& surface, const Metric& metric) {
+  check_metric(surface, metric);
+  std::vector<std::int32_t> out;
+  for (std::size_t f = 0; f < surface.face_fans().size(); ++f) {
+    const std::int32_t face = surface.face_of_half_edge_face()[f];
+    const auto& [a, b, c] = surface.triangles()[face];
+    const auto side = [&](std::int32_t from, std::int32_t to) {
+      return Vector((surface.points()[to] - surface.points()[from]) * surface.scale());
+    };
+    if (!has_area(side(a, b), side(b, c), side(c, a)) ||
+        !is_valid_as_given(surface, metric, static_cast<std::int32_t>(f))) {
+      out.push_back(face);
+    }
+  }
+  return out;
 }
 
 }  // namespace seamwire

@@ -44,6 +44,7 @@ void set_clamped_length(BisectedMesh& mesh, std::int32_t h, double half, double 
   mesh.set_length(h, length);
   if (length == measured) return;
   ++repair.clamped_edges;
+  repair.faces.push_back(mesh.origins[h / 3]);
   repair.worst_clamp = std::max({repair.worst_clamp, length / measured, measured / length});
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "embedding/bisected_mesh.hpp"
 #include "seamwire/embedding/embedding.hpp"
@@ -14,8 +15,9 @@ namespace seamwire {
 struct LengthRepair {
   bool is_complete = true;  ///< false: triangles that need repair are left, because of the cap or of rounding
   bool hit_cap = false;
-  std::size_t clamped_edges = 0;  ///< whose length is not what the metric says
-  double worst_clamp = 1.0;       ///< the largest factor, up or down, between the two lengths
+  std::size_t clamped_edges = 0;    ///< whose length is not what the metric says
+  double worst_clamp = 1.0;         ///< the largest factor, up or down, between the two lengths
+  std::vector<std::int32_t> faces;  ///< those of the surface's half-edge mesh that such edges lie in, each once or more
 };
 
 /// Whether a triangle is invalid, and is neither left out for sigma nor a part of a degenerate face.

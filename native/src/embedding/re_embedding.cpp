@@ -29,16 +29,17 @@ std::vector<std::int32_t> changed_faces(const Surface& surface, const Metric& fo
   return faces;
 }
 
-// Whether a face of the surface is valid in a metric.
+}  // namespace
+
 bool is_valid_as_given(const Surface& surface, const Metric& metric, std::int32_t face) {
-  const auto [a, b, c] = surface.face_fans()[face];
+  Triangle corners = surface.face_fans()[face];
+  for (std::int32_t& v : corners) v = surface.vertex_of_fan()[v];
+  const auto [a, b, c] = corners;
   std::array lengths{edge_length(surface, metric, a, b), edge_length(surface, metric, b, c),
                      edge_length(surface, metric, c, a)};
   std::ranges::sort(lengths);
   return lengths[2] < (lengths[0] + lengths[1]) * (1 - kValidityMargin);
 }
-
-}  // namespace
 
 std::optional<Embedding> re_embed_locally(const Surface& surface, const Metric& former, const Metric& metric,
                                           Embedding&& old, const EmbedOptions& options, const Task& task,

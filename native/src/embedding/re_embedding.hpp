@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include "seamwire/embedding/embedding.hpp"
@@ -14,5 +15,8 @@ namespace seamwire {
 std::optional<Embedding> re_embed_locally(const Surface& surface, const Metric& former, const Metric& metric,
                                           Embedding&& old, const EmbedOptions& options, const Task& task,
                                           std::size_t most);
+
+/// Whether a face of the surface's half-edge mesh is valid in a metric as it is.
+bool is_valid_as_given(const Surface& surface, const Metric& metric, std::int32_t face);
 
 }  // namespace seamwire

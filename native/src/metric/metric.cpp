@@ -243,6 +243,17 @@ double anisotropy(const TensorAt& at) {
   return l1 / std::sqrt(p * r - q * q);
 }
 
+PrincipalAxes principal_axes(const TensorAt& at) {
+  if (at.normal.isZero(0)) return {};
+  const TangentFrame frame = tangent_frame(at.normal);
+  const auto [p, q, r] = in_plane(at);
+  const double l1 = (p + r + std::hypot(p - r, 2 * q)) / 2;
+  const double angle = std::atan2(2 * q, p - r) / 2;
+  const Vector e1 = (std::cos(angle) * frame.u + std::sin(angle) * frame.v()).normalized();
+  // Their product is the determinant: the difference of two large numbers would lose a small eigenvalue.
+  return {.l1 = l1, .l2 = (p * r - q * q) / l1, .e1 = e1, .e2 = at.normal.cross(e1)};
+}
+
 double max_anisotropy(const Metric& metric) {
   double largest = 1;
   for (std::size_t v = 0; v < metric.size(); ++v) {

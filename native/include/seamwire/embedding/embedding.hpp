@@ -44,6 +44,8 @@ struct Embedding {
   /// that the change has reached.
   std::size_t faces_embedded = 0;
   bool is_local = false;  ///< re_embed() can go on from it: see there
+  /// The caller's faces in which holes lie, and those with an edge that length repair gave another length; ascending.
+  std::vector<std::int32_t> hole_faces, repaired_faces;
   std::vector<std::int32_t>
       unreachable;  ///< the caller's vertices in a face, but in no valid triangle and on no edge to run along
 };
@@ -77,5 +79,10 @@ Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions
 /// `former` and the same options; throws InvalidInput where it cannot be, and what embed() throws.
 Embedding re_embed(const Surface& surface, const Metric& former, const Metric& metric, Embedding old,
                    const EmbedOptions& options = {}, const Task& task = {});
+
+/// The caller's faces that are invalid in a metric before any bisection, those without an area among them, ascending:
+/// what embed() has to bisect, Embedding::invalid_before of them. Throws InvalidInput where metric and surface differ
+/// in size, or a tensor is not finite.
+std::vector<std::int32_t> invalid_faces(const Surface& surface, const Metric& metric);
 
 }  // namespace seamwire

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sidebar's panel of Object Mode: what the metric sees of the active object."""
+
+from __future__ import annotations
+
+import sys
+
+import bpy
+
+from ..mesh import settings as chosen
+from .properties import draw_views
+
+
+class VIEW3D_PT_seamwire_views(bpy.types.Panel):
+    """What the metric sees of the active object"""  # noqa: D400 - a tooltip
+
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Seamwire"
+    bl_label = "Seamwire Views"
+    bl_context = "objectmode"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Whether a mesh is active."""
+        return context.active_object is not None and context.active_object.type == "MESH"
+
+    def draw_header(self, context: bpy.types.Context) -> None:
+        """Show whether anything is seen at all."""
+        self.layout.prop(chosen.settings(context), "views_in_object_mode", text="")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Show what is to be seen."""
+        layout, settings = self.layout, chosen.settings(context)
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        layout.active = settings.views_in_object_mode
+        draw_views(settings, layout)
+        layout.prop(settings, "along")
+        layout.prop(settings, "strength_edges" if settings.along == "EDGES" else "strength_surface")
+        layout.prop(settings, "metric")
+        layout.operator_menu_enum("mesh.seamwire_store_view", "view")
+
+
+def _follow() -> None:
+    if chosen.settings().views_in_object_mode:
+        from ..view.object_mode import object_mode
+
+        object_mode.start()
+
+
+def register() -> None:
+    """Add the panel; what an earlier session showed is shown again."""
+    bpy.utils.register_class(VIEW3D_PT_seamwire_views)
+    chosen.listeners.append(_follow)
+    bpy.app.timers.register(_follow, first_interval=0.5, persistent=True)
+
+
+def unregister() -> None:
+    """Remove it, and end what is shown."""
+    if _follow in chosen.listeners:
+        chosen.listeners.remove(_follow)
+    if bpy.app.timers.is_registered(_follow):
+        bpy.app.timers.unregister(_follow)
+    module = sys.modules.get(f"{chosen.ADDON}.view.object_mode")
+    if module is not None:
+        module.object_mode.stop()
+    bpy.utils.unregister_class(VIEW3D_PT_seamwire_views)

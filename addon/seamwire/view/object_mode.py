@@ -1,0 +1,195 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the metric sees of the active object in Object Mode."""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import TYPE_CHECKING
+
+import bpy
+from mathutils import Matrix
+
+from ..core import native
+from ..mesh import edit_mesh
+from ..mesh import settings as chosen
+from ..mesh.view_fields import selected_vertex
+from . import legend
+from .gpu_draw import Eye, blended
+from .legend import Legend
+from .metric_views import MetricViews
+from .overlay import free_room
+
+if TYPE_CHECKING:
+    from ..mesh.edit_mesh import Arrays
+
+_RHYTHM = 0.05
+"""Seconds between two looks at running work."""
+_IDLE = 0.25
+"""Seconds between two looks at what is active."""
+_PAUSE = 0.3
+"""Seconds after which a mesh that has changed is read anew: while it is being changed, it changes all the time."""
+
+
+class _Shown:
+    """The active object as it was read."""
+
+    def __init__(self, obj: bpy.types.Object) -> None:
+        self.name, self.mesh = obj.name_full, obj.data.name_full
+        self.problem = ""
+        self.arrays: Arrays | None = None
+        self.views: MetricViews | None = None
+        try:
+            core = native.load()
+            self.arrays = arrays = edit_mesh.read(obj)
+        except (ValueError, native.NativeError) as error:
+            self.problem = str(error)
+            return
+        self.source = selected_vertex(obj)
+        self.views = MetricViews(arrays, core, lambda: core.Surface(arrays.points, arrays.triangles, arrays.edges))
+
+    def is_of(self, obj: bpy.types.Object) -> bool:
+        return (self.name, self.mesh) == (obj.name_full, obj.data.name_full)
+
+    def close(self) -> None:
+        if self.views is not None:
+            self.views.close()
+
+
+class ObjectModeViews:
+    """Draws while the setting asks for it; reads the active object when that or its mesh has changed."""
+
+    def __init__(self) -> None:
+        self._shown: _Shown | None = None
+        self._handles: list[object] = []
+        self._changed = 0.0
+        self._stale = False
+
+    def start(self) -> None:
+        """Begin; to be called again does no harm."""
+        if self._handles or bpy.app.background:
+            return
+        add = bpy.types.SpaceView3D.draw_handler_add
+        self._handles = [
+            add(self._draw, (self._draw_in_scene,), "WINDOW", "POST_VIEW"),
+            add(self._draw, (self._draw_on_screen,), "WINDOW", "POST_PIXEL"),
+        ]
+        for name in _EVENTS:
+            getattr(bpy.app.handlers, name).append(_on_change)
+        bpy.app.timers.register(self._tick, first_interval=0.0, persistent=True)
+
+    def stop(self) -> None:
+        """End, and forget what was read."""
+        while self._handles:
+            bpy.types.SpaceView3D.draw_handler_remove(self._handles.pop(), "WINDOW")
+        for name in _EVENTS:
+            if _on_change in getattr(bpy.app.handlers, name):
+                getattr(bpy.app.handlers, name).remove(_on_change)
+        if bpy.app.timers.is_registered(self._tick):
+            bpy.app.timers.unregister(self._tick)
+        self._forget()
+
+    @property
+    def views(self) -> MetricViews | None:
+        """What is shown of the active object; None: nothing."""
+        return None if self._shown is None else self._shown.views
+
+    def on_change(self, depsgraph: bpy.types.Depsgraph | None = None) -> None:
+        """Take note of a change of meshes; without a depsgraph: of all of them."""
+        if self._shown is None:
+            return
+        if depsgraph is None or any(
+            update.is_updated_geometry and update.id.name_full in (self._shown.name, self._shown.mesh)
+            for update in depsgraph.updates
+        ):
+            self._stale, self._changed = True, time.monotonic()
+
+    def _forget(self) -> None:
+        if self._shown is not None:
+            self._shown.close()
+        self._shown, self._stale = None, False
+
+    def _tick(self) -> float | None:
+        if not chosen.settings().views_in_object_mode:
+            self.stop()
+            _redraw()
+            return None
+        obj = _active()
+        if obj is None or (self._shown is not None and not self._shown.is_of(obj)):
+            self._forget()
+        if obj is None:
+            return _IDLE
+        if self._stale and time.monotonic() - self._changed > _PAUSE:
+            self._forget()
+        if self._shown is None:
+            self._shown = _Shown(obj)
+            _redraw()
+        views = self._shown.views
+        if views is None:
+            return _IDLE
+        settings = chosen.settings()
+        views.follow(settings, settings.along, self._shown.source)
+        if views.poll():
+            _redraw()
+        return _RHYTHM if views.busy else _IDLE
+
+    def _draw(self, part: object) -> None:
+        try:
+            context = bpy.context
+            obj = _active()
+            if obj is None or self._shown is None or not self._shown.is_of(obj) or self._stale:
+                return
+            if context.space_data.overlay.show_overlays and obj.visible_in_viewport_get(context.space_data):
+                part(obj)
+        except Exception:
+            # Printed once: it would come with every redraw.
+            self._shown = None
+            sys.excepthook(*sys.exc_info())
+            bpy.app.timers.register(self.stop, first_interval=0.0)
+
+    def _draw_in_scene(self, obj: bpy.types.Object) -> None:
+        if self._shown.views is None:
+            return
+        to_object = Matrix(self._shown.arrays.to_object.tolist()).to_4x4()
+        eye = Eye(bpy.context.region_data, obj.matrix_world @ to_object)
+        if self._shown.views.has_heat:
+            self._shown.views.draw_heat(eye)
+        self._shown.views.draw_lines(eye)
+
+    def _draw_on_screen(self, obj: bpy.types.Object) -> None:
+        if self._shown.views is None:
+            legends = [Legend((self._shown.problem,))]
+        else:
+            legends = self._shown.views.legends()
+            if legends and any(modifier.show_viewport for modifier in obj.modifiers):
+                legends.append(Legend(("Modifiers are ignored",)))
+        with blended("NONE"):
+            room = free_room(bpy.context.area, bpy.context.region)
+            legend.draw(legends, room, bpy.context.preferences.system.ui_scale)
+
+
+def _active() -> bpy.types.Object | None:
+    """Return the active mesh object of Object Mode."""
+    context = bpy.context
+    layer = context.view_layer
+    obj = None if layer is None else layer.objects.active
+    return obj if obj is not None and obj.type == "MESH" and obj.mode == "OBJECT" else None
+
+
+def _redraw() -> None:
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
+
+
+object_mode = ObjectModeViews()
+"""Those of this Blender."""
+
+
+@bpy.app.handlers.persistent
+def _on_change(_scene: bpy.types.Scene | None = None, depsgraph: bpy.types.Depsgraph | None = None) -> None:
+    object_mode.on_change(depsgraph)
+
+
+_EVENTS = ("depsgraph_update_post", "undo_post", "redo_post", "load_post")

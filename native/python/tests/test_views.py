@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What views show, as arrays: isolines, ellipses, many paths, invalid triangles."""
+
+from __future__ import annotations
+
+import meshes
+import numpy as np
+import pytest
+import seamwire_core as sw
+
+
+def grid(n: int) -> sw.Surface:
+    return sw.Surface(*meshes.grid(n))
+
+
+def test_isolines_of_exact_distances_on_a_plane_are_chords_of_circles() -> None:
+    surface = grid(40)
+    curvature = sw.principal_curvatures(surface)
+    middle = 20 * 41 + 20
+    field = sw.distance_field(sw.embed(surface, sw.euclidean_metric(surface, curvature)), middle)
+    radii = [0.1, 0.2, 0.3, 0.45]
+    segments, faces, levels = sw.isolines(surface, field.distances, radii)
+    assert segments.shape[1:] == (2, 3)
+    assert len(segments) == len(faces) == len(levels)
+    away = np.linalg.norm(segments - surface.points[middle], axis=2)
+    for level, radius in enumerate(radii):
+        mine = levels == level
+        # Linear along edges of up to h: off by h^2 / 8 r.
+        assert np.abs(away[mine] - radius).max() <= (np.sqrt(2) / 40) ** 2 / (8 * radius) + 1e-12
+        around = np.linalg.norm(np.diff(segments[mine], axis=1), axis=2).sum()
+        assert around == pytest.approx(2 * np.pi * radius, rel=0.01)
+    inside = surface.points[surface.triangles[faces]]
+    assert (segments.min(1) >= inside.min(1) - 1e-12).all()
+    assert (segments.max(1) <= inside.max(1) + 1e-12).all()
+
+
+def test_ellipses_have_the_axes_of_their_tensors(metric: sw.Metric) -> None:
+    norm, reach = metric.ellipses(), metric.ellipses("reach")
+    values = np.linalg.eigvalsh(metric.tensors)[:, 1:]  # the least is the normal's, 0
+    np.testing.assert_allclose(np.linalg.norm(norm, axis=2), values[:, ::-1], rtol=1e-9)
+    np.testing.assert_allclose(np.linalg.norm(reach, axis=2), values**-0.5, rtol=1e-9)
+    for axes in (norm, reach):
+        np.testing.assert_allclose(np.einsum("nac,nc->na", axes, metric.normals), 0.0, atol=1e-9)
+        np.testing.assert_allclose(np.einsum("nc,nc->n", axes[:, 0], axes[:, 1]), 0.0, atol=1e-9)
+    # A vector of the ellipse of reach has length 1 in the metric.
+    for vectors in (reach[:, 0], reach[:, 1], (reach[:, 0] + reach[:, 1]) / np.sqrt(2)):
+        np.testing.assert_allclose(np.einsum("na,nab,nb->n", vectors, metric.tensors, vectors), 1.0, rtol=1e-9)
+    with pytest.raises(ValueError, match="of: expected 'norm' or 'reach', got 'ball'"):
+        metric.ellipses("ball")
+
+
+def test_many_paths_are_those_traced_one_by_one(field: sw.DistanceField) -> None:
+    vertices = np.arange(0, len(field.distances), 3)
+    points, starts, lengths = field.trace_many(vertices)
+    assert starts[0] == 0
+    assert starts[-1] == len(points)
+    for i, vertex in enumerate(vertices):
+        wire = field.trace(int(vertex))
+        np.testing.assert_array_equal(points[starts[i] : starts[i + 1]], wire.points)
+        assert lengths[i] == wire.length
+    none = field.trace_many([])
+    assert [len(part) for part in none] == [0, 1, 0]
+    with pytest.raises(ValueError, match="out of range"):
+        field.trace_many([0, len(field.distances)])
+
+
+def test_invalid_faces_are_those_that_are_bisected(
+    surface: sw.Surface, metric: sw.Metric, embedding: sw.Embedding
+) -> None:
+    faces = sw.invalid_faces(surface, metric)
+    assert len(faces) == embedding.invalid_before > 0
+    pieces = np.bincount(embedding.source_face, minlength=len(surface.triangles))
+    assert (pieces[faces] > 1).all()
+    assert len(embedding.hole_faces) == len(embedding.repaired_faces) == 0
+    few = sw.embed(surface, metric, max_faces_added=2)
+    assert few.invalid_left > 0
+    pieces = np.bincount(few.source_face, minlength=len(surface.triangles))
+    assert set(few.hole_faces) <= set(faces) | set(np.flatnonzero(pieces > 1))
+
+
+@pytest.mark.parametrize(
+    ("values", "levels", "message"),
+    [
+        (np.zeros(3), [0.0], "values of 3 vertices given for a surface of 9"),
+        (np.full(9, np.nan), [0.0], "the value of vertex 0 is not a number"),
+        (np.zeros(9), [1.0, 0.0], "levels are not ascending: level 1 is 0, after 1"),
+        (np.zeros((9, 1)), [0.0], r"values: expected real numbers of shape \(n,\), got shape \(9, 1\)"),
+        (np.zeros(9), ["a"], "levels: expected real numbers"),
+    ],
+)
+def test_wrong_values_and_levels_are_named(values: np.ndarray, levels: list, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        sw.isolines(grid(2), values, levels)

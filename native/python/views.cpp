@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arrays.hpp"
+#include "objects.hpp"
+#include "seamwire/surface/isolines.hpp"
+#include "watch.hpp"
+
+namespace seamwire::python {
+namespace {
+
+/// An array of rows of the same number of vectors each.
+template <class Row>
+py::array_t<double> rows_array(const std::vector<Row>& rows, std::vector<py::ssize_t> shape) {
+  static_assert(sizeof(Vector) == 3 * sizeof(double) && sizeof(Row) % sizeof(Vector) == 0);
+  return py::array_t<double>(std::move(shape), reinterpret_cast<const double*>(rows.data()));
+}
+
+py::array_t<double> pairs_array(const std::vector<std::array<Vector, 2>>& pairs) {
+  return rows_array(pairs, {static_cast<py::ssize_t>(pairs.size()), 2, 3});
+}
+
+/// The semi-axes, the longer one first.
+std::vector<std::array<Vector, 2>> semi_axes(const Metric& metric, bool is_reach) {
+  std::vector<std::array<Vector, 2>> axes(metric.size());
+  for (std::size_t v = 0; v < metric.size(); ++v) {
+    const PrincipalAxes at = principal_axes({metric.normals[v], metric.tensors[v]});
+    axes[v] = is_reach ? std::array<Vector, 2>{at.e2 / std::sqrt(at.l2), at.e1 / std::sqrt(at.l1)}
+                       : std::array<Vector, 2>{at.l1 * at.e1, at.l2 * at.e2};
+  }
+  return axes;
+}
+
+py::array_t<double> ellipses(const MetricObject& metric, const std::string& of) {
+  if (of != "norm" && of != "reach") throw InvalidInput("of: expected 'norm' or 'reach', got '" + of + "'");
+  return pairs_array(without_gil([&] { return semi_axes(metric.metric, of == "reach"); }));
+}
+
+py::tuple isolines_of(const SurfaceObject& surface, const py::object& values, const py::object& levels) {
+  const std::vector<double> own_values = values_from(values, "values"), own_levels = values_from(levels, "levels");
+  Isolines lines = without_gil([&] { return isolines(*surface.surface, own_values, own_levels); });
+  return py::make_tuple(pairs_array(lines.segments), handed_over(std::move(lines.faces)),
+                        handed_over(std::move(lines.levels)));
+}
+
+py::tuple trace_many(const FieldObject& object, const py::object& vertices) {
+  const EmbeddingObject& on = *object.embedding;
+  const std::vector<std::int32_t> targets = numbers_from(vertices, "vertices");
+  std::vector<Vector> points;
+  std::vector<std::int32_t> starts{0};
+  std::vector<double> lengths;
+  Watch(py::none()).run([&](const Task& task) {
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      task.check(static_cast<double>(i) / static_cast<double>(targets.size()));
+      const Wire wire = trace_wire(*on.surface, on.embedding, object.field, targets[i], task);
+      points.insert(points.end(), wire.points.begin(), wire.points.end());
+      starts.push_back(static_cast<std::int32_t>(points.size()));
+      lengths.push_back(wire.length);
+    }
+    return true;
+  });
+  return py::make_tuple(rows_array(points, {static_cast<py::ssize_t>(points.size()), 3}),
+                        handed_over(std::move(starts)), handed_over(std::move(lengths)));
+}
+
+}  // namespace
+
+void bind_views(py::module_& module) {
+  module.attr("Metric").cast<py::class_<MetricObject, Held<MetricObject>>>().def(
+      "ellipses", &ellipses, py::arg("of") = "norm", R"(The ellipse of the norm at each vertex (Figures 2, 3 and 6).
+
+Parameters
+----------
+of : {'norm', 'reach'}
+    'norm': l1 e1 and l2 e2 of eq. 2, as the paper's figures have them: long across the direction that paths follow.
+    'reach': e2 / sqrt(l2) and e1 / sqrt(l1), how far a path of length 1 leads: long along that direction.
+
+Returns
+-------
+(n, 2, 3) float64
+    The two semi-axes, the longer one first, of the model scaled to the unit cube; zero at vertices without a face.
+
+Raises
+------
+ValueError
+    For another `of`.
+)");
+  module.def("isolines", &isolines_of, py::arg("surface"), py::arg("values"), py::arg("levels"),
+             R"(Where a function on a surface, linear on each triangle, has given values.
+
+Parameters
+----------
+surface : Surface
+values : (n,) array_like of float
+    At its vertices. Triangles with an infinite one are left out.
+levels : (l,) array_like of float
+    Finite, ascending.
+
+Returns
+-------
+segments : (k, 2, 3) float64
+    Straight pieces across one triangle each, in the caller's coordinates; neighbors have the same ends.
+faces : (k,) int32
+    The triangle that each lies in.
+levels : (k,) int32
+    Which of the levels it is at.
+
+Raises
+------
+ValueError
+    For values of another number of vertices, one that is no number, and levels that are not finite and ascending.
+)");
+  module.def(
+      "invalid_faces",
+      [](const SurfaceObject& surface, const MetricObject& metric) {
+        return handed_over(without_gil([&] { return invalid_faces(*surface.surface, metric.metric); }));
+      },
+      py::arg("surface"), py::arg("metric"),
+      R"(The triangles that are invalid in a metric before any bisection (Section 4.1; Figures 7 and 9).
+
+Returns
+-------
+(k,) int32
+    Ascending, those without an area among them: what `embed` has to bisect.
+
+Raises
+------
+ValueError
+    Where the metric is of another surface.
+)");
+  module.attr("DistanceField")
+      .cast<py::class_<FieldObject, Held<FieldObject>>>()
+      .def("trace_many", &trace_many, py::arg("vertices"),
+           R"(The shortest paths from the seed to several vertices (Figure 1).
+
+Parameters
+----------
+vertices : (k,) array_like of int
+
+Returns
+-------
+points : (p, 3) float64
+    Of all paths, one after the other, in the caller's coordinates.
+starts : (k + 1,) int32
+    Path i has the points starts[i] to starts[i + 1]; none where its vertex is unreachable.
+lengths : (k,) float64
+    In the metric; inf where the vertex is unreachable.
+
+Raises
+------
+ValueError
+    Where a vertex is out of range.
+)");
+}
+
+}  // namespace seamwire::python
