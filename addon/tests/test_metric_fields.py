@@ -41,7 +41,10 @@ def test_all_that_is_shown_is_of_the_mesh_that_it_is_asked_for() -> None:
     assert len(made.invalid.split) == made.invalid.before
     assert len(made.invalid.left) == len(made.invalid.repaired) == 0
     assert made.ellipses.anisotropy.max() == pytest.approx(20.0, rel=1e-6)
-    assert np.linalg.norm(made.ellipses.axes, axis=2).max() == pytest.approx(1.0)
+    sizes = np.linalg.norm(made.ellipses.axes, axis=2)
+    assert sizes[:, 0] / sizes[:, 1] == pytest.approx(made.ellipses.anisotropy)
+    assert np.median(np.sqrt(sizes.prod(axis=1))) <= 0.34 * made.ellipses.spacing
+    assert sizes.max() <= 1.5001 * made.ellipses.spacing
     bands = np.linalg.norm(made.isolines.segments[:, 0] - made.isolines.segments[:, 1], axis=1)
     assert bands.max() < 0.1
     assert made.paths.lengths.max() == pytest.approx(made.distance.max(), rel=0.2)

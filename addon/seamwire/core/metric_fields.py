@@ -32,6 +32,8 @@ BANDS = 20
 """About so many distance bands."""
 ELLIPSES = 1500
 """So many ellipses at most."""
+_RADIUS, _LONGEST = 0.33, 1.5
+"""Of an ellipse, in distances to the next one: its mean radius, and its longest semi-axis at most."""
 CONCAVE_UNIT = 20.0
 """The strength at which the concave metric is as it was measured, as the library's live wires have it."""
 
@@ -74,11 +76,11 @@ class Ellipses:
     centres, normals
         (k, 3).
     axes
-        (k, 2, 3) semi-axes, the longer first, at most 1 long: how far a path of one length leads.
+        (k, 2, 3) semi-axes, the longer first: how far a path of one length leads, the same for all, so that they are seen apart.
     anisotropy
         (k,)
     spacing
-        How far apart the centres are at least.
+        About how far apart the centres are.
     """
 
     centres: NDArray[np.float64]
@@ -298,10 +300,10 @@ class FieldMaker:
         far = bool(parts & {"DISTANCE", "PATHS", "ISOLINES"}) and request.source is not None
         return Fields(
             request,
-            strength=self._curvature().difference if "STRENGTH" in parts else None,
-            concavity=self._smoothed().k1 if "CONCAVITY" in parts else None,
+            strength=self._strength() if "STRENGTH" in parts else None,
+            concavity=self._concavity() if "CONCAVITY" in parts else None,
             ellipses=self._ellipses(request) if "ELLIPSES" in parts else None,
-            distance=self._field(request).distances if far else None,
+            distance=self._distance(request) if far else None,
             paths=self._paths(request) if far and "PATHS" in parts else None,
             isolines=self._isolines(request) if far and "ISOLINES" in parts else None,
             invalid=self._invalid(request) if "INVALID" in parts else None,
@@ -319,6 +321,17 @@ class FieldMaker:
             return self._core.smoothed_curvatures(self.surface(), self._curvature(), progress=self._go_on)
 
         return self._once("smoothed", None, make)
+
+    # The same arrays each time, so that what is drawn of them stays.
+
+    def _strength(self) -> NDArray[np.float64]:
+        return self._once("strength", None, lambda: self._curvature().difference)
+
+    def _concavity(self) -> NDArray[np.float64]:
+        return self._once("concavity", None, lambda: self._smoothed().k1)
+
+    def _distance(self, request: Request) -> NDArray[np.float64]:
+        return self._once("distance", (request.metric_key, request.source), lambda: self._field(request).distances)
 
     def metric(self, request: Request) -> seamwire_core.Metric:
         """Return the metric that wires are short in, as the library's live wires have it."""
@@ -372,10 +385,16 @@ class FieldMaker:
                 # All vertices: as far apart as edges are long.
                 ends = surface.points[surface.edges]
                 side = float(np.median(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)))
+            # A circle of the mean area fills two thirds of the way to the next one; none reaches over more than two.
+            scale = (
+                side * min(_RADIUS / float(np.median(np.sqrt(sizes.prod(axis=1)))), _LONGEST / float(sizes.max()))
+                if len(sizes)
+                else 1.0
+            )
             return Ellipses(
                 centres,
                 metric.normals[chosen],
-                axes / max(sizes.max(initial=0.0), 1e-300),
+                axes * scale,
                 sizes[:, 0] / sizes[:, 1],
                 side,
             )

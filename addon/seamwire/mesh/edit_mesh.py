@@ -279,19 +279,50 @@ def read(obj: bpy.types.Object) -> Arrays:
     shared = obj.data.copy() if bpy.app.version >= (4, 1, 0) else None
     try:
         columns = _Items(obj.data) if shared is None else _Attributes(shared)
-        points = (columns.points() if _on_basis(obj) else _shape(obj)).astype(np.float64)
-        edges = columns.edges()
-        visible = ~columns.flags("edges", "hide")
-        seams = edges[visible & columns.flags("edges", "use_seam")]
-        edges = edges[visible]
-        if len(edges) == 0:
-            raise ValueError("No edge of the mesh is visible: there is nothing to draw on")
-        corners = columns.corners()
-        hidden = columns.flags("polygons", "hide")
+        points = columns.points() if _on_basis(obj) else _shape(obj)
+        return _arrays(obj, obj.data, columns, points)
     finally:
         if shared is not None:
             bpy.data.meshes.remove(shared)
-    triangles, polygons = _cut(obj.data, corners, points)
+
+
+def read_evaluated(obj: bpy.types.Object) -> tuple[Arrays, NDArray[np.bool_]]:
+    """Read the mesh of an object in object mode as it is seen, with its modifiers and shape keys.
+
+    Returns
+    -------
+    Arrays
+        As `read` returns them.
+    (n,) array
+        Which vertices were selected in edit mode.
+
+    Raises
+    ------
+    ValueError
+        Where no edge is visible.
+    """
+    evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    mesh = evaluated.to_mesh()
+    try:
+        columns = _Items(mesh) if bpy.app.version < (4, 1, 0) else _Attributes(mesh)
+        return _arrays(obj, mesh, columns, columns.points()), _column(mesh.vertices, "select", np.bool_)
+    finally:
+        evaluated.to_mesh_clear()
+
+
+def _arrays(
+    obj: bpy.types.Object, mesh: bpy.types.Mesh, columns: _Items | _Attributes, points: NDArray[np.float32]
+) -> Arrays:
+    """Return what the library needs of a mesh of an object, whose vertices are at other places where so given."""
+    points = points.astype(np.float64)
+    edges = columns.edges()
+    visible = ~columns.flags("edges", "hide")
+    seams = edges[visible & columns.flags("edges", "use_seam")]
+    edges = edges[visible]
+    if len(edges) == 0:
+        raise ValueError("No edge of the mesh is visible: there is nothing to draw on")
+    hidden = columns.flags("polygons", "hide")
+    triangles, polygons = _cut(mesh, columns.corners(), points)
     if hidden.any():
         visible = ~hidden[polygons]
         triangles, polygons = triangles[visible], polygons[visible]

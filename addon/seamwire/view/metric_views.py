@@ -36,11 +36,9 @@ _PERCENTILE = 98.0
 """Of the values, has the last color: the strongest few would leave all others dark."""
 _CORNERS = 24
 """Of an ellipse."""
-_SIZE = 0.48
-"""Of the longest semi-axis, in distances between ellipses: neighbors do not touch."""
-_OUTLINE = 0.12
-"""How much larger the dark ellipse below is, as a part of the longest semi-axis."""
-_DARK: Color = (0.03, 0.03, 0.04, 0.95)
+_RIM: Color = (0.97, 0.97, 0.97, 1.0)
+_RIM_WIDTH = 0.06
+"""In distances between ellipses."""
 _BAND = Style((1.0, 1.0, 1.0, 0.9), 1.5, halo=1.5, lift=3.0)
 _SPLIT: Color = (0.13, 0.44, 0.94, 0.9)
 _REPAIRED: Color = (0.96, 0.60, 0.10, 0.95)
@@ -170,10 +168,10 @@ class MetricViews:
                 self._once("pieces", invalid, lambda: Lines(_PIECES, invalid.edges)).draw(eye)
         ellipses = self._shown("ELLIPSES")
         if ellipses is not None:
-            dark, bright = self._once("ellipses", ellipses, lambda: _ellipse_faces(ellipses))
+            rims, insides = self._once("ellipses", ellipses, lambda: _ellipse_faces(ellipses))
             with blended("LESS_EQUAL"):
-                dark.draw(eye, 5.0)
-                bright.draw(eye, 6.0)
+                rims.draw(eye, 5.0)
+                insides.draw(eye, 6.0)
         with blended("LESS_EQUAL"):
             isolines = self._shown("ISOLINES")
             if isolines is not None:
@@ -272,11 +270,11 @@ def _text(number: float) -> str:
 
 
 def _ellipse_faces(ellipses: Ellipses) -> tuple[ShadedFaces, ShadedFaces]:
-    """Return the ellipses as fans: dark ones, and colored ones above them."""
+    """Return the ellipses as fans: their rims, and the colored insides above them."""
     colors = np.ones((len(ellipses.centres), 4))
     colors[:, :3] = color_maps.colors(_anisotropy_parts(ellipses), color_maps.VIRIDIS)
-    dark = np.broadcast_to(np.array(_DARK), colors.shape)
-    return tuple(_fans(ellipses, margin, shade) for margin, shade in ((_OUTLINE, dark), (0.0, colors)))
+    rims = np.broadcast_to(np.array(_RIM), colors.shape)
+    return _fans(ellipses, _RIM_WIDTH * ellipses.spacing, rims), _fans(ellipses, 0.0, colors)
 
 
 def _anisotropy_parts(ellipses: Ellipses) -> NDArray[np.float64]:
@@ -288,7 +286,7 @@ def _fans(ellipses: Ellipses, margin: float, colors: NDArray[np.float64]) -> Sha
     count = len(ellipses.centres)
     angles = np.linspace(0.0, 2.0 * np.pi, _CORNERS, endpoint=False)
     sizes = np.linalg.norm(ellipses.axes, axis=2, keepdims=True)
-    axes = ellipses.axes * (1.0 + margin / np.maximum(sizes, 1e-12)) * (_SIZE * ellipses.spacing)
+    axes = ellipses.axes * (1.0 + margin / np.maximum(sizes, 1e-300))
     rims = ellipses.centres[:, None] + np.einsum(
         "kac,ia->kic", axes, np.stack([np.cos(angles), np.sin(angles)], axis=1)
     )

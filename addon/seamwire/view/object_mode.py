@@ -13,7 +13,6 @@ from mathutils import Matrix
 from ..core import native
 from ..mesh import edit_mesh
 from ..mesh import settings as chosen
-from ..mesh.view_fields import selected_vertex
 from . import legend
 from .gpu_draw import Eye, blended
 from .legend import Legend
@@ -41,11 +40,13 @@ class _Shown:
         self.views: MetricViews | None = None
         try:
             core = native.load()
-            self.arrays = arrays = edit_mesh.read(obj)
+            self.arrays, selected = edit_mesh.read_evaluated(obj)
         except (ValueError, native.NativeError) as error:
             self.problem = str(error)
             return
-        self.source = selected_vertex(obj)
+        # Where all are selected, as new meshes are, none was chosen.
+        self.source = int(selected.argmax()) if selected.any() and not selected.all() else None
+        arrays = self.arrays
         self.views = MetricViews(arrays, core, lambda: core.Surface(arrays.points, arrays.triangles, arrays.edges))
 
     def is_of(self, obj: bpy.types.Object) -> bool:
@@ -156,13 +157,9 @@ class ObjectModeViews:
             self._shown.views.draw_heat(eye)
         self._shown.views.draw_lines(eye)
 
-    def _draw_on_screen(self, obj: bpy.types.Object) -> None:
-        if self._shown.views is None:
-            legends = [Legend((self._shown.problem,))]
-        else:
-            legends = self._shown.views.legends()
-            if legends and any(modifier.show_viewport for modifier in obj.modifiers):
-                legends.append(Legend(("Modifiers are ignored",)))
+    def _draw_on_screen(self, _obj: bpy.types.Object) -> None:
+        views = self._shown.views
+        legends = [Legend((self._shown.problem,))] if views is None else views.legends()
         with blended("NONE"):
             room = free_room(bpy.context.area, bpy.context.region)
             legend.draw(legends, room, bpy.context.preferences.system.ui_scale)
