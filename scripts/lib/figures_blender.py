@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 PANEL = 300
 """Width of a picture; its height is what the model needs."""
 PATHS = 350
-ELLIPSES = 1300
+ELLIPSES = 1100
 METRICS = ("euclidean", "pottmann_kovacs", "campen", "feature")
 COLORS = {
     "euclidean": (0.85, 0.12, 0.10),
@@ -263,11 +263,11 @@ class Figures:
         for kind in METRICS:
             strength = {} if kind == "euclidean" else {"max_anisotropy": 20.0}
             metric = model.metric(kind, **strength)
-            stage = self._stage(model, 230)
+            stage = self._stage(model, 200)
             stage.mesh(model.points, model.triangles)
             self._add_ellipses(stage, model, metric)
             rows[0].append(self._render(stage))
-            stage = self._stage(model, 230)
+            stage = self._stage(model, 200)
             stage.mesh(model.points, model.triangles)
             self._add_paths(stage, model, self._core.distance_field(model.embed(metric, kind), seed))
             stage.balls(model.points[seed], (0.9, 0.1, 0.1), 0.016)
@@ -282,7 +282,7 @@ class Figures:
         invalid = self._core.invalid_faces(model.surface, metric)
         colors = np.tile(CLAY, (len(model.triangles), 1))
         colors[invalid] = INVALID
-        whole = self._stage(model)
+        whole = self._stage(model, 230)
         whole.mesh(model.points, model.triangles, colors)
         place = self._densest(model, invalid)
         panels = [self._render(whole)]
@@ -291,14 +291,14 @@ class Figures:
             (model.points, model.triangles, of_edges, colors),
             (embedding.points, embedding.triangles, embedding.edges, colors[embedding.source_face]),
         ):
-            stage = self._stage(model)
+            stage = self._stage(model, 230)
             stage.mesh(points, triangles, shades)
             stage.wireframe(points, edges, 0.0005)
             stage.turn_to(model.curvature.normals[place])
             stage.look_at(model.points[place], 12.0)
             panels.append(self._render(stage))
         field = self._core.distance_field(embedding, model.vertex_at(0.5, 0.1, 0.4))
-        stage = self._stage(model)
+        stage = self._stage(model, 230)
         parts = field.distances / field.distances[np.isfinite(field.distances)].max()
         stage.mesh(model.points, model.triangles, self._maps.colors(parts, self._maps.STRETCH))
         segments, _, _ = self._core.isolines(
@@ -350,8 +350,8 @@ class Figures:
         exploring, _ = _timed(*(lambda v=v: field.trace(v) for v in targets))
         left = f", {embedding.invalid_left} left" if embedding.invalid_left else ""
         return (
-            f"| {model.name} ({len(model.triangles) / 1000:.0f}k) | {a} | {norms + more:.3f} | {subdivision:.3f} | "
-            f"{embedding.invalid_before}/{embedding.faces_added}{left} | {seeding:.2f} | {exploring:.4f} |"
+            f"| {model.name} ({len(model.triangles) / 1000:.0f}k) | {a} | {norms + more:.3f} | {subdivision:.4f} | "
+            f"{embedding.invalid_before}/{embedding.faces_added}{left} | {seeding:.2f} | {exploring:.5f} |"
         )
 
     def campens_invalid(self) -> NDArray[np.float64]:

@@ -52,6 +52,8 @@ class Request:
         Which of both wires' metrics.
     source
         Where distances are from; None: there is no such place, and nothing of them is computed.
+    scribbles
+        The library's strokes that wires follow or keep from.
     """
 
     parts: frozenset[Part]
@@ -60,11 +62,12 @@ class Request:
     clamp: float = 99.0
     follow: Literal["min", "max"] = "min"
     source: Source | None = None
+    scribbles: tuple[object, ...] = ()
 
     @property
     def metric_key(self) -> tuple[object, ...]:
         """The same where the metric is."""
-        return self.metric, self.strength, self.clamp, self.follow
+        return self.metric, self.strength, self.clamp, self.follow, self.scribbles
 
 
 @dataclass(frozen=True)
@@ -335,21 +338,29 @@ class FieldMaker:
 
     def metric(self, request: Request) -> seamwire_core.Metric:
         """Return the metric that wires are short in, as the library's live wires have it."""
-        core, surface, curvature = self._core, self.surface(), self._curvature()
 
         def make() -> seamwire_core.Metric:
-            if request.metric == "euclidean" or (request.metric == "concave" and request.follow == "max"):
-                return core.euclidean_metric(surface, curvature, progress=self._go_on)
-            if request.metric == "concave":
-                strength = (request.strength - 1.0) / (CONCAVE_UNIT - 1.0)
-                return core.concave_metric(surface, self._smoothed(), strength, progress=self._go_on)
-            more = {"clamp_percentile": request.clamp} if request.metric == "feature" else {}
-            function = getattr(core, f"{request.metric}_metric")
-            return function(
-                surface, curvature, request.follow, max_anisotropy=request.strength, progress=self._go_on, **more
-            )
+            plain = self._plain_metric(request)
+            if not request.scribbles:
+                return plain
+            scribbles = list(request.scribbles)
+            return self._core.apply_scribbles(self.surface(), plain, scribbles, request.follow, progress=self._go_on)
 
         return self._once("metric", request.metric_key, make)
+
+    def _plain_metric(self, request: Request) -> seamwire_core.Metric:
+        """Return the metric without strokes."""
+        core, surface, curvature = self._core, self.surface(), self._curvature()
+        if request.metric == "euclidean" or (request.metric == "concave" and request.follow == "max"):
+            return core.euclidean_metric(surface, curvature, progress=self._go_on)
+        if request.metric == "concave":
+            strength = (request.strength - 1.0) / (CONCAVE_UNIT - 1.0)
+            return core.concave_metric(surface, self._smoothed(), strength, progress=self._go_on)
+        more = {"clamp_percentile": request.clamp} if request.metric == "feature" else {}
+        function = getattr(core, f"{request.metric}_metric")
+        return function(
+            surface, curvature, request.follow, max_anisotropy=request.strength, progress=self._go_on, **more
+        )
 
     def embedding(self, request: Request) -> seamwire_core.Embedding:
         """Return the surface embedded in that metric."""

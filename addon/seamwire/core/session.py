@@ -805,6 +805,11 @@ class Session:
         return self.network.scribbles
 
     @property
+    def metric_scribbles(self) -> tuple[object, ...]:
+        """Those strokes as the library has them."""
+        return self._engines.scribbles
+
+    @property
     def mirror_axes(self) -> tuple[int, ...]:
         """The axes, 0 to 2, over which wires are mirrored."""
         return self.network.mirror

@@ -208,6 +208,11 @@ class Engines:
             if live is not None:
                 live.set_scribbles(self._scribbles)
 
+    @property
+    def scribbles(self) -> tuple[object, ...]:
+        """What live wires are told of strokes now: the same objects as long as the strokes are."""
+        return tuple(self._scribbles)
+
     def warning(self, along: Along) -> str:
         """Return that wires which run one way have to lead around triangles; empty where they have not, or it was said."""
         reports = (report for report in self.get(along).embeddings() if report is not None)

@@ -72,7 +72,9 @@ class MetricViews:
         """Let go of what works on a thread."""
         self._maker.close()
 
-    def follow(self, settings: SeamwireSettings, along: str, source: Source | None) -> None:
+    def follow(
+        self, settings: SeamwireSettings, along: str, source: Source | None, scribbles: tuple[object, ...] = ()
+    ) -> None:
         """Show what the settings ask for.
 
         Parameters
@@ -83,6 +85,8 @@ class MetricViews:
             How wires run: it has a strength of its own.
         source
             Where distances are from; None: nowhere.
+        scribbles
+            The library's strokes.
         """
         self._heat = settings.heat if settings.heat in HEATS else None
         parts = {
@@ -95,7 +99,13 @@ class MetricViews:
         strength = settings.strength_edges if along == "EDGES" else settings.strength_surface
         far = bool(wanted & {"DISTANCE", "PATHS", "ISOLINES"})
         self._request = Request(
-            wanted, settings.metric, strength, settings.clamp, settings.shown_metric.lower(), source if far else None
+            wanted,
+            settings.metric,
+            strength,
+            settings.clamp,
+            settings.shown_metric.lower(),
+            source if far else None,
+            scribbles,
         )
         if wanted:
             self._maker.want(self._request)

@@ -135,7 +135,8 @@ class ObjectView:
             self.stale = stale
 
     def _follow_views(self) -> None:
-        self.views.follow(chosen.settings(), self.session.along, self._source())
+        session = self.session
+        self.views.follow(chosen.settings(), session.along, self._source(), session.metric_scribbles)
 
     def _source(self) -> Source | None:
         """Return where distances are shown from: the seed of the chain, else the active vertex, else the last seed."""
