@@ -83,7 +83,7 @@ def main(levels: int) -> None:
     for name, value in VIEWS:
         begin = time.perf_counter()
         setattr(settings(), name, value)
-        ui.wait_until(lambda: views.fields is not None and views.fields.request == views._request, SECONDS)
+        ui.wait_until(lambda: views.is_complete, SECONDS)
         computed = time.perf_counter() - begin
         on, with_view, without, ours = [], [], [], []
         for step in range(REPEATS):
@@ -96,7 +96,7 @@ def main(levels: int) -> None:
             begin = time.thread_time()
             setattr(settings(), name, value)
             took = time.thread_time() - begin
-            ui.wait_until(lambda: views.fields is not None and views.fields.request == views._request, SECONDS)
+            ui.wait_until(lambda: views.is_complete, SECONDS)
             redraw(ui, 3 * step + 2)
             on.append(took + sum(spent[:2]))
             spent.clear()

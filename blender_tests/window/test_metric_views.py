@@ -46,7 +46,7 @@ def views() -> MetricViews:
 
 def shown(found: MetricViews) -> bool:
     """Whether what is asked for is all there."""
-    return not found.busy and found.fields is not None and found.fields.request == found._request
+    return found.is_complete and not found.busy
 
 
 def screen(desk: Desk) -> np.ndarray:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Films the tool at work in Blender's window, with simulated events and the display's own pixels; scripts/animation runs this.
 
-``blender ... --python scripts/lib/film.py -- animation|guide|cut|stretch FOLDER`` leaves frames.raw or guide-*.png in the folder. The
+``blender ... --python scripts/lib/film.py -- animation|guide|cut|stretch|views FOLDER`` leaves frames.raw or guide-*.png in the folder. The
 simulated mouse has no pointer on the display: one is drawn into the frames where it would be.
 """
 
@@ -451,6 +451,46 @@ def stretch(film: Film) -> None:
         film.picture(f"stretch-{name}")
 
 
+def views(film: Film) -> None:
+    """Take each view of the metric in object mode, six in one picture."""
+    from seamwire.view.object_mode import object_mode
+
+    film.filming = False
+    stage(film)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    film.obj.modifiers.new("Subdivision", "SUBSURF").levels = 2
+    film.obj.select_set(False)
+    place = Vector((0.0, -0.6, 0.80))
+    min(film.obj.data.vertices, key=lambda vertex: (vertex.co - place).length).select = True
+    settings().along, settings().views_in_object_mode = "SURFACE", True
+    shots = []
+    for shown in (
+        {"heat": "STRENGTH"},
+        {"heat": "DISTANCE", "show_bands": True},
+        {"show_ellipses": True},
+        {"show_paths": True},
+        {"show_invalid": True},
+        {"heat": "CONCAVITY"},
+    ):
+        for name, value in shown.items():
+            setattr(settings(), name, value)
+        film.ui.wait_until(lambda: object_mode.views is not None and object_mode.views.is_complete, 60.0)
+        film.at = (-100.0, -100.0)  # no pointer
+        picture = film.shot()[:, :, :3]
+        region = film.ui.region
+        top = film.ui.window.height - region.y - region.height
+        right = region.x + region.width
+        # The right part, where the legend is, at half the size.
+        part = picture[top + 60 : top + 60 + 600, right - 760 : right]
+        shots.append(part.reshape(300, 2, 380, 2, 3).mean(axis=(1, 3)).astype(np.uint8) // 4 * 4)
+        for name in shown:
+            settings().property_unset(name)
+    whole = np.concatenate([np.concatenate(shots[:3], axis=1), np.concatenate(shots[3:], axis=1)])
+    write_png(film.folder / "guide-views.png", whole)
+    settings().property_unset("views_in_object_mode")
+    film.ui.wait(20)
+
+
 def bend(
     one: tuple[float, float], over: tuple[float, float], two: tuple[float, float], part: float
 ) -> tuple[float, float]:
@@ -522,5 +562,5 @@ def looks(film: Film) -> None:
 
 addon_utils.enable("seamwire", default_set=True)
 kind, target = sys.argv[sys.argv.index("--") + 1 :]
-part = {"animation": animation, "guide": guide, "cut": cut, "stretch": stretch, "looks": looks}[kind]
+part = {"animation": animation, "guide": guide, "cut": cut, "stretch": stretch, "views": views, "looks": looks}[kind]
 play_strictly(lambda: part(Film(Path(target))))

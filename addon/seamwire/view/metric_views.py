@@ -130,6 +130,12 @@ class MetricViews:
         return found
 
     @property
+    def is_complete(self) -> bool:
+        """Whether all that is asked for is there."""
+        fields = self.fields
+        return fields is not None and fields.request == self._request and not self._maker.busy
+
+    @property
     def has_heat(self) -> bool:
         """Whether there is heat to be seen."""
         return self._values() is not None
@@ -204,7 +210,7 @@ class MetricViews:
         parts, found = self._request.parts, []
         if not parts:
             return []
-        fields, near = self.fields, self._request.source is None
+        has_source = self._request.source is not None
         values = self._values()
         if values is not None:
             found.append(HeatScale.of(self._heat, values).legend(self._heat))
@@ -216,9 +222,9 @@ class MetricViews:
         ):
             if (shown := self._shown(part)) is not None:
                 found.append(legend(shown))
-        if near and parts & {"DISTANCE", "PATHS", "ISOLINES"}:
+        if not has_source and parts & {"DISTANCE", "PATHS", "ISOLINES"}:
             found.append(Legend((_NO_SOURCE,)))
-        elif fields is None or fields.request != self._request:
+        elif not self.is_complete:
             found.append(Legend(("Computing...",)))
         return found
 
