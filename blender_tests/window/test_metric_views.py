@@ -55,6 +55,11 @@ def screen(desk: Desk) -> np.ndarray:
     return desk.ui.screen()
 
 
+def alike(one: np.ndarray, two: np.ndarray) -> bool:
+    """Whether two pictures are the same but for what Blender lights up under the mouse."""
+    return bool((np.abs(one - two).max(axis=2) > 0.05).mean() < 0.001)
+
+
 def test_each_view_is_seen_with_its_legend_and_gone_when_it_is_switched_off(desk: Desk) -> None:
     desk.choose()
     draw(desk, 20, 300)
@@ -68,7 +73,7 @@ def test_each_view_is_seen_with_its_legend_and_gone_when_it_is_switched_off(desk
         assert changed[: changed.shape[0] // 3, changed.shape[1] * 2 // 3 :].mean() > 0.02, name
         assert len(views().legends()) == 1
         settings().property_unset(name)
-        assert np.abs(screen(desk) - before).max() < 0.02, name
+        assert alike(screen(desk), before), name
         assert views().legends() == []
 
 
@@ -166,7 +171,7 @@ def test_in_object_mode_what_is_shown_follows_the_active_object_and_its_mesh(des
     desk.obj.data.update()
     settings().views_in_object_mode = False
     ui.wait_until(lambda: object_mode.views is None)
-    assert np.abs(screen(desk) - before).max() < 0.02
+    assert alike(screen(desk), before)
 
 
 def test_object_mode_shows_nothing_of_a_mesh_without_edges_and_says_why(ui: driver.Ui) -> None:
