@@ -43,9 +43,9 @@ struct Embedding {
   /// Faces of the surface that were embedded, counted again where that was begun anew: all, or after re_embed() those
   /// that the change has reached.
   std::size_t faces_embedded = 0;
-  bool is_local = false;  ///< re_embed() can go on from it: see there
-  /// The caller's faces in which holes lie, and those with an edge that length repair gave another length; ascending.
-  std::vector<std::int32_t> hole_faces, repaired_faces;
+  bool is_local = false;                     ///< re_embed() can go on from it: see there
+  std::vector<std::int32_t> hole_faces;      ///< the caller's faces in which holes lie, ascending
+  std::vector<std::int32_t> repaired_faces;  ///< those with an edge that length repair gave another length, ascending
   std::vector<std::int32_t>
       unreachable;  ///< the caller's vertices in a face, but in no valid triangle and on no edge to run along
 };

@@ -81,13 +81,15 @@ double normal_weight(const Eigen::Matrix3d& m);
 double anisotropy(const TensorAt& at);
 /// The largest over the vertices.
 double max_anisotropy(const Metric& metric);
-/// The eigenvalues and eigenvectors of a tensor in its tangent plane: l1 >= l2 > 0 with the unit vectors e1 and e2 of
-/// eq. 2, (e1, e2, normal) right-handed. Unit vectors of any two directions where the eigenvalues are equal; zero
-/// vectors and ones where the normal is zero.
+/// The eigenvalues and eigenvectors of a tensor in its tangent plane, those of eq. 2: (e1, e2, normal) is right-handed.
 struct PrincipalAxes {
-  double l1 = 1.0, l2 = 1.0;
-  Vector e1 = Vector::Zero(), e2 = Vector::Zero();
+  double l1 = 1.0;             ///< the larger eigenvalue
+  double l2 = 1.0;             ///< the smaller one, above 0
+  Vector e1 = Vector::Zero();  ///< unit, the direction of l1
+  Vector e2 = Vector::Zero();  ///< unit, the direction of l2
 };
+/// Those of a tensor. Any two directions where the eigenvalues are equal; ones and zero vectors where the normal is
+/// zero.
 PrincipalAxes principal_axes(const TensorAt& at);
 /// In the middle between two: the mean of the normals, normalised (of opposite ones, the first), and of the tensors,
 /// each turned by the least rotation onto that normal. Its anisotropy is at most that of the ends.
