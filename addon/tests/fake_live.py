@@ -97,7 +97,7 @@ class FakeLive:
     The first is shorter, unless `shorter` says otherwise. Vertices in `islands` are reached by no wire. Forks begin as
     `fork_ready` says; a new metric makes it ready as `metric_ready` says, and until it is the wires are `stale` ones.
     Loops go straight on at their corners, as around a limb, or turn off there, as `boxes`. Closed cuts may be there `early`,
-    before they are final. Across the surface the
+    before they are final, the second alone. Across the surface the
     embeddings leave `holes`.
     """
 
@@ -172,7 +172,8 @@ class FakeLive:
         self.through.append(through)
         if not (all(self.ready) or self.early) or through in self.islands:
             return FakeCuts([], all(self.ready))
-        return FakeCuts([self._square(through, 1), self._square(through, -1)], all(self.ready))
+        late = [self._square(through, 1)] if all(self.ready) else []
+        return FakeCuts([*late, self._square(through, -1)], all(self.ready))
 
     def _square(self, corner: int, dx: int) -> FakeCut:
         up = self.size if corner + 2 * self.size < self.size**2 else -self.size

@@ -109,11 +109,20 @@ def test_what_is_there_early_is_shown_and_refined_while_the_cursor_rests() -> No
     it = table(metric_ready=(False, False), early=True)
     session = it.session
     session.hover(8, loop=True)
-    assert session.loop_preview.vertices == RIGHT
+    assert session.loop_preview.vertices == LEFT
     assert session.computing
     revision = session.revision
     session.poll()
     assert session.revision == revision, "the same is not drawn anew"
+    it.compute()
+    assert session.loop_preview.vertices == RIGHT
+    assert not session.computing
+
+
+def test_a_click_on_what_is_not_final_waits() -> None:
+    it = table(metric_ready=(False, False), early=True)
+    session = it.session
+    session.hover(8, loop=True)
     assert session.click(8)
     assert session.wires == (), "what is not final is not kept"
     it.compute()
