@@ -3,9 +3,9 @@
 
 Each model of the folder, as ``native/bench/seam_clicks.py`` wants it, gets its seams as a network, which goes to the model decimated to
 a half and to a quarter of its triangles, remeshed with voxels, subdivided, and to the first of these once more moved, turned and
-scaled. A line each: the share of marked edges whose middles lie within one edge of the artist's seams, and the share of the artist's
-within one edge of what was marked, an edge being the longer one of the target's there and the artist's on average; how
-many wires have no place; seconds.
+scaled, and once more bent by a sixth of a circle, with eight pairs of vertices. A line each: the share of marked edges whose middles
+lie within one edge of the artist's seams, and the share of the artist's within one edge of what was marked, an edge being the longer
+one of the target's there and the artist's on average; how many wires have no place; seconds.
 """
 
 import itertools
@@ -18,7 +18,9 @@ import numpy as np
 from mathutils import Matrix
 from numpy.typing import NDArray
 
-CHANGES = ("half", "quarter", "voxels", "subdivided", "half, moved")
+CHANGES = ("half", "quarter", "voxels", "subdivided", "half, moved", "half, bent")
+PAIRS = 8
+BEND = np.pi / 3.0
 
 
 def add(path: Path) -> tuple[bpy.types.Object, list[tuple[int, int]]]:
@@ -59,6 +61,29 @@ def changed(source: bpy.types.Object, change: str) -> bpy.types.Object:
     return obj
 
 
+def bent(places: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return places bent along the longest of the axes' directions, by `BEND` over the whole length."""
+    sizes = np.ptp(places, axis=0)
+    along, up = np.argsort(-sizes)[:2]
+    middle = 0.5 * (places.min(axis=0) + places.max(axis=0))
+    radius = sizes[along] / BEND
+    angle, height = (places[:, along] - middle[along]) / radius, radius - (places[:, up] - middle[up])
+    result = places.copy()
+    result[:, along], result[:, up] = height * np.sin(angle), radius - height * np.cos(angle)
+    return result
+
+
+def spread_pairs(
+    source: NDArray[np.float64], target: NDArray[np.float64], used: NDArray[np.int64]
+) -> NDArray[np.int64]:
+    """Return pairs of vertices far from each other that are at about the same place, (PAIRS, 2)."""
+    chosen = [int(used[np.linalg.norm(target[used] - target[used].mean(axis=0), axis=1).argmax()])]
+    while len(chosen) < PAIRS:
+        gaps = np.linalg.norm(target[used][:, None] - target[chosen][None], axis=2).min(axis=1)
+        chosen.append(int(used[gaps.argmax()]))
+    return np.array([(np.linalg.norm(source - target[one], axis=1).argmin(), one) for one in chosen])
+
+
 def near(places: NDArray, starts: NDArray, ends: NDArray, reach: NDArray) -> float:
     """Return the share of places that are within reach of some segments."""
     from seamwire.core.geometry import nearest_on_segments
@@ -72,6 +97,7 @@ def near(places: NDArray, starts: NDArray, ends: NDArray, reach: NDArray) -> flo
 def measure(path: Path) -> None:
     """Print a line for each change."""
     from seamwire.core import transfer
+    from seamwire.core.placing import Shape
     from seamwire.mesh.object_session import ObjectSession
     from seamwire.mesh.settings import settings
     from seamwire.mesh.transfer import network_of, shape_of
@@ -85,14 +111,22 @@ def measure(path: Path) -> None:
         if not len(target.data.polygons):
             continue
         shape = shape_of(ObjectSession(target).arrays)
+        pairs: NDArray | tuple = ()
+        if change.endswith("bent"):
+            straight = shape.places
+            pairs = spread_pairs(drawn.arrays.points, straight, np.unique(shape.triangles))
+            shape = Shape(bent(straight), shape.triangles, shape.edges)
         began = time.perf_counter()
-        found = transfer.by_surface(file, shape)
+        own = shape_of(drawn.arrays)
+        found = transfer.by_landmarks(file, own, shape, pairs) if len(pairs) else transfer.by_surface(file, shape)
         seconds = time.perf_counter() - began
         marked = transfer.seams(found)
         places = shape.places
         if change.endswith("moved"):
             back = np.array(Matrix.Rotation(-0.7, 3, (1.0, 2.0, 3.0)))
             places = (places - (7.0, -3.0, 1.0)) @ back.T / 1.7
+        if len(pairs):
+            places = straight
         edges = places[marked]
         edge = shape.spacing[marked].mean(axis=1) / (1.7 if change.endswith("moved") else 1.0)
         middles = artist.mean(axis=1)
