@@ -250,6 +250,23 @@ def test_distances_are_in_object_coordinates() -> None:
     assert np.allclose(placed.places[0], SOURCE.places[0])
 
 
+def test_a_place_that_is_edges_off_is_not_sure() -> None:
+    """The same pairs and the same stretch: on a fine mesh it is many edges."""
+    source = tube(16, 41)
+    line = [(ring, turn) for ring in (0, 0.5, 1) for turn in (0, 0.5)]
+
+    def confidence(around: int, along: int) -> float:
+        target = tube(around, along)
+        target.points[:, 0] += 0.15 * np.cos(0.25 * np.pi * target.points[:, 0])
+        pairs = [
+            (round(ring * 40) * 16 + round(turn * 16), round(ring * (along - 1)) * around + round(turn * around))
+            for ring, turn in line
+        ]
+        return float(Landmarks(source, target, pairs).place(np.array([10 * 16])).confidence[0])
+
+    assert confidence(16, 41) > 0.75 > 0.5 > confidence(96, 241) >= 0.25
+
+
 @pytest.mark.parametrize(
     ("pairs", "message"),
     [

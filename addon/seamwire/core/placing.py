@@ -28,6 +28,8 @@ _ALIGNED = 0.01
 """As part of the mesh's size: points this near to a surface lie on it as they are."""
 _CREASE = 30.0
 """Degrees: where a surface is as sharp as that, a seed lies on the edge on purpose."""
+DOUBTFUL = 0.25
+"""The confidence from which on a point has a place."""
 _APART = 0.5
 """By how much more another place's distances have to be off for the best one to be sure."""
 _BLOCK = 1 << 22
@@ -452,7 +454,12 @@ class Landmarks:
             edge = max(float(target.spacing[used[chosen]]), self._RESOLUTION * size)
             far = np.linalg.norm(target.places[used] - target.places[used[chosen]], axis=1) > 4.0 * edge
             rival = np.sqrt(square[far].min()) if far.any() else np.inf
-            confidence[row] = _landmark_confidence(np.sqrt(square[chosen]), rival)
+            # Where the distances are off by more than edges are long, so is the place.
+            weights = (self._RESOLUTION * size + self._CHANGE * wanted[known]) ** -2.0
+            gaps = ((there[chosen, known] - wanted[known]) ** 2 * weights).sum() / weights.sum()
+            exact = 1.0 / (1.0 + gaps / (2.0 * max(float(target.spacing[used[chosen]]), 1e-300)) ** 2)
+            likely = _landmark_confidence(np.sqrt(square[chosen]), rival)
+            confidence[row] = max(exact * likely, min(likely, DOUBTFUL))
         return Placed(self._triangle_of[best], target.places[best], confidence)
 
 

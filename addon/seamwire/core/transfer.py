@@ -20,7 +20,7 @@ from .live_maker import LiveMaker
 from .mirror_images import MirrorImages
 from .network import LOOP_NAMES, Network, Wire
 from .network_file import Course, NetworkFile, NetworkFileError
-from .placing import Landmarks, Placed, Shape, Similarity, Surface
+from .placing import DOUBTFUL, Landmarks, Placed, Shape, Similarity, Surface
 from .serialization import unpacked
 from .strokes import Scribble, for_library, on_mesh
 from .symmetry import Symmetry
@@ -31,9 +31,8 @@ if TYPE_CHECKING:
     from .network import Along, Edge
     from .solver import Candidate, LiveWire
 
-WORDS = ((0.9, "sure"), (0.6, "likely"), (0.25, "doubtful"))
+WORDS = ((0.9, "sure"), (0.6, "likely"), (DOUBTFUL, "doubtful"))
 """From which confidence on a seed is called what; below that it is not placed."""
-_LEAST = WORDS[-1][0]
 _STRAY = 1.0
 """How many edges a wire may run beside where it is to run before it gets a seed more."""
 _MOST_LOST = 0.3
@@ -328,7 +327,7 @@ class _Tracing:
     ) -> None:
         """Place what hangs together on the one part of the target that has most of it, as far as it has a place there."""
         parts = self._surface.parts
-        known = [placed[row].triangles[placed[row].confidence >= _LEAST] for row in group]
+        known = [placed[row].triangles[placed[row].confidence >= DOUBTFUL] for row in group]
         counts = np.bincount(parts[np.concatenate(known)])
         if np.count_nonzero(counts) < 2:
             return
@@ -338,7 +337,7 @@ class _Tracing:
             if (parts[before.triangles] == part).all():
                 continue
             there = place_on(*runs[row], part)
-            moved = (parts[before.triangles] != part) & (there.confidence >= _LEAST)
+            moved = (parts[before.triangles] != part) & (there.confidence >= DOUBTFUL)
             placed[row] = Placed(
                 np.where(moved, there.triangles, before.triangles),
                 np.where(moved[:, None], there.places, before.places),
@@ -369,7 +368,7 @@ class _Tracing:
         key = piece.axes, piece.vertices[row]
         if key not in self._vertex_of:
             confidence = float(piece.confidence[row])
-            vertex = self._vertex(piece, row) if confidence >= _LEAST else None
+            vertex = self._vertex(piece, row) if confidence >= DOUBTFUL else None
             self._vertex_of[key] = vertex
             self._result.seeds.append(Seed(key[1], key[0], vertex, confidence))
         return self._vertex_of[key]
@@ -400,7 +399,7 @@ class _Tracing:
     # Wires
 
     def _wires(self, piece: _Piece) -> list[Wire]:
-        lost = float((piece.confidence < _LEAST).mean())
+        lost = float((piece.confidence < DOUBTFUL).mean())
         if lost > _MOST_LOST:
             return self._lose(piece, f"{lost:.0%} of its course has no place on this mesh")
         if piece.vertices[0] == piece.vertices[-1]:
@@ -543,7 +542,7 @@ class _Tracing:
         return self._lives[key]
 
     def _stroke(self, record: dict, placed: Placed) -> Scribble | None:
-        rows = np.flatnonzero(placed.confidence >= _LEAST)
+        rows = np.flatnonzero(placed.confidence >= DOUBTFUL)
         if len(rows) < 2:
             return None
         runs = np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1)
