@@ -475,7 +475,7 @@ def views(film: Film) -> None:
         for name, value in shown.items():
             setattr(settings(), name, value)
         film.ui.wait_until(lambda: object_mode.views is not None and object_mode.views.is_complete, 60.0)
-        film.at = (-100.0, -100.0)  # no pointer
+        film.at = (30.0, 30.0)  # the pointer lies beside what is taken
         picture = film.shot()[:, :, :3]
         region = film.ui.region
         top = film.ui.window.height - region.y - region.height
