@@ -43,6 +43,7 @@ class FakeChain:
     vertices: NDArray[np.int32]
     final: bool = True
     closed: bool = False
+    places: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
 
 
 @dataclass
@@ -213,6 +214,25 @@ class FakeLive:
             [end] if end in stops else self._straight((start, end), stops).vertices for start, end in (edge, edge[::-1])
         ]
         return FakeChain(np.array([*ways[1][::-1], *ways[0]], dtype=np.int32))
+
+    def fit_chain(
+        self, points: NDArray[np.float64], faces: NDArray[np.int32], begin: int | None = None, end: int | None = None
+    ) -> FakeChain:
+        """Return the vertices that the points of a line are nearest to."""
+        assert len(points) == len(faces)
+        chain: list[int] = [] if begin is None else [begin]
+        places: list[float] = [0.0] * len(chain)
+        for number, (x, y, _) in enumerate(points.tolist()):
+            vertex = round(y) * self.size + round(x)
+            if vertex in chain[-2:-1]:
+                chain.pop(), places.pop()
+            elif chain[-1:] != [vertex]:
+                chain.append(vertex), places.append(float(number))
+        if end is not None and chain[-1] != end:
+            chain.append(end), places.append(len(points) - 1.0)
+        if not any(self.ready) or len(chain) < 2:
+            return FakeChain(np.empty(0, dtype=np.int32))
+        return FakeChain(np.array(chain, dtype=np.int32), places=np.array(places))
 
     def fork(self) -> FakeLive:
         fork = FakeLive(self.size, self.along, self.fork_ready, self.shorter, self.islands)

@@ -68,6 +68,10 @@ class Monkey:
             lambda: session.drag_to(self.snap()),
             session.drag_end,
             session.drag_cancel,
+            lambda: session.line_begin(self.snap()),
+            *[self.line_on] * 3,
+            *[session.line_end] * 2,
+            session.line_cancel,
             session.end_chain,
             session.close,
             lambda: session.run_to_end(preview=self.dice.random() < 0.5),
@@ -107,6 +111,12 @@ class Monkey:
         faces = [self.dice.randrange(2 * (SIZE - 1) ** 2) for _ in range(self.dice.randrange(1, 20))]
         middles = self.points[grid_triangles(SIZE)[faces]].mean(axis=1)
         self.session.scribble(middles, faces, attracts=attracts)
+
+    def line_on(self) -> None:
+        start, step = self.dice.randrange(2 * (SIZE - 1) ** 2), self.dice.choice([1, 2, 2 * (SIZE - 1)])
+        faces = np.arange(start, 2 * (SIZE - 1) ** 2, step, dtype=np.int32)[: self.dice.randrange(1, 20)]
+        middles = self.points[grid_triangles(SIZE)[faces]].mean(axis=1)
+        self.session.line_to(middles, faces, self.snap() if self.dice.random() < 0.5 else None)
 
     def erase(self) -> None:
         if self.session.scribbles:

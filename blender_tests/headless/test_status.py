@@ -95,7 +95,7 @@ def test_the_hints_name_the_keys_as_they_are_bound(session: Session) -> None:
 
 def test_what_a_click_does_comes_first_then_the_way_out_and_the_keys(session: Session) -> None:
     session.hover((36, 37))
-    assert first(session, 3) == ["Add Seed", "End Chain", "Keys"]
+    assert first(session, 3) == ["Add Seed, Drag: Draw Line", "End Chain", "Keys"]
     session.click(36)
     session.wait()
     session.hover(44)

@@ -17,6 +17,8 @@ Needs SciPy. Presses of a mouse button are counted:
 - Beside the presses, the turns from one candidate to the next: of wires, and of the loop gesture's offers as below.
 - How often what the loop gesture is to take is what it offers first, and how many notches of the wheel it takes: over the edges of what is
   taken, about twelve of each, after what was taken before.
+- With --drags: a press for a line that is drawn by dragging along the seams, as far as a hand can in one view, wherever that takes fewer
+  presses than clicks: with an exact hand, and with one that wobbles by a fifth of an edge (`seam_drags.py`).
 - The same, mirrored: where the mesh is symmetric, edges whose images are seams too are drawn once, if that takes fewer clicks. Blender's
   Select Mirror is counted as if it did the same.
 """
@@ -34,6 +36,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from blender_engine import BlenderEngine
+from seam_drags import Hand
 from seams_engine import SeamwireEngine
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
@@ -57,14 +60,15 @@ _SHARP = 30.0
 @functools.total_ordering
 @dataclass(frozen=True)
 class Count:
-    """Presses of a button, and turns from one candidate to the next."""
+    """Presses of a button, turns from one candidate to the next, and how many of the presses draw lines."""
 
     presses: int = 0
     turns: float = 0.0
+    drags: int = 0
 
     def __add__(self, other: Count) -> Count:
         """Return both together."""
-        return Count(self.presses + other.presses, self.turns + other.turns)
+        return Count(self.presses + other.presses, self.turns + other.turns, self.drags + other.drags)
 
     def __lt__(self, other: Count) -> bool:
         """Whether it is fewer presses, or as many and fewer turns."""
@@ -82,6 +86,7 @@ class Blender:
 
     stops_at_seams = False
     path_begins_at_loop = True
+    hand: Hand | None = None
 
     def __init__(self, mesh: Mesh, everything: bool) -> None:
         self.engine = BlenderEngine(topology=everything)
@@ -101,14 +106,25 @@ class Blender:
 
 
 class Seamwire:
-    """The tool on one mesh, with its defaults; `past_poles`, `flat`: the way past poles, borders of flat regions are offered too."""
+    """The tool on one mesh, with its defaults.
+
+    Parameters
+    ----------
+    mesh
+        What is drawn on.
+    past_poles, flat
+        The way past poles, borders of flat regions are offered too.
+    wobble
+        How far a hand that draws lines is off them, in edges; None: none are drawn.
+    """
 
     stops_at_seams = True
     path_begins_at_loop = False
 
-    def __init__(self, mesh: Mesh, past_poles: bool, flat: bool) -> None:
+    def __init__(self, mesh: Mesh, past_poles: bool, flat: bool, wobble: float | None = None) -> None:
         self.engine = SeamwireEngine()
         self.engine.prepare(*mesh)
+        self.hand = None if wobble is None else Hand(self.engine.surface, wobble)
         self._points, self._past_poles = mesh[0], past_poles
         surface = self.engine.surface
         self._flat = FlatRegions(mesh[0], surface.triangles, surface.edges) if flat else None
@@ -172,10 +188,20 @@ def clicks(
             else:
                 wires, turns, _ = measure.Expert(tool.engine, near, chain, closed).measure()[0]
                 known[key] = Count(1 + wires, turns)
+            if tool.hand is not None:
+                drags = tool.hand.drags(chain, closed)
+                known[key] = min(known[key], Count(drags, 0.0, drags))
         return known[key]
 
     def wire_clicks(left: Edges) -> Count:
-        return sum((chain_clicks(chain, closed) for chain, closed in measure.chains(sorted(left))), Count())
+        chains = measure.chains(sorted(left))
+        total = sum((chain_clicks(chain, closed) for chain, closed in chains), Count())
+        if tool.hand is not None:
+            alone = [chain for chain, closed in chains if not closed and chain_clicks(chain, closed).presses == 1]
+            through = tool.hand.through_junctions(alone)
+            single = sum(chain_clicks(chain, False).drags == 0 for chain in alone)
+            total += Count(-through, 0.0, -min(through, max(0, len(alone) - single)))
+        return total
 
     at_once = tool.at_once()
     if at_once and at_once <= seams:
@@ -274,10 +300,17 @@ ROWS = {
     "Seamwire, past poles": lambda mesh: Seamwire(mesh, past_poles=True, flat=False),
     "Seamwire, flat borders": lambda mesh: Seamwire(mesh, past_poles=True, flat=True),
 }
+DRAGGING = {
+    "Seamwire, drags, wobble 0.2": lambda mesh: Seamwire(mesh, past_poles=True, flat=True, wobble=0.2),
+    "Seamwire, drags, exact": lambda mesh: Seamwire(mesh, past_poles=True, flat=True, wobble=0.0),
+}
+"""With --drags."""
 WITHOUT = {
     "Blender, all it has": "Blender",
     "Seamwire, past poles": "Seamwire",
     "Seamwire, flat borders": "Seamwire, past poles",
+    "Seamwire, drags, wobble 0.2": "Seamwire, flat borders",
+    "Seamwire, drags, exact": "Seamwire, flat borders",
 }
 """Who has more need not use it: what is chosen here, where it saves the most at once, may end with more clicks."""
 
@@ -287,17 +320,19 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("seams", type=Path)
     parser.add_argument("--models", nargs="*")
+    parser.add_argument("--drags", action="store_true", help="lines drawn by dragging too")
     chosen = parser.parse_args()
     sys.path.insert(0, str(chosen.seams))
     measure = importlib.import_module("measure")
-    table: dict[str, list[Count]] = {f"{row}{way}": [] for way in ("", ", mirrored") for row in ROWS}
+    rows = ROWS | DRAGGING if chosen.drags else ROWS
+    table: dict[str, list[Count]] = {f"{row}{way}": [] for way in ("", ", mirrored") for row in rows}
     offered = []
     for path in sorted((chosen.seams / "data").glob("*.npz")):
         if chosen.models and path.stem not in chosen.models:
             continue
         points, offsets, corners, near, listed = measure.load(str(path))
         seams, mesh = frozenset(listed), (points, offsets, corners)
-        for row, make in ROWS.items():
+        for row, make in rows.items():
             tool = make(mesh)
             notches: list[list[int]] = []
             plain = clicks(measure, near, tool, seams, notches)
@@ -308,16 +343,16 @@ def main() -> None:
         presses = " ".join(f"{counts[-1].presses:4d}" for counts in table.values())
         print(f"{path.stem:40s} {len(seams):5d} edges, clicks: {presses}", flush=True)
     presses = {row: np.array([count.presses for count in counts], dtype=float) for row, counts in table.items()}
-    print(
-        f"{len(presses['Blender'])} models: presses, turns; presses to those of Blender, Blender mirrored, all of Blender mirrored"
-    )
+    print(f"{len(presses['Blender'])} models: presses, turns, presses that draw lines")
+    print("and presses to those of Blender, Blender mirrored, all of Blender mirrored")
     for row, counts in table.items():
         ratios = [
             mean_ratio(presses[row], presses[other])
             for other in ("Blender", "Blender, mirrored", "Blender, all it has, mirrored")
         ]
         turns = sum(count.turns for count in counts)
-        print(f"{row:32s} {presses[row].sum():6.0f} {turns:6.0f}  " + "  ".join(ratios))
+        drags = sum(count.drags for count in counts)
+        print(f"{row:38s} {presses[row].sum():6.0f} {turns:6.0f} {drags:6d}  " + "  ".join(ratios))
     first = np.mean([np.mean(np.array(places) == 0) for places in offered])
     turned = np.mean([np.mean(places) for places in offered])
     print(f"{len(offered)} loops and strips: offered first {first:.3f}, notches of the wheel {turned:.3f}")

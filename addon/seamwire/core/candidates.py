@@ -138,7 +138,8 @@ class CandidateWires:
         if self.chosen is not None and self.chosen >= len(found.wires):
             self.chosen = None  # the metric that is used now has no such wire
         if along == "SURFACE":
-            self.wires = tuple(_across(wire, follow, seed, target.pick) for follow, wire in enumerate(found.wires))
+            begin = seed.begins("SURFACE")
+            self.wires = tuple(across(wire, follow, begin, target.pick) for follow, wire in enumerate(found.wires))
         else:
             self.wires = tuple(
                 self._along_edges(wire, follow, seed, target.pick, avoid) for follow, wire in enumerate(found.wires)
@@ -160,15 +161,15 @@ class CandidateWires:
         return Wire("EDGES", vertices, points, seed.place, target, heading=heading, follow=follow)
 
 
-def _across(candidate: Candidate, follow: int, seed: Seed, target: Pick) -> Wire | None:
+def across(candidate: Candidate, follow: int, begin: Pick, end: Pick) -> Wire | None:
+    """Return a wire across the surface as the library found it, from a pick to another; None where there is none."""
     vertices = tuple(int(v) for v in candidate.vertices)
-    begin = seed.begins("SURFACE")
     # Between points of one face there may be no edge to snap to.
-    least = 1 if isinstance(begin, FacePoint) or isinstance(target, FacePoint) else 2
+    least = 1 if isinstance(begin, FacePoint) or isinstance(end, FacePoint) else 2
     if len(vertices) < least or len(candidate.points) < 2:
         return None
     points = np.array(candidate.points, dtype=np.float64)
-    return Wire("SURFACE", vertices, points, begin, target, follow=follow)
+    return Wire("SURFACE", vertices, points, begin, end, follow=follow)
 
 
 def _goal(target: Snap, network: Network, along: Along) -> tuple[Pick, int | None]:

@@ -30,3 +30,5 @@ class Intent(Enum):
     """Keep a wire as soon as it is computed."""
     MOVE = auto()
     """Leave the dragged seed here."""
+    DRAW = auto()
+    """Keep the line that is being drawn."""

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Generator, Iterable, Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -71,7 +71,9 @@ def wires_between(seams: NDArray[np.int32], seeds: Collection[int], points: NDAr
             yield Wire("EDGES", tuple(part), points[part], part[0], part[-1])
 
 
-def wires_along(live: LiveWire, chain: list[int], points: NDArray[np.float64], strength: float) -> Iterator[Wire]:
+def wires_along(
+    live: LiveWire, chain: list[int], points: NDArray[np.float64], strength: float, before: Edge | None = None
+) -> Iterator[Wire | None]:
     """Yield wires that run along a chain of edges, each as far as one does, and going on from the one before.
 
     Parameters
@@ -84,15 +86,22 @@ def wires_along(live: LiveWire, chain: list[int], points: NDArray[np.float64], s
         (n, 3) vertices of the mesh.
     strength
         That of the metric of `live`.
+    before
+        The directed edge of a wire that the first one may go on from.
+
+    Yields
+    ------
+    Wire or None
+        None: the live wires are not that far yet; go on when they may be.
 
     Raises
     ------
     ValueError
         Where the chain is not part of the surface.
     """
-    begin, before = 0, None
+    begin = 0
     while begin < len(chain) - 1:
-        end, follow, heading = _reach(live, chain, begin, before)
+        end, follow, heading = yield from _reach(live, chain, begin, before)
         vertices = tuple(chain[begin : end + 1])
         yield Wire(
             "EDGES", vertices, points[list(vertices)], vertices[0], vertices[-1],
@@ -101,16 +110,27 @@ def wires_along(live: LiveWire, chain: list[int], points: NDArray[np.float64], s
         begin, before = end, (vertices[-2], vertices[-1])
 
 
-def _reach(live: LiveWire, chain: list[int], begin: int, before: Edge | None) -> tuple[int, int, Edge | None]:
+def waiting(live: LiveWire, wires: Iterable[Wire | None]) -> Iterator[Wire]:
+    """Yield the wires of `wires_along`, waiting for each."""
+    for wire in wires:
+        if wire is None:
+            live.wait(_SLICE)
+        else:
+            yield wire
+
+
+def _reach(
+    live: LiveWire, chain: list[int], begin: int, before: Edge | None
+) -> Generator[None, None, tuple[int, int, Edge | None]]:
     """Return how far a wire from a place of a chain runs along it, which of both does, and what it goes on from.
 
     Going on from the last edge before, it may turn less there than one that begins anew. One edge at least: where no wire
-    runs along that, it is one all the same, until a seed of it is moved.
+    runs along that, it is one all the same, until a seed of it is moved. Yields while it has to wait.
     """
     best: tuple[int, int, Edge | None] = (begin, 0, None)
     for heading in (None,) if before is None else (before, None):
         live.seed(chain[begin] if heading is None else heading, forward=heading is not None)
-        end, follow = _run(live, chain, begin, 0 if heading is None else 1)
+        end, follow = yield from _run(live, chain, begin, 0 if heading is None else 1)
         if end > best[0]:
             best = end, follow, heading
         if end == len(chain) - 1:
@@ -118,7 +138,7 @@ def _reach(live: LiveWire, chain: list[int], begin: int, before: Edge | None) ->
     return best
 
 
-def _run(live: LiveWire, chain: list[int], begin: int, skipped: int) -> tuple[int, int]:
+def _run(live: LiveWire, chain: list[int], begin: int, skipped: int) -> Generator[None, None, tuple[int, int]]:
     """Return how far a wire from the seed, without the edges before it, runs along a chain, and which of both does."""
     reached = begin + 1, 0
     # A wire does not end where it begins: around a circle there are two.
@@ -128,7 +148,7 @@ def _run(live: LiveWire, chain: list[int], begin: int, skipped: int) -> tuple[in
             break
         found = live.wires(chain[end])
         while not found.final:
-            live.wait(_SLICE)
+            yield
             found = live.wires(chain[end])
         ways = [candidate.vertices[skipped:].tolist() for candidate in found.wires]
         wanted = chain[begin : end + 1]

@@ -11,6 +11,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
+import numpy as np
+
 from .candidates import CandidateWires, only_vertices
 from .defaults import CLAMP_PERCENTILE, CLAMP_RANGE, STRENGTH_RANGE, STRENGTH_STEP, STRENGTHS
 from .edge_loops import LoopOffers, taken
@@ -18,21 +20,22 @@ from .extension import Extension
 from .flat_regions import FlatRegions
 from .history import History
 from .intent import Intent
+from .line_drawing import EdgeLine, SurfaceLine
 from .mirror_images import MirrorImages
-from .network import FOLLOWS, FacePoint, Network, Seed, Snap, Wire, name, undirected
+from .network import FOLLOWS, FacePoint, Network, Seed, Snap, Wire, name, undirected, vertices_of
 from .retrace import Retraces, retraced
-from .seam_wires import seam_chains, wires_along
+from .seam_wires import seam_chains, waiting, wires_along
 from .seed_drag import SeedDrag
 from .solver import Engines
 from .stops import Stops
 from .strokes import OffMeshError, Scribble, drawn, for_library, through_vertices
 from .surface_loops import SurfaceLoops
-from .symmetry import Symmetry
+from .symmetry import Symmetry, among
 
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
+    from .line_drawing import Line
     from .network import Along, Edge, Finish, LoopKind, Pick
     from .offers import Offers
     from .solver import LiveWire, MetricName
@@ -43,8 +46,8 @@ __all__ = ["CLAMP_PERCENTILE", "STRENGTHS", "Intent", "Session"]
 _NOWHERE = "The wire cannot run on from here"
 
 
-Waiting = Literal["click", "loop", "run", "offer"]
-"""What waits: a click, a loop, a run to the end, the next offer for a kept wire."""
+Waiting = Literal["click", "loop", "run", "offer", "line"]
+"""What waits: a click, a loop, a run to the end, the next offer for a kept wire, a line that was drawn."""
 
 
 @dataclass(frozen=True)
@@ -53,6 +56,29 @@ class Queued:
 
     kind: Waiting
     snap: Snap
+    line: DrawnLine | None = None
+
+
+@dataclass
+class DrawnLine:
+    """A line that is drawn by dragging.
+
+    Parameters
+    ----------
+    line
+        Knows its wires.
+    begin
+        What was under the cursor when it began.
+    goes_on
+        Whether it goes on from the live wire's seed, so that the chain goes on behind it.
+    end
+        What is under the cursor where it ends by now.
+    """
+
+    line: Line
+    begin: Snap
+    goes_on: bool
+    end: Snap | None = None
 
 
 class Session:
@@ -122,6 +148,7 @@ class Session:
         self._told_none = False
         self._extension = Extension(self._engines, self._stops, points)
         self._drag: SeedDrag | None = None
+        self._line: DrawnLine | None = None
         self._retraces = Retraces(self._engines, points)
         self._queue: list[Queued] = []
         self._last_click: tuple[Pick, int] | None = None
@@ -403,6 +430,139 @@ class Session:
         self.revision += 1
         return True
 
+    # Drawing by dragging
+
+    def goes_on_from(self, snap: Snap | Pick) -> bool:
+        """Whether a line that begins at a place goes on from the live wire's seed, rather than begin a chain."""
+        seed, target = self._network.seed, Snap.of(snap)
+        return seed is not None and not self._queue and target.to == "SEED" and seed.at(target.pick, self.along)
+
+    def line_begin(self, snap: Snap | Pick) -> bool:
+        """Begin a line over the surface, `line_to` draws it. At the live wire's seed it goes on from there."""
+        begin = Snap.of(snap)
+        if self.along == "SURFACE" and isinstance(begin.pick, tuple):
+            return self._refuse(only_vertices(begin.pick))
+        self.drag_cancel()
+        self.stop_preview()
+        goes_on = self.goes_on_from(begin)
+        seed = self._network.seed if goes_on else None
+        if self.along == "EDGES":
+            vertex: int | None = None
+            if seed is not None:
+                vertex = seed.vertex
+            elif isinstance(begin.pick, int):
+                vertex = begin.pick
+            before = seed.pick if seed is not None and seed.forward and isinstance(seed.pick, tuple) else None
+            line: Line = EdgeLine(self._engines, self._points, vertex, before)
+        else:
+            if self._triangles is None:
+                return self._refuse("Lines across the surface need the triangles of the mesh")
+            place = begin.pick if seed is None else seed.begins("SURFACE")
+            anywhere = self.marking and self.finish == "CUT"
+            line = SurfaceLine(self._engines, self._points, self._triangles, place, anywhere)
+        self._line = DrawnLine(line, begin, goes_on)
+        self._last_click = None
+        self._candidates.clear()
+        self._loops.clear()
+        self.message = ""
+        self.revision += 1
+        return True
+
+    def line_to(self, points: NDArray[np.float64], triangles: NDArray[np.int32], snap: Snap | Pick | None) -> bool:
+        """Draw the line on.
+
+        Parameters
+        ----------
+        points
+            (k, 3) all of it, from its beginning.
+        triangles
+            (k,) the triangle that each point lies in.
+        snap
+            What is under the cursor.
+        """
+        drawn = self._line
+        if drawn is None:
+            return self._refuse("No line is being drawn")
+        drawn.end = None if snap is None else Snap.of(snap)
+        joins = drawn.end is not None and drawn.end.to in {"SEED", "WIRE", "SEAM"}
+        self._candidates.target = drawn.end if joins else None
+        if len(points):
+            end = drawn.end.pick if drawn.end is not None and joins else None
+            drawn.line.to(points, triangles, end, self._stops.kept(self._network))
+        self._read_progress()
+        self.message = drawn.line.message
+        self.revision += 1
+        return True
+
+    def line_end(self) -> bool:
+        """Keep the wires that follow the line, as soon as they are computed; one step for undo."""
+        drawn, self._line = self._line, None
+        if drawn is None:
+            return self._refuse("No line is being drawn")
+        drawn.line.finish()
+        self._read_progress()
+        self.revision += 1
+        if self._queue or not drawn.line.poll():
+            self._queue.append(Queued("line", drawn.end or drawn.begin, drawn))
+            return True
+        return self._keep_line(drawn)
+
+    def line_cancel(self) -> bool:
+        """Forget the line that is being drawn."""
+        if self._line is None:
+            return False
+        self._line = None
+        self._aim_again()
+        self.revision += 1
+        return True
+
+    def _keep_line(self, drawn: DrawnLine) -> bool:
+        """Go on to the network with the wires of a line."""
+        wires = drawn.line.wires
+        if not wires:
+            self._aim_again()
+            return self._refuse(drawn.line.message or "Drag farther along the surface to draw a line")
+        network = self._network
+        for pick in (wires[0].start, wires[-1].end):
+            network = self._joined_at(network, pick, drawn)
+        seed = network.seed if drawn.goes_on else None
+        if seed is not None:
+            wires = (replace(wires[0], start=seed.shown(self.along)), *wires[1:])
+        ends = seed is None or self._line_joins(network, wires, drawn, seed)
+        for number, wire in enumerate(wires):
+            own = replace(
+                wire,
+                marks=self.marking,
+                mirror=network.mirror,
+                strength=self.strength,
+                finish=self.finish if wire.along == "SURFACE" and self.marking else "SNAP",
+            )
+            network = network.with_drawn(own, own.end, ends and number == len(wires) - 1)
+        told = drawn.line.message
+        if not self._change(network if not ends else replace(network, seed=None)):
+            return False
+        self.message = self.message or told or self._engines.warning(self.along)
+        return True
+
+    def _joined_at(self, network: Network, pick: Pick, drawn: DrawnLine) -> Network:
+        """Return a network with a seed where a line meets one of its wires."""
+        for snap in (drawn.begin, drawn.end):
+            if snap is not None and snap.to == "WIRE" and pick in (snap.pick, *vertices_of(snap.pick)):
+                network = network.joined(replace(snap, pick=pick), self._points)
+        if isinstance(pick, int):
+            for wire in network.wires:
+                if wire.along == "EDGES" and not wire.closed and pick in wire.vertices[1:-1]:
+                    network = network.with_seed_in(wire, pick, self._points) or network
+        return network
+
+    def _line_joins(self, network: Network, wires: tuple[Wire, ...], drawn: DrawnLine, seed: Seed) -> bool:
+        """Whether a line that went on from a chain ends that: on a seed, a wire or a seam, the chain's first seed too."""
+        end = wires[-1].end
+        if drawn.end is not None and drawn.end.to in {"SEED", "WIRE", "SEAM"}:
+            return True
+        kept = self._stops.kept(network)
+        return end == seed.began or (isinstance(end, int) and bool(among(np.array([end]), kept)[0]))
+
     def wires_along(self, seams: NDArray[np.int32]) -> Iterator[Wire]:
         """Yield wires that run along the mesh's edges as seams do, as few as there can be; keeps none of them.
 
@@ -418,7 +578,7 @@ class Session:
         """
         live = self._engines.get("EDGES").fork()
         for chain in seam_chains(seams):
-            yield from wires_along(live, chain, self._points, self._engines.strengths["EDGES"])
+            yield from waiting(live, wires_along(live, chain, self._points, self._engines.strengths["EDGES"]))
 
     # What leads the wires that are drawn from here on; kept wires stay as they are
 
@@ -550,7 +710,7 @@ class Session:
             self._queue.pop()
             self.revision += 1
             return True
-        if self.drag_cancel():
+        if self.drag_cancel() or self.line_cancel():
             return True
         if self._retraces.drop_last():
             self.revision += 1
@@ -603,7 +763,7 @@ class Session:
             Whether there is something new to be seen.
         """
         drag = self._drag
-        still = self._candidates.final and self._offers_final and (drag is None or drag.final)
+        still = self._candidates.final and self._offers_final and (drag is None or drag.final) and self._line is None
         if still and not self.computing and not self._queue and not self._retraces:
             return False
         before = (self.revision, round(self._progress, 2))
@@ -614,6 +774,7 @@ class Session:
             self.message = drag.message
             if drag.final and drag.ending:
                 self.drag_end()
+        self._poll_line()
         while self._queue and self._poll_queue():
             pass
         if not self._queue and not self._candidates.final:
@@ -723,6 +884,25 @@ class Session:
         return self._drag is not None
 
     @property
+    def drawing(self) -> bool:
+        """Whether a line is being drawn."""
+        return self._line is not None
+
+    @property
+    def drawn(self) -> NDArray[np.float64] | None:
+        """The line that is being drawn, (k, 3)."""
+        return None if self._line is None else self._line.line.points
+
+    @property
+    def following(self) -> tuple[Wire, ...]:
+        """The wires that follow the line that is being drawn, or those that wait to be kept."""
+        lines = [queued.line for queued in self._queue if queued.line is not None]
+        lines += [] if self._line is None else [self._line]
+        return tuple(
+            replace(wire, marks=self.marking, mirror=self._network.mirror) for one in lines for wire in one.line.wires
+        )
+
+    @property
     def moved(self) -> tuple[Wire, ...]:
         """The wires that follow the dragged seed, as they run now."""
         return () if self._drag is None else self._drag.moved
@@ -773,7 +953,7 @@ class Session:
     @property
     def can_undo(self) -> bool:
         """Whether undo() has something to take back."""
-        return bool(self._queue or self._drag or self._retraces) or self._history.can_undo(self._network)
+        return bool(self._queue or self._drag or self._line or self._retraces) or self._history.can_undo(self._network)
 
     @property
     def can_redo(self) -> bool:
@@ -829,6 +1009,8 @@ class Session:
         live, seed = self._candidates, self._network.seed
         if self._drag is not None:
             return Intent.MOVE
+        if self._line is not None:
+            return Intent.DRAW
         if self._extension.wire is not None:
             return Intent.RUN
         if self._loops.wire is not None:
@@ -929,6 +1111,7 @@ class Session:
         self._queue.clear()
         self._last_click = None
         self.drag_cancel()
+        self.line_cancel()
         self.stop_preview()
 
     # The live wire
@@ -1064,6 +1247,16 @@ class Session:
         if self._extension.wanted:
             self.revision += self._extension.show(self._find_extension())
 
+    def _poll_line(self) -> None:
+        """Let the wires of the line that is being drawn be those that are computed by now."""
+        if self._line is None:
+            return
+        line = self._line.line
+        before = line.wires
+        line.poll()
+        self.message = line.message or self.message
+        self.revision += before is not line.wires
+
     def _poll_retraces(self) -> None:
         """Let the kept wires whose other ways are computed take them."""
         for wire, courses in self._retraces.poll():
@@ -1100,6 +1293,8 @@ class Session:
     def _poll_queue(self) -> bool:
         """Do the oldest waiting click if its wire is there; returns whether it was done."""
         head = self._queue[0]
+        if head.line is not None:
+            return self._poll_waiting_line(head.line)
         self._aim(head.snap, again=True)
         if head.kind in {"loop", "offer"}:
             waits = not (self._find_offers(head.snap.pick) and self._offers_final) and self.computing
@@ -1120,6 +1315,16 @@ class Session:
         self._queue += rest
         return True
 
+    def _poll_waiting_line(self, drawn: DrawnLine) -> bool:
+        """Keep the wires of a line that has ended, if they are computed; returns whether they were."""
+        if not drawn.line.poll():
+            return False
+        del self._queue[0]
+        rest, self._queue = self._queue, []
+        self._keep_line(drawn)
+        self._queue += rest
+        return True
+
     def _working(self) -> list[LiveWire]:
         """Return the live wires that compute something for what is shown or waits."""
         drag = [] if self._drag is None else self._drag.lives()
@@ -1127,7 +1332,10 @@ class Session:
         offers = [self._engines.get("EDGES")] if any(queued.kind == "offer" for queued in self._queue) else []
         waits = any(queued.kind == "loop" and self._cuts.takes(queued.snap.pick) for queued in self._queue)
         cuts = [self._engines.cuts()] if self._cuts.wanted or waits else []
-        return [self._engines.get(self.along), *offers, *cuts, *self._retraces.lives(), *drag]
+        lines = [queued.line for queued in self._queue if queued.line is not None]
+        lines += [] if self._line is None else [self._line]
+        drawn = [live for one in lines for live in one.line.lives()]
+        return [self._engines.get(self.along), *offers, *cuts, *self._retraces.lives(), *drag, *drawn]
 
     def _read_progress(self) -> None:
         """Look how much is computed; before wires are asked for: what is not final after the work is done stays so."""

@@ -11,7 +11,7 @@ from .network import FacePoint
 
 if TYPE_CHECKING:
     import numpy as np
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from .network import Along, Edge, Pick
     from .strokes import Scribble
@@ -77,6 +77,12 @@ class ClosedCuts(Protocol):
     final: bool
 
 
+class FittedChain(Chain, Protocol):
+    """The chain of edges that fits a line; no vertices where none does, or where it cannot be told yet."""
+
+    places: NDArray[np.float64]
+
+
 class EmbeddingReport(Protocol):
     """What the library says of a mesh that wires run across."""
 
@@ -118,6 +124,11 @@ class LiveWire(Protocol):
 
     def edge_loop(self, edge: Edge, stops: Iterable[int]) -> EdgeLoop:
         """Return the straight chain through an edge, both ways, until a stop, a pole, a boundary or itself."""
+
+    def fit_chain(
+        self, points: ArrayLike, faces: ArrayLike, begin: int | None = None, end: int | None = None
+    ) -> FittedChain:
+        """Return the chain of edges that fits a line; along edges only."""
 
     def fork(self) -> LiveWire:
         """Return live wires with a seed of their own and the same metric."""

@@ -21,7 +21,7 @@ NAME = "Seamwire"
 class Action(Enum):
     """What the artist asks for; the value is what the preferences and the table of keys call it."""
 
-    CLICK = "Add Seed, Keep Wire, Join"
+    CLICK = "Add Seed, Keep Wire, Join (drag: Draw Line, Move Seed)"
     NEW_CHAIN = "New Chain"
     LOOP = "Add Loop"
     REMOVE = "Remove Wire or Stroke"

@@ -91,6 +91,147 @@ class SeedHold:
         return self._view.session.drag_cancel()
 
 
+class Trail:
+    """Where a hand has gone over an object's surface while it held a button.
+
+    Parameters
+    ----------
+    view
+        The object.
+    place
+        Where the button was pressed.
+    ends_at_rim
+        Whether all is over where the hand leaves the surface; else it may come back.
+
+    Attributes
+    ----------
+    points, triangles
+        Places on the surface, as the session has them, and the triangle of each.
+    left
+        Whether the hand went over the rim.
+    last
+        Where it is now.
+    """
+
+    def __init__(self, view: ObjectView, place: Place, ends_at_rim: bool = True) -> None:
+        self._view = view
+        self._ends_at_rim = ends_at_rim
+        self.points: list[NDArray[np.float64]] = []
+        self.triangles: list[int] = []
+        self.left = False
+        self.last = place
+        self._add(place.view, place.cursor)
+
+    def to(self, place: Place) -> None:
+        """Follow the hand."""
+        # Where the view was changed in the meantime, what lies between is not where the hand went.
+        last = self.last
+        same = place.region == last.region and np.array_equal(place.view.perspective, last.view.perspective)
+        start, end = (last.cursor if same else place.cursor), place.cursor
+        steps = max(1, math.ceil(math.dist(start, end) / STEP))
+        for step in range(1, steps + 1):
+            part = step / steps
+            self._add(place.view, (start[0] + part * (end[0] - start[0]), start[1] + part * (end[1] - start[1])))
+        self.last = place
+
+    def _add(self, view: View, cursor: tuple[float, float]) -> None:
+        found = None if self.left else self._view.surface_at(view, cursor)
+        if found is None:
+            # Over the rim it ends; begun beside the model, it has not begun.
+            self.left = self._ends_at_rim and bool(self.points)
+            return
+        point, triangle = found
+        if not self.points or not np.array_equal(point, self.points[-1]):
+            self.points.append(point)
+            self.triangles.append(triangle)
+
+
+class LineHold:
+    """The surface: a click adds a seed, or keeps the live wire; a drag draws a line that wires follow.
+
+    Parameters
+    ----------
+    button
+        Which.
+    view
+        The object it is on.
+    snap
+        What was under the mouse.
+    place
+        Where the button was pressed.
+    click
+        Does what a click does there.
+    keep
+        Keeps the chain that is live, before a line begins another one; returns whether the object is still the same.
+    note
+        Told what was done, in words.
+    """
+
+    def __init__(
+        self,
+        button: str,
+        view: ObjectView,
+        snap: Snap,
+        place: Place,
+        click: Callable[[], None],
+        keep: Callable[[], bool],
+        note: Callable[[str], None],
+    ) -> None:
+        self.button = button
+        self._view = view
+        self._snap = snap
+        self._place = place
+        self._click = click
+        self._keep = keep
+        self._note = note
+        self._trail: Trail | None = None
+
+    def move(self, place: Place, threshold: float) -> bool:
+        """Draw on to where the mouse is now."""
+        if self._trail is None:
+            if place.away(self._place) <= threshold:
+                return True
+            if not self._view.session.line_begin(self._snap):
+                return False
+            self._trail = Trail(self._view, self._place, ends_at_rim=False)
+        self._trail.to(place)
+        # A key may have ended the line in the meantime.
+        return self._view.session.drawing and self._draw()
+
+    def follow(self, place: Place) -> None:
+        """Take note of where the mouse was between two moves."""
+        if self._trail is not None:
+            self._trail.to(place)
+
+    def _draw(self) -> bool:
+        trail = self._trail
+        assert trail is not None
+        snap = self._view.snap(trail.last.view, trail.last.cursor)
+        points, triangles = np.array(trail.points).reshape(-1, 3), np.array(trail.triangles, dtype=np.int32)
+        return self._view.session.line_to(points, triangles, snap)
+
+    def release(self) -> None:
+        """Keep the wires that follow the line, or click."""
+        session = self._view.session
+        if self._trail is None:
+            self._click()
+            return
+        if not session.drawing:
+            return
+        if session.seed is not None and not session.waiting_clicks and not session.goes_on_from(self._snap):
+            # What was live is a chain of its own, with a step of its own in Blender's undo.
+            session.line_cancel()
+            if not self._keep() or not session.line_begin(self._snap):
+                return
+            self._draw()
+        session.line_end()
+        self._note("Draw Line")
+
+    def cancel(self) -> bool:
+        """Forget the line."""
+        return self._view.session.line_cancel()
+
+
 class StrokeHold:
     """A stroke that is drawn while a button is held.
 
@@ -118,70 +259,44 @@ class StrokeHold:
     ) -> None:
         self.button = button
         self._view = view
-        self._last = place
         self._attracts = attracts
         self._reach = CLOSE_REACH * scale
         self._first = place
-        self._dragging = False
-        self._ended = False
+        self._trail: Trail | None = None
         self._farthest = 0.0
-        self._points: list[NDArray[np.float64]] = []
-        self._triangles: list[int] = []
 
     def move(self, place: Place, threshold: float) -> bool:
         """Draw on to where the mouse is now."""
-        if not self._dragging:
+        if self._trail is None:
             if place.away(self._first) <= threshold:
                 return True
-            self._dragging = True
             self._view.session.hover(None)
-            self._add(self._first.view, self._first.cursor)
-        # Where the view was changed in the meantime, what lies between is not where the hand went.
-        same = place.region == self._last.region and np.array_equal(place.view.perspective, self._last.view.perspective)
-        start, end = (self._last.cursor if same else place.cursor), place.cursor
-        steps = max(1, math.ceil(math.dist(start, end) / STEP))
-        for step in range(1, steps + 1):
-            part = step / steps
-            self._add(place.view, (start[0] + part * (end[0] - start[0]), start[1] + part * (end[1] - start[1])))
-        self._last = place
+            self._trail = Trail(self._view, self._first)
+        self._trail.to(place)
         self._farthest = max(self._farthest, math.dist(self._first.cursor, place.cursor))
-        self._show()
+        self._view.overlay.stroke = (np.array(self._trail.points).reshape(-1, 3), self._attracts)
         return True
 
     def release(self) -> None:
         """Let the wires follow it, or keep off."""
         self._view.overlay.stroke = None
-        session = self._view.session
-        near = math.dist(self._first.cursor, self._last.cursor) <= self._reach
-        if near and not self._ended and self._farthest > CLOSE_LENGTH * self._reach and len(self._points) > 2:
-            self._points.append(self._points[0])
-            self._triangles.append(self._triangles[0])
-        if len(self._points) > 1:
-            points, triangles = np.array(self._points), np.array(self._triangles)
-            session.scribble(points, triangles, attracts=self._attracts, radius=self._view.stroke_radius)
+        trail = self._trail
+        if trail is None or self.missed:
+            return
+        points, triangles = trail.points, trail.triangles
+        near = math.dist(self._first.cursor, trail.last.cursor) <= self._reach
+        if near and not trail.left and self._farthest > CLOSE_LENGTH * self._reach and len(points) > 2:
+            points, triangles = [*points, points[0]], [*triangles, triangles[0]]
+        self._view.session.scribble(
+            np.array(points), np.array(triangles), attracts=self._attracts, radius=self._view.stroke_radius
+        )
 
     def cancel(self) -> bool:
         """Forget it."""
         self._view.overlay.stroke = None
-        return self._dragging
+        return self._trail is not None
 
     @property
     def missed(self) -> bool:
         """Whether nothing was drawn."""
-        return len(self._points) < 2
-
-    def _add(self, view: View, cursor: tuple[float, float]) -> None:
-        if self._ended:
-            return
-        found = self._view.surface_at(view, cursor)
-        if found is None:
-            # Over the rim it ends; begun beside the model, it has not begun.
-            self._ended = bool(self._points)
-            return
-        point, triangle = found
-        if not self._points or not np.array_equal(point, self._points[-1]):
-            self._points.append(point)
-            self._triangles.append(triangle)
-
-    def _show(self) -> None:
-        self._view.overlay.stroke = (np.array(self._points).reshape(-1, 3), self._attracts)
+        return self._trail is None or len(self._trail.points) < 2

@@ -16,7 +16,7 @@ from ..view.viewport import Place, place_of
 from . import bindings, navigation
 from .bindings import Action
 from .cut import gaps
-from .drag_handlers import Hold, SeedHold, StrokeHold
+from .drag_handlers import Hold, LineHold, SeedHold, StrokeHold
 from .navigation import Meaning
 from .report import count, running, status_makers, summary
 from .unwrap import unwrap_after_chain
@@ -296,9 +296,13 @@ class Chain:
                 self.session.hover(None)
                 self.show()
             return True
+        if isinstance(self._hold, LineHold) and event.type == "INBETWEEN_MOUSEMOVE":
+            self._hold.follow(place)
+            return False
         moves = {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"} if isinstance(self._hold, StrokeHold) else {"MOUSEMOVE"}
         if self._hold is not None and event.type in moves:
-            if not self._hold.move(place, bindings.drag_threshold(event, context.preferences)):
+            hold = self._hold
+            if not hold.move(place, bindings.drag_threshold(event, context.preferences)) and self._hold is hold:
                 self._hold = None
             self._after()
             return False
@@ -435,9 +439,26 @@ class Chain:
             # Whether it is a click or the beginning of a drag is known when the button or the mouse has moved.
             session.hover(snap)
             self._hold = SeedHold(event.type, view, snap, place, self._note)
+        elif snap.to in {"MESH", "FEATURE", "SEAM"} or session.goes_on_from(snap):
+            self._hold = LineHold(
+                event.type, view, snap, place, lambda: self._click_at(view, snap), self._keep_chain, self._note
+            )
         else:
-            session.click(snap)
-            self._note("Draw Wires")
+            self._click_at(view, snap)
+
+    def _click_at(self, view: ObjectView, snap: Snap) -> None:
+        view.session.click(snap)
+        self._note("Draw Wires")
+
+    def _keep_chain(self) -> bool:
+        """Keep what is live as a chain of its own; return whether the object that is drawn on is still the same."""
+        view = self.view
+        self._keep(bpy.context)
+        if view not in edited.views():
+            self.message = "The mesh was cut: draw the line once more"
+            return False
+        self._draw_on(view)
+        return True
 
     def _is_loop(self, session: Session, snap: Snap, event: bpy.types.Event) -> bool:
         """Whether a click takes what runs around: across the surface not the second one of a double click, which ends a wire."""

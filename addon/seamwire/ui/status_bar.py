@@ -24,7 +24,7 @@ Deed = tuple[Action, str]
 """What can be asked for, and what it would do now."""
 
 _CLICKS = {
-    "SEED": "Add Seed",
+    "SEED": "Add Seed, Drag: Draw Line",
     "CONTINUE": "Begin at This Seed, Drag: Move It",
     "BRANCH": "Begin on This Wire, Drag: New Seed",
     "KEEP": "Keep Wire",
@@ -33,6 +33,7 @@ _CLICKS = {
     "RUN": "Keep Wire to the End",
     "WAIT": "Confirm When Ready",
     "MOVE": "Release to Confirm",
+    "DRAW": "Release to Keep Line",
 }
 """What a click does, by the session's intent."""
 

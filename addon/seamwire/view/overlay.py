@@ -305,6 +305,10 @@ class Overlay:
             sheet.curve(looks.other, wire.points)
         for wire in session.moved:
             self._add_live(sheet, wire, looks.active, wire.finish)
+        for wire in session.following:
+            self._add_live(sheet, wire, looks.active, session.finish)
+        if session.drawn is not None:
+            sheet.curve(looks.line, session.drawn)
         if session.active is not None:
             style = looks.computing if session.preliminary else looks.active
             self._add_live(sheet, session.active, style, session.finish)
@@ -338,6 +342,8 @@ class Overlay:
             if pick in (hovered, closing):
                 continue
             sheet.dot(looks.live_seed if pick == live else looks.seed, pick)
+        for wire in session.following:
+            sheet.dot(looks.seed, wire.start)
         if closing is not None:
             sheet.dot(looks.closing, closing)
         if hovered is not None and hovered != closing:

@@ -77,6 +77,8 @@ class Looks:
     mirrored_live: Style
     hovered: Style
     """Laid under a kept wire that is pointed at."""
+    line: Style
+    """What the hand draws; the wires that follow it look as live ones do."""
     loop: Style
     end: Style
     target: Style
@@ -137,6 +139,7 @@ class Looks:
             will_mark=Style(faint(mixed(kept, active, 0.25), 0.9), 2.5, halo=1.0, hidden=0.15, lift=3.0),
             clear=Style(clear, 3.5, halo=2.0, dash=7.0, lift=5.0),
             mirrored=Style(faint(kept, 0.6), 2.0, halo=1.0, hidden=0.15, lift=3.0),
+            line=Style(faint(white, 0.45), 1.5, hidden=0.4, lift=8.0),
             mirrored_live=Style(faint(active, 0.6), 2.0, halo=1.0, hidden=0.15, lift=3.0),
             hovered=Style(white, 9.5, halo=2.0, hidden=0.15, lift=3.0),
             loop=Style(loop, 3.5, halo=2.5, lift=6.0),

@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Seams drawn by dragging over the surface, in the real window."""
+
+import itertools
+
+import bpy
+import pytest
+from desk import ORANGE, RED, WHITE, Desk, drag, draw, shows, undo_steps
+from scene import chain, seams
+from seamwire.mesh.settings import settings
+
+
+def press_and_draw(desk: Desk, *places: tuple[float, float]) -> None:
+    """Press the button at the first place and move over the others, in steps."""
+    ui = desk.ui
+    ui.move(places[0])
+    ui.event("LEFTMOUSE", "PRESS", places[0])
+    for start, end in itertools.pairwise(places):
+        for part in (0.25, 0.5, 0.75, 1.0):
+            ui.move((start[0] + part * (end[0] - start[0]), start[1] + part * (end[1] - start[1])))
+
+
+def beside(place: tuple[float, float], x: float = 0.0, y: float = 0.0) -> tuple[float, float]:
+    return place[0] + x, place[1] + y
+
+
+def test_a_drag_over_the_mesh_draws_along_its_edges_in_one_step(desk: Desk, capfd: pytest.CaptureFixture[str]) -> None:
+    session, ui = desk.choose(), desk.ui
+    ui.wait_until(lambda: session.progress == 1.0)
+    # Along a row and up a column, some pixels beside the edges, as a hand draws.
+    press_and_draw(desk, beside(desk.at(36), 3, 4), beside(desk.at(40), -4, -5), beside(desk.at(67), 5, 3))
+    wanted = (*range(36, 41), 49, 58, 67)
+    assert [wire.vertices for wire in session.following] == [wanted]
+    assert session.wires == ()
+    pixels = ui.pixels()
+    assert shows(pixels, desk.at(37, 38), ORANGE), "it is seen while it is drawn"
+    assert shows(pixels, desk.at(49, 58), ORANGE)
+    ui.event("LEFTMOUSE", "RELEASE")
+    ui.wait_until(lambda: not desk.running)
+    assert seams(desk.obj) == chain(*wanted)
+    assert undo_steps(capfd)[-1] == "Draw Line"
+    ui.move(desk.at(20))
+    pixels = ui.pixels()
+    assert shows(pixels, desk.at(37, 38), RED)
+    assert shows(pixels, desk.at(36), WHITE), "its ends are seeds"
+    ui.key("Z", ctrl=True)
+    assert seams(desk.obj) == []
+    assert desk.session.wires == ()
+
+
+def test_its_seeds_can_be_dragged_as_others(desk: Desk) -> None:
+    session = desk.choose()
+    drag(desk, desk.at(36), desk.at(44))
+    desk.ui.wait_until(lambda: len(session.wires) == 1)
+    assert not desk.running
+    drag(desk, desk.at(44), desk.at(53))
+    desk.ui.wait_until(lambda: not desk.running)
+    assert 53 in session.seeds()
+    assert 44 not in session.seeds()
+    assert len(session.wires) == 1
+
+
+def test_a_click_is_a_click_still(desk: Desk) -> None:
+    session, ui = desk.choose(), desk.ui
+    ui.move(desk.at(36))
+    ui.event("LEFTMOUSE", "PRESS", desk.at(36))
+    threshold = bpy.context.preferences.inputs.drag_threshold_mouse * bpy.context.preferences.system.ui_scale
+    ui.move(beside(desk.at(36), threshold - 1))
+    ui.event("LEFTMOUSE", "RELEASE")
+    assert session.seed == 36
+    ui.click(desk.at(40))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    assert session.wires[0].vertices == (36, 37, 38, 39, 40)
+    assert session.seed is not None
+    ui.key("RET")
+    assert seams(desk.obj) == chain(*range(36, 41))
+
+
+def test_escape_and_the_right_button_forget_a_line_and_keep_the_chain(desk: Desk) -> None:
+    session, ui = desk.start(), desk.ui
+    ui.click(desk.at(0))
+    ui.click(desk.at(4))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    for cancel in ("ESC", "RIGHTMOUSE"):
+        press_and_draw(desk, desk.at(36), desk.at(40))
+        assert session.drawing
+        assert session.following
+        ui.event(cancel, "PRESS")
+        ui.event(cancel, "RELEASE")
+        assert not session.drawing
+        assert session.following == ()
+        ui.event("LEFTMOUSE", "RELEASE")
+        assert len(session.wires) == 1
+        assert session.seed_place == 4, "the live wire goes on"
+    ui.key("RET")
+    assert seams(desk.obj) == chain(0, 1, 2, 3, 4)
+
+
+def test_a_cancelled_line_leaves_nothing(desk: Desk) -> None:
+    desk.choose()
+    press_and_draw(desk, desk.at(36), desk.at(40))
+    desk.ui.key("ESC")
+    desk.ui.event("LEFTMOUSE", "RELEASE")
+    assert desk.left_clean()
+    assert desk.unchanged()
+
+
+def test_a_line_from_the_live_seed_goes_on_with_the_chain(desk: Desk) -> None:
+    session, ui = desk.start(), desk.ui
+    ui.click(desk.at(0))
+    ui.click(desk.at(4))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    bpy.context.preferences.inputs.mouse_double_click_time = 1  # it is pressed where it was clicked last
+    drag(desk, desk.at(4), desk.at(40))
+    ui.wait_until(lambda: session.seed_place == 40)
+    ui.click(desk.at(44))
+    ui.wait_until(lambda: session.seed_place == 44)
+    ui.key("RET")
+    assert seams(desk.obj) == sorted(chain(0, 1, 2, 3, 4) + chain(4, 13, 22, 31, 40) + chain(*range(40, 45)))
+
+
+def test_a_line_elsewhere_is_a_chain_of_its_own(desk: Desk, capfd: pytest.CaptureFixture[str]) -> None:
+    session, ui = desk.start(), desk.ui
+    ui.click(desk.at(0))
+    ui.click(desk.at(4))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    drag(desk, desk.at(36), desk.at(40))
+    ui.wait_until(lambda: not desk.running)
+    both = sorted(chain(0, 1, 2, 3, 4) + chain(*range(36, 41)))
+    assert seams(desk.obj) == both
+    assert undo_steps(capfd)[-2:] == ["Draw Wires", "Draw Line"]
+    ui.key("Z", ctrl=True)
+    assert seams(desk.obj) == chain(0, 1, 2, 3, 4)
+
+
+def test_a_line_ends_on_the_wire_it_comes_to(desk: Desk) -> None:
+    session = desk.choose()
+    draw(desk, 36, 44)
+    drag(desk, desk.at(4), desk.at(40))
+    desk.ui.wait_until(lambda: not desk.running)
+    assert seams(desk.obj) == sorted(chain(*range(36, 45)) + chain(4, 13, 22, 31, 40))
+    assert 40 in session.seeds(), "the wire has a seed there"
+
+
+def test_a_line_may_be_mirrored(desk: Desk) -> None:
+    session = desk.choose()
+    desk.obj.data.use_mirror_y = True
+    press_and_draw(desk, desk.at(54), desk.at(60))
+    assert session.mirror_axes == (1,)
+    pixels = desk.ui.pixels()
+    assert shows(pixels, desk.at(56, 57), ORANGE)
+    image = session.mirrored(session.following[0])
+    assert [one.vertices for one in image] == [tuple(range(18, 25))]
+    desk.ui.event("LEFTMOUSE", "RELEASE")
+    desk.ui.wait_until(lambda: not desk.running)
+    assert seams(desk.obj) == sorted(chain(*range(54, 61)) + chain(*range(18, 25)))
+
+
+def test_across_the_surface_wires_keep_near_to_the_line(cone: Desk) -> None:
+    session, ui = cone.choose(), cone.ui
+    settings().along = "SURFACE"
+    ui.move(cone.at(20))
+    ui.wait_until(lambda: session.along == "SURFACE")
+    press_and_draw(cone, cone.at(20), cone.at(24), cone.at(60))
+    ui.wait_until(lambda: not session.computing)
+    ui.wait(4)
+    assert session.following
+    along = session.following[0].points
+    assert shows(ui.pixels(), ui.on_screen(along[len(along) // 2]), ORANGE)
+    ui.event("LEFTMOUSE", "RELEASE")
+    ui.wait_until(lambda: not cone.running)
+    wires = session.wires
+    assert [wires[0].start, wires[-1].end] == [20, 60]
+    assert all(wire.along == "SURFACE" for wire in wires)
+    assert len(wires) > 1, "round the corner"
+    assert len(seams(cone.obj)) >= 7
+    ui.key("Z", ctrl=True)
+    assert seams(cone.obj) == []
+
+
+def test_a_drag_too_short_for_an_edge_says_so(desk: Desk) -> None:
+    session = desk.choose()
+    drag(desk, beside(desk.at(36), 1), beside(desk.at(36), 12))
+    assert not desk.running
+    assert session.wires == ()
+    assert desk.unchanged()
