@@ -284,6 +284,7 @@ def test_clicks_and_lines_wait_for_a_line_that_is_not_computed_yet() -> None:
     drawing.line_begin(0)
     drawing.line_to(np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]]), three, None)
     drawing.line_end()
+    table.lives["EDGES"].fork_ready = (True, True)  # the second is computed, and comes second all the same
     drawing.line_begin(12)
     drawing.line_to(np.array([[0.0, 2, 0], [1, 2, 0], [2, 2, 0]]), three, None)
     drawing.line_end()

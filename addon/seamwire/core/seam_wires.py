@@ -122,7 +122,7 @@ def waiting(live: LiveWire, wires: Iterable[Wire | None]) -> Iterator[Wire]:
 def _reach(
     live: LiveWire, chain: list[int], begin: int, before: Edge | None
 ) -> Generator[None, None, tuple[int, int, Edge | None]]:
-    """Return how far a wire from a place of a chain runs along it, which of both does, and what it goes on from.
+    """Return how far a wire from a place of a chain runs along it, which of them does, and what it goes on from.
 
     Going on from the last edge before, it may turn less there than one that begins anew. One edge at least: where no wire
     runs along that, it is one all the same, until a seed of it is moved. Yields while it has to wait.
@@ -139,7 +139,7 @@ def _reach(
 
 
 def _run(live: LiveWire, chain: list[int], begin: int, skipped: int) -> Generator[None, None, tuple[int, int]]:
-    """Return how far a wire from the seed, without the edges before it, runs along a chain, and which of both does."""
+    """Return how far a wire from the seed, without the edges before it, runs along a chain, and which of them does."""
     reached = begin + 1, 0
     # A wire does not end where it begins: around a circle there are two.
     last = len(chain) - (1 if begin == 0 and chain[0] == chain[-1] else 0)
