@@ -273,6 +273,7 @@ class DoubleClicks:
     """
 
     def __init__(self) -> None:
+        self._pressed: tuple[int, int] | None = None
         self._released: tuple[str, float, int, int] | None = None
 
     def is_second(self, event: bpy.types.Event, now: float, preferences: bpy.types.Preferences) -> bool:
@@ -289,8 +290,12 @@ class DoubleClicks:
         """
         if not event.type.endswith("MOUSE") or event.type.startswith("WHEEL"):
             return False
+        pressed, self._pressed = self._pressed, (event.mouse_x, event.mouse_y) if event.value == "PRESS" else None
         if event.value == "RELEASE":
-            self._released = (event.type, now, event.mouse_x, event.mouse_y)
+            # What was dragged is no first click.
+            moved = max(abs(event.mouse_x - pressed[0]), abs(event.mouse_y - pressed[1])) if pressed else 0
+            here = (event.type, now, event.mouse_x, event.mouse_y)
+            self._released = here if moved <= drag_threshold(event, preferences) else None
             return False
         released, self._released = self._released, None
         if released is None or event.value != "PRESS" or released[0] != event.type:
