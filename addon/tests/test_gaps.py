@@ -8,7 +8,8 @@ from itertools import pairwise
 import numpy as np
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
-from seamwire.core.gaps import Gap, border_edges, find_gaps
+from seamwire.core.gaps import Gap, GapFinder, border_edges
+from seamwire.core.islands import IslandMaker
 
 SIZE = 9
 ROW = tuple(range(36, 45))
@@ -19,7 +20,7 @@ def seams(*chains: tuple[int, ...] | range) -> NDArray[np.int32]:
 
 
 def gaps(*chains: tuple[int, ...] | range, longest: float = 0.5) -> list[Gap]:
-    return find_gaps(grid_points(SIZE), grid_triangles(SIZE), grid_edges(SIZE), seams(*chains), longest)
+    return GapFinder(grid_points(SIZE), grid_triangles(SIZE), grid_edges(SIZE)).find(seams(*chains), longest)
 
 
 def test_the_border_is_of_edges_with_one_triangle() -> None:
@@ -56,3 +57,18 @@ def test_what_the_cut_itself_leads_to_soon_is_not_across_a_gap() -> None:
     around = (36, 37, 38, 39, 40, 41, 32, 23, 22, 21, 30)
     assert gaps(around) == [Gap(30, 39, 1.0)]
     assert gaps((4, 13, 22), longest=9.0) == [], "a dart: along it and the border it is not much farther than across"
+
+
+def test_the_way_across_a_gap_leads_from_the_end_to_the_target_along_edges() -> None:
+    (gap,) = gaps(ROW, (4, 13, 22), longest=1.0)
+    assert gap.path == (22, 31, 40)
+
+
+def test_islands_tell_of_gaps_where_they_are_asked_for() -> None:
+    finder = GapFinder(grid_points(SIZE), grid_triangles(SIZE), grid_edges(SIZE))
+    maker = IslandMaker(grid_triangles(SIZE), lambda _: np.zeros(2 * (SIZE - 1) ** 2, dtype=np.int32), gaps=finder)
+    maker.want("open", seams(ROW, (4, 13, 22, 31)))
+    assert maker.newest is not None
+    assert maker.newest.gaps == (Gap(31, 40, 1.0),)
+    maker.want("closed", seams(ROW, (4, 13, 22, 31, 40)))
+    assert maker.newest.gaps == ()

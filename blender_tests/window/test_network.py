@@ -5,6 +5,7 @@ from itertools import pairwise
 
 import bmesh
 import bpy
+import numpy as np
 import pytest
 import ui as driver
 from desk import Desk, choose, drag, draw, undo_steps
@@ -12,6 +13,7 @@ from scene import chain, seams, snapshot
 from seamwire.mesh.settings import preferences, settings
 from seamwire.operators import bindings
 from seamwire.ui import status_bar
+from seamwire.view.edited_objects import edited
 
 
 def said(desk: Desk) -> str:
@@ -351,3 +353,25 @@ def test_the_meshs_own_mirror_counts_and_m_sets_it(desk: Desk) -> None:
     ui.move(desk.at(10))
     ui.key("X")
     assert seams(desk.obj) == []
+
+
+def test_gaps_in_seams_are_shown_until_they_are_closed(desk: Desk) -> None:
+    desk.choose()
+    draw(desk, 36, 44)
+    draw(desk, 4, 22)
+    found = edited.front.overlay
+    desk.ui.wait_until(lambda: found._islands.newest.gaps == ())
+    assert found._islands.newest.count == 2, "as far from the row as the cut is long: a dart"
+    draw(desk, 22, 31)
+    desk.ui.move(desk.at(60))
+    view = edited.front
+    desk.ui.wait_until(lambda: view.overlay._islands.newest.gaps != ())
+    (gap,) = view.overlay._islands.newest.gaps
+    assert gap.path == (31, 40)
+    before = desk.ui.pixels()
+    with desk.ui.override():
+        assert bpy.ops.mesh.seamwire_close_gaps() == {"FINISHED"}
+    desk.ui.move(desk.at(61))
+    desk.ui.wait_until(lambda: edited.front.overlay._islands.newest.count == 3)
+    assert edited.front.overlay._islands.newest.gaps == ()
+    assert np.abs(desk.ui.pixels() - before).max() > 0.2

@@ -18,7 +18,7 @@ import numpy as np
 from seams_engine import fan_triangles, polygon_edges
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
-from seamwire.core.gaps import border_edges, find_gaps  # these know no Blender
+from seamwire.core.gaps import GapFinder, border_edges  # these know no Blender
 from seamwire.core.seam_wires import seam_chains
 
 _SHORTEST = 8
@@ -40,13 +40,14 @@ def main() -> None:
         edges = edges[edges[:, 0] != edges[:, 1]]
         seams = np.array(sorted(listed)).reshape(-1, 2)
         ends = set(np.flatnonzero(np.bincount(seams.ravel()) == 1)) - set(border_edges(triangles, edges).ravel())
-        counts = [len(ends), len(find_gaps(points, triangles, edges, seams)), 0, 0]
+        finder = GapFinder(points, triangles, edges)
+        counts = [len(ends), len(finder.find(seams)), 0, 0]
         for chain in seam_chains(seams):
             if len(chain) <= _SHORTEST:
                 continue
             at = int(draw.integers(_NEAR_END, len(chain) - 1 - _NEAR_END))
             gap = set(chain[at : at + 2])
-            found = find_gaps(points, triangles, edges, seams[[set(pair) != gap for pair in seams.tolist()]])
+            found = finder.find(seams[[set(pair) != gap for pair in seams.tolist()]])
             counts[2] += 1
             counts[3] += any({one.end, one.target} == gap for one in found)
         sums += counts

@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
+import functools
 import heapq
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import islice
 from typing import TYPE_CHECKING
 
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
 _DETOUR = 4.0
 """A gap has no way along cuts and borders that is shorter than it by this factor: else its ends are joined as it is."""
-_MOST_LOOKED_AT = 50_000
+MOST_LOOKED_AT = 50_000
 """Vertices around an end: one from which nothing is met among so many lies in the middle of nowhere."""
 
 
@@ -35,21 +36,18 @@ class Gap:
         A vertex of a cut or of the border, the nearest along edges that the cut does not lead to soon.
     length
         Of the shortest way between them along edges.
+    path
+        The vertices of that way, from the end on.
     """
 
     end: int
     target: int
     length: float
+    path: tuple[int, ...] = field(default=(), compare=False)
 
 
-def find_gaps(
-    points: NDArray[np.float64],
-    triangles: NDArray[np.int32],
-    edges: NDArray[np.int32],
-    seams: NDArray[np.int32],
-    longest: float = 0.5,
-) -> list[Gap]:
-    """Find the gaps of a mesh's seams, shortest first; where two ends face each other there is one for both.
+class GapFinder:
+    """Finds the gaps of a mesh's seams.
 
     Parameters
     ----------
@@ -59,24 +57,43 @@ def find_gaps(
         (m, 3) what the polygons are divided into.
     edges
         (e, 2) edges of the polygons.
-    seams
-        (k, 2) those of them that are seams.
-    longest
-        Of a gap, in lengths of the cut that ends there, as far as it leads without meeting others. So a dart, which ends in
-        the middle of a face on purpose, has none.
     """
-    border = border_edges(triangles, edges)
-    cuts, mesh = _Ways(points, np.concatenate([seams, border])), _Ways(points, edges)
-    on_border = set(border.ravel().tolist())
-    found: dict[frozenset[int], Gap] = {}
-    for chain in seam_chains(seams):
-        length = float(np.linalg.norm(np.diff(points[chain], axis=0), axis=1).sum())
-        for end in {chain[0], chain[-1]} - on_border:
-            if len(cuts.beside(end)) == 1:
-                gap = _gap_at(mesh, cuts, end, longest * length)
-                if gap is not None:
-                    found.setdefault(frozenset((gap.end, gap.target)), gap)
-    return sorted(found.values(), key=lambda gap: (gap.length, gap.end))
+
+    def __init__(self, points: NDArray[np.float64], triangles: NDArray[np.int32], edges: NDArray[np.int32]) -> None:
+        self._points, self._triangles, self._edges = points, triangles, edges
+
+    @functools.cached_property
+    def _border(self) -> NDArray[np.int32]:
+        return border_edges(self._triangles, self._edges)
+
+    @functools.cached_property
+    def _mesh(self) -> _Ways:
+        return _Ways(self._points, self._edges)
+
+    def find(self, seams: NDArray[np.int32], longest: float = 0.5, most_looked_at: int = MOST_LOOKED_AT) -> list[Gap]:
+        """Find the gaps, shortest first; where two ends face each other there is one for both.
+
+        Parameters
+        ----------
+        seams
+            (k, 2) the edges that are seams.
+        longest
+            Of a gap, in lengths of the cut that ends there, as far as it leads without meeting others. So a dart, which ends in
+            the middle of a face on purpose, has none.
+        most_looked_at
+            Vertices around an end.
+        """
+        points, cuts = self._points, _Ways(self._points, np.concatenate([seams, self._border]))
+        on_border = set(self._border.ravel().tolist())
+        found: dict[frozenset[int], Gap] = {}
+        for chain in seam_chains(seams):
+            length = float(np.linalg.norm(np.diff(points[chain], axis=0), axis=1).sum())
+            for end in {chain[0], chain[-1]} - on_border:
+                if len(cuts.beside(end)) == 1:
+                    gap = _gap_at(self._mesh, cuts, end, longest * length, most_looked_at)
+                    if gap is not None:
+                        found.setdefault(frozenset((gap.end, gap.target)), gap)
+        return sorted(found.values(), key=lambda gap: (gap.length, gap.end))
 
 
 def border_edges(triangles: NDArray[np.int32], edges: NDArray[np.int32]) -> NDArray[np.int32]:
@@ -102,8 +119,11 @@ class _Ways:
         """Return the vertices that share an edge with one."""
         return self._heads[self._begin[vertex] : self._begin[vertex + 1]]
 
-    def nearest(self, start: int, longest: float) -> Iterator[tuple[int, float]]:
-        """Yield vertices and their distances from one, nearest first (Dijkstra's algorithm), up to a distance."""
+    def nearest(self, start: int, longest: float, before: dict[int, int] | None = None) -> Iterator[tuple[int, float]]:
+        """Yield vertices and their distances from one, nearest first (Dijkstra's algorithm), up to a distance.
+
+        Where `before` is given, it is filled with the vertex before each on the shortest way to it.
+        """
         reached, done = {start: 0.0}, set()
         queue = [(0.0, start)]
         while queue:
@@ -117,13 +137,19 @@ class _Ways:
             for other, so_far in zip(beside.tolist(), (distance + steps).tolist(), strict=True):
                 if so_far <= longest and so_far < reached.get(other, np.inf):
                     reached[other] = so_far
+                    if before is not None:
+                        before[other] = vertex
                     heapq.heappush(queue, (so_far, other))
 
 
-def _gap_at(mesh: _Ways, cuts: _Ways, end: int, longest: float) -> Gap | None:
+def _gap_at(mesh: _Ways, cuts: _Ways, end: int, longest: float, most_looked_at: int) -> Gap | None:
     """Return the gap at the end of a cut; None: there is none up to that length."""
     along = dict(cuts.nearest(end, _DETOUR * longest))
-    for vertex, distance in islice(mesh.nearest(end, longest), _MOST_LOOKED_AT):
+    before: dict[int, int] = {}
+    for vertex, distance in islice(mesh.nearest(end, longest, before), most_looked_at):
         if len(cuts.beside(vertex)) and along.get(vertex, np.inf) > _DETOUR * distance:
-            return Gap(end, vertex, distance)
+            path = [vertex]
+            while path[-1] != end:
+                path.append(before[path[-1]])
+            return Gap(end, vertex, distance, tuple(reversed(path)))
     return None

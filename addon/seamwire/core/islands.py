@@ -15,9 +15,13 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from .gaps import Gap, GapFinder
+
 Label = Callable[["NDArray[np.int32]"], "NDArray[np.int32]"]
 """Takes cut edges, (c, 2), and returns a label for every triangle: 0, 1, ..., largest island first."""
 
+_MOST_LOOKED_AT = 3_000
+"""Vertices around the end of a cut for what it nearly meets: less than where gaps are to be closed, for this is asked at each change."""
 AT_ONCE = 20_000
 """Triangles up to which the answer takes a few milliseconds, so that a thread would only make it late."""
 _TOLD_APART = 4096
@@ -47,6 +51,8 @@ class Islands:
         Whether anything was cut: else the islands are the parts that the mesh has anyway.
     pieces
         For each hue that is used: it, and its triangles, (k, 3).
+    gaps
+        Where a cut ends just before it meets another one, shortest first.
     """
 
     key: object
@@ -56,6 +62,7 @@ class Islands:
     missing: NDArray[np.int64]
     cut: bool
     pieces: tuple[tuple[int, NDArray[np.int32]], ...]
+    gaps: tuple[Gap, ...] = ()
 
     @cached_property
     def sizes(self) -> NDArray[np.int64]:
@@ -74,12 +81,17 @@ class IslandMaker:
         What tells the islands apart; called on the thread.
     hues
         How many colors there are.
+    gaps
+        Finds what keeps islands from separating; None: that is not asked for.
     """
 
-    def __init__(self, triangles: NDArray[np.int32], label: Label, hues: int = 12) -> None:
+    def __init__(
+        self, triangles: NDArray[np.int32], label: Label, hues: int = 12, gaps: GapFinder | None = None
+    ) -> None:
         self._triangles = triangles
         self._label = label
         self._hues = hues
+        self._gaps = gaps
         self._lock = threading.Lock()
         self._wanted: tuple[object, NDArray[np.int32]] | None = None
         self._working = False
@@ -153,7 +165,8 @@ class IslandMaker:
         if self._counter is None:
             self._counter = CutCounter(self._triangles)
         missing = self._counter.missing(labels, cuts)
-        return Islands(key, count, labels, hues, missing, len(cuts) > 0, pieces)
+        gaps = () if self._gaps is None else tuple(self._gaps.find(cuts, most_looked_at=_MOST_LOOKED_AT))
+        return Islands(key, count, labels, hues, missing, len(cuts) > 0, pieces, gaps)
 
     def _inherited(self, labels: NDArray[np.int32], count: int) -> NDArray[np.int64]:
         """Return the hue that each island keeps, (count,), -1 for what was cut off or is new.

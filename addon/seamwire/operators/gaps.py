@@ -58,7 +58,7 @@ class MESH_OT_seamwire_close_gaps(bpy.types.Operator):
 
     def _find(self, context: bpy.types.Context) -> dict[ObjectSession, list[Gap]]:
         """Return the gaps of each object that has some."""
-        from ..core.gaps import find_gaps
+        from ..core.gaps import GapFinder
         from ..mesh.object_session import ObjectSession
 
         found = {}
@@ -68,7 +68,7 @@ class MESH_OT_seamwire_close_gaps(bpy.types.Operator):
             except ValueError:
                 continue  # nothing of it is visible
             arrays = mesh.arrays
-            gaps = find_gaps(arrays.points, arrays.triangles, arrays.edges, arrays.seams, self.longest)
+            gaps = GapFinder(arrays.points, arrays.triangles, arrays.edges).find(arrays.seams, self.longest)
             if gaps:
                 found[mesh] = gaps
         return found

@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from ..core import islands, native
+from ..core.gaps import GapFinder
 from ..core.solver import for_live
 from ..mesh import settings as chosen
 from ..mesh.object_session import ObjectSession
@@ -67,7 +68,8 @@ class ObjectView:
         self.mesh = ObjectSession(obj, settings.along)
         self.mesh.follow(settings)
         arrays = self.mesh.arrays
-        self._islands = islands.IslandMaker(arrays.triangles, self.mesh.make_live.face_segments, HUES)
+        gaps = GapFinder(arrays.points, arrays.triangles, arrays.edges)
+        self._islands = islands.IslandMaker(arrays.triangles, self.mesh.make_live.face_segments, HUES, gaps)
         self.views = MetricViews(arrays, native.load(), self.mesh.make_live.wait)
         self._picker = Picker(self.mesh.cage.bm, arrays, self.mesh.plain_seams)
         self.overlay = Overlay(

@@ -124,6 +124,7 @@ class Overlay:
         self._kept: tuple[object, _Sheet] = (None, _Sheet(points))
         self._live: tuple[object, _Sheet] = (None, _Sheet(points))
         self._bands: tuple[object, _Sheet] = (None, _Sheet(points))
+        self._gaps: tuple[object, _Sheet] = (None, _Sheet(points))
         self._faces: Faces | None = None
         self._tinted: object = None
         self._asked: object = None
@@ -190,8 +191,8 @@ class Overlay:
         looks = self._current_looks()
         if looks != self._looks:
             self._looks = looks
-            self._kept = self._live = self._bands = (None, self._live[1])
-        sheets = self._bands_sheet(), self._kept_sheet(), self._live_sheet()
+            self._kept = self._live = self._bands = self._gaps = (None, self._live[1])
+        sheets = self._bands_sheet(), self._gaps_sheet(), self._kept_sheet(), self._live_sheet()
         eye = Eye(bpy.context.region_data, self._obj.matrix_world @ self._to_object)
         if self.heat is not None and self.heat.shown:
             self.heat.draw(eye)
@@ -268,6 +269,20 @@ class Overlay:
             sheet.curve(self._looks.attracting if attracts else self._looks.repelling, points)
         sheet.finish()
         self._bands = ((key, [points for points, _ in strokes]), sheet)
+        return sheet
+
+    def _gaps_sheet(self) -> _Sheet:
+        """Return what keeps islands from separating: ends of seams, and the way to what they nearly meet."""
+        found = None if self._islands is None else self._islands.newest
+        key = (None if found is None else found.key,)
+        if self._gaps[0] == key:
+            return self._gaps[1]
+        sheet = _Sheet(self._points)
+        for gap in () if found is None else found.gaps:
+            sheet.curve(self._looks.gap, self._points[list(gap.path)])
+            sheet.dot(self._looks.open_end, gap.end)
+        sheet.finish()
+        self._gaps = (key, sheet)
         return sheet
 
     def _kept_sheet(self) -> _Sheet:

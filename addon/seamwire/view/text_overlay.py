@@ -29,6 +29,8 @@ _METRICS = {
 def _islands(islands: Islands) -> str:
     """Say how many islands there are, and, once something is cut, which do not unwrap yet."""
     found = f"{islands.count} island" + ("s" if islands.count != 1 else "")
+    if islands.gaps:
+        found += f", {len(islands.gaps)} gap{'s' if len(islands.gaps) != 1 else ''} in seams"
     no_discs = int((islands.missing > 0).sum())
     if not islands.cut or not no_discs:
         return found

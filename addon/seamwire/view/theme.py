@@ -96,6 +96,10 @@ class Looks:
     """The band of a stroke that wires follow."""
     repelling: Style
     """The band of one that they keep from: in cross bars, not in its color alone."""
+    gap: Style
+    """From the end of a seam to what it nearly meets."""
+    open_end: Style
+    """Where it ends: larger than a seed, which is drawn over it."""
     tint: float
     """Opacity of islands."""
     text: bool
@@ -155,6 +159,8 @@ class Looks:
             dot_on_feature=Style(white, 5.0, halo=3.0, lift=11.0, ring=(6.0, other)),
             attracting=Style(faint(attracts, 0.4), 16.0, hidden=0.2, lift=8.0, soft=True),
             repelling=Style(faint(repels, 0.5), 16.0, hidden=0.2, lift=8.0, dash=5.0, soft=True),
+            gap=Style(faint(seam, 0.9), 2.5, halo=1.5, hidden=0.15, dash=4.0, lift=5.0),
+            open_end=Style(seam, 14.0, halo=2.5, hidden=0.3, lift=9.0),
             tint=float(getattr(preferences, "tint", 0.22)),
             text=bool(getattr(preferences, "show_text", True)),
         )
@@ -164,7 +170,7 @@ class Looks:
         """Return the same with lines so many times as wide; dots grow half as fast."""
         if factor == 1.0:
             return self
-        dots = {"seed", "live_seed", "hovered_seed", "closing"}
+        dots = {"seed", "live_seed", "hovered_seed", "closing", "open_end"}
 
         def wider(name: str, style: Style) -> Style:
             by = 0.5 * (1.0 + factor) if name in dots or name.startswith("dot") else factor
