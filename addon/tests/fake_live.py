@@ -93,25 +93,25 @@ def grid_points(size: int) -> NDArray[np.float64]:
 
 @dataclass
 class FakeLive:
-    """Wires on a grid: candidate 0 goes along x first, candidate 1 along y first.
+    """Wires on a grid: candidate 0 goes along x first, candidate 1 along y first; a third, where `ready` has one, by turns.
 
-    The first is shorter, unless `shorter` says otherwise. Vertices in `islands` are reached by no wire. Forks begin as
-    `fork_ready` says; a new metric makes it ready as `metric_ready` says, and until it is the wires are `stale` ones.
-    Loops go straight on at their corners, as around a limb, or turn off there, as `boxes`. Closed cuts may be there `early`,
-    before they are final, the second alone. Across the surface the
-    embeddings leave `holes`.
+    The first is shorter, unless `shorter` says otherwise; of three the third one leads, whichever is shorter. Vertices in
+    `islands` are reached by no wire. Forks begin as `fork_ready` says (None: all ready); a new metric makes it ready as
+    `metric_ready` says, and until it is the wires are `stale` ones. Loops go straight on at their corners, as around a limb,
+    or turn off there, as `boxes`. Closed cuts may be there `early`, before they are final, the second alone. Across the
+    surface the embeddings leave `holes`.
     """
 
     size: int
     along: str = "EDGES"
-    ready: tuple[bool, bool] = (True, True)
+    ready: tuple[bool, ...] = (True, True)
     shorter: int = 0
     islands: tuple[int, ...] = ()
     holes: tuple[int, int] = (0, 0)
     seeded: tuple[object, bool] | None = None
     seeds: list[tuple[object, bool]] = field(default_factory=list)
-    fork_ready: tuple[bool, bool] = (True, True)
-    metric_ready: tuple[bool, bool] = (True, True)
+    fork_ready: tuple[bool, ...] | None = None
+    metric_ready: tuple[bool, ...] | None = None
     stale: bool = False
     boxes: bool = False
     early: bool = False
@@ -128,11 +128,16 @@ class FakeLive:
         self.seeded = (pick, forward)
         self.seeds.append(self.seeded)
 
-    def _walk(self, start: int, end: int, x_first: bool) -> list[int]:
+    def _walk(self, start: int, end: int, index: int) -> list[int]:
         x, y = start % self.size, start // self.size
         to_x, to_y = end % self.size, end // self.size
         path = [start]
-        for axis in ("xy", "yx")[not x_first]:
+        while index == 2 and x != to_x and y != to_y:
+            x += 1 if to_x > x else -1
+            path.append(y * self.size + x)
+            y += 1 if to_y > y else -1
+            path.append(y * self.size + x)
+        for axis in ("xy", "yx", "xy")[index]:
             while (x != to_x) if axis == "x" else (y != to_y):
                 if axis == "x":
                     x += 1 if to_x > x else -1
@@ -146,13 +151,15 @@ class FakeLive:
         head = list(pick) if isinstance(pick, tuple) else [pick]
         tail = list(target) if isinstance(target, tuple) else [target]
         candidates = []
-        for index in (0, 1):
-            path = head[:-1] + self._walk(head[-1], tail[0], x_first=index == 0) + tail[1:]
+        for index in range(len(self.ready)):
+            path = head[:-1] + self._walk(head[-1], tail[0], index) + tail[1:]
             if not (self.ready[index] or self.stale) or set(tail) & set(self.islands):
                 path = []
             points = grid_points(self.size)[path] if path else np.empty((0, 3))
             length = float(len(path)) if path else float("inf")
             candidates.append(FakeCandidate(points, np.array(path, dtype=np.int32), length, self.ready[index]))
+        if len(candidates) == 3:
+            return FakeWires(tuple(candidates), 2, self.ready[2], all(self.ready))
         return FakeWires(tuple(candidates), self.shorter, all(self.ready), all(self.ready))
 
     def loop(self, edge: tuple[int, int]) -> FakeChain:
@@ -235,7 +242,8 @@ class FakeLive:
         return FakeChain(np.array(chain, dtype=np.int32), places=np.array(places))
 
     def fork(self) -> FakeLive:
-        fork = FakeLive(self.size, self.along, self.fork_ready, self.shorter, self.islands)
+        ready = self.fork_ready or (True,) * len(self.ready)
+        fork = FakeLive(self.size, self.along, ready, self.shorter, self.islands)
         self.forks.append(fork)
         return fork
 
@@ -244,23 +252,24 @@ class FakeLive:
     ) -> None:
         self.metrics.append((metric, max_anisotropy, clamp_percentile))
         self.stale = self.stale or all(self.ready)
-        self.ready = self.metric_ready
+        self.ready = self.metric_ready or (True,) * len(self.ready)
 
     def set_scribbles(self, scribbles: list[object]) -> None:
         self.scribbles.append(tuple(scribbles))
         self.stale = self.stale or all(self.ready)
-        self.ready = self.metric_ready
+        self.ready = self.metric_ready or (True,) * len(self.ready)
 
     def embeddings(self) -> tuple[FakeReport | None, FakeReport | None]:
-        reports = (FakeReport(holes) if ready else None for holes, ready in zip(self.holes, self.ready, strict=True))
+        holes = (*self.holes, 0)[: len(self.ready)]
+        reports = (FakeReport(count) if ready else None for count, ready in zip(holes, self.ready, strict=True))
         return tuple(reports) if self.along == "SURFACE" else (None, None)
 
     def feature_strength(self) -> NDArray[np.float64]:
         return np.zeros(self.size**2)
 
     def progress(self) -> float:
-        return sum(self.ready) / 2.0
+        return sum(self.ready) / len(self.ready)
 
     def wait(self, seconds: float | None = None) -> bool:
-        self.ready = (True, True)
+        self.ready = (True,) * len(self.ready)
         return True

@@ -42,7 +42,7 @@ class Table:
         """Let all live wires be ready, and take it in."""
         for live in self.lives.values():
             for one in (live, *live.forks):
-                one.ready = (True, True)
+                one.ready = (True,) * len(one.ready)
         self.session.poll()
 
 

@@ -230,6 +230,45 @@ def test_a_kept_wire_takes_its_other_way_and_back() -> None:
     assert courses(session) == [(0, 6, 7)]
 
 
+def test_of_three_a_kept_wire_takes_its_ways_in_turn() -> None:
+    session = Table(ready=(True, True, True)).session
+    session.click(0)
+    session.click(14)
+    seen = []
+    for _ in range(4):
+        seen.append((session.wires[0].follow, session.wires[0].vertices))
+        assert session.toggle_kept(session.wires[0])
+    assert seen[:3] == [(2, (0, 1, 7, 8, 14)), (0, (0, 1, 2, 8, 14)), (1, (0, 6, 12, 13, 14))]
+    assert seen[3] == seen[0]
+
+
+def test_of_three_the_ways_of_half_a_wire_are_computed_and_come_in_the_same_order() -> None:
+    table = Table(ready=(True, True, True), fork_ready=(False, False, False))
+    session = table.session
+    session.click(0)
+    session.click(21)
+    assert courses(session) == [(0, 1, 7, 8, 14, 15, 21)]
+    session.insert(session.wires[0], 14)
+    for expected in [(0, 1, 2, 8, 14), (0, 6, 12, 13, 14), (0, 1, 7, 8, 14)]:
+        assert session.toggle_kept(session.wires[0])
+        table.compute()
+        assert courses(session) == [expected, (14, 15, 21)]
+
+
+def test_after_the_second_way_of_half_a_wire_the_third_is_computed() -> None:
+    session = Table(ready=(True, True, True)).session
+    session.click(0)
+    session.hover(21)
+    while session.active.follow != 1:
+        session.toggle()
+    session.click(21)
+    assert courses(session) == [(0, 6, 12, 18, 19, 20, 21)]
+    session.insert(session.wires[0], 20)
+    assert session.toggle_kept(session.wires[0])
+    assert session.wires[0].follow == 2
+    assert courses(session) == [(0, 1, 7, 8, 14, 20), (20, 21)]
+
+
 def test_a_straight_wire_has_no_other_way() -> None:
     session = corner().session
     assert not session.toggle_kept(session.wires[0])

@@ -195,6 +195,7 @@ def spoiled(change: Callable[[dict[str, Any]], object]) -> str:
                 lambda wire: wire.update(mirror=[3]),
                 lambda wire: wire.update(heading=3),
                 lambda wire: wire.pop("follow"),
+                lambda wire: wire.update(follow=3),
                 lambda wire: wire.pop("heading"),
                 lambda wire: wire.pop("closed"),
                 lambda wire: wire.update(along="SURFACE"),
@@ -215,6 +216,24 @@ def test_what_a_click_offered_in_another_version_does_not_matter() -> None:
     mesh.text = ""
     loops = [wire for wire in mesh.read(archive).network.wires if wire.closed]
     assert [(wire.kind, wire.through) for wire in loops] == [(None, None)]
+
+
+@pytest.mark.parametrize("follow", [0, 1, 2])
+def test_which_of_the_wires_one_is_and_what_a_stroke_is_for_are_kept(follow: int) -> None:
+    table = Table(ready=(True, True, True))
+    session = table.session
+    session.switch("SURFACE")
+    session.click(0)
+    session.hover(14)
+    while session.active.follow != follow:
+        session.toggle()
+    session.scribble(vertices=[1, 2, 3])
+    session.click(14)
+    mesh = paper()
+    mesh.write(session)
+    network = mesh.read().network
+    assert [wire.follow for wire in network.wires] == [follow]
+    assert [stroke.acts_on for stroke in network.scribbles] == [("min", "max", "concave")[follow]]
 
 
 # The second version, as it was stored once
@@ -251,6 +270,7 @@ def test_a_text_of_version_2_is_read_for_ever() -> None:
     assert curve.along == "SURFACE"
     assert np.allclose(curve.points[:, 1], [0.0, 0.125, 0.125, 1.125]), "its curve is that which was stored"
     assert all(wire.mirror == (0,) for wire in wires.values())
+    assert all(wire.follow == 0 for wire in wires.values())
     assert sorted(curve.images) == chain(0, 1, 2, 8)
     assert all(wire.strength == 10.0 for wire in wires.values() if wire.along == "EDGES" and not wire.kind)
     assert [(one.attracts, one.radius, len(one.points)) for one in found.network.scribbles] == [

@@ -28,6 +28,31 @@ def test_hovering_shows_both_wires_and_the_shorter_is_active() -> None:
     assert session.others[0].vertices == (0, 1, 7)
 
 
+def test_a_click_does_not_wait_for_wires_that_do_not_lead() -> None:
+    table = Table(ready=(False, False, True))
+    session = table.session
+    session.click(0)
+    session.click(14)
+    assert session.waiting_clicks == 0
+    assert session.wires[0].follow == 2
+    assert session.wires[0].alternatives == (), "they are found when they are asked for"
+
+
+def test_a_stroke_is_for_the_wire_that_leads_and_another_metrics_wires_are_others() -> None:
+    table = Table(ready=(True, True, True))
+    session = table.session
+    session.click(0)
+    session.hover(14)
+    session.scribble(vertices=(1, 2, 3))
+    assert session.scribbles[-1].acts_on == "concave"
+    assert session.active.follow == 2
+    table.lives["EDGES"].metric_ready = (True, True)
+    session.hover(None)
+    session.set_metric("campen")
+    session.scribble(vertices=(1, 2, 3))
+    assert session.scribbles[-1].acts_on == "min"
+
+
 def test_toggling_makes_the_other_active_until_a_wire_is_kept() -> None:
     session = Table().session
     session.click(0)

@@ -13,6 +13,7 @@ from scene import chain, seams, snapshot
 from seamwire.mesh.settings import preferences, settings
 from seamwire.operators import bindings
 from seamwire.ui import status_bar
+from seamwire.view import text_overlay
 from seamwire.view.edited_objects import edited
 
 
@@ -120,6 +121,32 @@ def test_w_takes_the_next_candidate_and_the_wheel_zooms(cone: Desk) -> None:
     ui.click(cone.at(61))
     ui.wait_until(lambda: len(session.wires) == 1)
     assert session.wires[0].vertices == other
+
+
+def test_across_the_surface_w_goes_through_three_candidates_live_and_kept(cone: Desk) -> None:
+    settings().along, settings().finish = "SURFACE", "SNAP"
+    session, ui = cone.choose(), cone.ui
+    ui.click(cone.at(20))
+    ui.move(cone.at(61))
+    ui.wait_until(lambda: len(session.others) == 2)
+    names = ("Least curvature", "Most curvature", "Concave creases")
+    seen = []
+    for number in range(3):
+        assert f"Next Candidate ({(number + 1) % 3 + 1} of 3)" in said(cone)
+        seen.append(session.active.follow)
+        assert f"{names[seen[-1]]} ({number + 1} of 3)" in text_overlay.lines(session, None)
+        ui.key("W")
+    assert seen == [2, 0, 1], "that along creases first"
+    ui.click(cone.at(61))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.key("RET")
+    assert session.wires[0].follow == 2
+    for follow in (0, 1, 2):
+        points = session.wires[0].points
+        ui.move(ui.on_screen(tuple(points[len(points) // 2])))
+        assert session.hovered_wire is not None
+        ui.key("W")
+        ui.wait_until(lambda expected=follow: session.wires[0].follow == expected)
 
 
 def test_the_wheel_takes_the_next_candidate_where_it_is_given_to_it(cone: Desk) -> None:

@@ -8,8 +8,11 @@
 // - a wire: tracing one path; tracing both, mapping them to the surface and snapping them to edges
 // - embedding, and doing it again after a stroke of 1, 4, 16 and 64 edges; and all that lies between the end of a
 //   stroke and the first wire, part by part on one thread, and by the clock in a live wire
+// - a live wire made anew and seeded, and seeded again: until a wire is shown, until the one that a click keeps is
+//   settled, and until all are final; on the clock, and the processor time of all threads
 #include <pthread.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -124,6 +127,57 @@ void measure_two_metrics(const ExactGeodesics& first, const ExactGeodesics& seco
   std::fflush(stdout);
 }
 
+/// Until a wire is shown, until the active one is settled, until all are final.
+struct Waits {
+  std::array<std::vector<double>, 3> clock, processor;
+
+  /// Asks as a cursor would that rests on a vertex, from a call on that began the work at that time.
+  void add(const LiveWire& live, std::int32_t to, Clock::time_point start, double processor_start) {
+    for (std::size_t reached = 0; reached < 3;) {
+      const LiveWires now = live.wires({to});
+      const bool is_shown = std::ranges::any_of(now.wires, [](const auto& wire) { return !wire.points.empty(); });
+      const std::array is_reached{is_shown, now.settled, now.final()};
+      for (; reached < 3 && is_reached[reached]; ++reached) {
+        clock[reached].push_back(since(start));
+        processor[reached].push_back(processor_seconds(CLOCK_PROCESS_CPUTIME_ID) - processor_start);
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  void print(const char* what) const {
+    std::printf("  %s, until a wire is shown / the active one is settled / all are final: clock", what);
+    for (const auto& times : clock) std::printf(" %.1f (least %.1f)", 1e3 * median(times), 1e3 * quantile(times, 0));
+    std::printf(" ms, processor");
+    for (const auto& times : processor) {
+      std::printf(" %.1f (least %.1f)", 1e3 * median(times), 1e3 * quantile(times, 0));
+    }
+    std::printf(" ms\n");
+    std::fflush(stdout);
+  }
+};
+
+void measure_waits(const std::shared_ptr<const Surface>& surface, const Options& options) {
+  std::mt19937 random(1);
+  std::uniform_int_distribution<std::int32_t> any(0, static_cast<std::int32_t>(surface->vertex_count()) - 1);
+  Waits anew, again;
+  for (int i = 0; i < 9; ++i) {
+    double processor = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
+    Clock::time_point start = Clock::now();
+    LiveWire live(surface, {.strength = {.max_anisotropy = options.anisotropy, .clamp_percentile = 99.0}});
+    live.seed({any(random)});
+    anew.add(live, any(random), start, processor);
+    live.wait();
+    for (int k = 0; k < 3; ++k) {
+      processor = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
+      start = Clock::now();
+      live.seed({any(random)});
+      again.add(live, any(random), start, processor);
+    }
+  }
+  anew.print("a live wire made anew and seeded");
+  again.print("seeded again");
+}
+
 /// From a vertex on to the neighbour that lies furthest along, in one direction, again and again.
 Scribble stroke(const Surface& surface, std::int32_t v, int edges) {
   const Vector direction(0.3, 0.9, 0.3);
@@ -156,7 +210,7 @@ std::array<std::vector<double>, 2> strokes_of(const std::shared_ptr<const Surfac
     live.wait();
     const LiveWires before = live.wires({to});
     Scribble scribble = stroke(*surface, from, 16);  // it begins at the seed, so that the wires feel it
-    scribble.acts_on_max = for_both;
+    if (!for_both) scribble.meant_for = Follow::kMin;
     const Clock::time_point start = Clock::now();
     live.set_scribbles({std::move(scribble)});
     const std::size_t expected = for_both ? 2 : 1;
@@ -260,6 +314,7 @@ void measure(const std::string& file, const Options& options) {
   std::printf("  tracing: median %.1f us, 95%% %.1f; both wires, mapped and snapped: median %.0f us, 95%% %.0f\n",
               1e6 * median(traced), 1e6 * quantile(traced, 0.95), 1e6 * median(both), 1e6 * quantile(both, 0.95));
   measure_two_metrics(first, second);
+  measure_waits(surface, options);
   measure_strokes(surface, options);
 
   measure_cancelling("geodesics", duration, options, [&](const Task& task) { second.solve(0, task); });

@@ -56,8 +56,6 @@ HeldLiveWire make_live_wire(Arguments&&... arguments) {
   return HeldLiveWire(new LiveWireObject(std::forward<Arguments>(arguments)...));
 }
 
-const char* name_of(Follow follow) { return follow == Follow::kMin ? "min" : "max"; }
-
 template <class Get>
 py::cpp_function array_of_candidate(const Get& get) {
   return [get](py::object self) { return view(get(self.cast<const CandidateObject&>().get()), self); };
@@ -146,7 +144,7 @@ void bind_live_wire(py::module_& module) {
   py::class_<CandidateObject>(module, "LiveCandidate", "One of the wires from the seed to a target.")
       .def_property_readonly(
           "follow", [](const CandidateObject& c) { return name_of(c.get().follow); },
-          "'min' or 'max': the metric it is short in.")
+          "'min', 'max' or 'concave': the metric it is short in. Of 'concave' alone they are 'min' and 'max' too.")
       .def_property_readonly("points", array_of_candidate([](const auto& c) -> auto& { return c.points; }),
                              "(p, 3) float64, in the caller's coordinates; no rows: there is no such wire.")
       .def_property_readonly("faces", array_of_candidate([](const auto& c) -> auto& { return c.faces; }),
@@ -171,12 +169,14 @@ void bind_live_wire(py::module_& module) {
             for (std::size_t i = 0; i < found.size(); ++i) found[i] = CandidateObject{w.wires, i};
             return found;
           },
-          "tuple of LiveCandidate: that of M_min, that of M_max.")
+          "tuple of LiveCandidate: that of M_min, that of M_max; of 'feature' across the surface that of "
+          "`concave_metric` "
+          "as well.")
       .def_property_readonly(
           "active", [](const LiveWiresObject& w) { return w.wires->active; },
-          "Index of the one to be offered first: the one that is shorter in its own metric (Section 5 of the paper); "
-          "of "
-          "'concave' the first, unless that turns out not to reach the target.")
+          "Index of the one to be offered first: that of `concave_metric`, unless it turns out not to reach the "
+          "target; "
+          "where there is none the one that is shorter in its own metric (Section 5 of the paper).")
       .def_property_readonly(
           "settled", [](const LiveWiresObject& w) { return w.wires->settled; },
           "Whether the active one is final, and stays the active one whatever the others will be.")
@@ -289,7 +289,8 @@ turning : float
 loop_turning : float, optional
     What it costs in `shortest_cycle`; None: 20, more on meshes of over 6400 edges, so that rings are found there too.
 metric : {'feature', 'campen', 'pottmann_kovacs', 'concave', 'euclidean'}
-    What wires are short in. 'concave': the first wire in `concave_metric`, with a strength of (max_anisotropy - 1) / 19,
+    What wires are short in. 'feature', across the surface: a third wire in `concave_metric`, with a strength of
+    gamma / 0.1 or (max_anisotropy - 1) / 19, on curvatures smoothed over 0.01. 'concave': the first wire in `concave_metric`, with a strength of (max_anisotropy - 1) / 19,
     on curvatures smoothed over 0.01; the second one is the shortest path.
 
 Raises

@@ -29,6 +29,10 @@
 /// What Python objects hold: a result of the library, and what is built from it once, when first needed.
 namespace seamwire::python {
 
+inline const char* name_of(Follow follow) {
+  return follow == Follow::kConcave ? "concave" : follow == Follow::kMin ? "min" : "max";
+}
+
 namespace py = pybind11;
 
 /// Of what is built once for several threads. The thread that has it may lock it again: a progress function may ask for

@@ -27,7 +27,14 @@ std::optional<Follow> follow_from(const std::optional<std::string>& name) {
   if (!name) return std::nullopt;
   if (*name == "min") return Follow::kMin;
   if (*name == "max") return Follow::kMax;
-  throw InvalidInput("follow: expected 'min', 'max' or None, got '" + *name + "'");
+  if (*name == "concave") return Follow::kConcave;
+  throw InvalidInput("follow: expected 'min', 'max', 'concave' or None, got '" + *name + "'");
+}
+
+std::optional<Follow> meant_for(const std::string& acts_on) {
+  if (acts_on == "both") return std::nullopt;
+  if (acts_on == "min" || acts_on == "max" || acts_on == "concave") return follow_from(acts_on);
+  throw InvalidInput("acts_on: expected 'both', 'min', 'max' or 'concave', got '" + acts_on + "'");
 }
 
 }  // namespace
@@ -49,8 +56,8 @@ radius : float, optional
     Instead of rings: from that distance on, in the caller's units.
 attracts : bool
     False: crossing the stroke becomes short, and following it long.
-acts_on : {'both', 'min', 'max'}
-    Which of the two metrics it is meant for.
+acts_on : {'both', 'min', 'max', 'concave'}
+    Which of the metrics it is meant for; 'both': whichever there are.
 
 Raises
 ------
@@ -59,10 +66,8 @@ ValueError
 )")
       .def(py::init([](const py::object& points, const py::object& faces, const py::object& vertices, double eta,
                        int rings, std::optional<double> radius, bool attracts, const std::string& acts_on) {
-             if (acts_on != "both" && acts_on != "min" && acts_on != "max") {
-               throw InvalidInput("acts_on: expected 'both', 'min' or 'max', got '" + acts_on + "'");
-             }
              Scribble scribble;
+             scribble.meant_for = meant_for(acts_on);
              scribble.points = points_from(points, "points");
              if (!faces.is_none()) scribble.faces = numbers_from(faces, "faces");
              if (!vertices.is_none()) scribble.vertices = numbers_from(vertices, "vertices");
@@ -70,8 +75,6 @@ ValueError
              scribble.rings = rings;
              scribble.radius = radius;
              scribble.attracts = attracts;
-             scribble.acts_on_min = acts_on != "max";
-             scribble.acts_on_max = acts_on != "min";
              return scribble;
            }),
            py::arg("points"), py::arg("faces") = py::none(), py::arg("vertices") = py::none(), py::arg("eta") = 20.0,
@@ -86,10 +89,7 @@ ValueError
       .def_property_readonly("rings", [](const Scribble& s) { return s.rings; })
       .def_property_readonly("radius", [](const Scribble& s) { return s.radius; })
       .def_property_readonly("attracts", [](const Scribble& s) { return s.attracts; })
-      .def_property_readonly("acts_on",
-                             [](const Scribble& s) { return !s.acts_on_max   ? "min"
-                                                            : !s.acts_on_min ? "max"
-                                                                             : "both"; })
+      .def_property_readonly("acts_on", [](const Scribble& s) { return s.meant_for ? name_of(*s.meant_for) : "both"; })
       .def("__repr__", [](const Scribble& s) {
         return "<Scribble: " + std::to_string(s.points.size()) + " points, " + (s.attracts ? "attracts" : "repels") +
                ">";

@@ -45,7 +45,7 @@ void bind_seams(py::module_& module) {
           "seeds", [](const PlannedWire& wire) { return std::pair(wire.from, wire.to); },
           "(int, int): the vertices between which it runs.")
       .def_property_readonly(
-          "follow", [](const PlannedWire& wire) { return wire.follow == Follow::kMin ? "min" : "max"; },
+          "follow", [](const PlannedWire& wire) { return name_of(wire.follow); },
           "'min' or 'max': the metric it is short in.")
       .def_property_readonly(
           "vertices", [](const py::object& self) { return view(self.cast<const PlannedWire&>().vertices, self); },

@@ -83,7 +83,7 @@ class Scribble:
         rings: int = 10,
         radius: float | None = None,
         attracts: bool = True,
-        acts_on: Literal["both", "min", "max"] = "both",
+        acts_on: Literal["both", "min", "max", "concave"] = "both",
     ) -> None: ...
     points: NDArray[np.float64]
     faces: NDArray[np.int32]
@@ -92,7 +92,7 @@ class Scribble:
     rings: int
     radius: float | None
     attracts: bool
-    acts_on: Literal["both", "min", "max"]
+    acts_on: Literal["both", "min", "max", "concave"]
 
 class Embedding:
     points: NDArray[np.float64]
@@ -149,7 +149,7 @@ class EdgeWires:
     def trace(self, target: Pick) -> EdgeChain: ...
 
 class LiveCandidate:
-    follow: Literal["min", "max"]
+    follow: Literal["min", "max", "concave"]
     points: NDArray[np.float64]
     faces: NDArray[np.int32]
     vertices: NDArray[np.int32]  # the edges that would be marked

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -14,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "live/live_worker.hpp"
 #include "live/prepared_metrics.hpp"
 #include "seamwire/edges/shortest_cycle.hpp"
 #include "seamwire/embedding/embedding.hpp"
@@ -48,27 +50,36 @@ LiveWires fresh_wires(const std::shared_ptr<const Surface>& surface, const LiveW
 
 void expect_equal(const LiveWires& got, const LiveWires& expected) {
   EXPECT_TRUE(got.final());
+  EXPECT_TRUE(got.settled);
   EXPECT_EQ(got.active, expected.active);
-  for (std::size_t which = 0; which < 2; ++which) {
+  ASSERT_EQ(got.wires.size(), expected.wires.size());
+  for (std::size_t which = 0; which < got.wires.size(); ++which) {
     EXPECT_EQ(got.wires[which].points, expected.wires[which].points);
     EXPECT_EQ(got.wires[which].vertices, expected.wires[which].vertices);
     EXPECT_EQ(got.wires[which].length, expected.wires[which].length);
   }
 }
 
-TEST(LiveWire, AcrossTheSurfaceGivesTheGeodesicsOfBothMetrics) {
-  const auto surface = shared(shapes::torus(32, 20));
+/// In the library's default strength.
+Metric default_metric_of(const Surface& surface, Follow follow) {
+  if (follow != Follow::kConcave) return metric_of(surface, follow, {.parameter = 0.1});
+  return concave_metric(surface, smoothed_curvatures(surface, principal_curvatures(surface), 0.01));
+}
+
+TEST(LiveWire, AcrossTheSurfaceGivesTheGeodesicsOfThreeMetricsAndTheConcaveOneLeads) {
+  const auto surface = shared(shapes::bumpy(shapes::torus(32, 20), 0.02));
   LiveWire live(surface);
   live.seed({7});
   ASSERT_TRUE(live.wait());
   EXPECT_EQ(live.progress(), 1);
   const SnapGraph graph(*surface);
-  for (const Follow follow : {Follow::kMin, Follow::kMax}) {
-    const Embedding embedding = embed(*surface, metric_of(*surface, follow, {.parameter = 0.1}));
+  for (const Follow follow : kFollow) {
+    const Embedding embedding = embed(*surface, default_metric_of(*surface, follow));
     const DistanceField field = ExactGeodesics(embedding.mesh).solve(7);
     for (const std::int32_t target : {7, 8, 100, 639}) {
       const LiveWires wires = live.wires({target});
-      const LiveCandidate& got = wires.wires[follow == Follow::kMin ? 0 : 1];
+      ASSERT_EQ(wires.wires.size(), 3U);
+      const LiveCandidate& got = wires.wires[static_cast<std::size_t>(follow)];
       const Wire expected = trace_wire(*surface, embedding, field, target);
       EXPECT_EQ(got.follow, follow);
       EXPECT_TRUE(got.final);
@@ -76,9 +87,74 @@ TEST(LiveWire, AcrossTheSurfaceGivesTheGeodesicsOfBothMetrics) {
       EXPECT_EQ(got.faces, expected.faces);
       EXPECT_EQ(got.length, expected.length);
       EXPECT_EQ(got.vertices, snap_to_edges(*surface, graph, expected));
-      EXPECT_EQ(wires.active, wires.wires[1].length < wires.wires[0].length ? 1 : 0);
+      EXPECT_EQ(wires.active, 2);
+      EXPECT_TRUE(wires.settled);
     }
   }
+}
+
+TEST(LiveWire, OfTheStrengthsOfTheOtherMetricsTheConcaveOneHasAShare) {
+  const auto surface = shared(shapes::bumpy(shapes::torus(32, 20), 0.02));
+  const auto concave = [&](const LiveWireOptions& options, std::size_t which) {
+    return fresh_wires(surface, options, {7}, {333}).wires[which].length;
+  };
+  const double half = concave({.family = MetricFamily::kConcave, .strength = {.parameter = 0.5}}, 0);
+  EXPECT_EQ(concave({.strength = {.parameter = 0.05}}, 2), half);
+  EXPECT_EQ(concave({.strength = {.max_anisotropy = 10.5}}, 2), half);
+}
+
+TEST(LiveWire, WithAnotherFamilyOrAlongEdgesTheShorterOfTwoWiresLeads) {
+  const auto surface = shared(shapes::bumpy(shapes::torus(32, 20), 0.02));
+  LiveWire live(surface);
+  live.seed({7});
+  ASSERT_TRUE(live.wait());
+  live.set_metric(MetricFamily::kCampen, {.max_anisotropy = 4});
+  ASSERT_TRUE(live.wait());
+  for (const std::int32_t target : {8, 100, 333, 639}) {
+    for (const LiveWires& found : {live.wires({target}), fresh_wires(surface, kAlongEdges, {7}, {target})}) {
+      ASSERT_EQ(found.wires.size(), 2U);
+      EXPECT_EQ(found.active, found.wires[1].length < found.wires[0].length ? 1 : 0);
+    }
+  }
+  live.set_metric(MetricFamily::kFeature, {.parameter = 0.1});
+  EXPECT_EQ(live.wires({333}).wires.size(), 3U);
+  ASSERT_TRUE(live.wait());
+  expect_equal(live.wires({333}), fresh_wires(surface, {}, {7}, {333}));
+}
+
+TEST(LiveWire, WhereTheLeadingWireIsFinalTheOthersNeedNotBeWaitedFor) {
+  const auto surface = shared(shapes::torus(160, 120));
+  LiveWire live(surface);
+  live.seed({77});
+  for (LiveWires wires = live.wires({9000});; wires = live.wires({9000})) {
+    EXPECT_EQ(wires.active, 2) << "before it is there, too";
+    EXPECT_EQ(wires.settled, wires.wires[2].final);
+    if (wires.final()) break;
+    std::this_thread::yield();
+  }
+}
+
+TEST(RightOfWay, IsWaitedForUntilItIsGivenUpOrTheWaitIsStopped) {
+  RightOfWay right_of_way;
+  right_of_way.wait({});  // nobody has it
+  right_of_way.set_busy(true);
+  std::stop_source stop;
+  std::atomic<int> through = 0;
+  std::jthread stopped([&] {
+    right_of_way.wait(stop.get_token());
+    ++through;
+  });
+  std::jthread patient([&] {
+    right_of_way.wait({});
+    through += 10;
+  });
+  EXPECT_EQ(through, 0);
+  stop.request_stop();
+  stopped.join();
+  EXPECT_EQ(through, 1);
+  right_of_way.set_busy(false);
+  patient.join();
+  EXPECT_EQ(through, 11);
 }
 
 /// The corner of its face that a point has most of.
@@ -94,8 +170,8 @@ TEST(LiveWire, FromPointsOfFacesGivesTheGeodesicsBetweenThem) {
   LiveWire live(surface);
   live.seed_at(seed);
   ASSERT_TRUE(live.wait());
-  for (const Follow follow : {Follow::kMin, Follow::kMax}) {
-    const Embedding embedding = embed(*surface, metric_of(*surface, follow, {.parameter = 0.1}));
+  for (const Follow follow : kFollow) {
+    const Embedding embedding = embed(*surface, default_metric_of(*surface, follow));
     const EmbeddedPoints points(*surface, embedding);
     const DistanceField field = ExactGeodesics(embedding.mesh).solve(std::array{*points.find(seed)});
     const std::array targets{SurfacePoint{.face = 40, .barycentric = {0.6, 0.1, 0.3}},
@@ -103,7 +179,7 @@ TEST(LiveWire, FromPointsOfFacesGivesTheGeodesicsBetweenThem) {
                              SurfacePoint{.face = 517, .barycentric = {0.0, 0.4, 0.6}},
                              SurfacePoint{.face = 3, .barycentric = {0.0, 1.0, 0.0}}, SurfacePoint::at_vertex(100)};
     for (const SurfacePoint& target : targets) {
-      const LiveCandidate got = live.wires_to(target).wires[follow == Follow::kMin ? 0 : 1];
+      const LiveCandidate got = live.wires_to(target).wires[static_cast<std::size_t>(follow)];
       const Wire expected = trace_wire(*surface, embedding, field, *points.find(target));
       EXPECT_TRUE(got.final);
       EXPECT_EQ(got.points, expected.points);
@@ -159,15 +235,15 @@ TEST(LiveWire, BeforeItIsFinalAWireLeadsFromPointToPoint) {
   LiveWire live(surface);
   const SurfacePoint target{.face = 9000, .barycentric = {0.3, 0.3, 0.4}};
   live.seed_at({.face = 77, .barycentric = {0.6, 0.3, 0.1}});
-  std::array<LiveCandidate, 2> early;
+  std::array<LiveCandidate, 3> early;
   LiveWires wires = live.wires_to(target);
   for (; !wires.final(); wires = live.wires_to(target)) {
-    for (std::size_t which = 0; which < 2; ++which) {
+    for (std::size_t which = 0; which < 3; ++which) {
       if (!wires.wires[which].final && !wires.wires[which].points.empty()) early[which] = wires.wires[which];
     }
     std::this_thread::yield();
   }
-  for (std::size_t which = 0; which < 2; ++which) {
+  for (std::size_t which = 0; which < 3; ++which) {
     const LiveCandidate& last = wires.wires[which];
     ASSERT_FALSE(early[which].points.empty());
     EXPECT_LT((early[which].points.front() - last.points.front()).norm(), 1e-12);
@@ -503,7 +579,7 @@ TEST(LiveWire, ScribblesChangeTheMetricsTheyAreMeantForAndGoWithoutATrace) {
   for (const Vector& p : scribble.points) {
     scribble.vertices.push_back(static_cast<std::int32_t>(std::lround(p.y() * 40) * 41 + std::lround(p.x() * 40)));
   }
-  scribble.acts_on_max = false;
+  scribble.meant_for = Follow::kMin;
   const Pick from{scribble.vertices.front()}, to{scribble.vertices.back()};
   for (const LiveWireOptions& options : {LiveWireOptions{}, kAlongEdges}) {
     LiveWire live(surface, options);
@@ -551,14 +627,14 @@ TEST(LiveWire, ScribblesChangeTheMetricsTheyAreMeantForAndGoWithoutATrace) {
 
 TEST(LiveWire, AStrokeForOneMetricLeavesWhatIsPreparedForTheOther) {
   Scribble one, two;
-  one.acts_on_max = two.acts_on_max = false;
+  one.meant_for = two.meant_for = Follow::kMin;
   two.rings = 3;
   const auto after = [](const MetricSet& before, const std::vector<Scribble>& scribbles) {
-    auto metrics = std::make_unique<MetricSet>(MetricFamily::kFeature, Strength{}, scribbles);
+    auto metrics = std::make_unique<MetricSet>(MetricFamily::kFeature, Along::kSurface, Strength{}, scribbles);
     metrics->go_on_from(before);
     return metrics;
   };
-  const MetricSet none(MetricFamily::kFeature, {}, {});
+  const MetricSet none(MetricFamily::kFeature, Along::kSurface, {}, {});
   const auto with_one = after(none, {one}), with_both = after(*with_one, {one, two});
   EXPECT_EQ(with_one->prepared[1], none.prepared[1]);
   EXPECT_NE(with_one->prepared[0], none.prepared[0]);
@@ -566,10 +642,11 @@ TEST(LiveWire, AStrokeForOneMetricLeavesWhatIsPreparedForTheOther) {
   EXPECT_NE(with_both->prepared[0], with_one->prepared[0]);
   EXPECT_NE(after(*with_both, {two, one})->prepared[0], with_both->prepared[0]) << "their order counts";
   Scribble three;
-  three.acts_on_min = false;
+  three.meant_for = Follow::kMax;
   const auto with_three = after(*with_both, {three, one, two});
   EXPECT_EQ(with_three->prepared[0], with_both->prepared[0]);
   EXPECT_NE(with_three->prepared[1], with_both->prepared[1]);
+  EXPECT_EQ(with_three->prepared[2], none.prepared[2]);
 }
 
 TEST(LiveWire, AfterManyChangesOfTheStrokesWiresAreThoseOfTheListAlone) {
@@ -585,8 +662,7 @@ TEST(LiveWire, AfterManyChangesOfTheStrokesWiresAreThoseOfTheListAlone) {
     }
     scribble.rings = 1 + static_cast<int>(random() % 6);
     scribble.attracts = random() % 4 != 0;
-    scribble.acts_on_min = random() % 3 != 0;
-    scribble.acts_on_max = !scribble.acts_on_min || random() % 3 != 0;
+    if (random() % 2 == 0) scribble.meant_for = static_cast<Follow>(random() % 3);
     return scribble;
   };
   LiveWire live(surface);
@@ -611,7 +687,7 @@ TEST(LiveWire, AfterManyChangesOfTheStrokesWiresAreThoseOfTheListAlone) {
     ASSERT_TRUE(fresh.wait());
     const LiveWires is = live.wires({333}), expected = fresh.wires({333});
     EXPECT_EQ(is.active, expected.active);
-    for (std::size_t which = 0; which < 2; ++which) {
+    for (std::size_t which = 0; which < 3; ++which) {
       // Triangles may have other numbers, so sums are in another order.
       EXPECT_NEAR(is.wires[which].length, expected.wires[which].length, 1e-12);
       ASSERT_EQ(is.wires[which].points.size(), expected.wires[which].points.size());

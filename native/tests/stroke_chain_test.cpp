@@ -138,7 +138,7 @@ TEST(StrokesAlongEdges, AreTakenBackByOnesThatRepelLater) {
 TEST(StrokesAlongEdges, LeadOnlyTheMetricThatTheyAreMeantFor) {
   const Surface surface = shapes::quad_grid(kSquares).surface();
   Scribble scribble = stroke(arc(0.3, std::numbers::pi, 0));
-  scribble.acts_on_max = false;
+  scribble.meant_for = Follow::kMin;
   const std::int32_t from = vertex_at(0.2, 0.5), to = vertex_at(0.8, 0.5);
   EXPECT_LT(off(surface, wire(surface, {scribble}, from, to, Follow::kMin), scribble.points), kBesideTheLine);
   EXPECT_EQ(wire(surface, {scribble}, from, to, Follow::kMax), wire(surface, {}, from, to));

@@ -99,6 +99,11 @@ class CandidateWires:
         """Show no wires, and what is under the cursor still."""
         self.wires, self.finals, self.settled = (), (), True
 
+    def reset(self) -> None:
+        """Forget which wires there were: those of another metric, or way of running, are others."""
+        self.clear()
+        self.chosen, self.leading = None, 0
+
     def sow(self, seed: Seed, along: Along) -> None:
         """Let wires that run one way begin at a seed from here on.
 

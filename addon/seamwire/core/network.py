@@ -69,8 +69,9 @@ Edge = tuple[int, int]
 
 End = Literal["start", "end"]
 
-FOLLOWS: tuple[Literal["min", "max"], ...] = ("min", "max")
-"""What the library calls its wires, by `Wire.follow`: they follow the direction of least curvature, that of most."""
+FOLLOWS: tuple[Literal["min", "max", "concave"], ...] = ("min", "max", "concave")
+"""What the library calls its wires, by `Wire.follow`: they follow the direction of least curvature, that of most, concave creases
+(across the surface only). Files have these numbers."""
 
 LoopKind = Literal["CLOSED", "STRIP", "PAST", "WHOLE", "FLAT", "ACROSS", "HANDLE"]
 """What a click takes as a whole. On an edge: the closed loop of the metric, the straight strip up to what is there already, the same

@@ -386,7 +386,7 @@ def stroke_of(item: Mapping[str, Any], points: NDArray[np.float64], number_of: M
     eta, rings = float(item["eta"]), int(item["rings"])
     radius = None if item["radius"] is None else float(item["radius"])
     sound = np.isfinite(points).all() and 1.0 <= eta < np.inf and rings >= 1 and (radius is None or 0 < radius < np.inf)
-    if not sound or acts_on not in {"both", "min", "max"}:
+    if not sound or acts_on not in {"both", *FOLLOWS}:
         raise ValueError
     corners = np.array([[number_of[vertex] for vertex in triple] for triple in stored.tolist()], dtype=np.int32)
     corners = corners.reshape(-1, 3)

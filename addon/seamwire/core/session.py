@@ -589,8 +589,7 @@ class Session:
         self._calm()
         before = self.along
         self.along = along
-        self._candidates.chosen = None
-        self._candidates.clear()
+        self._candidates.reset()
         for offers in (self._edge_loops, self._cuts):
             offers.wanted = False
             offers.clear()
@@ -630,7 +629,11 @@ class Session:
 
     def set_metric(self, metric: MetricName) -> bool:
         """Draw wires by another metric; kept wires stay as they are."""
-        return metric == self.metric or self._use_metric(metric, self._engines.strengths)
+        if metric == self.metric:
+            return True
+        if self._drag is None:
+            self._candidates.reset()
+        return self._use_metric(metric, self._engines.strengths)
 
     def set_clamp(self, percentile: float) -> bool:
         """Let another percentile of feature strengths count as the strongest; kept wires stay as they are."""

@@ -14,8 +14,8 @@ from . import native
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-ActsOn = Literal["both", "min", "max"]
-"""Which of `FOLLOWS` a stroke acts on; "both": on all."""
+ActsOn = Literal["both", "min", "max", "concave"]
+"""Which of `FOLLOWS` a stroke acts on; "both": on all of them. Files have these words."""
 
 _OFF_MESH = 0.05
 """How far from its triangle a point may be, as part of the mesh's longest side: what the library takes."""
@@ -41,7 +41,7 @@ class Scribble:
     attracts
         Whether wires follow it; else they keep from it: crossing it is short, following it long.
     acts_on
-        Which of the two wires it is meant for: the one that follows the direction of least curvature, that of most.
+        Which of the wires it is meant for.
     eta
         The eigenvalues of the metric along it are eta and 1 / eta.
     rings

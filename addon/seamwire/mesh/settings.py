@@ -32,7 +32,12 @@ AUTO_FINISH_ITEMS = (
     *FINISH_ITEMS,
 )
 METRIC_ITEMS = (
-    ("feature", "Features", "Follow ridges, valleys and lines of curvature", 0),
+    (
+        "feature",
+        "Features",
+        "Follow ridges, valleys and lines of curvature; across the surface concave creases first",
+        0,
+    ),
     ("campen", "Principal Directions", "Keep to the directions of curvature (Campen, Bommes, Kobbelt)", 1),
     ("pottmann_kovacs", "Surface Normals", "Turning normals make paths long (Pottmann, Kovacs)", 2),
     (

@@ -110,7 +110,8 @@ def _click(session: Session) -> Iterator[Deed]:
     if click:
         yield Action.CLICK, click
     if session.seed is not None and session.others:
-        yield Action.NEXT, "Next Candidate"
+        count = 1 + len(session.others)
+        yield Action.NEXT, f"Next Candidate ({(session.candidate_number + 1) % count + 1} of {count})"
 
 
 def _offer(kind: LoopKind) -> str:

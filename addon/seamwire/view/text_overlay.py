@@ -24,6 +24,8 @@ _METRICS = {
     "concave": "concave creases",
     "euclidean": "shortest ways",
 }
+_FOLLOWS = ("Least curvature", "Most curvature", "Concave creases")
+_CONCAVE_FOLLOWS = ("Concave creases", "Shortest way")
 
 
 def _islands(islands: Islands) -> str:
@@ -68,6 +70,10 @@ def lines(
         offers = session.loop_offers
         which = f" ({session.loop_number + 1} of {len(offers)})" if len(offers) > 1 else ""
         found.append(LOOP_NAMES[session.loop_choice].capitalize() + which)
+    if session.active is not None and session.others:
+        follows = _CONCAVE_FOLLOWS if session.metric == "concave" else _FOLLOWS
+        count = 1 + len(session.others)
+        found.append(f"{follows[session.active.follow]} ({session.candidate_number + 1} of {count})")
     if islands is not None:
         found.append(_islands(islands))
         if pointed is not None:

@@ -40,6 +40,13 @@ std::int32_t nearest_vertex(const Surface& surface, const WireEnd& end) {
   return surface.triangles()[point.face][static_cast<std::size_t>(most)];
 }
 
+/// Beside the thread that has the right of way the first of the others goes on where there are two processors, both
+/// where there are three.
+bool has_to_make_way(std::size_t which) {
+  const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
+  return which + 1 < kMostMetrics && which + 2 > processors;
+}
+
 }  // namespace
 
 bool has_edge(const Surface& surface, const Edge& edge) {
@@ -48,12 +55,21 @@ bool has_edge(const Surface& surface, const Edge& edge) {
 }
 
 LiveWorker::LiveWorker(std::size_t which, std::shared_ptr<SurfaceCache> surface_cache,
-                       std::shared_ptr<MetricSet> metrics, const LiveSettings& settings)
+                       std::shared_ptr<MetricSet> metrics, const LiveSettings& settings,
+                       std::shared_ptr<RightOfWay> right_of_way)
     : which_(which),
       surface_cache_(std::move(surface_cache)),
       settings_(settings),
-      metrics_(std::move(metrics)),
-      thread_([this] { run(); }) {}
+      is_third_(which + 1 == kMostMetrics),
+      makes_way_(has_to_make_way(which)),
+      right_of_way_(std::move(right_of_way)),
+      metrics_(std::move(metrics)) {
+  {
+    const MutexLock lock(mutex_);
+    tell_right_of_way();
+  }
+  thread_ = std::jthread([this] { run(); });
+}
 
 LiveWorker::~LiveWorker() {
   request_stop();
@@ -65,6 +81,7 @@ void LiveWorker::request_stop() {
   quit_.request_stop();
   preparing_.request_stop();
   solving_.request_stop();
+  tell_right_of_way();
   changed_.notify_all();
 }
 
@@ -72,6 +89,7 @@ void LiveWorker::change_metric(std::shared_ptr<MetricSet> metrics) {
   const MutexLock lock(mutex_);
   metrics_.swap(metrics);
   ++request_;
+  tell_right_of_way();
   loop_through_ = Edge{-1, -1};
   loop_handled_ = loop_request_;
   if (metrics_->prepared[which_] != metrics->prepared[which_]) preparing_.request_stop();
@@ -84,6 +102,7 @@ void LiveWorker::change_metric(std::shared_ptr<MetricSet> metrics) {
 void LiveWorker::seed(const WireEnd& seed, bool forward) {
   const MutexLock lock(mutex_);
   ++request_;
+  tell_right_of_way();
   seed_ = seed;
   is_forward_ = forward;
   target_ = std::nullopt;
@@ -175,6 +194,7 @@ bool LiveWorker::build_surface() {
     // Cancelled, to end; the cache has all else.
     const MutexLock lock(mutex_);
     has_failed_ = true;
+    if (is_third_) right_of_way_->set_busy(false);
     changed_.notify_all();
     return false;
   }
@@ -220,6 +240,7 @@ void LiveWorker::work_on(SeedJob job) {
 
   const MutexLock lock(mutex_);
   handled_ = job.request;
+  tell_right_of_way();
   if (job.request == request_) {
     if (solution_ != solution) dropped_.push_back(std::exchange(solution_, solution));
     solution_for_ = job.request;
@@ -294,10 +315,13 @@ LiveClosedWires LiveWorker::find_closed_wires(const LoopJob& job, const WireEnd&
   return of_field(prepared.geodesics->solve(std::array{*seed}, {}, task));
 }
 
-/// Null where there is no seed, or none that is part of the surface.
+/// Null where there is no seed, or none that is part of the surface, or no such metric.
 std::shared_ptr<const SeedSolution> LiveWorker::solve(const SeedJob& job) {
-  const std::shared_ptr<const Prepared> prepared = job.metrics->prepared[which_]->get(
-      job.preparing, [&] { return prepare(*surface_cache_, settings_.along, *job.metrics, which_, job.preparing); });
+  if (which_ >= job.metrics->count) return nullptr;
+  const std::shared_ptr<const Prepared> prepared = job.metrics->prepared[which_]->get(job.preparing, [&] {
+    return prepare(*surface_cache_, settings_.along, *job.metrics, which_, job.preparing,
+                   [&] { make_way(job.preparing); });
+  });
   job.metrics->forget_former(which_);
   if (job.before && job.before->field && job.before->prepared == prepared) return job.before;  // the other was changed
   if (!job.seed || is_missing_edge(surface(), *job.seed)) return nullptr;
@@ -309,16 +333,23 @@ std::shared_ptr<const SeedSolution> LiveWorker::solve(const SeedJob& job) {
   return settings_.along == Along::kSurface ? find_field(job, prepared, task) : find_chains(job, prepared, task);
 }
 
+void LiveWorker::make_way(const std::stop_token& stop) {
+  if (makes_way_) right_of_way_->wait(stop);
+}
+
 /// Between the steps of the search for the field it finds wires to the targets that are asked for meanwhile: on a
 /// thread of its own that would take turns with the search all the same.
 std::shared_ptr<const SeedSolution> LiveWorker::find_field(const SeedJob& job,
                                                            const std::shared_ptr<const Prepared>& prepared, Task task) {
   const std::optional<SurfacePoint> seed = prepared->points->find(point_of(*job.seed), "seed");
   if (!seed) return std::make_shared<const SeedSolution>(SeedSolution{.prepared = prepared, .field = {}, .wires = {}});
+  make_way(job.solving);
+  task.check(0.0);
   CorridorPaths paths(*prepared->geodesics, *seed);
   std::int64_t answered = -1;
   make_preview(job, *prepared, paths, answered);
   task.progress = [&, report = std::move(task.progress)](double done) {
+    make_way(job.solving);
     make_preview(job, *prepared, paths, answered);
     return report(done);
   };

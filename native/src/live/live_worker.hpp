@@ -39,6 +39,28 @@ struct SeedSolution {
   bool is_final(const WireEnd& target) const { return !wires || wires->is_final(std::get<Pick>(target)); }
 };
 
+/// Lets the threads of a live wire make way for the one whose wire is offered first, where there are fewer processors
+/// than threads.
+class RightOfWay {
+ public:
+  /// Whether that thread has something to do.
+  void set_busy(bool is_busy) {
+    const MutexLock lock(mutex_);
+    is_busy_ = is_busy;
+    changed_.notify_all();
+  }
+  /// Waits until it has not, or `stop` is requested.
+  void wait(const std::stop_token& stop) {
+    MutexLock lock(mutex_);
+    changed_.wait(lock, stop, [this]() SEAMWIRE_REQUIRES(mutex_) { return !is_busy_; });
+  }
+
+ private:
+  Mutex mutex_;
+  std::condition_variable_any changed_;
+  bool is_busy_ SEAMWIRE_GUARDED_BY(mutex_) = false;
+};
+
 /// How wires run, whatever the metric.
 struct LiveSettings {
   Along along;
@@ -54,8 +76,9 @@ struct LiveSettings {
 /// while the thread does it, such memory is handed over to dropped_, from which the thread frees it without the mutex.
 class LiveWorker {
  public:
+  /// `right_of_way`: shared by all workers of a live wire.
   LiveWorker(std::size_t which, std::shared_ptr<SurfaceCache> surface_cache, std::shared_ptr<MetricSet> metrics,
-             const LiveSettings& settings);
+             const LiveSettings& settings, std::shared_ptr<RightOfWay> right_of_way);
   /// Waits until the thread has ended.
   ~LiveWorker();
   LiveWorker(const LiveWorker&) = delete;
@@ -133,6 +156,7 @@ class LiveWorker {
                                                  Task task);
   std::shared_ptr<const SeedSolution> find_chains(const SeedJob& job, const std::shared_ptr<const Prepared>& prepared,
                                                   const Task& task);
+  void make_way(const std::stop_token& stop);
   void make_preview(const SeedJob& job, const Prepared& prepared, CorridorPaths& paths, std::int64_t& answered);
   LiveCandidate snapped(const Prepared& prepared, Wire wire, const Task& task = {}) const;
   LiveCandidate candidate_of(const Prepared& prepared, Wire wire, const WireEnd& seed, const WireEnd& target) const;
@@ -141,13 +165,22 @@ class LiveWorker {
   bool has_job() const SEAMWIRE_REQUIRES(mutex_) {
     return handled_ != request_ || loop_handled_ != loop_request_ || !dropped_.empty();
   }
+  /// Whether the metric is one of the family's.
+  bool has_metric() const SEAMWIRE_REQUIRES(mutex_) { return which_ < metrics_->count; }
+  /// To be called where request_ or handled_ was changed.
+  void tell_right_of_way() SEAMWIRE_REQUIRES(mutex_) {
+    if (is_third_) right_of_way_->set_busy(has_metric() && handled_ != request_ && !quit_.stop_requested());
+  }
   bool is_idle() const SEAMWIRE_REQUIRES(mutex_) {
     return has_failed_ || (handled_ == request_ && loop_handled_ == loop_request_);
   }
 
-  const std::size_t which_;  // of kFollow
+  const std::size_t which_;  // of kFollow; where the family has no such metric, there is nothing to do
   const std::shared_ptr<SurfaceCache> surface_cache_;
   const LiveSettings settings_;
+  const bool is_third_;  // it has the right of way where the family has its metric
+  const bool makes_way_;
+  const std::shared_ptr<RightOfWay> right_of_way_;
   std::stop_source quit_;                  // its state guards itself
   std::atomic<double> fraction_ = 0.0;     // of what the thread does for the newest seed once the metric is prepared
   std::atomic<std::int64_t> targets_ = 0;  // how often target_ has become another one; grows with the mutex held

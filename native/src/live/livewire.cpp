@@ -66,17 +66,11 @@ void check_options(const LiveWireOptions& options) {
 }
 
 std::shared_ptr<MetricSet> new_metrics(const LiveWireOptions& options) {
-  return std::make_shared<MetricSet>(options.family, options.strength, std::vector<Scribble>());
+  return std::make_shared<MetricSet>(options.family, options.along, options.strength, std::vector<Scribble>());
 }
 
-/// Which of the wires leads, whichever is shorter.
-std::optional<std::size_t> leader_of(MetricFamily family) {
-  return family == MetricFamily::kConcave ? std::optional<std::size_t>(0) : std::nullopt;
-}
-
-void choose_active(LiveWires& found, MetricFamily family) {
+void choose_active(LiveWires& found, const std::optional<std::size_t>& leader) {
   const std::vector<LiveCandidate>& wires = found.wires;
-  const std::optional<std::size_t> leader = leader_of(family);
   const bool it_leads = leader && (!wires[*leader].final || !wires[*leader].points.empty());
   const auto shortest = std::ranges::min_element(wires, {}, &LiveCandidate::length) - wires.begin();
   found.active = static_cast<int>(it_leads ? *leader : static_cast<std::size_t>(shortest));
@@ -94,7 +88,9 @@ LiveSettings settings_of(const LiveWireOptions& options) {
 struct LiveWire::Impl {
   Impl(const std::shared_ptr<SurfaceCache>& on, const std::shared_ptr<MetricSet>& by, const LiveSettings& with)
       : surface_cache(on), settings(with), metrics_(by) {
-    for (std::size_t which = 0; which < kMostMetrics; ++which) workers.emplace_back(which, on, by, with);
+    const auto right_of_way = std::make_shared<RightOfWay>();
+    const std::size_t most = with.along == Along::kSurface ? kMostMetrics : 2;
+    for (std::size_t which = 0; which < most; ++which) workers.emplace_back(which, on, by, with, right_of_way);
   }
   ~Impl() {
     for (LiveWorker& worker : workers) worker.request_stop();  // all, before the first of them is waited for
@@ -180,7 +176,7 @@ std::shared_ptr<const Surface> LiveWire::surface() const { return impl_->surface
 void LiveWire::set_metric(MetricFamily family, const Strength& strength) {
   check_metric(family, strength);
   impl_->surface_cache->rethrow_failure();
-  auto to = std::make_shared<MetricSet>(family, strength, impl_->metrics()->scribbles);
+  auto to = std::make_shared<MetricSet>(family, impl_->settings.along, strength, impl_->metrics()->scribbles);
   impl_->change_metrics(to);  // the former metric is held here no longer, so it is not freed here
 }
 
@@ -188,7 +184,7 @@ void LiveWire::set_scribbles(std::vector<Scribble> scribbles) {
   impl_->surface_cache->rethrow_failure();
   std::shared_ptr<MetricSet> now = impl_->metrics();
   if (scribbles == now->scribbles) return;
-  auto to = std::make_shared<MetricSet>(now->family, now->strength, std::move(scribbles));
+  auto to = std::make_shared<MetricSet>(now->family, impl_->settings.along, now->strength, std::move(scribbles));
   to->go_on_from(*now);
   now = nullptr;  // before the workers may free it, so that this is not the thread that does
   impl_->change_metrics(to);
@@ -229,7 +225,7 @@ LiveWires LiveWire::Impl::wires(const WireEnd& target) {
     }
     if (solution) worker.release(std::move(solution));
   }
-  choose_active(result, metrics->family);
+  choose_active(result, metrics->leader());
   return result;
 }
 

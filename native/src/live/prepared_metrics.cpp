@@ -11,16 +11,21 @@ namespace {
 /// triangles are added, but no fewer than the first number and no more than the last.
 constexpr std::size_t kLeastFacesAdded = 200'000, kFacesAddedPerFace = 12, kMostFacesAdded = 1'000'000;
 
-/// Of concave_metric(), by either of the two.
-double concave_strength(const Strength& strength) {
-  return strength.parameter ? *strength.parameter : (*strength.max_anisotropy - 1.0) / (kConcaveUnit - 1.0);
+/// Of concave_metric(), whose parameter is `unit` times its strength.
+double concave_strength(const Strength& strength, double unit) {
+  return strength.parameter ? *strength.parameter / unit : (*strength.max_anisotropy - 1.0) / (kConcaveUnit - 1.0);
 }
 
 Metric make_metric(SurfaceCache& surface_cache, const Curvature& curvature, Follow follow, const MetricSet& metrics,
                    const Task& task) {
   const Surface& surface = surface_cache.surface();
+  const auto concave = [&](double unit) {
+    return concave_metric(surface, *surface_cache.smoothed_curvatures_now(task.stop),
+                          concave_strength(metrics.strength, unit), task);
+  };
   switch (metrics.family) {
     case MetricFamily::kFeature:
+      if (follow == Follow::kConcave) return concave(kConcaveGamma);
       return feature_metric(surface, curvature, follow, metrics.strength, task);
     case MetricFamily::kCampen:
       return campen_metric(surface, curvature, follow, metrics.strength, task);
@@ -28,8 +33,7 @@ Metric make_metric(SurfaceCache& surface_cache, const Curvature& curvature, Foll
       return pottmann_kovacs_metric(surface, curvature, follow, metrics.strength, task);
     case MetricFamily::kConcave:
       if (follow == Follow::kMax) break;
-      return concave_metric(surface, *surface_cache.smoothed_curvatures_now(task.stop),
-                            concave_strength(metrics.strength), task);
+      return concave(1.0);
     case MetricFamily::kEuclidean:
       break;
   }
@@ -82,7 +86,7 @@ void MetricSet::go_on_from(const MetricSet& metrics) {
 }
 
 Prepared prepare(SurfaceCache& surface_cache, Along along, MetricSet& metrics, std::size_t which,
-                 const std::stop_token& stop) {
+                 const std::stop_token& stop, const std::function<void()>& make_way) {
   const bool on_surface = along == Along::kSurface;
   const Surface& surface = surface_cache.surface();
   std::atomic<double>& fraction = metrics.fractions[which];
@@ -94,14 +98,16 @@ Prepared prepare(SurfaceCache& surface_cache, Along along, MetricSet& metrics, s
   };
   if (which == 1) prepare_edges();  // while the other thread is at the curvatures
   const std::shared_ptr<const CurvatureCache> curvatures = surface_cache.curvatures_now(stop);
-  if (which == 0) prepare_edges();
+  if (which != 1) prepare_edges();
+  make_way();
   Task task{.stop = stop, .progress = {}};
   Metric metric = make_metric(surface_cache, curvatures->curvature, kFollow[which], metrics, task);
   if (!metrics.scribbles.empty()) {
     metric = apply_scribbles(surface, metric, metrics.scribbles, kFollow[which], task);
   }
   fraction = kEmbedBegins / kSolveBegins;
-  task.progress = [&fraction](double done) {
+  task.progress = [&](double done) {
+    make_way();
     fraction = (kEmbedBegins + (kSolveBegins - kEmbedBegins) * done) / kSolveBegins;
     return true;
   };

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -20,7 +21,7 @@
 /// What a live wire computes before there is a seed, each part once, whoever asks for it first.
 namespace seamwire {
 
-inline constexpr std::array kFollow = {Follow::kMin, Follow::kMax};
+inline constexpr std::array kFollow = {Follow::kMin, Follow::kMax, Follow::kConcave};
 /// How many metrics a live wire may have at once.
 inline constexpr std::size_t kMostMetrics = kFollow.size();
 
@@ -105,11 +106,19 @@ struct Prepared {
 
 /// The metrics of one family and strength, after the scribbles; the first `count` of kFollow. Shared by forks.
 struct MetricSet {
-  MetricSet(MetricFamily of, const Strength& with, std::vector<Scribble> after)
-      : family(of), strength(with), scribbles(std::move(after)) {
+  MetricSet(MetricFamily of, Along along, const Strength& with, std::vector<Scribble> after)
+      : family(of),
+        strength(with),
+        scribbles(std::move(after)),
+        count(of == MetricFamily::kFeature && along == Along::kSurface ? 3 : 2) {
     for (auto& metric : prepared) metric = std::make_shared<ComputedOnce<Prepared>>();
   }
 
+  /// Which of the metrics has the wire that is offered first, whichever is shorter.
+  std::optional<std::size_t> leader() const {
+    if (count == kMostMetrics) return kMostMetrics - 1;
+    return family == MetricFamily::kConcave ? std::optional<std::size_t>(0) : std::nullopt;
+  }
   /// After other scribbles than these metrics, of one family and strength: a metric for which they are the same is
   /// shared. Embeddings of the other are made from those of `metrics`, or, where these are not there yet, from what
   /// they would have been made from: scribbles change little.
@@ -128,7 +137,7 @@ struct MetricSet {
   const MetricFamily family;
   const Strength strength;
   const std::vector<Scribble> scribbles;
-  const std::size_t count = kMostMetrics;
+  const std::size_t count;
   std::array<std::shared_ptr<ComputedOnce<Prepared>>, kMostMetrics> prepared;
   std::array<std::atomic<double>, kMostMetrics> fractions = {};  // of the preparation
 
@@ -138,8 +147,10 @@ struct MetricSet {
 };
 
 /// Makes what one of the metrics needs; throws Cancelled where `stop` tells it to. The metric's fractions of
-/// progress are told to `metrics`.
-Prepared prepare(SurfaceCache& surface_cache, Along along, MetricSet& metrics, std::size_t which,
-                 const std::stop_token& stop);
+/// progress are told to `metrics`. `make_way` is called now and then while nobody waits for what is being made, and may
+/// take its time.
+Prepared prepare(
+    SurfaceCache& surface_cache, Along along, MetricSet& metrics, std::size_t which, const std::stop_token& stop,
+    const std::function<void()>& make_way = [] {});
 
 }  // namespace seamwire

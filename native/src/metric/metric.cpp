@@ -90,6 +90,10 @@ struct Eigenvalues {
   double l1, l2;
 };
 
+void check_direction(Follow follow) {
+  if (follow == Follow::kConcave) throw InvalidInput("follow: concave creases have a metric of their own");
+}
+
 // The metric whose minor eigenvector has the direction to follow, with the eigenvalues that `at` gives for a vertex.
 template <class EigenvaluesAt>
 Metric aligned_metric(const Curvature& curvature, Follow follow, const Task& task, const EigenvaluesAt& at) {
@@ -158,6 +162,7 @@ void check_finite(const Metric& metric) {
 
 Metric feature_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Strength& strength,
                       const Task& task) {
+  check_direction(follow);
   check_curvature(surface, curvature, task);
   check_strength(strength, 0);
   const Features f = features(curvature, strength, task);
@@ -173,6 +178,7 @@ Metric feature_metric(const Surface& surface, const Curvature& curvature, Follow
 
 Metric campen_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Strength& strength,
                      const Task& task) {
+  check_direction(follow);
   check_curvature(surface, curvature, task);
   check_strength(strength, 1);
   const double alpha = strength.parameter ? *strength.parameter : *strength.max_anisotropy * *strength.max_anisotropy;
@@ -181,6 +187,7 @@ Metric campen_metric(const Surface& surface, const Curvature& curvature, Follow 
 
 Metric pottmann_kovacs_metric(const Surface& surface, const Curvature& curvature, Follow follow,
                               const Strength& strength, const Task& task) {
+  check_direction(follow);
   check_curvature(surface, curvature, task);
   check_strength(strength, 0);
   const Features f = features(curvature, strength, task);

@@ -85,7 +85,7 @@ CandidateWires::CandidateWires(std::shared_ptr<const Surface> surface, Along alo
                                const Task& task)
     : along_(along), surfaces_(std::make_unique<SurfaceCache>(std::move(surface))) {
   curvatures_ = surfaces_->curvatures_now(task.stop);
-  MetricSet metrics(MetricFamily::kFeature, strength, {});
+  MetricSet metrics(MetricFamily::kFeature, along_, strength, {});
   run_on_threads(
       metrics_.size(), task, [&](std::size_t) { return 0.5 * (metrics.fractions[0] + metrics.fractions[1]); },
       [&](std::size_t which, const Task& own) {

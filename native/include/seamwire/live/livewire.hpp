@@ -25,12 +25,13 @@ namespace seamwire {
 /// Where wires run: across the surface, as exact geodesics, or along its real edges.
 enum class Along { kSurface, kEdges };
 
-/// Which of the metrics of metric.hpp wires are short in. kConcave: the first wire in concave_metric(), on curvatures
-/// smoothed over 0.01, the second one in the Euclidean metric.
+/// Which of the metrics of metric.hpp wires are short in: a wire in M_min and one in M_max of that name. kFeature,
+/// across the surface: a third one in concave_metric(), on curvatures smoothed over 0.01. kConcave: the first wire in
+/// that metric, the second one in the Euclidean metric.
 enum class MetricFamily { kFeature, kCampen, kPottmannKovacs, kConcave, kEuclidean };
-/// What kConcave takes a max_anisotropy A for: a strength of (A - 1) / (kConcaveUnit - 1), so that one setting serves
-/// all families.
-inline constexpr double kConcaveUnit = 20.0;
+/// What concave_metric() takes a max_anisotropy A for, a strength of (A - 1) / (kConcaveUnit - 1), and, beside
+/// kFeature, a gamma: gamma / kConcaveGamma; so that one setting serves all wires.
+inline constexpr double kConcaveUnit = 20.0, kConcaveGamma = 0.1;
 
 /// How live wires run.
 struct LiveWireOptions {
@@ -59,8 +60,8 @@ struct LiveCandidate {
 /// The wires to a target.
 struct LiveWires {
   std::vector<LiveCandidate> wires;  ///< one for each metric, in the order of Follow
-  /// The one to be offered first: the one shorter in its own metric (Section 5); of kConcave the first, unless that
-  /// turns out not to reach the target.
+  /// The one to be offered first: that of the concave metric, unless it turns out not to reach the target; where there
+  /// is none the one shorter in its own metric (Section 5).
   int active = 0;
   bool settled = false;  ///< whether `active` is final, and stays the active one whatever the others will be
   /// Whether all are.
@@ -100,7 +101,8 @@ struct LiveEmbedding {
 };
 
 /// The metrics of one family for a surface, each computed on a thread of its own; seed, then a wire in each to any
-/// target (Section 5). All members may be called from one thread at a time, surface() and wait_for_surface() from
+/// target (Section 5). Where there are fewer processors than metrics, the last ones wait until the work on the leading
+/// one is done. All members may be called from one thread at a time, surface() and wait_for_surface() from
 /// others meanwhile; none but wait() and wait_for_surface() waits for the computation.
 ///
 /// Where the surface is still being built, the members keep what they are given and answer that nothing is there yet

@@ -18,17 +18,16 @@ struct Scribble {
   /// `faces` or at the vertex of `vertices` (the caller's numbers, one a point; where one is -1, or all are left out,
   /// the other counts).
   std::vector<Vector> points;
-  std::vector<std::int32_t> faces;              ///< per point, or none at all
-  std::vector<std::int32_t> vertices;           ///< per point, or none at all
-  double eta = 20;                              ///< the eigenvalues along the stroke are eta and 1 / eta; >= 1
-  int rings = 10;                               ///< k: from the k-th ring of vertices around it on nothing changes
-  std::optional<double> radius = std::nullopt;  ///< instead of `rings`: from this distance on, caller's units
-  bool attracts = true;                         ///< false: crossing becomes short, and following long
-  bool acts_on_min = true;                      ///< whether it is meant for M_min
-  bool acts_on_max = true;                      ///< whether it is meant for M_max
+  std::vector<std::int32_t> faces;                 ///< per point, or none at all
+  std::vector<std::int32_t> vertices;              ///< per point, or none at all
+  double eta = 20;                                 ///< the eigenvalues along the stroke are eta and 1 / eta; >= 1
+  int rings = 10;                                  ///< k: from the k-th ring of vertices around it on nothing changes
+  std::optional<double> radius = std::nullopt;     ///< instead of `rings`: from this distance on, caller's units
+  bool attracts = true;                            ///< false: crossing becomes short, and following long
+  std::optional<Follow> meant_for = std::nullopt;  ///< one metric only; none: it acts on all
 
-  /// Whether it is meant for one of the two metrics.
-  bool acts_on(Follow follow) const { return follow == Follow::kMin ? acts_on_min : acts_on_max; }
+  /// Whether it changes one of the metrics.
+  bool acts_on(Follow follow) const { return !meant_for || *meant_for == follow; }
   /// Member by member.
   friend bool operator==(const Scribble&, const Scribble&) = default;
 };
@@ -44,7 +43,7 @@ struct Scribble {
 /// none lead there (another component, the far side of a hole) the stroke has a gap. A stroke that crosses itself takes
 /// at each vertex the direction of its nearest part, of equal ones the later. A stroke without movement has no
 /// direction and changes nothing, and vertices without a normal are left as they are. `follow`: takes only the
-/// scribbles meant for that metric. (The paper changes the metric of the active wire; a scribble is meant for both
+/// scribbles meant for that metric. (The paper changes the metric of the active wire; a scribble is meant for all
 /// unless it says otherwise.)
 ///
 /// Throws InvalidInput, naming scribble and point, for a point that is not finite, without a face or vertex, with one
