@@ -48,6 +48,8 @@ class Said:
     loop_preview: Wire | None = None
     end_preview: Wire | None = None
     moved: tuple[Wire, ...] = ()
+    following: tuple[Wire, ...] = ()
+    drawn: NDArray[np.float64] | None = None
     hovered_wire: Wire | None = None
     hovered_seed: Pick | None = None
     dragged_seed: Pick | None = None

@@ -1213,7 +1213,9 @@ class Session:
     def _show_offers(self) -> None:
         """Show what a click on the edge under the cursor may take, as soon as it is asked for and computed."""
         if not any(queued.kind in {"loop", "offer"} for queued in self._queue):
-            self._loops.stop_waiting()
+            # Of both ways: an offer for a wire along edges may have been asked for across the surface, and given up.
+            self._edge_loops.stop_waiting()
+            self._cuts.stop_waiting()
         loops = self._loops
         if loops.unfinished and self.target is not None:
             self.revision += loops.show(self.target.pick, self._find_offers(self.target.pick))
