@@ -372,12 +372,18 @@ class _Attributes:
         self._mesh = mesh
 
     def points(self) -> NDArray[np.float32]:
+        if not len(self._mesh.vertices):  # an empty mesh has no such attribute
+            return np.empty((0, 3), dtype=np.float32)
         return _column(self._mesh.attributes["position"].data, "vector", np.float32, 3)
 
     def edges(self) -> NDArray[np.int32]:
+        if not len(self._mesh.edges):  # an empty mesh has no such attribute
+            return np.empty((0, 2), dtype=np.int32)
         return _column(self._mesh.attributes[".edge_verts"].data, "value", np.int32, 2)
 
     def corners(self) -> NDArray[np.int32]:
+        if not len(self._mesh.loops):
+            return np.empty(0, dtype=np.int32)
         return _column(self._mesh.attributes[".corner_vert"].data, "value", np.int32)
 
     def flags(self, items: str, name: str) -> NDArray[np.bool_]:

@@ -198,7 +198,8 @@ double median_edge(const Surface& surface, const EdgeAdjacency& adjacency, const
     for (const std::int32_t v : surface.triangles()[face]) vertices.push_back(v);
   }
   std::ranges::sort(vertices);
-  vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+  // Not std::ranges::unique: Clang 14 cannot read what libstdc++ 12 returns.
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   std::vector<double> lengths;
   for (const std::int32_t v : vertices) {
     for (std::int32_t e = adjacency.begin(v); e < adjacency.end(v); ++e) {
