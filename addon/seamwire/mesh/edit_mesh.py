@@ -305,7 +305,7 @@ def read_evaluated(obj: bpy.types.Object) -> tuple[Arrays, NDArray[np.bool_]]:
     mesh = evaluated.to_mesh()
     try:
         columns = _Items(mesh) if bpy.app.version < (4, 1, 0) else _Attributes(mesh)
-        return _arrays(obj, mesh, columns, columns.points()), _column(mesh.vertices, "select", np.bool_)
+        return _arrays(obj, mesh, columns, columns.points()), columns.flags("vertices", "select")
     finally:
         evaluated.to_mesh_clear()
 
@@ -366,6 +366,7 @@ class _Attributes:
         ("edges", "hide"): (".hide_edge",),
         ("edges", "use_seam"): ("uv_seam", ".uv_seam"),
         ("polygons", "hide"): (".hide_poly",),
+        ("vertices", "select"): (".select_vert",),
     }
 
     def __init__(self, mesh: bpy.types.Mesh) -> None:
