@@ -49,10 +49,10 @@ def test_strengths_and_concavity_are_stored_as_the_library_has_them(mode: str) -
 def test_distances_are_from_the_selected_vertex_and_minus_one_where_nothing_leads(mode: str) -> None:
     points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (5, 5, 5), (6, 5, 5), (5, 6, 5)]
     obj = add_object(points, [(0, 1, 2, 3), (4, 5, 6)])
-    # One by one: all edges at once crash Blender 5.0.
-    for items in (obj.data.polygons, obj.data.edges, obj.data.vertices):
-        for item in items:
-            item.select = False
+    # By the operator: to set it of edges crashes Blender 5.0.
+    edit()
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bpy.ops.object.mode_set(mode="OBJECT")
     with pytest.raises(RuntimeError, match="Select the vertex"):
         bpy.ops.mesh.seamwire_store_view(view="DISTANCE")
     assert "metric_distance" not in obj.data.attributes
