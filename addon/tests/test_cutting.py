@@ -177,3 +177,14 @@ def test_a_curve_beside_the_mesh_is_refused() -> None:
         plan(faces, [(0, np.array([[0.0, 0.0, 0.0], [-3.0, 0.5, 0.0]]))])
     with pytest.raises(CuttingError):
         plan(faces, [(0, np.array([[0.0, 0.0, 0.0], [0.5, 0.5, 9.0]]))])
+
+
+def test_a_curve_leaves_a_polygon_over_a_side_with_corners_in_a_row() -> None:
+    # A column of three unit quads beside one polygon with their four corners in a row, where diagonals lie on the sides.
+    points = np.array([(0, 0), (1, 0), (1, 1), (1, 2), (1, 3), (0, 3), (2, 0), (2, 1), (2, 2), (2, 3)], dtype=float)
+    # Its triangles fan out from a corner in the row: those along it have no area.
+    faces = Polygons(points, [[1, 2, 3, 4, 5, 0], [1, 6, 7, 2], [2, 7, 8, 3], [3, 8, 9, 4]])
+    curve = np.array([(0, 0, 0), (1, 1.5, 0), (4 / 3, 2, 0), (2, 3, 0)])
+    cuts = plan(faces, [(0, curve)])
+    assert set(cuts.splits) == {(2, 3), (3, 8)}
+    assert set(cuts.across) == {0, 2, 3}

@@ -189,17 +189,20 @@ def _walk(faces: Faces, start: int, points: NDArray[np.float64]) -> Iterator[Pie
         if best < 0 or not off[best] < OFF:
             raise CuttingError(f"A wire does not run over the mesh near vertex {here.vertices[0]}")
         polygon = beside[best][1]
-        there = _on_side(faces, polygon, Node.between(corners[best], weights[best], NEAR))
+        there = _on_side(faces, polygon, Node.between(corners[best], weights[best], NEAR), NEAR)
         if there != here and (number or begins_there):
             yield here, there, polygon
         here = there
         # Where it goes on, the exact place says: the node may have been moved away from it.
-        on = Node.between(corners[best], weights[best], ON).vertices
+        on = _on_side(faces, polygon, Node.between(corners[best], weights[best], ON), ON).vertices
         polygons = [p for p in faces.polygons_at(on[0]) if {*on} <= {*faces.corners(p)}]
 
 
-def _on_side(faces: Faces, polygon: int, node: Node) -> Node:
-    """Return a node that lies on a polygon's side as one between its ends, which diagonals past corners in a row do as well."""
+def _on_side(faces: Faces, polygon: int, node: Node, near: float) -> Node:
+    """Return a node that lies on a polygon's side as one between its ends, which diagonals past corners in a row do as well.
+
+    One that is `near` one of these ends, as part of the side, is that vertex.
+    """
     corners = faces.corners(polygon)
     if len(corners) < 4 or len(node.vertices) == 1 or (len(node.vertices) == 2 and faces.is_edge(*node.vertices)):
         return node
@@ -210,7 +213,7 @@ def _on_side(faces: Faces, polygon: int, node: Node) -> Node:
     if not gap[best] < ON * np.linalg.norm(ends[best] - starts[best]):
         return node
     share = float(part[best, 0])
-    return Node.between((corners[best], corners[(best + 1) % len(corners)]), (1.0 - share, share), NEAR)
+    return Node.between((corners[best], corners[(best + 1) % len(corners)]), (1.0 - share, share), near)
 
 
 def _without_detours(pieces: Iterable[Piece]) -> list[Piece]:
@@ -433,7 +436,7 @@ class _Shape:
         corners = np.array([[self._place_of[vertex] for vertex in triangle] for triangle in self._triangles.tolist()])
         weights, off = barycentric(corners, place)
         best = int(np.argmin(off))
-        return _on_side(self._faces, self._polygon, Node.between(self._triangles[best], weights[best], NEAR))
+        return _on_side(self._faces, self._polygon, Node.between(self._triangles[best], weights[best], NEAR), NEAR)
 
     def lets_through(self, one: Node, two: Node, segments: Sequence[Segment]) -> bool:
         """Whether the straight line between two nodes lies inside, and meets none of some segments."""
