@@ -475,6 +475,7 @@ bool CutLocus::is_met_from_all_sides(std::int32_t half_edge, double radius) cons
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
   std::vector<double> angles;
+  angles.reserve(directions.size());
   for (const Vector& along : directions) {
     angles.push_back(std::atan2(along.dot(solver.eigenvectors().col(1)), along.dot(solver.eigenvectors().col(2))));
   }
