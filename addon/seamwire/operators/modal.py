@@ -598,7 +598,6 @@ class Chain:
     def show(self) -> None:
         """Show the sessions as they are now."""
         session = self.session
-        self._set_timer(any(view.busy for view in edited.views()))
         state = (
             id(self.view),
             tuple((view.session.revision, view.overlay.pointed_island) for view in edited.views()),
@@ -610,12 +609,13 @@ class Chain:
             self._keys,
         )
         before, self._shown = self._shown, state
-        if state == before:
-            return
-        edited.show(self.keys.rows() if self._keys else None)
-        edited.redraw()
-        for make in status_makers:
-            self._workspace.status_text_set(make(self))
+        if state != before:
+            edited.show(self.keys.rows() if self._keys else None)
+            edited.redraw()
+            for make in status_makers:
+                self._workspace.status_text_set(make(self))
+        # Last: what is shown may ask for more to be computed.
+        self._set_timer(any(view.busy for view in edited.views()))
 
     def _set_timer(self, wanted: bool) -> None:
         if wanted and self._timer is None:
