@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 import heapq
-import threading
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+
+from .newest import Newest
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -92,63 +93,33 @@ class IslandMaker:
         self._label = label
         self._hues = hues
         self._gaps = gaps
-        self._lock = threading.Lock()
-        self._wanted: tuple[object, NDArray[np.int32]] | None = None
-        self._working = False
-        self._closed = False
-        self._error: Exception | None = None
-        self._newest: Islands | None = None
+        self._maker: Newest[tuple[object, NDArray[np.int32]], Islands] = Newest(self._make, "seamwire-islands")
         self._counter: CutCounter | None = None
 
     @property
     def busy(self) -> bool:
         """Whether something is being computed."""
-        return self._working
+        return self._maker.busy
 
     @property
     def newest(self) -> Islands | None:
         """What was computed last. Raises what went wrong on the thread."""
-        if self._error is not None:
-            raise self._error
-        return self._newest
+        return self._maker.answer
 
     def want(self, key: object, cuts: Iterable[tuple[int, int]] | NDArray[np.int32]) -> None:
         """Ask for the islands that cut edges make; `key` is how the answer is known."""
         edges = np.array(cuts if isinstance(cuts, np.ndarray) else list(cuts), dtype=np.int32).reshape(-1, 2)
         if len(self._triangles) <= AT_ONCE:
-            self._newest = self._make(key, edges)
-            return
-        with self._lock:
-            self._wanted = (key, edges)
-            if self._working:
-                return
-            self._working = True
-        threading.Thread(target=self._work, name="seamwire-islands", daemon=True).start()
+            self._maker.answer_now((key, edges))
+        else:
+            self._maker.want((key, edges))
 
     def close(self) -> None:
         """Drop what is asked for; a running computation ends unseen."""
-        with self._lock:
-            self._closed = True
-            self._wanted = None
+        self._maker.close()
 
-    def _work(self) -> None:
-        while True:
-            with self._lock:
-                if self._wanted is None:
-                    self._working = False
-                    return
-                (key, edges), self._wanted = self._wanted, None
-            try:
-                made = self._make(key, edges)
-            except Exception as error:
-                # The main thread raises it: here nobody would see it.
-                self._error = error
-                self._working = False
-                return
-            if not self._closed:
-                self._newest = made
-
-    def _make(self, key: object, cuts: NDArray[np.int32]) -> Islands:
+    def _make(self, request: tuple[object, NDArray[np.int32]]) -> Islands:
+        key, cuts = request
         labels = np.asarray(self._label(cuts), dtype=np.int32)
         if labels.shape != (len(self._triangles),):
             raise ValueError(f"{labels.shape} labels for {len(self._triangles)} triangles")
@@ -174,7 +145,7 @@ class IslandMaker:
         An island has the hue of the one that most of it belonged to; of several pieces of that, the largest has it.
         """
         hues = np.full(count, -1, dtype=np.int64)
-        before = self._newest
+        before = self._maker.answer
         if before is None or not before.count or max(count, before.count) > _TOLD_APART:
             return hues
         shared = np.sort(labels.astype(np.int64) * before.count + before.labels)

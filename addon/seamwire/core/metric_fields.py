@@ -6,11 +6,12 @@ All of it is made by functions of the library, on a thread; of several requests 
 
 from __future__ import annotations
 
-import threading
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
+
+from .newest import Newest
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -222,67 +223,34 @@ class FieldMaker:
     def __init__(self, core: ModuleType, surface: Callable[[], seamwire_core.Surface]) -> None:
         self._core = core
         self._make_surface = surface
-        self._lock = threading.Lock()
-        self._wanted: Request | None = None
+        self._maker: Newest[Request, Fields] = Newest(self.make, "seamwire-fields", (core.Cancelled,))
         self._asked: Request | None = None
-        self._working = False
-        self._closed = False
-        self._error: Exception | None = None
-        self._newest: Fields | None = None
         self._kept: dict[str, tuple[object, object]] = {}
 
     @property
     def busy(self) -> bool:
         """Whether something is being computed."""
-        return self._working
+        return self._maker.busy
 
     @property
     def newest(self) -> Fields | None:
         """What was computed last. Raises what went wrong on the thread."""
-        if self._error is not None:
-            raise self._error
-        return self._newest
+        return self._maker.answer
 
     def want(self, request: Request) -> None:
         """Ask for fields; what is being computed for another request is dropped."""
-        with self._lock:
-            if self._closed or request == self._asked:
-                return
-            self._asked = self._wanted = request
-            if self._working:
-                return
-            self._working = True
-        threading.Thread(target=self._work, name="seamwire-fields", daemon=True).start()
+        if request != self._asked:
+            self._asked = request
+            self._maker.want(request)
 
     def close(self) -> None:
         """Drop what is asked for; a running computation ends soon, unseen."""
-        with self._lock:
-            self._closed = True
-            self._wanted = None
-
-    def _work(self) -> None:
-        while True:
-            with self._lock:
-                request, self._wanted = self._wanted, None
-                if request is None:
-                    self._working = False
-                    return
-            try:
-                made = self.make(request)
-            except self._core.Cancelled:
-                continue
-            except Exception as error:
-                # The main thread raises it: here nobody would see it.
-                self._error = error
-                self._working = False
-                return
-            if not self._closed:
-                self._newest = made
+        self._maker.close()
 
     # On the thread
 
     def _go_on(self, _fraction: float) -> bool:
-        return self._wanted is None and not self._closed
+        return not self._maker.superseded
 
     def _once(self, name: str, key: object, make: Callable[[], object]) -> object:
         if name not in self._kept or self._kept[name][0] != key:

@@ -116,6 +116,11 @@ class Snap:
         """Return a snap as it is, and a pick as one on the plain mesh."""
         return what if isinstance(what, Snap) else cls(what)
 
+    @property
+    def ends_chains(self) -> bool:
+        """Whether a chain that comes here ends here: at a seed, a wire or a seam."""
+        return self.to in {"SEED", "WIRE", "SEAM"}
+
 
 @dataclass(frozen=True)
 class Seed:

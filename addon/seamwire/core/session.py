@@ -15,6 +15,7 @@ import numpy as np
 
 from .candidates import CandidateWires, only_vertices
 from .defaults import CLAMP_PERCENTILE, CLAMP_RANGE, STRENGTH_RANGE, STRENGTH_STEP, STRENGTHS
+from .drawn_line import DrawnLine
 from .edge_loops import LoopOffers, taken
 from .extension import Extension
 from .flat_regions import FlatRegions
@@ -22,7 +23,7 @@ from .history import History
 from .intent import Intent
 from .line_drawing import EdgeLine, SurfaceLine
 from .mirror_images import MirrorImages
-from .network import FOLLOWS, FacePoint, Network, Seed, Snap, Wire, name, undirected, vertices_of
+from .network import FOLLOWS, FacePoint, Network, Seed, Snap, Wire, name, undirected
 from .retrace import Retraces, retraced
 from .seam_wires import seam_chains, waiting, wires_along
 from .seed_drag import SeedDrag
@@ -30,7 +31,7 @@ from .solver import Engines
 from .stops import Stops
 from .strokes import OffMeshError, Scribble, drawn, for_library, through_vertices
 from .surface_loops import SurfaceLoops
-from .symmetry import Symmetry, among
+from .symmetry import Symmetry
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -57,28 +58,6 @@ class Queued:
     kind: Waiting
     snap: Snap
     line: DrawnLine | None = None
-
-
-@dataclass
-class DrawnLine:
-    """A line that is drawn by dragging.
-
-    Parameters
-    ----------
-    line
-        Knows its wires.
-    begin
-        What was under the cursor when it began.
-    goes_on
-        Whether it goes on from the live wire's seed, so that the chain goes on behind it.
-    end
-        What is under the cursor where it ends by now.
-    """
-
-    line: Line
-    begin: Snap
-    goes_on: bool
-    end: Snap | None = None
 
 
 class Session:
@@ -254,15 +233,7 @@ class Session:
         if not offers:
             return self._refuse(self.message or self._cuts.NONE)
         pieces = self._cuts.take(target.pick, offers[min(choice, len(offers) - 1)])
-        wires = [
-            piece.anew(
-                marks=self.marking,
-                mirror=self._network.mirror,
-                strength=self.strength,
-                finish=self.finish if self.marking else "SNAP",
-            )
-            for piece in pieces
-        ]
+        wires = [self._as_drawn(piece.anew()) for piece in pieces]
         return self._change(replace(self._network, wires=(*self.wires, *wires)))
 
     def toggle(self) -> bool:
@@ -484,10 +455,9 @@ class Session:
         if drawn is None:
             return self._refuse("No line is being drawn")
         drawn.end = None if snap is None else Snap.of(snap)
-        joins = drawn.end is not None and drawn.end.to in {"SEED", "WIRE", "SEAM"}
-        self._candidates.target = drawn.end if joins else None
+        self._candidates.target = drawn.joined
         if len(points):
-            end = drawn.end.pick if drawn.end is not None and joins else None
+            end = None if drawn.joined is None else drawn.joined.pick
             drawn.line.to(points, triangles, end, self._stops.kept(self._network))
         self._read_progress()
         self.message = drawn.line.message
@@ -522,46 +492,12 @@ class Session:
         if not wires:
             self._aim_again()
             return self._refuse(drawn.line.message or "Drag farther along the surface to draw a line")
-        network = self._network
-        for pick in (wires[0].start, wires[-1].end):
-            network = self._joined_at(network, pick, drawn)
-        seed = network.seed if drawn.goes_on else None
-        if seed is not None:
-            wires = (replace(wires[0], start=seed.shown(self.along)), *wires[1:])
-        ends = seed is None or self._line_joins(network, wires, drawn, seed)
-        for number, wire in enumerate(wires):
-            own = replace(
-                wire,
-                marks=self.marking,
-                mirror=network.mirror,
-                strength=self.strength,
-                finish=self.finish if wire.along == "SURFACE" and self.marking else "SNAP",
-            )
-            network = network.with_drawn(own, own.end, ends and number == len(wires) - 1)
         told = drawn.line.message
-        if not self._change(network if not ends else replace(network, seed=None)):
+        drawn_as = tuple(self._as_drawn(wire) for wire in wires)
+        if not self._change(drawn.kept_in(self._network, drawn_as, self._points, self._stops)):
             return False
         self.message = self.message or told or self._engines.warning(self.along)
         return True
-
-    def _joined_at(self, network: Network, pick: Pick, drawn: DrawnLine) -> Network:
-        """Return a network with a seed where a line meets one of its wires."""
-        for snap in (drawn.begin, drawn.end):
-            if snap is not None and snap.to == "WIRE" and pick in (snap.pick, *vertices_of(snap.pick)):
-                network = network.joined(replace(snap, pick=pick), self._points)
-        if isinstance(pick, int):
-            for wire in network.wires:
-                if wire.along == "EDGES" and not wire.closed and pick in wire.vertices[1:-1]:
-                    network = network.with_seed_in(wire, pick, self._points) or network
-        return network
-
-    def _line_joins(self, network: Network, wires: tuple[Wire, ...], drawn: DrawnLine, seed: Seed) -> bool:
-        """Whether a line that went on from a chain ends that: on a seed, a wire or a seam, the chain's first seed too."""
-        end = wires[-1].end
-        if drawn.end is not None and drawn.end.to in {"SEED", "WIRE", "SEAM"}:
-            return True
-        kept = self._stops.kept(network)
-        return end == seed.began or (isinstance(end, int) and bool(among(np.array([end]), kept)[0]))
 
     def wires_along(self, seams: NDArray[np.int32]) -> Iterator[Wire]:
         """Yield wires that run along the mesh's edges as seams do, as few as there can be; keeps none of them.
@@ -1176,14 +1112,7 @@ class Session:
         # Of what is cut the snapped edges say nothing.
         if ending is Intent.CLOSE and known.issuperset(wire.edges()) and not isinstance(wire.end, FacePoint):
             return self._refuse("The way back runs along the chain itself: place another seed first")
-        wire = replace(
-            wire,
-            marks=self.marking,
-            mirror=self._network.mirror,
-            strength=self.strength,
-            finish=self.finish if self.along == "SURFACE" and self.marking else "SNAP",
-            alternatives=live.others if live.final else (),
-        )
+        wire = replace(self._as_drawn(wire), alternatives=live.others if live.final else ())
         network = self._network.joined(target, self._points).with_drawn(wire, target.pick, ending is not None)
         if not self._change(network):
             return False
@@ -1191,11 +1120,21 @@ class Session:
         self._last_click = (undirected(target.pick), self._history.steps)
         return True
 
+    def _as_drawn(self, wire: Wire) -> Wire:
+        """Return a new wire as one that is kept now: what it does to seams, its images, its metric's strength, its finish."""
+        return replace(
+            wire,
+            marks=self.marking,
+            mirror=self._network.mirror,
+            strength=self.strength,
+            finish=self.finish if wire.along == "SURFACE" and self.marking else "SNAP",
+        )
+
     def _ending(self, target: Snap) -> Intent | None:
         """Return how a wire to a target ends the chain; None: it does not."""
         if self._network.closes(target):
             return Intent.CLOSE
-        return Intent.JOIN if target.to in {"SEED", "WIRE", "SEAM"} else None
+        return Intent.JOIN if target.ends_chains else None
 
     # Offers, extension, other ways
 
