@@ -345,6 +345,26 @@ def isolines(
 ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
     """Return segments (k, 2, 3) where values at the vertices, (n,), reach levels, with the triangle and the level of each."""
 
+class CrestLines:
+    """Ridges and valleys: line i has the points starts[i] to starts[i + 1]; a closed one ends with its first point."""
+
+    points: NDArray[np.float64]  # (p, 3)
+    edges: NDArray[np.int32]  # (p, 2), the edge that each point lies on
+    parts: NDArray[np.float64]  # (p,), where on it, 0 to 1
+    curvatures: NDArray[np.float64]  # (p,), above 0 along ridges
+    faces: NDArray[np.int32]  # (p,), the triangle to the next point, -1 for a line's last
+    starts: NDArray[np.int32]  # (k + 1,)
+    strengths: NDArray[np.float64]  # (k,), integrals of |k1|, radians, descending
+
+def crest_lines(
+    surface: Surface,
+    curvature: Curvature,
+    least_strength: float = 1.0,
+    least_drop: float = 0.15,
+    progress: Progress | None = None,
+) -> CrestLines:
+    """Return the curves along which the surface bends most sharply across (Yoshizawa, Belyaev, Seidel 2005)."""
+
 def snap_to_edges(surface: Surface, wire: Wire) -> NDArray[np.int32]: ...
 def edge_wires(
     surface: Surface,

@@ -11,6 +11,7 @@
 
 #include "arrays.hpp"
 #include "objects.hpp"
+#include "seamwire/metric/crest_lines.hpp"
 #include "seamwire/surface/isolines.hpp"
 #include "watch.hpp"
 
@@ -51,6 +52,69 @@ py::tuple isolines_of(const SurfaceObject& surface, const py::object& values, co
                         handed_over(std::move(lines.levels)));
 }
 
+Held<CrestLines> crest_lines_of(const SurfaceObject& surface, const CurvatureObject& curvature, double least_strength,
+                                double least_drop, const py::object& progress) {
+  return Watch(progress).run([&](const Task& task) {
+    const CrestLineOptions options{.least_strength = least_strength, .least_drop = least_drop};
+    return make_held<CrestLines>(crest_lines(*surface.surface, curvature.curvature, options, task));
+  });
+}
+
+void bind_crest_lines(py::module_& module) {
+  const auto array = [](auto member) {
+    return py::cpp_function([member](py::object self) { return view(self.cast<const CrestLines&>().*member, self); });
+  };
+  py::class_<CrestLines, Held<CrestLines>>(module, "CrestLines", "Ridges and valleys, the strongest first.")
+      .def_property_readonly(
+          "points", array(&CrestLines::points),
+          "(p, 3) float64: of all lines, one after the other. A closed line ends with its first point.")
+      .def_property_readonly("edges", array(&CrestLines::edges), "(p, 2) int32: the edge that each point lies on.")
+      .def_property_readonly("parts", array(&CrestLines::parts),
+                             "(p,) float64: where on it, 0 at its first vertex, 1 at its second.")
+      .def_property_readonly(
+          "curvatures", array(&CrestLines::curvatures),
+          "(p,) float64: k1 there, in 1 / side of the unit cube: above 0 along ridges, below along valleys.")
+      .def_property_readonly("faces", array(&CrestLines::faces),
+                             "(p,) int32: the triangle that leads to the next point; -1 for a line's last.")
+      .def_property_readonly("starts", array(&CrestLines::starts),
+                             "(k + 1,) int32: line i has the points starts[i] to starts[i + 1].")
+      .def_property_readonly("strengths", array(&CrestLines::strengths),
+                             "(k,) float64: the integral of |k1| along each, in radians; descending.")
+      .def("__repr__", [](const CrestLines& lines) {
+        return "<CrestLines: " + std::to_string(lines.strengths.size()) + " lines>";
+      });
+  module.def("crest_lines", &crest_lines_of, py::arg("surface"), py::arg("curvature"), py::arg("least_strength") = 1.0,
+             py::arg("least_drop") = 0.15, py::arg("progress") = py::none(),
+             R"(Ridges and valleys: the curves along which the surface bends most sharply across (Figures 5 and 11).
+
+Yoshizawa, Belyaev, Seidel, "Fast and robust detection of crest lines on meshes" (2005), with derivatives of curvature
+as in Rusinkiewicz (2004); docs/method.md says what is ours.
+
+Parameters
+----------
+surface : Surface
+curvature : Curvature
+    Of that surface, best from `smoothed_curvatures`.
+least_strength : float
+    Of a line: the integral of |k1| along it, in radians. At least 0.
+least_drop : float
+    Of its points: by which share curvature has fallen one radius of curvature away on both sides, in [0, 1). With 0
+    there are lines on cylinders and tori too, where noise decides.
+progress : callable, optional
+    Called now and then with the fraction done; returning False cancels.
+
+Returns
+-------
+CrestLines
+
+Raises
+------
+ValueError
+    Where the curvature is of another surface, or a number is out of range.
+Cancelled
+)");
+}
+
 py::tuple trace_many(const FieldObject& object, const py::object& vertices) {
   const EmbeddingObject& on = *object.embedding;
   const std::vector<std::int32_t> targets = numbers_from(vertices, "vertices");
@@ -74,6 +138,7 @@ py::tuple trace_many(const FieldObject& object, const py::object& vertices) {
 }  // namespace
 
 void bind_views(py::module_& module) {
+  bind_crest_lines(module);
   module.attr("Metric").cast<py::class_<MetricObject, Held<MetricObject>>>().def(
       "ellipses", &ellipses, py::arg("of") = "norm", R"(The ellipse of the norm at each vertex (Figures 2, 3 and 6).
 

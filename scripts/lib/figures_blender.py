@@ -19,6 +19,7 @@ import bpy
 import numpy as np
 from figure_models import Model, read, sphere
 from figure_stage import CLAY, INK, SEED, Stage, beside, save
+from shape_proxies import shape_proxies
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -39,6 +40,9 @@ COLORS = {
 }
 """Those of Figure 4."""
 INVALID = (0.15, 0.35, 0.95)
+RIDGE, VALLEY = (0.85, 0.16, 0.08), (0.10, 0.30, 0.85)
+PROXIES = 40
+"""Regions of the variational shape approximation in Figure 11."""
 ISLANDS = (
     (0.55, 0.70, 0.88),
     (0.95, 0.80, 0.58),
@@ -240,7 +244,7 @@ class Figures:
         return float(values[near].mean())
 
     def feature_strength(self) -> NDArray[np.float64]:
-        """Figure 5: s as heat, and the signed curvature beside it."""
+        """Figure 5: s as heat, ridges and valleys, and the signed curvature beside them."""
         model = self._model("armadillo", "suzanne")
         smoothed = self._core.smoothed_curvatures(model.surface, model.curvature)
         limit = float(np.percentile(model.strength, 97))
@@ -253,7 +257,19 @@ class Figures:
             stage = self._stage(model)
             stage.mesh(model.points, model.triangles, self._maps.colors(parts, colors))
             panels.append(self._render(stage))
+        panels.insert(1, self._ridges_and_valleys(model))
         return beside([panels])
+
+    def _ridges_and_valleys(self, model: Model) -> NDArray[np.float64]:
+        smoothed = self._core.smoothed_curvatures(model.surface, model.curvature)
+        lines = self._core.crest_lines(model.surface, smoothed)
+        inside = lines.faces >= 0
+        pieces = np.stack([lines.points[:-1], lines.points[1:]], axis=1)[inside[:-1]]
+        is_ridge = lines.curvatures[:-1][inside[:-1]] > 0.0
+        stage = self._stage(model)
+        stage.mesh(model.points, model.triangles)
+        stage.segments(pieces, np.where(is_ridge[:, None], RIDGE, VALLEY), 0.006)
+        return self._render(stage)
 
     def four_metrics(self) -> NDArray[np.float64]:
         """Figure 6: norms and paths of four metrics, A = 20."""
@@ -415,8 +431,12 @@ class Figures:
         return np.array(places)
 
     def segmentation(self) -> NDArray[np.float64]:
-        """Figure 11, our part: a network of wires, and what it cuts the model into."""
-        return self._network_and_islands(self._model("rocker-arm", "fandisk"))
+        """Figure 11: ridges and valleys, variational shape approximation, a network of wires, and what it cuts the model into."""
+        model = self._model("rocker-arm", "fandisk")
+        stage = self._stage(model)
+        regions = shape_proxies(model.points, model.triangles, PROXIES)
+        stage.mesh(model.points, model.triangles, np.array(ISLANDS)[_spread_colors(model.triangles, regions)])
+        return beside([[self._ridges_and_valleys(model), self._render(stage), *self._network_and_islands(model)]])
 
     def more_segmentations(self) -> NDArray[np.float64]:
         """Figure 12: networks on other models."""
@@ -429,13 +449,13 @@ class Figures:
             panels.append(self._render(stage))
         return beside([panels])
 
-    def _network_and_islands(self, model: Model) -> NDArray[np.float64]:
+    def _network_and_islands(self, model: Model) -> list[NDArray[np.float64]]:
         panels = []
         for filled in (False, True):
             stage = self._stage(model)
             self._add_network(stage, model, filled)
             panels.append(self._render(stage))
-        return beside([panels])
+        return panels
 
     def _add_network(self, stage: Stage, model: Model, filled: bool = False) -> None:
         """Add a network of wires as the planner suggests it: the paper's were drawn by people."""
@@ -448,6 +468,22 @@ class Figures:
         for wire in plan.wires:
             stage.line(wire.points, INK, 0.008)
         stage.balls(model.points[sorted({seed for wire in plan.wires for seed in wire.seeds})], SEED, 0.013)
+
+
+def _spread_colors(triangles: NDArray[np.int32], regions: NDArray[np.int32]) -> NDArray[np.int64]:
+    """Return a color's number for each triangle: regions that touch have others, as far as there are enough."""
+    corners = np.stack([triangles.ravel(), np.repeat(regions, 3)], axis=1)
+    corners = np.unique(corners, axis=0)
+    same = corners[1:, 0] == corners[:-1, 0]
+    touching: dict[int, set[int]] = {}
+    for one, other in np.stack([corners[:-1, 1], corners[1:, 1]], axis=1)[same].tolist():
+        touching.setdefault(one, set()).add(other)
+        touching.setdefault(other, set()).add(one)
+    colors = np.zeros(int(regions.max()) + 1, dtype=np.int64)
+    for region in range(len(colors)):
+        taken = {int(colors[other]) for other in touching.get(region, ()) if other < region}
+        colors[region] = min(set(range(len(ISLANDS))) - taken, default=region % len(ISLANDS))
+    return colors[regions]
 
 
 def _sides(triangles: NDArray[np.int32]) -> NDArray[np.int32]:

@@ -34,6 +34,46 @@ def test_isolines_of_exact_distances_on_a_plane_are_chords_of_circles() -> None:
     assert (segments.max(1) <= inside.max(1) + 1e-12).all()
 
 
+def waves(n: int) -> tuple[sw.Surface, np.ndarray]:
+    """Return a sheet of two waves along x, and where their tops and bottoms are."""
+    points, triangles = meshes.grid(n)
+    points[:, 2] = 0.04 * np.cos(4 * np.pi * points[:, 0])
+    return sw.Surface(1000.0 * points, triangles), 1000.0 * np.array([0.25, 0.5, 0.75])
+
+
+def test_crest_lines_of_waves_are_ridges_on_tops_and_valleys_on_bottoms() -> None:
+    surface, places = waves(40)
+    lines = sw.crest_lines(surface, sw.smoothed_curvatures(surface, sw.principal_curvatures(surface)))
+    assert len(lines.starts) == len(lines.strengths) + 1
+    assert lines.starts[-1] == len(lines.points) == len(lines.edges) == len(lines.parts) == len(lines.faces)
+    assert (np.diff(lines.strengths) <= 0.0).all()
+    middles = [lines.points[i:j].mean(axis=0)[0] for i, j in zip(lines.starts, lines.starts[1:], strict=False)]
+    for place, sign in zip(places, (-1, 1, -1), strict=True):
+        (line,) = np.flatnonzero(np.abs(middles - place) < 60)
+        mine = slice(lines.starts[line], lines.starts[line + 1])
+        assert np.abs(lines.points[mine, 0] - place).max() < 1000 / 40 / 2
+        assert np.ptp(lines.points[mine, 1]) > 900
+        assert (np.sign(lines.curvatures[mine]) == sign).all()
+    ends = surface.points[lines.edges]
+    there = ends[:, 0] + lines.parts[:, None] * (ends[:, 1] - ends[:, 0])
+    np.testing.assert_allclose(there, lines.points, atol=1e-9)
+    inside = lines.faces >= 0
+    assert (inside.sum(), (~inside).sum()) == (len(lines.points) - len(lines.strengths), len(lines.strengths))
+    with pytest.raises(ValueError, match="read-only"):
+        lines.points[0] = 0.0
+
+
+def test_crest_lines_are_none_on_a_torus_and_name_what_is_wrong(surface: sw.Surface, curvature: sw.Curvature) -> None:
+    assert len(sw.crest_lines(surface, curvature).strengths) == 0
+    assert len(sw.crest_lines(surface, curvature).points) == 0
+    with pytest.raises(ValueError, match=r"least_drop is 2, not in \[0, 1\)"):
+        sw.crest_lines(surface, curvature, least_drop=2.0)
+    with pytest.raises(ValueError, match="curvature of 960 vertices for a surface of 9"):
+        sw.crest_lines(grid(2), curvature)
+    with pytest.raises(sw.Cancelled):
+        sw.crest_lines(surface, curvature, progress=lambda _: False)
+
+
 def test_ellipses_have_the_axes_of_their_tensors(metric: sw.Metric) -> None:
     norm, reach = metric.ellipses(), metric.ellipses("reach")
     values = np.linalg.eigvalsh(metric.tensors)[:, 1:]  # the least is the normal's, 0
