@@ -25,6 +25,7 @@
 #include "seamwire/errors.hpp"
 #include "seamwire/geodesics/corridor_paths.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
+#include "seamwire/metric/crest_lines.hpp"
 #include "seamwire/metric/curvature.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/metric/scribble.hpp"
@@ -366,6 +367,14 @@ void check(Bytes& from) {
   const Curvature curvature = principal_curvatures(surface);
   for (std::size_t v = 0; v < curvature.k1.size(); ++v) {
     require(std::isfinite(curvature.k1[v]) && std::isfinite(curvature.k2[v]), "curvatures are finite");
+  }
+  for (const double least_drop : {0.0, 0.15}) {
+    const CrestLines lines = crest_lines(surface, curvature, {.least_strength = 0.0, .least_drop = least_drop});
+    for (std::size_t i = 0; i < lines.strengths.size(); ++i) {
+      require(lines.starts[i] + 1 < lines.starts[i + 1] && std::isfinite(lines.strengths[i]),
+              "crest lines have a length");
+    }
+    for (const Vector& point : lines.points) require(point.allFinite(), "crest lines are finite");
   }
   face_segments(surface, surface.edges());
   const Follow follow = from.coin() ? Follow::kMin : Follow::kMax;

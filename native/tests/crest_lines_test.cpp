@@ -79,6 +79,15 @@ TEST(CrestLines, OfAnEllipsoidAreItsRim) {
   }
 }
 
+// Over the poles the derivative vanishes along the middle of the longest section too, where curvature is least.
+TEST(CrestLines, AreNotWhereCurvatureIsLeast) {
+  const Surface surface = ellipsoid(5, {0.5, 0.4, 0.2}).surface();
+  const CrestLines lines = crest_lines(surface, smoothed_curvatures(surface, principal_curvatures(surface), 0.06),
+                                       {.least_strength = 0.2, .least_drop = 0.0});
+  ASSERT_GE(count(lines), 1U);
+  for (const Vector& p : lines.points) EXPECT_LT(std::abs(p.z()), 0.05);
+}
+
 TEST(CrestLines, OfAnEllipsoidTurnedInsideOutAreAValley) {
   shapes::Mesh mesh = ellipsoid(4, {0.5, 0.4, 0.2});
   turn_over(mesh);

@@ -433,10 +433,12 @@ class Figures:
     def segmentation(self) -> NDArray[np.float64]:
         """Figure 11: ridges and valleys, variational shape approximation, a network of wires, and what it cuts the model into."""
         model = self._model("rocker-arm", "fandisk")
+        panels = [self._ridges_and_valleys(model)]
         stage = self._stage(model)
         regions = shape_proxies(model.points, model.triangles, PROXIES)
         stage.mesh(model.points, model.triangles, np.array(ISLANDS)[_spread_colors(model.triangles, regions)])
-        return beside([[self._ridges_and_valleys(model), self._render(stage), *self._network_and_islands(model)]])
+        panels.append(self._render(stage))
+        return beside([panels + self._network_and_islands(model)])
 
     def more_segmentations(self) -> NDArray[np.float64]:
         """Figure 12: networks on other models."""

@@ -433,7 +433,7 @@ class Tracer {
       }
       std::ranges::rotate(chain.segments, chain.segments.begin() + static_cast<std::ptrdiff_t>(begin));
       chain.sides.pop_back();
-      std::ranges::rotate(chain.sides, chain.sides.begin() + static_cast<std::ptrdiff_t>(begin % size));
+      std::ranges::rotate(chain.sides, chain.sides.begin() + static_cast<std::ptrdiff_t>(begin == size ? 0 : begin));
       chain.sides.push_back(chain.sides.front());
       look();
       // Nothing long between its ends: it is closed.
