@@ -26,6 +26,7 @@ VIEWS = (
     ("heat", "STRENGTH"),
     ("heat", "CONCAVITY"),
     ("heat", "DISTANCE"),
+    ("show_crests", True),
     ("show_ellipses", True),
     ("show_paths", True),
     ("show_bands", True),

@@ -46,6 +46,19 @@ def test_strengths_and_concavity_are_stored_as_the_library_has_them(mode: str) -
 
 
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+def test_ridges_and_valleys_are_stored_beside_them_with_their_strength(mode: str) -> None:
+    obj = add_suzanne(1)
+    bpy.ops.object.mode_set(mode=mode)
+    surface, curvature = expected(obj)
+    lines = native.load().crest_lines(surface, native.load().smoothed_curvatures(surface, curvature))
+    assert bpy.ops.mesh.seamwire_store_view(view="CRESTS") == {"FINISHED"}
+    found = stored(obj, "ridges_and_valleys")
+    assert found.max() == pytest.approx(lines.strengths[lines.curvatures[lines.starts[:-1]] > 0.0].max())
+    assert found.min() == pytest.approx(-lines.strengths[lines.curvatures[lines.starts[:-1]] < 0.0].max())
+    assert set(np.flatnonzero(found)) <= set(lines.edges.ravel())
+
+
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 def test_distances_are_from_the_selected_vertex_and_minus_one_where_nothing_leads(mode: str) -> None:
     points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (5, 5, 5), (6, 5, 5), (5, 6, 5)]
     obj = add_object(points, [(0, 1, 2, 3), (4, 5, 6)])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the metric sees of a mesh, as arrays: strengths, concavity, ellipses, distances, paths, invalid triangles.
+"""What the metric sees of a mesh, as arrays: strengths, concavity, ridges, ellipses, distances, paths, invalid triangles.
 
 All of it is made by functions of the library, on a thread; of several requests the newest wins. Knows neither Blender nor the GPU.
 """
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from .crests import Crests
 from .newest import Newest
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
     from .solver import MetricName
 
-Part = Literal["STRENGTH", "CONCAVITY", "ELLIPSES", "DISTANCE", "PATHS", "ISOLINES", "INVALID"]
+Part = Literal["STRENGTH", "CONCAVITY", "CRESTS", "ELLIPSES", "DISTANCE", "PATHS", "ISOLINES", "INVALID"]
 """What can be asked for."""
 Source = int | tuple[int, tuple[float, float, float]] | tuple[int, ...]
 """Where distances are from: a vertex, a point of a triangle, or several vertices."""
@@ -150,6 +151,7 @@ class Fields:
     request: Request
     strength: NDArray[np.float64] | None = None
     concavity: NDArray[np.float64] | None = None
+    crests: Crests | None = None
     ellipses: Ellipses | None = None
     distance: NDArray[np.float64] | None = None
     paths: Paths | None = None
@@ -273,6 +275,7 @@ class FieldMaker:
             request,
             strength=self._strength() if "STRENGTH" in parts else None,
             concavity=self._concavity() if "CONCAVITY" in parts else None,
+            crests=self._crests() if "CRESTS" in parts else None,
             ellipses=self._ellipses(request) if "ELLIPSES" in parts else None,
             distance=self._distance(request) if far else None,
             paths=self._paths(request) if far and "PATHS" in parts else None,
@@ -300,6 +303,12 @@ class FieldMaker:
 
     def _concavity(self) -> NDArray[np.float64]:
         return self._once("concavity", None, lambda: self._smoothed().k1)
+
+    def _crests(self) -> Crests:
+        def make() -> Crests:
+            return Crests.of(self._core.crest_lines(self.surface(), self._smoothed(), progress=self._go_on))
+
+        return self._once("crests", None, make)
 
     def _distance(self, request: Request) -> NDArray[np.float64]:
         return self._once("distance", (request.metric_key, request.source), lambda: self._field(request).distances)

@@ -143,6 +143,11 @@ class SeamwireSettings(bpy.types.PropertyGroup):
         items=HEAT_ITEMS,
         update=_changed,
     )
+    show_crests: bpy.props.BoolProperty(
+        name="Ridges and Valleys",
+        description="Show the lines along which the surface bends most sharply; with Alt a click on one draws wires along it",
+        update=_changed,
+    )
     show_ellipses: bpy.props.BoolProperty(
         name="Ellipses",
         description="Show the metric: in each ellipse's direction wires run as far as it is long at the same cost",

@@ -10,6 +10,7 @@ import bpy
 import numpy as np
 
 from ..core import native
+from ..core.crests import Crests
 from ..core.metric_fields import FieldMaker, Request
 from . import edit_mesh
 
@@ -20,14 +21,19 @@ if TYPE_CHECKING:
 
     from .settings import SeamwireSettings
 
-NAMES = {"STRENGTH": "feature_strength", "CONCAVITY": "concavity", "DISTANCE": "metric_distance"}
+NAMES = {
+    "STRENGTH": "feature_strength",
+    "CONCAVITY": "concavity",
+    "DISTANCE": "metric_distance",
+    "CRESTS": "ridges_and_valleys",
+}
 """The attributes."""
 
 _TAKEN = "The mesh has another attribute '{}': rename or remove it"
 
 
 def store(
-    obj: bpy.types.Object, view: Literal["STRENGTH", "CONCAVITY", "DISTANCE"], settings: SeamwireSettings
+    obj: bpy.types.Object, view: Literal["STRENGTH", "CONCAVITY", "DISTANCE", "CRESTS"], settings: SeamwireSettings
 ) -> tuple[str, float, float]:
     """Store a view of an object, in Object or Edit Mode, as an attribute of its vertices (float, one for each).
 
@@ -55,7 +61,8 @@ def store(
         frozenset({view}), settings.metric, strength, settings.clamp, settings.shown_metric.lower(), source
     )
     maker = FieldMaker(core, lambda: core.Surface(arrays.points, arrays.triangles, arrays.edges))
-    values = np.asarray(getattr(maker.make(request), view.lower()))
+    made = getattr(maker.make(request), view.lower())
+    values = made.at_vertices(len(arrays.points)) if isinstance(made, Crests) else np.asarray(made)
     some = values[np.isfinite(values)]
     _write(obj, NAMES[view], np.where(np.isfinite(values), values, -1.0))
     return NAMES[view], float(some.min(initial=np.inf)), float(some.max(initial=-np.inf))

@@ -21,6 +21,12 @@ VIEW_ITEMS = (
         "From the active or first selected vertex, in the metric, in the attribute 'metric_distance'",
         2,
     ),
+    (
+        "CRESTS",
+        "Ridges and Valleys",
+        "At the vertices beside one its strength, below zero for valleys, in the attribute 'ridges_and_valleys'",
+        3,
+    ),
 )
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the metric sees of one mesh, drawn over it: heat, ellipses, paths, distance bands, invalid triangles, each with its legend."""
+"""What the metric sees of one mesh, drawn over it: heat, ridges, ellipses, paths, bands, invalid triangles, each with its legend."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.color_maps import ColorMap
+    from ..core.crests import Crests
     from ..core.metric_fields import Ellipses, Fields, Part, Source
     from ..mesh.edit_mesh import Arrays
     from ..mesh.settings import SeamwireSettings
@@ -40,6 +41,8 @@ _RIM: Color = (0.97, 0.97, 0.97, 1.0)
 _RIM_WIDTH = 0.06
 """In distances between ellipses."""
 _BAND = Style((1.0, 1.0, 1.0, 0.9), 1.5, halo=1.5, lift=3.0)
+_RIDGE = Style((0.98, 0.45, 0.10, 1.0), 2.0, halo=1.0, lift=4.0)
+_VALLEY = Style((0.20, 0.50, 1.0, 1.0), 2.0, halo=1.0, lift=4.0)
 _SPLIT: Color = (0.13, 0.44, 0.94, 0.9)
 _REPAIRED: Color = (0.96, 0.60, 0.10, 0.95)
 _LEFT: Color = (0.92, 0.10, 0.12, 1.0)
@@ -64,6 +67,7 @@ class MetricViews:
         self._arrays = arrays
         self._maker = FieldMaker(core, surface)
         self._heat: Part | None = None
+        self._visible: frozenset[Part] = frozenset()
         self._request = Request(frozenset())
         self._made: dict[str, tuple[object, object]] = {}
         self._seen: Fields | None = None
@@ -73,7 +77,12 @@ class MetricViews:
         self._maker.close()
 
     def follow(
-        self, settings: SeamwireSettings, along: str, source: Source | None, scribbles: tuple[object, ...] = ()
+        self,
+        settings: SeamwireSettings,
+        along: str,
+        source: Source | None,
+        scribbles: tuple[object, ...] = (),
+        crests: bool = False,
     ) -> None:
         """Show what the settings ask for.
 
@@ -87,15 +96,19 @@ class MetricViews:
             Where distances are from; None: nowhere.
         scribbles
             The library's strokes.
+        crests
+            Whether `crests` are wanted, seen or not.
         """
         self._heat = settings.heat if settings.heat in HEATS else None
         parts = {
+            "CRESTS": settings.show_crests,
             "ELLIPSES": settings.show_ellipses,
             "PATHS": settings.show_paths,
             "ISOLINES": settings.show_bands,
             "INVALID": settings.show_invalid,
         }
-        wanted = frozenset(name for name, shown in parts.items() if shown) | ({self._heat} if self._heat else set())
+        self._visible = frozenset(name for name, on in parts.items() if on) | ({self._heat} if self._heat else set())
+        wanted = self._visible | ({"CRESTS"} if crests else set())
         strength = settings.strength_edges if along == "EDGES" else settings.strength_surface
         far = bool(wanted & {"DISTANCE", "PATHS", "ISOLINES"})
         self._request = Request(
@@ -136,6 +149,12 @@ class MetricViews:
         return fields is not None and fields.request == self._request and not self._maker.busy
 
     @property
+    def crests(self) -> Crests | None:
+        """Ridges and valleys, where they were asked for and are computed."""
+        found = self._maker.newest
+        return None if found is None else found.crests
+
+    @property
     def has_heat(self) -> bool:
         """Whether there is heat to be seen."""
         return self._values() is not None
@@ -148,7 +167,7 @@ class MetricViews:
 
     def _shown(self, part: Part) -> object:
         fields = self.fields
-        if fields is None or part not in self._request.parts:
+        if fields is None or part not in self._visible:
             return None
         return getattr(fields, part.lower())
 
@@ -189,6 +208,10 @@ class MetricViews:
                 rims.draw(eye, 5.0)
                 insides.draw(eye, 6.0)
         with blended("LESS_EQUAL"):
+            crests = self._shown("CRESTS")
+            if crests is not None:
+                for lines in self._once("crests", crests, lambda: _crest_lines(crests)):
+                    lines.draw(eye)
             isolines = self._shown("ISOLINES")
             if isolines is not None:
                 self._once("isolines", isolines, lambda: Lines(_BAND, isolines.segments)).draw(eye)
@@ -207,7 +230,7 @@ class MetricViews:
 
     def legends(self) -> list[Legend]:
         """Return what is to be read, from below."""
-        parts, found = self._request.parts, []
+        parts, found = self._visible, []
         if not parts:
             return []
         has_source = self._request.source is not None
@@ -218,6 +241,7 @@ class MetricViews:
             ("INVALID", _of_invalid),
             ("ELLIPSES", _of_ellipses),
             ("ISOLINES", _of_bands),
+            ("CRESTS", _of_crests),
             ("PATHS", _of_paths),
         ):
             if (shown := self._shown(part)) is not None:
@@ -315,6 +339,11 @@ def _fans(ellipses: Ellipses, margin: float, colors: NDArray[np.float64]) -> Sha
     return ShadedFaces(points, triangles, np.repeat(colors, _CORNERS + 1, axis=0))
 
 
+def _crest_lines(crests: Crests) -> tuple[Lines, Lines]:
+    is_ridge = crests.ridges[crests.owners[crests.pieces]]
+    return Lines(_VALLEY, crests.segments[~is_ridge]), Lines(_RIDGE, crests.segments[is_ridge])
+
+
 def _path_lines(paths: metric_fields.Paths) -> ColoredLines:
     pieces, lengths = paths.segments()
     colors = np.ones((len(pieces), 4))
@@ -338,6 +367,14 @@ def _of_ellipses(ellipses: Ellipses) -> Legend:
     largest = float(ellipses.anisotropy.max(initial=1.0))
     marks = ((0.0, "1"), (0.5, _text(largest**0.5)), (1.0, _text(largest)))
     return Legend(("Anisotropy; long where paths are short",), color_maps.steps(color_maps.VIRIDIS, _STEPS), marks)
+
+
+def _of_crests(crests: Crests) -> Legend:
+    ridges = int(crests.ridges.sum())
+    kinds = ((_RIDGE, ridges, "ridge"), (_VALLEY, len(crests) - ridges, "valley"))
+    swatches = tuple((style.color, f"{count} {name}{'' if count == 1 else 's'}") for style, count, name in kinds)
+    strongest = _text(float(crests.strengths.max(initial=0.0)))
+    return Legend((f"Strength from 1 to {strongest} radians",) if len(crests) else (), swatches=swatches)
 
 
 def _of_bands(isolines: metric_fields.Isolines) -> Legend:
