@@ -470,10 +470,11 @@ def views(film: Film) -> None:
         {"show_ellipses": True},
         {"show_paths": True},
         {"show_invalid": True},
-        {"heat": "CONCAVITY"},
+        {"heat": "CONCAVITY", "show_crests": True},
     ):
         for name, value in shown.items():
             setattr(settings(), name, value)
+        film.ui.wait(3, redraw=True)  # all of them are asked for by then
         film.ui.wait_until(lambda: object_mode.views is not None and object_mode.views.is_complete, 60.0)
         film.at = (30.0, 30.0)  # the pointer lies beside what is taken
         picture = film.shot()[:, :, :3]
