@@ -104,3 +104,29 @@ def test_a_sphere_has_none() -> None:
     assert len(none) == len(none.segments) == 0
     assert none.line_at(3) is None
     assert not none.at_vertices(len(points)).any()
+
+
+def crossed() -> Crests:
+    """Return two lines that pass one vertex, 5, the second a valley."""
+    return Crests(
+        points=np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [0, 2, 0]]),
+        edges=np.array([[4, 5], [5, 6], [6, 7], [5, 8], [8, 9]], dtype=np.int32),
+        parts=np.array([0.9, 0.1, 0.4, 0.0, 1.0]),
+        faces=np.array([0, 1, -1, 2, -1], dtype=np.int32),
+        curvatures=np.array([2.0, 2.0, 2.0, -1.0, -1.0]),
+        starts=np.array([0, 3, 5], dtype=np.int32),
+        strengths=np.array([4.0, 1.5]),
+    )
+
+
+def test_where_lines_pass_one_vertex_the_stronger_counts() -> None:
+    assert crossed().at_vertices(11).tolist() == [0, 0, 0, 0, 0, 4.0, 4.0, 0, 0, -1.5, 0]
+    assert crossed().line_at(5) == 0
+
+
+def test_an_edge_that_only_leads_away_from_a_line_has_none() -> None:
+    # 5 and 6 lie beside the ridge, 9 beside the valley, and 10 beside neither.
+    assert crossed().line_at((6, 5)) == 0
+    assert crossed().line_at((9, 5)) == 1
+    assert crossed().line_at((6, 9)) is None
+    assert crossed().line_at((5, 10)) is None

@@ -9,13 +9,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .network import FacePoint
+from .network import FacePoint, Wire
 
 if TYPE_CHECKING:
     import seamwire_core
     from numpy.typing import NDArray
 
-    from .network import Pick
+    from .network import LoopKind, Pick
+
+CREST_KINDS: tuple[LoopKind, ...] = ("RIDGE", "VALLEY")
+"""What their offers are."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +73,11 @@ class Crests:
         return np.repeat(np.arange(len(self)), np.diff(self.starts))
 
     @cached_property
+    def vertices(self) -> NDArray[np.int32]:
+        """The vertex that each point is nearest to on its edge, (p,)."""
+        return self.edges[np.arange(len(self.edges)), np.round(self.parts).astype(np.int64)]
+
+    @cached_property
     def ridges(self) -> NDArray[np.bool_]:
         """Which lines are ridges, (k,); the others are valleys."""
         return self.curvatures[self.starts[:-1]] > 0.0
@@ -82,14 +90,27 @@ class Crests:
         return self.points[mine], faces
 
     def line_at(self, pick: Pick) -> int | None:
-        """Return the strongest line that crosses an edge of a vertex, this edge, or the triangle of a point; None: there is none."""
+        """Return the strongest line at a pick; None: there is none.
+
+        It crosses an edge of a vertex, the triangle of a point, or this edge, or it runs beside that.
+        """
         if isinstance(pick, FacePoint):
             found = self.owners[self.faces == pick.triangle]
         elif isinstance(pick, tuple):
-            found = self.owners[(self.edges == np.sort(pick)).all(axis=1)]
+            beside = [set(self.owners[self.vertices == vertex].tolist()) for vertex in pick]
+            crossing = self.owners[(self.edges == np.sort(pick)).all(axis=1)].tolist()
+            return min({*crossing, *(beside[0] & beside[1])}, default=None)
         else:
             found = self.owners[(self.edges == pick).any(axis=1)]
         return int(found.min()) if len(found) else None
+
+    def offer(self, pick: Pick) -> Wire | None:
+        """Return the line at a pick as a wire to be shown; it marks nothing."""
+        number = self.line_at(pick)
+        if number is None:
+            return None
+        kind: LoopKind = "RIDGE" if self.ridges[number] else "VALLEY"
+        return Wire("SURFACE", (), self.line(number)[0], pick, pick, kind=kind)
 
     def place_at(self, piece: int, place: NDArray[np.float64]) -> tuple[NDArray[np.float64], int, int]:
         """Return the point of a piece that is nearest to a place, (3,), its triangle, and the vertex that it is nearest to.
@@ -102,14 +123,12 @@ class Crests:
         square = float(along @ along)
         part = float(np.clip((place - ends[0]) @ along / square, 0.0, 1.0)) if square > 0.0 else 0.0
         end = start + round(part)
-        vertex = int(self.edges[end][round(float(self.parts[end]))])
-        return ends[0] + part * along, int(self.faces[start]), vertex
+        return ends[0] + part * along, int(self.faces[start]), int(self.vertices[end])
 
     def at_vertices(self, count: int) -> NDArray[np.float64]:
         """Return for each of so many vertices the strength of the strongest line beside it, below 0 that of a valley; 0: none."""
         values = np.zeros(count)
-        vertices = self.edges[np.arange(len(self.edges)), np.round(self.parts).astype(np.int64)]
         signed = np.where(self.ridges, self.strengths, -self.strengths)[self.owners]
         # The strongest lines are written last.
-        values[vertices[::-1]] = signed[::-1]
+        values[self.vertices[::-1]] = signed[::-1]
         return values

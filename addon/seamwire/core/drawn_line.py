@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A line drawn by dragging, and the network that its wires are kept in."""
+"""A line drawn by dragging, or a ridge that was clicked on, and the network that its wires are kept in."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 @dataclass
 class DrawnLine:
-    """A line that is drawn by dragging.
+    """A line that wires follow, drawn by dragging or a ridge.
 
     Parameters
     ----------
@@ -33,12 +33,15 @@ class DrawnLine:
         Whether it goes on from the live wire's seed, so that the chain goes on behind it.
     end
         What is under the cursor where it ends by now.
+    apart
+        Whether its wires are no part of a chain, and leave that which is drawn as it is.
     """
 
     line: Line
     begin: Snap
     goes_on: bool
     end: Snap | None = None
+    apart: bool = False
 
     @property
     def joined(self) -> Snap | None:
@@ -59,6 +62,8 @@ class DrawnLine:
         stops
             Knows where chains end.
         """
+        if self.apart:
+            return replace(network, wires=(*network.wires, *wires))
         for pick in (wires[0].start, wires[-1].end):
             network = self._with_seed_at(network, pick, points)
         seed = network.seed if self.goes_on else None

@@ -73,10 +73,10 @@ FOLLOWS: tuple[Literal["min", "max", "concave"], ...] = ("min", "max", "concave"
 """What the library calls its wires, by `Wire.follow`: they follow the direction of least curvature, that of most, concave creases
 (across the surface only). Files have these numbers."""
 
-LoopKind = Literal["CLOSED", "STRIP", "PAST", "WHOLE", "FLAT", "ACROSS", "HANDLE"]
+LoopKind = Literal["CLOSED", "STRIP", "PAST", "WHOLE", "FLAT", "ACROSS", "HANDLE", "RIDGE", "VALLEY"]
 """What a click takes as a whole. On an edge: the closed loop of the metric, the straight strip up to what is there already, the same
 past poles, the whole strip, the border of a flat region. On a point of the surface: a closed cut that separates, or one around or
-through a handle, which does not."""
+through a handle, which does not. On both: a ridge or a valley as far as it is one."""
 
 LOOP_NAMES: Mapping[LoopKind, str] = {
     "CLOSED": "closed loop",
@@ -86,6 +86,8 @@ LOOP_NAMES: Mapping[LoopKind, str] = {
     "FLAT": "border of flat region",
     "ACROSS": "closed cut",
     "HANDLE": "cut of a handle",
+    "RIDGE": "ridge",
+    "VALLEY": "valley",
 }
 """What the artist reads of them."""
 

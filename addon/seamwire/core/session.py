@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from .candidates import CandidateWires, only_vertices
+from .crests import CREST_KINDS
 from .defaults import CLAMP_PERCENTILE, CLAMP_RANGE, STRENGTH_RANGE, STRENGTH_STEP, STRENGTHS
 from .drawn_line import DrawnLine
 from .edge_loops import LoopOffers, taken
@@ -36,6 +37,7 @@ from .symmetry import Symmetry
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
+    from .crests import Crests
     from .line_drawing import Line
     from .network import Along, Edge, Finish, LoopKind, Pick
     from .offers import Offers
@@ -125,6 +127,9 @@ class Session:
         self._edge_loops = LoopOffers(self._engines, self._stops, points, flat)
         self._cuts = SurfaceLoops(self._engines, triangles)
         self._told_none = False
+        self._crests: Crests | None = None
+        self._crests_first = False
+        self._crest_taken: Pick | None = None
         self._extension = Extension(self._engines, self._stops, points)
         self._drag: SeedDrag | None = None
         self._line: DrawnLine | None = None
@@ -156,6 +161,8 @@ class Session:
             return
         target = None if snap is None else Snap.of(snap)
         self._aim(target)
+        if target is None or undirected(target.pick) != self._crest_taken:
+            self._crest_taken = None
         asked = target.pick if loop and target is not None and self._loops.takes(target.pick) else None
         self.revision += self._loops.aim(asked)
         self._show_offers()
@@ -213,6 +220,8 @@ class Session:
         if self.along == "SURFACE":
             return self._cut_around(target, choice)
         self._take_back_click(edge)
+        if shown.edge == undirected(edge) and shown.wire is not None and shown.wire.kind in CREST_KINDS:
+            return self._along_crest(edge)
         own = self._network.taken_through(edge)
         if own is not None and own.marks == self.marking:
             # Of a double click, the first press took it already.
@@ -222,6 +231,10 @@ class Session:
             if self.computing:
                 return self._postpone("loop", target)
             return self._refuse(self.message or f"No edges run on from {name(edge)}")
+        if offers[min(choice, len(offers) - 1)].kind in CREST_KINDS:
+            return self._along_crest(edge)
+        choice -= offers[0].kind in CREST_KINDS
+        offers = tuple(offer for offer in offers if offer.kind not in CREST_KINDS)
         wire = replace(taken(offers, min(choice, len(offers) - 1), self.marking), mirror=self._network.mirror)
         return self._change(replace(self._network, wires=(*self.wires, wire)))
 
@@ -232,9 +245,27 @@ class Session:
             return self._postpone("loop", target)
         if not offers:
             return self._refuse(self.message or self._cuts.NONE)
-        pieces = self._cuts.take(target.pick, offers[min(choice, len(offers) - 1)])
+        offer = offers[min(choice, len(offers) - 1)]
+        if offer.kind in CREST_KINDS:
+            return self._along_crest(target.pick)
+        pieces = self._cuts.take(target.pick, offer)
         wires = [self._as_drawn(piece.anew()) for piece in pieces]
         return self._change(replace(self._network, wires=(*self.wires, *wires)))
+
+    def _along_crest(self, pick: Pick) -> bool:
+        """Keep wires that follow the ridge or valley at a pick, as soon as they are computed; one step for undo."""
+        number = None if self._crests is None else self._crests.line_at(pick)
+        if self._crests is None or number is None or self._triangles is None:
+            return self._refuse(f"No ridge or valley runs at {name(pick)}")
+        points, triangles = self._crests.line(number)
+        first = FacePoint.at(points[0], int(triangles[0]), self._triangles, self._points)
+        anywhere = self.marking and self.finish == "CUT"
+        begin: Pick = first if anywhere and self.along == "SURFACE" else first.vertex
+        line = self._new_line(begin, None, None)
+        line.to(points, triangles, None, self._stops.kept(self._network))
+        self._cuts.was_taken(pick)
+        self._crest_taken = undirected(pick)
+        return self._finish_line(DrawnLine(line, Snap(begin), False, apart=True))
 
     def toggle(self) -> bool:
         """Make the next of the wires the active one, until it is kept; of what is offered for an edge, the next."""
@@ -401,6 +432,21 @@ class Session:
         self.revision += 1
         return True
 
+    # Ridges and valleys
+
+    @property
+    def wants_crests(self) -> bool:
+        """Whether `use_crests` is to be told of ridges and valleys: what a click offers is asked for."""
+        return self._loops.wanted
+
+    def use_crests(self, crests: Crests | None, first: bool) -> None:
+        """Offer wires along the mesh's ridges and valleys: where they are seen as the `first` of what a click offers, else as the last."""
+        if crests is self._crests and first == self._crests_first:
+            return
+        self._crests, self._crests_first = crests, first
+        if self._loops.wanted and self.target is not None:
+            self.revision += self._loops.show(self.target.pick, self._find_offers(self.target.pick))
+
     # Drawing by dragging
 
     def goes_on_from(self, snap: Snap | Pick) -> bool:
@@ -417,27 +463,30 @@ class Session:
         self.stop_preview()
         goes_on = self.goes_on_from(begin)
         seed = self._network.seed if goes_on else None
-        if self.along == "EDGES":
-            vertex: int | None = None
-            if seed is not None:
-                vertex = seed.vertex
-            elif isinstance(begin.pick, int):
-                vertex = begin.pick
-            before = seed.pick if seed is not None and seed.forward and isinstance(seed.pick, tuple) else None
-            line: Line = EdgeLine(self._engines, self._points, vertex, before)
-        else:
-            if self._triangles is None:
-                return self._refuse("Lines across the surface need the triangles of the mesh")
-            place = begin.pick if seed is None else seed.begins("SURFACE")
-            anywhere = self.marking and self.finish == "CUT"
-            line = SurfaceLine(self._engines, self._points, self._triangles, place, anywhere)
-        self._line = DrawnLine(line, begin, goes_on)
+        if self.along == "SURFACE" and self._triangles is None:
+            return self._refuse("Lines across the surface need the triangles of the mesh")
+        vertex: int | None = None
+        if seed is not None:
+            vertex = seed.vertex
+        elif isinstance(begin.pick, int):
+            vertex = begin.pick
+        before = seed.pick if seed is not None and seed.forward and isinstance(seed.pick, tuple) else None
+        place = begin.pick if seed is None else seed.begins("SURFACE")
+        self._line = DrawnLine(self._new_line(place, vertex, before), begin, goes_on)
         self._last_click = None
         self._candidates.clear()
         self._loops.clear()
         self.message = ""
         self.revision += 1
         return True
+
+    def _new_line(self, place: Pick, vertex: int | None, before: Edge | None) -> Line:
+        """Return a line from a place across the surface; along edges from a vertex, None: the nearest one, after an edge."""
+        if self.along == "EDGES":
+            return EdgeLine(self._engines, self._points, vertex, before)
+        assert self._triangles is not None
+        anywhere = self.marking and self.finish == "CUT"
+        return SurfaceLine(self._engines, self._points, self._triangles, place, anywhere)
 
     def line_to(self, points: NDArray[np.float64], triangles: NDArray[np.int32], snap: Snap | Pick | None) -> bool:
         """Draw the line on.
@@ -469,6 +518,10 @@ class Session:
         drawn, self._line = self._line, None
         if drawn is None:
             return self._refuse("No line is being drawn")
+        return self._finish_line(drawn)
+
+    def _finish_line(self, drawn: DrawnLine) -> bool:
+        """Keep the wires that follow a line, as soon as they are computed."""
         drawn.line.finish()
         self._read_progress()
         self.revision += 1
@@ -491,7 +544,8 @@ class Session:
         wires = drawn.line.wires
         if not wires:
             self._aim_again()
-            return self._refuse(drawn.line.message or "Drag farther along the surface to draw a line")
+            none = "No wire follows this line" if drawn.apart else "Drag farther along the surface to draw a line"
+            return self._refuse(drawn.line.message or none)
         told = drawn.line.message
         drawn_as = tuple(self._as_drawn(wire) for wire in wires)
         if not self._change(drawn.kept_in(self._network, drawn_as, self._points, self._stops)):
@@ -1144,10 +1198,19 @@ class Session:
         try:
             # What a click on an edge offers is found along edges, however wires run now.
             offers = self._edge_loops if isinstance(pick, tuple) else self._cuts
-            return offers.find(pick, self._network, kept)
+            return self._with_crest(pick, offers.find(pick, self._network, kept), kept)
         except ValueError as error:
             self.message = str(error)
             return ()
+
+    def _with_crest(self, pick: Pick, offers: tuple[Wire, ...], kept: Wire | None) -> tuple[Wire, ...]:
+        """Return what is offered with the ridge or valley at a pick: first where these are seen, else last."""
+        # What is known first must not be what a click takes while others are computed.
+        ready = offers or (self._edge_loops if isinstance(pick, tuple) else self._cuts).final or self._crests_first
+        crest = self._crests.offer(pick) if self._crests is not None and kept is None and ready else None
+        if crest is None or undirected(pick) == self._crest_taken:
+            return offers
+        return (crest, *offers) if self._crests_first else (*offers, crest)
 
     def _show_offers(self) -> None:
         """Show what a click on the edge under the cursor may take, as soon as it is asked for and computed."""

@@ -70,8 +70,12 @@ class SurfaceLoops(Offers):
 
     def take(self, pick: Pick, offer: Wire) -> tuple[Wire, ...]:
         """Return the wires that an offer found last consists of: a closed chain with seeds where they meet."""
-        self._taken, self.wanted = pick, False
+        self.was_taken(pick)
         return self._pieces[offer.id]
+
+    def was_taken(self, pick: Pick) -> None:
+        """Offer nothing until another pick: something was taken at this one."""
+        self._taken, self.wanted = pick, False
 
     def _pieces_of(self, cut: ClosedCut, pick: Pick) -> tuple[Wire, ...]:
         assert self._triangles is not None

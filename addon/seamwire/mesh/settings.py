@@ -130,7 +130,7 @@ class SeamwireSettings(bpy.types.PropertyGroup):
     )
     snap: bpy.props.BoolProperty(
         name="Snap to Features",
-        description="Snap to the strongest feature within a few pixels of the cursor",
+        description="Snap to ridges and valleys, else to the strongest feature, within a few pixels of the cursor",
         default=False,
         update=_changed,
     )

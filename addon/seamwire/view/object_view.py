@@ -138,7 +138,10 @@ class ObjectView:
 
     def _follow_views(self) -> None:
         session = self.session
-        self.views.follow(chosen.settings(), session.along, self._source(), session.metric_scribbles)
+        settings = chosen.settings()
+        crests = settings.snap or session.wants_crests
+        self.views.follow(settings, session.along, self._source(), session.metric_scribbles, crests)
+        session.use_crests(self.views.crests, settings.show_crests)
 
     def _source(self) -> Source | None:
         """Return where distances are shown from: the seed of the chain, else the active vertex, else the last seed."""
@@ -156,7 +159,9 @@ class ObjectView:
 
     def poll(self) -> bool:
         """Take in what was computed; return whether there is something new to be seen."""
-        return any((self.session.poll(), self.overlay.poll(), self.views.poll()))
+        told = self.views.poll()
+        self.session.use_crests(self.views.crests, chosen.settings().show_crests)
+        return any((self.session.poll(), self.overlay.poll(), told))
 
     def shows(self, update: bpy.types.DepsgraphUpdate) -> bool:
         """Whether an update of Blender's tells of a change of the mesh, whichever it is."""
@@ -171,18 +176,21 @@ class ObjectView:
         That is the mesh's nearest edge, or across the surface its nearest vertex or the point itself.
         """
         settings = chosen.settings()
+        across = self.session.along == "SURFACE"
         if settings.snap and self._strength is None:
             self._strength = self.session.feature_strength()
         return self._picker.snap(
             view,
             self.obj.matrix_world,
             cursor,
-            vertices_only=self.session.along == "SURFACE",
-            edges_only=plain and self.session.along == "EDGES",
-            anywhere=self.session.along == "SURFACE" and self.session.marking and self.session.finish == "CUT",
+            vertices_only=across,
+            edges_only=plain and not across,
+            anywhere=across and self.session.marking and self.session.finish == "CUT",
             session=None if plain else self.session,
             xray=settings.xray,
             strength=self._strength if settings.snap and not plain else None,
+            # A loop leads through what is seen: a ridge that is shown is as good as under the cursor.
+            crests=self.views.crests if (settings.show_crests and across if plain else settings.snap) else None,
             scale=bpy.context.preferences.system.ui_scale,
         )
 

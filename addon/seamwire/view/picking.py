@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from mathutils import Matrix
     from numpy.typing import ArrayLike, NDArray
 
+    from ..core.crests import Crests
     from ..core.network import Pick, Wire
     from ..core.session import Session
     from ..core.strokes import Scribble
@@ -155,6 +156,7 @@ class Picker:
         self._seam_edges = np.asarray(seams, dtype=np.int64).reshape(-1, 2)
         self._drawn: _Drawn | None = None
         self._strength: tuple[object, float] = (None, 0.0)
+        self._crests: tuple[Crests | None, _Segments] = (None, _Segments([]))
         bm.verts.ensure_lookup_table()
         bm.faces.ensure_lookup_table()
 
@@ -196,6 +198,7 @@ class Picker:
         session: Session | None = None,
         xray: bool = False,
         strength: NDArray[np.float64] | None = None,
+        crests: Crests | None = None,
         scale: float = 1.0,
     ) -> Snap | None:
         """Return what a click would take: a seed before a wire, a wire before a seam, a seam before the plain mesh.
@@ -218,6 +221,8 @@ class Picker:
             Find what lies behind faces too; the nearest on the screen.
         strength
             (n,) how strong the feature is at each vertex; then the strongest one nearby is taken.
+        crests
+            Ridges and valleys; then what lies on one nearby is taken before all else of the plain mesh.
         scale
             Of the display.
         """
@@ -233,8 +238,13 @@ class Picker:
             pick = self._point_at(view, matrix, cursor, scale) if anywhere else None
             if pick is None:
                 pick = self.pick(view, matrix, cursor, vertices_only, scale, edges_only)
-        if pick is None or strength is None:
-            return None if pick is None else Snap(pick)
+        if pick is None:
+            return None
+        crest = None if crests is None else self._crest_at(view, matrix, cursor, crests, anywhere, xray, scale)
+        if crest is not None:
+            return Snap(crest, "FEATURE")
+        if strength is None:
+            return Snap(pick)
         feature = self._feature_at(view, matrix, cursor, pick, strength, xray, scale)
         return Snap(pick) if feature is None else Snap(feature, "FEATURE")
 
@@ -318,6 +328,31 @@ class Picker:
         return bool(before <= 6.0 * view.pixel_size(world))
 
     # Features
+
+    def _crest_at(
+        self,
+        view: View,
+        matrix: Matrix,
+        cursor: tuple[float, float],
+        crests: Crests,
+        anywhere: bool,
+        xray: bool,
+        scale: float,
+    ) -> Pick | None:
+        """Return the nearest point of a ridge or valley within reach of the cursor, else a vertex beside one that is as near."""
+        if self._crests[0] is not crests:
+            ends = self._in_object(crests.segments.reshape(-1, 3)).reshape(-1, 2, 3)
+            self._crests = crests, _Segments(list(ends))
+        for piece, seen in self._crests[1].near(view, matrix, cursor, FEATURE_REACH * scale):
+            if not (xray or self.sees(view, matrix, seen)):
+                continue
+            place, triangle, vertex = crests.place_at(piece, self._to_points @ seen)
+            if anywhere:
+                return FacePoint.at(place, triangle, self._triangles, self._points)
+            pixel = view.to_pixels(np.array(matrix @ self._bm.verts[vertex].co, dtype=np.float64)[None])[0]
+            if np.linalg.norm(pixel - np.asarray(cursor)) <= FEATURE_REACH * scale:
+                return vertex
+        return None
 
     def _feature_at(
         self,
