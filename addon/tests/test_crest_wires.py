@@ -147,7 +147,7 @@ def test_a_loop_that_is_kept_does_not_become_a_ridge() -> None:
     session, edge = sheet.session, sheet.pick()
     assert session.loop(edge)
     session.wait()
-    session.use_crests(sheet.crests, True)
+    session.use_crests(sheet.crests, False)
     # Stored, it has lost what else was offered: that is found anew.
     session.adopt(replace(session.kept, wires=tuple(replace(wire, offers=()) for wire in session.wires)), [])
     for _ in range(4):
