@@ -8,7 +8,8 @@ import bpy
 import numpy as np
 import pytest
 from scene import add_grid, add_suzanne, edit, seams, snapshot
-from seamwire.mesh import edit_mesh, seam_islands
+from seamwire.mesh import edit_mesh, seam_islands, unwrap, uv_map
+from seamwire.mesh.suggestion import Suggestion
 from stored import agree, chains, session_on
 
 
@@ -116,6 +117,72 @@ def test_the_worst_island_is_parted_and_no_other() -> None:
     for pair in set(seams(obj)) - old:
         around = {face.index for face in bm.edges.get([bm.verts[v] for v in pair]).link_faces}
         assert around <= faces
+
+
+def unwrapped_ball(islands: int) -> bpy.types.Object:
+    obj = add_ball()
+    edit()
+    bpy.ops.mesh.seamwire_suggest(limit="ISLANDS", islands=islands, unwrap=True)
+    return obj
+
+
+def test_of_the_cuts_that_part_the_worst_island_the_one_that_lowers_its_stretch_most_is_taken() -> None:
+    obj = add_suzanne(2)
+    edit()
+    bpy.ops.mesh.seamwire_suggest(limit="DISCS", unwrap=True)
+    trial = Suggestion(obj, None, True, (24,), None)
+    trial.prepare(lambda _: True)
+    worst = trial.worst()
+    plans = trial.parting(worst)
+    found = []
+    for plan in plans:
+        trial.use(plan)
+        trial.write()
+        with unwrap.taken_back(obj):
+            unwrap.unwrap_changed(bpy.context)
+            found.append((plan.island_count, trial.stretch_within(worst.faces)))
+        trial.take_back()
+    lower = [(count, stretched) for count, stretched in found if stretched < worst.value]
+    fewest = lower[0][0]
+    least = min(stretched for count, stretched in lower if count <= fewest + 1)
+    assert least < lower[0][1] - 0.01
+    assert bpy.ops.mesh.seamwire_suggest(limit="WORST", unwrap=True) == {"FINISHED"}
+    arrays = edit_mesh.read(obj)
+    labels = seam_islands.labels_of(arrays)
+    after = seam_islands.stretch_of(obj, arrays, labels)
+    parts = np.unique(labels[np.isin(arrays.polygons, worst.faces)])
+    assert np.maximum(after.angle, after.area)[parts].max() == pytest.approx(least, abs=1e-4)
+
+
+def test_unless_asked_to_unwrap_the_worst_island_is_parted_with_its_uvs_kept() -> None:
+    obj = unwrapped_ball(3)
+    before, old, edges_before = uv_map.read_uvs(obj), seams(obj), unwrap._Map(obj).remembered()
+    assert bpy.ops.mesh.seamwire_suggest(limit="WORST", unwrap=False) == {"FINISHED"}
+    assert set(seams(obj)) > set(old)
+    assert np.array_equal(uv_map.read_uvs(obj), before)
+    assert unwrap._Map(obj).remembered() == edges_before
+
+
+def test_another_object_without_uvs_gets_none_from_parting_the_worst_island() -> None:
+    one = unwrapped_ball(3)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    other = add_ball("Other")
+    for obj in (one, other):
+        obj.select_set(True)
+    edit()
+    assert bpy.ops.mesh.seamwire_suggest(limit="WORST", unwrap=False) == {"FINISHED"}
+    assert len(other.data.uv_layers) == 0
+    assert seams(other)  # a ball is no disc
+
+
+def test_where_no_cut_lowers_the_worst_stretch_nothing_changes() -> None:
+    obj = add_grid(6)
+    edit()
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.uv.unwrap()
+    before = snapshot(obj)
+    assert bpy.ops.mesh.seamwire_suggest(limit="WORST", unwrap=True) == {"CANCELLED"}
+    assert snapshot(obj) == before
 
 
 def test_seams_that_are_there_stay_and_are_no_wires(suzanne: bpy.types.Object) -> None:

@@ -21,7 +21,9 @@ import numpy as np
 import seamwire_core as sw
 from scipy.spatial import KDTree
 
+sys.path.insert(0, str(Path(__file__).parents[2] / "scripts/lib"))
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
+from figure_models import read
 from seamwire.core.geometry import barycentric, nearest_on_segments  # these know no Blender
 from seamwire.core.sliding import places, plan
 
@@ -38,7 +40,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("meshes", nargs="+", type=Path)
     for path in parser.parse_args().meshes:
-        points, triangles = _read(path)
+        points, triangles = read(path)
         sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
         edges = np.unique(sides, axis=0)
         unit = float(np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1).mean())
@@ -96,13 +98,6 @@ class _Mesh:
 
     def is_edge(self, _a: int, _b: int) -> bool:
         return True
-
-
-def _read(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    lines = [line.split() for line in path.read_text().splitlines()]
-    points = np.array([line[1:4] for line in lines if line[:1] == ["v"]], dtype=np.float64)
-    faces = [[int(corner.split("/")[0]) - 1 for corner in line[1:]] for line in lines if line[:1] == ["f"]]
-    return points, np.array(faces, dtype=np.int32)
 
 
 def _along(chain: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -65,6 +65,7 @@ void bind_seams(py::module_& module) {
           "(m,) int32: the island of each triangle, numbered as by `face_segments`.")
       .def_readonly("island_count", &SeamPlan::island_count)
       .def_readonly("not_discs", &SeamPlan::not_discs, "How many islands are no discs: there were not seeds enough.")
+      .def_readonly("cost", &SeamPlan::cost, "The lengths of the wires, each over its worth; the less, the better.")
       .def("__repr__", [](const SeamPlan& plan) {
         return "<SeamPlan: " + std::to_string(plan.wires.size()) + " wires, " + std::to_string(plan.island_count) +
                " islands>";

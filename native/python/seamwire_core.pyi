@@ -423,6 +423,7 @@ class SeamPlan:
     islands: NDArray[np.int32]
     island_count: int
     not_discs: int
+    cost: float
 
 class SeamPlanner:
     """Plans a network of wires that cuts a surface into discs."""

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <memory>
 #include <random>
 #include <set>
@@ -119,6 +120,39 @@ TEST(SeamPlanner, CutsIntoDiscs) {
     EXPECT_FALSE(plan.wires.empty());
     expect_discs(*surface, plan);
   }
+}
+
+double length_of(const std::vector<Vector>& curve) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < curve.size(); ++i) sum += (curve[i] - curve[i - 1]).norm();
+  return sum;
+}
+
+TEST(SeamPlanner, ACutGraphTakesNoDetoursOverSeeds) {
+  const auto torus = shared(shapes::torus(32, 16).surface());
+  for (const std::size_t seeds : {24, 60}) {
+    const SeamPlannerOptions options{.strength = {.max_anisotropy = 1.0}, .seeds = seeds};
+    const SeamPlan plan = SeamPlanner(torus, options).plan({.max_spread = 1.0});
+    expect_discs(*torus, plan);
+    double length = 0.0;
+    for (const PlannedWire& wire : plan.wires) length += length_of(wire.points);
+    // Around the tube once, and around the hole on its inner side.
+    EXPECT_LT(length, 1.6 * 2.0 * std::numbers::pi * (0.15 + 0.2)) << seeds << " seeds";
+  }
+}
+
+TEST(SeamPlanner, WhereNothingIsFollowedOrHiddenAPlanCostsItsLength) {
+  const auto cylinder = shared(shapes::cylinder(24, 16).surface());
+  const SeamPlannerOptions options{.strength = {.max_anisotropy = 1.0}, .seeds = 2};
+  const SeamPlan plan = SeamPlanner(cylinder, options).plan({.max_spread = 1.0});
+  ASSERT_FALSE(plan.wires.empty());
+  double length = 0.0;
+  for (const PlannedWire& wire : plan.wires) {
+    std::vector<Vector> chain;
+    for (const std::int32_t v : wire.vertices) chain.push_back(cylinder->points()[v]);
+    length += length_of(chain);
+  }
+  EXPECT_NEAR(plan.cost, length, 1e-9 * length);
 }
 
 TEST(SeamPlanner, ADiscThatIsFlatEnoughNeedsNoSeam) {

@@ -19,10 +19,12 @@ if TYPE_CHECKING:
 
 _DENSE = 5_000
 """Triangles of a mesh from which on they are taken for those of a scan or a sculpt."""
-_NARROWER = 0.6
+NARROWER = 0.6
 """What is left of an island's spread where it was stretched too much."""
 _SEEDS = 24, 400
 """Seeds to choose wires between: at least, and at most."""
+SEEDS_TO_OPEN = 24, 300
+"""Where islands are to be discs and no more: the fewer are enough on smooth shapes, the more lie on all that is worth following."""
 
 
 def best_along(polygons: NDArray[np.int32]) -> Along:
@@ -92,6 +94,7 @@ def narrowed(
     stretched: Collection[int] | Sequence[int],
     islands: NDArray[np.int32],
     island_spreads: NDArray[np.float64],
+    left: float = NARROWER,
 ) -> NDArray[np.float64]:
     """Return limits with which islands that were stretched too much are planned smaller.
 
@@ -105,7 +108,9 @@ def narrowed(
         (m,) the island of each triangle.
     island_spreads
         How far they did spread, see `spreads`.
+    left
+        What is left of that.
     """
     is_stretched = np.zeros(len(island_spreads), dtype=bool)
     is_stretched[list(stretched)] = True
-    return np.where(is_stretched[islands], _NARROWER * np.minimum(limits, island_spreads[islands]), limits)
+    return np.where(is_stretched[islands], left * np.minimum(limits, island_spreads[islands]), limits)

@@ -14,7 +14,7 @@ from .object_session import ObjectSession, mirror_axes
 from .seam_islands import Worst, stretch_of, worst_island
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     import bpy
     import seamwire_core
@@ -27,6 +27,8 @@ _MORE_SEEDS = 120
 """How many more seeds than at first there may be for pieces that are no discs."""
 _MOST_DOUBLINGS = 3
 """How often there are twice as many seeds for smaller islands."""
+_TRIED = (0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3)
+"""What may be left of the spread of an island that is parted for its stretch."""
 
 
 class Suggestion:
@@ -41,7 +43,7 @@ class Suggestion:
     symmetric
         Whether they come in pairs where the mesh is symmetric.
     seeds
-        How many seeds there are to begin with.
+        How many seeds there are to begin with; of several such numbers the one that makes the better seams.
     finish
         What becomes the seam of wires across the surface; None: as is best for the mesh.
 
@@ -61,16 +63,16 @@ class Suggestion:
     """
 
     def __init__(
-        self, obj: bpy.types.Object, along: Along | None, symmetric: bool, seeds: int, finish: Finish | None
+        self, obj: bpy.types.Object, along: Along | None, symmetric: bool, seeds: Sequence[int], finish: Finish | None
     ) -> None:
         self._core = native.load()
         self.mesh = ObjectSession(obj)
         self.along: Along = along or best_along(self.mesh.arrays.polygons)
         self._symmetric = symmetric
-        self._seeds, self._most_seeds = seeds, seeds << _MOST_DOUBLINGS
+        self._seeds, self._most_seeds = tuple(seeds), max(seeds) << _MOST_DOUBLINGS
         self.finish: Finish = finish or best_finish(self.mesh.arrays.polygons)
         self._mirror = mirror_axes(obj.data)
-        self._planner: seamwire_core.SeamPlanner | None = None
+        self._planners: list[seamwire_core.SeamPlanner] = []
         self._limits: NDArray[np.float64] | None = None
         self.plan: seamwire_core.SeamPlan | None = None
         self.wires: list[Wire] = []
@@ -89,26 +91,37 @@ class Suggestion:
         axes = (self._mirror or self.mesh.session.symmetric_axes)[:1] if self._symmetric else ()
         if axes:
             images = self.mesh.session.partners(axes)
-        self._planner = self._core.SeamPlanner(
-            self._core.Surface(arrays.points, arrays.triangles, arrays.edges),
-            along=self.along.lower(),
-            max_anisotropy=STRENGTHS[self.along],
-            clamp_percentile=CLAMP_PERCENTILE,
-            seeds=self._seeds,
-            most_seeds=self._seeds + _MORE_SEEDS,
-            images=images,
-            seams=arrays.seams,
-            progress=progress,
-        )
+        surface = self._core.Surface(arrays.points, arrays.triangles, arrays.edges)
+        self._planners = [
+            self._core.SeamPlanner(
+                surface,
+                along=self.along.lower(),
+                max_anisotropy=STRENGTHS[self.along],
+                clamp_percentile=CLAMP_PERCENTILE,
+                seeds=seeds,
+                most_seeds=seeds + _MORE_SEEDS,
+                images=images,
+                seams=arrays.seams,
+                progress=lambda fraction, done=done: progress((done + fraction) / len(self._seeds)),
+            )
+            for done, seeds in enumerate(self._seeds)
+        ]
 
     def suggest(self, max_spread: float, islands: int = 0) -> None:
         """Choose wires; `islands` as ``seamwire_core.SeamPlanner.plan`` has it."""
-        assert self._planner is not None
         if self._limits is None:
             self._limits = np.full(len(self.mesh.arrays.triangles), max_spread)
         cuts = self.along == "SURFACE" and self.finish == "CUT"
-        self.plan = self._planner.plan(max_spread=self._limits, islands=islands, may_start_on_others=not cuts)
-        self.wires = planned_wires(self.plan, self.along, STRENGTHS[self.along])
+        plans = [
+            planner.plan(max_spread=self._limits, islands=islands, may_start_on_others=not cuts)
+            for planner in self._planners
+        ]
+        self.use(min(plans, key=lambda plan: (plan.not_discs, plan.cost)))
+
+    def use(self, plan: seamwire_core.SeamPlan) -> None:
+        """Suggest the wires of a plan."""
+        self.plan = plan
+        self.wires = planned_wires(plan, self.along, STRENGTHS[self.along])
 
     def write(self) -> None:
         """Keep the wires with the mesh."""
@@ -134,8 +147,8 @@ class Suggestion:
         arrays, islands = self.mesh.arrays, self.plan.islands
         self._limits = narrowed(self._limits, stretched, islands, spreads(arrays.points, arrays.triangles, islands))
         self.suggest(0.0)
-        if self.plan.island_count <= before and self._seeds < self._most_seeds:
-            self._seeds = min(2 * self._seeds, self._most_seeds)
+        if self.plan.island_count <= before and max(self._seeds) < self._most_seeds:
+            self._seeds = (min(2 * max(self._seeds), self._most_seeds),)
             self.prepare(lambda _: True)
             self.suggest(0.0)
 
@@ -144,10 +157,29 @@ class Suggestion:
         found = [worst_island(self.mesh.obj, kind) for kind in ("ANGLE", "AREA")]
         return max((one for one in found if one is not None), key=lambda one: one.value, default=None)
 
-    def part(self, island: Worst) -> None:
-        """Let the next suggestion have smaller islands in place of one that there is."""
+    def parting(self, island: Worst) -> list[seamwire_core.SeamPlan]:
+        """Return plans with smaller islands in place of one that there is, those with the fewest islands first."""
         arrays = self.mesh.arrays
-        inside = np.isin(arrays.polygons, island.faces)
-        labels = np.where(inside, 0, 1).astype(np.int32)
-        limits = np.full(len(inside), spread_of(np.pi))
-        self._limits = narrowed(limits, [0], labels, spreads(arrays.points, arrays.triangles, labels))
+        labels = np.where(np.isin(arrays.polygons, island.faces), 0, 1).astype(np.int32)
+        whole = np.full(len(labels), spread_of(np.pi))
+        own = spreads(arrays.points, arrays.triangles, labels)
+        # Wires may also be slits within an island: it is they that tell plans apart.
+        plans: dict[frozenset[bytes], seamwire_core.SeamPlan] = {}
+        for left in _TRIED:
+            self._limits = narrowed(whole, [0], labels, own, left)
+            self.suggest(0.0)
+            assert self.plan is not None
+            if self.wires:
+                plans.setdefault(frozenset(wire.vertices.tobytes() for wire in self.plan.wires), self.plan)
+        self._limits = whole
+        return sorted(plans.values(), key=lambda plan: plan.island_count)
+
+    def stretch_within(self, faces: NDArray[np.int32]) -> float:
+        """Return how much the UV map stretches the planned islands that have some of these faces, at most, in octaves."""
+        assert self.plan is not None
+        arrays, islands = self.mesh.arrays, self.plan.islands
+        stretch = stretch_of(self.mesh.obj, arrays, islands)
+        if stretch is None:
+            return np.inf
+        parts = np.unique(islands[np.isin(arrays.polygons, faces)])
+        return float(np.maximum(stretch.angle, stretch.area)[parts].max())

@@ -164,6 +164,24 @@ class _Map:
         for face, within, uv in zip(faces.tolist(), (corners - starts[faces]).tolist(), uvs.tolist(), strict=True):
             bm.faces[face].loops[within][layer].uv = uv
 
+    def restore(self, remembered: Sequence[int]) -> None:
+        """Give all corners the places they had when this was read, and edges what `remembered` returned then."""
+        if self._uvs is not None:
+            moved = np.flatnonzero((uv_map.read_uvs(self.obj) != self._uvs).any(axis=1))
+            self.write(moved, self._uvs[moved])
+        bm = self.bm
+        layer = bm.edges.layers.int.get(UNWRAPPED)
+        if layer is not None:
+            for edge, value in zip(bm.edges, remembered, strict=True):
+                edge[layer] = value
+        bmesh.update_edit_mesh(self.obj.data, loop_triangles=False, destructive=False)
+
+    def remembered(self) -> list[int]:
+        """Return what the hidden layer holds of each edge."""
+        bm = self.bm
+        layer = bm.edges.layers.int.get(UNWRAPPED)
+        return [edge[layer] for edge in bm.edges] if layer is not None else [0] * len(bm.edges)
+
     def remember(self) -> None:
         """Let visible edges hold whether they were seams when they were unwrapped last."""
         bm = self.bm
@@ -175,8 +193,8 @@ class _Map:
         bmesh.update_edit_mesh(self.obj.data, loop_triangles=False, destructive=False)
 
 
-def unwrap_changed(context: bpy.types.Context) -> Unwrapped:
-    """Unwrap the islands whose seams have changed, of all objects in edit mode; selections stay.
+def unwrap_changed(context: bpy.types.Context, objects: Sequence[bpy.types.Object] | None = None) -> Unwrapped:
+    """Unwrap the islands whose seams have changed, of some objects in edit mode, else of all; selections stay.
 
     Where nothing stays, Blender's own packing is kept. Else each new island gets the texel density it had, and a place
     near its old one, see `core.uv_islands.place`; islands with pinned corners stay where Blender puts them.
@@ -187,7 +205,7 @@ def unwrap_changed(context: bpy.types.Context) -> Unwrapped:
         Where there is nothing to unwrap, or Blender cannot; then nothing is changed.
     """
     maps, problem = [], ""
-    for obj in context.objects_in_mode_unique_data:
+    for obj in context.objects_in_mode_unique_data if objects is None else objects:
         try:
             maps.append(_Map(obj))
         except ValueError as error:
@@ -212,6 +230,17 @@ def unwrap_changed(context: bpy.types.Context) -> Unwrapped:
     return Unwrapped(unwrapped, kept)
 
 
+@contextmanager
+def taken_back(obj: bpy.types.Object) -> Iterator[None]:
+    """Let an object in edit mode, which has a UV map, have the UVs afterwards that it has now: for unwrapping on trial."""
+    before = _Map(obj)
+    remembered = before.remembered()
+    try:
+        yield
+    finally:
+        before.restore(remembered)
+
+
 def _place(maps: Sequence[_Map]) -> None:
     """Move new islands to where there is room among those that stay."""
     taken = np.concatenate([found.staying() for found in maps])
@@ -229,6 +258,8 @@ def _only_selected(context: bpy.types.Context, maps: Sequence[_Map]) -> Iterator
     """Have nothing selected but the faces of the islands that have changed."""
     # Blender would make missing UV maps while it unwraps, and what is selected would be other items then.
     made = [(found.obj.data, found.obj.data.uv_layers.new()) for found in maps if not found.obj.data.uv_layers]
+    # It would make some, too, for objects of which nothing is selected.
+    bare = [obj.data for obj in context.objects_in_mode_unique_data if not obj.data.uv_layers]
     selections = [edit_mesh.Selection(obj) for obj in context.objects_in_mode_unique_data]
     try:
         bpy.ops.mesh.select_all(action="DESELECT")
@@ -242,6 +273,9 @@ def _only_selected(context: bpy.types.Context, maps: Sequence[_Map]) -> Iterator
             mesh.uv_layers.remove(layer)
         raise
     finally:
+        for mesh in bare:
+            for layer in list(mesh.uv_layers):
+                mesh.uv_layers.remove(layer)
         bpy.ops.mesh.select_all(action="DESELECT")
         for selection in selections:
             selection.restore()

@@ -8,6 +8,7 @@ import threading
 from typing import TYPE_CHECKING
 
 import bpy
+import numpy as np
 
 from ..mesh.settings import ALONG_ITEMS, AUTO_FINISH_ITEMS
 from .cut import cut_wires
@@ -47,7 +48,7 @@ class MESH_OT_seamwire_suggest(bpy.types.Operator):
             (
                 "WORST",
                 "Worst Island",
-                "Only the island that the UV map stretches most is parted again, and what is no disc",
+                "Only the island that the UV map stretches most is parted again, where that lowers it most, and what is no disc",
             ),
         ),
         default="BEND",
@@ -179,10 +180,10 @@ class MESH_OT_seamwire_suggest(bpy.types.Operator):
     def _begin(self, context: bpy.types.Context) -> list[Suggestion]:
         """Read the meshes in edit mode; report where that cannot be."""
         from ..core.native import NativeError
-        from ..core.suggestion import seeds_for
+        from ..core.suggestion import SEEDS_TO_OPEN, seeds_for
         from ..mesh.suggestion import Suggestion
 
-        seeds = seeds_for(self._spread, self._islands)
+        seeds = SEEDS_TO_OPEN if self.limit == "DISCS" else (seeds_for(self._spread, self._islands),)
         along, finish = (None if chosen == "AUTO" else chosen for chosen in (self.along, self.finish))
         found, problem = [], "No face is visible"
         for obj in context.objects_in_mode_unique_data:
@@ -220,11 +221,14 @@ class MESH_OT_seamwire_suggest(bpy.types.Operator):
 
     def _carry_out(self, context: bpy.types.Context, suggestions: Sequence[Suggestion]) -> set[str]:
         """Choose the wires, write or cut them, and unwrap."""
-        if self.limit == "WORST" and not _part_worst(suggestions):
-            self.report({"ERROR"}, "No visible face has UVs: unwrap first")
+        try:
+            parted = _part_worst(context, suggestions) if self.limit == "WORST" else None
+        except ValueError as error:
+            self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         for suggestion in suggestions:
-            suggestion.suggest(self._spread, self._islands)
+            if suggestion is not parted:
+                suggestion.suggest(self._spread, self._islands)
             suggestion.write()
         left = 0
         if self.limit == "STRETCH":
@@ -236,7 +240,8 @@ class MESH_OT_seamwire_suggest(bpy.types.Operator):
                 self.report({"ERROR"}, str(error))
                 return {"CANCELLED"}
         if not any(suggestion.wires for suggestion in suggestions):
-            self.report({"INFO"}, "The islands are discs already, and within the limit: nothing to add")
+            limit = "no cut lowers the worst stretch" if self.limit == "WORST" else "within the limit"
+            self.report({"INFO"}, f"The islands are discs already, and {limit}: nothing to add")
             return {"CANCELLED"}
         islands = sum(suggestion.plan.island_count for suggestion in suggestions)
         across = [suggestion for suggestion in suggestions if suggestion.along == "SURFACE" and suggestion.wires]
@@ -307,14 +312,52 @@ class MESH_OT_seamwire_suggest(bpy.types.Operator):
         return ""
 
 
-def _part_worst(suggestions: Sequence[Suggestion]) -> bool:
-    """Let the next suggestion part the island that is stretched most; False where there are no UVs."""
+def _part_worst(context: bpy.types.Context, suggestions: Sequence[Suggestion]) -> Suggestion | None:
+    """Let a suggestion be the one that lowers the stretch of the island most that is stretched most; None: none lowers it.
+
+    Of those that lower it at all, only the ones with the fewest islands count, and those with one more, for wires come in pairs
+    where the mesh is symmetric. Blender unwraps each of them; afterwards the UVs are as they were.
+
+    Raises
+    ------
+    ValueError
+        Where there are no UVs, or Blender cannot unwrap.
+    """
+    from ..core.native import NativeError
+    from ..mesh.unwrap import taken_back, unwrap_changed
+
     stretched = {suggestion: worst for suggestion in suggestions if (worst := suggestion.worst()) is not None}
     if not stretched:
-        return False
+        raise ValueError("No visible face has UVs: unwrap first")
     suggestion = max(stretched, key=lambda one: stretched[one].value)
-    suggestion.part(stretched[suggestion])
-    return True
+    worst = stretched[suggestion]
+    best, least, most_islands = None, worst.value, np.inf
+    plans, obj, progress = suggestion.parting(worst), suggestion.mesh.obj, context.window_manager
+    progress.progress_begin(0, len(plans))
+    try:
+        for number, plan in enumerate(plans):
+            progress.progress_update(number)
+            if plan.island_count > most_islands:
+                break
+            suggestion.use(plan)
+            suggestion.write()
+            try:
+                with taken_back(obj):
+                    unwrap_changed(context, [obj])
+                    stretch = suggestion.stretch_within(worst.faces)
+            finally:
+                suggestion.take_back()
+            if stretch < least:
+                best, least = plan, stretch
+                most_islands = min(most_islands, plan.island_count + 1)
+    except NativeError as error:
+        raise ValueError(str(error)) from error
+    finally:
+        progress.progress_end()
+    if best is None:
+        return None
+    suggestion.use(best)
+    return suggestion
 
 
 def register() -> None:

@@ -25,6 +25,7 @@ def test_islands_are_those_that_the_wires_enclose(torus: sw.Surface, planner: sw
     np.testing.assert_array_equal(plan.islands, sw.face_segments(torus, edges))
     assert plan.island_count == plan.islands.max() + 1 > 1
     assert plan.not_discs == 0
+    assert plan.cost > 0.0
     for wire in plan.wires:
         assert wire.seeds == (wire.vertices[0], wire.vertices[-1])
         assert wire.follow in {"min", "max"}

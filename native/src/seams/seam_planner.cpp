@@ -3,11 +3,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <iterator>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -199,6 +201,11 @@ double length(const Surface& surface, const std::vector<std::int32_t>& chain) {
     sum += (surface.points()[chain[i]] - surface.points()[chain[i - 1]]).norm();
   }
   return sum;
+}
+
+/// What a wire costs: its length for its worth.
+double price(const Surface& surface, const Choice& choice) {
+  return length(surface, choice.wire.vertices) / choice.worth();
 }
 
 using Ends = std::pair<std::int32_t, std::int32_t>;
@@ -399,7 +406,7 @@ class Thinning {
         is_needed_(choices_.size(), 0) {
     for (const Piece& piece : pieces_.pieces()) area_ += piece.area;
     for (std::size_t i = 0; i < choices_.size(); ++i) {
-      prices_[i] = length(surface, choices_[i].wire.vertices) / choices_[i].worth();
+      prices_[i] = price(surface, choices_[i]);
     }
   }
 
@@ -538,6 +545,37 @@ struct Quality {
   double bent = 0.0;  ///< by how much the spread of normals exceeds what is allowed, at most
 };
 
+/// A seed where two wires meet and nothing else is.
+struct Joint {
+  std::array<std::size_t, 2> wires;  ///< by their numbers
+  Ends ends;                         ///< their other ends, which differ
+};
+using Joints = std::map<std::int32_t, Joint>;  // by the vertices of the seeds
+
+Joints joints_of(const std::vector<Choice>& wires, const std::vector<Edge>& seams) {
+  std::map<std::int32_t, std::vector<std::size_t>> ending;
+  std::set<std::int32_t> passed;
+  for (const auto& [a, b] : seams) passed.insert({a, b});
+  for (std::size_t i = 0; i < wires.size(); ++i) {
+    const PlannedWire& wire = wires[i].wire;
+    ending[wire.from].push_back(i);
+    ending[wire.to].push_back(i);
+    for (const std::int32_t v : wire.vertices) {
+      if (v != wire.from && v != wire.to) passed.insert(v);
+    }
+  }
+  const auto other_end = [](const PlannedWire& wire, std::int32_t end) {
+    return wire.from == end ? wire.to : wire.from;
+  };
+  Joints joints;
+  for (const auto& [seed, meeting] : ending) {
+    if (meeting.size() != 2 || passed.contains(seed)) continue;
+    const Ends ends = ends_of(other_end(wires[meeting[0]].wire, seed), other_end(wires[meeting[1]].wire, seed));
+    if (ends.first != ends.second) joints.insert({seed, {{meeting[0], meeting[1]}, ends}});
+  }
+  return joints;
+}
+
 }  // namespace
 
 struct SeamPlanner::Impl {
@@ -555,11 +593,20 @@ struct SeamPlanner::Impl {
                             const Task& task) const;
   std::vector<std::vector<Choice>> shortened(const Choice& wire, const std::vector<Choice>& others,
                                              const Task& task) const;
+  std::map<Ends, Choice> direct_wires(const std::set<Ends>& pairs, const Task& task) const;
+  std::vector<Choice> straightened(std::vector<Choice> best, const SeamLimits& limits,
+                                   std::span<const double> max_spreads, const Task& task) const;
+  std::optional<std::vector<Choice>> without_joint(const std::vector<Choice>& wires, const Joints& joints,
+                                                   std::int32_t joint, const std::map<Ends, Choice>& direct) const;
 
   const SeamPlannerOptions options;
   const CandidateWires wires;
   const Seclusion seclusion;
   const std::vector<Choice> choices;
+
+ private:
+  mutable std::mutex known_direct_mutex;
+  mutable std::map<Ends, Choice> known_direct;
 };
 
 /// Lets wires start on others where they ran beside them, as long as that leaves fewer crumbs and pieces as good.
@@ -650,6 +697,107 @@ std::vector<std::vector<Choice>> SeamPlanner::Impl::shortened(const Choice& wire
   return ways;
 }
 
+/// The wires between pairs of seeds; those that former plans needed are known.
+std::map<Ends, Choice> SeamPlanner::Impl::direct_wires(const std::set<Ends>& pairs, const Task& task) const {
+  std::map<Ends, Choice> out;
+  std::vector<CandidateWires::Fan> missing;
+  {
+    const std::scoped_lock lock(known_direct_mutex);
+    for (const Ends& ends : pairs) {
+      if (const auto known = known_direct.find(ends); known != known_direct.end()) {
+        out.insert(*known);
+      } else {
+        missing.push_back({ends.first, {ends.second}});
+      }
+    }
+  }
+  std::vector<std::vector<CandidateWire>> found = wires.find(missing, task);
+  for (std::size_t i = 0; i < missing.size(); ++i) {
+    const std::int32_t from = missing[i].from, to = missing[i].to.front();
+    out.insert({{from, to}, make_choice(from, to, std::move(found[i].front()), seclusion)});
+  }
+  const std::scoped_lock lock(known_direct_mutex);
+  known_direct.insert(out.begin(), out.end());
+  return out;
+}
+
+/// Lets one direct wire take the place of two that meet at a joint, where it costs less and leaves pieces as good.
+std::vector<Choice> SeamPlanner::Impl::straightened(std::vector<Choice> best, const SeamLimits& limits,
+                                                    std::span<const double> max_spreads, const Task& task) const {
+  std::size_t piece_count = 0;
+  std::optional<Quality> quality;
+  std::map<Ends, Choice> direct;
+  std::set<std::pair<std::int32_t, Ends>> tried;
+  const auto is_as_good = [&](const std::vector<Choice>& trial) {
+    if (!limits.may_start_on_others && meeting_at_seeds(trial).size() != trial.size()) return false;
+    const CutPieces cut = pieces(trial, max_spreads);
+    const Quality now(cut);
+    return cut.piece_count() == piece_count && now.crumbs <= quality->crumbs && now.not_discs <= quality->not_discs &&
+           now.bent <= std::max(quality->bent, 0.0);
+  };
+  // All that can be tried with the wires that are known, before more are found: those are found on several threads.
+  const auto straighten_one = [&] {
+    const Joints joints = joints_of(best, options.seams);
+    for (const auto& [joint, at] : joints) {
+      task.check(0.0);
+      if (!direct.contains(at.ends) || !tried.insert({joint, at.ends}).second) continue;
+      std::optional<std::vector<Choice>> trial = without_joint(best, joints, joint, direct);
+      if (!trial || !is_as_good(*trial)) continue;
+      best = std::move(*trial);
+      return true;
+    }
+    return false;
+  };
+  while (true) {
+    std::set<Ends> missing;
+    for (const auto& [joint, at] : joints_of(best, options.seams)) {
+      if (!direct.contains(at.ends)) missing.insert(at.ends);
+    }
+    if (missing.empty()) return best;
+    direct.merge(direct_wires(missing, task));
+    if (!quality) {
+      const CutPieces cut = pieces(best, max_spreads);
+      piece_count = cut.piece_count();
+      quality.emplace(cut);
+    }
+    while (straighten_one()) continue;
+  }
+}
+
+/// The wires with direct ones in place of those that meet at a joint, and at its image; nullopt where that costs more.
+std::optional<std::vector<Choice>> SeamPlanner::Impl::without_joint(const std::vector<Choice>& wires,
+                                                                    const Joints& joints, std::int32_t joint,
+                                                                    const std::map<Ends, Choice>& direct) const {
+  const Joint& own = joints.at(joint);
+  std::vector<std::size_t> gone(own.wires.begin(), own.wires.end());
+  std::vector<Choice> come{direct.at(own.ends)};
+  const std::int32_t image = options.images.empty() ? -1 : options.images[joint];
+  if (image >= 0 && image != joint) {
+    const auto other = joints.find(image);
+    const Ends ends = ends_of(options.images[own.ends.first], options.images[own.ends.second]);
+    if (other == joints.end() || other->second.ends != ends || !direct.contains(ends)) return std::nullopt;
+    for (const std::size_t wire : other->second.wires) {
+      if (std::ranges::find(gone, wire) != gone.end()) return std::nullopt;  // one after the other then
+      gone.push_back(wire);
+    }
+    std::optional<Choice> same = mirrored(come.front(), surface(), options);
+    come.push_back(same ? std::move(*same) : direct.at(ends));
+  }
+  double before = 0.0, after = 0.0;
+  for (const std::size_t wire : gone) before += price(surface(), wires[wire]);
+  for (const Choice& choice : come) {
+    if (choice.wire.vertices.size() < 2) return std::nullopt;
+    after += price(surface(), choice);
+  }
+  if (!(after < before)) return std::nullopt;
+  std::vector<Choice> trial;
+  for (std::size_t i = 0; i < wires.size(); ++i) {
+    if (std::ranges::find(gone, i) == gone.end()) trial.push_back(wires[i]);
+  }
+  trial.insert(trial.end(), come.begin(), come.end());
+  return trial;
+}
+
 SeamPlanner::SeamPlanner(std::shared_ptr<const Surface> surface, const SeamPlannerOptions& options, const Task& task) {
   if (!surface) throw InvalidInput("surface: there is none");
   check_strength(options.strength);
@@ -690,6 +838,7 @@ SeamPlan SeamPlanner::plan(const SeamLimits& limits, const Task& task) const {
   CutPieces all = impl_->pieces(among, max_spreads);
   std::vector<Choice> kept = Thinning(surface, impl_->options.images, among, std::move(all), limits.islands).run(task);
   if (limits.may_start_on_others) kept = impl_->swept(std::move(kept), limits, max_spreads, task);
+  kept = impl_->straightened(std::move(kept), limits, max_spreads, task);
   SeamPlan plan;
   const CutPieces pieces = impl_->pieces(kept, max_spreads);
   plan.not_discs = Quality(pieces).not_discs;
@@ -697,6 +846,7 @@ SeamPlan SeamPlanner::plan(const SeamLimits& limits, const Task& task) const {
   for (Choice& choice : kept) {
     const std::vector<std::int32_t>& chain = choice.wire.vertices;
     for (std::size_t i = 1; i < chain.size(); ++i) cuts.push_back({chain[i - 1], chain[i]});
+    plan.cost += price(surface, choice);
     plan.wires.push_back(std::move(choice.wire));
   }
   plan.islands = face_segments(surface, cuts);

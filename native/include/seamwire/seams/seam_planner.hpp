@@ -56,6 +56,8 @@ struct SeamPlan {
   std::vector<std::int32_t> islands;  ///< of each of the caller's triangles, as face_segments() numbers them
   std::size_t island_count = 0;       ///< how many
   std::size_t not_discs = 0;          ///< how many of the islands are no discs, where there were not seeds enough
+  /// The lengths of the wires in the caller's units, each over its worth: what is the less of two plans for the same.
+  double cost = 0.0;
 };
 
 /// Plans a network of wires that cuts a surface into discs.
@@ -65,7 +67,8 @@ struct SeamPlan {
 /// the two metrics. Where a piece is no disc it gets another seed. Then wires are taken away, as long as what they part
 /// joins to discs within the limits: first the longest for its worth, which is more where a wire follows features, runs
 /// in hollows, and out of sight (ambient occlusion). At last, where two wires run side by side and leave crumbs between
-/// them, the weaker one starts on the other instead.
+/// them, the weaker one starts on the other instead; and where just two wires meet, a direct one takes their place if it
+/// costs less and leaves islands as good.
 class SeamPlanner {
  public:
   /// Finds the wires to choose from, on several threads. Throws InvalidInput for options that are not as said above or
