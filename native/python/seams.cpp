@@ -120,13 +120,14 @@ Cancelled
       .def(
           "plan",
           [](const SeamPlannerObject& object, const py::object& max_spread, std::size_t islands,
-             bool may_start_on_others, const py::object& progress) {
+             bool may_start_on_others, bool straightened, const py::object& progress) {
             SeamLimits limits = limits_from(max_spread, islands);
             limits.may_start_on_others = may_start_on_others;
+            limits.are_straightened = straightened;
             return Watch(progress).run([&](const Task& task) { return object.planner.plan(limits, task); });
           },
           py::kw_only(), py::arg("max_spread") = 0.42, py::arg("islands") = 0, py::arg("may_start_on_others") = true,
-          py::arg("progress") = py::none(),
+          py::arg("straightened") = true, py::arg("progress") = py::none(),
           R"(The wires that are needed for islands within limits.
 
 Parameters
@@ -139,6 +140,8 @@ islands : int
 may_start_on_others : bool
     Whether wires may start on the edges of others, where they ran beside them and left crumbs between. Where curves are
     cut, not edges marked, they have to run from seed to seed.
+straightened : bool
+    Whether a direct wire takes the place of two that meet, where it costs less.
 progress : callable, optional
     As above.
 

@@ -447,6 +447,7 @@ class SeamPlanner:
         max_spread: float | ArrayLike = 0.42,
         islands: int = 0,
         may_start_on_others: bool = True,
+        straightened: bool = True,
         progress: Progress | None = None,
     ) -> SeamPlan:
         """Return the wires that are needed for islands within limits."""

@@ -8,8 +8,8 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <memory>
+#include <numbers>
 #include <random>
 #include <set>
 #include <stop_token>
@@ -138,6 +138,9 @@ TEST(SeamPlanner, ACutGraphTakesNoDetoursOverSeeds) {
     for (const PlannedWire& wire : plan.wires) length += length_of(wire.points);
     // Around the tube once, and around the hole on its inner side.
     EXPECT_LT(length, 1.6 * 2.0 * std::numbers::pi * (0.15 + 0.2)) << seeds << " seeds";
+    const SeamPlan wound = SeamPlanner(torus, options).plan({.max_spread = 1.0, .are_straightened = false});
+    expect_discs(*torus, wound);
+    EXPECT_LT(plan.cost, wound.cost);
   }
 }
 

@@ -107,13 +107,15 @@ class Suggestion:
             for done, seeds in enumerate(self._seeds)
         ]
 
-    def suggest(self, max_spread: float, islands: int = 0) -> None:
-        """Choose wires; `islands` as ``seamwire_core.SeamPlanner.plan`` has it."""
+    def suggest(self, max_spread: float, islands: int = 0, straightened: bool = True) -> None:
+        """Choose wires; `islands` and `straightened` as ``seamwire_core.SeamPlanner.plan`` has them."""
         if self._limits is None:
             self._limits = np.full(len(self.mesh.arrays.triangles), max_spread)
         cuts = self.along == "SURFACE" and self.finish == "CUT"
         plans = [
-            planner.plan(max_spread=self._limits, islands=islands, may_start_on_others=not cuts)
+            planner.plan(
+                max_spread=self._limits, islands=islands, may_start_on_others=not cuts, straightened=straightened
+            )
             for planner in self._planners
         ]
         self.use(min(plans, key=lambda plan: (plan.not_discs, plan.cost)))
@@ -146,11 +148,11 @@ class Suggestion:
         before = self.plan.island_count
         arrays, islands = self.mesh.arrays, self.plan.islands
         self._limits = narrowed(self._limits, stretched, islands, spreads(arrays.points, arrays.triangles, islands))
-        self.suggest(0.0)
+        self.suggest(0.0, straightened=False)
         if self.plan.island_count <= before and max(self._seeds) < self._most_seeds:
             self._seeds = (min(2 * max(self._seeds), self._most_seeds),)
             self.prepare(lambda _: True)
-            self.suggest(0.0)
+            self.suggest(0.0, straightened=False)
 
     def worst(self) -> Worst | None:
         """Return the island that the UV map stretches most, by angle or by area; None: there are no UVs."""

@@ -228,7 +228,8 @@ class MESH_OT_seamwire_suggest(bpy.types.Operator):
             return {"CANCELLED"}
         for suggestion in suggestions:
             if suggestion is not parted:
-                suggestion.suggest(self._spread, self._islands)
+                # Against stretch, detours are of use.
+                suggestion.suggest(self._spread, self._islands, straightened=self.limit != "STRETCH")
             suggestion.write()
         left = 0
         if self.limit == "STRETCH":

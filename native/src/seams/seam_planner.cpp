@@ -838,7 +838,7 @@ SeamPlan SeamPlanner::plan(const SeamLimits& limits, const Task& task) const {
   CutPieces all = impl_->pieces(among, max_spreads);
   std::vector<Choice> kept = Thinning(surface, impl_->options.images, among, std::move(all), limits.islands).run(task);
   if (limits.may_start_on_others) kept = impl_->swept(std::move(kept), limits, max_spreads, task);
-  kept = impl_->straightened(std::move(kept), limits, max_spreads, task);
+  if (limits.are_straightened) kept = impl_->straightened(std::move(kept), limits, max_spreads, task);
   SeamPlan plan;
   const CutPieces pieces = impl_->pieces(kept, max_spreads);
   plan.not_discs = Quality(pieces).not_discs;

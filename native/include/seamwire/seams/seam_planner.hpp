@@ -39,6 +39,9 @@ struct SeamLimits {
   /// Whether wires may start on the edges of others, where they ran beside them and left crumbs between. Where curves
   /// are cut, not edges marked, they have to run from seed to seed: these alone their curves have in common.
   bool may_start_on_others = true;
+  /// Whether a direct wire takes the place of two that meet, where it costs less. Where islands are to be small for
+  /// another reason than how they bend, detours may be what they need.
+  bool are_straightened = true;
 };
 
 /// One wire of a plan.
