@@ -131,8 +131,19 @@ def test_it_is_aligned_where_it_does_not_lie_on_the_mesh(scale: float) -> None:
     target = replace(flat, points=scale * lopsided(flat.points) @ turn.T + (5.0, -2.0, 1.0))
     assert by_surface(file, target, align=False).wires == []
     found = by_surface(file, target)
-    assert found.lost == []
+    assert found.lost == found.doubts == []
+    assert {seed.confidence > 0.5 for seed in found.seeds} == {True}
     assert off(found, flat.places) <= 1.5 * flat.spacing.mean()
+
+
+def test_where_it_fits_as_well_turned_that_is_said_and_every_seed_is_doubtful(file: NetworkFile) -> None:
+    flat = tube(23, 60)
+    target = replace(flat, points=flat.points + np.array([5.0, -2.0, 1.0]))
+    found = by_surface(file, target)
+    assert found.lost == []
+    assert [text for text in found.doubts if "fits as well" in text] == found.doubts != []
+    assert {transfer.word_for(seed.confidence) for seed in found.seeds} == {"doubtful"}
+    assert by_surface(file, flat).doubts == [], "it lies on it as it is"
 
 
 def test_it_is_mirrored(file: NetworkFile) -> None:

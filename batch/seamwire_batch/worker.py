@@ -250,7 +250,7 @@ class Run:
             source=shape,
             pairs=pairs,
         )
-        self.warnings += [f"{obj.name}: {text}" for text in found.lost]
+        self.warnings += [f"{obj.name}: {text}" for text in (*found.doubts, *found.lost)]
         self.warnings += [f"{obj.name}: {seed.text}" for seed in found.seeds if seed.confidence < 0.6]
         if not found.wires:
             raise AssetError(f"{obj.name}: no wire has a place on this mesh")

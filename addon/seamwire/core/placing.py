@@ -18,8 +18,11 @@ if TYPE_CHECKING:
 
 _STEPS = 30
 """Of the alignment: it has come to rest long before on shapes that are alike."""
-_TRIED = 3
-"""How many of its beginnings are followed, those that lie nearest."""
+_ELSEWHERE = 0.1
+"""As part of the mesh's size: what lies that far off lies elsewhere."""
+_RIVAL = 2.0
+"""How many times farther off something may lie elsewhere for it to be as likely: on artists' models, moved and with another topology,
+it is 1.06 where the wrong one is nearest, and 2.6 at least where only one is right (docs/benchmarks.md)."""
 _SAMPLE = 100
 """How many points it looks at."""
 _TRIMMED = 0.8
@@ -191,6 +194,33 @@ class Similarity:
         )
 
 
+@dataclass(frozen=True)
+class Aligned:
+    """What brings a network onto a mesh.
+
+    Parameters
+    ----------
+    way
+        That.
+    rival
+        What lays it elsewhere about as well; None: nothing does.
+    """
+
+    way: Similarity
+    rival: Similarity | None = None
+
+    @property
+    def doubt(self) -> str:
+        """What is to be said where there is a rival."""
+        if self.rival is None:
+            return ""
+        cosine = 0.5 * (np.trace(self.rival.rotation @ self.way.rotation.T) - 1.0)
+        return (
+            f"turned by {np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0))):.0f} degrees the network fits as well: "
+            "look whether it lies right, or give pairs"
+        )
+
+
 class Surface:
     """Finds the points of a mesh that are nearest to places.
 
@@ -260,11 +290,11 @@ class Surface:
                 triangles[start + row], found[start + row] = near[best], points[best]
         return triangles, found, np.linalg.norm(found - places, axis=1)
 
-    def align(self, points: NDArray[np.float64], moments: Moments) -> Similarity:
-        """Return what brings points of a mesh onto this one.
+    def align(self, points: NDArray[np.float64], moments: Moments) -> Aligned:
+        """Find what brings points of a mesh onto this one.
 
         They stay where they are if they lie on it. Else from there, and from where the meshes' principal axes agree in one of the four ways
-        that mirror nothing, the nearest are brought nearer by turns to what they are nearest to (Besl, McKay, A method for
+        that mirror nothing, all are brought nearer by turns to what they are nearest to (Besl, McKay, A method for
         registration of 3-D shapes, 1992), and the best one is taken.
 
         Parameters
@@ -278,13 +308,13 @@ class Surface:
         some = points[np.linspace(0, len(points) - 1, min(len(points), _SAMPLE)).astype(np.int64)]
         best, least = Similarity.none(), self._gap(some)
         if least <= _ALIGNED * size or len(points) < 3:
-            return best
+            return Aligned(best)
         own = self._shape.moments
         scale = own.size / moments.size if moments.size > 0.0 else 1.0
         starts = [best, *(_onto(moments, own, scale, signs) for signs in ((1, 1), (1, -1), (-1, 1), (-1, -1)))]
         starts.append(Similarity(scale, np.eye(3), own.middle - scale * moments.middle))
-        starts.sort(key=lambda start: self._gap(start.of(some)))
-        for start in starts[:_TRIED]:
+        found_ways = [(least, best)]
+        for start in starts:
             current = start
             for _ in range(_STEPS):
                 moved = current.of(some)
@@ -294,9 +324,16 @@ class Surface:
                 if np.linalg.norm(current.of(some) - moved, axis=1).max() <= 1e-4 * size:
                     break
             # What has shrunk lies on any surface.
-            if 0.8 <= current.scale / scale <= 1.25 and (gap := self._gap(current.of(some))) < least:
-                best, least = current, gap
-        return best
+            if 0.8 <= current.scale / scale <= 1.25:
+                found_ways.append((self._gap(current.of(some)), current))
+        least, best = min(found_ways, key=lambda way: way[0])
+        rivals = [
+            (gap, way)
+            for gap, way in found_ways
+            if gap <= max(_RIVAL * least, 1e-6 * size)
+            and np.linalg.norm(way.of(some) - best.of(some), axis=1).max() > _ELSEWHERE * size
+        ]
+        return Aligned(best, min(rivals, key=lambda way: way[0])[1] if rivals else None)
 
     def _gap(self, points: NDArray[np.float64]) -> float:
         gaps = self.nearest(points)[2]

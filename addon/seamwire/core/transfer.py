@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -37,6 +37,8 @@ _STRAY = 1.0
 """How many edges a wire may run beside where it is to run before it gets a seed more."""
 _MOST_LOST = 0.3
 """The part of a wire's course that may have no place."""
+_TURNED = 0.5
+"""The confidence of the surest seed where the network might as well lie elsewhere: doubtful."""
 _SLICE = 0.005
 
 
@@ -89,6 +91,8 @@ class Transfer:
         All of the network's, each once.
     lost
         What could not be placed, and why, in words.
+    doubts
+        What else there is to look at, in words.
     added
         How many seeds lie between those of the network.
     """
@@ -97,6 +101,7 @@ class Transfer:
     strokes: list[Scribble] = field(default_factory=list)
     seeds: list[Seed] = field(default_factory=list)
     lost: list[str] = field(default_factory=list)
+    doubts: list[str] = field(default_factory=list)
     added: int = 0
 
     @property
@@ -165,26 +170,30 @@ def by_surface(
     ValueError
         Where no wire can run on the mesh.
     """
-    surface = Surface(target)
+    surface, doubt = Surface(target), ""
     way = Similarity.none() if mirror is None else Similarity.mirroring(mirror)
     if align and file.courses:
         points = way.of(np.concatenate([course.places for course in file.courses]))
         moments = file.origin.moments
         moved = Moments(way.of(moments.middle[None])[0], way.of_normals(moments.axes))
-        way = surface.align(points, moved).after(way)
+        aligned = surface.align(points, moved)
+        way, doubt = aligned.way.after(way), aligned.doubt
 
     def place(course: Course, axes: tuple[int, ...], part: int | None = None) -> Placed:
         own = way
         for axis in axes:
             own = own.after(Similarity.mirroring(axis))
         spacing = own.scale * _spacing(course)
-        return surface.place(own.of(course.places), own.of_normals(course.normals), spacing, part)
+        placed = surface.place(own.of(course.places), own.of_normals(course.normals), spacing, part)
+        return replace(placed, confidence=np.minimum(placed.confidence, _TURNED)) if doubt else placed
 
     def stroke(points: NDArray[np.float64]) -> Placed:
         moved = way.of(points)
         return surface.place(moved, np.zeros_like(moved), float(target.spacing.mean()))
 
-    return _Tracing(file, target, surface, live or LiveMaker(target)).run(place, stroke, place)
+    found = _Tracing(file, target, surface, live or LiveMaker(target)).run(place, stroke, place)
+    found.doubts += [doubt] if doubt else []
+    return found
 
 
 def by_landmarks(

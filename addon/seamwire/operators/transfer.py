@@ -38,7 +38,7 @@ def write_and_report(
     from ..mesh import edit_mesh
     from ..mesh.transfer import write
 
-    told = [*found.lost, *(seed.text for seed in found.seeds if seed.confidence < WORDS[1][0])]
+    told = [*found.doubts, *found.lost, *(seed.text for seed in found.seeds if seed.confidence < WORDS[1][0])]
     for text in told[:_MOST_TOLD]:
         operator.report({"WARNING"}, text[:1].upper() + text[1:])
     if len(told) > _MOST_TOLD:
