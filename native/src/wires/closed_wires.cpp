@@ -24,6 +24,7 @@
 #include "detail/poll.hpp"
 #include "wires/path_position.hpp"
 #include "wires/polyline.hpp"
+#include "wires/vertex_tree.hpp"
 
 namespace seamwire {
 namespace {
@@ -52,41 +53,6 @@ constexpr std::size_t kMostAround = 96;
 constexpr double kLargestGap = std::numbers::pi / 3;
 /// Points along a loop at which its distance from another one is measured.
 constexpr std::size_t kSamples = 64;
-
-/// The edges of an embedding's triangles, each as one of its half-edges; and what lies on their sides: triangles, and
-/// beyond a boundary the hole that it surrounds, as one more face, numbered after them.
-struct Edges {
-  explicit Edges(const IntrinsicMesh& mesh, const Task& task) : face_count(mesh.face_count()) {
-    std::vector<std::int32_t> hole_of(3 * face_count, -1);
-    half_edges.reserve(3 * face_count / 2 + 1);
-    const Poll poll(task, 0.0, 0.1, 3 * face_count);
-    for (std::int32_t h = 0; index(h) < 3 * face_count; ++h) {
-      poll.at(index(h));
-      const std::int32_t twin = mesh.twins[h];
-      if (twin < h && twin >= 0) continue;
-      half_edges.push_back(h);
-      if (twin >= 0) continue;
-      if (hole_of[h] < 0) {
-        const auto hole = static_cast<std::int32_t>(face_count + hole_count++);
-        for (std::int32_t at = h; hole_of[at] < 0; at = next_of_boundary(mesh, at)) hole_of[at] = hole;
-      }
-      holes.push_back(hole_of[h]);
-    }
-  }
-  std::size_t count() const { return half_edges.size(); }
-
-  std::size_t face_count, hole_count = 0;
-  std::vector<std::int32_t> half_edges;
-  std::vector<std::int32_t> holes;  // of the edges of boundaries, in their order
-
- private:
-  static std::int32_t next_of_boundary(const IntrinsicMesh& mesh, std::int32_t h) {
-    const auto next = [](std::int32_t g) { return g % 3 == 2 ? g - 2 : g + 1; };
-    h = next(h);
-    while (mesh.twins[h] >= 0) h = next(mesh.twins[h]);
-    return h;
-  }
-};
 
 /// A bijection that scatters numbers (the finalizer of SplitMix64, Steele, Lea, Flood, 2014).
 std::uint64_t scattered(std::uint64_t x) {
@@ -123,7 +89,6 @@ class CutLocus {
 
   Vector normal_at(const SurfacePoint& seed) const;
   double distance(std::int32_t vertex) const { return field_.distances()[vertex]; }
-  std::vector<std::uint8_t> tree(const Edges& edges) const;
   std::vector<CutEdge> find() const;
   Vector span(std::int32_t face) const;
   std::vector<Vector> line(const IntrinsicPath& path) const;
@@ -186,62 +151,13 @@ std::vector<Vector> CutLocus::line(const IntrinsicPath& path) const {
   return points;
 }
 
-/// Which edges join each vertex to the seed, over vertices that are ever nearer; and where the mesh has none that is
-/// (a wire may reach a vertex through a triangle whose other corners are further from the seed), to what else is near.
-std::vector<std::uint8_t> CutLocus::tree(const Edges& edges) const {
-  struct Up {
-    double length = kInfinity;
-    std::int32_t to = -1, edge = -1;
-  };
-  std::vector<Up> up(index(mesh_.vertex_count));
-  const auto see = [&](std::int32_t a, std::int32_t b, double length, std::int32_t edge) {
-    if (distance(b) < distance(a)) std::swap(a, b);
-    if (!(distance(a) < distance(b))) return;
-    if (distance(a) + length < up[b].length) up[b] = {distance(a) + length, a, edge};
-  };
-  for (std::size_t e = 0; e < edges.count(); ++e) {
-    const std::int32_t h = edges.half_edges[e];
-    see(mesh_.tail(h), mesh_.tip(h), mesh_.lengths[h], static_cast<std::int32_t>(e));
-  }
-  for (const LooseEdge& edge : mesh_.loose_edges) see(edge.a, edge.b, edge.length, -1);
-  task_.check(0.2);
-
-  std::vector<std::uint8_t> is_in(edges.count(), 0);
-  DisjointSets parts(up.size());
-  for (std::int32_t v = 0; v < mesh_.vertex_count; ++v) {
-    if (up[v].to < 0) continue;
-    parts.join(v, up[v].to);
-    if (up[v].edge >= 0) is_in[up[v].edge] = 1;
-  }
-  struct Bridge {
-    double length;
-    std::int32_t edge, a, b;
-  };
-  std::vector<Bridge> bridges;
-  const auto see_bridge = [&](std::int32_t a, std::int32_t b, double length, std::int32_t edge) {
-    const double whole = distance(a) + distance(b) + length;
-    if (std::isfinite(whole) && parts.find(a) != parts.find(b)) bridges.push_back({whole, edge, a, b});
-  };
-  for (const LooseEdge& edge : mesh_.loose_edges) see_bridge(edge.a, edge.b, edge.length, -1);
-  for (std::size_t e = 0; e < edges.count(); ++e) {
-    const std::int32_t h = edges.half_edges[e];
-    see_bridge(mesh_.tail(h), mesh_.tip(h), mesh_.lengths[h], static_cast<std::int32_t>(e));
-  }
-  std::ranges::sort(bridges, {}, [](const Bridge& bridge) { return std::pair(bridge.length, bridge.edge); });
-  for (const Bridge& bridge : bridges) {
-    if (parts.join(bridge.a, bridge.b) && bridge.edge >= 0) is_in[bridge.edge] = 1;
-  }
-  task_.check(0.25);
-  return is_in;
-}
-
 /// The faces are joined, over edges that are not in the tree of the vertices, by the spanning tree (in each part) whose
 /// L are largest. Each of its edges, and each edge that is in neither tree, closes a loop of the tree of the vertices.
 /// That loop has on one side the faces which hang on the edge in the tree of the faces, unless an edge of neither tree
 /// leads from one side to the other: then it does not separate.
 std::vector<CutEdge> CutLocus::find() const {
-  const Edges edges(mesh_, task_);
-  const std::vector<std::uint8_t> is_in_tree = tree(edges);
+  const MeshEdges edges(mesh_, task_);
+  const std::vector<std::uint8_t> is_in_tree = vertex_tree(mesh_, edges, field_.distances(), task_);
 
   struct Side {
     std::int32_t a, b;
@@ -510,8 +426,10 @@ std::optional<ClosedWire> CutLocus::loop(const Rated& rated) const {
   path.faces.push_back(h / 3);
   path.faces.insert(path.faces.end(), back.faces.rbegin(), back.faces.rend());
   path.length += mesh_.lengths[h] + back.length;
-  return ClosedWire{
-      .wire = map_wire(surface_, embedding_, path), .separates = rated.edge.separates, .turn = rated.turn};
+  return ClosedWire{.wire = map_wire(surface_, embedding_, path),
+                    .separates = rated.edge.separates,
+                    .turn = rated.turn,
+                    .half_edge = h};
 }
 
 /// The mean distance of a loop's points from another one.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "seamwire/wires/wire.hpp"
@@ -13,6 +14,7 @@ struct ClosedWire {
   Wire wire;              ///< from the seed to the seed, which is its first point and again its last one
   bool separates = true;  ///< false: the surface stays in one piece, the loop runs around or through a handle
   double turn = 0.0;  ///< at the seed, in radians: 0 where the loop goes smoothly through it, pi where it turns back
+  std::int32_t half_edge = -1;  ///< of the embedding: the edge at whose ends the two wires end
 };
 
 /// The closed cuts through the seed of a field over `embedding` that the surface suggests, at most `count`, best first;

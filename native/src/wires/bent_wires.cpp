@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "seamwire/wires/bent_wires.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "detail/csr.hpp"
+#include "detail/index.hpp"
+#include "wires/path_position.hpp"
+#include "wires/vertex_tree.hpp"
+
+namespace seamwire {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Edges that have the two deepest places on different ends of a line over them, or that a closed line crosses.
+struct Crossed {
+  std::vector<std::uint8_t> edges;   ///< of MeshEdges, whether the line crosses it
+  std::vector<std::int32_t> places;  ///< where the line ends: faces, not holes
+};
+
+/// Faces and holes around a closed cut, joined over edges that are not part of the tree of vertices it runs along.
+class Sides {
+ public:
+  Sides(const IntrinsicMesh& mesh, const DistanceField& field, std::int32_t half_edge, const Task& task)
+      : mesh_(mesh), edges_(mesh, task), is_in_tree_(vertex_tree(mesh, edges_, field.distances(), task)) {
+    std::size_t holes_seen = 0;
+    for (std::size_t e = 0; e < edges_.count(); ++e) {
+      const std::int32_t h = edges_.half_edges[e], twin = mesh_.twins[h];
+      ends_.push_back({h / 3, twin < 0 ? edges_.holes[holes_seen++] : twin / 3});
+      if (h == half_edge) cut_ = static_cast<std::int32_t>(e);
+    }
+    if (cut_ < 0) throw InvalidInput("the cut is of another embedding");
+    beside_ = Csr<std::int32_t>(edges_.face_count + edges_.hole_count, [this](const auto& visit) {
+      for (std::int32_t e = 0; index(e) < ends_.size(); ++e) {
+        for (const std::int32_t f : ends_[e]) visit(f, e);
+      }
+    });
+    sides_.assign(beside_.row_count(), 0);
+    entered_over_.assign(beside_.row_count(), -1);
+  }
+
+  /// A line that crosses the cut once.
+  Crossed line(const ExactGeodesics& geodesics, const Task& task) {
+    const auto [left, right] = ends_[cut_];
+    flood(left, 1);
+    Crossed found{.edges = std::vector<std::uint8_t>(ends_.size(), 0), .places = {}};
+    found.edges[cut_] = 1;
+    if (sides_[right] != 0) {  // it does not separate
+      walk(right, left, found.edges);
+      return found;
+    }
+    flood(right, 2);
+    const std::vector<double> depths = depths_of_vertices(geodesics, task);
+    for (const std::int32_t from : {left, right}) {
+      const std::int32_t place = deepest(depths, sides_[from]);
+      walk(place, from, found.edges);
+      if (index(place) < edges_.face_count) found.places.push_back(place);
+    }
+    return found;
+  }
+
+  const std::vector<std::int32_t>& half_edges() const { return edges_.half_edges; }
+
+ private:
+  std::int32_t beyond(std::int32_t edge, std::int32_t face) const {
+    return ends_[edge][0] == face ? ends_[edge][1] : ends_[edge][0];
+  }
+  void flood(std::int32_t from, std::uint8_t side) {
+    std::vector<std::int32_t> front = {from};
+    sides_[from] = side;
+    for (std::size_t next = 0; next < front.size(); ++next) {
+      for (const std::int32_t e : beside_[front[next]]) {
+        const std::int32_t f = beyond(e, front[next]);
+        if (is_in_tree_[e] != 0 || e == cut_ || sides_[f] != 0) continue;
+        sides_[f] = side;
+        entered_over_[f] = e;
+        front.push_back(f);
+      }
+    }
+  }
+  /// Back the way that it was entered.
+  void walk(std::int32_t face, std::int32_t to, std::vector<std::uint8_t>& crossed) const {
+    while (face != to) {
+      const std::int32_t e = entered_over_[face];
+      crossed[e] = 1;
+      face = beyond(e, face);
+    }
+  }
+  /// Distances from the vertices that have both sides beside them: those of the cut.
+  std::vector<double> depths_of_vertices(const ExactGeodesics& geodesics, const Task& task) const {
+    std::vector<std::uint8_t> seen(index(mesh_.vertex_count), 0);
+    for (std::size_t e = 0; e < ends_.size(); ++e) {
+      const std::int32_t h = edges_.half_edges[e];
+      for (const std::int32_t v : {mesh_.tail(h), mesh_.tip(h)}) {
+        seen[v] = static_cast<std::uint8_t>(seen[v] | sides_[ends_[e][0]] | sides_[ends_[e][1]]);
+      }
+    }
+    std::vector<SurfacePoint> sources;
+    for (std::int32_t v = 0; v < mesh_.vertex_count; ++v) {
+      if (seen[v] == 3) sources.push_back(SurfacePoint::at_vertex(v));
+    }
+    return geodesics.solve(sources, {}, task).distances();
+  }
+  /// A face or a hole is as deep as what is nearest of it.
+  std::int32_t deepest(const std::vector<double>& depths, std::uint8_t side) const {
+    std::vector<double> least(sides_.size(), kInfinity);
+    for (std::size_t e = 0; e < ends_.size(); ++e) {
+      const std::int32_t h = edges_.half_edges[e];
+      const double depth = std::min(depths[mesh_.tail(h)], depths[mesh_.tip(h)]);
+      for (const std::int32_t f : ends_[e]) least[f] = std::min(least[f], depth);
+    }
+    std::int32_t best = -1;
+    for (std::int32_t f = 0; index(f) < sides_.size(); ++f) {
+      if (sides_[f] == side && (best < 0 || least[f] > least[best])) best = f;
+    }
+    return best;
+  }
+
+  const IntrinsicMesh& mesh_;
+  const MeshEdges edges_;
+  const std::vector<std::uint8_t> is_in_tree_;
+  std::vector<std::array<std::int32_t, 2>> ends_;  // of edges: faces, or a hole
+  std::int32_t cut_ = -1;                          // the edge that closes it
+  Csr<std::int32_t> beside_;                       // edges of faces and holes
+  std::vector<std::uint8_t> sides_;                // of faces and holes: 1, 2, 0 for neither
+  std::vector<std::int32_t> entered_over_;
+};
+
+/// Two sheets over a mesh without some of its faces. A vertex v is v on one sheet and v + n on the other, an edge leads
+/// to the same sheet, or where the line crosses it to the other one. Of the faces that are left the k-th one is k on
+/// the sheet of its first corner being the first one, and k + m else.
+struct DoubleCover {
+  DoubleCover(const IntrinsicMesh& below, const std::vector<std::int32_t>& half_edges, const Crossed& line);
+
+  /// A point on either sheet; -1 where its face was taken out.
+  SurfacePoint lifted(SurfacePoint point, bool other) const;
+  /// What lies below a path.
+  IntrinsicPath projected(IntrinsicPath path) const;
+
+  std::int32_t vertex_count;
+  std::vector<std::int32_t> kept;    ///< the faces that are left
+  std::vector<std::int32_t> number;  ///< of a face among them, -1
+  IntrinsicMesh mesh;
+};
+
+DoubleCover::DoubleCover(const IntrinsicMesh& below, const std::vector<std::int32_t>& half_edges, const Crossed& line)
+    : vertex_count(below.vertex_count), number(below.face_count(), -1) {
+  std::vector<std::uint8_t> is_crossed(3 * below.face_count(), 0);
+  for (std::size_t e = 0; e < half_edges.size(); ++e) {
+    is_crossed[half_edges[e]] = line.edges[e];
+    if (const std::int32_t twin = below.twins[half_edges[e]]; twin >= 0) is_crossed[twin] = line.edges[e];
+  }
+  for (std::int32_t f = 0; index(f) < below.face_count(); ++f) {
+    if (std::ranges::count(line.places, f) > 0) continue;
+    number[f] = static_cast<std::int32_t>(kept.size());
+    kept.push_back(f);
+  }
+  // Whether the beginning of a half-edge is on another sheet than the first corner of its face.
+  const auto is_other = [&](std::int32_t h) {
+    const std::int32_t first = h - h % 3;
+    return h % 3 == 0 ? false : h % 3 == 1 ? is_crossed[first] != 0 : is_crossed[first] != is_crossed[first + 1];
+  };
+  const auto next = [](std::int32_t h) { return h % 3 == 2 ? h - 2 : h + 1; };
+  const auto face_count = static_cast<std::int32_t>(kept.size());
+  mesh.vertex_count = 2 * vertex_count;
+  for (const bool other : {false, true}) {
+    for (const std::int32_t f : kept) {
+      Triangle corners{};
+      for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
+        corners[index(h % 3)] = below.tail(h) + (is_other(h) != other ? vertex_count : 0);
+        const std::int32_t twin = below.twins[h];
+        mesh.lengths.push_back(below.lengths[h]);
+        if (twin < 0 || number[twin / 3] < 0) {
+          mesh.twins.push_back(-1);
+          continue;
+        }
+        const bool twin_other = (is_other(next(h)) != other) != is_other(twin);  // they share a vertex of a sheet
+        mesh.twins.push_back(3 * (number[twin / 3] + (twin_other ? face_count : 0)) + twin % 3);
+      }
+      mesh.triangles.push_back(corners);
+    }
+    for (const LooseEdge& edge : below.loose_edges) {
+      const std::int32_t shift = other ? vertex_count : 0;
+      mesh.loose_edges.push_back({edge.a + shift, edge.b + shift, edge.length});
+    }
+  }
+}
+
+SurfacePoint DoubleCover::lifted(SurfacePoint point, bool other) const {
+  if (point.vertex >= 0) {
+    point.vertex += other ? vertex_count : 0;
+  } else {
+    point.face = number[point.face];
+    if (point.face >= 0 && other) point.face += static_cast<std::int32_t>(kept.size());
+  }
+  return point;
+}
+
+IntrinsicPath DoubleCover::projected(IntrinsicPath path) const {
+  const auto face_below = [this](std::int32_t f) { return kept[index(f) % kept.size()]; };
+  for (PathPoint& at : path.points) {
+    if (at.vertex >= 0) at.vertex %= vertex_count;
+    if (at.half_edge >= 0) at.half_edge = 3 * face_below(at.half_edge / 3) + at.half_edge % 3;
+    if (at.face >= 0) at.face = face_below(at.face);
+  }
+  for (std::int32_t& f : path.faces) {
+    if (f >= 0) f = face_below(f);
+  }
+  return path;
+}
+
+Crossed line_across(const Embedding& embedding, const ExactGeodesics& geodesics, const DistanceField& field,
+                    const ClosedWire& cut, const Task& task, std::vector<std::int32_t>& half_edges) {
+  check_field(embedding, field);
+  if (field.sources().size() != 1) {
+    throw InvalidInput("a cut leads through one seed: the field has " + std::to_string(field.sources().size()));
+  }
+  Sides sides(embedding.mesh, field, cut.half_edge, task);
+  half_edges = sides.half_edges();
+  return sides.line(geodesics, task);
+}
+
+}  // namespace
+
+struct BentWires::Impl {
+  const Surface* surface;
+  const Embedding* embedding;
+  DoubleCover cover;
+  std::optional<DistanceField> field;  // nothing where the seed is in a face that was taken out
+};
+
+BentWires::BentWires(const Surface& surface, const Embedding& embedding, const ExactGeodesics& geodesics,
+                     const DistanceField& field, const ClosedWire& cut, const Task& task) {
+  std::vector<std::int32_t> half_edges;
+  const Crossed line = line_across(embedding, geodesics, field, cut, task, half_edges);
+  Impl made{.surface = &surface,
+            .embedding = &embedding,
+            .cover = DoubleCover(embedding.mesh, half_edges, line),
+            .field = std::nullopt};
+  const SurfacePoint seed = made.cover.lifted(field.sources().front(), false);
+  if (seed.vertex >= 0 || seed.face >= 0) {
+    made.field = ExactGeodesics(made.cover.mesh, task).solve(std::array{seed}, {}, task);
+  }
+  impl_ = std::make_unique<const Impl>(std::move(made));
+}
+
+BentWires::~BentWires() = default;
+BentWires::BentWires(BentWires&&) noexcept = default;
+BentWires& BentWires::operator=(BentWires&&) noexcept = default;
+
+std::optional<BentWire> BentWires::through(const SurfacePoint& second, const Task& task) const {
+  const auto& [surface, embedding, cover, field] = *impl_;
+  if (second.vertex >= 0) {
+    check_index(second.vertex, embedding->points.size(), "second: vertex");
+  } else {
+    check_index(second.face, embedding->mesh.face_count(), "second: face", "faces");
+  }
+  std::array<IntrinsicPath, 2> paths;
+  for (const bool other : {false, true}) {
+    const SurfacePoint to = cover.lifted(second, other);
+    if (!field || (to.vertex < 0 && to.face < 0)) return std::nullopt;
+    IntrinsicPath& path = paths[other ? 1 : 0];
+    path = cover.projected(field->trace(to, task));
+    if (path.points.size() < 2) return std::nullopt;
+  }
+  std::ranges::reverse(paths[1].points);
+  std::ranges::reverse(paths[1].faces);
+  return BentWire{.there = map_wire(*surface, *embedding, paths[0]), .back = map_wire(*surface, *embedding, paths[1])};
+}
+
+}  // namespace seamwire

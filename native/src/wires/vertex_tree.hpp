@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "seamwire/surface/intrinsic_mesh.hpp"
+#include "seamwire/task.hpp"
+
+namespace seamwire {
+
+/// The edges of a mesh's triangles, each as one of its half-edges; and what lies on their sides: triangles, and beyond
+/// a boundary the hole that it surrounds, as one more face, numbered after them.
+struct MeshEdges {
+  /// `task` is told of a tenth.
+  MeshEdges(const IntrinsicMesh& mesh, const Task& task);
+  std::size_t count() const { return half_edges.size(); }
+
+  std::size_t face_count, hole_count = 0;
+  std::vector<std::int32_t> half_edges;
+  std::vector<std::int32_t> holes;  ///< of the edges of boundaries, in their order
+};
+
+/// Per edge, whether it is in the tree of the vertices: edges join each vertex to the seed of the distances, over
+/// vertices that are ever nearer; and where the mesh has none that is (a wire may reach a vertex through a triangle
+/// whose other corners are further from the seed), to what else is near. `task` is told of a tenth to a quarter.
+std::vector<std::uint8_t> vertex_tree(const IntrinsicMesh& mesh, const MeshEdges& edges,
+                                      const std::vector<double>& distances, const Task& task);
+
+}  // namespace seamwire
