@@ -10,7 +10,8 @@ vertex is joined to those a third and a half of the boundary's length further on
 along the wire to the nearest point of the boundary, in percent of the length of the person's boundary between the two vertices. Models are
 weighted alike; intervals hold 95 % of 2000 bootstrap samples of models. Needs numpy, and seamwire_core on the path.
 
-With --clicks, what one click gives: `closed_wires` in the concave metric from vertices of closed boundaries, so many a model. Distances
+With --clicks, what one click gives: `closed_wires` in the concave metric from vertices of closed boundaries, so many a model; and what two
+give: the nearest of its loops, bent to the vertex of the boundary that is farthest from it. Distances
 are between closed lines there, in thousandths of the unit cube: the mean, over 200 points evenly along each of the two, of how far the
 other one is. Another person's line is the one of his or hers that is nearest to the first person's. Times are of the processor.
 """
@@ -149,13 +150,18 @@ def arcs(points: Points, boundary: Boundary, random: np.random.Generator) -> lis
 
 
 def distances(wire: Points, chain: Points) -> NDArray[np.float64]:
-    """Return how far points evenly along a wire are from a chain of segments (in space)."""
+    """Return how far points evenly along a wire are from a chain of segments."""
     at = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(wire, axis=0), axis=1))))
     samples = np.stack([np.interp(np.linspace(0, at[-1], WIRE_SAMPLES), at, wire[:, i]) for i in range(3)], axis=1)
+    return to_chain(samples, chain)
+
+
+def to_chain(places: Points, chain: Points) -> NDArray[np.float64]:
+    """Return how far each of some places is from a chain of segments (in space)."""
     start, along = chain[:-1], np.diff(chain, axis=0)
     squares = np.maximum((along**2).sum(axis=1), np.finfo(float).tiny)
-    t = np.clip(((samples[:, None] - start) * along).sum(axis=2) / squares, 0, 1)
-    return np.linalg.norm(samples[:, None] - start - t[:, :, None] * along, axis=2).min(axis=1)
+    t = np.clip(((places[:, None] - start) * along).sum(axis=2) / squares, 0, 1)
+    return np.linalg.norm(places[:, None] - start - t[:, :, None] * along, axis=2).min(axis=1)
 
 
 def measure(
@@ -188,9 +194,12 @@ class Click:
 
     first: float  # distance of the first loop from the person's line; inf: there is none
     best: float  # of the best of three
+    bent: float  # of what a second click makes of the nearest one, where the person's line is farthest from it
     others: tuple[float, ...]  # of each other person's nearest line
     field_time: float  # milliseconds
     loops_time: float
+    bend_time: float  # what is the same wherever the second click is
+    second_time: float
 
 
 def apart(one: Points, two: Points) -> float:
@@ -208,8 +217,15 @@ def subdivided(points: Points, triangles: Triangles) -> tuple[Points, Triangles]
     return np.vstack([points, points[edges].mean(axis=1)]), finer.astype(np.int32)
 
 
-def click_on(embedding: sw.Embedding, scale: float, vertex: int, line: Points, others: list[list[Points]]) -> Click:
-    """Ask for the loops through a vertex of a person's line."""
+def click_on(
+    embedding: sw.Embedding,
+    scale: float,
+    vertices: NDArray[np.int32],
+    vertex: int,
+    line: Points,
+    others: list[list[Points]],
+) -> Click:
+    """Ask for the loops through a vertex of a person's line, then bend the nearest to another vertex of it."""
     began = time.process_time()
     field = sw.distance_field(embedding, vertex)
     solved = time.process_time()
@@ -217,12 +233,26 @@ def click_on(embedding: sw.Embedding, scale: float, vertex: int, line: Points, o
     ended = time.process_time()
     off = [1000 * scale * apart(loop.points, line) for loop in loops]
     peers = tuple(1000 * scale * min(apart(other, line) for other in theirs) for theirs in others if theirs)
+    bent_off, bend_time, second_time = np.inf, 0.0, 0.0
+    if off:
+        nearest = loops[int(np.argmin(off))]
+        second = int(vertices[np.argmax(to_chain(line, nearest.points))])
+        before = time.process_time()
+        bender = field.bend(nearest)
+        bend_time = time.process_time() - before
+        wires = bender.through(second)
+        second_time = time.process_time() - before - bend_time
+        if wires is not None:
+            bent_off = 1000 * scale * apart(np.vstack([wires[0].points, wires[1].points[1:]]), line)
     return Click(
         off[0] if off else np.inf,
         min(off, default=np.inf),
+        bent_off,
         peers,
         1000 * (solved - began),
         1000 * (ended - solved),
+        1000 * bend_time,
+        1000 * second_time,
     )
 
 
@@ -252,7 +282,7 @@ def clicks(
     for _ in range(count):
         person, vertices, line = pool[random.integers(len(pool))]
         others = [[other for _, other in own] for name, own in lines.items() if name != person]
-        found.append(click_on(embedding, surface.scale, int(random.choice(vertices)), line, others))
+        found.append(click_on(embedding, surface.scale, vertices, int(random.choice(vertices)), line, others))
     return found, len(triangles)
 
 
@@ -272,6 +302,7 @@ def print_clicks(per_model: list[list[Click]], faces: list[int], random: np.rand
     rows: dict[str, tuple[Callable[[Click, float], float], list[float]]] = {
         "first loop": (lambda click, limit: click.first <= limit, [click.first for click in everything]),
         "best of three": (lambda click, limit: click.best <= limit, [click.best for click in everything]),
+        "two clicks": (lambda click, limit: click.bent <= limit, [click.bent for click in everything]),
         "another person": (
             lambda click, limit: within(click.others, limit),
             [other for click in everything for other in click.others],
@@ -289,11 +320,17 @@ def print_clicks(per_model: list[list[Click]], faces: list[int], random: np.rand
     print(
         f"the first loop is nearer than the mean other person: {nearer}; none: {share(lambda c: not np.isfinite(c.first))}"
     )
-    field, loops = (np.array([getattr(click, name) for click in everything]) for name in ("field_time", "loops_time"))
-    print(
-        f"milliseconds, medians (90th percentiles): field {np.median(field):.1f} ({np.percentile(field, 90):.1f}),"
-        f" loops after it {np.median(loops):.1f} ({np.percentile(loops, 90):.1f})"
-    )
+    times = {
+        "field": "field_time",
+        "loops after it": "loops_time",
+        "to bend": "bend_time",
+        "second click": "second_time",
+    }
+    medians = []
+    for name, attribute in times.items():
+        taken = np.array([getattr(click, attribute) for click in everything])
+        medians.append(f"{name} {np.median(taken):.1f} ({np.percentile(taken, 90):.1f})")
+    print(f"milliseconds, medians (90th percentiles): {', '.join(medians)}")
 
 
 def measure_clicks(options: argparse.Namespace) -> None:

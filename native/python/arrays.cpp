@@ -260,4 +260,13 @@ std::variant<Pick, SurfacePoint> wire_end_from(py::handle value, std::size_t ver
   return face_point_from(py::object(pair[0]), py::object(pair[1]), face_count, name);
 }
 
+SurfacePoint place_from(py::handle value, std::size_t vertex_count, std::size_t face_count, const char* name) {
+  const auto at = wire_end_from(value, vertex_count, face_count, name);
+  if (const auto* point = std::get_if<SurfacePoint>(&at)) return *point;
+  if (std::get<Pick>(at).is_edge()) {
+    throw InvalidInput(std::string(name) + ": closed wires lead through vertices and points of triangles, not edges");
+  }
+  return SurfacePoint::at_vertex(std::get<Pick>(at).a);
+}
+
 }  // namespace seamwire::python

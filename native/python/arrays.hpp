@@ -45,6 +45,8 @@ Pick pick_from(py::handle value, std::size_t count, const std::string& name);
 /// A vertex, an edge, or a pair of a face number and three barycentric coordinates.
 std::variant<Pick, SurfacePoint> wire_end_from(py::handle value, std::size_t vertex_count, std::size_t face_count,
                                                const std::string& name);
+/// What a closed wire leads through: as wire_end_from(), but no edge.
+SurfacePoint place_from(py::handle value, std::size_t vertex_count, std::size_t face_count, const char* name);
 
 /// Read-only views of memory that `owner` keeps alive. The views keep the owner.
 template <class T>

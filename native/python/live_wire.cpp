@@ -224,12 +224,16 @@ void bind_live_wire(py::module_& module) {
             py::list joints;
             for (const SurfacePoint& joint : wire.joints) {
               const auto& [a, b, c] = joint.barycentric;
-              joints.append(py::make_tuple(joint.face, py::make_tuple(a, b, c)));
+              if (joint.vertex >= 0) {
+                joints.append(joint.vertex);
+              } else {
+                joints.append(py::make_tuple(joint.face, py::make_tuple(a, b, c)));
+              }
             }
             return joints;
           },
-          "list of (int, (3,) tuple): where one piece ends and the next begins, a triangle and barycentric "
-          "coordinates.")
+          "list of (int, (3,) tuple) or int: where one piece ends and the next begins, a triangle and barycentric "
+          "coordinates; the second point may be a vertex.")
       .def_readonly("separates", &LiveClosedWire::separates, "As of ClosedWire.")
       .def_readonly("turn", &LiveClosedWire::turn, "As of ClosedWire.")
       .def_readonly("length", &LiveClosedWire::length, "In the metric, of the model scaled to the unit cube.")
@@ -495,12 +499,7 @@ ValueError
       .def(
           "closed_wires",
           [](const LiveWireObject& object, const py::object& through) {
-            const auto at = wire_end_from(through, object.vertex_count, object.face_count, "through");
-            const auto* point = std::get_if<SurfacePoint>(&at);
-            if (point == nullptr && std::get<Pick>(at).is_edge()) {
-              throw InvalidInput("through: closed wires lead through vertices and points of triangles, not edges");
-            }
-            const SurfacePoint place = point != nullptr ? *point : SurfacePoint::at_vertex(std::get<Pick>(at).a);
+            const SurfacePoint place = place_from(through, object.vertex_count, object.face_count, "through");
             return without_gil([&] { return std::make_unique<LiveClosedWires>(object.live->closed_wires(place)); });
           },
           py::arg("through"), R"(The closed cuts through a point, at most three, best first; across the surface only.
@@ -521,6 +520,42 @@ Raises
 ------
 ValueError
     Where the point is not part of the surface, or wires do not run across it.
+)")
+      .def(
+          "bent_wire",
+          [](const LiveWireObject& object, const py::object& through, const py::object& second,
+             const py::object& which) {
+            const SurfacePoint from = place_from(through, object.vertex_count, object.face_count, "through");
+            const SurfacePoint to = place_from(second, object.vertex_count, object.face_count, "second");
+            const auto number = PyNumber_AsSsize_t(which.ptr(), nullptr);
+            if (number == -1 && PyErr_Occurred() != nullptr) throw py::error_already_set();
+            if (number < 0) throw InvalidInput("which: expected a number that is not negative");
+            return without_gil([&] {
+              return std::make_unique<LiveClosedWires>(
+                  object.live->bent_wire(from, to, static_cast<std::size_t>(number)));
+            });
+          },
+          py::arg("through"), py::arg("second"), py::arg("which") = 0,
+          R"(One of the closed cuts through a point, bent so that it leads through a second point as well.
+
+It is the shortest closed wire through both that lies around what the cut lies around, in four pieces, two each way.
+
+Parameters
+----------
+through, second : int or (int, (3,) array_like)
+    A vertex, or a point by a face and three barycentric coordinates.
+which : int
+    The number of the cut in what `closed_wires` answers for the first point.
+
+Returns
+-------
+LiveClosedWires
+    At most one; final and empty where there is no cut of that number, or none leads to the second point.
+
+Raises
+------
+ValueError
+    Where a point is not part of the surface, wires do not run across it, or which is negative.
 )")
       .def(
           "extend_straight",

@@ -458,6 +458,37 @@ The first vertices are those of the surface, with their numbers; new ones are mi
                (w.separates ? ", separates>" : ", around a handle>");
       });
 
+  py::class_<BentObject, Held<BentObject>>(module, "BentWires", "A closed cut that can be bent to a second point.")
+      .def(
+          "through",
+          [](const BentObject& object, const py::object& second) -> py::object {
+            const EmbeddingObject& on = *object.embedding;
+            const SurfacePoint place =
+                place_from(second, on.surface->vertex_count(), on.surface->face_count(), "second");
+            std::optional<BentWire> bent = Watch(py::none()).run([&](const Task& task) {
+              return object.bent.through(on.find(place, "second"), task);
+            });
+            if (!bent) return py::none();
+            return py::make_tuple(std::move(bent->there), std::move(bent->back));
+          },
+          py::arg("second"), R"(The shortest closed wire through both points that lies around what the cut lies around.
+
+Parameters
+----------
+second : int or (int, (3,) array_like)
+    A vertex, or a point by a face and three barycentric coordinates.
+
+Returns
+-------
+(Wire, Wire) or None
+    From the seed to the second point and back; None where none leads there.
+
+Raises
+------
+ValueError
+    Where the point is not part of the surface, or the embedding has a hole there.
+)");
+
   py::class_<FieldObject, Held<FieldObject>>(module, "DistanceField", "Distances from a seed to every vertex.")
       .def_property_readonly(
           "seed", [](const FieldObject& f) { return f.field.seed(); },
@@ -572,6 +603,36 @@ Raises
 ------
 ValueError
     Where the field has several seeds, or count is negative.
+Cancelled
+)")
+      .def(
+          "bend",
+          [](const FieldObject& object, const ClosedWire& cut, const py::object& progress) {
+            return Watch(progress).run([&](const Task& task) {
+              const EmbeddingObject& on = *object.embedding;
+              return make_held<BentObject>(BentObject{
+                  .embedding = object.embedding,
+                  .bent = BentWires(*on.surface, on.embedding, on.geodesics(task), object.field, cut, task)});
+            });
+          },
+          py::arg("cut"), py::arg("progress") = py::none(),
+          R"(What bends one of the field's closed wires, so that it leads through a second point as well.
+
+Parameters
+----------
+cut : ClosedWire
+    One that `closed_wires` found.
+progress : callable, optional
+    Called now and then with the fraction done; returning False cancels.
+
+Returns
+-------
+BentWires
+
+Raises
+------
+ValueError
+    Where the cut is of another field, as far as its size tells.
 Cancelled
 )")
       .def("__repr__", [](const FieldObject& f) {

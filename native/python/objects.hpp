@@ -22,6 +22,7 @@
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/surface/surface_point.hpp"
 #include "seamwire/task.hpp"
+#include "seamwire/wires/bent_wires.hpp"
 #include "seamwire/wires/embedded_points.hpp"
 #include "seamwire/wires/snap.hpp"
 #include "seamwire/wires/wire.hpp"
@@ -190,6 +191,12 @@ struct FieldObject {
   DistanceField field;
 };
 
+/// What bends one of the closed wires of a field.
+struct BentObject {
+  std::shared_ptr<const EmbeddingObject> embedding;
+  BentWires bent;
+};
+
 struct EdgeWiresObject {
   std::size_t vertex_count;
   EdgeWires wires;
@@ -208,7 +215,8 @@ void bind_faces(py::module_& module);
 void bind_rays(py::module_& module);
 /// Adds SeamPlanner and its plans.
 void bind_seams(py::module_& module);
-/// Adds what views show: isolines, crest lines, ellipses of metrics, invalid faces, many paths. After what these belong to.
+/// Adds what views show: isolines, crest lines, ellipses of metrics, invalid faces, many paths. After what these belong
+/// to.
 void bind_views(py::module_& module);
 
 }  // namespace seamwire::python

@@ -126,6 +126,10 @@ class ClosedWire:
     separates: bool  # False: it runs around or through a handle
     turn: float  # at the seed, radians: 0 where it runs smoothly through it
 
+class BentWires:
+    def through(self, second: int | tuple[int, ArrayLike]) -> tuple[Wire, Wire] | None:
+        """Return the cut through a second point as well, from the seed there and back; None where none leads there."""
+
 class DistanceField:
     seed: int  # -1: several, or a point that is no vertex
     is_exact: bool
@@ -140,6 +144,8 @@ class DistanceField:
         """Return the shortest path to such a point."""
     def closed_wires(self, count: int = 3, progress: Progress | None = None) -> list[ClosedWire]:
         """Return the closed cuts through the seed that the surface suggests, at most `count`, best first; empty: none."""
+    def bend(self, cut: ClosedWire, progress: Progress | None = None) -> BentWires:
+        """Return what bends one of them to a second point."""
 
 class EdgeChain:
     vertices: NDArray[np.int32]
@@ -174,7 +180,7 @@ class LivePiece:
 
 class LiveClosedWire:
     pieces: list[LivePiece]  # from the point around to it
-    joints: list[tuple[int, tuple[float, float, float]]]  # where one piece ends and the next begins
+    joints: list[int | tuple[int, tuple[float, float, float]]]  # where one piece ends and the next begins
     separates: bool
     turn: float
     length: float
@@ -260,6 +266,10 @@ class LiveWire:
         """In the background, the newest edge asked for; ask again until the answer is final. A seed goes first."""
     def closed_wires(self, through: int | tuple[int, ArrayLike]) -> LiveClosedWires:
         """As `loop`, the closed cuts through a point of the surface, at most three."""
+    def bent_wire(
+        self, through: int | tuple[int, ArrayLike], second: int | tuple[int, ArrayLike], which: int = 0
+    ) -> LiveClosedWires:
+        """As `closed_wires`, one of these cuts bent to a second point."""
     def extend_straight(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> EdgeChain:
         """Return the straightest way on, from the edge's second vertex; its length is that in the unit cube. No vertices: not ready."""
     def edge_loop(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> EdgeLoop:

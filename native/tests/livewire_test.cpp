@@ -20,6 +20,7 @@
 #include "seamwire/edges/shortest_cycle.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
+#include "seamwire/wires/bent_wires.hpp"
 #include "seamwire/wires/closed_wires.hpp"
 #include "shapes.hpp"
 
@@ -351,6 +352,46 @@ TEST(LiveWire, ClosedWiresLeadThroughPointsOfTheSurface) {
   EXPECT_THROW(live.closed_wires(SurfacePoint::at_vertex(24 * 16)), InvalidInput);
   EXPECT_THROW(live.closed_wires({.face = -1, .barycentric = {1, 0, 0}}), InvalidInput);
   EXPECT_THROW(along_edges.closed_wires(SurfacePoint::at_vertex(0)), InvalidInput);
+}
+
+TEST(LiveWire, AClosedWireIsBentToASecondPoint) {
+  const auto surface = shared(shapes::torus(40, 24));
+  LiveWire live(surface, {.family = MetricFamily::kConcave, .strength = {.parameter = 1.0}});
+  const Curvature smoothed = smoothed_curvatures(*surface, principal_curvatures(*surface), 0.01);
+  const Embedding embedding = embed(*surface, concave_metric(*surface, smoothed, 1.0));
+  const ExactGeodesics geodesics(embedding.mesh);
+  const SurfacePoint through = SurfacePoint::at_vertex(100);
+  const DistanceField field = geodesics.solve(100);
+  const std::vector<ClosedWire> cuts = closed_wires(*surface, embedding, field);
+  ASSERT_GE(cuts.size(), 1U);
+  const BentWires bent(*surface, embedding, geodesics, field, cuts[0]);
+  for (const std::int32_t vertex : {103, 420, 500}) {
+    const SurfacePoint second = SurfacePoint::at_vertex(vertex);
+    live.bent_wire(through, SurfacePoint::at_vertex(7));  // the newest counts
+    live.bent_wire(through, second);
+    ASSERT_TRUE(live.wait());
+    const LiveClosedWires found = live.bent_wire(through, second);
+    ASSERT_TRUE(found.final);
+    ASSERT_EQ(found.cuts.size(), 1U);
+    const LiveClosedWire& cut = found.cuts[0];
+    const std::optional<BentWire> expected = bent.through(second);
+    ASSERT_TRUE(expected);
+    EXPECT_EQ(cut.length, expected->there.length + expected->back.length);
+    ASSERT_EQ(cut.pieces.size(), 4U);
+    ASSERT_EQ(cut.joints.size(), 3U);
+    EXPECT_EQ(cut.joints[1], second);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const LiveCandidate &piece = cut.pieces[k], &next = cut.pieces[(k + 1) % 4];
+      EXPECT_EQ(piece.points.back(), next.points.front());
+      EXPECT_EQ(piece.vertices.back(), next.vertices.front());
+    }
+    EXPECT_EQ(cut.pieces[1].vertices.back(), vertex);
+  }
+  live.bent_wire(through, SurfacePoint::at_vertex(420), 99);
+  ASSERT_TRUE(live.wait());
+  const LiveClosedWires none = live.bent_wire(through, SurfacePoint::at_vertex(420), 99);
+  EXPECT_TRUE(none.final && none.cuts.empty()) << "there is no cut of that number";
+  EXPECT_THROW(live.bent_wire(through, SurfacePoint::at_vertex(40 * 24)), InvalidInput);
 }
 
 TEST(LiveWire, BeforeItIsFinalAWireIsARealPathThatMayBeLonger) {

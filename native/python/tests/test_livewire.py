@@ -81,6 +81,35 @@ def test_closed_wires_are_those_of_the_field_in_pieces(
             assert piece.vertices[-1] == after.vertices[0]
 
 
+@pytest.mark.parametrize("second", [300, (41, (0.2, 0.5, 0.3))])
+def test_a_bent_wire_is_that_of_the_field_in_pieces(
+    surface: sw.Surface, curvature: sw.Curvature, second: object
+) -> None:
+    live = sw.LiveWire(surface, metric="concave")
+    assert not live.bent_wire(3, second).final
+    assert live.wait()
+    found = live.bent_wire(3, second)
+    assert found.final
+    (cut,) = found.cuts
+    field = sw.distance_field(
+        sw.embed(surface, sw.concave_metric(surface, sw.smoothed_curvatures(surface, curvature))), 3
+    )
+    there, back = field.bend(field.closed_wires()[0]).through(second)
+    assert cut.length == there.length + back.length
+    assert (len(cut.pieces), len(cut.joints)) == (4, 3)
+    if isinstance(second, int):
+        assert cut.joints[1] == second
+    else:
+        assert (cut.joints[1][0], tuple(cut.joints[1][1])) == second
+    for piece, after in zip(cut.pieces, cut.pieces[1:] + cut.pieces[:1], strict=True):
+        np.testing.assert_array_equal(piece.points[-1], after.points[0])
+        assert piece.vertices[-1] == after.vertices[0]
+    with pytest.raises(ValueError, match=r"second: .*not edges"):
+        live.bent_wire(3, (3, 4))
+    with pytest.raises(ValueError, match="which: expected a number that is not negative"):
+        live.bent_wire(3, 300, -1)
+
+
 def test_closed_wires_lead_through_points_of_the_surface(surface: sw.Surface) -> None:
     live = sw.LiveWire(surface)
     with pytest.raises(ValueError, match="through: vertex 99999 is out of range"):

@@ -99,6 +99,38 @@ def test_the_closed_wire_around_a_handle_does_not_separate() -> None:
     assert "handle" in repr(loops[0])
 
 
+@pytest.mark.parametrize("second", [24 * 33 + 12, (2 * 24 * 34 + 30, (0.2, 0.3, 0.5))])
+def test_a_closed_wire_is_bent_to_a_second_point_and_leads_around_still(second: object) -> None:
+    surface = rod()
+    field = concave_field(surface, 24 * 30)
+    bent = field.bend(field.closed_wires()[0])
+    there, back = bent.through(second)
+    np.testing.assert_array_equal(there.points[-1], back.points[0])
+    np.testing.assert_array_equal(there.points[0], back.points[-1])
+    face, weights = second if isinstance(second, tuple) else (None, None)
+    place = surface.points[second] if face is None else weights @ surface.points[surface.triangles[face]]
+    np.testing.assert_allclose(there.points[-1], place, atol=1e-12)
+    points = np.vstack([there.points, back.points])
+    angles = np.unwrap(np.arctan2(points[:, 1], points[:, 0]))
+    assert abs(angles[-1] - angles[0]) == pytest.approx(2 * np.pi)
+    assert bent.through(24 * 30) is None, "the seed itself"
+
+
+def test_what_is_not_bent_is_refused() -> None:
+    surface = rod()
+    field = concave_field(surface, 24 * 30)
+    cut = field.closed_wires()[0]
+    bent = field.bend(cut)
+    for second, why in ((99999, "second: vertex 99999 is out of range"), ((3, 4), "not edges")):
+        with pytest.raises(ValueError, match=why):
+            bent.through(second)
+    small = sw.Surface(*meshes.grid(3))
+    with pytest.raises(ValueError, match="the cut is of another embedding"):
+        concave_field(small, 0).bend(cut)
+    with pytest.raises(sw.Cancelled):
+        field.bend(cut, progress=lambda _: False)
+
+
 def test_where_nothing_suggests_one_there_is_no_closed_wire() -> None:
     assert concave_field(sw.Surface(*meshes.grid(12)), 80).closed_wires() == []
     assert concave_field(rod(), 24 * 60).closed_wires() == [], "from the middle of an end"

@@ -14,7 +14,7 @@ namespace {
 
 /// How many closed wires there are to choose from, and of how many pieces each is: one that is shorter than half of it
 /// is the shortest way between its ends.
-constexpr std::size_t kClosedWires = 3, kPiecesOfClosedWire = 3;
+constexpr std::size_t kClosedWires = 3, kPiecesOfClosedWire = 3, kPiecesOfBentHalf = 2;
 /// From so many faces on the exact field takes longer than one likes to wait, and closed wires from a field of so many
 /// windows come first.
 constexpr std::size_t kManyFaces = 50'000;
@@ -139,9 +139,13 @@ void LiveWorker::release(std::shared_ptr<const SeedSolution> solution) {
 void LiveWorker::find_loop(const LoopPlace& through) {
   const MutexLock lock(mutex_);
   if (loop_through_ == through) return;
+  // What takes time is what they have in common: it goes on, however fast the second point moves.
+  const auto *before = std::get_if<BendPlace>(&loop_through_), *now = std::get_if<BendPlace>(&through);
+  const bool is_same_cut =
+      before != nullptr && now != nullptr && before->through == now->through && before->which == now->which;
   ++loop_request_;
   loop_through_ = through;
-  if (is_at_loop_) solving_.request_stop();
+  if (is_at_loop_ && !is_same_cut) solving_.request_stop();
   changed_.notify_all();
 }
 
@@ -227,6 +231,7 @@ std::optional<LiveWorker::Job> LiveWorker::next_job() {
 }
 
 void LiveWorker::work_on(SeedJob job) {
+  around_ = std::nullopt;  // which may hold a former metric
   std::shared_ptr<const SeedSolution> solution;
   std::exception_ptr error;
   try {
@@ -259,6 +264,8 @@ void LiveWorker::work_on(const LoopJob& job) {
   try {
     if (!job.prepared) {
       // Why is known already.
+    } else if (const auto* bend = std::get_if<BendPlace>(&job.through)) {
+      closed = find_bent_wire(job, *bend);
     } else if (edge == nullptr) {
       closed = find_closed_wires(job, std::get<WireEnd>(job.through));
     } else if (has_edge(surface(), *edge)) {  // LiveWire::loop() refuses others
@@ -283,36 +290,89 @@ void LiveWorker::work_on(const LoopJob& job) {
   if (error) error_ = std::move(error);
 }
 
+/// Adds the pieces of a wire, and where each ends.
+void LiveWorker::add_pieces(const Prepared& prepared, const Wire& wire, std::size_t count, const Task& task,
+                            LiveClosedWire& closed) const {
+  for (WirePiece& piece : cut_in_pieces(surface(), wire, count)) {
+    closed.pieces.push_back(snapped(prepared, std::move(piece.wire), task));
+    closed.joints.push_back(piece.end);
+  }
+}
+
+/// Kept, so that what is asked for next through the same point is there at once.
+const LiveWorker::ClosedAround& LiveWorker::closed_around(const LoopJob& job, const WireEnd& through,
+                                                          const SurfacePoint& seed) {
+  if (around_ && around_->prepared == job.prepared && around_->through == through) return *around_;
+  around_ = std::nullopt;  // the former one's memory first
+  const Task task{.stop = job.solving, .progress = {}};
+  DistanceField field = job.prepared->geodesics->solve(std::array{seed}, {}, task);
+  std::vector<ClosedWire> cuts = seamwire::closed_wires(surface(), *job.prepared->embedding, field, kClosedWires, task);
+  around_ =
+      ClosedAround{.prepared = job.prepared, .through = through, .field = std::move(field), .cuts = std::move(cuts)};
+  return *around_;
+}
+
 /// First, where the field takes long, those that a bounded number of windows tells, which can be seen meanwhile.
 LiveClosedWires LiveWorker::find_closed_wires(const LoopJob& job, const WireEnd& through) {
   const Prepared& prepared = *job.prepared;
   const std::optional<SurfacePoint> seed = prepared.points->find(point_of(through), "through");
   if (!seed) return {};
   const Task task{.stop = job.solving, .progress = {}};
-  const auto of_field = [&](const DistanceField& field) {
+  const auto in_pieces = [&](const std::vector<ClosedWire>& cuts) {
     LiveClosedWires found;
-    for (ClosedWire& cut : seamwire::closed_wires(surface(), *prepared.embedding, field, kClosedWires, task)) {
+    for (const ClosedWire& cut : cuts) {
       LiveClosedWire closed{
           .pieces = {}, .joints = {}, .separates = cut.separates, .turn = cut.turn, .length = cut.wire.length};
-      cut.wire.from = cut.wire.to = nearest_vertex(surface(), through);
-      for (WirePiece& piece : cut_in_pieces(surface(), cut.wire, kPiecesOfClosedWire)) {
-        closed.pieces.push_back(snapped(prepared, std::move(piece.wire), task));
-        closed.joints.push_back(piece.end);
-      }
+      Wire wire = cut.wire;
+      wire.from = wire.to = nearest_vertex(surface(), through);
+      add_pieces(prepared, wire, kPiecesOfClosedWire, task, closed);
       if (!closed.joints.empty()) closed.joints.pop_back();  // that is the point itself
       found.cuts.push_back(std::move(closed));
     }
     return found;
   };
   if (seed->vertex >= 0 && prepared.embedding->mesh.face_count() > kManyFaces) {
-    LiveClosedWires early = of_field(prepared.geodesics->solve_bounded(seed->vertex, kWindowsBefore, task));
+    const DistanceField near = prepared.geodesics->solve_bounded(seed->vertex, kWindowsBefore, task);
+    LiveClosedWires early = in_pieces(seamwire::closed_wires(surface(), *prepared.embedding, near, kClosedWires, task));
     const MutexLock lock(mutex_);
     if (job.request == loop_request_) {
       closed_wires_ = std::move(early);
       closed_wires_for_ = job.request;
     }
   }
-  return of_field(prepared.geodesics->solve(std::array{*seed}, {}, task));
+  return in_pieces(closed_around(job, through, *seed).cuts);
+}
+
+/// In halves, from the first point to the second and back, each in pieces.
+LiveClosedWires LiveWorker::find_bent_wire(const LoopJob& job, const BendPlace& place) {
+  const Prepared& prepared = *job.prepared;
+  const std::optional<SurfacePoint> seed = prepared.points->find(point_of(place.through), "through");
+  const std::optional<SurfacePoint> second = prepared.points->find(point_of(place.second), "second");
+  if (!seed || !second) return {};
+  const Task task{.stop = job.solving, .progress = {}};
+  closed_around(job, place.through, *seed);
+  ClosedAround& around = *around_;
+  if (place.which >= around.cuts.size()) return {};
+  const ClosedWire& cut = around.cuts[place.which];
+  if (!around.bent || around.which != place.which) {
+    around.bent.emplace(surface(), *prepared.embedding, *prepared.geodesics, around.field, cut, task);
+    around.which = place.which;
+  }
+  std::optional<BentWire> bent = around.bent->through(*second, task);
+  if (!bent) return {};
+  LiveClosedWire closed{.pieces = {},
+                        .joints = {},
+                        .separates = cut.separates,
+                        .turn = cut.turn,
+                        .length = bent->there.length + bent->back.length};
+  bent->there.from = bent->back.to = nearest_vertex(surface(), place.through);
+  bent->there.to = bent->back.from = nearest_vertex(surface(), place.second);
+  for (const Wire* half : {&bent->there, &bent->back}) {
+    add_pieces(prepared, *half, kPiecesOfBentHalf, task, closed);
+    if (!closed.joints.empty()) closed.joints.back() = point_of(half == &bent->there ? place.second : place.through);
+  }
+  if (!closed.joints.empty()) closed.joints.pop_back();  // that is the point itself
+  return {.cuts = {std::move(closed)}, .final = false};
 }
 
 /// Null where there is no seed, or none that is part of the surface, or no such metric.

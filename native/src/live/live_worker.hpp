@@ -17,6 +17,7 @@
 #include "live/deadline.hpp"
 #include "live/prepared_metrics.hpp"
 #include "seamwire/geodesics/corridor_paths.hpp"
+#include "seamwire/wires/bent_wires.hpp"
 
 namespace seamwire {
 
@@ -26,8 +27,16 @@ bool has_edge(const Surface& surface, const Edge& edge);
 /// Where wires begin, or what they lead to: across the surface a vertex or another point, along edges a pick.
 using WireEnd = std::variant<Pick, SurfacePoint>;
 
-/// What closed wires lead through: along edges an edge, across the surface a vertex or another point.
-using LoopPlace = std::variant<Edge, WireEnd>;
+/// A closed wire through a point, the so-manieth of those that there are, and where it is bent to.
+struct BendPlace {
+  WireEnd through, second;
+  std::size_t which;
+
+  bool operator==(const BendPlace&) const = default;
+};
+
+/// What closed wires lead through: along edges an edge, across the surface a vertex or another point, or two of them.
+using LoopPlace = std::variant<Edge, WireEnd, BendPlace>;
 
 /// The wires of one metric from one seed: across the surface a field, along edges chains, which may still be at work.
 /// Neither: no wires begin there.
@@ -138,6 +147,16 @@ class LiveWorker {
   using Dropped = std::vector<std::shared_ptr<const void>>;
   using Job = std::variant<Dropped, SeedJob, LoopJob>;
 
+  /// The closed wires through a point, and what bends one of them.
+  struct ClosedAround {
+    std::shared_ptr<const Prepared> prepared;
+    WireEnd through;
+    DistanceField field;
+    std::vector<ClosedWire> cuts;
+    std::size_t which = 0;
+    std::optional<BentWires> bent = std::nullopt;  // of that one
+  };
+
   /// A wire to one target, computed before there is a field.
   struct Preview {
     std::int64_t request;
@@ -151,6 +170,10 @@ class LiveWorker {
   void work_on(SeedJob job);
   void work_on(const LoopJob& job);
   LiveClosedWires find_closed_wires(const LoopJob& job, const WireEnd& through);
+  LiveClosedWires find_bent_wire(const LoopJob& job, const BendPlace& place);
+  const ClosedAround& closed_around(const LoopJob& job, const WireEnd& through, const SurfacePoint& seed);
+  void add_pieces(const Prepared& prepared, const Wire& wire, std::size_t count, const Task& task,
+                  LiveClosedWire& closed) const;
   std::shared_ptr<const SeedSolution> solve(const SeedJob& job);
   std::shared_ptr<const SeedSolution> find_field(const SeedJob& job, const std::shared_ptr<const Prepared>& prepared,
                                                  Task task);
@@ -182,6 +205,7 @@ class LiveWorker {
   const bool makes_way_;
   const std::shared_ptr<RightOfWay> right_of_way_;
   std::stop_source quit_;                  // its state guards itself
+  std::optional<ClosedAround> around_;     // the thread's own: of the point asked for last
   std::atomic<double> fraction_ = 0.0;     // of what the thread does for the newest seed once the metric is prepared
   std::atomic<std::int64_t> targets_ = 0;  // how often target_ has become another one; grows with the mutex held
 

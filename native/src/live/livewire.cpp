@@ -129,6 +129,16 @@ struct LiveWire::Impl {
     for (LiveWorker& worker : workers) worker.seed(seed, forward);
   }
   LiveWires wires(const WireEnd& target);
+  void check_closed(const WireEnd& end, const std::string& what) const {
+    if (settings.along != Along::kSurface) throw InvalidInput("closed wires run across the surface, not along edges");
+    check_end(surface_if_built().get(), *surface_cache, Along::kSurface, end, what);
+  }
+  LiveClosedWires closed_wires(const LoopPlace& place) {
+    rethrow();
+    const bool is_built = surface_if_built() != nullptr;
+    workers[0].find_loop(place);
+    return is_built ? workers[0].closed_wires() : LiveClosedWires{};
+  }
 
   const std::shared_ptr<SurfaceCache> surface_cache;
   const LiveSettings settings;
@@ -247,15 +257,16 @@ LiveLoop LiveWire::loop(const Edge& edge) {
 }
 
 LiveClosedWires LiveWire::closed_wires(const SurfacePoint& through) {
-  if (impl_->settings.along != Along::kSurface)
-    throw InvalidInput("closed wires run across the surface, not along edges");
-  const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
   const WireEnd end = end_at(through);
-  check_end(surface.get(), *impl_->surface_cache, Along::kSurface, end, "through");
-  impl_->rethrow();
-  LiveWorker& worker = impl_->workers[0];
-  worker.find_loop(end);
-  return surface ? worker.closed_wires() : LiveClosedWires{};
+  impl_->check_closed(end, "through");
+  return impl_->closed_wires(end);
+}
+
+LiveClosedWires LiveWire::bent_wire(const SurfacePoint& through, const SurfacePoint& second, std::size_t which) {
+  BendPlace place{.through = end_at(through), .second = end_at(second), .which = which};
+  impl_->check_closed(place.through, "through");
+  impl_->check_closed(place.second, "second");
+  return impl_->closed_wires(std::move(place));
 }
 
 EdgeChain LiveWire::extend_straight(const Edge& edge, std::span<const std::int32_t> stops) const {

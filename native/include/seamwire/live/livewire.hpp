@@ -77,11 +77,13 @@ struct LiveLoop {
 
 /// A closed cut through a point of the surface, in pieces of about the same length that follow each other from the
 /// point around to it. Each is the shortest wire between its ends, but for the place at which the cut's halves meet.
+/// One through a second point as well is in four pieces, two from either point to the other.
 struct LiveClosedWire {
-  std::vector<LiveCandidate> pieces;  ///< three, or fewer where one of them would begin on an edge without a face
-  std::vector<SurfacePoint> joints;   ///< where one piece ends and the next one begins, within faces
-  bool separates = true;              ///< as ClosedWire has it
-  double turn = 0.0;                  ///< as ClosedWire has it
+  std::vector<LiveCandidate> pieces;  ///< three or four, or fewer where one would begin on an edge without a face
+  std::vector<SurfacePoint>
+      joints;             ///< where one piece ends and the next one begins: within faces, or the second point
+  bool separates = true;  ///< as ClosedWire has it
+  double turn = 0.0;      ///< as ClosedWire has it; of one that was bent what it was before
   double length = std::numeric_limits<double>::infinity();  ///< in the metric, of the model scaled to the unit cube
 };
 
@@ -160,6 +162,9 @@ class LiveWire {
   /// surface only. Of M_min's thread; asked for as loop(). On a large surface what a bounded number of windows tells is
   /// there first, and not final. Throws InvalidInput where the point is none.
   LiveClosedWires closed_wires(const SurfacePoint& through);
+  /// Of the closed cuts through a point the one numbered `which`, bent to a second point (BentWires); none where there
+  /// is none of that number, or none leads there. Asked for as the others, and never there before it is final.
+  LiveClosedWires bent_wire(const SurfacePoint& through, const SurfacePoint& second, std::size_t which = 0);
   /// seamwire::extend_straight(), with the way's length in the unit cube; no vertices where it cannot be told yet.
   EdgeChain extend_straight(const Edge& edge, std::span<const std::int32_t> stops) const;
   /// seamwire::edge_loop(); no vertices where it cannot be told yet.
