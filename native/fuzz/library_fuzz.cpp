@@ -34,6 +34,7 @@
 #include "seamwire/surface/segments.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/task.hpp"
+#include "seamwire/wires/bent_wires.hpp"
 #include "seamwire/wires/closed_wires.hpp"
 #include "seamwire/wires/snap.hpp"
 #include "seamwire/wires/wire.hpp"
@@ -260,6 +261,13 @@ void check_wires(Bytes& from, const Patience& patience, const Surface& surface, 
     require(!loop.wire.points.empty() && loop.wire.points.front() == loop.wire.points.back(),
             "a closed wire is closed");
     require(std::isfinite(loop.wire.length), "a closed wire has a length");
+    const BentWires bent(surface, embedding, solver, field, loop, patience.task());
+    const SurfacePoint second = SurfacePoint::at_vertex(from.below(surface.vertex_count()));
+    if (const std::optional<BentWire> found = bent.through(second, patience.task())) {
+      require(found->there.points.back() == found->back.points.front() &&
+                  found->back.points.back() == found->there.points.front(),
+              "a bent wire is closed");
+    }
   }
   CorridorPaths quick(solver, seed);
   const SnapGraph graph(surface);
