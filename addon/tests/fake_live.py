@@ -59,7 +59,7 @@ class FakeCut:
     """A closed cut."""
 
     pieces: list[FakePiece]
-    joints: list[tuple[int, tuple[float, float, float]]]
+    joints: list[int | tuple[int, tuple[float, float, float]]]
     separates: bool
 
 
@@ -116,6 +116,7 @@ class FakeLive:
     boxes: bool = False
     early: bool = False
     through: list[object] = field(default_factory=list)
+    bent: list[object] = field(default_factory=list)
     rings: dict[tuple[int, int], int] = field(default_factory=dict)
     forks: list[FakeLive] = field(default_factory=list)
     metrics: list[tuple[str, float | None, float | None]] = field(default_factory=list)
@@ -182,6 +183,22 @@ class FakeLive:
             return FakeCuts([], all(self.ready))
         late = [self._square(through, 1)] if all(self.ready) else []
         return FakeCuts([*late, self._square(through, -1)], all(self.ready))
+
+    def bent_wire(self, through: object, second: object, which: int) -> FakeCuts:
+        """Along x from a vertex to another and up, then on around the square between them; none where they are in line."""
+        if not 0 <= second < self.size**2:
+            raise ValueError(f"vertex {second} is not part of the surface")
+        self.bent.append((through, second, which))
+        (x, y), (to_x, to_y) = ((v % self.size, v // self.size) for v in (through, second))
+        if not all(self.ready) or x == to_x or y == to_y:
+            return FakeCuts([], all(self.ready))
+        dx, dy = 1 if to_x > x else -1, 1 if to_y > y else -1
+        right = [(i, y) for i in range(x, to_x, dx)] + [(to_x, j) for j in range(y, to_y, dy)]
+        left = [(i, to_y) for i in range(to_x, x, -dx)] + [(x, j) for j in range(to_y, y, -dy)]
+        there, back = ([i + self.size * j for i, j in way] for way in (right, left))
+        chains = [[*there, second], [*back, through]]
+        pieces = [FakePiece(grid_points(self.size)[chain], np.array(chain, dtype=np.int32)) for chain in chains]
+        return FakeCuts([FakeCut(pieces, [second], separates=which == 0)], True)
 
     def _square(self, corner: int, dx: int) -> FakeCut:
         up = self.size if corner + 2 * self.size < self.size**2 else -self.size

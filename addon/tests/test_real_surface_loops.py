@@ -112,3 +112,66 @@ def test_from_a_tip_nothing_is_suggested(session: Session) -> None:
     session.hover(tip, loop=True)
     session.wait()
     assert session.message == SurfaceLoops.NONE
+
+
+def test_bent_to_a_second_point_it_parts_the_limb_all_the_same(session: Session, triangles: NDArray[np.int32]) -> None:
+    session.loop(WAIST)
+    session.wait()
+    for second in (WAIST + 5 * AROUND + 12, WAIST - 4 * AROUND + 7):
+        assert session.bend(second)
+        session.wait()
+        assert session.wires[0].start == session.wires[-1].end == WAIST
+        assert second in session.seeds()
+        assert len(session.wires) == 4
+        assert islands(session, triangles) == 2
+    assert session.undo()
+    assert session.undo()
+    assert session.undo()
+    assert session.wires == ()
+
+
+def test_a_bent_cut_is_dragged_by_its_second_point(session: Session, triangles: NDArray[np.int32]) -> None:
+    second, to = WAIST + 3 * AROUND + 12, WAIST + 5 * AROUND + 12
+    session.loop(WAIST)
+    session.wait()
+    session.bend(second)
+    session.wait()
+    assert session.drag(Snap(second, "SEED"))
+    session.drag_to(to)
+    session.drag_end()
+    session.wait()
+    assert to in session.seeds()
+    assert islands(session, triangles) == 2
+
+
+def test_w_on_a_piece_of_a_cut_takes_its_other_paths_between_the_same_seeds(
+    session: Session, triangles: NDArray[np.int32]
+) -> None:
+    session.loop(WAIST)
+    session.wait()
+    session.bend(WAIST + 4 * AROUND + 12)
+    session.wait()
+    before = session.wires
+    paths = set()
+    for _ in range(4):
+        session.toggle_kept(session.wires[1])
+        session.wait()
+        paths.add(session.wires[1].vertices)
+        ends = [(wire.start, wire.end) for wire in session.wires]
+        assert ends == [(wire.start, wire.end) for wire in before], "seeds stay"
+        assert islands(session, triangles) == 2
+    assert session.wires[0] is before[0], "the other pieces stay"
+    while session.wires[1] is not before[1]:
+        assert session.undo()
+
+
+def test_x_on_a_piece_of_a_cut_removes_that_piece(session: Session) -> None:
+    session.loop(WAIST)
+    session.wait()
+    session.bend(WAIST + 4 * AROUND + 12)
+    session.wait()
+    session.drop(session.wires[1])
+    assert len(session.wires) == 3
+    assert not is_closed(session.edges_to_mark())
+    assert session.undo()
+    assert is_closed(session.edges_to_mark())

@@ -8,7 +8,7 @@ import pytest
 from fake_live import grid_edges
 from seamwire.core.network import FacePoint
 from seamwire.core.session import Intent, Session
-from seamwire.core.surface_loops import SurfaceLoops
+from seamwire.core.surface_loops import NOTHING_TO_BEND, SurfaceLoops
 from table import SIZE, Table, chain
 
 RIGHT = (8, 9, 10, 16, 22, 21, 20, 14)
@@ -160,3 +160,120 @@ def test_without_triangles_there_is_none() -> None:
     session = Session(made.session._engines._make, made.points, "SURFACE", edges=grid_edges(SIZE))
     session.hover(8, loop=True)
     assert session.loop_preview is None
+
+
+BOX = (8, 9, 10, 16, 22, 21, 20, 14)
+"""The square between vertices 8 and 22, which a cut through 8 is bent to."""
+
+
+def taken_at_8() -> Table:
+    it = table()
+    it.session.hover(8, loop=True)
+    it.session.click(8)
+    return it
+
+
+def test_a_cut_that_was_taken_is_shown_bent_and_a_click_keeps_it_in_place_of_the_other() -> None:
+    it = taken_at_8()
+    session = it.session
+    session.finish = "CUT"
+    session.hover(28, bend=True)
+    assert session.bending
+    assert session.loop_preview.vertices == (8, 9, 10, 16, 22, 28, 27, 26, 20, 14)
+    assert session.loop_choice == "ACROSS"
+    assert session.edges_to_mark() == edges(*RIGHT), "until the click"
+    assert session.click(28)
+    assert session.edges_to_mark() == edges(8, 9, 10, 16, 22, 28, 27, 26, 20, 14)
+    assert [(wire.start, wire.end) for wire in session.wires] == [(8, 28), (28, 8)]
+    assert session.seeds() == [8, 28]
+    assert it.lives["SURFACE"].bent[-1] == (8, 28, 0)
+    session.hover(28)
+    assert not session.bending
+    assert session.loop_preview is None
+
+
+def test_undo_brings_back_the_cut_as_it_was_and_it_can_be_bent_elsewhere() -> None:
+    session = taken_at_8().session
+    assert session.bend(28)
+    assert session.undo()
+    assert session.edges_to_mark() == edges(*RIGHT)
+    assert session.redo()
+    assert session.undo()
+    assert session.bend(22)
+    assert session.edges_to_mark() == edges(*BOX)
+    assert session.undo()
+    assert session.undo()
+    assert session.wires == ()
+
+
+def test_bent_once_more_its_second_point_moves() -> None:
+    it = taken_at_8()
+    session = it.session
+    session.bend(28)
+    assert session.bend(22)
+    assert session.edges_to_mark() == edges(*BOX)
+    assert session.seeds() == [8, 22]
+    assert it.lives["SURFACE"].bent[-1] == (8, 22, 0)
+
+
+def test_the_one_of_several_cuts_that_was_taken_is_the_one_that_is_bent() -> None:
+    it = table()
+    session = it.session
+    session.hover(8, loop=True)
+    session.toggle()
+    session.click(8)
+    session.bend(22)
+    assert it.lives["SURFACE"].bent[-1] == (8, 22, 1)
+
+
+def test_what_is_not_there_as_it_was_taken_is_not_bent() -> None:
+    session = table().session
+    assert not session.bend(28)
+    assert session.message == NOTHING_TO_BEND
+    session = taken_at_8().session
+    assert session.can_bend
+    session.drop(session.wires[1])
+    assert not session.can_bend
+    session.hover(28, bend=True)
+    assert session.loop_preview is None
+    assert session.message == NOTHING_TO_BEND
+    session.undo()
+    assert session.can_bend, "it is there again"
+    session.set_strength("SURFACE", 40.0)
+    assert not session.can_bend, "other cuts would be found by now"
+
+
+def test_where_none_leads_it_says_so_and_the_cut_stays() -> None:
+    session = taken_at_8().session
+    session.hover(11, bend=True)
+    assert session.message == "No closed cut leads through both points"
+    revision = session.revision
+    session.poll()
+    assert session.revision == revision, "nothing new to be seen"
+    assert not session.bend(11)
+    assert session.edges_to_mark() == edges(*RIGHT)
+    session.hover(16)
+    assert session.message == ""
+
+
+def test_bending_waits_until_it_is_computed() -> None:
+    it = taken_at_8()
+    session = it.session
+    it.lives["SURFACE"].ready = (False, False)
+    session.hover(28, bend=True)
+    assert session.loop_preview is None
+    assert session.bend(28)
+    assert session.waiting_clicks == 1
+    assert session.edges_to_mark() == edges(*RIGHT)
+    it.compute()
+    assert session.waiting_clicks == 0
+    assert session.seeds() == [8, 28]
+
+
+def test_edges_are_not_bent_to_and_along_edges_nothing_is() -> None:
+    session = taken_at_8().session
+    assert not session.bend((27, 28))
+    session.switch("EDGES")
+    assert not session.bend(28)
+    assert not session.can_bend
+    assert session.edges_to_mark() == edges(*RIGHT)

@@ -82,6 +82,56 @@ def test_alt_over_a_limb_shows_the_cut_around_it_and_a_click_takes_it(desk: Desk
     assert seams(desk.obj) == []
 
 
+def test_shift_alt_shows_the_cut_bent_to_the_cursor_and_a_click_keeps_it_in_its_place(desk: Desk) -> None:
+    ui = desk.ui
+    place = offer(desk, WAIST)
+    ui.click(place, alt=True)
+    assert not desk.running
+    straight = seams(desk.obj)
+    second = WAIST + 6 * AROUND + 3
+    away = desk.at(second)
+    ui.event("LEFT_SHIFT", "PRESS", away, alt=True, shift=True)
+    ui.event("MOUSEMOVE", "NOTHING", away, alt=True, shift=True)
+    session = desk.session
+    ui.wait_until(lambda: session.loop_preview is not None and not session.computing)
+    assert session.bending
+    assert "Bend Closed Cut" in said()
+    assert len(session.wires) == 3, "until the click"
+    ui.click(away, alt=True, shift=True)
+    assert len(session.wires) == 4
+    assert set(session.seeds()) >= {WAIST, second}
+    ui.event("LEFT_SHIFT", "RELEASE", away, alt=True)
+    ui.event("LEFT_ALT", "RELEASE", away)
+    assert desk.left_clean()
+    bent = seams(desk.obj)
+    assert any(second in edge for edge in bent)
+    ui.key("Z", ctrl=True)
+    assert seams(desk.obj) == straight, "a step of Blender's undo brings back the cut as it was"
+    ui.key("Z", ctrl=True)
+    assert seams(desk.obj) == []
+
+
+def test_escape_while_it_is_bent_leaves_the_cut_as_it_was(desk: Desk) -> None:
+    ui = desk.ui
+    place = offer(desk, WAIST)
+    ui.click(place, alt=True)
+    ui.event("LEFT_ALT", "RELEASE", place)
+    assert desk.left_clean()
+    before = seams(desk.obj)
+    away = desk.at(WAIST + 6 * AROUND + 3)
+    ui.move(away)
+    ui.event("LEFT_SHIFT", "PRESS", away, shift=True)
+    ui.event("LEFT_ALT", "PRESS", away, alt=True, shift=True)
+    session = desk.session
+    ui.wait_until(lambda: session.loop_preview is not None and not session.computing)
+    assert session.bending
+    ui.key("ESC", alt=True, shift=True)
+    ui.event("LEFT_ALT", "RELEASE", away, shift=True)
+    ui.event("LEFT_SHIFT", "RELEASE", away)
+    assert desk.left_clean()
+    assert seams(desk.obj) == before
+
+
 def test_it_can_be_cut_into_the_faces(desk: Desk) -> None:
     settings().finish = "CUT"
     ui, count = desk.ui, len(desk.obj.data.vertices)

@@ -49,8 +49,8 @@ __all__ = ["CLAMP_PERCENTILE", "STRENGTHS", "Intent", "Session"]
 _NOWHERE = "The wire cannot run on from here"
 
 
-Waiting = Literal["click", "loop", "run", "offer", "line"]
-"""What waits: a click, a loop, a run to the end, the next offer for a kept wire, a line that was drawn."""
+Waiting = Literal["click", "loop", "bend", "run", "offer", "line"]
+"""What waits: a click, a loop, a cut to be bent, a run to the end, the next offer for a kept wire, a line that was drawn."""
 
 
 @dataclass(frozen=True)
@@ -147,7 +147,7 @@ class Session:
 
     # Drawing wires
 
-    def hover(self, snap: Snap | Pick | None, loop: bool = False) -> None:
+    def hover(self, snap: Snap | Pick | None, loop: bool = False, bend: bool = False) -> None:
         """Move the free end of the live wire.
 
         Parameters
@@ -156,6 +156,8 @@ class Session:
             What is under the cursor; None: nothing. A pick alone stands for one on the plain mesh.
         loop
             Show the loop through it instead: along edges where it is an edge, across the surface where it is none.
+        bend
+            Show the closed cut that was taken last, bent to it; across the surface only.
         """
         if self._queue:
             return
@@ -163,7 +165,9 @@ class Session:
         self._aim(target)
         if target is None or undirected(target.pick) != self._crest_taken:
             self._crest_taken = None
-        asked = target.pick if loop and target is not None and self._loops.takes(target.pick) else None
+        bend = bend and self.along == "SURFACE"
+        self.revision += self._cuts.bend(bend)
+        asked = target.pick if (loop or bend) and target is not None and self._loops.takes(target.pick) else None
         self.revision += self._loops.aim(asked)
         self._show_offers()
 
@@ -177,7 +181,7 @@ class Session:
         if self._extension.wanted and not self._queue:
             return self.run_to_end()
         if self._loops.wire is not None and self._loops.edge == undirected(target.pick) and not self._queue:
-            return self.loop(target)
+            return self.bend(target) if self.bending else self.loop(target)
         self.drag_cancel()
         if self._network.seed is None and not self._queue:
             return self.start(target)
@@ -215,6 +219,7 @@ class Session:
             on = "an edge" if self.along == "EDGES" else "a vertex or a point of a face"
             return self._refuse(f"Loops are taken through {on}, not through {name(edge)}")
         self.drag_cancel()
+        self._cuts.bend(False)
         shown = self._loops
         choice = shown.choice if shown.edge == undirected(edge) else 0
         if self.along == "SURFACE":
@@ -242,15 +247,31 @@ class Session:
         """Keep a closed cut through a point: the one that is shown, else the best."""
         offers = self._find_offers(target.pick)
         if not self._cuts.final:
-            return self._postpone("loop", target)
+            return self._postpone("bend" if self._cuts.bends else "loop", target)
         if not offers:
             return self._refuse(self.message or self._cuts.NONE)
         offer = offers[min(choice, len(offers) - 1)]
         if offer.kind in CREST_KINDS:
             return self._along_crest(target.pick)
-        pieces = self._cuts.take(target.pick, offer)
-        wires = [self._as_drawn(piece.anew()) for piece in pieces]
-        return self._change(replace(self._network, wires=(*self.wires, *wires)))
+        wires = tuple(self._as_drawn(piece.anew()) for piece in self._cuts.pieces(offer))
+        network = self._network
+        before = self._cuts.bendable(network) if self._cuts.bends else None
+        for wire in () if before is None else before.wires:
+            network = network.without(wire)
+        self._cuts.take(target.pick, offer, wires, before)
+        return self._change(replace(network, wires=(*network.wires, *wires)))
+
+    def bend(self, snap: Snap | Pick) -> bool:
+        """Bend the closed cut that was taken last: the shortest through its first point and this one that lies around the same.
+
+        Once more, it is its second point that moves. One step for undo, which brings back the cut as it was.
+        """
+        target = Snap.of(snap)
+        if self.along == "EDGES" or not self._cuts.takes(target.pick):
+            return self._refuse(f"Closed cuts are bent across the surface, not to {name(target.pick)}")
+        self.drag_cancel()
+        self._cuts.bend(True)
+        return self._cut_around(target, 0)
 
     def _along_crest(self, pick: Pick) -> bool:
         """Keep wires that follow the ridge or valley at a pick, as soon as they are computed; one step for undo."""
@@ -867,6 +888,16 @@ class Session:
         return None if self._loops.wire is None else self._loops.wire.kind
 
     @property
+    def bending(self) -> bool:
+        """Whether what a click would take is the closed cut taken last, bent."""
+        return self._cuts.bends and self._cuts.wanted
+
+    @property
+    def can_bend(self) -> bool:
+        """Whether there is a closed cut that can be bent."""
+        return self.along == "SURFACE" and self._cuts.bendable(self.network) is not None
+
+    @property
     def end_preview(self) -> Wire | None:
         """The live wire with its way on to the end, while it is asked for."""
         return self._extension.wire
@@ -1205,6 +1236,8 @@ class Session:
 
     def _with_crest(self, pick: Pick, offers: tuple[Wire, ...], kept: Wire | None) -> tuple[Wire, ...]:
         """Return what is offered with the ridge or valley at a pick: first where these are seen, else last."""
+        if self._cuts.bends and not isinstance(pick, tuple):
+            return offers
         # What is known first must not be what a click takes while others are computed.
         ready = offers or (self._edge_loops if isinstance(pick, tuple) else self._cuts).final or self._crests_first
         crest = self._crests.offer(pick) if self._crests is not None and kept is None and ready else None
@@ -1214,19 +1247,20 @@ class Session:
 
     def _show_offers(self) -> None:
         """Show what a click on the edge under the cursor may take, as soon as it is asked for and computed."""
-        if not any(queued.kind in {"loop", "offer"} for queued in self._queue):
+        before = self.message
+        if not any(queued.kind in {"loop", "bend", "offer"} for queued in self._queue):
             # Of both ways: an offer for a wire along edges may have been asked for across the surface, and given up.
             self._edge_loops.stop_waiting()
             self._cuts.stop_waiting()
         loops = self._loops
         if loops.unfinished and self.target is not None:
             self.revision += loops.show(self.target.pick, self._find_offers(self.target.pick))
-        none = bool(loops.NONE) and loops.missing and loops.final
+        none = bool(loops.NONE) and loops.missing and loops.final and not self._cuts.bends
         if none != self._told_none and (not none or not self.message):
             self._told_none = none
             if none or self.message == self._cuts.NONE:
                 self.message = loops.NONE if none else ""
-                self.revision += 1
+        self.revision += before != self.message
 
     def _next_kept(self, own: Wire, steps: int = 1) -> bool:
         """Let a wire that a click on an edge took be what that offers next, or some steps on."""
@@ -1303,7 +1337,8 @@ class Session:
         if head.line is not None:
             return self._poll_waiting_line(head.line)
         self._aim(head.snap, again=True)
-        if head.kind in {"loop", "offer"}:
+        if head.kind in {"loop", "bend", "offer"}:
+            self._cuts.bend(head.kind == "bend")
             waits = not (self._find_offers(head.snap.pick) and self._offers_final) and self.computing
         else:
             waits = not self._candidates.decided and self._wires_computing
@@ -1315,6 +1350,8 @@ class Session:
             self.run_to_end()
         elif head.kind == "loop":
             self.loop(head.snap)
+        elif head.kind == "bend":
+            self.bend(head.snap)
         elif head.kind == "offer" and head.snap.wire is not None:
             self.toggle_kept(head.snap.wire)
         else:
@@ -1337,7 +1374,8 @@ class Session:
         drag = [] if self._drag is None else self._drag.lives()
         # What a click on an edge offers is found along edges, however wires run now.
         offers = [self._engines.get("EDGES")] if any(queued.kind == "offer" for queued in self._queue) else []
-        waits = any(queued.kind == "loop" and self._cuts.takes(queued.snap.pick) for queued in self._queue)
+        asks = [queued.snap.pick for queued in self._queue if queued.kind in {"loop", "bend"}]
+        waits = any(self._cuts.takes(pick) for pick in asks)
         cuts = [self._engines.cuts()] if self._cuts.wanted or waits else []
         lines = [queued.line for queued in self._queue if queued.line is not None]
         lines += [] if self._line is None else [self._line]

@@ -66,7 +66,7 @@ class ClosedCut(Protocol):
     """A closed cut across the surface: pieces from a point around to it, and where each but the last ends."""
 
     pieces: Sequence[Piece]
-    joints: Sequence[tuple[int, Sequence[float]]]
+    joints: Sequence[int | tuple[int, Sequence[float]]]
     separates: bool
 
 
@@ -118,6 +118,9 @@ class LiveWire(Protocol):
 
     def closed_wires(self, through: End) -> ClosedCuts:
         """Return the closed cuts across the surface through a point, as far as they are computed."""
+
+    def bent_wire(self, through: End, second: End, which: int) -> ClosedCuts:
+        """Return one of these cuts, by its place among them, bent to a second point, as far as it is computed."""
 
     def extend_straight(self, edge: Edge, stops: Iterable[int]) -> Chain:
         """Return the straight way on from the end of a directed edge until a stop, a boundary or itself."""

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,8 +19,23 @@ if TYPE_CHECKING:
     from .solver import ClosedCut, Engines
 
 
+NOTHING_TO_BEND = "There is no closed cut to bend: take one first"
+
+
+@dataclass(frozen=True)
+class TakenCut:
+    """A closed cut that is kept, and where it came from: what it takes to bend it."""
+
+    through: Pick
+    which: int
+    """Its place among those that the library found through that point."""
+    wires: tuple[Wire, ...]
+    metric: tuple[object, ...]
+    """What it was found by."""
+
+
 class SurfaceLoops(Offers):
-    """The closed cuts through the point under the cursor, while they are asked for.
+    """The closed cuts through the point under the cursor, while they are asked for; or, to be bent, the one taken last through it too.
 
     Parameters
     ----------
@@ -37,8 +52,11 @@ class SurfaceLoops(Offers):
         super().__init__()
         self._engines = engines
         self._triangles = triangles
-        self._pieces: dict[int, tuple[Wire, ...]] = {}
+        self._found: dict[int, tuple[tuple[Wire, ...], int]] = {}
         self._taken: Pick | None = None
+        self._cuts: list[TakenCut] = []
+        self.bends = False
+        """Whether the offer is the cut that was taken last, bent to the pick."""
 
     def takes(self, pick: Pick) -> bool:
         """Whether it is a point of the surface."""
@@ -50,17 +68,52 @@ class SurfaceLoops(Offers):
         Raises
         ------
         ValueError
-            Where the pick is not part of the surface.
+            Where the pick is not part of the surface, or there is no cut that can be bent to it.
         """
         self.final = True
         if not self.takes(pick):
             return ()
-        found = self._engines.cuts().closed_wires(for_live(pick, "SURFACE"))
+        live = self._engines.cuts()
+        begin, first = pick, 0
+        if self.bends:
+            cut = self.bendable(network)
+            if cut is None:
+                raise ValueError(NOTHING_TO_BEND)
+            begin, first = cut.through, cut.which
+            found = live.bent_wire(for_live(begin, "SURFACE"), for_live(pick, "SURFACE"), first)
+            if found.final and not found.cuts:
+                raise ValueError("No closed cut leads through both points")
+        else:
+            found = live.closed_wires(for_live(pick, "SURFACE"))
         self.final = found.final
-        cuts = [(self._pieces_of(cut, pick), cut.separates) for cut in found.cuts]
-        shown = [(pieces, _whole(pieces, separates)) for pieces, separates in cuts if len(pieces) > 1]
-        self._pieces = {whole.id: pieces for pieces, whole in shown}
-        return tuple(whole for _, whole in shown)
+        cuts = [(self._pieces_of(cut, begin), cut.separates, first + i) for i, cut in enumerate(found.cuts)]
+        shown = [(_whole(pieces, separates), pieces, which) for pieces, separates, which in cuts if len(pieces) > 1]
+        self._found = {whole.id: (pieces, which) for whole, pieces, which in shown}
+        return tuple(whole for whole, _, _ in shown)
+
+    def bend(self, bends: bool) -> bool:
+        """Offer the cut that was taken last, bent to the pick, or those through the pick again; return whether others vanish."""
+        if bends == self.bends:
+            return False
+        self.bends = bends
+        vanish = bool(self.offers)
+        self.clear()
+        return vanish
+
+    def bendable(self, network: Network) -> TakenCut | None:
+        """Return the cut taken last of those that a network has still as they were, and that would be found again."""
+
+        def is_there(wire: Wire) -> bool:
+            own = network.find(wire)
+            return own is not None and own.like(wire)
+
+        metric = self._metric
+        there = (cut for cut in reversed(self._cuts) if cut.metric == metric and all(map(is_there, cut.wires)))
+        return next(there, None)
+
+    @property
+    def _metric(self) -> tuple[object, ...]:
+        return self._engines.strengths["SURFACE"], self._engines.scribbles
 
     def aim(self, pick: Pick | None) -> bool:
         """Ask for the offers for a pick, or for none; where a cut was taken just now, there are none until another pick."""
@@ -68,10 +121,15 @@ class SurfaceLoops(Offers):
             self._taken = None
         return super().aim(None if self._taken is not None else pick)
 
-    def take(self, pick: Pick, offer: Wire) -> tuple[Wire, ...]:
+    def pieces(self, offer: Wire) -> tuple[Wire, ...]:
         """Return the wires that an offer found last consists of: a closed chain with seeds where they meet."""
+        return self._found[offer.id][0]
+
+    def take(self, pick: Pick, offer: Wire, wires: tuple[Wire, ...], before: TakenCut | None) -> None:
+        """Remember that an offer found last for a pick is kept now, as these wires; `before`: in place of a cut."""
+        through = pick if before is None else before.through
+        self._cuts.append(TakenCut(through, self._found[offer.id][1], wires, self._metric))
         self.was_taken(pick)
-        return self._pieces[offer.id]
 
     def was_taken(self, pick: Pick) -> None:
         """Offer nothing until another pick: something was taken at this one."""
@@ -80,7 +138,11 @@ class SurfaceLoops(Offers):
     def _pieces_of(self, cut: ClosedCut, pick: Pick) -> tuple[Wire, ...]:
         assert self._triangles is not None
         joints: list[Pick] = []
-        for triangle, (a, b, c) in cut.joints:
+        for joint in cut.joints:
+            if isinstance(joint, int):
+                joints.append(joint)
+                continue
+            triangle, (a, b, c) = joint
             one, two, three = self._triangles[triangle].tolist()
             joints.append(FacePoint(int(triangle), (one, two, three), (float(a), float(b), float(c))))
         return tuple(

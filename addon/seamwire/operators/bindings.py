@@ -24,6 +24,7 @@ class Action(Enum):
     CLICK = "Add Seed, Keep Wire, Join (drag: Draw Line, Move Seed)"
     NEW_CHAIN = "New Chain"
     LOOP = "Add Loop"
+    BEND = "Bend Closed Cut"
     REMOVE = "Remove Wire or Stroke"
     GUIDE = "Draw Guide Stroke (drag)"
     AVOID = "Draw Avoid Stroke (drag)"
@@ -66,6 +67,7 @@ NUMBERS = {
     Action.UNDO: 19,
     Action.REDO: 20,
     Action.CANCEL: 21,
+    Action.BEND: 22,
 }
 """What Blender stores of an action with the keys that a user has changed: a number is never given to another action."""
 
@@ -122,6 +124,7 @@ _ANY = {"ctrl": -1, "shift": -1, "alt": -1, "oskey": -1}
 KEYS: tuple[tuple[Action, Key], ...] = (
     (Action.LOOP, Key("LEFTMOUSE", "DOUBLE_CLICK")),
     (Action.LOOP, Key("LEFTMOUSE", alt=1)),
+    (Action.BEND, Key("LEFTMOUSE", shift=1, alt=1)),
     (Action.NEW_CHAIN, Key("LEFTMOUSE", ctrl=1)),
     (Action.GUIDE, Key("LEFTMOUSE", shift=1)),
     (Action.AVOID, Key("LEFTMOUSE", ctrl=1, shift=1)),
@@ -217,9 +220,9 @@ class Bindings:
         """Return the keys of an action."""
         return [key for of, key in self._keys if of is action]
 
-    def previews_loop(self, event: bpy.types.Event) -> bool:
-        """Whether the modifiers are held with which a click would take a loop."""
-        keys = self.keys_of(Action.LOOP)
+    def previews(self, action: Action, event: bpy.types.Event) -> bool:
+        """Whether the modifiers are held with which a click would take a loop, or bend a cut, as the action says."""
+        keys = self.keys_of(action)
         return any(key.modifiers and key.value != "DOUBLE_CLICK" and key.held(event) for key in keys)
 
     def text(self, action: Action) -> str:

@@ -25,6 +25,7 @@ _FIRST = (
     ("REMOVE", "Remove", "Remove the wire or the stroke; where there is none, Blender has the key", 5),
     ("NEXT", "Next Candidate", "Let the wire take its other path; where there is none, Blender has the key", 6),
     ("PEEK", "Show Loop", "Show the loop that a click would take, while the key is held", 7),
+    ("BEND", "Bend Closed Cut", "Bend the closed cut that was taken last", 8),
 )
 _FOR_BLENDER = {"REMOVE", "NEXT", "PEEK"}
 """Where these find nothing to do, the key has Blender's meaning."""

@@ -28,7 +28,9 @@ if TYPE_CHECKING:
 
 TICK = 0.008
 """Seconds between two looks at running work, half of what a screen shows a picture for: a wire is drawn with the next one."""
-_CLICKS = frozenset({Action.CLICK, Action.NEW_CHAIN, Action.LOOP})
+_OFFERED = (Action.LOOP, Action.BEND)
+"""What is shown while the modifiers of its click are held."""
+_CLICKS = frozenset({Action.CLICK, Action.NEW_CHAIN, *_OFFERED})
 _STROKES = frozenset({Action.GUIDE, Action.AVOID})
 _AXES = "XYZ"
 
@@ -262,7 +264,7 @@ class Chain:
     def peek(self, event: bpy.types.Event) -> bool:
         """Show the loop under the mouse while the key of an event is held; return whether it shows loops."""
         place = place_of(self._window, event)
-        if place is None or not self.keys.previews_loop(event):
+        if place is None or not any(self.keys.previews(action, event) for action in _OFFERED):
             return False
         self._begun, self._peek = True, event.type
         self._hover(place, event)
@@ -414,7 +416,7 @@ class Chain:
         self._after()
 
     def _click(self, action: Action, place: Place, event: bpy.types.Event) -> None:
-        view, snap = edited.find(place, plain=action is Action.LOOP)
+        view, snap = edited.find(place, plain=action in _OFFERED)
         if view is None or snap is None:
             return
         self._begun = True
@@ -432,6 +434,9 @@ class Chain:
             session.start(snap)
             session.hover(snap)
             self._note("Draw Wires")
+        elif action is Action.BEND:
+            session.bend(snap)
+            self._note("Bend Closed Cut")
         elif action is Action.LOOP and self._is_loop(session, snap, event):
             session.loop(snap)
             self._note("Add Loop")
@@ -463,7 +468,7 @@ class Chain:
     def _is_loop(self, session: Session, snap: Snap, event: bpy.types.Event) -> bool:
         """Whether a click takes what runs around: across the surface not the second one of a double click, which ends a wire."""
         if session.along == "SURFACE":
-            return self.keys.previews_loop(event)
+            return self.keys.previews(Action.LOOP, event)
         return isinstance(snap.pick, tuple)
 
     def _begin_stroke(self, action: Action, place: Place, event: bpy.types.Event) -> None:
@@ -576,8 +581,8 @@ class Chain:
     # What is under the mouse
 
     def _hover(self, place: Place, event: bpy.types.Event) -> None:
-        loop = self.keys.previews_loop(event)
-        view, snap = edited.find(place, plain=loop)
+        loop, bend = (self.keys.previews(action, event) for action in _OFFERED)
+        view, snap = edited.find(place, plain=loop or bend)
         edited.point_at(view, place)
         if view is not None and view is not edited.front:
             self.session.hover(None)
@@ -586,7 +591,7 @@ class Chain:
                 edited.front = view
             else:
                 snap = None
-        self.session.hover(snap, loop=loop and snap is not None)
+        self.session.hover(snap, loop=loop, bend=bend)
         self.show()
 
     def _rehover(self, place: Place) -> None:

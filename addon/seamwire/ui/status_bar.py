@@ -99,6 +99,9 @@ def hints(status: Status) -> list[Hint]:
 def _click(session: Session) -> Iterator[Deed]:
     """Yield what a click does, and what it would do after toggling."""
     offers, offer = session.loop_offers, session.loop_choice
+    if offer is not None and session.bending:
+        yield Action.BEND, "Bend Closed Cut"
+        return
     if offer is not None:
         number = session.loop_number
         which = f", {number + 1} of {len(offers)}" if len(offers) > 1 else ""
@@ -135,6 +138,8 @@ def _wires(session: Session) -> Iterator[Deed]:
     on_edge = session.target is not None and isinstance(session.target.pick, tuple)
     if session.loop_choice is None and session.target is not None and on_edge == (session.along == "EDGES"):
         yield Action.LOOP, "Loop" if on_edge else "Closed Cut"
+        if session.can_bend:
+            yield Action.BEND, "Bend Closed Cut"
     if session.can_undo:
         yield Action.UNDO, "Undo"
 

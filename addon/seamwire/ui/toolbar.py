@@ -40,12 +40,16 @@ class SeamwireTool(bpy.types.WorkSpaceTool):
         _key("CLICK"),
         _key("CLICK", ctrl=True),
         _key("LOOP", alt=True),
+        _key("BEND", shift=True, alt=True),
         _key("GUIDE", shift=True),
         _key("AVOID", shift=True, ctrl=True),
         _key("REMOVE", "X"),
         _key("REMOVE", "DEL"),
         _key("NEXT", "W"),
         _key("PEEK", "LEFT_ALT", any=True),
+        # Whether the key that is pressed counts as held is not the same everywhere.
+        _key("PEEK", "LEFT_SHIFT", alt=True),
+        _key("PEEK", "LEFT_SHIFT", alt=True, shift=True),
         (worst_island.OPERATOR, {"type": "W", "value": "PRESS", "shift": True, "ctrl": True}, None),
         (hover.OPERATOR, {"type": "MOUSEMOVE", "value": "ANY", "any": True}, None),
     )
