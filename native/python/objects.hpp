@@ -215,8 +215,8 @@ void bind_faces(py::module_& module);
 void bind_rays(py::module_& module);
 /// Adds SeamPlanner and its plans.
 void bind_seams(py::module_& module);
-/// Adds what views show: isolines, crest lines, ellipses of metrics, invalid faces, many paths. After what these belong
-/// to.
+/// Adds what views show: isolines, crest lines, plane sections, ellipses of metrics, invalid faces, many paths. After
+/// what these belong to.
 void bind_views(py::module_& module);
 
 }  // namespace seamwire::python

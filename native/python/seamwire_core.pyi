@@ -375,6 +375,11 @@ def crest_lines(
 ) -> CrestLines:
     """Return the curves along which the surface bends most sharply across (Yoshizawa, Belyaev, Seidel 2005)."""
 
+def plane_section(
+    surface: Surface, from_point: SurfacePoint, to_point: SurfacePoint, direction: ArrayLike
+) -> tuple[NDArray[np.float64], NDArray[np.int32], float]:
+    """Return the curve (p, 3) in the plane through two points and along a direction, the triangles it crosses, its length."""
+
 def snap_to_edges(surface: Surface, wire: Wire) -> NDArray[np.int32]: ...
 def edge_wires(
     surface: Surface,

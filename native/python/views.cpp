@@ -13,6 +13,7 @@
 #include "objects.hpp"
 #include "seamwire/metric/crest_lines.hpp"
 #include "seamwire/surface/isolines.hpp"
+#include "seamwire/wires/plane_section.hpp"
 #include "watch.hpp"
 
 namespace seamwire::python {
@@ -115,6 +116,20 @@ Cancelled
 )");
 }
 
+py::tuple plane_section_of(const SurfaceObject& surface, const py::object& from, const py::object& to,
+                           const py::object& direction) {
+  const SurfacePoint start = surface_point_from(from, *surface.surface, "from_point");
+  const SurfacePoint end = surface_point_from(to, *surface.surface, "to_point");
+  const std::vector<double> along = values_from(direction, "direction");
+  if (along.size() != 3) {
+    throw InvalidInput("direction: expected 3 numbers, got " + std::to_string(along.size()));
+  }
+  PlaneSection section =
+      without_gil([&] { return plane_section(*surface.surface, start, end, Vector(along[0], along[1], along[2])); });
+  return py::make_tuple(rows_array(section.points, {static_cast<py::ssize_t>(section.points.size()), 3}),
+                        handed_over(std::move(section.faces)), section.length);
+}
+
 py::tuple trace_many(const FieldObject& object, const py::object& vertices) {
   const EmbeddingObject& on = *object.embedding;
   const std::vector<std::int32_t> targets = numbers_from(vertices, "vertices");
@@ -182,6 +197,35 @@ Raises
 ------
 ValueError
     For values of another number of vertices, one that is no number, and levels that are not finite and ascending.
+)");
+  module.def("plane_section", &plane_section_of, py::arg("surface"), py::arg("from_point"), py::arg("to_point"),
+             py::arg("direction"), R"(The curve in which a plane cuts a surface between two points of it.
+
+The plane goes through both points and along a direction: with that of a view, the curve is straight in the view. Straight
+in each triangle, exact but for rounding.
+
+Parameters
+----------
+surface : Surface
+from_point, to_point : int, or (int, (3,) array_like)
+    Vertices, or triangles with barycentric coordinates.
+direction : (3,) array_like of float
+    In the caller's coordinates, of any length.
+
+Returns
+-------
+points : (p, 3) float64
+    In the caller's coordinates, both points among them; of two ways around the shorter one. (0, 3) where the plane's
+    curve through one point ends, or is closed, before it comes to the other.
+faces : (p - 1,) int32
+    The triangle that each segment lies in.
+length : float
+    In the caller's units; inf where there is no such curve.
+
+Raises
+------
+ValueError
+    Where a point is none of the surface, the points are the same, or the direction leads from one to the other.
 )");
   module.def(
       "invalid_faces",

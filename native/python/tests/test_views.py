@@ -74,6 +74,39 @@ def test_crest_lines_are_none_on_a_torus_and_name_what_is_wrong(surface: sw.Surf
         sw.crest_lines(surface, curvature, progress=lambda _: False)
 
 
+def test_a_plane_section_is_straight_as_seen_along_its_direction() -> None:
+    surface, _ = waves(24)
+    direction = np.array([0.2, -0.1, 1.0])
+    start, end = 3, 25 * 25 - 4
+    points, faces, length = sw.plane_section(surface, start, end, direction)
+    np.testing.assert_array_equal(points[[0, -1]], surface.points[[start, end]])
+    assert len(faces) == len(points) - 1
+    assert length == pytest.approx(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
+    normal = np.cross(direction, points[-1] - points[0])
+    np.testing.assert_allclose((points - points[0]) @ normal / np.linalg.norm(normal), 0.0, atol=1e-9)
+    inside = sw.plane_section(surface, (40, (0.2, 0.3, 0.5)), (900, [0.4, 0.4, 0.2]), [0, 0, 2])
+    assert np.isfinite(inside[2])
+    assert inside[1][[0, -1]].tolist() == [40, 900]
+    # Two sheets beside each other: nothing leads over.
+    pair = sw.Surface(*meshes.joined(meshes.grid(2), meshes.grid(2)))
+    none = sw.plane_section(pair, 0, 13, [0, 0, 1])
+    assert (none[0].shape, none[1].shape, none[2]) == ((0, 3), (0,), np.inf)
+
+
+@pytest.mark.parametrize(
+    ("ends", "direction", "message"),
+    [
+        ((0, 0), [0, 0, 1], "both points are the same"),
+        ((0, 1), [1, 0, 0], "it makes no plane with them"),
+        ((0, 1), [0, 1], "direction: expected 3 numbers, got 2"),
+        ((0, 9), [0, 0, 1], "to_point"),
+    ],
+)
+def test_what_makes_no_plane_is_named(ends: tuple[int, int], direction: list, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        sw.plane_section(grid(2), *ends, direction)
+
+
 def test_ellipses_have_the_axes_of_their_tensors(metric: sw.Metric) -> None:
     norm, reach = metric.ellipses(), metric.ellipses("reach")
     values = np.linalg.eigvalsh(metric.tensors)[:, 1:]  # the least is the normal's, 0

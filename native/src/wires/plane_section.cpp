@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "seamwire/wires/plane_section.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "detail/index.hpp"
+#include "geodesics/placed_point.hpp"
+#include "seamwire/errors.hpp"
+
+namespace seamwire {
+namespace {
+
+// The sine of the least angle between the direction and the line through the points.
+constexpr double kLeastSine = 1e-9;
+
+struct End {
+  Vector place;
+  std::int32_t vertex = -1;         // the caller's
+  std::vector<std::int32_t> faces;  // of the half-edge mesh: those that it lies in, or around the vertex
+};
+
+class Section {
+ public:
+  Section(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to, const Vector& direction)
+      : surface_(surface), from_(end(from, "from")), to_(end(to, "to")) {
+    if (!direction.allFinite()) throw InvalidInput("direction is not finite");
+    const Vector between = to_.place - from_.place;
+    if (between.isZero(0.0)) throw InvalidInput("both points are the same");
+    const Vector normal = direction.stableNormalized().cross(between.stableNormalized());
+    if (!(normal.norm() > kLeastSine)) {
+      throw InvalidInput("direction has no length, or leads from one point to the other: it makes no plane with them");
+    }
+    heights_.reserve(surface.vertex_count());
+    for (const Vector& p : surface.points()) heights_.push_back(normal.dot(p - from_.place));
+    for (const End* at : {&from_, &to_}) {
+      if (at->vertex != -1) heights_[at->vertex] = 0.0;
+    }
+  }
+
+  // A vertex in the plane counts as on one side of it: then the curve is a chain of segments across faces. Which side
+  // makes a difference where the curve runs along edges, or touches a vertex.
+  PlaneSection shortest() {
+    PlaneSection best;
+    for (const bool is_zero_above : {true, false}) {
+      is_zero_above_ = is_zero_above;
+      for (const std::int32_t face : from_.faces) {
+        for (std::int32_t side = 3 * face; side < 3 * face + 3; ++side) {
+          // At a vertex it is crossed on that, which is on one side of the plane, for another corner is on the other.
+          if (!is_crossed(side)) continue;
+          PlaneSection found = walk(face, side);
+          if (found.length < best.length) best = std::move(found);
+        }
+      }
+    }
+    return best;
+  }
+
+ private:
+  std::int32_t tail(std::int32_t half_edge) const {
+    return surface_.vertex_of_fan()[surface_.face_fans()[half_edge / 3][half_edge % 3]];
+  }
+  std::int32_t head(std::int32_t half_edge) const { return tail(next(half_edge)); }
+  static std::int32_t next(std::int32_t half_edge) { return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1; }
+
+  End end(const SurfacePoint& point, const std::string& what) const {
+    End end;
+    if (point.vertex >= 0) {
+      check_index(point.vertex, surface_.vertex_count(), what + ": vertex");
+      end.vertex = point.vertex;
+    } else {
+      check_index(point.face, surface_.face_count(), what + ": face", "faces");
+      const std::array<double, 3> weights = checked_barycentric(point.barycentric, what);
+      const Triangle& corners = surface_.triangles()[point.face];
+      end.place = Vector::Zero();
+      for (std::size_t i = 0; i < 3; ++i) {
+        end.place += weights[i] * surface_.points()[corners[i]];
+        if (weights[(i + 1) % 3] == 0.0 && weights[(i + 2) % 3] == 0.0) end.vertex = corners[i];
+      }
+      if (end.vertex == -1) {
+        const std::vector<std::int32_t>& source = surface_.face_of_half_edge_face();
+        const auto at = std::ranges::lower_bound(source, point.face);
+        if (at == source.end() || *at != point.face) return end;  // a face that was left out
+        const auto face = static_cast<std::int32_t>(at - source.begin());
+        end.faces.push_back(face);
+        for (std::int32_t side = 3 * face; side < 3 * face + 3; ++side) {
+          const std::int32_t apex = tail(next(next(side))), twin = surface_.twins()[side];
+          const auto corner = std::ranges::find(corners, apex) - corners.begin();
+          // Where the edge lies in the plane but for rounding, the curve may run on its other side alone.
+          if (weights[corner] == 0.0 && twin != -1) end.faces.push_back(twin / 3);
+        }
+        return end;
+      }
+    }
+    end.place = surface_.points()[end.vertex];
+    for (std::size_t f = 0; f < surface_.face_fans().size(); ++f) {
+      const auto side = static_cast<std::int32_t>(3 * f);
+      if (tail(side) == end.vertex || tail(side + 1) == end.vertex || tail(side + 2) == end.vertex) {
+        end.faces.push_back(side / 3);
+      }
+    }
+    return end;
+  }
+
+  bool is_above(std::int32_t v) const { return is_zero_above_ ? heights_[v] >= 0.0 : heights_[v] > 0.0; }
+  bool is_crossed(std::int32_t half_edge) const { return is_above(tail(half_edge)) != is_above(head(half_edge)); }
+
+  Vector crossing(std::int32_t half_edge) const {
+    std::int32_t a = tail(half_edge), b = head(half_edge);
+    // Always from below, so that both faces at an edge have the same point.
+    if (is_above(a)) std::swap(a, b);
+    if (heights_[a] == 0.0) return surface_.points()[a];
+    if (heights_[b] == 0.0) return surface_.points()[b];
+    const double part = heights_[a] / (heights_[a] - heights_[b]);
+    return surface_.points()[a] + part * (surface_.points()[b] - surface_.points()[a]);
+  }
+
+  void add(PlaneSection& section, const Vector& place, std::int32_t face) const {
+    if (place == section.points.back()) return;
+    section.points.push_back(place);
+    section.faces.push_back(surface_.face_of_half_edge_face()[face]);
+  }
+
+  // From the first point out of a face over one of its sides.
+  PlaneSection walk(std::int32_t first, std::int32_t side) const {
+    PlaneSection section;
+    section.points.push_back(from_.place);
+    std::int32_t face = first;
+    while (true) {
+      if (to_.vertex == -1 && std::ranges::find(to_.faces, face) != to_.faces.end()) break;
+      add(section, crossing(side), face);
+      if (to_.vertex != -1 && (tail(side) == to_.vertex || head(side) == to_.vertex)) break;
+      const std::int32_t twin = surface_.twins()[side];
+      if (twin == -1 || twin / 3 == first) return {};
+      face = twin / 3;
+      side = is_crossed(next(twin)) ? next(twin) : next(next(twin));
+    }
+    add(section, to_.place, face);
+    section.length = 0.0;
+    for (std::size_t i = 1; i < section.points.size(); ++i) {
+      section.length += (section.points[i] - section.points[i - 1]).norm();
+    }
+    return section;
+  }
+
+  const Surface& surface_;
+  End from_, to_;
+  std::vector<double> heights_;
+  bool is_zero_above_ = true;
+};
+
+}  // namespace
+
+PlaneSection plane_section(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to,
+                           const Vector& direction) {
+  return Section(surface, from, to, direction).shortest();
+}
+
+}  // namespace seamwire
