@@ -382,6 +382,27 @@ The first vertices are those of the surface, with their numbers; new ones are mi
             return view(without_gil([&]() -> const auto* { return &object.edges(); })->lengths, self);
           },
           "(e,) float64: lengths of `edges` in the metric.")
+      .def(
+          "with_lengths",
+          [](const EmbeddingObject& object, const py::handle& lengths) {
+            return without_gil([&, values = values_from(lengths, "lengths")] { return object.with_lengths(values); });
+          },
+          py::arg("lengths"),
+          R"(The same triangles with other lengths: those of another way of embedding, or of a metric of one's own.
+
+Parameters
+----------
+lengths : (e,) array_like of float
+    Of `edges`, in their order.
+
+Returns
+-------
+Embedding
+
+Raises
+------
+ValueError
+    Where there are not as many as edges, one is not positive and finite, or a triangle fails the triangle inequality.)")
       .def_property_readonly("source_face",
                              array_of<EmbeddingObject>([](const auto& e) -> auto& { return e.embedding.source_face; }),
                              "(t,) int32: the surface's triangle that each triangle lies in.")
@@ -910,6 +931,27 @@ SurfacePoint EmbeddingObject::find(const SurfacePoint& point, const std::string&
     throw InvalidInput(name + ": face " + std::to_string(point.face) + " is a hole of the embedding there");
   }
   return *found;
+}
+
+std::shared_ptr<EmbeddingObject> EmbeddingObject::with_lengths(const std::vector<double>& lengths) const {
+  Embedding changed = embedding;
+  IntrinsicMesh& mesh = changed.mesh;
+  const std::size_t count = edges().lengths.size();
+  if (lengths.size() != count) {
+    throw InvalidInput("lengths has " + std::to_string(lengths.size()) + " items: there are " + std::to_string(count) +
+                       " edges");
+  }
+  std::size_t next = 0;
+  for (std::size_t h = 0; h < mesh.twins.size(); ++h) {
+    const std::int32_t twin = mesh.twins[h];
+    if (twin >= 0 && static_cast<std::size_t>(twin) < h) continue;
+    mesh.lengths[h] = lengths[next++];
+    if (twin >= 0) mesh.lengths[static_cast<std::size_t>(twin)] = mesh.lengths[h];
+  }
+  for (LooseEdge& edge : mesh.loose_edges) edge.length = lengths[next++];
+  auto object = std::make_shared<EmbeddingObject>(surface, std::move(changed));
+  object->geodesics(Task{});  // it says what lengths cannot be
+  return object;
 }
 
 EmbeddingObject::Edges EmbeddingObject::list_edges(const IntrinsicMesh& mesh) {

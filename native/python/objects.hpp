@@ -165,6 +165,9 @@ struct EmbeddingObject {
     return edges_.get(Task{}, [this] { return list_edges(embedding.mesh); });
   }
 
+  /// The same with other lengths of edges(); InvalidInput where they make no triangles.
+  std::shared_ptr<EmbeddingObject> with_lengths(const std::vector<double>& lengths) const;
+
   std::shared_ptr<const Surface> surface;
   Embedding embedding;
 

@@ -109,6 +109,8 @@ class Embedding:
     worst_clamp: float
     hit_cap: bool
     unreachable: NDArray[np.int32]
+    def with_lengths(self, lengths: ArrayLike) -> Embedding:
+        """Return the same triangles with other lengths of `edges`, (e,)."""
 
 class Wire:
     from_vertex: int
@@ -349,6 +351,9 @@ def distance_field(
 
 def invalid_faces(surface: Surface, metric: Metric) -> NDArray[np.int32]:
     """Return the triangles that are invalid in a metric before any bisection."""
+
+def metric_lengths(surface: Surface, metric: Metric) -> NDArray[np.float64]:
+    """Return the lengths of a surface's edges in a metric, (e,), before any bisection."""
 
 def isolines(
     surface: Surface, values: ArrayLike, levels: ArrayLike

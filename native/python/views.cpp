@@ -245,6 +245,31 @@ Raises
 ValueError
     Where the metric is of another surface.
 )");
+  module.def(
+      "metric_lengths",
+      [](const SurfaceObject& object, const MetricObject& metric) {
+        return handed_over(without_gil([&] {
+          const Surface& surface = *object.surface;
+          if (metric.metric.size() != surface.vertex_count()) throw InvalidInput("metric: it is of another surface");
+          std::vector<double> lengths;
+          lengths.reserve(surface.edges().size());
+          for (const auto& [a, b] : surface.edges()) lengths.push_back(edge_length(surface, metric.metric, a, b));
+          return lengths;
+        }));
+      },
+      py::arg("surface"), py::arg("metric"),
+      R"(The lengths of a surface's edges in a metric (eq. 2), before any bisection.
+
+Returns
+-------
+(e,) float64
+    Of `Surface.edges`, of the model scaled to the unit cube.
+
+Raises
+------
+ValueError
+    Where the metric is of another surface.
+)");
   module.attr("DistanceField")
       .cast<py::class_<FieldObject, Held<FieldObject>>>()
       .def("trace_many", &trace_many, py::arg("vertices"),

@@ -137,6 +137,41 @@ def test_many_paths_are_those_traced_one_by_one(field: sw.DistanceField) -> None
         field.trace_many([0, len(field.distances)])
 
 
+def test_metric_lengths_are_those_of_edges_that_are_not_bisected(
+    surface: sw.Surface, metric: sw.Metric, embedding: sw.Embedding
+) -> None:
+    lengths = dict(zip(map(tuple, surface.edges.tolist()), sw.metric_lengths(surface, metric), strict=True))
+    whole = [
+        (lengths[min(a, b), max(a, b)], length)
+        for (a, b), length in zip(embedding.edges.tolist(), embedding.lengths, strict=True)
+        if (min(a, b), max(a, b)) in lengths
+    ]
+    assert len(whole) > 0.5 * len(lengths)
+    ours, theirs = np.transpose(whole)
+    np.testing.assert_allclose(ours, theirs, rtol=1e-12)
+    with pytest.raises(ValueError, match="another surface"):
+        sw.metric_lengths(grid(3), metric)
+
+
+def test_an_embedding_takes_lengths_of_ones_own() -> None:
+    surface = grid(12)
+    plain = sw.embed(surface, sw.euclidean_metric(surface, sw.principal_curvatures(surface)))
+    stretched = surface.points * (3.0, 1.0, 1.0)
+    ends = stretched[plain.edges]
+    own = plain.with_lengths(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
+    away = np.linalg.norm(stretched - stretched[0], axis=1)
+    np.testing.assert_allclose(sw.distance_field(own, 0).distances, away, atol=1e-12)
+    before = np.linalg.norm(surface.points - surface.points[0], axis=1)
+    np.testing.assert_allclose(sw.distance_field(plain, 0).distances, before, atol=1e-12)
+    for wrong, why in (
+        (plain.lengths[:-1], "edges"),
+        (np.where(np.arange(len(plain.lengths)) == 0, 0.0, plain.lengths), "positive"),
+        (np.where(np.arange(len(plain.lengths)) == 0, 9.0, plain.lengths), "triangle"),
+    ):
+        with pytest.raises(ValueError, match=why):
+            plain.with_lengths(wrong)
+
+
 def test_invalid_faces_are_those_that_are_bisected(
     surface: sw.Surface, metric: sw.Metric, embedding: sw.Embedding
 ) -> None:
