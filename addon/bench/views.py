@@ -27,6 +27,7 @@ VIEWS = (
     ("heat", "CONCAVITY"),
     ("heat", "DISTANCE"),
     ("show_crests", True),
+    ("show_silhouette", True),
     ("show_ellipses", True),
     ("show_paths", True),
     ("show_bands", True),

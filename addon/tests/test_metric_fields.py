@@ -50,6 +50,23 @@ def test_all_that_is_shown_is_of_the_mesh_that_it_is_asked_for() -> None:
     assert made.paths.lengths.max() == pytest.approx(made.distance.max(), rel=0.2)
 
 
+@pytest.mark.parametrize("eye", [(0.0, 0.0, 1.0, 0.0), (3.0, 1.0, 2.0, 1.0), (0.1, -0.2, -5.0, 1.0)])
+def test_a_silhouette_is_where_normals_are_square_to_the_view(eye: tuple[float, ...]) -> None:
+    made = maker(*torus(160, 96)).make(Request(frozenset({"SILHOUETTE"})))
+    pieces = made.silhouette.seen_from(np.array(eye))
+    assert len(pieces) > 100
+    middles = pieces.mean(axis=1)
+    ring = np.hypot(middles[:, 0], middles[:, 1])
+    normals = np.stack([middles[:, 0] * (1 - 0.35 / ring), middles[:, 1] * (1 - 0.35 / ring), middles[:, 2]], axis=1)
+    towards = np.array(eye[:3]) - eye[3] * middles
+    cosines = np.einsum("ij,ij->i", normals, towards)
+    cosines /= np.linalg.norm(normals, axis=1) * np.linalg.norm(towards, axis=1)
+    assert np.abs(cosines).max() < 0.01
+    # Of a closed surface it is closed: each end is that of another piece.
+    _, counts = np.unique(np.round(pieces.reshape(-1, 3), 12), axis=0, return_counts=True)
+    assert (counts % 2 == 0).all()
+
+
 def test_without_a_source_nothing_of_distances_is_made() -> None:
     made = maker().make(Request(ALL))
     assert made.distance is made.paths is made.isolines is None

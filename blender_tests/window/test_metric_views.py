@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import ui as driver
 from desk import Desk, draw, grid, half_cone, leave, near
+from mathutils import Vector
 from scene import add_suzanne
 from seamwire.core.color_maps import PURPLE_ORANGE, colors
 from seamwire.mesh.settings import settings
@@ -76,6 +77,30 @@ def test_each_view_is_seen_with_its_legend_and_gone_when_it_is_switched_off(desk
         settings().property_unset(name)
         assert alike(screen(desk), before), name
         assert views().legends() == []
+
+
+@pytest.mark.parametrize("perspective", ["ORTHO", "PERSP"])
+def test_the_silhouette_follows_the_view(desk: Desk, perspective: str) -> None:
+    desk.ui.view.view_perspective = perspective
+    desk.choose()
+    before = screen(desk)
+    settings().show_silhouette = True
+    desk.ui.wait_until(lambda: shown(views()))
+    assert (np.abs(screen(desk) - before).max(axis=2) > 0.05).mean() > 0.002
+    assert [legend.swatches[0][1] for legend in views().legends()] == ["Silhouette of this view"]
+    eye = np.array(desk.ui.view.view_matrix.inverted() @ Vector((0.0, 0.0, 0.0)))
+    along = np.array(desk.ui.view.view_matrix.inverted().to_3x3() @ Vector((0.0, 0.0, 1.0)))
+    place = np.append(along, 0.0) if perspective == "ORTHO" else np.append(eye, 1.0)
+    lines = views()._made["silhouette"][1][1]
+    expected = views().fields.silhouette.seen_from(place)
+    np.testing.assert_allclose(np.sort(lines._ends, axis=1), np.sort(expected, axis=1), atol=1e-4)
+    desk.ui.look((0.5, 0.5, 0.5, 0.5), (0.0, 0.0, 0.0), 4.0)
+    desk.ui.wait(3, redraw=True)
+    turned = views()._made["silhouette"][1][1]
+    assert turned is not lines
+    desk.ui.wait(3, redraw=True)
+    assert views()._made["silhouette"][1][1] is turned
+    settings().property_unset("show_silhouette")
 
 
 def test_turning_the_view_hands_nothing_to_the_gpu_again(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:

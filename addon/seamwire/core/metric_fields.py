@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from .solver import MetricName
 
-Part = Literal["STRENGTH", "CONCAVITY", "CRESTS", "ELLIPSES", "DISTANCE", "PATHS", "ISOLINES", "INVALID"]
+Part = Literal["STRENGTH", "CONCAVITY", "CRESTS", "SILHOUETTE", "ELLIPSES", "DISTANCE", "PATHS", "ISOLINES", "INVALID"]
 """What can be asked for."""
 Source = int | tuple[int, tuple[float, float, float]] | tuple[int, ...]
 """Where distances are from: a vertex, a point of a triangle, or several vertices."""
@@ -144,6 +144,32 @@ class Invalid:
     added: int
 
 
+@dataclass(frozen=True, eq=False)
+class Silhouette:
+    """Where a surface turns away from a viewer: smooth curves across its faces, of its normals at the vertices.
+
+    Parameters
+    ----------
+    core
+        The library's module.
+    surface
+        The surface.
+    points, normals
+        (n, 3) each, those of its vertices.
+    """
+
+    core: ModuleType
+    surface: seamwire_core.Surface
+    points: NDArray[np.float64]
+    normals: NDArray[np.float64]
+
+    def seen_from(self, eye: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the straight pieces, (k, 2, 3), as seen from an eye, (4,): x, y, z and 1, or a direction to it and 0."""
+        towards = eye[:3] - eye[3] * self.points
+        facing = np.einsum("ij,ij->i", self.normals, towards)
+        return self.core.isolines(self.surface, facing, [0.0])[0]
+
+
 @dataclass(frozen=True)
 class Fields:
     """What was computed for a request; None: not asked for, or without a source."""
@@ -152,6 +178,7 @@ class Fields:
     strength: NDArray[np.float64] | None = None
     concavity: NDArray[np.float64] | None = None
     crests: Crests | None = None
+    silhouette: Silhouette | None = None
     ellipses: Ellipses | None = None
     distance: NDArray[np.float64] | None = None
     paths: Paths | None = None
@@ -276,6 +303,7 @@ class FieldMaker:
             strength=self._strength() if "STRENGTH" in parts else None,
             concavity=self._concavity() if "CONCAVITY" in parts else None,
             crests=self._crests() if "CRESTS" in parts else None,
+            silhouette=self._silhouette() if "SILHOUETTE" in parts else None,
             ellipses=self._ellipses(request) if "ELLIPSES" in parts else None,
             distance=self._distance(request) if far else None,
             paths=self._paths(request) if far and "PATHS" in parts else None,
@@ -309,6 +337,13 @@ class FieldMaker:
             return Crests.of(self._core.crest_lines(self.surface(), self._smoothed(), progress=self._go_on))
 
         return self._once("crests", None, make)
+
+    def _silhouette(self) -> Silhouette:
+        def make() -> Silhouette:
+            surface = self.surface()
+            return Silhouette(self._core, surface, surface.points, self._curvature().normals)
+
+        return self._once("silhouette", None, make)
 
     def _distance(self, request: Request) -> NDArray[np.float64]:
         return self._once("distance", (request.metric_key, request.source), lambda: self._field(request).distances)

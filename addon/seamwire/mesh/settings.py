@@ -148,6 +148,11 @@ class SeamwireSettings(bpy.types.PropertyGroup):
         description="Show the lines along which the surface bends most sharply; with Alt a click on one draws wires along it",
         update=_changed,
     )
+    show_silhouette: bpy.props.BoolProperty(
+        name="Silhouette",
+        description="Show where the surface turns away from the viewer: a guide for seams that are not to be seen from there",
+        update=_changed,
+    )
     show_ellipses: bpy.props.BoolProperty(
         name="Ellipses",
         description="Show the metric: in each ellipse's direction wires run as far as it is long at the same cost",

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 VIEWS = (
     ("show_crests", "MOD_OUTLINE"),
+    ("show_silhouette", "GHOST_ENABLED"),
     ("show_ellipses", "MESH_CIRCLE"),
     ("show_paths", "PARTICLE_PATH"),
     ("show_bands", "PHYSICS"),

@@ -118,6 +118,12 @@ class Eye:
         return clip[:, :2] / w * 0.5 * self.size
 
     @property
+    def place(self) -> NDArray[np.float64]:
+        """Where the eye is in what is drawn, (4,): x, y, z and 1, or the direction to it and 0."""
+        place = np.linalg.inv(self._to_clip) @ (0.0, 0.0, -1.0, 0.0)
+        return np.append(place[:3], 0.0) if self._orthographic else place / place[3]
+
+    @property
     def key(self) -> bytes:
         """The same as long as all is seen at the same place on the screen."""
         return self._to_clip.tobytes() + bytes(str(self.size), "ascii")

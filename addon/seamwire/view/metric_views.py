@@ -43,6 +43,7 @@ _RIM_WIDTH = 0.06
 _BAND = Style((1.0, 1.0, 1.0, 0.9), 1.5, halo=1.5, lift=3.0)
 _RIDGE = Style((0.98, 0.45, 0.10, 1.0), 2.0, halo=1.0, lift=4.0)
 _VALLEY = Style((0.20, 0.50, 1.0, 1.0), 2.0, halo=1.0, lift=4.0)
+_SILHOUETTE = Style((1.0, 0.93, 0.30, 1.0), 2.0, halo=1.0, lift=4.0)
 _SPLIT: Color = (0.13, 0.44, 0.94, 0.9)
 _REPAIRED: Color = (0.96, 0.60, 0.10, 0.95)
 _LEFT: Color = (0.92, 0.10, 0.12, 1.0)
@@ -102,6 +103,7 @@ class MetricViews:
         self._heat = settings.heat if settings.heat in HEATS else None
         parts = {
             "CRESTS": settings.show_crests,
+            "SILHOUETTE": settings.show_silhouette,
             "ELLIPSES": settings.show_ellipses,
             "PATHS": settings.show_paths,
             "ISOLINES": settings.show_bands,
@@ -212,12 +214,22 @@ class MetricViews:
             if crests is not None:
                 for lines in self._once("crests", crests, lambda: _crest_lines(crests)):
                     lines.draw(eye)
+            silhouette = self._shown("SILHOUETTE")
+            if silhouette is not None:
+                self._seen_silhouette(silhouette, eye).draw(eye)
             isolines = self._shown("ISOLINES")
             if isolines is not None:
                 self._once("isolines", isolines, lambda: Lines(_BAND, isolines.segments)).draw(eye)
             paths = self._shown("PATHS")
             if paths is not None:
                 self._once("paths", paths, lambda: _path_lines(paths)).draw(eye)
+
+    def _seen_silhouette(self, silhouette: metric_fields.Silhouette, eye: Eye) -> Lines:
+        """Return the silhouette from where it is seen now: found anew where that has changed."""
+        kept = self._once("silhouette", silhouette, lambda: [b"", None])
+        if kept[0] != eye.key:
+            kept[:] = eye.key, Lines(_SILHOUETTE, silhouette.seen_from(eye.place))
+        return kept[1]
 
     def _invalid_faces(self, invalid: metric_fields.Invalid) -> Faces:
         faces = Faces(self._arrays.points)
@@ -242,6 +254,7 @@ class MetricViews:
             ("ELLIPSES", _of_ellipses),
             ("ISOLINES", _of_bands),
             ("CRESTS", _of_crests),
+            ("SILHOUETTE", _of_silhouette),
             ("PATHS", _of_paths),
         ):
             if (shown := self._shown(part)) is not None:
@@ -375,6 +388,10 @@ def _of_crests(crests: Crests) -> Legend:
     swatches = tuple((style.color, f"{count} {name}{'' if count == 1 else 's'}") for style, count, name in kinds)
     strongest = _text(float(crests.strengths.max(initial=0.0)))
     return Legend((f"Strength from 1 to {strongest} radians",) if len(crests) else (), swatches=swatches)
+
+
+def _of_silhouette(_silhouette: metric_fields.Silhouette) -> Legend:
+    return Legend((), swatches=((_SILHOUETTE.color, "Silhouette of this view"),))
 
 
 def _of_bands(isolines: metric_fields.Isolines) -> Legend:
