@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Films the tool at work in Blender's window, with simulated events and the display's own pixels; scripts/animation runs this.
 
-``blender ... --python scripts/lib/film.py -- animation|guide|cut|stretch|views FOLDER`` leaves frames.raw or guide-*.png in the folder. The
-simulated mouse has no pointer on the display: one is drawn into the frames where it would be.
+``blender ... --python scripts/lib/film.py -- PART FOLDER``, the part as scripts/animation has it, leaves frames.raw or guide-*.png in the
+folder. The simulated mouse has no pointer on the display: one is drawn into the frames where it would be.
 """
 
 import os
@@ -152,6 +152,12 @@ class Film:
         edges = [[vertices[v].co for v in edge.vertices] for edge in self.obj.data.edges]
         middles = [(one + two) / 2 for one, two in edges if abs(one.x) + abs(two.x) < 1e-4]
         return self.seen(min(middles, key=lambda co: (co - Vector(near)).length))
+
+    def write(self) -> None:
+        """Keep the film: its frames one after the other, three bytes a pixel."""
+        with (self.folder / "frames.raw").open("wb") as file:
+            for frame in self.frames:
+                file.write(np.ascontiguousarray(frame[:, :, :3]).tobytes())
 
     def picture(self, name: str) -> None:
         """Keep what is seen as a picture of the guide."""
@@ -313,9 +319,7 @@ def animation(film: Film) -> None:
     film.hold(6)
     unwrap(film)
     film.hold(24)
-    with (film.folder / "frames.raw").open("wb") as file:
-        for frame in film.frames:
-            file.write(np.ascontiguousarray(frame[:, :, :3]).tobytes())
+    film.write()
 
 
 def unwrap(film: Film) -> None:
@@ -492,6 +496,108 @@ def views(film: Film) -> None:
     film.ui.wait(20)
 
 
+BONES = (
+    # A joint and its radius, and which joint it hangs on; right limbs only.
+    ((0.0, 0.0, 0.0), 0.26, None),
+    ((0.0, 0.0, 0.55), 0.3, 0),
+    ((0.0, 0.0, 0.85), 0.11, 1),
+    ((0.0, -0.02, 1.1), 0.2, 2),
+    ((0.0, -0.02, 1.3), 0.17, 3),
+    ((0.34, 0.0, 0.62), 0.12, 1),
+    ((0.72, 0.0, 0.36), 0.085, 5),
+    ((1.05, -0.08, 0.12), 0.06, 6),
+    ((1.2, -0.12, 0.02), 0.085, 7),
+    ((0.17, 0.0, -0.25), 0.17, 0),
+    ((0.25, -0.03, -0.75), 0.11, 9),
+    ((0.28, 0.0, -1.2), 0.075, 10),
+    ((0.3, -0.16, -1.3), 0.085, 11),
+)
+
+
+def figure() -> bpy.types.Object:
+    """Return a figure with head, arms and legs, remeshed, so that no edges lead around its limbs."""
+    places, radii, edges, numbers = [], [], [], {}
+    for side in (1.0, -1.0):
+        for i, ((x, y, z), radius, on) in enumerate(BONES):
+            if side < 0 and x == 0.0:
+                continue
+            numbers[i, side] = len(places)
+            places.append((side * x, y, z))
+            radii.append(radius)
+            if on is not None:
+                edges.append((numbers.get((on, side), numbers.get((on, 1.0))), numbers[i, side]))
+    mesh = bpy.data.meshes.new("Figure")
+    mesh.from_pydata(places, edges, [])
+    obj = bpy.data.objects.new("Figure", mesh)
+    bpy.context.collection.objects.link(obj)
+    bpy.context.view_layer.objects.active = obj
+    obj.select_set(True)
+    bpy.ops.object.modifier_add(type="SKIN")
+    for vertex, radius in zip(mesh.skin_vertices[0].data, radii, strict=True):
+        vertex.radius = (radius, radius)
+    mesh.skin_vertices[0].data[0].use_root = True
+    obj.modifiers.new("Subdivision", "SUBSURF").levels = 3
+    remesh = obj.modifiers.new("Remesh", "REMESH")
+    remesh.mode, remesh.voxel_size = "VOXEL", 0.035
+    smooth = obj.modifiers.new("Smooth", "SMOOTH")
+    smooth.factor, smooth.iterations = 0.5, 4
+    for modifier in list(obj.modifiers):
+        bpy.ops.object.modifier_apply(modifier=modifier.name)
+    bpy.ops.object.shade_smooth()
+    return obj
+
+
+def limbs(film: Film) -> None:
+    """Play how a figure is cut into head, arms, legs and body, with a press for each, and how a cut is bent."""
+    stage(film)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.object.delete()
+    film.obj = figure()
+    with film.ui.override():
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_all(action="DESELECT")
+    settings().along, settings().finish = "SURFACE", "SNAP"
+    film.ui.view.view_rotation = Euler((1.4, 0.0, 0.12)).to_quaternion()
+    film.ui.view.view_location = (0.0, 0.0, 0.12)
+    film.ui.view.view_distance = 3.6
+    film.ui.wait(4, redraw=True)
+    film.at = film.vertex(0.6, -0.2, 1.0)
+    start(film)
+    presses = 0
+    film.say("Alt over a point: the cut that the shape suggests there", 6)
+    for place in (
+        (0.0, -0.12, 0.86),
+        (0.36, -0.12, 0.6),
+        (-0.36, -0.12, 0.6),
+        (0.19, -0.15, -0.3),
+        (-0.19, -0.15, -0.3),
+    ):
+        film.peek(film.vertex(*place), 9)
+        film.hold(5)
+        presses += 1
+        film.caption = f"Presses: {presses}"
+        film.take()
+    film.say("Shift Alt: that cut, bent to another point")
+    film.go(film.vertex(-0.33, -0.1, -0.18), 6)
+    for key, held in (("LEFT_SHIFT", {"shift": True}), ("LEFT_ALT", {"shift": True, "alt": True})):
+        film.ui.event(key, "PRESS", film.at, **held)
+    film.ui.wait_until(lambda: session().loop_preview is not None)
+    film.settle()
+    film.hold(4)
+    for place in ((-0.33, -0.1, -0.14), (-0.33, -0.1, -0.1)):
+        film.go(film.vertex(*place), 5, shift=True, alt=True)
+    film.hold(5)
+    presses += 1
+    film.caption = f"Presses: {presses}"
+    film.click(shift=True, alt=True)
+    film.ui.event("LEFT_ALT", "RELEASE", film.at, shift=True)
+    film.ui.event("LEFT_SHIFT", "RELEASE", film.at)
+    film.settle()
+    film.go((film.ui.region.width - 60.0, 60.0), 6)
+    film.say(f"Six islands, {presses} presses", 22)
+    film.write()
+
+
 def bend(
     one: tuple[float, float], over: tuple[float, float], two: tuple[float, float], part: float
 ) -> tuple[float, float]:
@@ -563,5 +669,6 @@ def looks(film: Film) -> None:
 
 addon_utils.enable("seamwire", default_set=True)
 kind, target = sys.argv[sys.argv.index("--") + 1 :]
-part = {"animation": animation, "guide": guide, "cut": cut, "stretch": stretch, "views": views, "looks": looks}[kind]
+parts = (animation, limbs, guide, cut, stretch, views, looks)
+part = next(part for part in parts if part.__name__ == kind)
 play_strictly(lambda: part(Film(Path(target))))
