@@ -172,6 +172,19 @@ def test_toggling_goes_through_what_is_offered_beside_a_ridge(sheet: Sheet) -> N
         assert session.edges_to_mark() == sorted(shown.edges())
 
 
+def test_a_ridge_that_is_seen_does_not_wait_for_what_else_is_offered() -> None:
+    sheet = Sheet("SURFACE")
+    session, pick = sheet.session, sheet.pick()
+    session.use_crests(sheet.crests, True)
+    session.hover(pick, loop=True)
+    assert session.loop_choice == "RIDGE"
+    assert session.click(pick)
+    assert "loop" not in {queued.kind for queued in session._queue}
+    session.wait()
+    assert session.wires
+    assert {wire.closed for wire in session.wires} == {False}
+
+
 def test_ridges_that_are_known_later_are_offered_then(sheet: Sheet) -> None:
     session = sheet.session
     assert not session.wants_crests

@@ -244,15 +244,15 @@ class Session:
         return self._change(replace(self._network, wires=(*self.wires, wire)))
 
     def _cut_around(self, target: Snap, choice: int) -> bool:
-        """Keep a closed cut through a point: the one that is shown, else the best."""
+        """Keep a closed cut through a point, or wires along a ridge: what is shown, else the best."""
         offers = self._find_offers(target.pick)
+        offer = offers[min(choice, len(offers) - 1)] if offers else None
+        if offer is not None and offer.kind in CREST_KINDS:
+            return self._along_crest(target.pick)
         if not self._cuts.final:
             return self._postpone("bend" if self._cuts.bends else "loop", target)
-        if not offers:
+        if offer is None:
             return self._refuse(self.message or self._cuts.NONE)
-        offer = offers[min(choice, len(offers) - 1)]
-        if offer.kind in CREST_KINDS:
-            return self._along_crest(target.pick)
         wires = tuple(self._as_drawn(piece.anew()) for piece in self._cuts.pieces(offer))
         network = self._network
         before = self._cuts.bendable(network) if self._cuts.bends else None
