@@ -13,6 +13,7 @@ from seamwire.core.crests import Crests
 from seamwire.core.defaults import CLAMP_PERCENTILE, STRENGTHS
 from seamwire.core.network import Along, FacePoint, Pick
 from seamwire.core.session import Session
+from seamwire.core.surface_loops import SurfaceLoops
 
 core = pytest.importorskip("seamwire_core")
 
@@ -183,6 +184,20 @@ def test_a_ridge_that_is_seen_does_not_wait_for_what_else_is_offered() -> None:
     session.wait()
     assert session.wires
     assert {wire.closed for wire in session.wires} == {False}
+
+
+def test_where_neither_a_ridge_nor_a_cut_is_offered_it_is_said_however_late_ridges_are_known() -> None:
+    sheet = Sheet("SURFACE")
+    session = sheet.session
+    session.hover(20 * (N + 1) + 26, loop=True)
+    while session.computing:
+        for live in session._working():
+            live.wait()
+        # What it finds is final now, before the session has looked.
+        session.use_crests(sheet.crests, False)
+        session.poll()
+    assert session.loop_preview is None
+    assert session.message == SurfaceLoops.NONE
 
 
 def test_ridges_that_are_known_later_are_offered_then(sheet: Sheet) -> None:

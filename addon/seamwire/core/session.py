@@ -466,7 +466,8 @@ class Session:
             return
         self._crests, self._crests_first = crests, first
         if self._loops.wanted and self.target is not None:
-            self.revision += self._loops.show(self.target.pick, self._find_offers(self.target.pick))
+            self._loops.final = False
+            self._show_offers()
 
     # Drawing by dragging
 
