@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "direct_methods.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <queue>
+
+#include "metric/tangent_frame.hpp"
+#include "seamwire/errors.hpp"
+
+namespace seamwire::bench {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Each vertex is visited once, in the order of distances; a visit lowers those of others.
+class Front {
+ public:
+  Front(std::size_t count, std::int32_t seed) : distances(count, kInfinity), accepted(count, 0) { lower(seed, 0.0); }
+
+  bool lower(std::int32_t v, double distance) {
+    if (accepted[v] || distance >= distances[v]) return false;
+    queue_.emplace(distances[v] = distance, v);
+    return true;
+  }
+  void run(const std::function<void(std::int32_t)>& visit) {
+    while (!queue_.empty()) {
+      const std::int32_t v = queue_.top().second;
+      queue_.pop();
+      if (accepted[v]) continue;
+      accepted[v] = 1;
+      visit(v);
+    }
+  }
+
+  std::vector<double> distances;
+  std::vector<char> accepted;
+
+ private:
+  using Entry = std::pair<double, std::int32_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+};
+
+double norm(const Eigen::Matrix3d& form, const Vector& v) { return std::sqrt(v.dot(form * v)); }
+
+// The least of da + z (db - da) + |p - z q| over z in [0, 1], where qq, pq and pp are the products of p and q: the
+// distance at p from a segment q with linear distances on it.
+double from_segment(double da, double db, double qq, double pq, double pp) {
+  const double slope = db - da;
+  double z = slope > 0 ? 0.0 : 1.0;
+  if (qq > slope * slope) {
+    const double t = -slope * std::sqrt(std::max(0.0, qq * pp - pq * pq) / (qq - slope * slope));
+    z = std::clamp((t + pq) / qq, 0.0, 1.0);
+  }
+  return da + z * slope + std::sqrt(std::max(0.0, pp - 2 * z * pq + z * z * qq));
+}
+
+// The edge from a vertex to another one, turned down into the tangent plane of the former with its length kept.
+Vector flattened(const MetricSurface& s, std::int32_t from, std::int32_t to) {
+  const Vector e = s.points[to] - s.points[from];
+  const Vector& n = s.metric.normals[from];
+  const Vector flat = e - n * n.dot(e);
+  return flat.squaredNorm() > 0 ? Vector(flat.normalized() * e.norm()) : flat;
+}
+
+// Twins of half-edges by the vertices of their edges.
+std::vector<std::int32_t> twins_of(const std::vector<Triangle>& triangles) {
+  std::map<Edge, std::int32_t> half_edges;
+  for (std::int32_t h = 0; h < static_cast<std::int32_t>(3 * triangles.size()); ++h) {
+    half_edges[{triangles[h / 3][h % 3], triangles[h / 3][(h % 3 + 1) % 3]}] = h;
+  }
+  std::vector<std::int32_t> twins(3 * triangles.size(), -1);
+  for (const auto& [edge, h] : half_edges) {
+    const auto twin = half_edges.find({edge[1], edge[0]});
+    if (twin != half_edges.end()) twins[h] = twin->second;
+  }
+  return twins;
+}
+
+}  // namespace
+
+MetricSurface metric_surface(const Surface& surface, const Metric& metric) {
+  const SurfaceReport& report = surface.report();
+  if (!report.nonmanifold_edges.empty() || !report.unorientable_edges.empty() || !report.flipped_faces.empty() ||
+      !report.degenerate_faces.empty() || !report.duplicate_faces.empty() || !surface.loose_edges().empty()) {
+    throw InvalidInput("the direct methods want a manifold, oriented surface without loose edges");
+  }
+  MetricSurface result{{}, surface.triangles(), twins_of(surface.triangles()), metric, {}, {}, {}};
+  for (const Vector& p : surface.points()) result.points.push_back(surface.scale() * p);
+  for (std::size_t v = 0; v < metric.size(); ++v) {
+    const Vector& n = metric.normals[v];
+    result.forms.push_back(metric.tensors[v] + normal_weight(metric.tensors[v]) * n * n.transpose());
+  }
+  result.neighbors.resize(metric.size());
+  for (const Triangle& t : result.triangles) {
+    result.face_forms.push_back((result.forms[t[0]] + result.forms[t[1]] + result.forms[t[2]]) / 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+      result.neighbors[t[i]].insert(result.neighbors[t[i]].end(), {t[(i + 1) % 3], t[(i + 2) % 3]});
+    }
+  }
+  for (auto& around : result.neighbors) {
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+  }
+  return result;
+}
+
+std::pair<Surface, Metric> refined(const Surface& surface, const Metric& metric, int levels) {
+  std::vector<Vector> points = surface.points();
+  std::vector<Triangle> triangles = surface.triangles();
+  Metric fine = metric;
+  for (int level = 0; level < levels; ++level) {
+    std::map<Edge, std::int32_t> middles;
+    const auto middle = [&](std::int32_t a, std::int32_t b) {
+      if (a > b) std::swap(a, b);
+      const auto [it, is_new] = middles.try_emplace({a, b}, static_cast<std::int32_t>(points.size()));
+      if (is_new) {
+        points.push_back((points[a] + points[b]) / 2);
+        TensorAt at = midpoint_tensor({fine.normals[a], fine.tensors[a]}, {fine.normals[b], fine.tensors[b]});
+        fine.normals.push_back(at.normal);
+        fine.tensors.push_back(at.tensor);
+      }
+      return it->second;
+    };
+    std::vector<Triangle> finer;
+    for (const auto& [a, b, c] : triangles) {
+      const std::int32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+      finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+    triangles = std::move(finer);
+  }
+  return {Surface(std::move(points), std::move(triangles)), std::move(fine)};
+}
+
+std::vector<double> edge_dijkstra(const MetricSurface& s, std::int32_t seed) {
+  Front front(s.points.size(), seed);
+  front.run([&](std::int32_t a) {
+    for (const std::int32_t b : s.neighbors[a]) {
+      const Vector e = s.points[b] - s.points[a];
+      front.lower(b, front.distances[a] + integrated_length(norm(s.forms[a], e), norm(s.forms[b], e)));
+    }
+  });
+  return front.distances;
+}
+
+std::vector<double> steiner_dijkstra(const MetricSurface& s, std::int32_t seed, int per_edge) {
+  std::vector<Vector> points = s.points;
+  // The points of each half-edge, from its tail to its tip, both among them; those of a face's three in its rows.
+  std::vector<std::vector<std::int32_t>> on(3 * s.triangles.size());
+  std::vector<std::vector<std::int32_t>> faces(points.size());
+  for (std::int32_t h = 0; h < static_cast<std::int32_t>(on.size()); ++h) {
+    if (s.twins[h] >= 0 && s.twins[h] < h) {
+      on[h].assign(on[s.twins[h]].rbegin(), on[s.twins[h]].rend());
+      for (int i = 1; i <= per_edge; ++i) faces[on[h][i]].push_back(h / 3);
+    } else {
+      const std::int32_t a = s.triangles[h / 3][h % 3], b = s.triangles[h / 3][(h % 3 + 1) % 3];
+      on[h].push_back(a);
+      for (int i = 1; i <= per_edge; ++i) {
+        on[h].push_back(static_cast<std::int32_t>(points.size()));
+        points.push_back(s.points[a] + (s.points[b] - s.points[a]) * i / (per_edge + 1));
+        faces.push_back({h / 3});
+      }
+      on[h].push_back(b);
+    }
+    faces[on[h].front()].push_back(h / 3);
+  }
+  Front front(points.size(), seed);
+  front.run([&](std::int32_t a) {
+    for (const std::int32_t f : faces[a]) {
+      for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
+        for (const std::int32_t b : on[h]) {
+          front.lower(b, front.distances[a] + norm(s.face_forms[f], points[b] - points[a]));
+        }
+      }
+    }
+  });
+  front.distances.resize(s.points.size());
+  return front.distances;
+}
+
+std::vector<double> short_term_vector_dijkstra(const MetricSurface& s, std::int32_t seed, int memory) {
+  std::vector<std::int32_t> before(s.points.size(), -1);
+  Front front(s.points.size(), seed);
+  front.run([&](std::int32_t from) {
+    for (const std::int32_t to : s.neighbors[from]) {
+      if (front.accepted[to]) continue;
+      // All in the tangent plane of `to`: the sum of the edges, and the mean tensor along them by their lengths.
+      const Vector& normal = s.metric.normals[to];
+      Vector sum = Vector::Zero();
+      Eigen::Matrix3d tensors = Eigen::Matrix3d::Zero(), last = s.metric.tensors[to];
+      double lengths = 0.0, best = kInfinity;
+      std::int32_t b = to;
+      for (std::int32_t a = from, i = 0; a >= 0 && i < memory; b = a, a = before[a], ++i) {
+        const Vector e = turned_by_least_rotation(flattened(s, a, b), s.metric.normals[a], normal);
+        const Eigen::Matrix3d tensor = turned_by_least_rotation(s.metric.tensors[a], s.metric.normals[a], normal);
+        sum += e;
+        tensors += e.norm() / 2 * (tensor + last);
+        lengths += e.norm();
+        last = tensor;
+        best = std::min(best, front.distances[a] + norm(tensors / lengths, sum));
+      }
+      if (front.lower(to, best)) before[to] = from;
+    }
+  });
+  return front.distances;
+}
+
+std::vector<double> ordered_upwind(const MetricSurface& s, std::int32_t seed) {
+  const double anisotropy = max_anisotropy(s.metric);
+  const std::size_t count = s.points.size();
+  std::vector<double> reach(count, 0.0);
+  std::vector<std::int32_t> open(count);  // neighbors that are not accepted: none within the front
+  for (std::size_t v = 0; v < count; ++v) {
+    for (const std::int32_t w : s.neighbors[v]) {
+      reach[v] = std::max(reach[v], anisotropy * (s.points[w] - s.points[v]).norm());
+    }
+    open[v] = static_cast<std::int32_t>(s.neighbors[v].size());
+  }
+  // What lies within reach of a vertex, with the vectors to it in that vertex' tangent plane.
+  std::vector<Vector> places(count);
+  std::vector<std::int32_t> seen(count, -1), near;
+  std::int32_t searches = 0;
+  const auto search = [&](std::int32_t center) {
+    near.assign(1, center);
+    places[center] = Vector::Zero();
+    seen[center] = ++searches;
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      const std::int32_t a = near[i];
+      for (const std::int32_t b : s.neighbors[a]) {
+        if (seen[b] == searches) continue;
+        places[b] =
+            places[a] + turned_by_least_rotation(flattened(s, a, b), s.metric.normals[a], s.metric.normals[center]);
+        seen[b] = searches;
+        if (places[b].norm() <= reach[center]) near.push_back(b);
+      }
+    }
+  };
+  Front front(count, seed);
+  const std::vector<double>& distances = front.distances;
+  // From the accepted vertex a, and the segments from it to accepted ones; vectors in the plane of `center`.
+  const auto update = [&](std::int32_t to, std::int32_t a, std::int32_t center) {
+    const auto vector = [&](std::int32_t v) {
+      return turned_by_least_rotation(Vector(places[to] - places[v]), s.metric.normals[center], s.metric.normals[to]);
+    };
+    const Eigen::Matrix3d& form = s.forms[to];
+    const Vector p = vector(a), transformed = form * p;
+    const double pp = p.dot(transformed);
+    double best = distances[a] + std::sqrt(pp);
+    for (const std::int32_t b : s.neighbors[a]) {
+      if (!front.accepted[b] || open[b] == 0 || seen[b] != searches) continue;
+      const Vector q = p - vector(b);
+      best = std::min(best, from_segment(distances[a], distances[b], q.dot(form * q), q.dot(transformed), pp));
+    }
+    front.lower(to, best);
+  };
+  front.run([&](std::int32_t accepted) {
+    std::vector<std::int32_t> fresh;
+    for (const std::int32_t v : s.neighbors[accepted]) {
+      --open[v];
+      if (!front.accepted[v] && distances[v] == kInfinity) fresh.push_back(v);
+    }
+    search(accepted);
+    for (const std::int32_t v : near) {
+      if (!front.accepted[v] && (distances[v] < kInfinity || open[v] < std::int32_t(s.neighbors[v].size()))) {
+        update(v, accepted, accepted);
+      }
+    }
+    for (const std::int32_t v : fresh) {
+      search(v);
+      for (const std::int32_t a : near) {
+        if (front.accepted[a] && open[a] > 0) update(v, a, v);
+      }
+    }
+  });
+  return front.distances;
+}
+
+HeatMethod::HeatMethod(const MetricSurface& s) : triangles_(s.triangles) {
+  std::vector<Eigen::Triplet<double>> laplacian, mass;
+  double edges = 0.0;
+  for (std::size_t f = 0; f < triangles_.size(); ++f) {
+    const Triangle& t = triangles_[f];
+    // The face in its form, laid out in the plane.
+    const Vector e1 = s.points[t[1]] - s.points[t[0]], e2 = s.points[t[2]] - s.points[t[0]];
+    const double a = norm(s.face_forms[f], e1), along = e1.dot(s.face_forms[f] * e2) / a;
+    const double height = std::sqrt(std::max(1e-300, e2.dot(s.face_forms[f] * e2) - along * along));
+    Eigen::Matrix<double, 2, 3> corners;
+    corners << 0.0, a, along, 0.0, 0.0, height;
+    const double area = a * height / 2;
+    Eigen::Matrix<double, 2, 3> gradient;
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector2d e = corners.col((i + 2) % 3) - corners.col((i + 1) % 3);
+      gradient.col(i) = Eigen::Vector2d(-e.y(), e.x()) / (2 * area);
+      edges += e.norm() / (3 * static_cast<double>(triangles_.size()));
+      mass.emplace_back(t[static_cast<std::size_t>(i)], t[static_cast<std::size_t>(i)], area / 3);
+    }
+    const Eigen::Matrix3d stiffness = area * gradient.transpose() * gradient;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        laplacian.emplace_back(t[static_cast<std::size_t>(i)], t[static_cast<std::size_t>(j)], stiffness(i, j));
+      }
+    }
+    gradients_.push_back(gradient);
+    areas_.push_back(area);
+  }
+  const auto n = static_cast<Eigen::Index>(s.points.size());
+  Eigen::SparseMatrix<double> l(n, n), m(n, n);
+  l.setFromTriplets(laplacian.begin(), laplacian.end());
+  m.setFromTriplets(mass.begin(), mass.end());
+  heat_.compute(m + edges * edges * l);
+  // Constants have no gradient: a little mass makes the matrix definite, and is nothing beside the distances.
+  poisson_.compute(l + 1e-8 * m);
+  if (heat_.info() != Eigen::Success || poisson_.info() != Eigen::Success) {
+    throw InvalidInput("the heat method's matrices cannot be factored");
+  }
+}
+
+std::vector<double> HeatMethod::solve(std::int32_t seed) const {
+  const Eigen::Index n = heat_.rows();
+  const Eigen::VectorXd heat = heat_.solve(Eigen::VectorXd::Unit(n, seed));
+  Eigen::VectorXd divergence = Eigen::VectorXd::Zero(n);
+  for (std::size_t f = 0; f < triangles_.size(); ++f) {
+    const Triangle& t = triangles_[f];
+    const Eigen::Vector2d away = -(gradients_[f] * Eigen::Vector3d(heat[t[0]], heat[t[1]], heat[t[2]])).normalized();
+    const Eigen::Vector3d part = areas_[f] * gradients_[f].transpose() * away;
+    for (std::size_t i = 0; i < 3; ++i) divergence[t[i]] += part[static_cast<Eigen::Index>(i)];
+  }
+  Eigen::VectorXd distances = poisson_.solve(divergence);
+  distances.array() -= distances[seed];
+  return {distances.begin(), distances.end()};
+}
+
+FastMarching::FastMarching(const IntrinsicMesh& mesh) : updates_(static_cast<std::size_t>(mesh.vertex_count)) {
+  // Where the third corner of a triangle over a segment lies, to its left, by the lengths from both ends.
+  const auto left_of = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b, double from_a, double from_b) {
+    const Eigen::Vector2d e = (b - a).normalized();
+    const double length = (b - a).norm(), x = (length * length + from_a * from_a - from_b * from_b) / (2 * length);
+    const double y = std::sqrt(std::max(0.0, from_a * from_a - x * x));
+    return Eigen::Vector2d(a + x * e + y * Eigen::Vector2d(-e.y(), e.x()));
+  };
+  const auto next = [](std::int32_t h) { return h - h % 3 + (h % 3 + 1) % 3; };
+  constexpr int kMostUnfolded = 100;
+  for (std::int32_t h = 0; h < static_cast<std::int32_t>(mesh.twins.size()); ++h) {
+    // `to` at the origin, opposite to the half-edge h from a to b.
+    const std::int32_t to = mesh.apex(h);
+    const double to_b = mesh.lengths[next(h)], to_a = mesh.lengths[next(next(h))];
+    Eigen::Vector2d a(to_a, 0.0), b = left_of({0.0, 0.0}, a, to_b, mesh.lengths[h]);
+    const Eigen::Vector2d first = a, last = b;
+    std::int32_t across = h;
+    if (first.dot(last) >= 0) {
+      add(to, mesh.tail(h), mesh.tip(h), a, b);
+      continue;
+    }
+    // Obtuse: unfolds over the side that the section of both acute angles meets, until a vertex lies in it.
+    bool is_split = false;
+    for (int i = 0; i < kMostUnfolded && mesh.twins[across] >= 0; ++i) {
+      const std::int32_t twin = mesh.twins[across];  // from the right end to the left one
+      const Eigen::Vector2d apex = left_of(b, a, mesh.lengths[next(next(twin))], mesh.lengths[next(twin)]);
+      const std::int32_t vertex = mesh.apex(twin);
+      if (apex.dot(first) >= 0 && apex.dot(last) >= 0) {
+        add(to, mesh.tail(h), vertex, first, apex);
+        add(to, vertex, mesh.tip(h), apex, last);
+        is_split = true;
+        break;
+      }
+      // The apex is too far to the side of the end it is at an obtuse angle from the other one.
+      if (apex.dot(first) < 0) {
+        b = apex;
+        across = next(twin);  // from the left end to the apex
+      } else {
+        a = apex;
+        across = next(next(twin));
+      }
+    }
+    if (!is_split) add(to, mesh.tail(h), mesh.tip(h), first, last);
+  }
+  for (const LooseEdge& edge : mesh.loose_edges) {
+    for (const auto& [from, to] : {std::pair(edge.a, edge.b), std::pair(edge.b, edge.a)}) {
+      updates_[from].push_back({to, -1, {edge.length, 0.0}, {0.0, 0.0}});
+    }
+  }
+}
+
+void FastMarching::add(std::int32_t to, std::int32_t a, std::int32_t b, const Eigen::Vector2d& at_a,
+                       const Eigen::Vector2d& at_b) {
+  updates_[a].push_back({to, b, -at_a, at_b - at_a});
+  updates_[b].push_back({to, a, -at_b, at_a - at_b});
+}
+
+std::vector<double> FastMarching::solve(std::int32_t seed) const {
+  Front front(updates_.size(), seed);
+  front.run([&](std::int32_t a) {
+    for (const Update& u : updates_[a]) {
+      double distance = front.distances[a] + u.target.norm();
+      if (u.other >= 0 && front.accepted[u.other]) {
+        distance = from_segment(front.distances[a], front.distances[u.other], u.segment.squaredNorm(),
+                                u.target.dot(u.segment), u.target.squaredNorm());
+      }
+      front.lower(u.to, distance);
+    }
+  });
+  return front.distances;
+}
+
+}  // namespace seamwire::bench

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCholesky>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "seamwire/metric/metric.hpp"
+#include "seamwire/surface/intrinsic_mesh.hpp"
+#include "seamwire/surface/surface.hpp"
+
+/// The methods that Section 2.3 of the paper argues against, small and plain, to measure beside: each gives the
+/// distances from one seed at all vertices, of the model scaled to the unit cube; infinite where it does not come.
+namespace seamwire::bench {
+
+/// A surface with a metric, as these methods read it. All read the same one: a quadratic form at each vertex, the
+/// ambient reading of metric.hpp, in between linear.
+struct MetricSurface {
+  std::vector<Vector> points;  ///< in the unit cube
+  std::vector<Triangle> triangles;
+  std::vector<std::int32_t> twins;          ///< per half-edge, as in IntrinsicMesh
+  Metric metric;                            ///< at the vertices
+  std::vector<Eigen::Matrix3d> forms;       ///< at the vertices: the ambient form, also along the normal
+  std::vector<Eigen::Matrix3d> face_forms;  ///< the mean of those at the corners
+  std::vector<std::vector<std::int32_t>> neighbors;
+};
+/// Throws InvalidInput where the surface was cut open, or has edges without a face.
+MetricSurface metric_surface(const Surface& surface, const Metric& metric);
+
+/// Every triangle cut into four, `levels` times, in its plane; tensors between others as the paper's subdivision has
+/// them (midpoint_tensor()). The first vertices are the given ones.
+std::pair<Surface, Metric> refined(const Surface& surface, const Metric& metric, int levels);
+
+/// Dijkstra along edges.
+std::vector<double> edge_dijkstra(const MetricSurface& surface, std::int32_t seed);
+
+/// Dijkstra over faces, between `per_edge` points on each edge and the vertices: Lanthier, Maheshwari, Sack,
+/// "Approximating Weighted Shortest Paths on Polyhedral Surfaces" (1997); the form is constant in a face.
+std::vector<double> steiner_dijkstra(const MetricSurface& surface, std::int32_t seed, int per_edge);
+
+/// Campen, Heistermann, Kobbelt, "Practical Anisotropic Geodesy" (2013): Dijkstra along edges, but the length of the
+/// last up to `memory` edges is that of their sum, of which the shortest counts.
+std::vector<double> short_term_vector_dijkstra(const MetricSurface& surface, std::int32_t seed, int memory);
+
+/// Sethian, Vladimirsky, "Ordered Upwind Methods for Static Hamilton-Jacobi Equations" (2003): a vertex takes its
+/// distance from segments of the accepted front as far away as the longest edge beside it times the largest
+/// anisotropy; vectors there are sums of edges, turned into its tangent plane.
+std::vector<double> ordered_upwind(const MetricSurface& surface, std::int32_t seed);
+
+/// Crane, Weischedel, Wardetzky, "Geodesics in Heat" (2013), with the Laplacian of the faces in their forms; time step:
+/// the square of the mean edge length in the metric.
+class HeatMethod {
+ public:
+  /// Factors both matrices. Throws InvalidInput where one cannot be.
+  explicit HeatMethod(const MetricSurface& surface);
+  std::vector<double> solve(std::int32_t seed) const;
+
+ private:
+  using Solver = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
+  std::vector<Triangle> triangles_;
+  std::vector<Eigen::Matrix<double, 2, 3>> gradients_;  // a face: those of the hat functions of its corners
+  std::vector<double> areas_;
+  Solver heat_, poisson_;
+};
+
+/// Kimmel, Sethian, "Computing Geodesic Paths on Manifolds" (1998), on edge lengths: fast marching, obtuse corners
+/// split by unfolding what lies opposite.
+class FastMarching {
+ public:
+  explicit FastMarching(const IntrinsicMesh& mesh);
+  std::vector<double> solve(std::int32_t seed) const;
+
+ private:
+  // The vertex `to` takes a distance from the segment from a vertex to `other`: as vectors in the plane, `target` goes
+  // from there to it, `segment` to `other`.
+  struct Update {
+    std::int32_t to, other;
+    Eigen::Vector2d target, segment;
+  };
+  void add(std::int32_t to, std::int32_t a, std::int32_t b, const Eigen::Vector2d& at_a, const Eigen::Vector2d& at_b);
+
+  std::vector<std::vector<Update>> updates_;  // a vertex: those that its distance allows
+};
+
+}  // namespace seamwire::bench
