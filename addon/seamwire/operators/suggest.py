@@ -8,7 +8,6 @@ import threading
 from typing import TYPE_CHECKING
 
 import bpy
-import numpy as np
 
 from ..mesh.settings import ALONG_ITEMS, AUTO_FINISH_ITEMS
 from .cut import cut_wires
@@ -332,7 +331,7 @@ def _part_worst(context: bpy.types.Context, suggestions: Sequence[Suggestion]) -
         raise ValueError("No visible face has UVs: unwrap first")
     suggestion = max(stretched, key=lambda one: stretched[one].value)
     worst = stretched[suggestion]
-    best, least, most_islands = None, worst.value, np.inf
+    best, least, most_islands = None, worst.value, math.inf
     plans, obj, progress = suggestion.parting(worst), suggestion.mesh.obj, context.window_manager
     progress.progress_begin(0, len(plans))
     try:
