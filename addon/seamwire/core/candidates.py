@@ -9,6 +9,7 @@ import numpy as np
 
 from .network import FacePoint, Network, Snap, Wire, distinct, name
 from .solver import for_live
+from .straight import straight_wire
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -43,6 +44,9 @@ class CandidateWires:
         """Whether it is computed, and stays the leading one."""
         self.chosen: int | None = None
         """The one that the artist brought forward."""
+        self.with_straight = False
+        """Whether, across the surface, the wire that is straight in the view comes with the others, and leads."""
+        self._straight: Wire | None = None
 
     @property
     def final(self) -> bool:
@@ -95,9 +99,16 @@ class CandidateWires:
         """What changes when something else is to be seen."""
         return self.target, self.leading, self.finals, self.wires
 
+    def is_aimed_at(self, target: Snap | None) -> bool:
+        """Whether a target is what is under the cursor already, looked at from where it is now."""
+        if target != self.target:
+            return False
+        return not self.with_straight or target is None or target.seen_along == self.target.seen_along
+
     def clear(self) -> None:
         """Show no wires, and what is under the cursor still."""
         self.wires, self.finals, self.settled = (), (), True
+        self._straight = None
 
     def reset(self) -> None:
         """Forget which wires there were: those of another metric, or way of running, are others."""
@@ -121,8 +132,13 @@ class CandidateWires:
         if not others:
             same = self.final and self.active is not None
             return SAME_EDGES if same else "There is no next candidate yet"
-        self.chosen = others[0].follow
+        self.chosen = next(at for at, wire in enumerate(self.wires) if wire is others[0])
         return ""
+
+    @property
+    def straight_active(self) -> bool:
+        """Whether the wire that a click would keep is the one that is straight in the view."""
+        return self._straight is not None and self.active is self._straight
 
     def aim(self, target: Snap | None, network: Network, along: Along) -> str:
         """Find the wires from a network's seed to a target; return why there is none, else nothing."""
@@ -140,16 +156,27 @@ class CandidateWires:
             return str(error)
         self.finals = tuple(wire.final for wire in found.wires)
         self.leading, self.settled = found.active, found.settled
-        if self.chosen is not None and self.chosen >= len(found.wires):
-            self.chosen = None  # the metric that is used now has no such wire
         if along == "SURFACE":
             begin = seed.begins("SURFACE")
             self.wires = tuple(across(wire, follow, begin, target.pick) for follow, wire in enumerate(found.wires))
+            if self.with_straight:
+                self._add_straight(begin, target)
         else:
             self.wires = tuple(
                 self._along_edges(wire, follow, seed, target.pick, avoid) for follow, wire in enumerate(found.wires)
             )
+        if self.chosen is not None and self.chosen >= len(self.wires):
+            self.chosen = None  # the metric that is used now has no such wire
         return f"No wire reaches {name(target.pick)}" if self.final and not any(self.wires) else ""
+
+    def _add_straight(self, begin: Pick, target: Snap) -> None:
+        if target.seen_along is None:
+            return
+        live = self._engines.get("SURFACE")
+        self._straight = straight_wire(live, begin, target.pick, target.seen_along, self.leading)
+        if self._straight is not None:
+            self.wires, self.finals = (*self.wires, self._straight), (*self.finals, True)
+            self.leading, self.settled = len(self.wires) - 1, True
 
     def _along_edges(
         self, candidate: Candidate, follow: int, seed: Seed, target: Pick, avoid: int | None

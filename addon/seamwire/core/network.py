@@ -107,11 +107,14 @@ class Snap:
         feature nearby that was stronger than what lies under the cursor.
     wire
         The wire, where it belongs to one.
+    seen_along
+        The direction from the viewer to it, in the coordinates of the session's points; None: it is not looked at.
     """
 
     pick: Pick
     to: Literal["MESH", "SEED", "WIRE", "SEAM", "FEATURE"] = "MESH"
     wire: Wire | None = None
+    seen_along: tuple[float, float, float] | None = field(default=None, compare=False)
 
     @classmethod
     def of(cls, what: Snap | Pick) -> Snap:

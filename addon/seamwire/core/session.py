@@ -655,6 +655,16 @@ class Session:
             return True
         return self._use_metric(self.metric, self._engines.strengths, percentile)
 
+    def set_straight(self, straight: bool) -> bool:
+        """Offer, across the surface, the wire that is straight in the view too, before the others; kept wires stay as they are."""
+        if straight == self._candidates.with_straight:
+            return True
+        self._candidates.with_straight = straight
+        self._candidates.reset()
+        self._aim_again()
+        self.revision += 1
+        return True
+
     def set_mirror(self, axes: Iterable[int]) -> bool:
         """Mirror the wires that are kept from here on over axes, 0 to 2; none: not at all."""
         mirror = tuple(sorted(set(axes)))
@@ -701,7 +711,7 @@ class Session:
         self._last_click = None
         self.drag_cancel()
         chosen = self._candidates.chosen
-        if acts_on is None and self._network.seed is not None:
+        if acts_on is None and self._network.seed is not None and not self.straight_active:
             # The wire that the stroke is for stays the active one, even where another is shorter now.
             chosen = self._candidates.active_index
             acts_on = FOLLOWS[chosen]
@@ -858,6 +868,11 @@ class Session:
     def candidate_number(self) -> int:
         """The place of the active wire among those that run differently, the one that is offered first at 0."""
         return self._candidates.number
+
+    @property
+    def straight_active(self) -> bool:
+        """Whether the wire that a click would keep is the one that is straight in the view."""
+        return self._candidates.straight_active
 
     @property
     def preliminary(self) -> bool:
@@ -1157,7 +1172,7 @@ class Session:
     def _aim(self, target: Snap | None, again: bool = False) -> None:
         """Find the wires to a target; `again`: also where it is the same as before."""
         live = self._candidates
-        if target == live.target and not again and live.final and self._offers_final:
+        if live.is_aimed_at(target) and not again and live.final and self._offers_final:
             return
         before = (live.shown, self.message)
         self._read_progress()

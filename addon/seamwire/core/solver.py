@@ -12,6 +12,7 @@ from .network import FacePoint
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
+    from seamwire_core import Surface
 
     from .network import Along, Edge, Pick
     from .strokes import Scribble
@@ -149,6 +150,10 @@ class LiveWire(Protocol):
 
     def embeddings(self) -> Sequence[EmbeddingReport | None]:
         """Return what became of the metrics' embeddings; None where there is none, or not yet."""
+
+    @property
+    def surface(self) -> Surface | None:
+        """The library's surface; None: it is not built yet."""
 
     def progress(self) -> float:
         """Fraction of the running work that is done."""

@@ -163,6 +163,7 @@ class ObjectSession:
         session = self.session
         session.switch(settings.along)
         session.finish = self.finish(settings)
+        session.set_straight(settings.straight)
         session.set_metric(settings.metric)
         session.set_clamp(settings.clamp)
         session.set_strength("EDGES", settings.strength_edges)

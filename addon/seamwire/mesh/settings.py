@@ -104,6 +104,11 @@ class SeamwireSettings(bpy.types.PropertyGroup):
         default="AUTO",
         update=_changed,
     )
+    straight: bpy.props.BoolProperty(
+        name="Straight in View",
+        description="Across the surface, offer first the wire that is straight in the view: a cut by a plane. Moved, it follows features",
+        update=_changed,
+    )
     metric: bpy.props.EnumProperty(
         name="Metric", description="What draws wires to features", items=METRIC_ITEMS, update=_changed
     )

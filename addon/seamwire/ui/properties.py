@@ -47,6 +47,7 @@ def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout) -> Non
         layout.prop(chosen, strength)
         if chosen.along == "SURFACE":
             layout.row(align=True).prop(chosen, "finish", expand=True)
+            layout.prop(chosen, "straight", text="", icon="IPO_LINEAR")
         layout.prop(chosen, "clear", toggle=True)
         layout.prop(chosen, "snap", text="", icon="SNAP_ON" if chosen.snap else "SNAP_OFF")
         layout.prop(chosen, "xray", text="", icon="XRAY")
@@ -62,6 +63,7 @@ def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout) -> Non
     column = layout.column()
     column.active = chosen.along == "SURFACE"
     column.row().prop(chosen, "finish", expand=True)
+    column.prop(chosen, "straight")
     layout.prop(chosen, "clear")
     layout.prop(chosen, "stroke_radius")
     column = layout.column(heading="Snap")

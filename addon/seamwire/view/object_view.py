@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import bpy
@@ -179,7 +180,7 @@ class ObjectView:
         across = self.session.along == "SURFACE"
         if settings.snap and self._strength is None:
             self._strength = self.session.feature_strength()
-        return self._picker.snap(
+        snap = self._picker.snap(
             view,
             self.obj.matrix_world,
             cursor,
@@ -193,6 +194,9 @@ class ObjectView:
             crests=self.views.crests if (settings.show_crests and across if plain else settings.snap) else None,
             scale=bpy.context.preferences.system.ui_scale,
         )
+        if snap is None or not settings.straight or not across or isinstance(snap.pick, tuple):
+            return snap
+        return replace(snap, seen_along=self._picker.seen_along(view, self.obj.matrix_world, snap.pick))
 
     def depth(self, view: View, cursor: tuple[float, float]) -> float | None:
         """Return how far from the viewer the object is under the cursor; None where it is not."""

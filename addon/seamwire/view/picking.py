@@ -248,6 +248,21 @@ class Picker:
         feature = self._feature_at(view, matrix, cursor, pick, strength, xray, scale)
         return Snap(pick) if feature is None else Snap(feature, "FEATURE")
 
+    def seen_along(self, view: View, matrix: Matrix, pick: Pick) -> tuple[float, float, float] | None:
+        """Return the direction from the viewer to a pick, as `Arrays.points` are given; None: it lies behind the viewer."""
+        if abs(matrix.determinant()) < 1e-30:
+            return None
+        place = self._to_object @ place_of(pick, self._points)
+        pixel = view.to_pixels(np.array(matrix @ Vector(place))[None])[0]
+        if not np.isfinite(pixel).all():
+            return None
+        inverse = matrix.inverted()
+        near, far = (
+            self._to_points @ np.array(inverse @ Vector(end)) for end in view.ray((float(pixel[0]), float(pixel[1])))
+        )
+        x, y, z = (far - near).tolist()
+        return x, y, z
+
     def depth(self, view: View, matrix: Matrix, cursor: tuple[float, float]) -> float | None:
         """Return how far away the face under the cursor is, in world units from the near plane; None: there is none."""
         if abs(matrix.determinant()) < 1e-30:

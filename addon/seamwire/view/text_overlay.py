@@ -73,7 +73,8 @@ def lines(
     if session.active is not None and session.others:
         follows = _CONCAVE_FOLLOWS if session.metric == "concave" else _FOLLOWS
         count = 1 + len(session.others)
-        found.append(f"{follows[session.active.follow]} ({session.candidate_number + 1} of {count})")
+        which = "Straight in the view" if session.straight_active else follows[session.active.follow]
+        found.append(f"{which} ({session.candidate_number + 1} of {count})")
     if islands is not None:
         found.append(_islands(islands))
         if pointed is not None:
