@@ -63,6 +63,7 @@ class Said:
     strength: float = 10.0
     marking: bool = True
     preliminary: bool = False
+    straight_active: bool = False
     mirror_axes: tuple[int, ...] = ()
     scribbles: tuple[Drawn, ...] = ()
     loop_offers: tuple[str, ...] = ()

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Straight in View: across the surface the wire that is straight on the screen leads, and the wheel goes on to the others."""
+
+import math
+
+import bpy
+import numpy as np
+import pytest
+import ui as driver
+from bpy_extras.view3d_utils import location_3d_to_region_2d
+from desk import ORANGE, Desk, shows
+from mathutils import Euler, Vector
+from scene import add_object, seams
+from seamwire.core.network import Wire
+from seamwire.mesh.settings import settings
+from seamwire.view.edited_objects import edited
+
+SIDE = 33
+START, END = 4 * SIDE + 5, 26 * SIDE + 27
+
+
+@pytest.fixture
+def desk(ui: driver.Ui) -> Desk:
+    """A sheet with a hill, moved and stretched, seen in perspective from above."""
+    points = [
+        (x, y, 0.7 * math.exp(-4.0 * (x * x + y * y)) + 0.04 * math.sin(9.0 * x))
+        for y in np.linspace(-1.0, 1.0, SIDE).tolist()
+        for x in np.linspace(-1.0, 1.0, SIDE).tolist()
+    ]
+    faces = [
+        (a, a + 1, a + SIDE + 1, a + SIDE) for row in range(SIDE - 1) for a in range(row * SIDE, row * SIDE + SIDE - 1)
+    ]
+    obj = add_object(points, faces)
+    obj.location, obj.scale = (0.1, -0.05, 0.2), (1.1, 0.9, 1.3)
+    bpy.context.view_layer.update()
+    made = Desk(ui, obj)
+    ui.view.view_perspective = "PERSP"
+    settings().along = "SURFACE"
+    settings().straight = True
+    return made
+
+
+def bend_on_screen(desk: Desk, wire: Wire) -> float:
+    """Return how many pixels a wire is off the straight line between its ends, as it is seen."""
+    ui, matrix = desk.ui, desk.obj.matrix_world
+    places = wire.points @ edited.front.mesh.arrays.to_object.T
+    seen = np.array([location_3d_to_region_2d(ui.region, ui.view, matrix @ Vector(place)) for place in places])
+    along = seen[-1] - seen[0]
+    normal = np.array([-along[1], along[0]]) / np.linalg.norm(along)
+    return float(np.abs((seen - seen[0]) @ normal).max())
+
+
+def aim(desk: Desk) -> None:
+    """Place a seed, and point at another vertex."""
+    desk.ui.click(desk.at(START))
+    desk.ui.move(desk.at(END))
+    desk.ui.wait_until(lambda: not desk.session.computing and desk.session.active is not None)
+
+
+def test_it_is_straight_on_the_screen_and_a_click_keeps_it(desk: Desk) -> None:
+    ui = desk.ui
+    desk.choose()
+    aim(desk)
+    session = desk.session
+    assert session.straight_active
+    assert bend_on_screen(desk, session.active) < 0.05
+    middle = 0.5 * (np.array(desk.at(START)) + desk.at(END))
+    assert shows(ui.pixels(), tuple(middle.tolist()), ORANGE)
+    assert bend_on_screen(desk, session.others[0]) > 3.0
+    ui.click(desk.at(END))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    assert bend_on_screen(desk, session.wires[0]) < 0.05
+    ui.click(desk.at(END), button="RIGHTMOUSE")
+    ui.wait_until(lambda: not desk.running)
+    assert len(seams(desk.obj)) == len(session.wires[0].edges())
+
+
+def test_where_the_view_has_turned_it_is_straight_in_that(desk: Desk) -> None:
+    ui = desk.ui
+    desk.choose()
+    aim(desk)
+    ui.view.view_rotation = Euler((math.radians(35.0), 0.0, math.radians(20.0))).to_quaternion()
+    ui.wait(redraw=True)
+    place = desk.at(END)
+    ui.move((place[0] + 1.0, place[1]))
+    ui.move(place)
+    ui.wait_until(lambda: not desk.session.computing)
+    assert desk.session.straight_active
+    assert bend_on_screen(desk, desk.session.active) < 0.05
+
+
+def test_w_goes_on_to_the_wires_of_the_metric(desk: Desk) -> None:
+    ui = desk.ui
+    desk.choose()
+    aim(desk)
+    ui.key("W")
+    ui.wait()
+    assert not desk.session.straight_active
+    assert bend_on_screen(desk, desk.session.active) > 3.0
+
+
+def test_it_is_offered_only_where_it_is_asked_for(desk: Desk) -> None:
+    settings().straight = False
+    desk.choose()
+    aim(desk)
+    assert not desk.session.straight_active
+    assert min(bend_on_screen(desk, wire) for wire in (desk.session.active, *desk.session.others)) > 1.0
