@@ -263,10 +263,10 @@ LiveClosedWires LiveWire::closed_wires(const SurfacePoint& through) {
 }
 
 LiveClosedWires LiveWire::bent_wire(const SurfacePoint& through, const SurfacePoint& second, std::size_t which) {
-  BendPlace place{.through = end_at(through), .second = end_at(second), .which = which};
+  const BendPlace place{.through = end_at(through), .second = end_at(second), .which = which};
   impl_->check_closed(place.through, "through");
   impl_->check_closed(place.second, "second");
-  return impl_->closed_wires(std::move(place));
+  return impl_->closed_wires(place);
 }
 
 EdgeChain LiveWire::extend_straight(const Edge& edge, std::span<const std::int32_t> stops) const {

@@ -431,9 +431,12 @@ class Tracer {
           begin = end;
         }
       }
-      std::ranges::rotate(chain.segments, chain.segments.begin() + static_cast<std::ptrdiff_t>(begin));
+      // Not std::ranges::rotate, which Clang 14 cannot read with GCC 12's library.
+      std::rotate(chain.segments.begin(), chain.segments.begin() + static_cast<std::ptrdiff_t>(begin),
+                  chain.segments.end());
       chain.sides.pop_back();
-      std::ranges::rotate(chain.sides, chain.sides.begin() + static_cast<std::ptrdiff_t>(begin == size ? 0 : begin));
+      std::rotate(chain.sides.begin(), chain.sides.begin() + static_cast<std::ptrdiff_t>(begin == size ? 0 : begin),
+                  chain.sides.end());
       chain.sides.push_back(chain.sides.front());
       look();
       // Nothing long between its ends: it is closed.

@@ -98,7 +98,7 @@ struct SeamPlanner::Impl {
   std::map<Ends, Choice> direct_wires(const std::set<Ends>& pairs, const Task& task) const;
   std::vector<Choice> straightened(std::vector<Choice> best, const SeamLimits& limits,
                                    std::span<const double> max_spreads, const Task& task) const;
-  std::optional<std::vector<Choice>> without_joint(const std::vector<Choice>& wires, const Joints& joints,
+  std::optional<std::vector<Choice>> without_joint(const std::vector<Choice>& present, const Joints& joints,
                                                    std::int32_t joint, const std::map<Ends, Choice>& direct) const;
 
   const SeamPlannerOptions options;
@@ -107,8 +107,8 @@ struct SeamPlanner::Impl {
   const std::vector<Choice> choices;
 
  private:
-  mutable std::mutex known_direct_mutex;
-  mutable std::map<Ends, Choice> known_direct;
+  mutable std::mutex known_direct_mutex_;
+  mutable std::map<Ends, Choice> known_direct_;
 };
 
 /// Lets wires start on others where they ran beside them, as long as that leaves fewer crumbs and pieces as good.
@@ -204,9 +204,9 @@ std::map<Ends, Choice> SeamPlanner::Impl::direct_wires(const std::set<Ends>& pai
   std::map<Ends, Choice> out;
   std::vector<CandidateWires::Fan> missing;
   {
-    const std::scoped_lock lock(known_direct_mutex);
+    const std::scoped_lock lock(known_direct_mutex_);
     for (const Ends& ends : pairs) {
-      if (const auto known = known_direct.find(ends); known != known_direct.end()) {
+      if (const auto known = known_direct_.find(ends); known != known_direct_.end()) {
         out.insert(*known);
       } else {
         missing.push_back({ends.first, {ends.second}});
@@ -218,8 +218,8 @@ std::map<Ends, Choice> SeamPlanner::Impl::direct_wires(const std::set<Ends>& pai
     const std::int32_t from = missing[i].from, to = missing[i].to.front();
     out.insert({{from, to}, make_choice(from, to, std::move(found[i].front()), seclusion)});
   }
-  const std::scoped_lock lock(known_direct_mutex);
-  known_direct.insert(out.begin(), out.end());
+  const std::scoped_lock lock(known_direct_mutex_);
+  known_direct_.insert(out.begin(), out.end());
   return out;
 }
 
@@ -267,7 +267,7 @@ std::vector<Choice> SeamPlanner::Impl::straightened(std::vector<Choice> best, co
 }
 
 /// The wires with direct ones in place of those that meet at a joint, and at its image; nullopt where that costs more.
-std::optional<std::vector<Choice>> SeamPlanner::Impl::without_joint(const std::vector<Choice>& wires,
+std::optional<std::vector<Choice>> SeamPlanner::Impl::without_joint(const std::vector<Choice>& present,
                                                                     const Joints& joints, std::int32_t joint,
                                                                     const std::map<Ends, Choice>& direct) const {
   const Joint& own = joints.at(joint);
@@ -282,19 +282,18 @@ std::optional<std::vector<Choice>> SeamPlanner::Impl::without_joint(const std::v
       if (std::ranges::find(gone, wire) != gone.end()) return std::nullopt;  // one after the other then
       gone.push_back(wire);
     }
-    std::optional<Choice> same = mirrored(come.front(), surface(), options);
-    come.push_back(same ? std::move(*same) : direct.at(ends));
+    come.push_back(mirrored(come.front(), surface(), options).value_or(direct.at(ends)));
   }
   double before = 0.0, after = 0.0;
-  for (const std::size_t wire : gone) before += price(surface(), wires[wire]);
+  for (const std::size_t wire : gone) before += price(surface(), present[wire]);
   for (const Choice& choice : come) {
     if (choice.wire.vertices.size() < 2) return std::nullopt;
     after += price(surface(), choice);
   }
   if (!(after < before)) return std::nullopt;
   std::vector<Choice> trial;
-  for (std::size_t i = 0; i < wires.size(); ++i) {
-    if (std::ranges::find(gone, i) == gone.end()) trial.push_back(wires[i]);
+  for (std::size_t i = 0; i < present.size(); ++i) {
+    if (std::ranges::find(gone, i) == gone.end()) trial.push_back(present[i]);
   }
   trial.insert(trial.end(), come.begin(), come.end());
   return trial;

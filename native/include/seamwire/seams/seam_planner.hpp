@@ -70,8 +70,8 @@ struct SeamPlan {
 /// the two metrics. Where a piece is no disc it gets another seed. Then wires are taken away, as long as what they part
 /// joins to discs within the limits: first the longest for its worth, which is more where a wire follows features, runs
 /// in hollows, and out of sight (ambient occlusion). At last, where two wires run side by side and leave crumbs between
-/// them, the weaker one starts on the other instead; and where just two wires meet, a direct one takes their place if it
-/// costs less and leaves islands as good.
+/// them, the weaker one starts on the other instead; and where just two wires meet, a direct one takes their place if
+/// it costs less and leaves islands as good.
 class SeamPlanner {
  public:
   /// Finds the wires to choose from, on several threads. Throws InvalidInput for options that are not as said above or
