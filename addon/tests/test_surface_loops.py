@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from fake_live import grid_edges
+from fake_live import FakeCuts, FakeLive, grid_edges
 from seamwire.core.network import FacePoint
 from seamwire.core.session import Intent, Session
 from seamwire.core.surface_loops import NOTHING_TO_BEND, SurfaceLoops
@@ -58,6 +58,22 @@ def test_the_cut_that_is_shown_is_kept_as_a_closed_chain_of_wires(keep: str) -> 
     assert len(session.seeds()) == 3
     assert session.undo()
     assert session.wires == (), "one step"
+
+
+def test_of_cuts_along_the_same_edges_one_is_offered(monkeypatch: pytest.MonkeyPatch) -> None:
+    squares = FakeLive.closed_wires
+
+    def first_twice(self: FakeLive, through: object) -> FakeCuts:
+        found = squares(self, through)
+        return FakeCuts([*found.cuts[:1], *found.cuts], found.final)
+
+    monkeypatch.setattr(FakeLive, "closed_wires", first_twice)
+    session = table().session
+    session.hover(8, loop=True)
+    assert session.loop_offers == ("ACROSS", "HANDLE")
+    session.toggle()
+    session.click(8)
+    assert session.edges_to_mark() == edges(*LEFT)
 
 
 def test_after_it_was_taken_it_is_not_offered_again_until_another_point() -> None:

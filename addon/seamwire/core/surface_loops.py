@@ -15,7 +15,7 @@ from .solver import for_live
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .network import LoopKind, Network, Pick
+    from .network import Edge, LoopKind, Network, Pick
     from .solver import ClosedCut, Engines
 
 
@@ -86,10 +86,16 @@ class SurfaceLoops(Offers):
         else:
             found = live.closed_wires(for_live(pick, "SURFACE"))
         self.final = found.final
-        cuts = [(self._pieces_of(cut, begin), cut.separates, first + i) for i, cut in enumerate(found.cuts)]
-        shown = [(_whole(pieces, separates), pieces, which) for pieces, separates, which in cuts if len(pieces) > 1]
-        self._found = {whole.id: (pieces, which) for whole, pieces, which in shown}
-        return tuple(whole for whole, _, _ in shown)
+        self._found = {}
+        shown: dict[frozenset[Edge], Wire] = {}  # on a coarse mesh, cuts apart from each other may go to the same edges
+        for which, cut in enumerate(found.cuts, first):
+            pieces = self._pieces_of(cut, begin)
+            if len(pieces) < 2:
+                continue
+            whole = _whole(pieces, cut.separates)
+            if shown.setdefault(frozenset(whole.edges()), whole) is whole:
+                self._found[whole.id] = pieces, which
+        return tuple(shown.values())
 
     def bend(self, bends: bool) -> bool:
         """Offer the cut that was taken last, bent to the pick, or those through the pick again; return whether others vanish."""
