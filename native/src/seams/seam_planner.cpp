@@ -2,11 +2,7 @@
 #include "seamwire/seams/seam_planner.hpp"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
-#include <limits>
-#include <map>
-#include <mutex>
 #include <optional>
 #include <set>
 #include <span>
@@ -17,8 +13,10 @@
 #include "detail/text.hpp"
 #include "seams/candidate_wires.hpp"
 #include "seams/cut_pieces.hpp"
+#include "seams/quality.hpp"
 #include "seams/seam_choices.hpp"
 #include "seams/seeding.hpp"
+#include "seams/straightening.hpp"
 #include "seams/thinning.hpp"
 #include "seamwire/surface/segments.hpp"
 
@@ -28,56 +26,6 @@ namespace {
 /// How much more the worst piece may be bent for fewer crumbs.
 constexpr double kBentForCrumbs = 0.02;
 
-/// How good a set of wires is, but for their length.
-struct Quality {
-  explicit Quality(const CutPieces& pieces) {
-    for (const Piece& piece : pieces.pieces()) crumb += kCrumb * piece.area;
-    for (const Piece& piece : pieces.pieces()) {
-      if (piece.area < crumb) {
-        ++crumbs;
-      } else {
-        bent = std::max(bent, piece.spread() - piece.max_spread);
-      }
-      not_discs += piece.is_disc() ? 0 : 1;
-    }
-  }
-
-  double crumb = 0.0;  ///< the area below which a piece is one
-  std::size_t crumbs = 0, not_discs = 0;
-  double bent = 0.0;  ///< by how much the spread of normals exceeds what is allowed, at most
-};
-
-/// A seed where two wires meet and nothing else is.
-struct Joint {
-  std::array<std::size_t, 2> wires;  ///< by their numbers
-  Ends ends;                         ///< their other ends, which differ
-};
-using Joints = std::map<std::int32_t, Joint>;  // by the vertices of the seeds
-
-Joints joints_of(const std::vector<Choice>& wires, const std::vector<Edge>& seams) {
-  std::map<std::int32_t, std::vector<std::size_t>> ending;
-  std::set<std::int32_t> passed;
-  for (const auto& [a, b] : seams) passed.insert({a, b});
-  for (std::size_t i = 0; i < wires.size(); ++i) {
-    const PlannedWire& wire = wires[i].wire;
-    ending[wire.from].push_back(i);
-    ending[wire.to].push_back(i);
-    for (const std::int32_t v : wire.vertices) {
-      if (v != wire.from && v != wire.to) passed.insert(v);
-    }
-  }
-  const auto other_end = [](const PlannedWire& wire, std::int32_t end) {
-    return wire.from == end ? wire.to : wire.from;
-  };
-  Joints joints;
-  for (const auto& [seed, meeting] : ending) {
-    if (meeting.size() != 2 || passed.contains(seed)) continue;
-    const Ends ends = ends_of(other_end(wires[meeting[0]].wire, seed), other_end(wires[meeting[1]].wire, seed));
-    if (ends.first != ends.second) joints.insert({seed, {{meeting[0], meeting[1]}, ends}});
-  }
-  return joints;
-}
-
 }  // namespace
 
 struct SeamPlanner::Impl {
@@ -85,7 +33,8 @@ struct SeamPlanner::Impl {
       : options(with),
         wires(std::move(on), with.along, with.strength, task),
         seclusion(wires.surface(), wires.curvature()),
-        choices(wires_between_seeds(wires, seclusion, options, task)) {}
+        choices(wires_between_seeds(wires, seclusion, options, task)),
+        direct(wires, seclusion) {}
 
   const Surface& surface() const { return wires.surface(); }
   CutPieces pieces(const std::vector<Choice>& of, std::span<const double> max_spreads) const {
@@ -95,20 +44,12 @@ struct SeamPlanner::Impl {
                             const Task& task) const;
   std::vector<std::vector<Choice>> shortened(const Choice& wire, const std::vector<Choice>& others,
                                              const Task& task) const;
-  std::map<Ends, Choice> direct_wires(const std::set<Ends>& pairs, const Task& task) const;
-  std::vector<Choice> straightened(std::vector<Choice> best, const SeamLimits& limits,
-                                   std::span<const double> max_spreads, const Task& task) const;
-  std::optional<std::vector<Choice>> without_joint(const std::vector<Choice>& present, const Joints& joints,
-                                                   std::int32_t joint, const std::map<Ends, Choice>& direct) const;
 
   const SeamPlannerOptions options;
   const CandidateWires wires;
   const Seclusion seclusion;
   const std::vector<Choice> choices;
-
- private:
-  mutable std::mutex known_direct_mutex_;
-  mutable std::map<Ends, Choice> known_direct_;
+  const DirectWires direct;
 };
 
 /// Lets wires start on others where they ran beside them, as long as that leaves fewer crumbs and pieces as good.
@@ -199,106 +140,6 @@ std::vector<std::vector<Choice>> SeamPlanner::Impl::shortened(const Choice& wire
   return ways;
 }
 
-/// The wires between pairs of seeds; those that former plans needed are known.
-std::map<Ends, Choice> SeamPlanner::Impl::direct_wires(const std::set<Ends>& pairs, const Task& task) const {
-  std::map<Ends, Choice> out;
-  std::vector<CandidateWires::Fan> missing;
-  {
-    const std::scoped_lock lock(known_direct_mutex_);
-    for (const Ends& ends : pairs) {
-      if (const auto known = known_direct_.find(ends); known != known_direct_.end()) {
-        out.insert(*known);
-      } else {
-        missing.push_back({ends.first, {ends.second}});
-      }
-    }
-  }
-  std::vector<std::vector<CandidateWire>> found = wires.find(missing, task);
-  for (std::size_t i = 0; i < missing.size(); ++i) {
-    const std::int32_t from = missing[i].from, to = missing[i].to.front();
-    out.insert({{from, to}, make_choice(from, to, std::move(found[i].front()), seclusion)});
-  }
-  const std::scoped_lock lock(known_direct_mutex_);
-  known_direct_.insert(out.begin(), out.end());
-  return out;
-}
-
-/// Lets one direct wire take the place of two that meet at a joint, where it costs less and leaves pieces as good.
-std::vector<Choice> SeamPlanner::Impl::straightened(std::vector<Choice> best, const SeamLimits& limits,
-                                                    std::span<const double> max_spreads, const Task& task) const {
-  std::size_t piece_count = 0;
-  std::optional<Quality> quality;
-  std::map<Ends, Choice> direct;
-  std::set<std::pair<std::int32_t, Ends>> tried;
-  const auto is_as_good = [&](const std::vector<Choice>& trial) {
-    if (!limits.may_start_on_others && meeting_at_seeds(trial).size() != trial.size()) return false;
-    const CutPieces cut = pieces(trial, max_spreads);
-    const Quality now(cut);
-    return cut.piece_count() == piece_count && now.crumbs <= quality->crumbs && now.not_discs <= quality->not_discs &&
-           now.bent <= std::max(quality->bent, 0.0);
-  };
-  // All that can be tried with the wires that are known, before more are found: those are found on several threads.
-  const auto straighten_one = [&] {
-    const Joints joints = joints_of(best, options.seams);
-    for (const auto& [joint, at] : joints) {
-      task.check(0.0);
-      if (!direct.contains(at.ends) || !tried.insert({joint, at.ends}).second) continue;
-      std::optional<std::vector<Choice>> trial = without_joint(best, joints, joint, direct);
-      if (!trial || !is_as_good(*trial)) continue;
-      best = std::move(*trial);
-      return true;
-    }
-    return false;
-  };
-  while (true) {
-    std::set<Ends> missing;
-    for (const auto& [joint, at] : joints_of(best, options.seams)) {
-      if (!direct.contains(at.ends)) missing.insert(at.ends);
-    }
-    if (missing.empty()) return best;
-    direct.merge(direct_wires(missing, task));
-    if (!quality) {
-      const CutPieces cut = pieces(best, max_spreads);
-      piece_count = cut.piece_count();
-      quality.emplace(cut);
-    }
-    while (straighten_one()) continue;
-  }
-}
-
-/// The wires with direct ones in place of those that meet at a joint, and at its image; nullopt where that costs more.
-std::optional<std::vector<Choice>> SeamPlanner::Impl::without_joint(const std::vector<Choice>& present,
-                                                                    const Joints& joints, std::int32_t joint,
-                                                                    const std::map<Ends, Choice>& direct) const {
-  const Joint& own = joints.at(joint);
-  std::vector<std::size_t> gone(own.wires.begin(), own.wires.end());
-  std::vector<Choice> come{direct.at(own.ends)};
-  const std::int32_t image = options.images.empty() ? -1 : options.images[joint];
-  if (image >= 0 && image != joint) {
-    const auto other = joints.find(image);
-    const Ends ends = ends_of(options.images[own.ends.first], options.images[own.ends.second]);
-    if (other == joints.end() || other->second.ends != ends || !direct.contains(ends)) return std::nullopt;
-    for (const std::size_t wire : other->second.wires) {
-      if (std::ranges::find(gone, wire) != gone.end()) return std::nullopt;  // one after the other then
-      gone.push_back(wire);
-    }
-    come.push_back(mirrored(come.front(), surface(), options).value_or(direct.at(ends)));
-  }
-  double before = 0.0, after = 0.0;
-  for (const std::size_t wire : gone) before += price(surface(), present[wire]);
-  for (const Choice& choice : come) {
-    if (choice.wire.vertices.size() < 2) return std::nullopt;
-    after += price(surface(), choice);
-  }
-  if (!(after < before)) return std::nullopt;
-  std::vector<Choice> trial;
-  for (std::size_t i = 0; i < present.size(); ++i) {
-    if (std::ranges::find(gone, i) == gone.end()) trial.push_back(present[i]);
-  }
-  trial.insert(trial.end(), come.begin(), come.end());
-  return trial;
-}
-
 SeamPlanner::SeamPlanner(std::shared_ptr<const Surface> surface, const SeamPlannerOptions& options, const Task& task) {
   if (!surface) throw InvalidInput("surface: there is none");
   check_strength(options.strength);
@@ -339,7 +180,9 @@ SeamPlan SeamPlanner::plan(const SeamLimits& limits, const Task& task) const {
   CutPieces all = impl_->pieces(among, max_spreads);
   std::vector<Choice> kept = thinned(surface, impl_->options.images, among, std::move(all), limits.islands, task);
   if (limits.may_start_on_others) kept = impl_->swept(std::move(kept), limits, max_spreads, task);
-  if (limits.are_straightened) kept = impl_->straightened(std::move(kept), limits, max_spreads, task);
+  if (limits.are_straightened) {
+    kept = straightened(std::move(kept), impl_->direct, surface, impl_->options, limits, max_spreads, task);
+  }
   SeamPlan plan;
   const CutPieces pieces = impl_->pieces(kept, max_spreads);
   plan.not_discs = Quality(pieces).not_discs;

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "seams/cut_pieces.hpp"
+#include "seams/thinning.hpp"
+
+namespace seamwire {
+
+/// How good a set of wires is, but for their length.
+struct Quality {
+  explicit Quality(const CutPieces& pieces) {
+    for (const Piece& piece : pieces.pieces()) crumb += kCrumb * piece.area;
+    for (const Piece& piece : pieces.pieces()) {
+      if (piece.area < crumb) {
+        ++crumbs;
+      } else {
+        bent = std::max(bent, piece.spread() - piece.max_spread);
+      }
+      not_discs += piece.is_disc() ? 0 : 1;
+    }
+  }
+
+  double crumb = 0.0;  ///< the area below which a piece is one
+  std::size_t crumbs = 0, not_discs = 0;
+  double bent = 0.0;  ///< by how much the spread of normals exceeds what is allowed, at most
+};
+
+}  // namespace seamwire

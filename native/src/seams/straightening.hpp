@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "seams/candidate_wires.hpp"
+#include "seams/seam_choices.hpp"
+#include "seamwire/seams/seam_planner.hpp"
+#include "seamwire/task.hpp"
+
+namespace seamwire {
+
+/// Wires between pairs of vertices, each found once; from several threads.
+class DirectWires {
+ public:
+  DirectWires(const CandidateWires& wires, const Seclusion& seclusion) : wires_(wires), seclusion_(seclusion) {}
+  std::map<Ends, Choice> find(const std::set<Ends>& pairs, const Task& task) const;
+
+ private:
+  const CandidateWires& wires_;
+  const Seclusion& seclusion_;
+  mutable std::mutex mutex_;
+  mutable std::map<Ends, Choice> known_;
+};
+
+/// Makes chosen wires cost less, as long as the pieces stay as many and as good: a direct one takes the place of two
+/// that meet at a seed where nothing else is. `options` and `limits`: those of the plan; `max_spreads`: one a triangle.
+std::vector<Choice> straightened(std::vector<Choice> wires, const DirectWires& direct, const Surface& surface,
+                                 const SeamPlannerOptions& options, const SeamLimits& limits,
+                                 std::span<const double> max_spreads, const Task& task);
+
+}  // namespace seamwire
