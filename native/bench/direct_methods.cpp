@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "direct_methods.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -8,7 +9,6 @@
 #include <map>
 #include <queue>
 
-#include "metric/tangent_frame.hpp"
 #include "seamwire/errors.hpp"
 
 namespace seamwire::bench {
@@ -58,12 +58,9 @@ double from_segment(double da, double db, double qq, double pq, double pp) {
   return da + z * slope + std::sqrt(std::max(0.0, pp - 2 * z * pq + z * z * qq));
 }
 
-// The edge from a vertex to another one, turned down into the tangent plane of the former with its length kept.
-Vector flattened(const MetricSurface& s, std::int32_t from, std::int32_t to) {
-  const Vector e = s.points[to] - s.points[from];
-  const Vector& n = s.metric.normals[from];
-  const Vector flat = e - n * n.dot(e);
-  return flat.squaredNorm() > 0 ? Vector(flat.normalized() * e.norm()) : flat;
+// The least rotation that takes a unit normal to another one.
+Eigen::Matrix3d rotation(const Vector& from, const Vector& to) {
+  return Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
 }
 
 // Twins of half-edges by the vertices of their edges.
@@ -148,6 +145,7 @@ std::vector<double> edge_dijkstra(const MetricSurface& s, std::int32_t seed) {
 
 std::vector<double> steiner_dijkstra(const MetricSurface& s, std::int32_t seed, int per_edge) {
   std::vector<Vector> points = s.points;
+  std::vector<Eigen::Matrix3d> forms = s.forms;
   // The points of each half-edge, from its tail to its tip, both among them; those of a face's three in its rows.
   std::vector<std::vector<std::int32_t>> on(3 * s.triangles.size());
   std::vector<std::vector<std::int32_t>> faces(points.size());
@@ -159,8 +157,10 @@ std::vector<double> steiner_dijkstra(const MetricSurface& s, std::int32_t seed, 
       const std::int32_t a = s.triangles[h / 3][h % 3], b = s.triangles[h / 3][(h % 3 + 1) % 3];
       on[h].push_back(a);
       for (int i = 1; i <= per_edge; ++i) {
+        const double t = static_cast<double>(i) / (per_edge + 1);
         on[h].push_back(static_cast<std::int32_t>(points.size()));
-        points.push_back(s.points[a] + (s.points[b] - s.points[a]) * i / (per_edge + 1));
+        points.push_back((1 - t) * s.points[a] + t * s.points[b]);
+        forms.push_back((1 - t) * s.forms[a] + t * s.forms[b]);
         faces.push_back({h / 3});
       }
       on[h].push_back(b);
@@ -172,7 +172,9 @@ std::vector<double> steiner_dijkstra(const MetricSurface& s, std::int32_t seed, 
     for (const std::int32_t f : faces[a]) {
       for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
         for (const std::int32_t b : on[h]) {
-          front.lower(b, front.distances[a] + norm(s.face_forms[f], points[b] - points[a]));
+          if (front.accepted[b]) continue;
+          const Vector e = points[b] - points[a];
+          front.lower(b, front.distances[a] + integrated_length(norm(forms[a], e), norm(forms[b], e)));
         }
       }
     }
@@ -187,20 +189,20 @@ std::vector<double> short_term_vector_dijkstra(const MetricSurface& s, std::int3
   front.run([&](std::int32_t from) {
     for (const std::int32_t to : s.neighbors[from]) {
       if (front.accepted[to]) continue;
-      // All in the tangent plane of `to`: the sum of the edges, and the mean tensor along them by their lengths.
-      const Vector& normal = s.metric.normals[to];
+      // All turned to `to`, edge by edge: the sum of the edges, and the mean form along them by their lengths.
       Vector sum = Vector::Zero();
-      Eigen::Matrix3d tensors = Eigen::Matrix3d::Zero(), last = s.metric.tensors[to];
+      Eigen::Matrix3d forms = Eigen::Matrix3d::Zero(), last = s.forms[to], turn = Eigen::Matrix3d::Identity();
       double lengths = 0.0, best = kInfinity;
       std::int32_t b = to;
       for (std::int32_t a = from, i = 0; a >= 0 && i < memory; b = a, a = before[a], ++i) {
-        const Vector e = turned_by_least_rotation(flattened(s, a, b), s.metric.normals[a], normal);
-        const Eigen::Matrix3d tensor = turned_by_least_rotation(s.metric.tensors[a], s.metric.normals[a], normal);
+        turn *= rotation(s.metric.normals[a], s.metric.normals[b]);
+        const Vector e = turn * (s.points[b] - s.points[a]);
+        const Eigen::Matrix3d form = turn * s.forms[a] * turn.transpose();
         sum += e;
-        tensors += e.norm() / 2 * (tensor + last);
+        forms += e.norm() / 2 * (form + last);
         lengths += e.norm();
-        last = tensor;
-        best = std::min(best, front.distances[a] + norm(tensors / lengths, sum));
+        last = form;
+        best = std::min(best, front.distances[a] + norm(forms / lengths, sum));
       }
       if (front.lower(to, best)) before[to] = from;
     }
@@ -209,71 +211,80 @@ std::vector<double> short_term_vector_dijkstra(const MetricSurface& s, std::int3
 }
 
 std::vector<double> ordered_upwind(const MetricSurface& s, std::int32_t seed) {
-  const double anisotropy = max_anisotropy(s.metric);
   const std::size_t count = s.points.size();
-  std::vector<double> reach(count, 0.0);
-  std::vector<std::int32_t> open(count);  // neighbors that are not accepted: none within the front
-  for (std::size_t v = 0; v < count; ++v) {
-    for (const std::int32_t w : s.neighbors[v]) {
-      reach[v] = std::max(reach[v], anisotropy * (s.points[w] - s.points[v]).norm());
-    }
-    open[v] = static_cast<std::int32_t>(s.neighbors[v].size());
-  }
-  // What lies within reach of a vertex, with the vectors to it in that vertex' tangent plane.
-  std::vector<Vector> places(count);
-  std::vector<std::int32_t> seen(count, -1), near;
-  std::int32_t searches = 0;
+  // Of a vertex that has a distance: those within reach, by number, and the vectors from it to them.
+  using Stencil = std::vector<std::pair<std::int32_t, Vector>>;
+  std::vector<Stencil> stencils(count);
+  std::vector<std::vector<std::int32_t>> watchers(count);  // whose stencils a vertex is in
+  std::vector<std::int32_t> seen(count, -1);
   const auto search = [&](std::int32_t center) {
-    near.assign(1, center);
-    places[center] = Vector::Zero();
-    seen[center] = ++searches;
-    for (std::size_t i = 0; i < near.size(); ++i) {
-      const std::int32_t a = near[i];
+    double longest = 0.0;
+    for (const std::int32_t b : s.neighbors[center]) {
+      longest = std::max(longest, (s.points[b] - s.points[center]).norm());
+    }
+    const double reach = longest * anisotropy({s.metric.normals[center], s.metric.tensors[center]});
+    Stencil stencil = {{center, Vector::Zero()}};
+    seen[center] = center;
+    for (std::size_t i = 0; i < stencil.size(); ++i) {
+      const auto [a, to_a] = stencil[i];
+      if (to_a.norm() > reach) continue;
+      const Eigen::Matrix3d turn = rotation(s.metric.normals[a], s.metric.normals[center]);
       for (const std::int32_t b : s.neighbors[a]) {
-        if (seen[b] == searches) continue;
-        places[b] =
-            places[a] + turned_by_least_rotation(flattened(s, a, b), s.metric.normals[a], s.metric.normals[center]);
-        seen[b] = searches;
-        if (places[b].norm() <= reach[center]) near.push_back(b);
+        if (std::exchange(seen[b], center) == center) continue;
+        stencil.emplace_back(b, to_a + turn * (s.points[b] - s.points[a]));
       }
     }
+    std::sort(stencil.begin(), stencil.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [a, to_a] : stencil) watchers[a].push_back(center);
+    stencils[center] = std::move(stencil);
+  };
+  const auto place = [&](std::int32_t center, std::int32_t v) -> const Vector* {
+    const Stencil& stencil = stencils[center];
+    const auto it = std::lower_bound(stencil.begin(), stencil.end(), v,
+                                     [](const auto& entry, std::int32_t number) { return entry.first < number; });
+    return it != stencil.end() && it->first == v ? &it->second : nullptr;
   };
   Front front(count, seed);
   const std::vector<double>& distances = front.distances;
-  // From the accepted vertex a, and the segments from it to accepted ones; vectors in the plane of `center`.
-  const auto update = [&](std::int32_t to, std::int32_t a, std::int32_t center) {
-    const auto vector = [&](std::int32_t v) {
-      return turned_by_least_rotation(Vector(places[to] - places[v]), s.metric.normals[center], s.metric.normals[to]);
-    };
-    const Eigen::Matrix3d& form = s.forms[to];
-    const Vector p = vector(a), transformed = form * p;
-    const double pp = p.dot(transformed);
-    double best = distances[a] + std::sqrt(pp);
-    for (const std::int32_t b : s.neighbors[a]) {
-      if (!front.accepted[b] || open[b] == 0 || seen[b] != searches) continue;
-      const Vector q = p - vector(b);
-      best = std::min(best, from_segment(distances[a], distances[b], q.dot(form * q), q.dot(transformed), pp));
+  std::vector<std::size_t> open(count);  // neighbors that are not accepted: none behind the front
+  for (std::size_t v = 0; v < count; ++v) open[v] = s.neighbors[v].size();
+  // Whether the edge from an accepted vertex is of the front: the other end is accepted too, a third corner beside them
+  // is not.
+  const auto is_front = [&](std::int32_t a, std::int32_t b) {
+    if (!front.accepted[b] || open[b] == 0) return false;
+    for (const std::int32_t c : s.neighbors[a]) {
+      if (!front.accepted[c] && std::binary_search(s.neighbors[b].begin(), s.neighbors[b].end(), c)) return true;
     }
+    return false;
+  };
+  // From the segments of the front at `a`.
+  const auto update = [&](std::int32_t to, std::int32_t a) {
+    if (!front.accepted[a] || open[a] == 0 || front.accepted[to]) return;
+    const Vector p = -*place(to, a), transformed = s.forms[to] * p;
+    const double pp = p.dot(transformed);
+    double best = kInfinity;
+    bool is_alone = true;  // the seed, at first
+    for (const std::int32_t b : s.neighbors[a]) {
+      if (!is_front(a, b)) continue;
+      is_alone = false;
+      const Vector* at_b = place(to, b);
+      if (at_b == nullptr) continue;
+      const Vector q = p + *at_b;
+      best = std::min(best, from_segment(distances[a], distances[b], q.dot(s.forms[to] * q), q.dot(transformed), pp));
+    }
+    if (is_alone) best = distances[a] + std::sqrt(pp);
     front.lower(to, best);
   };
   front.run([&](std::int32_t accepted) {
-    std::vector<std::int32_t> fresh;
+    for (const std::int32_t v : s.neighbors[accepted]) --open[v];
+    for (const std::int32_t v : watchers[accepted]) update(v, accepted);
     for (const std::int32_t v : s.neighbors[accepted]) {
-      --open[v];
-      if (!front.accepted[v] && distances[v] == kInfinity) fresh.push_back(v);
-    }
-    search(accepted);
-    for (const std::int32_t v : near) {
-      if (!front.accepted[v] && (distances[v] < kInfinity || open[v] < std::int32_t(s.neighbors[v].size()))) {
-        update(v, accepted, accepted);
-      }
-    }
-    for (const std::int32_t v : fresh) {
+      if (front.accepted[v] || !stencils[v].empty()) continue;
       search(v);
-      for (const std::int32_t a : near) {
-        if (front.accepted[a] && open[a] > 0) update(v, a, v);
-      }
+      for (const auto& [a, to_a] : stencils[v]) update(v, a);
     }
+    watchers[accepted] = {};
+    stencils[accepted] = {};
   });
   return front.distances;
 }

@@ -37,16 +37,18 @@ std::pair<Surface, Metric> refined(const Surface& surface, const Metric& metric,
 std::vector<double> edge_dijkstra(const MetricSurface& surface, std::int32_t seed);
 
 /// Dijkstra over faces, between `per_edge` points on each edge and the vertices: Lanthier, Maheshwari, Sack,
-/// "Approximating Weighted Shortest Paths on Polyhedral Surfaces" (1997); the form is constant in a face.
+/// "Approximating Weighted Shortest Paths on Polyhedral Surfaces" (1997); a segment's length is integrated_length().
 std::vector<double> steiner_dijkstra(const MetricSurface& surface, std::int32_t seed, int per_edge);
 
 /// Campen, Heistermann, Kobbelt, "Practical Anisotropic Geodesy" (2013): Dijkstra along edges, but the length of the
-/// last up to `memory` edges is that of their sum, of which the shortest counts.
+/// last up to `memory` edges is that of their sum, of which the shortest counts. Each edge, and its form, is turned by
+/// the least rotations from vertex to vertex along the path to its end. The sum cuts corners where the surface bends.
 std::vector<double> short_term_vector_dijkstra(const MetricSurface& surface, std::int32_t seed, int memory);
 
 /// Sethian, Vladimirsky, "Ordered Upwind Methods for Static Hamilton-Jacobi Equations" (2003): a vertex takes its
-/// distance from segments of the accepted front as far away as the longest edge beside it times the largest
-/// anisotropy; vectors there are sums of edges, turned into its tangent plane.
+/// distance, by its own form, from segments of the accepted front as far away as the longest edge beside it times the
+/// anisotropy: that of its own tensor, which the bound needs; the largest of all, as they state it, makes vertices
+/// where the metric is round look over features. Vectors there are sums of edges, turned to its normal.
 std::vector<double> ordered_upwind(const MetricSurface& surface, std::int32_t seed);
 
 /// Crane, Weischedel, Wardetzky, "Geodesics in Heat" (2013), with the Laplacian of the faces in their forms; time step:
