@@ -85,10 +85,8 @@ void measure(const std::string& file, const Options& options) {
   for (const double anisotropy : {2.0, 5.0, 10.0, 20.0}) {
     const Metric metric = metric_of(file, surface, anisotropy);
     const MetricSurface input = metric_surface(surface, metric);
-    std::vector<std::int32_t> seeds;
-    for (int i = 0; i < options.seeds; ++i) {
-      seeds.push_back(static_cast<std::int32_t>(count * std::size_t(i) / std::size_t(options.seeds)));
-    }
+    std::vector<std::int32_t> seeds(static_cast<std::size_t>(options.seeds));
+    for (std::size_t i = 0; i < seeds.size(); ++i) seeds[i] = static_cast<std::int32_t>(count * i / seeds.size());
     const auto solve_all = [&](int cuts) {
       const ExactGeodesics fine = solver(surface, metric, cuts);
       std::vector<std::vector<double>> distances;
@@ -113,10 +111,10 @@ void measure(const std::string& file, const Options& options) {
       std::fflush(stdout);
     };
     const auto row = [&](const char* method, double building, const auto& solve) {
-      std::vector<double> solving;
+      std::vector<double> solving(seeds.size());
       std::vector<std::vector<double>> distances(seeds.size());
       for (std::size_t i = 0; i < seeds.size(); ++i) {
-        solving.push_back(seconds([&] { distances[i] = solve(seeds[i]); }));
+        solving[i] = seconds([&] { distances[i] = solve(seeds[i]); });
       }
       line(method, building, solving, distances);
     };
