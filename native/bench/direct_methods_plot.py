@@ -24,6 +24,7 @@ def main() -> None:
     with results.open() as lines:
         rows = [row for row in csv.reader(lines, delimiter="\t") if not row[3].startswith("reference")]
     methods = list(dict.fromkeys(row[3] for row in rows))
+    colors = {method: "black" if method == "ours" else f"C{i}" for i, method in enumerate(methods)}
     meshes = list(dict.fromkeys(row[0] for row in rows))
     anisotropies = sorted({float(row[2]) for row in rows})
     figure, panels = plt.subplots(1, len(anisotropies), figsize=(13, 4.4), sharex=True, sharey=True, squeeze=False)
@@ -34,16 +35,16 @@ def main() -> None:
                     float(building) + float(solving),
                     float(mean),
                     "os^Dv*P"[meshes.index(mesh) % 7],
-                    color=f"C{methods.index(method)}",
+                    color=colors[method],
                     alpha=0.8,
                 )
         panel.set(title=f"A = {anisotropy:g}", xlabel="milliseconds")
         panel.grid(alpha=0.3)
     panels[0][0].set_ylabel("mean error, %")
-    for i, method in enumerate(methods):
-        panels[0][0].plot([], [], "o", color=f"C{i}", label=method)
+    for method, color in colors.items():
+        panels[0][0].plot([], [], "o", color=color, label=method)
     for i, mesh in enumerate(meshes):
-        panels[0][0].plot([], [], "os^Dv*P"[i % 7], color="gray", label=Path(mesh).stem)
+        panels[0][0].plot([], [], "os^Dv*P"[i % 7], color="black", fillstyle="none", label=Path(mesh).stem)
     figure.legend(loc="lower center", ncols=7, frameon=False)
     figure.tight_layout(rect=(0, 0.12, 1, 1))
     figure.savefig(file)
