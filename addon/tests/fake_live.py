@@ -61,6 +61,7 @@ class FakeCut:
     pieces: list[FakePiece]
     joints: list[int | tuple[int, tuple[float, float, float]]]
     separates: bool
+    which: int
 
 
 @dataclass
@@ -198,7 +199,7 @@ class FakeLive:
         there, back = ([i + self.size * j for i, j in way] for way in (right, left))
         chains = [[*there, second], [*back, through]]
         pieces = [FakePiece(grid_points(self.size)[chain], np.array(chain, dtype=np.int32)) for chain in chains]
-        return FakeCuts([FakeCut(pieces, [second], separates=which == 0)], True)
+        return FakeCuts([FakeCut(pieces, [second], separates=which == 0, which=which)], True)
 
     def _square(self, corner: int, dx: int) -> FakeCut:
         up = self.size if corner + 2 * self.size < self.size**2 else -self.size
@@ -214,7 +215,7 @@ class FakeLive:
             at = next(i for i, corners in enumerate(triangles) if chain[-1] in corners)
             joints.append((at, tuple(0.8 if v == chain[-1] else 0.1 for v in triangles[at])))
         pieces = [FakePiece(grid_points(self.size)[chain], np.array(chain, dtype=np.int32)) for chain in chains]
-        return FakeCut(pieces, joints, separates=dx > 0)
+        return FakeCut(pieces, joints, separates=dx > 0, which=0 if dx > 0 else 4)
 
     def extend_straight(self, edge: tuple[int, int], stops: list[int]) -> FakeChain:
         if isinstance(stops, tuple) and edge in self.rings:  # asked without a list of stops: for a loop, not for a wire

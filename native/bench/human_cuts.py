@@ -10,10 +10,11 @@ vertex is joined to those a third and a half of the boundary's length further on
 along the wire to the nearest point of the boundary, in percent of the length of the person's boundary between the two vertices. Models are
 weighted alike; intervals hold 95 % of 2000 bootstrap samples of models. Needs numpy, and seamwire_core on the path.
 
-With --clicks, what one click gives: `closed_wires` in the concave metric from vertices of closed boundaries, so many a model; and what two
-give: the nearest of its loops, bent to the vertex of the boundary that is farthest from it. Distances
-are between closed lines there, in thousandths of the unit cube: the mean, over 200 points evenly along each of the two, of how far the
-other one is. Another person's line is the one of his or hers that is nearest to the first person's. Times are of the processor.
+With --clicks, what one click gives: `LiveWire.closed_wires` for the concave metric from vertices of closed boundaries, so many a model;
+and what two give: the nearest of its loops, bent to the vertex of the boundary that is farthest from it. Distances are between closed
+lines there, in thousandths of the unit cube: the mean, over 200 points evenly along each of the two, of how far the other one is.
+Another person's line is the one of his or hers that is nearest to the first person's. Times are of the processor, all threads. Either
+half is every second of the models.
 """
 
 import argparse
@@ -196,10 +197,10 @@ class Click:
     best: float  # of the best of three
     bent: float  # of what a second click makes of the nearest one, where the person's line is farthest from it
     others: tuple[float, ...]  # of each other person's nearest line
-    field_time: float  # milliseconds
-    loops_time: float
-    bend_time: float  # what is the same wherever the second click is
-    second_time: float
+    shown_time: float  # milliseconds until there are loops
+    final_time: float  # and until they are final
+    bend_time: float  # with what is the same wherever the second click is
+    second_time: float  # for another second click
 
 
 def apart(one: Points, two: Points) -> float:
@@ -217,8 +218,27 @@ def subdivided(points: Points, triangles: Triangles) -> tuple[Points, Triangles]
     return np.vstack([points, points[edges].mean(axis=1)]), finer.astype(np.int32)
 
 
+def line_of(cut: sw.LiveClosedWire) -> Points:
+    """Return the points around a cut."""
+    return np.vstack([piece.points[:-1] for piece in cut.pieces] + [cut.pieces[-1].points[-1:]])
+
+
+def answer(ask: Callable[[], sw.LiveClosedWires]) -> tuple[sw.LiveClosedWires, float, float]:
+    """Ask until the answer is final; return it, and the milliseconds until there were cuts, and until it was final."""
+    began = time.process_time()
+    shown = None
+    while True:
+        found = ask()
+        taken = 1000 * (time.process_time() - began)
+        if shown is None and found.cuts:
+            shown = taken
+        if found.final:
+            return found, taken if shown is None else shown, taken
+        time.sleep(0.001)
+
+
 def click_on(
-    embedding: sw.Embedding,
+    live: sw.LiveWire,
     scale: float,
     vertices: NDArray[np.int32],
     vertex: int,
@@ -226,33 +246,27 @@ def click_on(
     others: list[list[Points]],
 ) -> Click:
     """Ask for the loops through a vertex of a person's line, then bend the nearest to another vertex of it."""
-    began = time.process_time()
-    field = sw.distance_field(embedding, vertex)
-    solved = time.process_time()
-    loops = field.closed_wires(3)
-    ended = time.process_time()
-    off = [1000 * scale * apart(loop.points, line) for loop in loops]
+    found, shown_time, final_time = answer(lambda: live.closed_wires(vertex))
+    loops = [line_of(cut) for cut in found.cuts]
+    off = [1000 * scale * apart(loop, line) for loop in loops]
     peers = tuple(1000 * scale * min(apart(other, line) for other in theirs) for theirs in others if theirs)
     bent_off, bend_time, second_time = np.inf, 0.0, 0.0
     if off:
-        nearest = loops[int(np.argmin(off))]
-        second = int(vertices[np.argmax(to_chain(line, nearest.points))])
-        before = time.process_time()
-        bender = field.bend(nearest)
-        bend_time = time.process_time() - before
-        wires = bender.through(second)
-        second_time = time.process_time() - before - bend_time
-        if wires is not None:
-            bent_off = 1000 * scale * apart(np.vstack([wires[0].points, wires[1].points[1:]]), line)
+        nearest = int(np.argmin(off))
+        second = int(vertices[np.argmax(to_chain(line, loops[nearest]))])
+        which = found.cuts[nearest].which
+        bent, _, bend_time = answer(lambda: live.bent_wire(vertex, second, which))
+        _, _, second_time = answer(lambda: live.bent_wire(vertex, int(vertices[0]), which))
+        bent_off = min((1000 * scale * apart(line_of(cut), line) for cut in bent.cuts), default=np.inf)
     return Click(
         off[0] if off else np.inf,
         min(off, default=np.inf),
         bent_off,
         peers,
-        1000 * (solved - began),
-        1000 * (ended - solved),
-        1000 * bend_time,
-        1000 * second_time,
+        shown_time,
+        final_time,
+        bend_time,
+        second_time,
     )
 
 
@@ -275,14 +289,13 @@ def clicks(
     for _ in range(levels):
         points, triangles = subdivided(points, triangles)
     surface = sw.Surface(points, triangles)
-    curvature = sw.smoothed_curvatures(surface, sw.principal_curvatures(surface), 0.01)
-    embedding = sw.embed(surface, sw.concave_metric(surface, curvature))
-    sw.distance_field(embedding, 0)  # what all have in common is not a click's
+    live = sw.LiveWire(surface, metric="concave")
+    live.wait()  # what all have in common is not a click's
     found = []
     for _ in range(count):
         person, vertices, line = pool[random.integers(len(pool))]
         others = [[other for _, other in own] for name, own in lines.items() if name != person]
-        found.append(click_on(embedding, surface.scale, vertices, int(random.choice(vertices)), line, others))
+        found.append(click_on(live, surface.scale, vertices, int(random.choice(vertices)), line, others))
     return found, len(triangles)
 
 
@@ -321,10 +334,10 @@ def print_clicks(per_model: list[list[Click]], faces: list[int], random: np.rand
         f"the first loop is nearer than the mean other person: {nearer}; none: {share(lambda c: not np.isfinite(c.first))}"
     )
     times = {
-        "field": "field_time",
-        "loops after it": "loops_time",
-        "to bend": "bend_time",
-        "second click": "second_time",
+        "loops shown": "shown_time",
+        "final": "final_time",
+        "bent": "bend_time",
+        "to another second click": "second_time",
     }
     medians = []
     for name, attribute in times.items():
@@ -348,6 +361,12 @@ def measure_clicks(options: argparse.Namespace) -> None:
         near = [np.mean([getattr(c, name) <= 10 for c in found]) for name in ("first", "best")]
         print(f"{file.name}: {count} triangles, first {near[0]:.2f}, best {near[1]:.2f}", file=sys.stderr, flush=True)
     print_clicks(per_model, faces, np.random.default_rng(options.seed))
+    for half in (per_model[::2], per_model[1::2]):
+        first, best = (
+            100 * np.mean([np.mean([getattr(click, name) <= 10 for click in found]) for found in half])
+            for name in ("first", "best")
+        )
+        print(f"{len(half)} models of them: within 10 first loop {first:.1f} %, best of three {best:.1f} %")
 
 
 def sample(folder: Path, count: int, random: np.random.Generator) -> list[Path]:

@@ -236,7 +236,9 @@ void bind_live_wire(py::module_& module) {
           "coordinates; the second point may be a vertex.")
       .def_readonly("separates", &LiveClosedWire::separates, "As of ClosedWire.")
       .def_readonly("turn", &LiveClosedWire::turn, "As of ClosedWire.")
-      .def_readonly("length", &LiveClosedWire::length, "In the metric, of the model scaled to the unit cube.")
+      .def_readonly("length", &LiveClosedWire::length, "In its metric, of the model scaled to the unit cube.")
+      .def_readonly("which", &LiveClosedWire::which,
+                    "What bent_wire calls it; the same one whatever is found after it.")
       .def("__repr__", [](const LiveClosedWire& wire) {
         return "<LiveClosedWire: " + std::to_string(wire.pieces.size()) + " pieces>";
       });
@@ -504,8 +506,9 @@ ValueError
           },
           py::arg("through"), R"(The closed cuts through a point, at most three, best first; across the surface only.
 
-They are short in M_min, or what the metric has in its place: 'concave' is meant for it. They are computed in the
-background: the first call for a point starts it, in place of that for another one. Ask again until the answer is final.
+They are short in M_min, or what the metric has in its place: 'concave' is meant for it, where the second one is the
+best in the Euclidean metric, unless it is like the first. They are computed in the background: the first call for a
+point starts it, in place of that for another one. Ask again until the answer is final.
 
 Parameters
 ----------
@@ -545,12 +548,12 @@ Parameters
 through, second : int or (int, (3,) array_like)
     A vertex, or a point by a face and three barycentric coordinates.
 which : int
-    The number of the cut in what `closed_wires` answers for the first point.
+    That of the cut in what `closed_wires` answers for the first point.
 
 Returns
 -------
 LiveClosedWires
-    At most one; final and empty where there is no cut of that number, or none leads to the second point.
+    At most one; final and empty where there is no such cut, or none leads to the second point.
 
 Raises
 ------

@@ -186,6 +186,7 @@ class LiveClosedWire:
     separates: bool
     turn: float
     length: float
+    which: int  # what bent_wire calls it
 
 class LiveClosedWires:
     cuts: list[LiveClosedWire]  # best first; empty: nothing suggests one, or not yet

@@ -209,6 +209,35 @@ TEST(ClosedWires, TheyAreApartAndNoMoreThanAskedFor) {
   EXPECT_EQ(one[0].wire.points, more[0].wire.points);
 }
 
+/// A ring about the y axis.
+ClosedWire ring(double radius, double height) {
+  ClosedWire made;
+  for (int i = 0; i <= 100; ++i) {
+    const double angle = kTau * i / 100;
+    made.wire.points.emplace_back(radius * std::cos(angle), height, radius * std::sin(angle));
+  }
+  return made;
+}
+
+TEST(ClosedWires, OfSeveralMetricsTheBestOfEachComeFirst) {
+  const double apart = 0.03 * kTau;
+  const std::vector<std::vector<ClosedWire>> metrics = {
+      {ring(1, 0), ring(1, 1), ring(1, 2)}, {ring(1, 3), ring(1, 4)}, {}, {ring(1, 5)}};
+  using Choices = std::vector<ClosedWireChoice>;
+  EXPECT_EQ(choose_closed_wires(metrics), (Choices{{0, 0}, {1, 0}, {3, 0}}));
+  EXPECT_EQ(choose_closed_wires(metrics, 9), (Choices{{0, 0}, {1, 0}, {3, 0}, {0, 1}, {0, 2}, {1, 1}}));
+  EXPECT_EQ(choose_closed_wires(metrics, 0), Choices{});
+  EXPECT_EQ(choose_closed_wires({}), Choices{});
+
+  const std::vector<std::vector<ClosedWire>> alike = {{ring(1, 0), ring(1, 3), ring(1, 6)},
+                                                      {ring(1, 0.9 * apart), ring(1, 3 + 0.9 * apart), ring(1, 9)}};
+  EXPECT_EQ(choose_closed_wires(alike, 9), (Choices{{0, 0}, {0, 1}, {0, 2}, {1, 2}})) << "those alike once";
+  const std::vector<std::vector<ClosedWire>> second = {{ring(1, 0), ring(1, 3 + 0.9 * apart)}, {ring(1, 3)}};
+  EXPECT_EQ(choose_closed_wires(second), (Choices{{0, 0}, {1, 0}})) << "the later one of them is left out";
+  const std::vector<std::vector<ClosedWire>> unlike = {{ring(1, 0)}, {ring(1, 1.1 * apart)}};
+  EXPECT_EQ(choose_closed_wires(unlike), (Choices{{0, 0}, {1, 0}}));
+}
+
 TEST(ClosedWires, WhatTheFieldHasNotReachedIsLeftAlone) {
   const Solved solved(revolution(24, 60, rod));
   const SurfacePoint seed = SurfacePoint::at_vertex(24 * 30);

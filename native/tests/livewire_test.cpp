@@ -40,6 +40,8 @@ Metric metric_of(const Surface& surface, Follow follow, const Strength& strength
 const LiveWireOptions kAlongEdges = {.along = Along::kEdges,
                                      .strength = {.max_anisotropy = 10, .clamp_percentile = 99}};
 
+const LiveWireOptions kConcave = {.family = MetricFamily::kConcave, .strength = {.parameter = 1.0}};
+
 /// Both wires to a vertex from a live wire that has just been made.
 LiveWires fresh_wires(const std::shared_ptr<const Surface>& surface, const LiveWireOptions& options, const Pick& from,
                       const Pick& to) {
@@ -299,35 +301,86 @@ TEST(LiveWire, TheLoopIsTheCheaperOfBothMetrics) {
   }
 }
 
-TEST(LiveWire, ClosedWiresAreThoseOfTheFirstMetricsField) {
-  const auto surface = shared(shapes::torus(40, 24));
-  LiveWire live(surface, {.family = MetricFamily::kConcave, .strength = {.parameter = 1.0}});
-  const Curvature smoothed = smoothed_curvatures(*surface, principal_curvatures(*surface), 0.01);
-  const Embedding embedding = embed(*surface, concave_metric(*surface, smoothed, 1.0));
-  const ExactGeodesics geodesics(embedding.mesh);
-  for (const std::int32_t through : {0, 100, 500}) {  // without a seed, the newest counts
+/// The closed wires of a concave LiveWire, made without one.
+struct ClosedInBoth {
+  explicit ClosedInBoth(std::shared_ptr<const Surface> of)
+      : surface(std::move(of)), curvature(principal_curvatures(*surface)) {
+    const Curvature smoothed = smoothed_curvatures(*surface, curvature, 0.01);
+    embeddings[0] = embed(*surface, concave_metric(*surface, smoothed, 1.0));
+    embeddings[1] = embed(*surface, euclidean_metric(*surface, curvature));
+    for (const Embedding& embedding : embeddings) solvers.emplace_back(embedding.mesh);
+  }
+  std::vector<std::vector<ClosedWire>> closed(std::int32_t through) const {
+    std::vector<std::vector<ClosedWire>> found;
+    for (std::size_t i = 0; i < 2; ++i) {
+      found.push_back(closed_wires(*surface, embeddings[i], solvers[i].solve(through)));
+    }
+    return found;
+  }
+
+  std::shared_ptr<const Surface> surface;
+  Curvature curvature;
+  std::array<Embedding, 2> embeddings;
+  std::vector<ExactGeodesics> solvers;
+};
+
+/// Whether a cut's pieces lead around, from a vertex to it.
+void expect_around(const LiveClosedWire& cut, std::size_t pieces, std::int32_t through) {
+  ASSERT_EQ(cut.pieces.size(), pieces);
+  ASSERT_EQ(cut.joints.size(), pieces - 1);
+  for (std::size_t k = 0; k < pieces; ++k) {
+    const LiveCandidate &piece = cut.pieces[k], &next = cut.pieces[(k + 1) % pieces];
+    EXPECT_EQ(piece.points.back(), next.points.front());
+    EXPECT_EQ(piece.faces.size() + 1, piece.points.size());
+    EXPECT_EQ(piece.vertices.back(), next.vertices.front());
+  }
+  EXPECT_EQ(cut.pieces[0].vertices.front(), through);
+}
+
+TEST(LiveWire, TheSecondClosedWireIsTheFirstOfTheEuclideanMetric) {
+  const auto surface = shared(shapes::bumpy(shapes::torus(40, 24), 0.03));
+  LiveWire live(surface, kConcave);
+  const ClosedInBoth both(surface);
+  std::size_t of_second_metric = 0;
+  for (const std::int32_t through : {0, 100, 350, 500, 900}) {  // without a seed, the newest counts
     live.closed_wires(SurfacePoint::at_vertex(7));
     live.closed_wires(SurfacePoint::at_vertex(through));
     ASSERT_TRUE(live.wait());
     const LiveClosedWires found = live.closed_wires(SurfacePoint::at_vertex(through));
     ASSERT_TRUE(found.final);
-    const std::vector<ClosedWire> expected = closed_wires(*surface, embedding, geodesics.solve(through));
+    const auto closed = both.closed(through);
+    const std::vector<ClosedWireChoice> expected = choose_closed_wires(closed);
     ASSERT_EQ(found.cuts.size(), expected.size());
     ASSERT_FALSE(expected.empty());
     for (std::size_t i = 0; i < expected.size(); ++i) {
-      const LiveClosedWire& cut = found.cuts[i];
-      EXPECT_EQ(cut.length, expected[i].wire.length);
-      ASSERT_EQ(cut.pieces.size(), 3U);
-      ASSERT_EQ(cut.joints.size(), 2U);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const LiveCandidate &piece = cut.pieces[k], &next = cut.pieces[(k + 1) % 3];
-        EXPECT_EQ(piece.points.back(), next.points.front());
-        EXPECT_EQ(piece.faces.size() + 1, piece.points.size());
-        EXPECT_EQ(piece.vertices.back(), next.vertices.front());
-      }
-      EXPECT_EQ(cut.pieces[0].vertices.front(), through);
+      const auto& [metric, number] = expected[i];
+      EXPECT_EQ(found.cuts[i].length, closed[metric][number].wire.length);
+      EXPECT_EQ(found.cuts[i].which, 3 * metric + number);
+      expect_around(found.cuts[i], 3, through);
+      of_second_metric += metric;
     }
   }
+  EXPECT_GT(of_second_metric, 0U) << "or this shows nothing";
+}
+
+TEST(LiveWire, TheClosedWiresOfTheFirstMetricAreThereBeforeThoseOfTheSecond) {
+  const auto surface = shared(shapes::bumpy(shapes::torus(120, 80), 0.01));
+  LiveWire live(surface, kConcave);
+  live.wait();
+  const SurfacePoint through = SurfacePoint::at_vertex(100);
+  LiveClosedWires early = live.closed_wires(through);
+  while (early.cuts.empty() && !early.final) {
+    std::this_thread::yield();
+    early = live.closed_wires(through);
+  }
+  ASSERT_FALSE(early.cuts.empty());
+  EXPECT_FALSE(early.final);
+  for (const LiveClosedWire& cut : early.cuts) EXPECT_LT(cut.which, 3U);
+  live.wait();
+  const LiveClosedWires late = live.closed_wires(through);
+  ASSERT_TRUE(late.final);
+  EXPECT_EQ(late.cuts[0].which, early.cuts[0].which);
+  EXPECT_EQ(late.cuts[0].length, early.cuts[0].length);
 }
 
 TEST(LiveWire, OnALargeSurfaceClosedWiresAreThereBeforeTheyAreFinal) {
@@ -354,43 +407,41 @@ TEST(LiveWire, ClosedWiresLeadThroughPointsOfTheSurface) {
   EXPECT_THROW(along_edges.closed_wires(SurfacePoint::at_vertex(0)), InvalidInput);
 }
 
-TEST(LiveWire, AClosedWireIsBentToASecondPoint) {
+TEST(LiveWire, AClosedWireIsBentToASecondPointInItsMetric) {
   const auto surface = shared(shapes::torus(40, 24));
-  LiveWire live(surface, {.family = MetricFamily::kConcave, .strength = {.parameter = 1.0}});
-  const Curvature smoothed = smoothed_curvatures(*surface, principal_curvatures(*surface), 0.01);
-  const Embedding embedding = embed(*surface, concave_metric(*surface, smoothed, 1.0));
-  const ExactGeodesics geodesics(embedding.mesh);
+  LiveWire live(surface, kConcave);
+  const ClosedInBoth both(surface);
   const SurfacePoint through = SurfacePoint::at_vertex(100);
-  const DistanceField field = geodesics.solve(100);
-  const std::vector<ClosedWire> cuts = closed_wires(*surface, embedding, field);
-  ASSERT_GE(cuts.size(), 1U);
-  const BentWires bent(*surface, embedding, geodesics, field, cuts[0]);
-  for (const std::int32_t vertex : {103, 420, 500}) {
-    const SurfacePoint second = SurfacePoint::at_vertex(vertex);
-    live.bent_wire(through, SurfacePoint::at_vertex(7));  // the newest counts
-    live.bent_wire(through, second);
-    ASSERT_TRUE(live.wait());
-    const LiveClosedWires found = live.bent_wire(through, second);
-    ASSERT_TRUE(found.final);
-    ASSERT_EQ(found.cuts.size(), 1U);
-    const LiveClosedWire& cut = found.cuts[0];
-    const std::optional<BentWire> expected = bent.through(second);
-    ASSERT_TRUE(expected);
-    EXPECT_EQ(cut.length, expected->there.length + expected->back.length);
-    ASSERT_EQ(cut.pieces.size(), 4U);
-    ASSERT_EQ(cut.joints.size(), 3U);
-    EXPECT_EQ(cut.joints[1], second);
-    for (std::size_t k = 0; k < 4; ++k) {
-      const LiveCandidate &piece = cut.pieces[k], &next = cut.pieces[(k + 1) % 4];
-      EXPECT_EQ(piece.points.back(), next.points.front());
-      EXPECT_EQ(piece.vertices.back(), next.vertices.front());
+  const auto closed = both.closed(100);
+  for (const std::size_t metric : {0U, 1U, 0U}) {
+    ASSERT_FALSE(closed[metric].empty());
+    const BentWires bent(*surface, both.embeddings[metric], both.solvers[metric], both.solvers[metric].solve(100),
+                         closed[metric][0]);
+    for (const std::int32_t vertex : {103, 420, 500}) {
+      const SurfacePoint second = SurfacePoint::at_vertex(vertex);
+      live.bent_wire(through, SurfacePoint::at_vertex(7), 3 * metric);  // the newest counts
+      live.bent_wire(through, second, 3 * metric);
+      ASSERT_TRUE(live.wait());
+      const LiveClosedWires found = live.bent_wire(through, second, 3 * metric);
+      ASSERT_TRUE(found.final);
+      ASSERT_EQ(found.cuts.size(), 1U);
+      const LiveClosedWire& cut = found.cuts[0];
+      const std::optional<BentWire> expected = bent.through(second);
+      ASSERT_TRUE(expected);
+      EXPECT_EQ(cut.length, expected->there.length + expected->back.length);
+      EXPECT_EQ(cut.which, 3 * metric);
+      expect_around(cut, 4, 100);
+      EXPECT_EQ(cut.joints[1], second);
+      EXPECT_EQ(cut.pieces[1].vertices.back(), vertex);
     }
-    EXPECT_EQ(cut.pieces[1].vertices.back(), vertex);
   }
-  live.bent_wire(through, SurfacePoint::at_vertex(420), 99);
-  ASSERT_TRUE(live.wait());
-  const LiveClosedWires none = live.bent_wire(through, SurfacePoint::at_vertex(420), 99);
-  EXPECT_TRUE(none.final && none.cuts.empty()) << "there is no cut of that number";
+  for (const std::size_t which : {2U, 5U, 6U, 99U}) {
+    if (which < 6 && which % 3 < closed[which / 3].size()) continue;
+    live.bent_wire(through, SurfacePoint::at_vertex(420), which);
+    ASSERT_TRUE(live.wait());
+    const LiveClosedWires none = live.bent_wire(through, SurfacePoint::at_vertex(420), which);
+    EXPECT_TRUE(none.final && none.cuts.empty()) << "there is no cut of that number";
+  }
   EXPECT_THROW(live.bent_wire(through, SurfacePoint::at_vertex(40 * 24)), InvalidInput);
 }
 

@@ -78,9 +78,16 @@ class Offers:
 
     def show(self, pick: Pick, offers: tuple[Wire, ...]) -> bool:
         """Show what was found for a pick; return whether it is anything else."""
-        before, self.edge, self.offers = self.offers, undirected(pick), offers
-        self.choice = min(self.choice, max(len(offers) - 1, 0))
+        choice = self.choice_among(pick, offers)
+        before, self.edge, self.offers, self.choice = self.offers, undirected(pick), offers, choice
         return len(before) != len(offers) or not all(map(Wire.like, before, offers))
+
+    def choice_among(self, pick: Pick, offers: tuple[Wire, ...]) -> int:
+        """Return which of the offers for a pick is the one that was chosen, wherever it is by now; until one was, the first."""
+        if self.wire is None or self.edge != undirected(pick) or self.choice == 0:
+            return 0
+        alike = (place for place, offer in enumerate(offers) if offer.like(self.wire))
+        return next(alike, min(self.choice, max(len(offers) - 1, 0)))
 
     def swap(self) -> str:
         """Show the next offer; return why that cannot be, else nothing."""

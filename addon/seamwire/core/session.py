@@ -220,10 +220,10 @@ class Session:
             return self._refuse(f"Loops are taken through {on}, not through {name(edge)}")
         self.drag_cancel()
         self._cuts.bend(False)
+        if self.along == "SURFACE":
+            return self._cut_around(target)
         shown = self._loops
         choice = shown.choice if shown.edge == undirected(edge) else 0
-        if self.along == "SURFACE":
-            return self._cut_around(target, choice)
         self._take_back_click(edge)
         if shown.edge == undirected(edge) and shown.wire is not None and shown.wire.kind in CREST_KINDS:
             return self._along_crest(edge)
@@ -243,10 +243,10 @@ class Session:
         wire = replace(taken(offers, min(choice, len(offers) - 1), self.marking), mirror=self._network.mirror)
         return self._change(replace(self._network, wires=(*self.wires, wire)))
 
-    def _cut_around(self, target: Snap, choice: int) -> bool:
+    def _cut_around(self, target: Snap) -> bool:
         """Keep a closed cut through a point, or wires along a ridge: what is shown, else the best."""
         offers = self._find_offers(target.pick)
-        offer = offers[min(choice, len(offers) - 1)] if offers else None
+        offer = offers[self._cuts.choice_among(target.pick, offers)] if offers else None
         if offer is not None and offer.kind in CREST_KINDS:
             return self._along_crest(target.pick)
         if not self._cuts.final:
@@ -271,7 +271,7 @@ class Session:
             return self._refuse(f"Closed cuts are bent across the surface, not to {name(target.pick)}")
         self.drag_cancel()
         self._cuts.bend(True)
-        return self._cut_around(target, 0)
+        return self._cut_around(target)
 
     def _along_crest(self, pick: Pick) -> bool:
         """Keep wires that follow the ridge or valley at a pick, as soon as they are computed; one step for undo."""

@@ -69,6 +69,8 @@ class ClosedCut(Protocol):
     pieces: Sequence[Piece]
     joints: Sequence[int | tuple[int, Sequence[float]]]
     separates: bool
+    which: int
+    """What `LiveWire.bent_wire` calls it."""
 
 
 class ClosedCuts(Protocol):
@@ -121,7 +123,7 @@ class LiveWire(Protocol):
         """Return the closed cuts across the surface through a point, as far as they are computed."""
 
     def bent_wire(self, through: End, second: End, which: int) -> ClosedCuts:
-        """Return one of these cuts, by its place among them, bent to a second point, as far as it is computed."""
+        """Return one of these cuts, by its `which`, bent to a second point, as far as it is computed."""
 
     def extend_straight(self, edge: Edge, stops: Iterable[int]) -> Chain:
         """Return the straight way on from the end of a directed edge until a stop, a boundary or itself."""

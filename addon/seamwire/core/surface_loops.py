@@ -28,7 +28,7 @@ class TakenCut:
 
     through: Pick
     which: int
-    """Its place among those that the library found through that point."""
+    """What the library calls it among those through that point."""
     wires: tuple[Wire, ...]
     metric: tuple[object, ...]
     """What it was found by."""
@@ -74,13 +74,13 @@ class SurfaceLoops(Offers):
         if not self.takes(pick):
             return ()
         live = self._engines.cuts()
-        begin, first = pick, 0
+        begin = pick
         if self.bends:
             cut = self.bendable(network)
             if cut is None:
                 raise ValueError(NOTHING_TO_BEND)
-            begin, first = cut.through, cut.which
-            found = live.bent_wire(for_live(begin, "SURFACE"), for_live(pick, "SURFACE"), first)
+            begin = cut.through
+            found = live.bent_wire(for_live(begin, "SURFACE"), for_live(pick, "SURFACE"), cut.which)
             if found.final and not found.cuts:
                 raise ValueError("No closed cut leads through both points")
         else:
@@ -88,13 +88,13 @@ class SurfaceLoops(Offers):
         self.final = found.final
         self._found = {}
         shown: dict[frozenset[Edge], Wire] = {}  # on a coarse mesh, cuts apart from each other may go to the same edges
-        for which, cut in enumerate(found.cuts, first):
-            pieces = self._pieces_of(cut, begin)
+        for each in found.cuts:
+            pieces = self._pieces_of(each, begin)
             if len(pieces) < 2:
                 continue
-            whole = _whole(pieces, cut.separates)
+            whole = _whole(pieces, each.separates)
             if shown.setdefault(frozenset(whole.edges()), whole) is whole:
-                self._found[whole.id] = pieces, which
+                self._found[whole.id] = pieces, each.which
         return tuple(shown.values())
 
     def bend(self, bends: bool) -> bool:

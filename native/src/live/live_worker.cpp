@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "seamwire/edges/shortest_cycle.hpp"
-#include "seamwire/wires/closed_wires.hpp"
 #include "wires/wire_pieces.hpp"
 
 namespace seamwire {
@@ -216,6 +216,7 @@ std::optional<LiveWorker::Job> LiveWorker::next_job() {
   if (is_at_loop_) {
     return LoopJob{.request = loop_request_,
                    .through = loop_through_,
+                   .metrics = metrics_,
                    .prepared = metrics_->prepared[which_]->peek(),
                    .solving = solving_.get_token()};
   }
@@ -299,63 +300,103 @@ void LiveWorker::add_pieces(const Prepared& prepared, const Wire& wire, std::siz
   }
 }
 
-/// Kept, so that what is asked for next through the same point is there at once.
-const LiveWorker::ClosedAround& LiveWorker::closed_around(const LoopJob& job, const WireEnd& through,
-                                                          const SurfacePoint& seed) {
-  if (around_ && around_->prepared == job.prepared && around_->through == through) return *around_;
-  around_ = std::nullopt;  // the former one's memory first
-  const Task task{.stop = job.solving, .progress = {}};
-  DistanceField field = job.prepared->geodesics->solve(std::array{seed}, {}, task);
-  std::vector<ClosedWire> cuts = seamwire::closed_wires(surface(), *job.prepared->embedding, field, kClosedWires, task);
-  around_ =
-      ClosedAround{.prepared = job.prepared, .through = through, .field = std::move(field), .cuts = std::move(cuts)};
-  return *around_;
+/// That of another thread is waited for, or made here; throws why there is none.
+std::shared_ptr<const Prepared> LiveWorker::prepared_for(const LoopJob& job, std::size_t metric) {
+  if (metric == which_) return job.prepared;
+  return job.metrics->prepared[metric]->get(
+      job.solving, [&] { return prepare(*surface_cache_, settings_.along, *job.metrics, metric, job.solving); });
 }
 
-/// First, where the field takes long, those that a bounded number of windows tells, which can be seen meanwhile.
+/// Kept, so that what is asked for next through the same point is there at once; the metrics are the same as long as
+/// there is no SeedJob. Null where none begin there.
+const LiveWorker::ClosedIn* LiveWorker::closed_in(const LoopJob& job, const WireEnd& through, std::size_t metric) {
+  if (!around_ || around_->through != through) {
+    around_ = std::nullopt;  // the former one's memory first
+    around_ = ClosedAround{.through = through};
+  }
+  std::optional<ClosedIn>& in = around_->in[metric];
+  if (!in) {
+    const std::shared_ptr<const Prepared> prepared = prepared_for(job, metric);
+    const std::optional<SurfacePoint> seed = prepared->points->find(point_of(through), "through");
+    if (!seed) return nullptr;
+    const Task task{.stop = job.solving, .progress = {}};
+    DistanceField field = prepared->geodesics->solve(std::array{*seed}, {}, task);
+    std::vector<ClosedWire> cuts = seamwire::closed_wires(surface(), *prepared->embedding, field, kClosedWires, task);
+    in = ClosedIn{.prepared = prepared, .field = std::move(field), .cuts = std::move(cuts)};
+  }
+  return &*in;
+}
+
+/// In pieces.
+LiveClosedWire LiveWorker::closed_wire(const LoopJob& job, const WireEnd& through, const ClosedWire& cut,
+                                       const ClosedWireChoice& choice) const {
+  LiveClosedWire closed{.pieces = {},
+                        .joints = {},
+                        .separates = cut.separates,
+                        .turn = cut.turn,
+                        .length = cut.wire.length,
+                        .which = kClosedWires * choice.metric + choice.number};
+  Wire wire = cut.wire;
+  wire.from = wire.to = nearest_vertex(surface(), through);
+  add_pieces(*job.prepared, wire, kPiecesOfClosedWire, {.stop = job.solving, .progress = {}}, closed);
+  if (!closed.joints.empty()) closed.joints.pop_back();  // that is the point itself
+  return closed;
+}
+
+/// While the job goes on.
+void LiveWorker::show(const LoopJob& job, LiveClosedWires found) {
+  const MutexLock lock(mutex_);
+  if (job.request != loop_request_) return;
+  closed_wires_ = std::move(found);
+  closed_wires_for_ = job.request;
+}
+
+/// First, where the field takes long, those that a bounded number of windows tells, then those of the leading metric,
+/// which can be seen meanwhile.
 LiveClosedWires LiveWorker::find_closed_wires(const LoopJob& job, const WireEnd& through) {
   const Prepared& prepared = *job.prepared;
-  const std::optional<SurfacePoint> seed = prepared.points->find(point_of(through), "through");
-  if (!seed) return {};
-  const Task task{.stop = job.solving, .progress = {}};
-  const auto in_pieces = [&](const std::vector<ClosedWire>& cuts) {
+  const std::span<const std::size_t> closing = job.metrics->closing();
+  std::vector<std::vector<ClosedWire>> metrics(closing.size());
+  const auto chosen = [&] {
     LiveClosedWires found;
-    for (const ClosedWire& cut : cuts) {
-      LiveClosedWire closed{
-          .pieces = {}, .joints = {}, .separates = cut.separates, .turn = cut.turn, .length = cut.wire.length};
-      Wire wire = cut.wire;
-      wire.from = wire.to = nearest_vertex(surface(), through);
-      add_pieces(prepared, wire, kPiecesOfClosedWire, task, closed);
-      if (!closed.joints.empty()) closed.joints.pop_back();  // that is the point itself
-      found.cuts.push_back(std::move(closed));
+    for (const ClosedWireChoice& choice : choose_closed_wires(metrics, kClosedWires)) {
+      found.cuts.push_back(closed_wire(job, through, metrics[choice.metric][choice.number], choice));
     }
     return found;
   };
-  if (seed->vertex >= 0 && prepared.embedding->mesh.face_count() > kManyFaces) {
+  const std::optional<SurfacePoint> seed = prepared.points->find(point_of(through), "through");
+  const bool is_known = around_ && around_->through == through && around_->in[closing.front()];
+  if (!is_known && seed && seed->vertex >= 0 && prepared.embedding->mesh.face_count() > kManyFaces) {
+    const Task task{.stop = job.solving, .progress = {}};
     const DistanceField near = prepared.geodesics->solve_bounded(seed->vertex, kWindowsBefore, task);
-    LiveClosedWires early = in_pieces(seamwire::closed_wires(surface(), *prepared.embedding, near, kClosedWires, task));
-    const MutexLock lock(mutex_);
-    if (job.request == loop_request_) {
-      closed_wires_ = std::move(early);
-      closed_wires_for_ = job.request;
-    }
+    metrics[0] = seamwire::closed_wires(surface(), *prepared.embedding, near, kClosedWires, task);
+    show(job, chosen());
   }
-  return in_pieces(closed_around(job, through, *seed).cuts);
+  LiveClosedWires found;
+  for (std::size_t i = 0; i < closing.size(); ++i) {
+    const ClosedIn* in = closed_in(job, through, closing[i]);
+    metrics[i] = in != nullptr ? in->cuts : std::vector<ClosedWire>();
+    found = chosen();
+    if (i + 1 < closing.size()) show(job, found);
+  }
+  return found;
 }
 
 /// In halves, from the first point to the second and back, each in pieces.
 LiveClosedWires LiveWorker::find_bent_wire(const LoopJob& job, const BendPlace& place) {
-  const Prepared& prepared = *job.prepared;
-  const std::optional<SurfacePoint> seed = prepared.points->find(point_of(place.through), "through");
+  const std::span<const std::size_t> closing = job.metrics->closing();
+  const std::size_t metric = place.which / kClosedWires, number = place.which % kClosedWires;
+  const ClosedIn* in = metric < closing.size() ? closed_in(job, place.through, closing[metric]) : nullptr;
+  if (in == nullptr || number >= in->cuts.size()) return {};
+  const Prepared& prepared = *in->prepared;
   const std::optional<SurfacePoint> second = prepared.points->find(point_of(place.second), "second");
-  if (!seed || !second) return {};
+  if (!second) return {};
   const Task task{.stop = job.solving, .progress = {}};
-  closed_around(job, place.through, *seed);
+  const ClosedWire& cut = in->cuts[number];
   ClosedAround& around = *around_;
-  if (place.which >= around.cuts.size()) return {};
-  const ClosedWire& cut = around.cuts[place.which];
   if (!around.bent || around.which != place.which) {
-    around.bent.emplace(surface(), *prepared.embedding, *prepared.geodesics, around.field, cut, task);
+    around.bent = std::nullopt;  // its memory first
+    around.bent.emplace(surface(), *prepared.embedding, *prepared.geodesics, in->field, cut, task);
     around.which = place.which;
   }
   std::optional<BentWire> bent = around.bent->through(*second, task);
@@ -364,7 +405,8 @@ LiveClosedWires LiveWorker::find_bent_wire(const LoopJob& job, const BendPlace& 
                         .joints = {},
                         .separates = cut.separates,
                         .turn = cut.turn,
-                        .length = bent->there.length + bent->back.length};
+                        .length = bent->there.length + bent->back.length,
+                        .which = place.which};
   bent->there.from = bent->back.to = nearest_vertex(surface(), place.through);
   bent->there.to = bent->back.from = nearest_vertex(surface(), place.second);
   for (const Wire* half : {&bent->there, &bent->back}) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
@@ -18,6 +19,7 @@
 #include "live/prepared_metrics.hpp"
 #include "seamwire/geodesics/corridor_paths.hpp"
 #include "seamwire/wires/bent_wires.hpp"
+#include "seamwire/wires/closed_wires.hpp"
 
 namespace seamwire {
 
@@ -27,7 +29,7 @@ bool has_edge(const Surface& surface, const Edge& edge);
 /// Where wires begin, or what they lead to: across the surface a vertex or another point, along edges a pick.
 using WireEnd = std::variant<Pick, SurfacePoint>;
 
-/// A closed wire through a point, the so-manieth of those that there are, and where it is bent to.
+/// A closed wire through a point, by LiveClosedWire::which, and where it is bent to.
 struct BendPlace {
   WireEnd through, second;
   std::size_t which;
@@ -141,18 +143,23 @@ class LiveWorker {
   struct LoopJob {
     std::int64_t request;
     LoopPlace through;
-    std::shared_ptr<const Prepared> prepared;  // null: that failed
+    std::shared_ptr<MetricSet> metrics;
+    std::shared_ptr<const Prepared> prepared;  // the thread's own metric; null: that failed
     std::stop_token solving;
   };
   using Dropped = std::vector<std::shared_ptr<const void>>;
   using Job = std::variant<Dropped, SeedJob, LoopJob>;
 
-  /// The closed wires through a point, and what bends one of them.
-  struct ClosedAround {
+  /// The closed wires through a point in one metric.
+  struct ClosedIn {
     std::shared_ptr<const Prepared> prepared;
-    WireEnd through;
     DistanceField field;
     std::vector<ClosedWire> cuts;
+  };
+  /// The closed wires through a point, as far as they were asked for, and what bends one of them.
+  struct ClosedAround {
+    WireEnd through;
+    std::array<std::optional<ClosedIn>, kMostMetrics> in = {};
     std::size_t which = 0;
     std::optional<BentWires> bent = std::nullopt;  // of that one
   };
@@ -171,7 +178,11 @@ class LiveWorker {
   void work_on(const LoopJob& job);
   LiveClosedWires find_closed_wires(const LoopJob& job, const WireEnd& through);
   LiveClosedWires find_bent_wire(const LoopJob& job, const BendPlace& place);
-  const ClosedAround& closed_around(const LoopJob& job, const WireEnd& through, const SurfacePoint& seed);
+  std::shared_ptr<const Prepared> prepared_for(const LoopJob& job, std::size_t metric);
+  const ClosedIn* closed_in(const LoopJob& job, const WireEnd& through, std::size_t metric);
+  LiveClosedWire closed_wire(const LoopJob& job, const WireEnd& through, const ClosedWire& cut,
+                             const ClosedWireChoice& choice) const;
+  void show(const LoopJob& job, LiveClosedWires found);
   void add_pieces(const Prepared& prepared, const Wire& wire, std::size_t count, const Task& task,
                   LiveClosedWire& closed) const;
   std::shared_ptr<const SeedSolution> solve(const SeedJob& job);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <utility>
 #include <vector>
@@ -118,6 +119,12 @@ struct MetricSet {
   std::optional<std::size_t> leader() const {
     if (count == kMostMetrics) return kMostMetrics - 1;
     return family == MetricFamily::kConcave ? std::optional<std::size_t>(0) : std::nullopt;
+  }
+  /// The metrics whose closed wires are offered, the leading one first: those of the Euclidean metric help out where
+  /// nothing is concave.
+  std::span<const std::size_t> closing() const {
+    static constexpr std::array<std::size_t, 2> kBoth = {0, 1};
+    return std::span(kBoth).first(family == MetricFamily::kConcave ? 2 : 1);
   }
   /// After other scribbles than these metrics, of one family and strength: a metric for which they are the same is
   /// shared. Embeddings of the other are made from those of `metrics`, or, where these are not there yet, from what

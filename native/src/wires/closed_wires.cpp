@@ -442,20 +442,30 @@ double mean_distance(const std::vector<Vector>& loop, const Polyline& other) {
   return sum / kSamples;
 }
 
+/// Loops none of which is like an earlier one.
+class DistinctLoops {
+ public:
+  /// Whether it is another one than those before, and one of them from here on.
+  bool add(const std::vector<Vector>& loop) {
+    const double apart = kLeastApart * length_of(loop);
+    if (std::ranges::any_of(lines_, [&](const Polyline& l) { return mean_distance(loop, l) <= apart; })) return false;
+    lines_.emplace_back(loop);
+    return true;
+  }
+
+ private:
+  std::vector<Polyline> lines_;
+};
+
 std::vector<ClosedWire> CutLocus::best(std::size_t count) {
   std::vector<ClosedWire> loops;
-  std::vector<Polyline> lines;
+  DistinctLoops distinct;
   for (const Rated& rated : minima(rate(find()))) {
     if (loops.size() == count) break;
     task_.check(0.9);
     if (rated.turn > kMostTurn) continue;
     std::optional<ClosedWire> next = loop(rated);
-    if (!next) continue;
-    const std::vector<Vector>& points = next->wire.points;
-    const double apart = kLeastApart * length_of(points);
-    if (std::ranges::any_of(lines, [&](const Polyline& l) { return mean_distance(points, l) <= apart; })) continue;
-    lines.emplace_back(points);
-    loops.push_back(std::move(*next));
+    if (next && distinct.add(next->wire.points)) loops.push_back(std::move(*next));
   }
   return loops;
 }
@@ -470,6 +480,23 @@ std::vector<ClosedWire> closed_wires(const Surface& surface, const Embedding& em
   }
   if (count == 0) return {};
   return CutLocus(surface, embedding, field, task).best(count);
+}
+
+std::vector<ClosedWireChoice> choose_closed_wires(std::span<const std::vector<ClosedWire>> metrics, std::size_t count) {
+  std::vector<ClosedWireChoice> order;
+  for (std::size_t metric = 0; metric < metrics.size(); ++metric) {
+    if (!metrics[metric].empty()) order.push_back({.metric = metric, .number = 0});
+  }
+  for (std::size_t metric = 0; metric < metrics.size(); ++metric) {
+    for (std::size_t i = 1; i < metrics[metric].size(); ++i) order.push_back({.metric = metric, .number = i});
+  }
+  std::vector<ClosedWireChoice> chosen;
+  DistinctLoops distinct;
+  for (const ClosedWireChoice& choice : order) {
+    if (chosen.size() == count) break;
+    if (distinct.add(metrics[choice.metric][choice.number].wire.points)) chosen.push_back(choice);
+  }
+  return chosen;
 }
 
 }  // namespace seamwire

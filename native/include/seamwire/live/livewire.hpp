@@ -84,7 +84,8 @@ struct LiveClosedWire {
       joints;             ///< where one piece ends and the next one begins: within faces, or the second point
   bool separates = true;  ///< as ClosedWire has it
   double turn = 0.0;      ///< as ClosedWire has it; of one that was bent what it was before
-  double length = std::numeric_limits<double>::infinity();  ///< in the metric, of the model scaled to the unit cube
+  double length = std::numeric_limits<double>::infinity();  ///< in its metric, of the model scaled to the unit cube
+  std::size_t which = 0;  ///< what bent_wire() calls it; the same one whatever is found after it
 };
 
 /// What closed_wires() finds.
@@ -159,11 +160,14 @@ class LiveWire {
   /// starts the search, in place of that for another edge; ask again until the answer is final. A seed goes first.
   LiveLoop loop(const Edge& edge);
   /// The closed cuts through a point, at most three, in M_min, or what the metric's family has in its place; across the
-  /// surface only. Of M_min's thread; asked for as loop(). On a large surface what a bounded number of windows tells is
-  /// there first, and not final. Throws InvalidInput where the point is none.
+  /// surface only. In the family kConcave the second one is the best in the Euclidean metric, unless it is like the
+  /// first one (choose_closed_wires()). Of M_min's thread; asked for as loop(). Those of the first metric are there
+  /// before, and on a large surface what a bounded number of windows tells of them, not final. Throws InvalidInput
+  /// where the point is none.
   LiveClosedWires closed_wires(const SurfacePoint& through);
-  /// Of the closed cuts through a point the one numbered `which`, bent to a second point (BentWires); none where there
-  /// is none of that number, or none leads there. Asked for as the others, and never there before it is final.
+  /// Of the closed cuts through a point the one with that `which`, bent to a second point (BentWires) in the metric
+  /// that it is of; none where there is none, or none leads there. Asked for as the others, and never there before it
+  /// is final.
   LiveClosedWires bent_wire(const SurfacePoint& through, const SurfacePoint& second, std::size_t which = 0);
   /// seamwire::extend_straight(), with the way's length in the unit cube; no vertices where it cannot be told yet.
   EdgeChain extend_straight(const Edge& edge, std::span<const std::int32_t> stops) const;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "seamwire/wires/wire.hpp"
@@ -33,5 +34,18 @@ struct ClosedWire {
 /// one of the surface, as far as sizes tell; Cancelled.
 std::vector<ClosedWire> closed_wires(const Surface& surface, const Embedding& embedding, const DistanceField& field,
                                      std::size_t count = 3, const Task& task = {});
+
+/// One of the closed cuts through a point in several metrics.
+struct ClosedWireChoice {
+  std::size_t metric, number;  ///< the metric's number, and the cut's among those of the metric
+
+  bool operator==(const ClosedWireChoice&) const = default;
+};
+
+/// What to offer, at most `count`, of the closed cuts through one point in several metrics, each metric's best first:
+/// the best in each metric, in their order, then the others, first those of the first metric. One that is like an
+/// earlier one, on average within 3 % of its length of it, is left out.
+std::vector<ClosedWireChoice> choose_closed_wires(std::span<const std::vector<ClosedWire>> metrics,
+                                                  std::size_t count = 3);
 
 }  // namespace seamwire
