@@ -2,10 +2,12 @@
 #include "seams/straightening.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <iterator>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "seams/cut_pieces.hpp"
@@ -14,35 +16,51 @@
 namespace seamwire {
 namespace {
 
-/// A seed where two wires meet and nothing else is.
-struct Joint {
-  std::array<std::size_t, 2> wires;  ///< by their numbers
-  Ends ends;                         ///< their other ends, which differ
-};
-using Joints = std::map<std::int32_t, Joint>;  // by the vertices of the seeds
+/// A seed slides where that makes this part of what meets there cheaper, at least.
+constexpr double kLeastGain = 0.01;
+/// With more wires seeds stay: of 25 such slides on two models 4 were worth it, and took as long as all others.
+constexpr std::size_t kMostSliding = 3;
 
-Joints joints_of(const std::vector<Choice>& wires, const std::vector<Edge>& seams) {
-  std::map<std::int32_t, std::vector<std::size_t>> ending;
+/// A wire that meets others at a seed.
+struct Meeting {
+  std::int32_t other;  ///< its other end
+  std::size_t wire;    ///< its number
+};
+/// Two or more at a seed where nothing else is, in the order of their other ends, all different.
+using Junction = std::vector<Meeting>;
+using Junctions = std::map<std::int32_t, Junction>;  // by the vertices of the seeds
+
+Junctions junctions_of(const std::vector<Choice>& wires, const std::vector<Edge>& seams) {
+  Junctions junctions;
   std::set<std::int32_t> passed;
   for (const auto& [a, b] : seams) passed.insert({a, b});
   for (std::size_t i = 0; i < wires.size(); ++i) {
     const PlannedWire& wire = wires[i].wire;
-    ending[wire.from].push_back(i);
-    ending[wire.to].push_back(i);
+    junctions[wire.from].push_back({wire.to, i});
+    junctions[wire.to].push_back({wire.from, i});
     for (const std::int32_t v : wire.vertices) {
       if (v != wire.from && v != wire.to) passed.insert(v);
     }
   }
-  const auto other_end = [](const PlannedWire& wire, std::int32_t end) {
-    return wire.from == end ? wire.to : wire.from;
-  };
-  Joints joints;
-  for (const auto& [seed, meeting] : ending) {
-    if (meeting.size() != 2 || passed.contains(seed)) continue;
-    const Ends ends = ends_of(other_end(wires[meeting[0]].wire, seed), other_end(wires[meeting[1]].wire, seed));
-    if (ends.first != ends.second) joints.insert({seed, {{meeting[0], meeting[1]}, ends}});
-  }
-  return joints;
+  for (auto& [seed, junction] : junctions) std::ranges::sort(junction, {}, &Meeting::other);
+  std::erase_if(junctions, [&](const auto& at) {
+    const auto& [seed, junction] = at;
+    return junction.size() < 2 || passed.contains(seed) ||
+           std::ranges::adjacent_find(junction, {}, &Meeting::other) != junction.end();
+  });
+  return junctions;
+}
+
+std::vector<std::int32_t> others_of(const Junction& junction) {
+  std::vector<std::int32_t> others;
+  for (const Meeting& meeting : junction) others.push_back(meeting.other);
+  return others;
+}
+
+/// The other ends of two wires that are all that meet at a seed; nullopt: others do.
+std::optional<Ends> joint_ends(const Junction& junction) {
+  if (junction.size() != 2) return std::nullopt;
+  return ends_of(junction[0].other, junction[1].other);
 }
 
 class Straightening {
@@ -64,9 +82,15 @@ class Straightening {
   CutPieces pieces(const std::vector<Choice>& of) const {
     return CutPieces(surface_, chains_of(of, options_.seams), max_spreads_);
   }
+  void find(const std::set<Ends>& pairs);
   bool is_as_good(const std::vector<Choice>& trial) const;
   bool straighten_one();
-  std::optional<std::vector<Choice>> without_joint(const Joints& joints, std::int32_t joint) const;
+  bool slide();
+  std::vector<std::int32_t> places_to_slide_to(std::int32_t seed, const Junction& junction) const;
+  std::int32_t image(std::int32_t v) const { return options_.images.empty() || v < 0 ? -1 : options_.images[v]; }
+  Ends images(const Ends& ends) const { return ends_of(image(ends.first), image(ends.second)); }
+  std::optional<std::vector<Choice>> replaced(const Junctions& junctions, std::int32_t seed,
+                                              const std::vector<Ends>& by, double least_gain) const;
 
   std::vector<Choice> wires_;
   const DirectWires& known_;
@@ -80,6 +104,7 @@ class Straightening {
   std::optional<Quality> quality_;  // of what there was at first; nullopt: nothing was tried
   std::map<Ends, Choice> direct_;
   std::set<std::pair<std::int32_t, Ends>> tried_;
+  std::set<std::tuple<std::int32_t, std::int32_t, std::vector<std::int32_t>>> slid_;  // from, to, the other ends
 };
 
 bool Straightening::is_as_good(const std::vector<Choice>& trial) const {
@@ -90,12 +115,21 @@ bool Straightening::is_as_good(const std::vector<Choice>& trial) const {
          now.bent <= std::max(quality_->bent, 0.0);
 }
 
+/// Finds the wires between pairs that are not known here, on several threads.
+void Straightening::find(const std::set<Ends>& pairs) {
+  std::set<Ends> missing;
+  std::ranges::copy_if(pairs, std::inserter(missing, missing.end()),
+                       [this](const Ends& ends) { return !direct_.contains(ends); });
+  if (!missing.empty()) direct_.merge(known_.find(missing, task_));
+}
+
 bool Straightening::straighten_one() {
-  const Joints joints = joints_of(wires_, options_.seams);
-  for (const auto& [joint, at] : joints) {
+  const Junctions junctions = junctions_of(wires_, options_.seams);
+  for (const auto& [seed, junction] : junctions) {
     task_.check(0.0);
-    if (!direct_.contains(at.ends) || !tried_.insert({joint, at.ends}).second) continue;
-    std::optional<std::vector<Choice>> trial = without_joint(joints, joint);
+    const std::optional<Ends> ends = joint_ends(junction);
+    if (!ends || !direct_.contains(*ends) || !tried_.insert({seed, *ends}).second) continue;
+    std::optional<std::vector<Choice>> trial = replaced(junctions, seed, {*ends}, 0.0);
     if (!trial || !is_as_good(*trial)) continue;
     wires_ = std::move(*trial);
     return true;
@@ -103,39 +137,124 @@ bool Straightening::straighten_one() {
   return false;
 }
 
-/// All that can be tried with the wires that are known, before more are found: those are found on several threads.
-std::vector<Choice> Straightening::done() {
-  while (true) {
-    std::set<Ends> missing;
-    for (const auto& [joint, at] : joints_of(wires_, options_.seams)) {
-      if (!direct_.contains(at.ends)) missing.insert(at.ends);
-    }
-    if (missing.empty()) return std::move(wires_);
-    direct_.merge(known_.find(missing, task_));
-    if (!quality_) {
-      const CutPieces cut = pieces(wires_);
-      piece_count_ = cut.piece_count();
-      quality_.emplace(cut);
-    }
-    while (straighten_one()) continue;
+/// Vertices half and a quarter of the way along the wires that the others pull a seed along, each with what it costs
+/// for its length; those first that give way the most.
+std::vector<std::int32_t> Straightening::places_to_slide_to(std::int32_t seed, const Junction& junction) const {
+  struct Way {
+    std::vector<std::int32_t> chain;  // from the seed
+    Vector direction;
+    double pull;
+  };
+  std::vector<Way> ways;
+  Vector pull = Vector::Zero();
+  for (const Meeting& meeting : junction) {
+    const Choice& choice = wires_[meeting.wire];
+    std::vector<std::int32_t> chain = choice.wire.vertices;
+    if (chain.front() != seed) std::ranges::reverse(chain);
+    const Vector to = surface_.points()[chain[chain.size() / 2]] - surface_.points()[seed];
+    ways.push_back({std::move(chain), to.stableNormalized(), 0.0});
+    pull += ways.back().direction / choice.worth();
   }
+  for (Way& way : ways) way.pull = pull.dot(way.direction);
+  std::ranges::sort(ways, std::greater<>(), &Way::pull);
+  std::vector<std::int32_t> places;
+  for (const std::size_t part : {2, 4}) {
+    for (const Way& way : ways) {
+      const std::size_t place = way.chain.size() / part;
+      if (way.pull > 0.0 && place > 0 && place + 1 < way.chain.size()) places.push_back(way.chain[place]);
+    }
+  }
+  return places;
 }
 
-/// The wires with direct ones in place of those that meet at a joint, and at its image; nullopt where that costs more.
-std::optional<std::vector<Choice>> Straightening::without_joint(const Joints& joints, std::int32_t joint) const {
-  const Joint& own = joints.at(joint);
-  std::vector<std::size_t> gone(own.wires.begin(), own.wires.end());
-  std::vector<Choice> come{direct_.at(own.ends)};
-  const std::int32_t image = options_.images.empty() ? -1 : options_.images[joint];
-  if (image >= 0 && image != joint) {
-    const auto other = joints.find(image);
-    const Ends ends = ends_of(options_.images[own.ends.first], options_.images[own.ends.second]);
-    if (other == joints.end() || other->second.ends != ends || !direct_.contains(ends)) return std::nullopt;
-    for (const std::size_t wire : other->second.wires) {
-      if (std::ranges::find(gone, wire) != gone.end()) return std::nullopt;  // one after the other then
-      gone.push_back(wire);
+/// Lets seeds slide along one of the wires that meet there, half its way, where direct wires from there to the other
+/// ends cost less; returns whether one did.
+bool Straightening::slide() {
+  struct Slide {
+    std::int32_t seed;
+    std::vector<std::int32_t> others;
+    std::vector<Ends> by;
+  };
+  std::vector<Slide> slides;
+  std::set<Ends> pairs;
+  for (const auto& [seed, junction] : junctions_of(wires_, options_.seams)) {
+    // From the plane of symmetry it would slide away.
+    if (junction.size() > kMostSliding || image(seed) == seed) continue;
+    const std::vector<std::int32_t> places = places_to_slide_to(seed, junction), others = others_of(junction);
+    const auto to = std::ranges::find_if(places, [&, at = seed](std::int32_t v) {
+      return slid_.insert({at, v, others}).second;
+    });
+    if (to == places.end()) continue;
+    std::vector<Ends> by;
+    for (const std::int32_t other : others) {
+      by.push_back(ends_of(*to, other));
+      pairs.insert(by.back());
+      if (const Ends opposite = images(by.back()); opposite.first >= 0) pairs.insert(opposite);
     }
-    come.push_back(mirrored(come.front(), surface_, options_).value_or(direct_.at(ends)));
+    slides.push_back({seed, others, std::move(by)});
+  }
+  find(pairs);
+  bool has_slid = false;
+  for (const Slide& slide : slides) {
+    task_.check(0.0);
+    const Junctions junctions = junctions_of(wires_, options_.seams);
+    const auto junction = junctions.find(slide.seed);
+    if (junction == junctions.end() || others_of(junction->second) != slide.others) continue;
+    std::optional<std::vector<Choice>> trial = replaced(junctions, slide.seed, slide.by, kLeastGain);
+    if (!trial || !is_as_good(*trial)) continue;
+    wires_ = std::move(*trial);
+    has_slid = true;
+  }
+  return has_slid;
+}
+
+/// All that can be tried with the wires that are known, before more are found.
+std::vector<Choice> Straightening::done() {
+  {
+    const CutPieces cut = pieces(wires_);
+    piece_count_ = cut.piece_count();
+    quality_.emplace(cut);
+  }
+  do {
+    std::set<Ends> pairs;
+    do {
+      while (straighten_one()) continue;
+      pairs.clear();
+      for (const auto& [seed, junction] : junctions_of(wires_, options_.seams)) {
+        if (const std::optional<Ends> ends = joint_ends(junction); ends && !direct_.contains(*ends))
+          pairs.insert(*ends);
+      }
+      find(pairs);
+    } while (!pairs.empty());
+  } while (slide());
+  return std::move(wires_);
+}
+
+/// The wires with direct ones in place of those that meet at a seed, and at its image; nullopt where less than a part
+/// of their price is gained.
+std::optional<std::vector<Choice>> Straightening::replaced(const Junctions& junctions, std::int32_t seed,
+                                                           const std::vector<Ends>& by, double least_gain) const {
+  const Junction& own = junctions.at(seed);
+  std::vector<std::size_t> gone;
+  std::vector<Choice> come;
+  for (const Meeting& meeting : own) gone.push_back(meeting.wire);
+  for (const Ends& ends : by) come.push_back(direct_.at(ends));
+  if (const std::int32_t opposite = image(seed); opposite >= 0 && opposite != seed) {
+    const auto other = junctions.find(opposite);
+    if (other == junctions.end()) return std::nullopt;
+    std::vector<std::int32_t> expected;
+    for (const Meeting& meeting : own) expected.push_back(image(meeting.other));
+    std::ranges::sort(expected);
+    if (expected != others_of(other->second)) return std::nullopt;
+    for (const Meeting& meeting : other->second) {
+      if (std::ranges::find(gone, meeting.wire) != gone.end()) return std::nullopt;  // one after the other then
+      gone.push_back(meeting.wire);
+    }
+    for (const Ends& ends : by) {
+      const auto direct = direct_.find(images(ends));
+      if (direct == direct_.end()) return std::nullopt;
+      come.push_back(mirrored(direct_.at(ends), surface_, options_).value_or(direct->second));
+    }
   }
   double before = 0.0, after = 0.0;
   for (const std::size_t wire : gone) before += price(surface_, wires_[wire]);
@@ -143,7 +262,7 @@ std::optional<std::vector<Choice>> Straightening::without_joint(const Joints& jo
     if (choice.wire.vertices.size() < 2) return std::nullopt;
     after += price(surface_, choice);
   }
-  if (!(after < before)) return std::nullopt;
+  if (!(after < (1.0 - least_gain) * before)) return std::nullopt;
   std::vector<Choice> trial;
   for (std::size_t i = 0; i < wires_.size(); ++i) {
     if (std::ranges::find(gone, i) == gone.end()) trial.push_back(wires_[i]);
@@ -156,21 +275,37 @@ std::optional<std::vector<Choice>> Straightening::without_joint(const Joints& jo
 
 std::map<Ends, Choice> DirectWires::find(const std::set<Ends>& pairs, const Task& task) const {
   std::map<Ends, Choice> out;
-  std::vector<CandidateWires::Fan> missing;
+  std::vector<Ends> missing;
   {
     const std::scoped_lock lock(mutex_);
     for (const Ends& ends : pairs) {
       if (const auto known = known_.find(ends); known != known_.end()) {
         out.insert(*known);
       } else {
-        missing.push_back({ends.first, {ends.second}});
+        missing.push_back(ends);
       }
     }
   }
-  std::vector<std::vector<CandidateWire>> found = wires_.find(missing, task);
-  for (std::size_t i = 0; i < missing.size(); ++i) {
-    const std::int32_t from = missing[i].from, to = missing[i].to.front();
-    out.insert({{from, to}, make_choice(from, to, std::move(found[i].front()), seclusion_)});
+  // What begins at one vertex is found at once.
+  std::map<std::int32_t, std::size_t> ending;
+  for (const auto& [a, b] : missing) {
+    ++ending[a];
+    ++ending[b];
+  }
+  std::map<std::int32_t, std::vector<std::int32_t>> beginning;
+  for (const auto& [a, b] : missing) {
+    const bool is_turned = ending[b] > ending[a];
+    beginning[is_turned ? b : a].push_back(is_turned ? a : b);
+  }
+  std::vector<CandidateWires::Fan> fans;
+  for (auto& [from, to] : beginning) fans.push_back({from, std::move(to)});
+  std::vector<std::vector<CandidateWire>> found = wires_.find(fans, task);
+  for (std::size_t i = 0; i < fans.size(); ++i) {
+    const std::int32_t from = fans[i].from;
+    for (std::size_t k = 0; k < fans[i].to.size(); ++k) {
+      const std::int32_t to = fans[i].to[k];
+      out.insert({ends_of(from, to), make_choice(from, to, std::move(found[i][k]), seclusion_)});
+    }
   }
   const std::scoped_lock lock(mutex_);
   known_.insert(out.begin(), out.end());

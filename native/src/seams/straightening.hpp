@@ -28,7 +28,8 @@ class DirectWires {
 };
 
 /// Makes chosen wires cost less, as long as the pieces stay as many and as good: a direct one takes the place of two
-/// that meet at a seed where nothing else is. `options` and `limits`: those of the plan; `max_spreads`: one a triangle.
+/// that meet at a seed where nothing else is, and seeds slide along wires that end there. `options` and `limits`: those
+/// of the plan; `max_spreads`: one a triangle.
 std::vector<Choice> straightened(std::vector<Choice> wires, const DirectWires& direct, const Surface& surface,
                                  const SeamPlannerOptions& options, const SeamLimits& limits,
                                  std::span<const double> max_spreads, const Task& task);

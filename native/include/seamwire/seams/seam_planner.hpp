@@ -39,8 +39,8 @@ struct SeamLimits {
   /// Whether wires may start on the edges of others, where they ran beside them and left crumbs between. Where curves
   /// are cut, not edges marked, they have to run from seed to seed: these alone their curves have in common.
   bool may_start_on_others = true;
-  /// Whether a direct wire takes the place of two that meet, where it costs less. Where islands are to be small for
-  /// another reason than how they bend, detours may be what they need.
+  /// Whether direct wires take the place of those that meet at a seed, where they cost less. Where islands are to be
+  /// small for another reason than how they bend, detours may be what they need.
   bool are_straightened = true;
 };
 
@@ -70,8 +70,8 @@ struct SeamPlan {
 /// the two metrics. Where a piece is no disc it gets another seed. Then wires are taken away, as long as what they part
 /// joins to discs within the limits: first the longest for its worth, which is more where a wire follows features, runs
 /// in hollows, and out of sight (ambient occlusion). At last, where two wires run side by side and leave crumbs between
-/// them, the weaker one starts on the other instead; and where just two wires meet, a direct one takes their place if
-/// it costs less and leaves islands as good.
+/// them, the weaker one starts on the other instead; and where just two wires meet, a direct one takes their place,
+/// where two or three do, the seed slides along one of them, if that costs less and leaves islands as good.
 class SeamPlanner {
  public:
   /// Finds the wires to choose from, on several threads. Throws InvalidInput for options that are not as said above or
