@@ -237,6 +237,7 @@ std::optional<std::vector<Choice>> Straightening::replaced(const Junctions& junc
   const Junction& own = junctions.at(seed);
   std::vector<std::size_t> gone;
   std::vector<Choice> come;
+  come.reserve(2 * by.size());
   for (const Meeting& meeting : own) gone.push_back(meeting.wire);
   for (const Ends& ends : by) come.push_back(direct_.at(ends));
   if (const std::int32_t opposite = image(seed); opposite >= 0 && opposite != seed) {
@@ -298,6 +299,7 @@ std::map<Ends, Choice> DirectWires::find(const std::set<Ends>& pairs, const Task
     beginning[is_turned ? b : a].push_back(is_turned ? a : b);
   }
   std::vector<CandidateWires::Fan> fans;
+  fans.reserve(beginning.size());
   for (auto& [from, to] : beginning) fans.push_back({from, std::move(to)});
   std::vector<std::vector<CandidateWire>> found = wires_.find(fans, task);
   for (std::size_t i = 0; i < fans.size(); ++i) {

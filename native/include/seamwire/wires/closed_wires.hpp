@@ -37,9 +37,10 @@ std::vector<ClosedWire> closed_wires(const Surface& surface, const Embedding& em
 
 /// One of the closed cuts through a point in several metrics.
 struct ClosedWireChoice {
-  std::size_t metric, number;  ///< the metric's number, and the cut's among those of the metric
+  std::size_t metric;  ///< the metric's number
+  std::size_t number;  ///< the cut's among those of the metric
 
-  bool operator==(const ClosedWireChoice&) const = default;
+  bool operator==(const ClosedWireChoice&) const = default;  ///< whether both are the same
 };
 
 /// What to offer, at most `count`, of the closed cuts through one point in several metrics, each metric's best first:
