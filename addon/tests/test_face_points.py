@@ -17,14 +17,16 @@ POINTS = grid_points(SIZE)
 TRIANGLES = grid_triangles(SIZE)
 
 
-def session() -> Session:
+def session(finish: str = "CUT") -> Session:
     """Return a session across the surface, by the shortest path."""
     surface = core.Surface(POINTS, TRIANGLES, grid_edges(SIZE))
 
     def make(way: str) -> object:
         return core.LiveWire(surface, along=way.lower(), metric="euclidean")
 
-    return Session(make, POINTS, "SURFACE", edges=grid_edges(SIZE), triangles=TRIANGLES)
+    made = Session(make, POINTS, "SURFACE", edges=grid_edges(SIZE), triangles=TRIANGLES)
+    made.finish = finish
+    return made
 
 
 def at(x: float, y: float) -> FacePoint:
@@ -79,6 +81,24 @@ def test_within_one_face_a_wire_marks_nothing_and_is_there() -> None:
     assert on.drop(on.wires[0])
 
 
+def test_where_it_is_not_to_be_cut_a_wire_that_meets_no_edge_is_not_kept() -> None:
+    on = session("SNAP")
+    one = at(0.3, 0.1)
+    click(on, one)
+    on.hover(0)
+    on.wait()
+    assert not on.click(0)
+    assert "meets no edge" in on.message
+    assert on.wires == () and on.seed == one
+    click(on, 2)
+    on.end_chain()
+    assert on.drag(2) and on.drag_to(0) and on.drag_end()
+    on.wait()
+    assert on.wires == (), "the mesh would not know of it"
+    assert on.undo()
+    assert [wire.vertices for wire in on.wires] == [(0, 1, 2)]
+
+
 def test_a_seed_is_dragged_from_point_to_point() -> None:
     on = session()
     middle = at(1.2, 0.7)
@@ -118,6 +138,7 @@ def test_over_a_mirror_a_wire_without_edges_has_its_image() -> None:
         "SURFACE",
         edges=grid_edges(SIZE),
     )
+    on.finish = "CUT"
     on.set_mirror([0])
     click(on, *(FacePoint.at(np.array([x, y, 0.0]), 0, TRIANGLES, centred) for x, y in ((-0.7, -0.9), (-0.6, -0.7))))
     (image,) = on.mirrored(on.wires[0])

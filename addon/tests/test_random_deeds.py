@@ -175,6 +175,7 @@ class Monkey:
         assert set(session.edges_to_mark()).isdisjoint(session.edges_to_clear())
         for wire in session.wires:
             assert PAIRS.issuperset(wire.edges())
+            assert wire.leaves_trace
             if wire.along == "EDGES":
                 around = [*wire.vertices, *wire.vertices[:1]] if wire.closed else list(wire.vertices)
                 assert np.array_equal(wire.points, self.points[around])

@@ -255,6 +255,11 @@ class Wire:
         yield from self.images or ()
 
     @property
+    def leaves_trace(self) -> bool:
+        """Whether the mesh keeps it: it runs along an edge, or is to be cut into a face."""
+        return len(self.vertices) > 1 or self.finish == "CUT"
+
+    @property
     def last_edge(self) -> Edge:
         """Its last edge in the direction that it runs."""
         return self.vertices[-2], self.vertices[-1]
@@ -392,6 +397,11 @@ class Network:
     def without(self, wire: Wire) -> Network:
         """Return the network without a wire. A chain that went on from the wire's end goes on from the place itself."""
         return replace(self, wires=tuple(own for own in self.wires if own.id != wire.id), seed=self._seed_without(wire))
+
+    def lasting(self) -> Network:
+        """Return the network without the wires that leave no trace in the mesh."""
+        wires = tuple(wire for wire in self.wires if wire.leaves_trace)
+        return self if len(wires) == len(self.wires) else replace(self, wires=wires)
 
     def _seed_without(self, wire: Wire) -> Seed | None:
         seed = self.seed

@@ -254,6 +254,7 @@ class Session:
         if offer is None:
             return self._refuse(self.message or self._cuts.NONE)
         wires = tuple(self._as_drawn(piece.anew()) for piece in self._cuts.pieces(offer))
+        wires = tuple(wire for wire in wires if wire.leaves_trace)
         network = self._network
         before = self._cuts.bendable(network) if self._cuts.bends else None
         for wire in () if before is None else before.wires:
@@ -1116,7 +1117,7 @@ class Session:
         if seed is not None and seed != self._network.seed and not self._sow(seed):
             return False
         self._history.step(self._network)
-        self._set(self._images.complete(network))
+        self._set(self._images.complete(network.lasting()))
         self._settle()
         self.message = self._images.warning(self._network) or self.message
         return True
@@ -1214,6 +1215,8 @@ class Session:
         if ending is Intent.CLOSE and known.issuperset(wire.edges()) and not isinstance(wire.end, FacePoint):
             return self._refuse("The way back runs along the chain itself: place another seed first")
         wire = replace(self._as_drawn(wire), alternatives=live.others if live.final else ())
+        if not wire.leaves_trace:
+            return self._refuse("The wire meets no edge that could be a seam: click farther away")
         network = self._network.joined(target, self._points).with_drawn(wire, target.pick, ending is not None)
         if not self._change(network):
             return False
