@@ -158,19 +158,27 @@ def test_a_loop_that_is_kept_does_not_become_a_ridge() -> None:
         assert not {offer.kind for offer in wire.all_offers()} & {"RIDGE", "VALLEY"}
 
 
-def test_toggling_goes_through_what_is_offered_beside_a_ridge(sheet: Sheet) -> None:
+@pytest.mark.parametrize("steps", [1, 2])
+@pytest.mark.parametrize("kept", [False, True], ids=["", "a loop is kept"])
+def test_toggling_goes_through_what_is_offered_beside_a_ridge(steps: int, kept: bool) -> None:
+    sheet = Sheet("EDGES")
     session = sheet.session
+    if kept:
+        assert session.loop(sheet.pick())
+        session.wait()
     session.use_crests(sheet.crests, True)
     session.hover(sheet.pick(), loop=True)
     session.wait()
     kinds = session.loop_offers
-    if len(kinds) > 1:
+    assert len(kinds) > 2
+    assert kinds[0] == "RIDGE"
+    for _ in range(steps):
         session.toggle()
-        shown = session.loop_preview
-        assert session.loop_choice == kinds[1]
-        session.click(sheet.pick())
-        session.wait()
-        assert session.edges_to_mark() == sorted(shown.edges())
+    shown = session.loop_preview
+    assert session.loop_choice == kinds[steps]
+    assert session.click(sheet.pick())
+    session.wait()
+    assert session.edges_to_mark() == sorted(shown.edges())
 
 
 def test_a_ridge_that_is_seen_does_not_wait_for_what_else_is_offered() -> None:

@@ -223,9 +223,12 @@ class Session:
         if self.along == "SURFACE":
             return self._cut_around(target)
         shown = self._loops
-        choice = shown.choice if shown.edge == undirected(edge) else 0
+        seen, choice = (shown.wire, shown.choice) if shown.edge == undirected(edge) else (None, 0)
+        on_crest = seen is not None and seen.kind in CREST_KINDS
+        if seen is not None and not on_crest:
+            choice -= shown.offers[0].kind in CREST_KINDS
         self._take_back_click(edge)
-        if shown.edge == undirected(edge) and shown.wire is not None and shown.wire.kind in CREST_KINDS:
+        if on_crest:
             return self._along_crest(edge)
         own = self._network.taken_through(edge)
         if own is not None and own.marks == self.marking:
@@ -236,11 +239,10 @@ class Session:
             if self.computing:
                 return self._postpone("loop", target)
             return self._refuse(self.message or f"No edges run on from {name(edge)}")
-        if offers[min(choice, len(offers) - 1)].kind in CREST_KINDS:
+        loops = tuple(offer for offer in offers if offer.kind not in CREST_KINDS)
+        if not loops or (seen is None and offers[0].kind in CREST_KINDS):
             return self._along_crest(edge)
-        choice -= offers[0].kind in CREST_KINDS
-        offers = tuple(offer for offer in offers if offer.kind not in CREST_KINDS)
-        wire = replace(taken(offers, min(choice, len(offers) - 1), self.marking), mirror=self._network.mirror)
+        wire = replace(taken(loops, min(choice, len(loops) - 1), self.marking), mirror=self._network.mirror)
         return self._change(replace(self._network, wires=(*self.wires, wire)))
 
     def _cut_around(self, target: Snap) -> bool:
