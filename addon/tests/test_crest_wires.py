@@ -238,6 +238,28 @@ def test_what_was_taken_is_not_offered_again_until_the_cursor_was_elsewhere(shee
     assert session.loop_offers[0] == "RIDGE"
 
 
+@pytest.mark.parametrize("computed", [False, True], ids=["while it is computed", "then"])
+def test_the_second_press_of_a_double_click_on_a_ridge_takes_nothing_more(computed: bool) -> None:
+    sheet = Sheet("EDGES")
+    session, edge = sheet.session, sheet.pick()
+    session.use_crests(sheet.crests, True)
+    session.hover(edge, loop=True)
+    session.click(edge)
+    if computed:
+        session.wait()
+    assert session.loop(edge)
+    session.wait()
+    assert session.wires
+    assert {wire.kind for wire in session.wires} == {None}
+    assert session.undo()
+    assert session.wires == (), "it was taken once"
+    assert session.loop(edge)
+    assert session.undo(), "it waits still"
+    assert session.loop(edge)
+    session.wait()
+    assert session.wires
+
+
 def test_a_ridge_leaves_the_chain_that_is_drawn_as_it_is(sheet: Sheet) -> None:
     session, pick = sheet.session, sheet.pick()
     session.use_crests(sheet.crests, True)

@@ -168,6 +168,8 @@ class Session:
         bend = bend and self.along == "SURFACE"
         self.revision += self._cuts.bend(bend)
         asked = target.pick if (loop or bend) and target is not None and self._loops.takes(target.pick) else None
+        if asked is not None and undirected(asked) == self._crest_taken:
+            asked = None
         self.revision += self._loops.aim(asked)
         self._show_offers()
 
@@ -222,6 +224,8 @@ class Session:
         self._cuts.bend(False)
         if self.along == "SURFACE":
             return self._cut_around(target)
+        if undirected(edge) == self._crest_taken:
+            return True  # of a double click, the first press took the ridge
         shown = self._loops
         seen, choice = (shown.wire, shown.choice) if shown.edge == undirected(edge) else (None, 0)
         on_crest = seen is not None and seen.kind in CREST_KINDS
@@ -288,6 +292,7 @@ class Session:
         line = self._new_line(begin, None, None)
         line.to(points, triangles, None, self._stops.kept(self._network))
         self._cuts.was_taken(pick)
+        self._edge_loops.wanted = False
         self._crest_taken = undirected(pick)
         return self._finish_line(DrawnLine(line, Snap(begin), False, apart=True))
 
@@ -736,6 +741,7 @@ class Session:
         """Take back the last step: a wire, a loop, a seed, a move, whatever was done; first what still waits."""
         if self._queue:
             self._queue.pop()
+            self._crest_taken = None
             self.revision += 1
             return True
         if self.drag_cancel() or self.line_cancel():
@@ -1135,7 +1141,7 @@ class Session:
             self._sow(network.seed)
         back = [stroke.acts_on for stroke in network.scribbles if stroke not in self._network.scribbles]
         self._set(network)
-        self._last_click = None
+        self._last_click, self._crest_taken = None, None
         self._settle()
         if network.seed is not None and back and back[-1] != "both":
             # As when it was drawn: the wire that a stroke is for is the active one.
