@@ -97,7 +97,9 @@ def test_where_it_is_not_to_be_cut_a_wire_that_meets_no_edge_is_not_kept() -> No
     on.wait()
     assert on.drag_end()
     assert on.wires == (), "the mesh would not know of it"
+    assert "A wire went" in on.message
     assert on.undo()
+    assert on.message == ""
     assert [wire.vertices for wire in on.wires] == [(0, 1, 2)]
 
 

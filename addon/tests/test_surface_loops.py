@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from fake_live import FakeCuts, FakeLive, grid_edges
@@ -170,6 +172,52 @@ def test_the_cut_that_was_chosen_stays_the_one_though_another_comes_before_it(
         assert session.loop_preview.vertices == LEFT
         session.click(8)
     assert session.edges_to_mark() == edges(*LEFT)
+
+
+def test_a_cut_that_meets_no_edge_is_kept_only_where_it_is_to_be_cut(monkeypatch: pytest.MonkeyPatch) -> None:
+    squares = FakeLive.closed_wires
+
+    def within_faces(self: FakeLive, through: object) -> FakeCuts:
+        found = squares(self, through)
+        for cut in found.cuts:
+            cut.pieces[:] = [replace(piece, vertices=piece.vertices[:1]) for piece in cut.pieces]
+        return found
+
+    monkeypatch.setattr(FakeLive, "closed_wires", within_faces)
+    session = table().session
+    assert not session.loop(8)
+    assert session.message == "The cut meets no edge that could be a seam"
+    assert session.wires == ()
+    assert not session.can_undo
+    assert not session.can_bend
+    session.finish = "CUT"
+    assert session.loop(8)
+    assert len(session.wires) == 3
+    assert session.can_bend
+
+
+@pytest.mark.parametrize("drawn", ["marking", "clearing", "cutting", "mirroring"])
+def test_a_bent_cut_does_to_the_mesh_what_the_cut_did(drawn: str) -> None:
+    session = table(centred=True).session
+
+    def switch() -> None:
+        if drawn == "clearing":
+            session.toggle_marking()
+        elif drawn == "cutting":
+            session.finish = "SNAP" if session.finish == "CUT" else "CUT"
+        elif drawn == "mirroring":
+            session.set_mirror(() if session.mirror_axes else (0,))
+
+    switch()
+    assert session.loop(8)
+    before = session.wires[0]
+    switch()
+    if drawn == "marking":
+        session.toggle_marking()
+    assert session.bend(28)
+    assert {(wire.marks, wire.finish, wire.mirror) for wire in session.wires} == {
+        (before.marks, before.finish, before.mirror)
+    }
 
 
 def test_cuts_are_found_in_the_concave_metric_whatever_wires_are() -> None:

@@ -259,10 +259,13 @@ class Session:
             return self._postpone("bend" if self._cuts.bends else "loop", target)
         if offer is None:
             return self._refuse(self.message or self._cuts.NONE)
-        wires = tuple(self._as_drawn(piece.anew()) for piece in self._cuts.pieces(offer))
-        wires = tuple(wire for wire in wires if wire.leaves_trace)
         network = self._network
         before = self._cuts.bendable(network) if self._cuts.bends else None
+        like = None if before is None else before.wires[0]
+        wires = tuple(self._as_drawn(piece.anew(), like) for piece in self._cuts.pieces(offer))
+        wires = tuple(wire for wire in wires if wire.leaves_trace)
+        if not wires:
+            return self._refuse("The cut meets no edge that could be a seam")
         for wire in () if before is None else before.wires:
             network = network.without(wire)
         self._cuts.take(target.pick, offer, wires, before)
@@ -1125,9 +1128,11 @@ class Session:
         if seed is not None and seed != self._network.seed and not self._sow(seed):
             return False
         self._history.step(self._network)
-        self._set(self._images.complete(network.lasting()))
+        lasting = network.lasting()
+        self._set(self._images.complete(lasting))
         self._settle()
-        self.message = self._images.warning(self._network) or self.message
+        gone = "A wire went: it met no edge any more that could be a seam" if lasting is not network else ""
+        self.message = self._images.warning(self._network) or gone or self.message
         return True
 
     def _scribbled(self, scribbles: tuple[Scribble, ...], chosen: int | None) -> bool:
@@ -1232,8 +1237,13 @@ class Session:
         self._last_click = (undirected(target.pick), self._history.steps)
         return True
 
-    def _as_drawn(self, wire: Wire) -> Wire:
-        """Return a new wire as one that is kept now: what it does to seams, its images, its metric's strength, its finish."""
+    def _as_drawn(self, wire: Wire, like: Wire | None = None) -> Wire:
+        """Return a new wire as one that is kept now: what it does to seams, its images, its metric's strength, its finish.
+
+        `like`: the kept wire that it comes in place of, and does the same as.
+        """
+        if like is not None:
+            return replace(wire, marks=like.marks, mirror=like.mirror, strength=self.strength, finish=like.finish)
         return replace(
             wire,
             marks=self.marking,
