@@ -346,6 +346,18 @@ def test_where_none_leads_it_says_so_and_the_cut_stays() -> None:
     assert session.message == ""
 
 
+def test_what_is_said_of_bending_goes_with_it_where_a_wire_is_live() -> None:
+    session = table().session
+    session.click(8)
+    session.hover(28)
+    session.hover(28, bend=True)
+    assert session.message == NOTHING_TO_BEND
+    revision = session.revision
+    session.hover(28)
+    assert session.message == ""
+    assert session.revision > revision
+
+
 def test_bending_waits_until_it_is_computed() -> None:
     it = taken_at_8()
     session = it.session

@@ -166,6 +166,9 @@ class Session:
         if target is None or undirected(target.pick) != self._crest_taken:
             self._crest_taken = None
         bend = bend and self.along == "SURFACE"
+        if bend != self._cuts.bends and self.message:
+            self.message = ""
+            self.revision += 1
         self.revision += self._cuts.bend(bend)
         asked = target.pick if (loop or bend) and target is not None and self._loops.takes(target.pick) else None
         if asked is not None and undirected(asked) == self._crest_taken:
