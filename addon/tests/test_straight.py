@@ -69,8 +69,9 @@ def test_it_is_there_at_once_while_others_are_computed(session: Session) -> None
     session._engines.get("SURFACE").wait_for_surface()
     session.start(START)
     assert session.click(Snap(END, seen_along=DOWN))
-    session.wait()
-    assert off_plane(session, session.wires[0].points) < 1e-9
+    assert session.waiting_clicks == 0
+    (wire,) = session.wires
+    assert off_plane(session, wire.points) < 1e-9
 
 
 def test_the_wheel_goes_on_to_the_others_and_round(session: Session) -> None:
@@ -146,3 +147,27 @@ def test_points_of_faces_are_its_ends_too(session: Session) -> None:
     a, b = session._points[START, :2], (np.array(point.weights) @ session._points[triangle])[:2]
     normal = np.array([a[1] - b[1], b[0] - a[0]]) / np.linalg.norm(b - a)
     assert np.abs((session.active.points[:, :2] - a) @ normal).max() < 1e-9
+
+
+@pytest.mark.parametrize("to_vertex", [False, True], ids=["to a point", "to a vertex"])
+def test_between_near_points_it_is_offered_where_it_is_to_be_cut(session: Session, to_vertex: bool) -> None:
+    session.finish = "CUT"
+    triangle = session._triangles[100]
+    one, two = (FacePoint(100, tuple(triangle.tolist()), weights) for weights in ((0.6, 0.2, 0.2), (0.57, 0.22, 0.21)))
+    end = int(triangle[0]) if to_vertex else two
+    session.start(one)
+    session.hover(Snap(end, seen_along=DOWN))
+    session.wait()
+    assert session.straight_active
+    assert session.click(Snap(end, seen_along=DOWN))
+    (wire,) = session.wires
+    assert wire.vertices == (triangle[0],)
+    assert (wire.start, wire.end) == (one, end)
+    assert session.edges_to_mark() == []
+    session.end_chain()
+    session.finish = "SNAP"
+    session.start(one)
+    session.hover(Snap(end, seen_along=DOWN))
+    session.wait()
+    assert not session.click(Snap(end, seen_along=DOWN))
+    assert "meets no edge" in session.message

@@ -46,7 +46,11 @@ def straight_wire(live: LiveWire, begin: Pick, end: Pick, direction: Direction, 
     ends = [None if isinstance(pick, FacePoint) else pick for pick in (begin, end)]
     chain = core.fit_chain(surface, points, triangles, *ends)
     vertices = tuple(int(v) for v in chain.vertices)
-    if len(vertices) < 2 or any(
+    inside = next((pick for pick in (begin, end) if isinstance(pick, FacePoint)), None)
+    if len(vertices) < 2 and inside is not None:
+        # Between points of one face there may be no edge to snap to.
+        vertices = (next((pick for pick in ends if isinstance(pick, int)), inside.vertex),)
+    elif len(vertices) < 2 or any(
         pick is not None and pick != vertices[at] for at, pick in zip((0, -1), ends, strict=True)
     ):
         return None
