@@ -12,7 +12,7 @@ from seamwire.core import transfer
 from seamwire.core.geometry import nearest_on_segments
 from seamwire.core.network import Network, Wire
 from seamwire.core.network_file import NetworkFile, NetworkFileError
-from seamwire.core.placing import Landmarks, Shape, Similarity, Surface
+from seamwire.core.placing import Aligned, Landmarks, Shape, Similarity, Surface
 from seamwire.core.strokes import Scribble
 from seamwire.core.transfer import by_landmarks, by_numbers, by_surface, transferred_seams
 
@@ -144,6 +144,13 @@ def test_where_it_fits_as_well_turned_that_is_said_and_every_seed_is_doubtful(fi
     assert [text for text in found.doubts if "fits as well" in text] == found.doubts != []
     assert {transfer.word_for(seed.confidence) for seed in found.seeds} == {"doubtful"}
     assert by_surface(file, flat).doubts == [], "it lies on it as it is"
+
+
+def test_what_only_lies_elsewhere_is_not_called_turned() -> None:
+    shifted = replace(Similarity.none(), shift=np.array([2.0, 0.0, 0.0]))
+    assert Aligned(Similarity.none(), shifted).doubt.startswith("moved to another place the network fits as well")
+    turned = replace(shifted, rotation=np.diag([-1.0, -1.0, 1.0]))
+    assert Aligned(Similarity.none(), turned).doubt.startswith("turned by 180 degrees the network fits as well")
 
 
 def test_it_is_mirrored(file: NetworkFile) -> None:

@@ -23,6 +23,8 @@ _ELSEWHERE = 0.1
 _RIVAL = 2.0
 """How many times farther off something may lie elsewhere for it to be as likely: on artists' models, moved and with another topology,
 it is 1.06 where the wrong one is nearest, and 2.6 at least where only one is right (docs/benchmarks.md)."""
+_TURNED = 5.0
+"""Degrees: what is turned by less than that lies elsewhere because it is moved."""
 _SAMPLE = 100
 """How many points it looks at."""
 _TRIMMED = 0.8
@@ -215,10 +217,9 @@ class Aligned:
         if self.rival is None:
             return ""
         cosine = 0.5 * (np.trace(self.rival.rotation @ self.way.rotation.T) - 1.0)
-        return (
-            f"turned by {np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0))):.0f} degrees the network fits as well: "
-            "look whether it lies right, or give pairs"
-        )
+        turn = np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
+        elsewhere = f"turned by {turn:.0f} degrees" if turn >= _TURNED else "moved to another place"
+        return f"{elsewhere} the network fits as well: look whether it lies right, or give pairs"
 
 
 class Surface:
