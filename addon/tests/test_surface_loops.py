@@ -78,6 +78,29 @@ def test_of_cuts_along_the_same_edges_one_is_offered(monkeypatch: pytest.MonkeyP
     assert session.edges_to_mark() == edges(*LEFT)
 
 
+@pytest.mark.parametrize(("finish", "count"), [("SNAP", 2), ("SLIDE", 2), ("CUT", 3)])
+def test_cuts_that_run_apart_along_the_same_edges_are_two_where_they_are_to_be_cut(
+    monkeypatch: pytest.MonkeyPatch, finish: str, count: int
+) -> None:
+    squares = FakeLive.closed_wires
+
+    def one_beside_it(self: FakeLive, through: object) -> FakeCuts:
+        found = squares(self, through)
+        first = found.cuts[0]
+        pieces = [replace(piece, points=piece.points + 0.1) for piece in first.pieces]
+        return FakeCuts([first, replace(first, pieces=pieces), *found.cuts], found.final)
+
+    monkeypatch.setattr(FakeLive, "closed_wires", one_beside_it)
+    session = table().session
+    session.finish = finish
+    session.hover(8, loop=True)
+    assert len(session.loop_offers) == count
+    session.toggle()
+    shown = session.loop_preview
+    session.click(8)
+    np.testing.assert_array_equal(session.wires[0].points[0], shown.points[0])
+
+
 def test_after_it_was_taken_it_is_not_offered_again_until_another_point() -> None:
     session = table().session
     session.hover(8, loop=True)

@@ -293,8 +293,7 @@ class Session:
             return self._refuse(f"No ridge or valley runs at {name(pick)}")
         points, triangles = self._crests.line(number)
         first = FacePoint.at(points[0], int(triangles[0]), self._triangles, self._points)
-        anywhere = self.marking and self.finish == "CUT"
-        begin: Pick = first if anywhere and self.along == "SURFACE" else first.vertex
+        begin: Pick = first if self._into_faces and self.along == "SURFACE" else first.vertex
         line = self._new_line(begin, None, None)
         line.to(points, triangles, None, self._stops.kept(self._network))
         self._cuts.was_taken(pick)
@@ -521,8 +520,7 @@ class Session:
         if self.along == "EDGES":
             return EdgeLine(self._engines, self._points, vertex, before)
         assert self._triangles is not None
-        anywhere = self.marking and self.finish == "CUT"
-        return SurfaceLine(self._engines, self._points, self._triangles, place, anywhere)
+        return SurfaceLine(self._engines, self._points, self._triangles, place, self._into_faces)
 
     def line_to(self, points: NDArray[np.float64], triangles: NDArray[np.int32], snap: Snap | Pick | None) -> bool:
         """Draw the line on.
@@ -1105,6 +1103,11 @@ class Session:
         return self._edge_loops if self.along == "EDGES" else self._cuts
 
     @property
+    def _into_faces(self) -> bool:
+        """Whether wires across the surface that are kept from here on are to be cut into the faces."""
+        return self.marking and self.finish == "CUT"
+
+    @property
     def _offers_final(self) -> bool:
         return self._edge_loops.final and self._cuts.final
 
@@ -1269,6 +1272,7 @@ class Session:
         try:
             # What a click on an edge offers is found along edges, however wires run now.
             offers = self._edge_loops if isinstance(pick, tuple) else self._cuts
+            self._cuts.into_faces = self._into_faces
             return self._with_crest(pick, offers.find(pick, self._network, kept), kept)
         except ValueError as error:
             self.message = str(error)

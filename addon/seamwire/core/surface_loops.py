@@ -15,7 +15,7 @@ from .solver import for_live
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .network import Edge, LoopKind, Network, Pick
+    from .network import LoopKind, Network, Pick
     from .solver import ClosedCut, Engines
 
 
@@ -57,6 +57,8 @@ class SurfaceLoops(Offers):
         self._cuts: list[TakenCut] = []
         self.bends = False
         """Whether the offer is the cut that was taken last, bent to the pick."""
+        self.into_faces = False
+        """Whether what is taken is to be cut into the faces: else two cuts that go to the same edges are one."""
 
     def takes(self, pick: Pick) -> bool:
         """Whether it is a point of the surface."""
@@ -87,15 +89,20 @@ class SurfaceLoops(Offers):
             found = live.closed_wires(for_live(pick, "SURFACE"))
         self.final = found.final
         self._found = {}
-        shown: dict[frozenset[Edge], Wire] = {}  # on a coarse mesh, cuts apart from each other may go to the same edges
+        shown: list[Wire] = []
         for each in found.cuts:
             pieces = self._pieces_of(each, begin)
             if len(pieces) < 2:
                 continue
             whole = _whole(pieces, each.separates)
-            if shown.setdefault(frozenset(whole.edges()), whole) is whole:
+            if not any(self._alike(whole, other) for other in shown):
+                shown.append(whole)
                 self._found[whole.id] = pieces, each.which
-        return tuple(shown.values())
+        return tuple(shown)
+
+    def _alike(self, one: Wire, other: Wire) -> bool:
+        # On a coarse mesh, cuts apart from each other may go to the same edges.
+        return one.like(other) or (not self.into_faces and set(one.edges()) == set(other.edges()))
 
     def bend(self, bends: bool) -> bool:
         """Offer the cut that was taken last, bent to the pick, or those through the pick again; return whether others vanish."""
