@@ -79,6 +79,33 @@ def test_each_view_is_seen_with_its_legend_and_gone_when_it_is_switched_off(desk
         assert views().legends() == []
 
 
+def test_a_flattened_object_has_no_silhouette(desk: Desk) -> None:
+    settings().show_silhouette = True
+    desk.obj.scale.z = 0.0
+    desk.choose()
+    desk.ui.wait_until(lambda: shown(views()))
+    desk.start()
+    screen(desk)
+    assert desk.running, "drawing it ended nothing"
+    assert len(views()._made["silhouette"][1][1]._ends) == 0
+    desk.ui.key("ESC")
+    desk.obj.scale.z = 1.0
+    desk.ui.wait_until(lambda: shown(views()))
+    screen(desk)
+    assert len(views()._made["silhouette"][1][1]._ends) > 0
+    settings().property_unset("show_silhouette")
+
+
+def test_a_sheet_seen_from_above_has_no_silhouette(ui: driver.Ui) -> None:
+    desk = grid(ui)
+    settings().show_silhouette = True
+    desk.choose()
+    desk.ui.wait_until(lambda: shown(views()))
+    screen(desk)
+    assert len(views()._made["silhouette"][1][1]._ends) == 0
+    settings().property_unset("show_silhouette")
+
+
 @pytest.mark.parametrize("perspective", ["ORTHO", "PERSP"])
 def test_the_silhouette_follows_the_view(desk: Desk, perspective: str) -> None:
     desk.ui.view.view_perspective = perspective

@@ -118,9 +118,12 @@ class Eye:
         return clip[:, :2] / w * 0.5 * self.size
 
     @property
-    def place(self) -> NDArray[np.float64]:
-        """Where the eye is in what is drawn, (4,): x, y, z and 1, or the direction to it and 0."""
-        place = np.linalg.inv(self._to_clip) @ (0.0, 0.0, -1.0, 0.0)
+    def place(self) -> NDArray[np.float64] | None:
+        """Where the eye is in what is drawn, (4,): x, y, z and 1, or the direction to it and 0; None: that is flattened."""
+        try:
+            place = np.linalg.inv(self._to_clip) @ (0.0, 0.0, -1.0, 0.0)
+        except np.linalg.LinAlgError:
+            return None
         return np.append(place[:3], 0.0) if self._orthographic else place / place[3]
 
     @property
@@ -149,7 +152,9 @@ class Lines:
         self._ground = self._make(ends) if style.dash and style.halo else None
         self._batch = None if style.dash else self._make(ends)
 
-    def _make(self, ends: NDArray[np.float64]) -> gpu.types.GPUBatch:
+    def _make(self, ends: NDArray[np.float64]) -> gpu.types.GPUBatch | None:
+        if not len(ends):
+            return None  # Blender makes none of nothing
         return batch_for_shader(self._shader, "LINES", {"pos": ends.reshape(-1, 3).astype(np.float32)})
 
     def within(self, eye: Eye) -> Lines:

@@ -228,7 +228,9 @@ class MetricViews:
         """Return the silhouette from where it is seen now: found anew where that has changed."""
         kept = self._once("silhouette", silhouette, lambda: [b"", None])
         if kept[0] != eye.key:
-            kept[:] = eye.key, Lines(_SILHOUETTE, silhouette.seen_from(eye.place))
+            place = eye.place
+            segments = np.empty((0, 2, 3)) if place is None else silhouette.seen_from(place)
+            kept[:] = eye.key, Lines(_SILHOUETTE, segments)
         return kept[1]
 
     def _invalid_faces(self, invalid: metric_fields.Invalid) -> Faces:
