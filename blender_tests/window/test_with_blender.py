@@ -98,6 +98,26 @@ def test_x_is_blenders_where_there_is_no_wire(desk: Desk, monkeypatch: pytest.Mo
     desk.ui.key("ESC")
 
 
+def test_along_edges_a_click_with_shift_and_alt_is_blenders(desk: Desk) -> None:
+    ui = desk.ui
+    desk.choose()
+    with ui.override():
+        bpy.ops.mesh.select_mode(type="EDGE")
+        bpy.ops.mesh.select_all(action="DESELECT")
+    place = desk.at(40, 41)
+    ui.move(place)
+    ui.event("LEFT_SHIFT", "PRESS", place, shift=True)
+    ui.event("LEFT_ALT", "PRESS", place, shift=True, alt=True)
+    assert not desk.running, "nothing is offered that there could be"
+    ui.click(place, shift=True, alt=True)
+    ui.event("LEFT_ALT", "RELEASE", place, shift=True)
+    ui.event("LEFT_SHIFT", "RELEASE", place)
+    assert desk.left_clean()
+    selected = [edge for edge in bmesh.from_edit_mesh(desk.obj.data).edges if edge.select]
+    assert len(selected) == 8, "a loop"
+    assert seams(desk.obj) == []
+
+
 def test_hidden_wires_stay_and_are_back_when_they_are_shown(desk: Desk) -> None:
     desk.choose()
     draw(desk, 36, 44)

@@ -25,9 +25,9 @@ _FIRST = (
     ("REMOVE", "Remove", "Remove the wire or the stroke; where there is none, Blender has the key", 5),
     ("NEXT", "Next Candidate", "Let the wire take its other path; where there is none, Blender has the key", 6),
     ("PEEK", "Show Loop", "Show the loop that a click would take, while the key is held", 7),
-    ("BEND", "Bend Closed Cut", "Bend the closed cut that was taken last", 8),
+    ("BEND", "Bend Closed Cut", "Bend the closed cut that was taken last; along edges, Blender has the key", 8),
 )
-_FOR_BLENDER = {"REMOVE", "NEXT", "PEEK"}
+_FOR_BLENDER = {"REMOVE", "NEXT", "PEEK", "BEND"}
 """Where these find nothing to do, the key has Blender's meaning."""
 
 

@@ -255,16 +255,24 @@ class Chain:
             done = self._remove(place)
         elif action is Action.NEXT:
             done = self._next_kept(place)
+        elif action is Action.BEND and not self._bends:
+            done = False
         else:
             done = True
             (self._begin_stroke if action in _STROKES else self._click)(action, place, event)
         self._after()
         return done
 
+    @property
+    def _bends(self) -> bool:
+        """Whether there may be a closed cut to be bent: along edges there is none."""
+        return self.session.along == "SURFACE"
+
     def peek(self, event: bpy.types.Event) -> bool:
         """Show the loop under the mouse while the key of an event is held; return whether it shows loops."""
         place = place_of(self._window, event)
-        if place is None or not any(self.keys.previews(action, event) for action in _OFFERED):
+        offered = _OFFERED if self._bends else (Action.LOOP,)
+        if place is None or not any(self.keys.previews(action, event) for action in offered):
             return False
         self._begun, self._peek = True, event.type
         self._hover(place, event)
