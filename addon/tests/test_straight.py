@@ -74,6 +74,20 @@ def test_it_is_there_at_once_while_others_are_computed(session: Session) -> None
     assert off_plane(session, wire.points) < 1e-9
 
 
+def test_the_wire_that_closes_a_chain_is_straight_too(session: Session) -> None:
+    aim(session)
+    session.click(Snap(END, seen_along=DOWN))
+    third = 19 * SIDE + 2
+    session.hover(Snap(third, seen_along=DOWN))
+    session.wait()
+    session.click(Snap(third, seen_along=DOWN))
+    session.wait()
+    assert session.close(DOWN)
+    session.wait()
+    assert session.seed is None
+    assert off_plane(session, session.wires[-1].points, third, START) < 1e-9
+
+
 def test_the_wheel_goes_on_to_the_others_and_round(session: Session) -> None:
     aim(session)
     ways = [session.active]

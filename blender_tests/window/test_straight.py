@@ -16,7 +16,7 @@ from seamwire.mesh.settings import settings
 from seamwire.view.edited_objects import edited
 
 SIDE = 33
-START, END = 4 * SIDE + 5, 26 * SIDE + 27
+START, END, THIRD = 4 * SIDE + 5, 26 * SIDE + 27, 27 * SIDE + 8
 
 
 @pytest.fixture
@@ -87,6 +87,19 @@ def test_where_the_view_has_turned_it_is_straight_in_that(desk: Desk) -> None:
     ui.wait_until(lambda: not desk.session.computing)
     assert desk.session.straight_active
     assert bend_on_screen(desk, desk.session.active) < 0.05
+
+
+def test_the_key_that_closes_a_chain_closes_it_straight(desk: Desk) -> None:
+    ui = desk.ui
+    desk.choose()
+    aim(desk)
+    session = desk.session
+    ui.click(desk.at(END))
+    ui.click(desk.at(THIRD))
+    ui.wait_until(lambda: len(session.wires) == 2)
+    ui.key("C")
+    ui.wait_until(lambda: len(session.wires) == 3)
+    assert bend_on_screen(desk, session.wires[2]) < 0.05
 
 
 def test_w_goes_on_to_the_wires_of_the_metric(desk: Desk) -> None:

@@ -313,13 +313,13 @@ class Session:
         self.revision += 1
         return True
 
-    def close(self) -> bool:
-        """Lead the live wire back to the chain's first seed, keep it and end the chain."""
+    def close(self, seen_along: tuple[float, float, float] | None = None) -> bool:
+        """Lead the live wire back to the chain's first seed, keep it and end the chain; `seen_along`: as a snap has it."""
         first = self.closing_point
         if first is None:
             return self._refuse("There is no chain to close: draw a wire first")
         self._extension.wanted = False
-        return self.click(Snap(first, "SEED"))
+        return self.click(Snap(first, "SEED", seen_along=seen_along))
 
     def run_to_end(self, preview: bool = False) -> bool:
         """Let the live wire run straight on until it meets a seam, a wire, the boundary, the mirror or itself.

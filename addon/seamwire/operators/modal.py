@@ -507,7 +507,8 @@ class Chain:
             if session.change_strength(1 if action is Action.STRONGER else -1):
                 self.message = f"Strength {session.strength:.3g}"
         elif action is Action.CLOSE:
-            session.close()
+            first = session.closing_point
+            session.close(None if first is None else self.view.seen_along(place.view, first))
         elif action is Action.EXTEND:
             session.run_to_end(preview=session.end_preview is None)
         elif action is Action.CLEAR:

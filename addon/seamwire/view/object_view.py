@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.metric_fields import Source
-    from ..core.network import Snap
+    from ..core.network import Pick, Snap
     from ..core.session import Session
     from ..core.strokes import Scribble
     from .text_overlay import Row
@@ -194,9 +194,13 @@ class ObjectView:
             crests=self.views.crests if (settings.show_crests and across if plain else settings.snap) else None,
             scale=bpy.context.preferences.system.ui_scale,
         )
-        if snap is None or not settings.straight or not across or isinstance(snap.pick, tuple):
-            return snap
-        return replace(snap, seen_along=self._picker.seen_along(view, self.obj.matrix_world, snap.pick))
+        return None if snap is None else replace(snap, seen_along=self.seen_along(view, snap.pick))
+
+    def seen_along(self, view: View, pick: Pick) -> tuple[float, float, float] | None:
+        """Return the direction from the viewer to a pick where wires that are straight in the view are offered, else None."""
+        if not chosen.settings().straight or self.session.along == "EDGES" or isinstance(pick, tuple):
+            return None
+        return self._picker.seen_along(view, self.obj.matrix_world, pick)
 
     def depth(self, view: View, cursor: tuple[float, float]) -> float | None:
         """Return how far from the viewer the object is under the cursor; None where it is not."""
