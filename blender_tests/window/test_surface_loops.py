@@ -4,10 +4,12 @@
 import math
 from collections import Counter
 
+import numpy as np
 import pytest
 import ui as driver
 from desk import GREEN, Desk, shows
 from scene import add_object, seams
+from seamwire.core.geometry import nearest_on_segments
 from seamwire.core.surface_loops import SurfaceLoops
 from seamwire.mesh.settings import settings
 from seamwire.operators.report import running
@@ -146,6 +148,70 @@ def test_it_can_be_cut_into_the_faces(desk: Desk) -> None:
     length = sum((obj.data.vertices[a].co - obj.data.vertices[b].co).length for a, b in marked)
     assert length == pytest.approx(2.0 * math.pi * 0.2, rel=0.03)
     assert len(obj.data.vertices) >= count
+
+
+SECONDS = (WAIST + 6 * AROUND + 3, WAIST - 4 * AROUND + 2)
+
+
+def bend(desk: Desk, vertex: int) -> np.ndarray:
+    """Bend the cut taken last to a vertex; return how it was shown."""
+    ui, away = desk.ui, desk.at(vertex)
+    ui.move(away)
+    ui.event("LEFT_ALT", "PRESS", away, alt=True)
+    ui.event("LEFT_SHIFT", "PRESS", away, alt=True, shift=True)
+    ui.event("MOUSEMOVE", "NOTHING", away, alt=True, shift=True)
+    ui.wait_until(lambda: desk.session.loop_preview is not None and not desk.session.computing)
+    assert desk.session.bending
+    shown = desk.session.loop_preview.points
+    ui.click(away, alt=True, shift=True)
+    ui.event("LEFT_SHIFT", "RELEASE", away, alt=True)
+    ui.event("LEFT_ALT", "RELEASE", away)
+    assert desk.left_clean()
+    return shown
+
+
+def courses_when_bent(desk: Desk, finish: str) -> list[np.ndarray]:
+    """Take a cut at the waist and bend it twice; return how it was shown bent."""
+    settings().finish = finish
+    place = offer(desk, WAIST)
+    desk.ui.click(place, alt=True)
+    desk.ui.event("LEFT_ALT", "RELEASE", place)
+    assert desk.left_clean()
+    return [bend(desk, second) for second in SECONDS]
+
+
+def is_closed(marked: list[tuple[int, int]]) -> bool:
+    return bool(marked) and set(Counter(v for edge in marked for v in edge).values()) == {2}
+
+
+@pytest.mark.parametrize("finish", ["CUT", "SLIDE"])
+def test_what_was_cut_into_the_faces_or_slid_is_bent_as_on_the_mesh_before(desk: Desk, finish: str) -> None:
+    ui = desk.ui
+    places = [np.array(vertex.co) for vertex in desk.obj.data.vertices]
+    plain = courses_when_bent(desk, "SNAP")
+    for _ in range(3):
+        ui.key("Z", ctrl=True)
+    assert seams(desk.obj) == []
+    settings().finish = finish
+    place = offer(desk, WAIST)
+    ui.click(place, alt=True)
+    ui.event("LEFT_ALT", "RELEASE", place)
+    marked = [seams(desk.obj)]
+    for second, course in zip(SECONDS, plain, strict=True):
+        shown = bend(desk, second)
+        gaps = [nearest_on_segments(one, course[:-1], course[1:])[1].min() for one in shown]
+        assert max(gaps) < 0.02, "around the same limb, through the same points"
+        marked.append(seams(desk.obj))
+        assert is_closed(marked[-1]) or finish == "SLIDE", "nothing of the cut before is left"
+        desk.obj.update_from_editmode()
+        ends = np.array([desk.obj.data.vertices[v].co for edge in marked[-1] for v in edge])
+        for vertex in (WAIST, second):
+            assert np.linalg.norm(ends - places[vertex], axis=1).min() < 0.03
+    for before in reversed(marked[:-1]):
+        ui.key("Z", ctrl=True)
+        assert seams(desk.obj) == before
+    bend(desk, SECONDS[1])
+    assert seams(desk.obj) not in [[], marked[0]], "what undo brought back is bent elsewhere"
 
 
 def test_where_nothing_suggests_one_the_status_bar_says_so(desk: Desk) -> None:

@@ -37,6 +37,7 @@ from .symmetry import Symmetry
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
+    from .closed_cuts import TakenCut
     from .crests import Crests
     from .line_drawing import Line
     from .network import Along, Edge, Finish, LoopKind, Pick
@@ -789,6 +790,15 @@ class Session:
             seed = None
         self._set(replace(network, seed=seed, mirror=self._network.mirror))
         self._settle()
+
+    @property
+    def taken_cuts(self) -> tuple[TakenCut, ...]:
+        """The closed cuts that are there still as they were taken, the last one at the end."""
+        return self._cuts.taken(self._network)
+
+    def recall_cuts(self, cuts: Iterable[TakenCut]) -> None:
+        """Let closed cuts that were taken elsewhere be those that may be bent, as far as their wires are here."""
+        self._cuts.recall(cuts)
 
     # Taking in what was computed
 

@@ -3,35 +3,27 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .closed_cuts import TakenCut, is_same
 from .network import FacePoint, Wire
 from .offers import Offers
 from .solver import for_live
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from numpy.typing import NDArray
 
     from .network import LoopKind, Network, Pick
-    from .solver import ClosedCut, Engines
+    from .solver import ClosedCut, Engines, LiveWire
 
 
 NOTHING_TO_BEND = "There is no closed cut to bend: take one first"
-
-
-@dataclass(frozen=True)
-class TakenCut:
-    """A closed cut that is kept, and where it came from: what it takes to bend it."""
-
-    through: Pick
-    which: int
-    """What the library calls it among those through that point."""
-    wires: tuple[Wire, ...]
-    metric: tuple[object, ...]
-    """What it was found by."""
+CUT_IS_GONE = "The cut is not found again on the mesh as it is now: undo, or take another one"
 
 
 class SurfaceLoops(Offers):
@@ -82,7 +74,11 @@ class SurfaceLoops(Offers):
             if cut is None:
                 raise ValueError(NOTHING_TO_BEND)
             begin = cut.through
-            found = live.bent_wire(for_live(begin, "SURFACE"), for_live(pick, "SURFACE"), cut.which)
+            which = self._which(cut, live)
+            if which is None:
+                self.final = False
+                return ()
+            found = live.bent_wire(for_live(begin, "SURFACE"), for_live(pick, "SURFACE"), which)
             if found.final and not found.cuts:
                 raise ValueError("No closed cut leads through both points")
         else:
@@ -115,14 +111,35 @@ class SurfaceLoops(Offers):
 
     def bendable(self, network: Network) -> TakenCut | None:
         """Return the cut taken last of those that a network has still as they were, and that would be found again."""
-
-        def is_there(wire: Wire) -> bool:
-            own = network.find(wire)
-            return own is not None and own.like(wire)
-
         metric = self._metric
-        there = (cut for cut in reversed(self._cuts) if cut.metric == metric and all(map(is_there, cut.wires)))
-        return next(there, None)
+        known = (cut for cut in reversed(self._cuts) if cut.which is None or cut.metric == metric)
+        return next((cut for cut in known if cut.is_in(network)), None)
+
+    def taken(self, network: Network) -> tuple[TakenCut, ...]:
+        """Return the cuts, taken or recalled, that a network has still as they were, the last one at the end."""
+        return tuple(cut for cut in self._cuts if cut.is_in(network))
+
+    def recall(self, cuts: Iterable[TakenCut]) -> None:
+        """Go on from cuts that were taken in other sessions, in place of those taken in this one."""
+        self._cuts = list(cuts)
+
+    def _which(self, cut: TakenCut, live: LiveWire) -> int | None:
+        """Return what the library calls a cut that is bent; None while that is computed, where it was taken on another mesh.
+
+        On a mesh that was cut the numbers are others: it is the one that runs as the cut ran.
+        """
+        if cut.which is not None:
+            return cut.which
+        found = live.closed_wires(for_live(cut.through, "SURFACE"))
+        if not found.final:
+            return None
+        apart = {each.which: is_same(cut.course, _course(each)) for each in found.cuts}
+        same = {which: gap for which, gap in apart.items() if gap is not None}
+        if not same:
+            raise ValueError(CUT_IS_GONE)
+        which = min(same, key=same.__getitem__)
+        self._cuts[self._cuts.index(cut)] = replace(cut, which=which, metric=self._metric)
+        return which
 
     @property
     def _metric(self) -> tuple[object, ...]:
@@ -140,8 +157,8 @@ class SurfaceLoops(Offers):
 
     def take(self, pick: Pick, offer: Wire, wires: tuple[Wire, ...], before: TakenCut | None) -> None:
         """Remember that an offer found last for a pick is kept now, as these wires; `before`: in place of a cut."""
-        through = pick if before is None else before.through
-        self._cuts.append(TakenCut(through, self._found[offer.id][1], wires, self._metric))
+        through, course = (pick, offer.points) if before is None else (before.through, before.course)
+        self._cuts.append(TakenCut(through, course, wires, self._found[offer.id][1], self._metric))
         self.was_taken(pick)
 
     def was_taken(self, pick: Pick) -> None:
@@ -168,6 +185,11 @@ class SurfaceLoops(Offers):
             )
             for piece, start, end in zip(cut.pieces, [pick, *joints], [*joints, pick], strict=True)
         )
+
+
+def _course(cut: ClosedCut) -> NDArray[np.float64]:
+    """Return how a cut runs, (k, 3), from its point around to it."""
+    return np.concatenate([np.asarray(piece.points, dtype=np.float64) for piece in cut.pieces])
 
 
 def _whole(pieces: tuple[Wire, ...], separates: bool) -> Wire:

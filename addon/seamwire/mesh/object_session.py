@@ -13,6 +13,7 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 
 from ..core import cutting, serialization, sliding, wire_labels
+from ..core.closed_cuts import CutMemory
 from ..core.cutting import CuttingError
 from ..core.live_maker import LiveMaker
 from ..core.network import FacePoint, edges_after, vertices_of
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from ..core.closed_cuts import TakenCut
     from ..core.cutting import CutPlan
     from ..core.network import Along, Edge, Finish, Network, Wire
     from ..core.strokes import Scribble
@@ -42,6 +44,8 @@ _MOMENT = 0.1
 
 _archive = Archive()
 """All records that this Blender has seen: undo brings back labels whose records no mesh holds any more."""
+_taken_cuts = CutMemory()
+"""All closed cuts that were taken in this Blender, to be bent after they were cut."""
 
 
 def mirror_axes(mesh: bpy.types.Mesh) -> tuple[int, ...]:
@@ -125,6 +129,7 @@ class ObjectSession:
         self._newer = False
         self._damaged = False
         self._renumbered = False
+        self._unstored = False
         self._adopt(self.cage.labels())
         self.follow_mirror()
 
@@ -150,7 +155,7 @@ class ObjectSession:
     def busy(self) -> bool:
         """Whether something is being computed."""
         looking = self._looking is not None and self._looking.is_alive()
-        return self.session.computing or self.session.waiting_clicks > 0 or looking
+        return self.session.computing or self.session.waiting_clicks > 0 or looking or self._unstored
 
     def follow_mirror(self) -> None:
         """Take over the mesh's own mirror."""
@@ -273,6 +278,7 @@ class ObjectSession:
             self._found = Found(self.session.network)
         if not self._damaged:
             self._store()
+        self.session.recall_cuts(_taken_cuts.recall(self.session.network, self.places))
 
     def _set_seams(self, seams: NDArray[np.int32], labels: EdgeLabels) -> None:
         self.arrays = replace(self.arrays, seams=seams)
@@ -302,10 +308,20 @@ class ObjectSession:
             return
         text = _archive.text(np.unique(self._labels.labels).tolist())
         mesh = self.cage.mesh
-        if mesh.seamwire_wires != text:
-            mesh.seamwire_wires = text
-        if text and FIRST_VERSION in mesh:
-            del mesh[FIRST_VERSION]
+        self._unstored = False
+        try:
+            if mesh.seamwire_wires != text:
+                mesh.seamwire_wires = text
+            if text and FIRST_VERSION in mesh:
+                del mesh[FIRST_VERSION]
+        except AttributeError:
+            # While Blender asks what is under the mouse nothing may be written; after undo the records may be others by then.
+            self._unstored = True
+
+    def poll(self) -> None:
+        """Let the mesh hold what could not be written yet."""
+        if self._unstored and self.alive():
+            self._store()
 
     def plan(self) -> wire_labels.Plan:
         """Return what the mesh's edges must be for the session's network."""
@@ -349,6 +365,7 @@ class ObjectSession:
         self._store()
         if adopt:
             self.session.adopt(replace(plan.network, seed=None), self.plain_seams)
+            _taken_cuts.keep(self.session.taken_cuts, self.session.network, self.places)
         return written
 
     def add(self, wires: Iterable[Wire], strokes: Iterable[Scribble] = ()) -> None:
@@ -404,7 +421,14 @@ class ObjectSession:
             raise CuttingError("No wire leaves the face that it begins in")
         return plan
 
-    def cut(self, plan: CutPlan, wires: Collection[Wire], kept: bool = False, before: Network | None = None) -> cut.Cut:
+    def cut(
+        self,
+        plan: CutPlan,
+        wires: Collection[Wire],
+        kept: bool = False,
+        before: Network | None = None,
+        taken: Collection[TakenCut] | None = None,
+    ) -> cut.Cut:
         """Cut the mesh; what was cut are wires along its edges then, between the seeds of those across the surface.
 
         Vertices, edges and faces have other numbers then: this session is over.
@@ -419,12 +443,15 @@ class ObjectSession:
             Whether the mesh has these wires already: their snapped edges cease to be seams.
         before
             A network that the mesh had: what wires of it were cut along that are there no more is taken back first.
+        taken
+            The closed cuts that are among these wires; None: those of the session.
 
         Raises
         ------
         CuttingError
             Where a wire cannot be cut into the mesh without the cuts taken back; these, and the wires, are gone then.
         """
+        taken = self.session.taken_cuts if taken is None else taken
         images = [replace(image, mirror=()) for wire in wires for image in self.session.mirrored(wire)]
         if kept:
             for wire in wires:
@@ -436,14 +463,20 @@ class ObjectSession:
             after = ObjectSession(self.obj)
             # Those of images as well: there is no chain of edges to be mirrored yet.
             placed = after._placed((*wires, *images))
-            return after.cut(after.plan_cut(placed), placed)
+            return after.cut(after.plan_cut(placed), placed, taken=taken)
         seeds = {end for wire in wires for end in (wire.start, wire.end)}
         done = cut.carry_out(self.cage, plan, seeds)
         after = ObjectSession(self.obj)
-        taken = {edge for wire in after.session.wires for edge in wire.claims()}
-        after.take_over(after._cut_wires({edge for edge in done.edges if edge not in taken}, wires, done.seeds))
+        claimed = {edge for wire in after.session.wires for edge in wire.claims()}
+        after.take_over(after._cut_wires({edge for edge in done.edges if edge not in claimed}, wires, done.seeds))
+        after._go_on_with(taken)
         after.write(after.plan())
         return done
+
+    def _go_on_with(self, taken: Iterable[TakenCut]) -> None:
+        """Let closed cuts that were taken before the mesh was changed be bent on it."""
+        own = (cut.of(self.session.network) for cut in taken)
+        self.session.recall_cuts(cut for cut in own if cut is not None)
 
     def take_back_cuts(self, before: Network) -> int:
         """Take back what wires of a network before were cut along that are there no more; return how many edges went.
@@ -548,6 +581,7 @@ class ObjectSession:
                 for wire in network.wires
             ]
             after.session.adopt(replace(network, wires=tuple(kept)), after.plain_seams)
+            after._go_on_with(self.session.taken_cuts)
             after.write(after.plan())
         return len(moves)
 

@@ -160,6 +160,7 @@ class ObjectView:
 
     def poll(self) -> bool:
         """Take in what was computed; return whether there is something new to be seen."""
+        self.mesh.poll()
         told = self.views.poll()
         self.session.use_crests(self.views.crests, chosen.settings().show_crests)
         return any((self.session.poll(), self.overlay.poll(), told))

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What of closed cuts outlives a session: on a mesh that was cut they are bent all the same."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from fake_live import FakeCuts, FakeLive
+from seamwire.core.closed_cuts import CutMemory
+from seamwire.core.network import Network, Wire
+from seamwire.core.session import Session
+from seamwire.core.surface_loops import CUT_IS_GONE, NOTHING_TO_BEND
+from seamwire.core.wire_labels import Places
+from table import Table
+
+SCALE = np.diag([2.0, 1.0, 1.0])
+
+
+def taken(left: bool = False) -> Session:
+    session = Table("SURFACE").session
+    session.hover(8, loop=True)
+    if left:
+        session.toggle()
+    session.click(8)
+    return session
+
+
+def as_cut(session: Session) -> list[Wire]:
+    """The wires as they are along edges, of which one seed has gone, with the numbers under which a mesh knows them."""
+    first, second, third = session.wires
+    middle = (*first.vertices, *second.vertices[1:])
+    ways = [(middle, np.vstack([first.points, second.points[1:]])), (third.vertices[::-1], third.points[::-1])]
+    return [
+        Wire("EDGES", way, points, way[0], way[-1], finish="CUT", stored=10 + number)
+        for number, (way, points) in enumerate(ways)
+    ]
+
+
+def after_cutting(session: Session, wires: list[Wire]) -> Table:
+    """A new session on a mesh that was cut, and that has these wires then."""
+    it = Table("SURFACE")
+    places = Places(it.points, SCALE)
+    memory = CutMemory()
+    cuts = [cut.of(Network(tuple(wires))) for cut in session.taken_cuts]
+    memory.keep([cut for cut in cuts if cut is not None], Network(tuple(wires)), places)
+    it.session.adopt(Network(tuple(replace(wire.anew(), stored=wire.stored) for wire in wires)), [])
+    it.session.recall_cuts(memory.recall(it.session.network, places))
+    return it
+
+
+@pytest.mark.parametrize("left", [False, True])
+def test_a_cut_is_bent_in_the_session_after_it_was_cut(left: bool) -> None:
+    session = taken(left)
+    it = after_cutting(session, as_cut(session))
+    assert it.session.can_bend
+    it.session.hover(28, bend=True)
+    it.session.poll()
+    assert it.lives["SURFACE"].bent[-1] == (8, 28, 4 if left else 0), (
+        "the one of those through the point that ran there"
+    )
+    assert it.session.click(28)
+    assert it.session.seeds() == [8, 28]
+    assert {wire.finish for wire in it.session.wires} == {"CUT"}
+    assert it.session.undo()
+    assert len(it.session.wires) == 2
+
+
+def test_it_is_the_one_that_runs_there_whatever_the_library_calls_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    session = taken()
+    squares = FakeLive.closed_wires
+
+    def renamed(self: FakeLive, through: object) -> FakeCuts:
+        found = squares(self, through)
+        return FakeCuts([replace(cut, which=cut.which + 3) for cut in reversed(found.cuts)], found.final)
+
+    monkeypatch.setattr(FakeLive, "closed_wires", renamed)
+    it = after_cutting(session, as_cut(session))
+    assert it.session.bend(28)
+    assert it.lives["SURFACE"].bent[-1] == (8, 28, 3)
+
+
+def test_where_none_runs_there_it_says_so() -> None:
+    session = taken()
+    it = after_cutting(session, as_cut(session))
+    it.lives["SURFACE"] = it.session._engines.cuts()
+    it.lives["SURFACE"].islands = (8,)
+    assert not it.session.bend(28)
+    assert it.session.message == CUT_IS_GONE
+    assert len(it.session.wires) == 2
+
+
+def test_what_is_not_all_there_is_forgotten() -> None:
+    session = taken()
+    for wires in (as_cut(session)[:1], [replace(wire, stored=0) for wire in as_cut(session)]):
+        it = after_cutting(session, wires)
+        assert not it.session.bend(28)
+        assert it.session.message == NOTHING_TO_BEND
+
+
+def test_what_was_changed_since_it_was_taken_is_not_handed_on() -> None:
+    session = taken()
+    assert len(session.taken_cuts) == 1
+    session.drop(session.wires[1])
+    assert session.taken_cuts == ()
