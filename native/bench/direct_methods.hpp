@@ -26,7 +26,8 @@ struct MetricSurface {
   std::vector<Eigen::Matrix3d> face_forms;  ///< the mean of those at the corners
   std::vector<std::vector<std::int32_t>> neighbors;
 };
-/// Throws InvalidInput where the surface was cut open, or has edges without a face.
+/// Throws InvalidInput where the surface is not manifold, or not oriented as it is given, or has degenerate or
+/// duplicate faces, or edges without a face.
 MetricSurface metric_surface(const Surface& surface, const Metric& metric);
 
 /// Every triangle cut into four, `levels` times, in its plane; tensors between others as the paper's subdivision has

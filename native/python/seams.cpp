@@ -141,7 +141,7 @@ may_start_on_others : bool
     Whether wires may start on the edges of others, where they ran beside them and left crumbs between. Where curves are
     cut, not edges marked, they have to run from seed to seed.
 straightened : bool
-    Whether direct wires take the place of those that meet at a seed, where they cost less.
+    Whether direct wires take the place of those that meet at a seed, and seeds slide, where that costs less.
 progress : callable, optional
     As above.
 

@@ -164,6 +164,11 @@ TEST(BentWires, WhatIsOfSomethingElseIsRefused) {
   EXPECT_THROW(BentWires(cut.surface, cut.embedding, cut.geodesics, two, cut.cuts[0]), InvalidInput);
   EXPECT_THROW(cut.bent().through(SurfacePoint::at_vertex(100'000)), InvalidInput);
   EXPECT_THROW(cut.bent().through({.face = 100'000, .barycentric = {1, 0, 0}}), InvalidInput);
+  const BentWires bent = cut.bent();
+  for (std::int32_t face = 0; face < static_cast<std::int32_t>(cut.embedding.mesh.face_count()); ++face) {
+    // Of all faces, those that the deepest places took out too.
+    EXPECT_THROW(bent.through({.face = face, .barycentric = {9, 9, 9}}), InvalidInput);
+  }
 }
 
 TEST(BentWires, TheyCanBeStopped) {

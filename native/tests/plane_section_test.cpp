@@ -18,6 +18,13 @@ namespace {
 
 SurfacePoint at(std::int32_t v) { return SurfacePoint::at_vertex(v); }
 
+// Of a point in a face.
+Vector place(const Surface& surface, const SurfacePoint& p) {
+  Vector sum = Vector::Zero();
+  for (std::size_t i = 0; i < 3; ++i) sum += p.barycentric[i] * surface.points()[surface.triangles()[p.face][i]];
+  return sum;
+}
+
 // The points lie in the plane, and in the faces that they say; each segment is in one of them.
 void expect_exact(const Surface& surface, const PlaneSection& section, const Vector& direction) {
   ASSERT_GE(section.points.size(), 2U);
@@ -106,16 +113,23 @@ TEST(PlaneSection, BetweenPointsInsideFacesIsStraightToo) {
     if (part(random) < 0.3) p.barycentric = {a, 0.0, 1 - a};
     return p;
   };
-  const auto place = [&](const SurfacePoint& p) {
-    Vector sum = Vector::Zero();
-    for (std::size_t i = 0; i < 3; ++i) sum += p.barycentric[i] * surface.points()[surface.triangles()[p.face][i]];
-    return sum;
-  };
   for (int i = 0; i < 300; ++i) {
     const SurfacePoint a = any(), b = any();
     const PlaneSection section = plane_section(surface, a, b, Vector::UnitZ());
     ASSERT_NO_FATAL_FAILURE(expect_exact(surface, section, Vector::UnitZ()));
-    EXPECT_NEAR(section.length, (place(b) - place(a)).norm(), 1e-12);
+    EXPECT_NEAR(section.length, (place(surface, b) - place(surface, a)).norm(), 1e-12);
+  }
+}
+
+TEST(PlaneSection, WithinOneFaceIsTheSegmentAlsoInThePlaneOfAFlatSheet) {
+  const Surface surface = shapes::grid(4).surface();
+  const SurfacePoint from{.face = 9, .barycentric = {0.2, 0.3, 0.5}}, to{.face = 9, .barycentric = {0.6, 0.3, 0.1}};
+  const double distance = (place(surface, to) - place(surface, from)).norm();
+  for (const Vector& direction : {Vector(Vector::UnitZ()), Vector(1.0, 0.3, 0.0)}) {
+    const PlaneSection section = plane_section(surface, from, to, direction);
+    EXPECT_EQ(section.points.size(), 2U);
+    EXPECT_EQ(section.faces, std::vector<std::int32_t>{9});
+    EXPECT_NEAR(section.length, distance, 1e-15);
   }
 }
 

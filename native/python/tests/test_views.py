@@ -63,6 +63,25 @@ def test_crest_lines_of_waves_are_ridges_on_tops_and_valleys_on_bottoms() -> Non
         lines.points[0] = 0.0
 
 
+def test_where_a_closed_chain_begins_makes_no_difference_to_crest_lines() -> None:
+    around, across, lobes = 48, 24, 5
+    _, triangles = meshes.torus(around, across)
+    u, v = np.tile(np.arange(around), across) * 2 * np.pi / around, np.arange(across).repeat(around) * 2 * np.pi / across
+    # A ring that is sharp in some places only.
+    off = np.exp(-((np.minimum(v, 2 * np.pi - v) / 0.35) ** 2))
+    radius = 0.15 * (1 + 0.2 * (1 + np.cos(lobes * u)) * off)
+    out = 0.4 + radius * np.cos(v)
+    points = np.stack([out * np.cos(u), out * np.sin(u), radius * np.sin(v)], axis=1)
+    strengths = []
+    for shift in range(0, len(triangles), 97):
+        surface = sw.Surface(points, np.roll(triangles, shift, axis=0))
+        lines = sw.crest_lines(surface, sw.smoothed_curvatures(surface, sw.principal_curvatures(surface)))
+        strengths.append(lines.strengths)
+    assert len(strengths[0]) > 0
+    for other in strengths:
+        np.testing.assert_allclose(other, strengths[0], rtol=1e-9)
+
+
 def test_crest_lines_are_none_on_a_torus_and_name_what_is_wrong(surface: sw.Surface, curvature: sw.Curvature) -> None:
     assert len(sw.crest_lines(surface, curvature).strengths) == 0
     assert len(sw.crest_lines(surface, curvature).points) == 0

@@ -166,7 +166,7 @@ std::int32_t BisectedMesh::external_vertex(std::int32_t v) const {
 // The triangle of a half-edge from a to b keeps its half at a; that at b becomes a new triangle, whose first half-edge
 // runs from the middle to b.
 void BisectedMesh::halve(std::int32_t h, std::int32_t middle) {
-  const std::int32_t f = h / 3, h1 = next(h);
+  const std::int32_t f = h / 3, h1 = next_in_face(h);
   const auto g = static_cast<std::int32_t>(corners.size());
   const std::int32_t b = tip(h), c = tip(h1), outer = twins[h1];
   corners[f][h1 % 3] = middle;

@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "detail/half_edge.hpp"
 #include "detail/index.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/metric/metric.hpp"
@@ -16,9 +17,6 @@
 #include "seamwire/task.hpp"
 
 namespace seamwire {
-
-/// The half-edge after h in its triangle.
-inline std::int32_t next(std::int32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
 
 /// Whether vertices and faces have the same numbers in the half-edge mesh as in the surface.
 bool keeps_numbers(const Surface& surface);

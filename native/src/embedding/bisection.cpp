@@ -106,7 +106,7 @@ std::int32_t Bisection::refinement_edge(std::int32_t f) const {
   if (first_newest_ > 0) {
     const Triangle& corners = mesh_.corners[f];
     const auto newest = static_cast<std::int32_t>(std::ranges::max_element(corners) - corners.begin());
-    if (index(corners[newest]) >= first_newest_) return next(3 * f + newest);
+    if (index(corners[newest]) >= first_newest_) return next_in_face(3 * f + newest);
   }
   const auto key = [&](std::int32_t h) {
     const std::int32_t twin = mesh_.twins[h];

@@ -86,8 +86,8 @@ LengthRepair repair_lengths(BisectedMesh& mesh, const EmbedOptions& options, con
         repair.hit_cap = true;
         return repair;
       }
-      const auto next_side = [&](std::int32_t of) { return mesh.lengths[next(of)]; };
-      const auto last_side = [&](std::int32_t of) { return mesh.lengths[next(next(of))]; };
+      const auto next_side = [&](std::int32_t of) { return mesh.lengths[next_in_face(of)]; };
+      const auto last_side = [&](std::int32_t of) { return mesh.lengths[next_in_face(next_in_face(of))]; };
       const double half = mesh.lengths[h] / 2, b = next_side(h), c = last_side(h);
       const double d = o < 0 ? 0.0 : next_side(o), e = o < 0 ? 0.0 : last_side(o);
       const auto count = static_cast<std::int32_t>(mesh.face_count());

@@ -241,11 +241,11 @@ void GeodesicMesh::each_hop(std::int32_t vertex, const Add& add) const {
     const HalfEdge& edge = half_edge(h);
     add(edge.tip, edge.length);
     // On the boundary no half-edge leaves the vertex along the edge that arrives here.
-    if (edge.left < 0) add(edge.apex, half_edge(previous(h)).length);
+    if (edge.left < 0) add(edge.apex, half_edge(previous_in_face(h)).length);
     if (edge.right < 0) continue;
     // Over the opposite edge, from below it in the frame of the half-edge entered.
     const HalfEdge& over = half_edge(edge.right);
-    const HalfEdge& back = half_edge(next(h));
+    const HalfEdge& back = half_edge(next_in_face(h));
     const double x = over.length - back.apex_x, y = -back.apex_y;
     const double dx = over.apex_x - x, dy = over.apex_y - y, foot = x * dy - dx * y;  // times dy, which is positive
     if (!(foot > 0 && foot < over.length * dy)) continue;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "detail/csr.hpp"
+#include "detail/half_edge.hpp"
 #include "detail/paged_array.hpp"
 #include "detail/prefetch.hpp"
 #include "seamwire/surface/intrinsic_mesh.hpp"
@@ -59,10 +60,8 @@ class GeodesicMesh {
   std::size_t vertex_count() const { return external_vertex_.size(); }
   const HalfEdge& half_edge(std::int32_t h) const { return half_edges_[index(h)]; }
   std::size_t half_edge_count() const { return half_edges_.size(); }
-  static std::int32_t next(std::int32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
-  static std::int32_t previous(std::int32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
   /// The other half-edge of h's edge, -1 on the boundary.
-  std::int32_t twin(std::int32_t h) const { return half_edge(previous(h)).right; }
+  std::int32_t twin(std::int32_t h) const { return half_edge(previous_in_face(h)).right; }
 
   /// The angle at the tail of h in its triangle.
   double angle(std::int32_t h) const { return angle_[index(h)]; }
@@ -76,7 +75,7 @@ class GeodesicMesh {
     for (const std::int32_t h : out(vertex)) {
       const HalfEdge& edge = half_edge(h);
       see(edge.tip, h, edge.length);
-      if (edge.left < 0) see(edge.apex, previous(h), edge.left_length);  // else that of the corner beside
+      if (edge.left < 0) see(edge.apex, previous_in_face(h), edge.left_length);  // else that of the corner beside
     }
     for (const auto& [to, length] : loose(vertex)) see(to, -1, length);
   }

@@ -50,10 +50,10 @@ PlacedPoint PlacedPoint::in_face(const GeodesicMesh& mesh, const InFace& first) 
       if (at.y > 0 || !(at.x >= 0 && at.x <= length) || twin < 0) continue;
       const bool is_known = std::ranges::any_of(point.faces, [&](const InFace& f) { return f.face == twin / 3; });
       if (is_known) continue;
-      const bool is_on_edge = weights[GeodesicMesh::previous(h) % 3] == 0;
+      const bool is_on_edge = weights[previous_in_face(h) % 3] == 0;
       std::array<double, 3> beyond{};
-      beyond[twin % 3] = is_on_edge ? weights[GeodesicMesh::next(h) % 3] : at.x / length;
-      beyond[GeodesicMesh::next(twin) % 3] = is_on_edge ? weights[h % 3] : 1 - at.x / length;
+      beyond[twin % 3] = is_on_edge ? weights[next_in_face(h) % 3] : at.x / length;
+      beyond[next_in_face(twin) % 3] = is_on_edge ? weights[h % 3] : 1 - at.x / length;
       point.faces.push_back({twin / 3, beyond});
     }
   }
@@ -78,7 +78,7 @@ PathPoint PlacedPoint::path_point() const {
   if (vertex >= 0) return {.vertex = vertex};
   const auto& [face, weights] = faces.front();
   for (std::int32_t h = 3 * face; h < 3 * face + 3; ++h) {
-    if (weights[GeodesicMesh::previous(h) % 3] == 0) return {.half_edge = h, .t = weights[GeodesicMesh::next(h) % 3]};
+    if (weights[previous_in_face(h) % 3] == 0) return {.half_edge = h, .t = weights[next_in_face(h) % 3]};
   }
   return {.face = face, .barycentric = weights};
 }

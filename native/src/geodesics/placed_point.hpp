@@ -37,7 +37,7 @@ inline Point2 to_right(const GeodesicMesh::HalfEdge& h, const Point2& p) {
 /// Barycentric coordinates in the frame of a half-edge of their face; also differences of such coordinates.
 inline Point2 position(const GeodesicMesh& mesh, std::int32_t h, const std::array<double, 3>& weights) {
   const GeodesicMesh::HalfEdge& edge = mesh.half_edge(h);
-  const double tip = weights[GeodesicMesh::next(h) % 3], apex = weights[GeodesicMesh::previous(h) % 3];
+  const double tip = weights[next_in_face(h) % 3], apex = weights[previous_in_face(h) % 3];
   return {tip * edge.length + apex * edge.apex_x, apex * edge.apex_y};
 }
 
@@ -71,7 +71,7 @@ struct PlacedPoint {
     for (const auto& [face, weights] : faces) {
       for (std::int32_t h = 3 * face; h < 3 * face + 3; ++h) {
         // From the corner, not to it: lengths near it are exact to their own size.
-        see(h, position(mesh, h, weights), norm(position(mesh, GeodesicMesh::previous(h), weights)));
+        see(h, position(mesh, h, weights), norm(position(mesh, previous_in_face(h), weights)));
       }
     }
   }
@@ -83,7 +83,7 @@ struct PlacedPoint {
       for (std::int32_t h = 3 * face; h < 3 * face + 3; ++h) {
         const std::int32_t entered = mesh.twin(h);
         const GeodesicMesh::HalfEdge& edge = mesh.half_edge(h);
-        const double apex = weights[GeodesicMesh::previous(h) % 3], y = apex * edge.apex_y;
+        const double apex = weights[previous_in_face(h) % 3], y = apex * edge.apex_y;
         if (entered < 0 || !(y > 0)) continue;
         enter(entered, Point2{weights[h % 3] * edge.length + apex * (edge.length - edge.apex_x), -y});
       }

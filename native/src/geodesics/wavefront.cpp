@@ -221,8 +221,8 @@ class Wavefront {
     }
     for (const std::int32_t h : leaving) {
       make_ready(h);
-      make_ready(GeodesicMesh::previous(h));
-      make_ready(GeodesicMesh::next(h));
+      make_ready(previous_in_face(h));
+      make_ready(next_in_face(h));
       const std::int32_t opposite = mesh_.half_edge(h).right;
       if (opposite >= 0 && list_state_[opposite] == ListState::kWaiting &&
           status_[mesh_.half_edge(opposite).apex] != Status::kUnreached) {
@@ -263,7 +263,7 @@ class Wavefront {
       const HalfEdge& edge = mesh_.half_edge(record.half_edge);
       const double x = record.x - edge.apex_x, y = record.y - edge.apex_y;
       const double turn = std::atan2(edge.apex_y * x - edge.apex_x * y, -edge.apex_x * x - edge.apex_y * y);
-      const std::int32_t corner = GeodesicMesh::previous(record.half_edge);
+      const std::int32_t corner = previous_in_face(record.half_edge);
       return {corner, std::clamp(turn, 0.0, mesh_.angle(corner))};
     }
     if (record.half_edge == TraceRecord::kNone || record.half_edge == TraceRecord::kLooseEdge) return {-1, 0.0};
@@ -271,7 +271,7 @@ class Wavefront {
     const HalfEdge& edge = mesh_.half_edge(along);
     if (edge.tail == edge.tip) return {-1, 0.0};
     if (edge.tail == v) return {along, 0.0};
-    return {GeodesicMesh::next(along), mesh_.angle(GeodesicMesh::next(along))};
+    return {next_in_face(along), mesh_.angle(next_in_face(along))};
   }
 
   /// A shortest path that bends at v has an angle of at least pi on both sides. Emits windows where that is so, in the
@@ -296,7 +296,7 @@ class Wavefront {
     // An open umbrella: the other way round to its other end.
     turned = angle;
     for (h = mesh_.twin(arrival); h >= 0; h = mesh_.twin(h)) {
-      h = GeodesicMesh::next(h);
+      h = next_in_face(h);
       umbrella_.push_back(h);
       const double whole = mesh_.angle(h);
       emit_window(v, h, -1.0, whole - (kShadow - turned));
@@ -513,13 +513,12 @@ class Wavefront {
   /// Finds the apex projections, the shortest path to the apex, along a side or through a window, and the split.
   ApexPath find_apex_path(Crossing& c) {
     const HalfEdge& edge = c.edge;
-    ApexPath best{
-        .distance = c.at_tail + edge.left_length,
-        .record = {.x = edge.left_length, .half_edge = ~GeodesicMesh::previous(c.half_edge), .source = edge.tail},
-        .window = 0};
+    ApexPath best{.distance = c.at_tail + edge.left_length,
+                  .record = {.x = edge.left_length, .half_edge = ~previous_in_face(c.half_edge), .source = edge.tail},
+                  .window = 0};
     if (const double over_tip = c.at_tip + edge.right_length; over_tip < best.distance) {
       best = {.distance = over_tip,
-              .record = {.x = edge.right_length, .half_edge = ~GeodesicMesh::next(c.half_edge), .source = edge.tip},
+              .record = {.x = edge.right_length, .half_edge = ~next_in_face(c.half_edge), .source = edge.tip},
               .window = std::max<std::size_t>(c.count, 1) - 1};
       c.split = edge.length;
     }

@@ -91,7 +91,8 @@ void LiveWorker::change_metric(std::shared_ptr<MetricSet> metrics) {
   ++request_;
   tell_right_of_way();
   loop_through_ = Edge{-1, -1};
-  loop_handled_ = loop_request_;
+  loop_handled_ = ++loop_request_;  // what is found in the former metric answers nothing
+  loop_error_ = nullptr;
   if (metrics_->prepared[which_] != metrics->prepared[which_]) preparing_.request_stop();
   solving_.request_stop();
   error_ = nullptr;
@@ -145,6 +146,7 @@ void LiveWorker::find_loop(const LoopPlace& through) {
       before != nullptr && now != nullptr && before->through == now->through && before->which == now->which;
   ++loop_request_;
   loop_through_ = through;
+  loop_error_ = nullptr;
   if (is_at_loop_ && !is_same_cut) solving_.request_stop();
   changed_.notify_all();
 }
@@ -172,6 +174,11 @@ double LiveWorker::progress() const {
 std::exception_ptr LiveWorker::error() const {
   const MutexLock lock(mutex_);
   return error_;
+}
+
+std::exception_ptr LiveWorker::loop_error() const {
+  const MutexLock lock(mutex_);
+  return error_ ? error_ : loop_error_;
 }
 
 bool LiveWorker::wait_until_idle(const Deadline& deadline) const {
@@ -288,14 +295,15 @@ void LiveWorker::work_on(const LoopJob& job) {
   closed.final = true;
   closed_wires_ = std::move(closed);
   closed_wires_for_ = job.request;
-  if (error) error_ = std::move(error);
+  loop_error_ = std::move(error);
 }
 
 /// Adds the pieces of a wire, and where each ends.
-void LiveWorker::add_pieces(const Prepared& prepared, const Wire& wire, std::size_t count, const Task& task,
-                            LiveClosedWire& closed) const {
+void LiveWorker::add_pieces(const LoopJob& job, const Prepared& prepared, std::size_t metric, const Wire& wire,
+                            std::size_t count, LiveClosedWire& closed) const {
+  const Task task{.stop = job.solving, .progress = {}};
   for (WirePiece& piece : cut_in_pieces(surface(), wire, count)) {
-    closed.pieces.push_back(snapped(prepared, std::move(piece.wire), task));
+    closed.pieces.push_back(snapped(prepared, metric, std::move(piece.wire), task));
     closed.joints.push_back(piece.end);
   }
 }
@@ -338,7 +346,7 @@ LiveClosedWire LiveWorker::closed_wire(const LoopJob& job, const WireEnd& throug
                         .which = kClosedWires * choice.metric + choice.number};
   Wire wire = cut.wire;
   wire.from = wire.to = nearest_vertex(surface(), through);
-  add_pieces(*job.prepared, wire, kPiecesOfClosedWire, {.stop = job.solving, .progress = {}}, closed);
+  add_pieces(job, *job.prepared, job.metrics->closing()[choice.metric], wire, kPiecesOfClosedWire, closed);
   if (!closed.joints.empty()) closed.joints.pop_back();  // that is the point itself
   return closed;
 }
@@ -351,7 +359,7 @@ void LiveWorker::show(const LoopJob& job, LiveClosedWires found) {
   closed_wires_for_ = job.request;
 }
 
-/// First, where the field takes long, those that a bounded number of windows tells, then those of the leading metric,
+/// First, where the field takes long, those that a bounded number of windows tells, then those of the first metric,
 /// which can be seen meanwhile.
 LiveClosedWires LiveWorker::find_closed_wires(const LoopJob& job, const WireEnd& through) {
   const Prepared& prepared = *job.prepared;
@@ -410,7 +418,7 @@ LiveClosedWires LiveWorker::find_bent_wire(const LoopJob& job, const BendPlace& 
   bent->there.from = bent->back.to = nearest_vertex(surface(), place.through);
   bent->there.to = bent->back.from = nearest_vertex(surface(), place.second);
   for (const Wire* half : {&bent->there, &bent->back}) {
-    add_pieces(prepared, *half, kPiecesOfBentHalf, task, closed);
+    add_pieces(job, prepared, closing[metric], *half, kPiecesOfBentHalf, closed);
     if (!closed.joints.empty()) closed.joints.back() = point_of(half == &bent->there ? place.second : place.through);
   }
   if (!closed.joints.empty()) closed.joints.pop_back();  // that is the point itself
@@ -504,12 +512,12 @@ LiveCandidate LiveWorker::candidate_of(const Prepared& prepared, Wire wire, cons
                                        const WireEnd& target) const {
   wire.from = nearest_vertex(surface(), seed);
   wire.to = nearest_vertex(surface(), target);
-  return snapped(prepared, std::move(wire));
+  return snapped(prepared, which_, std::move(wire));
 }
 
-LiveCandidate LiveWorker::snapped(const Prepared& prepared, Wire wire, const Task& task) const {
+LiveCandidate LiveWorker::snapped(const Prepared& prepared, std::size_t metric, Wire wire, const Task& task) const {
   LiveCandidate candidate;
-  candidate.follow = kFollow[which_];
+  candidate.follow = kFollow[metric];
   candidate.vertices = snap_to_edges(surface(), *prepared.snap_graph, wire, task);
   candidate.length = wire.length;
   candidate.points = std::move(wire.points);

@@ -117,7 +117,8 @@ class LiveWorker {
   LiveCandidate candidate(const SeedSolution& solution, const WireEnd& seed, const WireEnd& target) const;
 
   /// Along edges searches the loop through an edge, `edge[0] < edge[1]`, across the surface the closed wires through a
-  /// point, unless it is the one searched for last.
+  /// point, or one of them bent to a second point, unless that is what was searched for last. Where the second point
+  /// alone is another one, what is under way for the cut goes on.
   void find_loop(const LoopPlace& through);
   /// Along edges; nullopt until it is found.
   std::optional<EdgeChain> loop() const;
@@ -126,8 +127,10 @@ class LiveWorker {
 
   /// Fraction of the newest seed's work, preparation included, that is done.
   double progress() const;
-  /// Why the newest request failed; null where it did not.
+  /// Why the newest seed or metric failed; null where they did not.
   std::exception_ptr error() const;
+  /// The same, or why the newest loop failed.
+  std::exception_ptr loop_error() const;
   /// Whether it has answered all requests, or will answer none for want of a surface.
   bool wait_until_idle(const Deadline& deadline) const;
 
@@ -183,7 +186,7 @@ class LiveWorker {
   LiveClosedWire closed_wire(const LoopJob& job, const WireEnd& through, const ClosedWire& cut,
                              const ClosedWireChoice& choice) const;
   void show(const LoopJob& job, LiveClosedWires found);
-  void add_pieces(const Prepared& prepared, const Wire& wire, std::size_t count, const Task& task,
+  void add_pieces(const LoopJob& job, const Prepared& prepared, std::size_t metric, const Wire& wire, std::size_t count,
                   LiveClosedWire& closed) const;
   std::shared_ptr<const SeedSolution> solve(const SeedJob& job);
   std::shared_ptr<const SeedSolution> find_field(const SeedJob& job, const std::shared_ptr<const Prepared>& prepared,
@@ -192,7 +195,7 @@ class LiveWorker {
                                                   const Task& task);
   void make_way(const std::stop_token& stop);
   void make_preview(const SeedJob& job, const Prepared& prepared, CorridorPaths& paths, std::int64_t& answered);
-  LiveCandidate snapped(const Prepared& prepared, Wire wire, const Task& task = {}) const;
+  LiveCandidate snapped(const Prepared& prepared, std::size_t metric, Wire wire, const Task& task = {}) const;
   LiveCandidate candidate_of(const Prepared& prepared, Wire wire, const WireEnd& seed, const WireEnd& target) const;
   const Surface& surface() const { return surface_cache_->surface(); }
 
@@ -240,6 +243,7 @@ class LiveWorker {
   std::int64_t solution_for_ SEAMWIRE_GUARDED_BY(mutex_) = -1;  // the request that solution_ answers
   std::shared_ptr<const Preview> preview_ SEAMWIRE_GUARDED_BY(mutex_);
   std::exception_ptr error_ SEAMWIRE_GUARDED_BY(mutex_);
+  std::exception_ptr loop_error_ SEAMWIRE_GUARDED_BY(mutex_);
   std::int64_t loop_handled_ SEAMWIRE_GUARDED_BY(mutex_) = 0;
   EdgeChain loop_ SEAMWIRE_GUARDED_BY(mutex_);
   LiveClosedWires closed_wires_ SEAMWIRE_GUARDED_BY(mutex_);

@@ -103,10 +103,11 @@ struct LiveWire::Impl {
     surface_cache->rethrow_failure();
     return surface_cache->peek_surface();
   }
-  void rethrow() const {
+  /// Why wires, or with `loops` loops, cannot be had.
+  void rethrow(bool loops = false) const {
     surface_cache->rethrow_failure();
     for (const LiveWorker& worker : workers) {
-      if (const std::exception_ptr error = worker.error()) std::rethrow_exception(error);
+      if (const std::exception_ptr error = loops ? worker.loop_error() : worker.error()) std::rethrow_exception(error);
     }
   }
   std::shared_ptr<MetricSet> metrics() const {
@@ -134,9 +135,9 @@ struct LiveWire::Impl {
     check_end(surface_if_built().get(), *surface_cache, Along::kSurface, end, what);
   }
   LiveClosedWires closed_wires(const LoopPlace& place) {
-    rethrow();
     const bool is_built = surface_if_built() != nullptr;
     workers[0].find_loop(place);
+    rethrow(true);
     return is_built ? workers[0].closed_wires() : LiveClosedWires{};
   }
 
@@ -243,9 +244,9 @@ LiveLoop LiveWire::loop(const Edge& edge) {
   if (impl_->settings.along != Along::kEdges) throw InvalidInput("loops run along edges, not across the surface");
   const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
   check_edge(surface.get(), edge);
-  impl_->rethrow();
   for (LiveWorker& worker : impl_->workers)
     worker.find_loop(Edge{std::min(edge[0], edge[1]), std::max(edge[0], edge[1])});
+  impl_->rethrow(true);
   if (!surface) return {};
   EdgeChain cheapest;
   for (const LiveWorker& worker : impl_->workers) {
@@ -333,7 +334,7 @@ bool LiveWire::wait(double seconds) const {
   // One after the other: what is idle stays so, as only the caller gives them something to do.
   bool are_idle = true;
   for (const LiveWorker& worker : impl_->workers) are_idle = worker.wait_until_idle(deadline) && are_idle;
-  impl_->rethrow();
+  impl_->rethrow(true);
   return are_idle;
 }
 

@@ -120,8 +120,8 @@ struct MetricSet {
     if (count == kMostMetrics) return kMostMetrics - 1;
     return family == MetricFamily::kConcave ? std::optional<std::size_t>(0) : std::nullopt;
   }
-  /// The metrics whose closed wires are offered, the leading one first: those of the Euclidean metric help out where
-  /// nothing is concave.
+  /// The metrics whose closed wires are offered, those of the first one first: those of the Euclidean metric help out
+  /// where nothing is concave.
   std::span<const std::size_t> closing() const {
     static constexpr std::array<std::size_t, 2> kBoth = {0, 1};
     return std::span(kBoth).first(family == MetricFamily::kConcave ? 2 : 1);

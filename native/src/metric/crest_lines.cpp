@@ -420,9 +420,25 @@ class Tracer {
       while (end < size && stands_out[end] == stands_out[first]) ++end;
       return end;
     };
+    const auto begin_at = [&](std::size_t begin) {
+      const auto by = static_cast<std::ptrdiff_t>(begin % size);
+      // Not std::ranges::rotate, which Clang 14 cannot read with GCC 12's library.
+      std::rotate(chain.segments.begin(), chain.segments.begin() + by, chain.segments.end());
+      chain.sides.pop_back();
+      std::rotate(chain.sides.begin(), chain.sides.begin() + by, chain.sides.end());
+      chain.sides.push_back(chain.sides.front());
+      look();
+    };
     look();
+    if (std::ranges::count(stands_out, 1) == 0) return;
     if (chain.sides.front() == chain.sides.back()) {
-      // Begun where the longest part that does not stand out ends, a closed chain is one as any other.
+      // Begun at the end of a part that does not stand out, no part is in two; at that of the longest, a closed chain
+      // is one as any other.
+      for (std::size_t i = 0; i < size; ++i) {
+        if (stands_out[i] == 0 || stands_out[i == 0 ? size - 1 : i - 1] != 0) continue;
+        begin_at(i);
+        break;
+      }
       std::size_t begin = 0, longest = 0;
       for (std::size_t first = 0, end = 0; first < size; first = end) {
         end = end_of_run(first);
@@ -431,14 +447,7 @@ class Tracer {
           begin = end;
         }
       }
-      // Not std::ranges::rotate, which Clang 14 cannot read with GCC 12's library.
-      std::rotate(chain.segments.begin(), chain.segments.begin() + static_cast<std::ptrdiff_t>(begin),
-                  chain.segments.end());
-      chain.sides.pop_back();
-      std::rotate(chain.sides.begin(), chain.sides.begin() + static_cast<std::ptrdiff_t>(begin == size ? 0 : begin),
-                  chain.sides.end());
-      chain.sides.push_back(chain.sides.front());
-      look();
+      begin_at(begin);
       // Nothing long between its ends: it is closed.
       if (longest > 0 && longest <= kBridged)
         std::fill(stands_out.end() - static_cast<std::ptrdiff_t>(longest), stands_out.end(), 1);

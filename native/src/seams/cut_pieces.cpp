@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "detail/half_edge.hpp"
 #include "detail/index.hpp"
 
 namespace seamwire {
@@ -70,13 +71,12 @@ CutPieces::CutPieces(const Surface& surface, std::span<const std::vector<std::in
   const std::vector<Triangle>& fans = surface.face_fans();
   const std::vector<std::int32_t>& twins = surface.twins();
   const auto vertex = [&](std::int32_t h) { return surface.vertex_of_fan()[fans[h / 3][h % 3]]; };
-  const auto next = [](std::int32_t h) { return h % 3 == 2 ? h - 2 : h + 1; };
 
   const std::vector<Edge> cuts = edges_of(chains);
   std::vector<std::uint8_t> is_touched(surface.vertex_count(), 0);
   for (const auto& [a, b] : cuts) is_touched[a] = is_touched[b] = 1;
   const auto find_cut = [&](std::int32_t h) {
-    const std::int32_t a = vertex(h), b = vertex(next(h));
+    const std::int32_t a = vertex(h), b = vertex(next_in_face(h));
     if (is_touched[a] == 0 || is_touched[b] == 0) return cuts.end();
     const auto found = std::lower_bound(cuts.begin(), cuts.end(), sorted(a, b));
     return found != cuts.end() && *found == sorted(a, b) ? found : cuts.end();
@@ -94,8 +94,8 @@ CutPieces::CutPieces(const Surface& surface, std::span<const std::vector<std::in
     }
     inner.push_back(h);
     faces.join(h / 3, twin / 3);
-    corners.join(h, next(twin));
-    corners.join(next(h), twin);
+    corners.join(h, next_in_face(twin));
+    corners.join(next_in_face(h), twin);
   }
   std::size_t corner_count = 0;
   std::vector<std::int32_t> set_of_corner;
@@ -129,8 +129,8 @@ CutPieces::CutPieces(const Surface& surface, std::span<const std::vector<std::in
     const std::int32_t twin = twins[h];
     const auto corner = [&](std::int32_t of) { return set_of_corner[of]; };
     edges_.push_back({.pieces = {piece_of_face_[h / 3], piece_of_face_[twin / 3]},
-                      .tails = {corner(h), corner(next(twin))},
-                      .tips = {corner(next(h)), corner(twin)},
+                      .tails = {corner(h), corner(next_in_face(twin))},
+                      .tips = {corner(next_in_face(h)), corner(twin)},
                       .covered = 0});
   }
   // Two edges may join the same two vertices, so a cut may have several.

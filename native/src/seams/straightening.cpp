@@ -112,7 +112,7 @@ bool Straightening::is_as_good(const std::vector<Choice>& trial) const {
   const CutPieces cut = pieces(trial);
   const Quality now(cut);
   return cut.piece_count() == piece_count_ && now.crumbs <= quality_->crumbs && now.not_discs <= quality_->not_discs &&
-         now.bent <= std::max(quality_->bent, 0.0);
+         now.bent <= quality_->bent;
 }
 
 /// Finds the wires between pairs that are not known here, on several threads.

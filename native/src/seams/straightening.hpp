@@ -14,7 +14,7 @@
 
 namespace seamwire {
 
-/// Wires between pairs of vertices, each found once; from several threads.
+/// Wires between pairs of vertices, each kept once it is found; from several threads.
 class DirectWires {
  public:
   DirectWires(const CandidateWires& wires, const Seclusion& seclusion) : wires_(wires), seclusion_(seclusion) {}

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "detail/disjoint_sets.hpp"
+#include "detail/half_edge.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "surface/face_height.hpp"
@@ -26,9 +27,6 @@ using Index = std::int32_t;
 // A side is 3 f + i: of face f, from corner i to corner i + 1 (mod 3) in the caller's order. Corner 3 f + i is where it
 // starts.
 constexpr Index kNone = -1;
-
-Index next_in_face(Index side) { return side % 3 == 2 ? side - 2 : side + 1; }
-Index previous_in_face(Index side) { return side % 3 == 0 ? side + 2 : side - 1; }
 
 // Faces with three different corners, with the caller's numbers.
 struct Faces {

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "detail/csr.hpp"
+#include "detail/half_edge.hpp"
 #include "detail/index.hpp"
+#include "geodesics/placed_point.hpp"
 #include "wires/path_position.hpp"
 #include "wires/vertex_tree.hpp"
 
@@ -168,7 +170,6 @@ DoubleCover::DoubleCover(const IntrinsicMesh& below, const std::vector<std::int3
     const std::int32_t first = h - h % 3;
     return h % 3 == 0 ? false : h % 3 == 1 ? is_crossed[first] != 0 : is_crossed[first] != is_crossed[first + 1];
   };
-  const auto next = [](std::int32_t h) { return h % 3 == 2 ? h - 2 : h + 1; };
   const auto face_count = static_cast<std::int32_t>(kept.size());
   mesh.vertex_count = 2 * vertex_count;
   for (const bool other : {false, true}) {
@@ -182,7 +183,8 @@ DoubleCover::DoubleCover(const IntrinsicMesh& below, const std::vector<std::int3
           mesh.twins.push_back(-1);
           continue;
         }
-        const bool twin_other = (is_other(next(h)) != other) != is_other(twin);  // they share a vertex of a sheet
+        const bool twin_other =
+            (is_other(next_in_face(h)) != other) != is_other(twin);  // they share a vertex of a sheet
         mesh.twins.push_back(3 * (number[twin / 3] + (twin_other ? face_count : 0)) + twin % 3);
       }
       mesh.triangles.push_back(corners);
@@ -262,6 +264,7 @@ std::optional<BentWire> BentWires::through(const SurfacePoint& second, const Tas
     check_index(second.vertex, embedding->points.size(), "second: vertex");
   } else {
     check_index(second.face, embedding->mesh.face_count(), "second: face", "faces");
+    checked_barycentric(second.barycentric, "second");
   }
   std::array<IntrinsicPath, 2> paths;
   for (const bool other : {false, true}) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "detail/half_edge.hpp"
 #include "detail/index.hpp"
 #include "geodesics/placed_point.hpp"
 #include "seamwire/errors.hpp"
@@ -44,6 +45,9 @@ class Section {
   // A vertex in the plane counts as on one side of it: then the curve is a chain of segments across faces. Which side
   // makes a difference where the curve runs along edges, or touches a vertex.
   PlaneSection shortest() {
+    for (const std::int32_t face : from_.faces) {
+      if (std::ranges::find(to_.faces, face) != to_.faces.end()) return straight(face);
+    }
     PlaneSection best;
     for (const bool is_zero_above : {true, false}) {
       is_zero_above_ = is_zero_above;
@@ -63,8 +67,7 @@ class Section {
   std::int32_t tail(std::int32_t half_edge) const {
     return surface_.vertex_of_fan()[surface_.face_fans()[half_edge / 3][half_edge % 3]];
   }
-  std::int32_t head(std::int32_t half_edge) const { return tail(next(half_edge)); }
-  static std::int32_t next(std::int32_t half_edge) { return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1; }
+  std::int32_t head(std::int32_t half_edge) const { return tail(next_in_face(half_edge)); }
 
   End end(const SurfacePoint& point, const std::string& what) const {
     End end;
@@ -87,7 +90,7 @@ class Section {
         const auto face = static_cast<std::int32_t>(at - source.begin());
         end.faces.push_back(face);
         for (std::int32_t side = 3 * face; side < 3 * face + 3; ++side) {
-          const std::int32_t apex = tail(next(next(side))), twin = surface_.twins()[side];
+          const std::int32_t apex = tail(next_in_face(next_in_face(side))), twin = surface_.twins()[side];
           const auto corner = std::ranges::find(corners, apex) - corners.begin();
           // Where the edge lies in the plane but for rounding, the curve may run on its other side alone.
           if (weights[corner] == 0.0 && twin != -1) end.faces.push_back(twin / 3);
@@ -124,6 +127,13 @@ class Section {
     section.faces.push_back(surface_.face_of_half_edge_face()[face]);
   }
 
+  // Within a face that has both points: it may lie in the plane as a whole, and is crossed nowhere then.
+  PlaneSection straight(std::int32_t face) const {
+    return {.points = {from_.place, to_.place},
+            .faces = {surface_.face_of_half_edge_face()[face]},
+            .length = (to_.place - from_.place).norm()};
+  }
+
   // From the first point out of a face over one of its sides.
   PlaneSection walk(std::int32_t first, std::int32_t side) const {
     PlaneSection section;
@@ -136,7 +146,7 @@ class Section {
       const std::int32_t twin = surface_.twins()[side];
       if (twin == -1 || twin / 3 == first) return {};
       face = twin / 3;
-      side = is_crossed(next(twin)) ? next(twin) : next(next(twin));
+      side = is_crossed(next_in_face(twin)) ? next_in_face(twin) : next_in_face(next_in_face(twin));
     }
     add(section, to_.place, face);
     section.length = 0.0;

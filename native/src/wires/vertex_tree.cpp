@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "detail/disjoint_sets.hpp"
+#include "detail/half_edge.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 
@@ -16,9 +17,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::int32_t next_of_boundary(const IntrinsicMesh& mesh, std::int32_t h) {
-  const auto next = [](std::int32_t g) { return g % 3 == 2 ? g - 2 : g + 1; };
-  h = next(h);
-  while (mesh.twins[h] >= 0) h = next(mesh.twins[h]);
+  h = next_in_face(h);
+  while (mesh.twins[h] >= 0) h = next_in_face(mesh.twins[h]);
   return h;
 }
 

@@ -77,7 +77,8 @@ struct LiveLoop {
 
 /// A closed cut through a point of the surface, in pieces of about the same length that follow each other from the
 /// point around to it. Each is the shortest wire between its ends, but for the place at which the cut's halves meet.
-/// One through a second point as well is in four pieces, two from either point to the other.
+/// One through a second point as well is in four pieces, two from either point to the other, each the shortest among
+/// wires that lead around as it does.
 struct LiveClosedWire {
   std::vector<LiveCandidate> pieces;  ///< three or four, or fewer where one would begin on an edge without a face
   std::vector<SurfacePoint>
@@ -85,7 +86,7 @@ struct LiveClosedWire {
   bool separates = true;  ///< as ClosedWire has it
   double turn = 0.0;      ///< as ClosedWire has it; of one that was bent what it was before
   double length = std::numeric_limits<double>::infinity();  ///< in its metric, of the model scaled to the unit cube
-  std::size_t which = 0;  ///< what bent_wire() calls it; the same one whatever is found after it
+  std::size_t which = 0;  ///< what bent_wire() calls it; of one that is not final it may become another
 };
 
 /// What closed_wires() finds.

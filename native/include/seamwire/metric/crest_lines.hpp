@@ -21,12 +21,13 @@ struct CrestLineOptions {
 
 /// Ridges and valleys: curves along which the surface bends most sharply across.
 struct CrestLines {
-  /// All lines one after the other, in the caller's coordinates, each point on an edge of two faces. A closed line ends
-  /// with its first point.
+  /// All lines one after the other, in the caller's coordinates, each point on an edge. A closed line ends with its
+  /// first point.
   std::vector<Vector> points;
-  std::vector<Edge> edges;           ///< per point: the edge that it lies on, in the caller's vertices
-  std::vector<double> parts;         ///< per point: where on it, 0 at its first vertex, 1 at its second
-  std::vector<double> curvatures;    ///< per point: k1, unit as in Curvature; above 0 on ridges
+  std::vector<Edge> edges;    ///< per point: the edge that it lies on, in the caller's vertices
+  std::vector<double> parts;  ///< per point: where on it, 0 at its first vertex, 1 at its second
+  std::vector<double>
+      curvatures;  ///< per point: k1, unit as in Curvature; above 0 on ridges, but where a gap is bridged
   std::vector<std::int32_t> starts;  ///< line i has the points starts[i] to starts[i + 1] - 1; one more than lines
   std::vector<double> strengths;     ///< per line: the integral of |k1| along it; the strongest line is the first
   std::vector<std::int32_t> faces;   ///< per point: the caller's face to the next one; -1 for a line's last point

@@ -39,14 +39,14 @@ struct SeamLimits {
   /// Whether wires may start on the edges of others, where they ran beside them and left crumbs between. Where curves
   /// are cut, not edges marked, they have to run from seed to seed: these alone their curves have in common.
   bool may_start_on_others = true;
-  /// Whether direct wires take the place of those that meet at a seed, where they cost less. Where islands are to be
-  /// small for another reason than how they bend, detours may be what they need.
+  /// Whether direct wires take the place of those that meet at a seed, and seeds slide, where that costs less. Where
+  /// islands are to be small for another reason than how they bend, detours may be what they need.
   bool are_straightened = true;
 };
 
 /// One wire of a plan.
 struct PlannedWire {
-  std::int32_t from = -1;              ///< a seed
+  std::int32_t from = -1;              ///< a seed, or where one slid to
   std::int32_t to = -1;                ///< another one
   Follow follow = Follow::kMin;        ///< whose metric it is the shortest in
   std::vector<std::int32_t> vertices;  ///< the chain of edges that it marks, from `from` to `to`

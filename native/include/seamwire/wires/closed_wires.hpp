@@ -43,7 +43,7 @@ struct ClosedWireChoice {
   bool operator==(const ClosedWireChoice&) const = default;  ///< whether both are the same
 };
 
-/// What to offer, at most `count`, of the closed cuts through one point in several metrics, each metric's best first:
+/// What to offer, at most `count`, of the closed cuts that closed_wires() found through one point in several metrics:
 /// the best in each metric, in their order, then the others, first those of the first metric. One that is like an
 /// earlier one, on average within 3 % of its length of it, is left out.
 std::vector<ClosedWireChoice> choose_closed_wires(std::span<const std::vector<ClosedWire>> metrics,

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+namespace seamwire {
+
+/// The half-edges after and before another in its triangle; half-edge 3 f + i runs from corner i of triangle f to the
+/// next corner.
+constexpr std::int32_t next_in_face(std::int32_t half_edge) {
+  return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1;
+}
+constexpr std::int32_t previous_in_face(std::int32_t half_edge) {
+  return half_edge % 3 == 0 ? half_edge + 2 : half_edge - 1;
+}
+
+}  // namespace seamwire

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "seams/straightening.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "shapes.hpp"
+
+namespace seamwire {
+namespace {
+
+constexpr std::int32_t kCells = 12;
+
+/// A vertex of the square.
+std::int32_t at(std::int32_t column, std::int32_t row) { return row * (kCells + 1) + column; }
+
+/// Wires over the unit square that cost their length.
+struct Sheet {
+  std::shared_ptr<const Surface> surface = std::make_shared<const Surface>(shapes::grid(kCells).surface());
+  CandidateWires wires{surface, Along::kSurface, {.max_anisotropy = 1.0}, {}};
+  Seclusion seclusion{*surface, wires.curvature()};
+  DirectWires direct{wires, seclusion};
+
+  std::vector<Choice> between(const std::set<Ends>& pairs) const {
+    std::vector<Choice> choices;
+    for (auto& [ends, choice] : direct.find(pairs, {})) choices.push_back(choice);
+    return choices;
+  }
+  std::vector<Choice> straightened(std::vector<Choice> choices, std::vector<std::int32_t> images = {}) const {
+    const SeamPlannerOptions options{.strength = {.max_anisotropy = 1.0}, .images = std::move(images)};
+    const std::vector<double> max_spreads(surface->face_count(), 1.0);
+    return seamwire::straightened(std::move(choices), direct, *surface, options, {.max_spread = 1.0}, max_spreads, {});
+  }
+};
+
+/// Of the curves.
+double length(const std::vector<Choice>& choices) {
+  double sum = 0.0;
+  for (const Choice& choice : choices) {
+    const std::vector<Vector>& curve = choice.wire.points;
+    for (std::size_t i = 1; i < curve.size(); ++i) sum += (curve[i] - curve[i - 1]).norm();
+  }
+  return sum;
+}
+
+TEST(Straightening, WhereThreeWiresMeetTheSeedSlidesToWhereTheyBalance) {
+  const Sheet sheet;
+  const std::int32_t top = at(6, 12), left = at(0, 0), right = at(12, 0), seed = at(6, 10);
+  const std::vector<Choice> before = sheet.between({ends_of(seed, top), ends_of(seed, left), ends_of(seed, right)});
+  const std::vector<Choice> after = sheet.straightened(before);
+  ASSERT_EQ(after.size(), 3U);
+  const double shortest = 1.0 + std::sqrt(3.0) / 2;  // a Steiner tree: 120 degrees between any two
+  EXPECT_GT(length(before), 1.12 * shortest);
+  EXPECT_LT(length(after), 1.05 * shortest);
+  EXPECT_GT(length(after), shortest - 1e-9);
+}
+
+TEST(Straightening, OnASymmetricSheetSeedsSlideInPairs) {
+  const Sheet sheet;
+  std::vector<std::int32_t> images;
+  for (std::int32_t v = 0; v < (kCells + 1) * (kCells + 1); ++v) {
+    images.push_back(at(kCells - v % (kCells + 1), v / (kCells + 1)));
+  }
+  const std::int32_t middle = at(6, 0), corner = at(0, 0), top = at(3, 12), seed = at(3, 10);
+  std::set<Ends> pairs;
+  for (const std::int32_t other : {middle, corner, top}) {
+    pairs.insert({ends_of(seed, other), ends_of(images[seed], images[other])});
+  }
+  const std::vector<Choice> before = sheet.between(pairs), after = sheet.straightened(before, images);
+  ASSERT_EQ(after.size(), 6U);
+  EXPECT_LT(length(after), 0.98 * length(before));
+  std::set<Ends> found, mirrored;
+  for (const Choice& choice : after) {
+    found.insert(ends_of(choice.wire.from, choice.wire.to));
+    mirrored.insert(ends_of(images[choice.wire.from], images[choice.wire.to]));
+  }
+  EXPECT_EQ(found, mirrored);
+  EXPECT_FALSE(found.contains(ends_of(seed, top)));
+}
+
+}  // namespace
+}  // namespace seamwire
