@@ -5,6 +5,7 @@
 folder. The simulated mouse has no pointer on the display: one is drawn into the frames where it would be.
 """
 
+import math
 import os
 import struct
 import subprocess
@@ -152,6 +153,36 @@ class Film:
         edges = [[vertices[v].co for v in edge.vertices] for edge in self.obj.data.edges]
         middles = [(one + two) / 2 for one, two in edges if abs(one.x) + abs(two.x) < 1e-4]
         return self.seen(min(middles, key=lambda co: (co - Vector(near)).length))
+
+    def seams(self) -> set[tuple[int, int]]:
+        """Return the edges that are seams, by their vertices."""
+        self.obj.update_from_editmode()
+        return {tuple(edge.vertices) for edge in self.obj.data.edges if edge.use_seam}
+
+    def islands(self) -> int:
+        """Return into how many islands seams part the mesh."""
+        from seamwire.core.native import load
+
+        core, seams = load(), np.array(sorted(self.seams()))
+        mesh = self.obj.data  # as it is now: the seams were read from it
+        mesh.calc_loop_triangles()
+        triangles = np.array([triangle.vertices for triangle in mesh.loop_triangles])
+        surface = core.Surface(np.array([vertex.co for vertex in mesh.vertices]), triangles)
+        return int(core.face_segments(surface, seams).max()) + 1
+
+    def beside_selected(self) -> list[Vector]:
+        """Return the middles of edges that lead away from those that are selected."""
+        self.obj.update_from_editmode()
+        mesh = self.obj.data
+        taken = {vertex for edge in mesh.edges if edge.select for vertex in edge.vertices}
+        beside = (edge.vertices for edge in mesh.edges if len(taken.intersection(edge.vertices)) == 1)
+        return [(mesh.vertices[a].co + mesh.vertices[b].co) / 2 for a, b in beside]
+
+    def seam(self, *near: float) -> tuple[float, float]:
+        """Return where the vertex of a seam that is nearest to a place is seen."""
+        points, place = self.obj.data.vertices, Vector(near)
+        vertices = {vertex for edge in self.seams() for vertex in edge}
+        return self.seen(min((points[v].co for v in vertices), key=lambda co: (co - place).length))
 
     def write(self) -> None:
         """Keep the film: its frames one after the other, three bytes a pixel."""
@@ -598,6 +629,150 @@ def limbs(film: Film) -> None:
     film.write()
 
 
+BEHIND, BEFORE = math.pi - 0.45, 0.45
+"""How far around the view is turned to see a figure from its back, from its front, and its left side both times."""
+CUTS = ((0.0, 0.13, 0.88), (0.37, 0.13, 0.61), (0.19, 0.16, -0.3))
+"""Where its closed cuts are taken: the neck, an arm, a leg."""
+LINES = (
+    # Where a line from its free end, or from one cut, comes to a cut: head, arm, leg, side, shoulder.
+    ((0.0, 0.16, 1.14), (0.0, 0.13, 0.88)),
+    ((1.22, 0.02, 0.02), (0.37, 0.13, 0.61)),
+    ((0.3, 0.1, -1.3), (0.19, 0.16, -0.3)),
+    ((0.3, 0.08, -0.16), (0.38, 0.08, 0.5)),
+    ((0.36, 0.08, 0.7), (0.1, 0.05, 0.88)),
+)
+ON_CUTS = tuple(line[0] for line in LINES[3:])
+"""Where they do not begin at a free end."""
+STEPS = (
+    # What Blender's own hand does: from which side, where, and whether a path begins there.
+    (BEFORE, (0.0, -0.13, 0.88), True),
+    (BEHIND, (0.0, 0.13, 0.88), False),
+    (BEHIND, (0.377, 0.013, 0.705), True),
+    (BEHIND, (0.39, 0.08, 0.5), False),
+    (BEFORE, (0.37, -0.12, 0.6), False),
+    (BEFORE, (0.377, 0.013, 0.705), False),
+    (BEFORE, (0.299, 0.018, -0.105), True),
+    (BEFORE, (0.02, -0.14, -0.3), False),
+    (BEHIND, (0.02, 0.14, -0.3), False),
+    (BEHIND, (0.299, 0.018, -0.105), False),
+    *((BEHIND, place, place is line[0]) for line in LINES for place in line),
+)
+
+
+def character(film: Film) -> None:
+    """Play how a figure gets its seams from nothing: on the left with the tool, on the right with Blender's own."""
+    stage(film)
+    sides = []
+    seams: set[tuple[int, int]] = set()
+    for draw, around in ((draw_with_seamwire, BEHIND), (draw_with_blender, STEPS[0][0])):
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.ops.object.delete()
+        film.obj = figure()
+        with film.ui.override():
+            bpy.ops.object.mode_set(mode="EDIT")
+            bpy.ops.mesh.select_all(action="SELECT")
+            bpy.ops.mesh.symmetrize(direction="POSITIVE_X")
+            bpy.ops.mesh.select_all(action="DESELECT")
+        film.obj.data.use_mirror_x = True
+        film.ui.view.view_rotation = Euler((1.4, 0.0, around)).to_quaternion()
+        film.ui.view.view_location = (0.0, 0.0, 0.16)
+        film.ui.view.view_distance = 4.0
+        film.ui.wait(4, redraw=True)
+        film.at = film.vertex(0.0, 0.0, 1.9)
+        film.frames = []
+        draw(film, seams)
+        seams = film.seams()
+        assert film.islands() == 6, f"{film.islands()} islands, not head, arms, legs and body"
+        sides.append(film.frames)
+    longest, middle = max(map(len, sides)), film.ui.region.x + film.ui.region.width // 2
+    film.frames = []
+    for frame in range(longest):
+        pair = (side[min(frame, len(side) - 1)][:, middle - 300 : middle + 300] for side in sides)
+        film.frames.append(np.concatenate(tuple(pair), axis=1))
+    film.write()
+
+
+def draw_with_seamwire(film: Film, _: object) -> None:
+    """Draw the figure's seams with the tool."""
+    settings().along, settings().finish = "SURFACE", "SNAP"
+    start(film)
+    count = Presses(film, "Seamwire")
+    for place in CUTS:
+        film.peek(film.vertex(*place), 9)
+        film.hold(3)
+        count.add()
+        film.take()
+    for line in LINES:
+        for place in line:
+            film.go(film.seam(*place) if place is line[1] or place in ON_CUTS else film.vertex(*place), 9)
+            count.add()
+            film.click()
+    film.go((film.ui.region.width / 2.0 + 240.0, 60.0), 6)
+    count.done("six islands")
+    film.ui.wait(5)
+
+
+def draw_with_blender(film: Film, seams: set[tuple[int, int]]) -> None:
+    """Draw seams in the places of others: shortest paths in edge mode on one side, the others by *Select Mirror*."""
+    with film.ui.override():
+        bpy.ops.wm.tool_set_by_id(name="builtin.select")
+    points = [vertex.co for vertex in film.obj.data.vertices]
+    drawn_before = [(points[a] + points[b]) / 2 for a, b in seams]
+    count = Presses(film, "Blender")
+    side = STEPS[0][0]
+    for around, place, begins in STEPS:
+        if around != side:
+            count.turn(around)
+        side, near = around, Vector(place)
+        # To begin at an edge that is selected would take it away: the one beside it is clicked.
+        middles = film.beside_selected() if begins and place in ON_CUTS else drawn_before
+        film.go(film.seen(min(middles, key=lambda co: (co - near).length)), 9)
+        count.add()
+        film.click(**({"shift": True} if begins else {"ctrl": True}))
+    with film.ui.override():
+        bpy.ops.mesh.select_mirror(extend=True)
+        film.say("Select Mirror, Mark Seam", 12)
+        bpy.ops.mesh.mark_seam()
+        bpy.ops.mesh.select_all(action="DESELECT")
+    count.done("six islands")
+
+
+class Presses:
+    """Tells in a film how many presses of the button it took so far, and how often the view was turned."""
+
+    def __init__(self, film: Film, tool: str) -> None:
+        self._film, self._tool = film, tool
+        self._presses = self._turns = 0
+        self._say("")
+
+    def _say(self, more: str) -> None:
+        turns = f", {self._turns} {'turn' if self._turns == 1 else 'turns'} of the view" if self._turns else ""
+        self._film.caption = (
+            f"{self._tool}: {self._presses} {'press' if self._presses == 1 else 'presses'}{turns}{more}"
+        )
+
+    def add(self) -> None:
+        """Count one more."""
+        self._presses += 1
+        self._say("")
+
+    def turn(self, around: float) -> None:
+        """Turn the view to see the other side."""
+        self._turns += 1
+        self._say("")
+        view = self._film.ui.view
+        before = view.view_rotation.to_euler().z
+        for part in np.linspace(0.0, 1.0, 9)[1:]:
+            view.view_rotation = Euler((1.4, 0.0, before + part * (around - before))).to_quaternion()
+            self._film.ui.wait(1, redraw=True)
+            self._film.hold(1)
+
+    def done(self, what: str) -> None:
+        """Tell that all is drawn."""
+        self._say(f": {what}")
+        self._film.hold(12)
+
+
 def bend(
     one: tuple[float, float], over: tuple[float, float], two: tuple[float, float], part: float
 ) -> tuple[float, float]:
@@ -669,6 +844,6 @@ def looks(film: Film) -> None:
 
 addon_utils.enable("seamwire", default_set=True)
 kind, target = sys.argv[sys.argv.index("--") + 1 :]
-parts = (animation, limbs, guide, cut, stretch, views, looks)
+parts = (animation, limbs, character, guide, cut, stretch, views, looks)
 part = next(part for part in parts if part.__name__ == kind)
 play_strictly(lambda: part(Film(Path(target))))
