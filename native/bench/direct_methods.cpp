@@ -289,7 +289,7 @@ std::vector<double> ordered_upwind(const MetricSurface& s, std::int32_t seed) {
   return front.distances;
 }
 
-HeatMethod::HeatMethod(const MetricSurface& s) : triangles_(s.triangles) {
+HeatMethod::HeatMethod(const MetricSurface& s, double steps) : triangles_(s.triangles) {
   std::vector<Eigen::Triplet<double>> laplacian, mass;
   double edges = 0.0;
   for (std::size_t f = 0; f < triangles_.size(); ++f) {
@@ -321,7 +321,7 @@ HeatMethod::HeatMethod(const MetricSurface& s) : triangles_(s.triangles) {
   Eigen::SparseMatrix<double> l(n, n), m(n, n);
   l.setFromTriplets(laplacian.begin(), laplacian.end());
   m.setFromTriplets(mass.begin(), mass.end());
-  heat_.compute(m + edges * edges * l);
+  heat_.compute(m + steps * edges * edges * l);
   // Constants have no gradient: a little mass makes the matrix definite, and is nothing beside the distances.
   poisson_.compute(l + 1e-8 * m);
   if (heat_.info() != Eigen::Success || poisson_.info() != Eigen::Success) {

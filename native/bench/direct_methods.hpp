@@ -53,11 +53,12 @@ std::vector<double> short_term_vector_dijkstra(const MetricSurface& surface, std
 std::vector<double> ordered_upwind(const MetricSurface& surface, std::int32_t seed);
 
 /// Crane, Weischedel, Wardetzky, "Geodesics in Heat" (2013), with the Laplacian of the faces in their forms; time step:
-/// the square of the mean edge length in the metric.
+/// the square of the mean edge length in the metric, times `steps`. Where angles are obtuse in the metric heat falls
+/// below zero around a seed, unless the step is a longer one.
 class HeatMethod {
  public:
   /// Factors both matrices. Throws InvalidInput where one cannot be.
-  explicit HeatMethod(const MetricSurface& surface);
+  explicit HeatMethod(const MetricSurface& surface, double steps = 1.0);
   std::vector<double> solve(std::int32_t seed) const;
 
  private:

@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <memory>
 #include <numeric>
+#include <utility>
 
 #include "../tests/shapes.hpp"
 #include "direct_methods.hpp"
@@ -125,9 +126,11 @@ void measure(const std::string& file, const Options& options) {
     row("STVD, 3", 0.0, [&](std::int32_t seed) { return short_term_vector_dijkstra(input, seed, 3); });
     row("STVD, 10", 0.0, [&](std::int32_t seed) { return short_term_vector_dijkstra(input, seed, 10); });
     row("ordered upwind", 0.0, [&](std::int32_t seed) { return ordered_upwind(input, seed); });
-    std::unique_ptr<HeatMethod> heat;
-    const double factoring = seconds([&] { heat = std::make_unique<HeatMethod>(input); });
-    row("heat", factoring, [&](std::int32_t seed) { return heat->solve(seed); });
+    for (const auto& [name, steps] : {std::pair("heat", 1.0), std::pair("heat, 64", 64.0)}) {
+      std::unique_ptr<HeatMethod> heat;
+      const double factoring = seconds([&] { heat = std::make_unique<HeatMethod>(input, steps); });
+      row(name, factoring, [&](std::int32_t seed) { return heat->solve(seed); });
+    }
     Embedding embedding;
     const double embedding_time = seconds([&] { embedding = embed(surface, metric); });
     std::unique_ptr<FastMarching> marching;

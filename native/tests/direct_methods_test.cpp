@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <vector>
 
 #include "embeddings.hpp"
@@ -192,6 +193,21 @@ TEST(DirectMethods, HeatConvergesWhereTrianglesAreRound) {
     return sum / static_cast<double>(found.size());
   };
   EXPECT_LT(mean(64), kHalfOrder * kHalfOrder * mean(16));
+}
+
+TEST(DirectMethods, WhereTrianglesAreObtuseHeatNeedsALongerTimeStep) {
+  // Along the diagonals of the squares that are no edges.
+  const Surface surface = plane(64);
+  const Metric metric = embeddings::plane_metric(surface, 20.0, 1.0 / 20.0, std::numbers::pi / 4);
+  const MetricSurface input = metric_surface(surface, metric);
+  const std::vector<double> exact = ExactGeodesics(embed(surface, metric).mesh).solve(middle(64)).distances();
+  const auto mean = [&](double steps) {
+    const std::vector<double> found = HeatMethod(input, steps).solve(middle(64));
+    double sum = 0.0;
+    for (std::size_t v = 0; v < found.size(); ++v) sum += std::abs(found[v] - exact[v]);
+    return sum / static_cast<double>(found.size());
+  };
+  EXPECT_LT(mean(64.0), 0.5 * mean(1.0));
 }
 
 // A curved surface in a metric that varies, cut into fours: what the direct methods are measured on.
