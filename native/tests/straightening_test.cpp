@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <set>
 #include <utility>
 #include <vector>
@@ -56,7 +56,7 @@ TEST(Straightening, WhereThreeWiresMeetTheSeedSlidesToWhereTheyBalance) {
   const std::vector<Choice> before = sheet.between({ends_of(seed, top), ends_of(seed, left), ends_of(seed, right)});
   const std::vector<Choice> after = sheet.straightened(before);
   ASSERT_EQ(after.size(), 3U);
-  const double shortest = 1.0 + std::sqrt(3.0) / 2;  // a Steiner tree: 120 degrees between any two
+  const double shortest = 1.0 + std::numbers::sqrt3 / 2;  // a Steiner tree: 120 degrees between any two
   EXPECT_GT(length(before), 1.12 * shortest);
   EXPECT_LT(length(after), 1.05 * shortest);
   EXPECT_GT(length(after), shortest - 1e-9);

@@ -66,7 +66,8 @@ def test_crest_lines_of_waves_are_ridges_on_tops_and_valleys_on_bottoms() -> Non
 def test_where_a_closed_chain_begins_makes_no_difference_to_crest_lines() -> None:
     around, across, lobes = 48, 24, 5
     _, triangles = meshes.torus(around, across)
-    u, v = np.tile(np.arange(around), across) * 2 * np.pi / around, np.arange(across).repeat(around) * 2 * np.pi / across
+    u = np.tile(np.arange(around), across) * 2 * np.pi / around
+    v = np.arange(across).repeat(around) * 2 * np.pi / across
     # A ring that is sharp in some places only.
     off = np.exp(-((np.minimum(v, 2 * np.pi - v) / 0.35) ** 2))
     radius = 0.15 * (1 + 0.2 * (1 + np.cos(lobes * u)) * off)
