@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "seams/curve_crossings.hpp"
 #include "shapes.hpp"
 
 namespace seamwire {
@@ -83,6 +84,38 @@ TEST(Straightening, OnASymmetricSheetSeedsSlideInPairs) {
   }
   EXPECT_EQ(found, mirrored);
   EXPECT_FALSE(found.contains(ends_of(seed, top)));
+}
+
+TEST(CurveCrossings, AreCountedWithinFaces) {
+  const Sheet sheet;
+  const std::int32_t a = at(0, 1), b = at(12, 10), c = at(2, 12), d = at(11, 0);
+  EXPECT_EQ(curve_crossings(*sheet.surface, sheet.between({ends_of(a, b), ends_of(c, d)})), 1U);
+  EXPECT_EQ(curve_crossings(*sheet.surface, sheet.between({ends_of(a, b), ends_of(b, c), ends_of(a, d)})), 0U);
+  EXPECT_EQ(curve_crossings(*sheet.surface, sheet.between({ends_of(a, d), ends_of(c, b)})), 0U);
+}
+
+TEST(Straightening, CurvesThatAreCutCrossNoMoreOftenThanBefore) {
+  for (const unsigned seed : {3U, 7U, 12U, 18U}) {
+    const auto surface = std::make_shared<const Surface>(
+        shapes::bumpy(seed % 2 ? shapes::torus(48, 24) : shapes::icosphere(4), 0.05, seed).surface());
+    const SeamPlannerOptions options;
+    const CandidateWires wires(surface, options.along, options.strength, {});
+    const Seclusion seclusion(*surface, wires.curvature());
+    const DirectWires direct(wires, seclusion);
+    const SeamPlanner planner(surface, options);
+    const auto crossings = [&](bool is_straightened, double spread) {
+      const SeamPlan plan =
+          planner.plan({.max_spread = spread, .may_start_on_others = false, .are_straightened = is_straightened});
+      std::set<Ends> pairs;
+      for (const PlannedWire& wire : plan.wires) pairs.insert(ends_of(wire.from, wire.to));
+      std::vector<Choice> choices;
+      for (auto& [ends, choice] : direct.find(pairs, {})) choices.push_back(choice);
+      return curve_crossings(*surface, choices);
+    };
+    for (const double spread : {0.2, 0.3, 0.4}) {
+      EXPECT_LE(crossings(true, spread), crossings(false, spread)) << seed << " " << spread;
+    }
+  }
 }
 
 }  // namespace

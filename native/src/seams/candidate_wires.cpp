@@ -108,6 +108,7 @@ std::vector<std::vector<CandidateWire>> CandidateWires::find(std::span<const Fan
       wires[i].push_back({.follow = kFollow[which],
                           .vertices = std::move(best.vertices),
                           .points = std::move(best.points),
+                          .faces = std::move(best.faces),
                           .strength = strength});
     }
   }
@@ -129,7 +130,8 @@ std::vector<CandidateWires::Found> CandidateWires::find_on_surface(const Prepare
   for (const std::int32_t v : fan.to) {
     Wire wire = trace_wire(surface(), *metric.embedding, field, v, task);
     std::vector<std::int32_t> vertices = snap_to_edges(surface(), *metric.snap_graph, wire, task);
-    found.push_back({std::move(vertices), std::move(wire.points), wire.length, wire.euclidean_length});
+    found.push_back(
+        {std::move(vertices), std::move(wire.points), std::move(wire.faces), wire.length, wire.euclidean_length});
   }
   return found;
 }
@@ -155,7 +157,7 @@ std::vector<CandidateWires::Found> CandidateWires::find_along_edges(const Prepar
     for (const std::int32_t vertex : chain.vertices) points.push_back(surface().points()[vertex]);
     double euclidean = 0.0;
     for (std::size_t i = 1; i < points.size(); ++i) euclidean += (points[i] - points[i - 1]).norm();
-    found.push_back({std::move(chain.vertices), std::move(points), chain.length, euclidean * surface().scale()});
+    found.push_back({std::move(chain.vertices), std::move(points), {}, chain.length, euclidean * surface().scale()});
   }
   return found;
 }

@@ -20,6 +20,7 @@ struct CandidateWire {
   Follow follow = Follow::kMin;
   std::vector<std::int32_t> vertices;  ///< the chain of edges that it marks; empty: there is no wire
   std::vector<Vector> points;          ///< its curve
+  std::vector<std::int32_t> faces;     ///< as Wire has them; none of one along edges
   /// Its Euclidean length over that in its metric: 1 where it follows nothing, more along features.
   double strength = 1.0;
 };
@@ -48,6 +49,7 @@ class CandidateWires {
   struct Found {
     std::vector<std::int32_t> vertices;
     std::vector<Vector> points;
+    std::vector<std::int32_t> faces;
     double length, euclidean;
   };
   std::vector<Found> find_in(const Prepared& metric, const Fan& fan, const Task& task) const;

@@ -35,8 +35,9 @@ class Seclusion {
 /// A wire to choose from.
 struct Choice {
   PlannedWire wire;
-  double strength = 0.0;   ///< how well it follows features
-  double seclusion = 1.0;  ///< Seclusion::of()
+  std::vector<std::int32_t> faces;  ///< of the caller's that each segment of its curve lies in; none of one along edges
+  double strength = 0.0;            ///< how well it follows features
+  double seclusion = 1.0;           ///< Seclusion::of()
 
   double worth() const { return strength * seclusion; }
 };

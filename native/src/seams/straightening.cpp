@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "seams/curve_crossings.hpp"
 #include "seams/cut_pieces.hpp"
 #include "seams/quality.hpp"
 
@@ -101,6 +102,7 @@ class Straightening {
   const Task& task_;
 
   std::size_t piece_count_ = 0;
+  std::size_t crossings_ = 0;       // where curves are cut
   std::optional<Quality> quality_;  // of what there was at first; nullopt: done() has not begun
   std::map<Ends, Choice> direct_;
   std::set<std::pair<std::int32_t, Ends>> tried_;
@@ -108,7 +110,11 @@ class Straightening {
 };
 
 bool Straightening::is_as_good(const std::vector<Choice>& trial) const {
-  if (!limits_.may_start_on_others && meeting_at_seeds(trial).size() != trial.size()) return false;
+  // What is cut is the curves: they are to have in common what their chains of edges have.
+  if (!limits_.may_start_on_others &&
+      (meeting_at_seeds(trial).size() != trial.size() || curve_crossings(surface_, trial) > crossings_)) {
+    return false;
+  }
   const CutPieces cut = pieces(trial);
   const Quality now(cut);
   return cut.piece_count() == piece_count_ && now.crumbs <= quality_->crumbs && now.not_discs <= quality_->not_discs &&
@@ -215,6 +221,7 @@ std::vector<Choice> Straightening::done() {
     const CutPieces cut = pieces(wires_);
     piece_count_ = cut.piece_count();
     quality_.emplace(cut);
+    crossings_ = limits_.may_start_on_others ? 0 : curve_crossings(surface_, wires_);
   }
   do {
     std::set<Ends> pairs;

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "seams/curve_crossings.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace seamwire {
+namespace {
+
+/// A part of the face's area within which a point counts as on a segment.
+constexpr double kRounding = 1e-9;
+
+struct Segment {
+  std::int32_t face;
+  std::size_t choice;
+  const Vector* from;
+  const Vector* to;
+};
+
+bool cross(const Surface& surface, const Segment& one, const Segment& two) {
+  const Triangle& corners = surface.triangles()[one.face];
+  const Vector& origin = surface.points()[corners[0]];
+  const Vector normal = (surface.points()[corners[1]] - origin).cross(surface.points()[corners[2]] - origin);
+  const double area = normal.norm();
+  if (!(area > 0.0)) return false;
+  // Twice the area of a triangle of three points, by which side the third one lies on.
+  const auto side = [&](const Vector& a, const Vector& b, const Vector& c) {
+    return normal.dot((b - a).cross(c - a)) / area;
+  };
+  const auto are_apart = [&](const Segment& line, const Segment& ends) {
+    const double from = side(*line.from, *line.to, *ends.from), to = side(*line.from, *line.to, *ends.to);
+    return std::min(std::abs(from), std::abs(to)) > kRounding * area && (from > 0.0) != (to > 0.0);
+  };
+  return are_apart(one, two) && are_apart(two, one);
+}
+
+}  // namespace
+
+std::size_t curve_crossings(const Surface& surface, std::span<const Choice> choices) {
+  std::vector<Segment> segments;
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    const std::vector<Vector>& points = choices[i].wire.points;
+    for (std::size_t k = 0; k < choices[i].faces.size(); ++k) {
+      const std::int32_t face = choices[i].faces[k];
+      if (face >= 0) segments.push_back({.face = face, .choice = i, .from = &points[k], .to = &points[k + 1]});
+    }
+  }
+  std::ranges::sort(segments, {}, &Segment::face);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    for (std::size_t k = i + 1; k < segments.size() && segments[k].face == segments[i].face; ++k) {
+      if (segments[i].choice != segments[k].choice && cross(surface, segments[i], segments[k])) ++count;
+    }
+  }
+  return count;
+}
+
+}  // namespace seamwire
