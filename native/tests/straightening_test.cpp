@@ -103,17 +103,16 @@ TEST(Straightening, CurvesThatAreCutCrossNoMoreOftenThanBefore) {
     const Seclusion seclusion(*surface, wires.curvature());
     const DirectWires direct(wires, seclusion);
     const SeamPlanner planner(surface, options);
-    const auto crossings = [&](bool is_straightened, double spread) {
-      const SeamPlan plan =
-          planner.plan({.max_spread = spread, .may_start_on_others = false, .are_straightened = is_straightened});
-      std::set<Ends> pairs;
-      for (const PlannedWire& wire : plan.wires) pairs.insert(ends_of(wire.from, wire.to));
-      std::vector<Choice> choices;
-      for (auto& [ends, choice] : direct.find(pairs, {})) choices.push_back(choice);
-      return curve_crossings(*surface, choices);
-    };
     for (const double spread : {0.2, 0.3, 0.4}) {
-      EXPECT_LE(crossings(true, spread), crossings(false, spread)) << seed << " " << spread;
+      const SeamLimits limits{.max_spread = spread, .may_start_on_others = false, .are_straightened = false};
+      std::vector<Choice> before;
+      for (const PlannedWire& wire : planner.plan(limits).wires) {
+        const Ends ends = ends_of(wire.from, wire.to);
+        before.push_back(direct.find({ends}, {}).at(ends));
+      }
+      const std::vector<double> max_spreads(surface->face_count(), spread);
+      const std::vector<Choice> after = straightened(before, direct, *surface, options, limits, max_spreads, {});
+      EXPECT_LE(curve_crossings(*surface, after), curve_crossings(*surface, before)) << seed << " " << spread;
     }
   }
 }
