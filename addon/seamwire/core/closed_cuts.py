@@ -19,13 +19,13 @@ if TYPE_CHECKING:
     from .network import Network, Pick, Wire
     from .wire_labels import Places
 
-SAME = 0.05
+_SAME = 0.05
 """How far apart the same cut is on a mesh before and after it was cut or slid, in the mean, as part of its length: it runs over other
 triangles then, and its metric is measured on these."""
 
-ON = 0.02
+_ON = 0.02
 """How far from a closed cut, as part of its length, the wires are in the mean that it was cut along: cuts are straight over faces."""
-LONGER = 0.1
+_LONGER = 0.1
 """By how much of its length these may be longer or shorter in all."""
 
 
@@ -65,9 +65,9 @@ class TakenCut:
         """
         ran = np.concatenate([wire.points for wire in self.wires])
         length = sum(_length(wire.points) for wire in self.wires)
-        wires = tuple(wire for wire in network.wires if _runs_along(wire.points, ran, ON * length))
+        wires = tuple(wire for wire in network.wires if _runs_along(wire.points, ran, _ON * length))
         around = sum(_length(wire.points) for wire in wires)
-        if abs(around - length) > LONGER * length:
+        if abs(around - length) > _LONGER * length:
             return None
         return replace(self, wires=wires, which=None, metric=())
 
@@ -75,7 +75,7 @@ class TakenCut:
 def is_same(one: NDArray[np.float64], two: NDArray[np.float64]) -> float | None:
     """Return how far two closed courses, (k, 3), are apart, as part of the first one's length; None: too far to be the same cut."""
     apart = max(_mean_gap(one, two), _mean_gap(two, one)) / _length(one)
-    return apart if apart < SAME else None
+    return apart if apart < _SAME else None
 
 
 def _length(course: NDArray[np.float64]) -> float:

@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -11,7 +10,7 @@
 namespace seamwire {
 namespace {
 
-/// A part of the face's area within which a point counts as on a segment.
+/// A part of the face within which a point counts as on a segment, by areas.
 constexpr double kRounding = 1e-9;
 
 struct Segment {
@@ -25,15 +24,15 @@ bool cross(const Surface& surface, const Segment& one, const Segment& two) {
   const Triangle& corners = surface.triangles()[one.face];
   const Vector& origin = surface.points()[corners[0]];
   const Vector normal = (surface.points()[corners[1]] - origin).cross(surface.points()[corners[2]] - origin);
-  const double area = normal.norm();
-  if (!(area > 0.0)) return false;
+  const double twice_area = normal.norm();
+  if (!(twice_area > 0.0)) return false;
   // Twice the area of a triangle of three points, by which side the third one lies on.
   const auto side = [&](const Vector& a, const Vector& b, const Vector& c) {
-    return normal.dot((b - a).cross(c - a)) / area;
+    return normal.dot((b - a).cross(c - a)) / twice_area;
   };
   const auto are_apart = [&](const Segment& line, const Segment& ends) {
     const double from = side(*line.from, *line.to, *ends.from), to = side(*line.from, *line.to, *ends.to);
-    return std::min(std::abs(from), std::abs(to)) > kRounding * area && (from > 0.0) != (to > 0.0);
+    return std::min(std::abs(from), std::abs(to)) > kRounding * twice_area && (from > 0.0) != (to > 0.0);
   };
   return are_apart(one, two) && are_apart(two, one);
 }
