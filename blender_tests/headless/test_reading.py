@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scene import add_grid, add_object, add_suzanne, edit
 from seamwire.mesh import edit_mesh
+from seamwire.mesh.seam_islands import island_count as islands
 
 
 def add_mixed() -> bpy.types.Object:
@@ -52,6 +53,24 @@ def test_quads_bent_in_at_any_corner_are_cut_there(bent: str) -> None:
     edit()
     arrays = edit_mesh.read(obj)
     assert [turned(tuple(map(int, t))) for t in arrays.triangles] == [turned(t) for t in blenders_triangles(obj.data)]
+
+
+@pytest.mark.parametrize("more", [(), ((0.5, 2.0), (0.5, -2.0))], ids=["quads", "pentagons"])
+def test_seams_past_a_vertex_in_the_middle_of_an_edge_part_islands(more: tuple[tuple[float, float], ...]) -> None:
+    points = [(0, 0), (1, 0), (2, 0), (1.5, 2), (1.5, -2), *more]
+    faces = [(0, 1, 2, 3, 5), (2, 1, 0, 6, 4)] if more else [(0, 1, 2, 3), (2, 1, 0, 4)]
+    obj = add_object([(*point, 0.0) for point in points], faces)
+    edit()
+    assert islands(obj) == 1
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    for edge in bm.verts[1].link_edges:
+        edge.seam = True
+    bmesh.update_edit_mesh(obj.data)
+    assert islands(obj) == 2
+    arrays = edit_mesh.read(obj)
+    corners = arrays.points[arrays.triangles]
+    assert np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2].min() > 0.1
 
 
 def test_what_is_hidden_is_left_out_and_seams_are_told() -> None:

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,18 @@ TEST(Triangulation, CutsAQuadThatIsBentInAtThatCornerWhicheverItIs) {
       area += part;
     }
     EXPECT_NEAR(area, 0.3, 1e-12) << "corner " << bent;  // half the square, less 0.4 times as much
+  }
+}
+
+TEST(Triangulation, LeavesNoTriangleWithoutAreaWhereACornerLiesBetweenTwoOthers) {
+  const std::vector<Vector> triangle = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}};
+  for (std::size_t start = 0; start < 4; ++start) {
+    std::vector<Vector> points = {triangle[0], {1, 1e-6, 0}, triangle[1], triangle[2]};
+    std::rotate(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(start), points.end());
+    for (const auto& [a, b, c] : triangulate(points, Numbers{0, 1, 2, 3}, Numbers{4}).triangles) {
+      const auto at = [&](std::int32_t v) { return points[static_cast<std::size_t>(v)]; };
+      EXPECT_GT((at(b) - at(a)).cross(at(c) - at(a)).z(), 1.0) << "from corner " << start;
+    }
   }
 }
 

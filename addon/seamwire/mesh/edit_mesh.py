@@ -18,6 +18,7 @@ import numpy as np
 
 from ..core import native
 from ..core.network import vertices_of
+from ..core.triangulation import without_flat_triangles
 from ..core.wire_labels import EdgeLabels
 
 if TYPE_CHECKING:
@@ -39,7 +40,7 @@ class Arrays:
     points
         (n, 3) vertices, stretched as the object's matrix stretches them: lengths are those that are seen.
     triangles
-        (m, 3) the visible faces, cut into triangles by Blender.
+        (m, 3) the visible faces, cut into triangles as Blender does, but for those without area.
     polygons
         (m,) the face that each triangle is part of, ascending.
     edges
@@ -397,7 +398,7 @@ class _Attributes:
 def _cut(
     mesh: bpy.types.Mesh, corners: NDArray[np.int32], points: NDArray[np.float64]
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Cut the faces into triangles as Blender does, and return the face of each too.
+    """Cut the faces into triangles as Blender does, but into none without area, and return the face of each too.
 
     Reading Blender's own triangles takes most of a second for a million of them: they are asked for only where there
     are faces of more than four corners.
@@ -407,7 +408,8 @@ def _cut(
     if sizes.size and sizes.max() > 4:
         mesh.calc_loop_triangles()
         polygons = _column(mesh.loop_triangles, "polygon_index", np.int32)
-        return _column(mesh.loop_triangles, "vertices", np.int32, 3), polygons
+        triangles = _column(mesh.loop_triangles, "vertices", np.int32, 3)
+        return without_flat_triangles(points, triangles, polygons), polygons
     return native.load().cut_polygons(points, corners, sizes)
 
 

@@ -32,6 +32,11 @@ def labels_of(arrays: edit_mesh.Arrays) -> NDArray[np.int32]:
     return np.asarray(core.face_segments(surface, arrays.seams))
 
 
+def island_count(obj: bpy.types.Object) -> int:
+    """Return how many islands an edit mesh has; raises as `edit_mesh.read`."""
+    return int(labels_of(edit_mesh.read(obj)).max(initial=-1)) + 1
+
+
 def faces_to_cut(obj: bpy.types.Object) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
     """Return the faces of the islands that are no discs, and how many cuts each of these islands needs.
 

@@ -2,6 +2,7 @@
 #include "seamwire/surface/triangulate.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstddef>
 #include <string>
 
@@ -10,6 +11,17 @@
 
 namespace seamwire {
 namespace {
+
+/// How near to its longest side a triangle's corner is where the triangle has no area, as part of that side: vertices are
+/// placed on edges in single precision.
+constexpr double kFlat = 1e-4;
+
+/// Whether a quad abcd can be cut from a to c, into abc and acd: neither lies on the other, nor has no area.
+bool can_be_cut(const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
+  const Vector diagonal = c - a, one = (b - a).cross(diagonal), other = (d - a).cross(diagonal);
+  const double flat = kFlat * diagonal.squaredNorm();
+  return one.dot(other) <= 0 && std::min(one.squaredNorm(), other.squaredNorm()) > flat * flat;
+}
 
 /// Whether the triangles abc and acd look away from each other, by more than a right angle.
 bool is_folded(const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
@@ -43,7 +55,10 @@ Triangulation triangulate(std::span<const Vector> points, std::span<const std::i
     const std::int32_t a = corner[0], b = corner[1], c = corner[2];
     if (sizes[p] == 3) {
       out.triangles.push_back({a, b, c});
-    } else if (const std::int32_t d = corner[3]; is_folded(points[a], points[b], points[c], points[d])) {
+    } else if (const std::int32_t d = corner[3];
+               is_folded(points[a], points[b], points[c], points[d]) ||
+               (!can_be_cut(points[a], points[b], points[c], points[d]) &&
+                can_be_cut(points[b], points[c], points[d], points[a]))) {
       out.triangles.push_back({a, b, d});
       out.triangles.push_back({b, c, d});
     } else {
