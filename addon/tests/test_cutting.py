@@ -144,6 +144,50 @@ def test_random_lines_join_their_ends_and_cross_in_nodes_only(number: int) -> No
         assert min(gaps) < 0.15
 
 
+def in_row(*heights: float) -> tuple[int, NDArray[np.float64]]:
+    """Return the curve over the columns of `grid(6)` at these heights in its row from 2 to 3, between corners."""
+    places = [(0.0, heights[0])]
+    for x, (y, following) in enumerate(itertools.pairwise(heights)):
+        part = (y - 2.0) / (1.0 + y - following)  # where it passes the quad's diagonal
+        if 0.0 < part < 1.0:
+            places.append((x + part, 2.0 + part))
+        places.append((x + 1.0, following))
+    return int(7 * heights[0]), np.array([(x, y, 0.0) for x, y in places])
+
+
+def enclosed(cuts: CutPlan) -> int:
+    """Return how many islands cuts that hang together enclose."""
+    return len(cuts.segments()) - len(cuts.nodes()) + 1
+
+
+@pytest.mark.parametrize(("gap", "islands"), [(0.08, 1), (0.1, 1), (0.3, 2)])
+def test_cuts_that_touch_again_and_again_leave_no_slivers_between(gap: float, islands: int) -> None:
+    faces = grid(6)
+    one = in_row(2.0, 2.5, 2.5, 2.5, 2.5, 2.5, 3.0)
+    other = in_row(3.0, 2.5, 2.5 + gap, 2.5, 2.5, 2.5, 2.0)
+    assert enclosed(plan(faces, [one])) == 0
+    # Where both run side by side there is one cut, where they end there are two.
+    cuts = plan(faces, [one, other])
+    assert enclosed(cuts) == islands - 1
+    assert {Node((21,)), Node((27,)), Node((20,))} <= reached(cuts, 14)
+
+
+def test_around_a_vertex_no_sliver_is_left() -> None:
+    faces = grid(6)
+    over, under = in_row(3.0, 2.5, 2.94, 2.5, 2.5, 2.5, 2.0), in_row(2.0, 2.5, 2.96, 2.5, 2.5, 2.5, 3.0)
+    assert any(node.vertices == (23,) for node in plan(faces, [under]).nodes()), "near the vertex it goes through it"
+    assert enclosed(plan(faces, [over, under])) == 0
+
+
+def test_two_cuts_between_the_same_seeds_stay_two() -> None:
+    faces = grid(6)
+    heights = (2.0, 2.5, 2.5, 2.5, 2.5, 2.5, 3.0)
+    beside = tuple(y + 0.1 * (y == 2.5) for y in heights)
+    more = faces.straight(14, 0)
+    assert enclosed(plan(faces, [in_row(*heights), in_row(*beside), more])) == 1
+    assert enclosed(plan(faces, [in_row(*heights), in_row(*heights), more])) == 0
+
+
 def inside(faces: Polygons, *places: tuple[float, float]) -> tuple[int, NDArray[np.float64]]:
     """Return the curve through places, the first of them in the triangle of quad 0 that has the corner 1."""
     return 1, np.array([(x, y, 0.0) for x, y in places])

@@ -9,12 +9,13 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from mathutils import Vector
+from mathutils import Matrix, Vector
 from scene import add_grid, add_layers, add_suzanne, edit, head, items_of, layer_kinds, plain, seams, snapshot
 from seamwire.core.network import Network
 from seamwire.mesh.cut import CUTS
 from seamwire.mesh.edit_mesh import LABELS
 from seamwire.mesh.object_session import ObjectSession
+from seamwire.mesh.seam_islands import island_count
 from stored import agree, session_on, write
 
 
@@ -576,3 +577,44 @@ def test_undo_of_a_drag_brings_the_old_cut_back() -> None:
     assert snapshot(obj) != before
     bpy.ops.ed.undo()
     assert snapshot(bpy.data.objects[name]) == before
+
+
+def lines(obj: bpy.types.Object, *ends: tuple[tuple[float, float], tuple[float, float]]) -> ObjectSession:
+    """Keep wires across the surface between the vertices nearest to places, and return the session that has them."""
+    bm = bmesh.from_edit_mesh(obj.data)
+    near = [[min(bm.verts, key=lambda v: (v.co.xy - Vector(place)).length).index for place in pair] for pair in ends]
+    chains = "; ".join(f"{a} {b}" for a, b in near)
+    assert bpy.ops.mesh.seamwire_mark(chains=chains, along="SURFACE", finish="SNAP") == {"FINISHED"}
+    return session_on(obj)
+
+
+def cut_with(mesh: ObjectSession, crumb: float) -> None:
+    wires = mesh.session.wires
+    mesh.cut(mesh.plan_cut(wires), wires, kept=True, crumb=crumb)
+
+
+@pytest.mark.parametrize(("crumb", "islands"), [(0.0, 7), (5e-4, 7), (1e-3, 6)])
+def test_what_is_smaller_than_a_crumb_is_no_island(crumb: float, islands: int) -> None:
+    obj = add_grid(21)
+    edit()
+    # Three lines, which enclose 0.07 % of the square in its middle.
+    mesh = lines(obj, ((-1.0, 0.0), (1.0, 0.0)), ((-0.2, -1.0), (0.3, 1.0)), ((0.3, -1.0), (-0.1, 1.0)))
+    cut_with(mesh, crumb)
+    assert island_count(obj) == islands
+    assert agree(obj)
+    bm = bmesh.from_edit_mesh(obj.data)
+    made = bm.edges.layers.int[CUTS]
+    assert all(edge.seam for edge in bm.edges if edge[made]), "no cut is left over"
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert not obj.data.validate(verbose=True)
+
+
+def test_small_parts_of_a_mesh_are_cut_all_the_same() -> None:
+    obj = add_grid(21)
+    edit()
+    bm = bmesh.from_edit_mesh(obj.data)
+    bmesh.ops.create_grid(bm, x_segments=4, y_segments=4, size=0.02, matrix=Matrix.Translation((3.0, 0.0, 0.0)))
+    bmesh.update_edit_mesh(obj.data)
+    mesh = lines(obj, ((2.98, -0.02), (3.02, 0.01)))
+    cut_with(mesh, 1e-3)
+    assert island_count(obj) == 3

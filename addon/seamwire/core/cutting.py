@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol
 
@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 
 NEAR = 0.05
 """A cut that passes a vertex or an edge nearer than that, as part of an edge or of a triangle's height, goes through it: no slivers."""
+WIDE = 0.25
+"""Of two cuts that part and meet again only one is left where they are nowhere farther apart, as part of the heights of the
+triangles that they cross: curves that run side by side touch here and there, and would enclose islands of next to no area."""
 OFF = 0.1
 """How far from the mesh a curve's points may be, as part of the longest edge of the triangle beside. Mirror images of curves are off
 where the halves of a mesh are cut into other triangles; what is new lies on the mesh all the same."""
@@ -166,7 +169,21 @@ def plan(faces: Faces, curves: Iterable[tuple[int, NDArray[np.float64]]]) -> Cut
         own = _without_detours(_walk(faces, start, points))
         ends += _ends(faces, own)
         pieces += own
-    return _sorted_out(faces, _without_spurs(_together(_crossed(faces, _together(pieces))), ends))
+    together = _together(_crossed(faces, _together(pieces)))
+    seeds = _Ends(ends)
+    return _sorted_out(faces, _without_spurs(_without_slivers(faces, together, seeds), seeds))
+
+
+class _Ends:
+    """Where curves begin and end."""
+
+    def __init__(self, ends: Iterable[Node]) -> None:
+        self._at: dict[tuple[int, ...], list[Node]] = defaultdict(list)
+        for node in ends:
+            self._at[node.vertices].append(node)
+
+    def __contains__(self, node: Node) -> bool:
+        return any(node.near(end) for end in self._at.get(node.vertices, ()))
 
 
 def _ends(faces: Faces, pieces: Sequence[Piece]) -> Iterator[Node]:
@@ -249,6 +266,11 @@ def _together(pieces: Iterable[Piece]) -> list[Piece]:
             if first is None:
                 inside[node.vertices].append(node)
             same[node] = first or node
+    return _renamed(pieces, same)
+
+
+def _renamed(pieces: Iterable[Piece], same: Mapping[Node, Node]) -> list[Piece]:
+    """Put nodes in the place of others, and keep each piece once."""
     kept: dict[frozenset[Node], Piece] = {}
     for one, two, polygon in pieces:
         begin, end = same.get(one, one), same.get(two, two)
@@ -257,14 +279,96 @@ def _together(pieces: Iterable[Piece]) -> list[Piece]:
     return list(kept.values())
 
 
-def _without_spurs(pieces: list[Piece], ends: Iterable[Node]) -> list[Piece]:
+def _without_slivers(faces: Faces, pieces: list[Piece], ends: _Ends) -> list[Piece]:
+    """Leave out the longer one of two cuts between the same nodes that enclose next to nothing; not where both nodes are ends."""
+    beside: dict[Node, set[int]] = defaultdict(set)
+    for number, (one, two, _) in enumerate(pieces):
+        beside[one].add(number)
+        beside[two].add(number)
+    left_out: set[int] = set()
+    waiting = [node for node, own in beside.items() if len(own) > 2]
+    while waiting:
+        start = waiting.pop()
+        routes: dict[Node, list[_Route]] = defaultdict(list)
+        for first in sorted(beside[start]):
+            route = _Route(faces, pieces, beside, ends, start, first)
+            end = route.nodes[-1]
+            if end != start and not (start in ends and end in ends):
+                routes[end].append(route)
+        pairs = (pair for own in routes.values() for pair in itertools.combinations(own, 2))
+        for one, other in pairs:
+            if one.is_close_to(other):
+                longer = max(one, other, key=lambda route: route.length)
+                for number, ends_of in zip(longer.pieces, itertools.pairwise(longer.nodes), strict=True):
+                    for node in ends_of:
+                        beside[node].discard(number)
+                left_out.update(longer.pieces)
+                waiting += [start, longer.nodes[-1]]
+                break
+    return [piece for number, piece in enumerate(pieces) if number not in left_out]
+
+
+class _Route:
+    """Pieces from a node on to where they branch or end.
+
+    Attributes
+    ----------
+    nodes
+        What they pass, the first and the last node included.
+    pieces
+        Their numbers.
+    length
+    """
+
+    def __init__(
+        self,
+        faces: Faces,
+        pieces: Sequence[Piece],
+        beside: Mapping[Node, set[int]],
+        ends: _Ends,
+        start: Node,
+        first: int,
+    ) -> None:
+        self.nodes, self.pieces = [start], [first]
+        while True:
+            one, two, _ = pieces[self.pieces[-1]]
+            here = two if one == self.nodes[-1] else one
+            self.nodes.append(here)
+            following = beside[here] - {self.pieces[-1]}
+            if len(following) != 1 or here == start or here in ends:
+                break
+            self.pieces += following
+        self._faces = faces
+        self._polygons = [pieces[number][2] for number in self.pieces]
+        self._places = np.array([node.place(faces.points) for node in self.nodes])
+        self.length = float(np.linalg.norm(np.diff(self._places, axis=0), axis=1).sum())
+
+    def is_close_to(self, other: _Route) -> bool:
+        """Whether another one between the same nodes is so close that both enclose next to nothing."""
+        if {*self.pieces} & {*other.pieces}:
+            return False
+        widest = WIDE * self._mean_height(other)
+        return all(
+            nearest_on_segments(place, there._places[:-1], there._places[1:])[1].min() <= widest
+            for here, there in ((self, other), (other, self))
+            for place in here._places
+        )
+
+    def _mean_height(self, other: _Route) -> float:
+        """Return the mean height, over its longest side, of the triangles that two routes pass."""
+        rows = [row for polygon in {*self._polygons, *other._polygons} for row in self._faces.rows_of(polygon)]
+        corners = self._faces.points[self._faces.triangles[rows]]
+        sides = np.roll(corners, -1, axis=1) - corners
+        areas = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
+        longest = np.linalg.norm(sides, axis=2).max(axis=1)
+        return float(np.mean(np.divide(areas, longest, out=np.zeros_like(areas), where=longest > 0.0)))
+
+
+def _without_spurs(pieces: list[Piece], ends: _Ends) -> list[Piece]:
     """Leave out pieces that lead nowhere, to none of the ends: what moving nodes leaves behind, and ends inside polygons."""
-    ends_at: dict[tuple[int, ...], list[Node]] = defaultdict(list)
-    for node in ends:
-        ends_at[node.vertices].append(node)
 
     def may_go(node: Node) -> bool:
-        return len(node.vertices) > 1 and not any(node.near(end) for end in ends_at[node.vertices])
+        return len(node.vertices) > 1 and node not in ends
 
     beside: dict[Node, set[int]] = defaultdict(set)
     for number, (one, two, _) in enumerate(pieces):

@@ -6,7 +6,7 @@ Blender's own operations on the edit mesh do it, those that its knife is made of
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -82,10 +82,17 @@ def plan(cage: Cage, arrays: Arrays, curves: Iterable[tuple[int, NDArray[np.floa
     return cutting.plan(CageFaces(cage, arrays), curves)
 
 
-def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = ()) -> Cut:
+def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = (), crumb: float = 0.0) -> Cut:
     """Cut an edit mesh, and make seams of the cuts. Vertices, edges and faces have other numbers then.
 
-    `seeds` are vertices and points whose numbers then are asked for; of points, only those that the cuts go through have any.
+    Parameters
+    ----------
+    cage, what
+        The mesh, and the plan of what is cut.
+    seeds
+        Vertices and points whose numbers then are asked for; of points, only those that the cuts go through have any.
+    crumb
+        The part of the mesh's area below which an island beside the cuts becomes part of a larger one.
     """
     bm = cage.bm
     # First of all: a new layer makes what was found before invalid.
@@ -123,6 +130,9 @@ def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = ()) 
         seams += edges
     for edge in seams:
         edge.seam = True
+    if crumb > 0.0:
+        _join(bm, _crumb_borders(bm, seams, crumb * sum(face.calc_area() for face in bm.faces)))
+        seams = [edge for edge in seams if edge.is_valid and edge.seam]
     for items in (bm.verts, bm.edges, bm.faces):
         items.index_update()
     bmesh.update_edit_mesh(cage.mesh, loop_triangles=True, destructive=True)
@@ -147,6 +157,15 @@ def take_back(cage: Cage, edges: Iterable[Edge]) -> int:
     one edge that passes there and no wire has. Vertices, edges and faces have other numbers then.
     """
     bm = cage.bm
+    gone = _join(bm, [edge for a, b in edges if (edge := bm.edges.get((bm.verts[a], bm.verts[b]))) is not None])
+    for items in (bm.verts, bm.edges, bm.faces):
+        items.index_update()
+    bmesh.update_edit_mesh(cage.mesh, loop_triangles=True, destructive=True)
+    return gone
+
+
+def _join(bm: bmesh.types.BMesh, edges: Collection[bmesh.types.BMEdge]) -> int:
+    """Join what cuts along some edges parted as `take_back` does, and return how many edges went."""
     of_verts, of_edges, labels = (
         bm.verts.layers.int.get(CUTS),
         bm.edges.layers.int.get(CUTS),
@@ -154,10 +173,9 @@ def take_back(cage: Cage, edges: Iterable[Edge]) -> int:
     )
     if of_verts is None or of_edges is None:
         return 0
-    found = [edge for a, b in edges if (edge := bm.edges.get((bm.verts[a], bm.verts[b]))) is not None]
-    verts = {vert for edge in found for vert in edge.verts if vert[of_verts]}
+    verts = {vert for edge in edges for vert in edge.verts if vert[of_verts]}
     count = len(bm.edges)
-    cuts = [edge for edge in found if edge[of_edges] and not any(face.hide for face in edge.link_faces)]
+    cuts = [edge for edge in edges if edge[of_edges] and not any(face.hide for face in edge.link_faces)]
     bmesh.ops.dissolve_edges(bm, edges=cuts, use_verts=False)
     gone = count - len(bm.edges)
     passed = [
@@ -168,10 +186,69 @@ def take_back(cage: Cage, edges: Iterable[Edge]) -> int:
         and not any(labels is not None and edge[labels] for edge in vert.link_edges)
     ]
     bmesh.ops.dissolve_verts(bm, verts=passed)
-    for items in (bm.verts, bm.edges, bm.faces):
-        items.index_update()
-    bmesh.update_edit_mesh(cage.mesh, loop_triangles=True, destructive=True)
     return gone
+
+
+def _crumb_borders(
+    bm: bmesh.types.BMesh, cuts: Collection[bmesh.types.BMEdge], least: float
+) -> list[bmesh.types.BMEdge]:
+    """Let cuts be no seams, and return them, where they part islands of less than an area from one of more, over the longest border."""
+    own, large, gone = set(cuts), set(), []
+    waiting = [face for edge in cuts for face in edge.link_faces if not face.hide]
+    while waiting:
+        crumb = _crumb_at(waiting[-1], least, large)
+        borders = [
+            border
+            for border in _borders(crumb, own)
+            if any(face not in crumb and not _crumb_at(face, least, large) for face in border[0].link_faces)
+        ]
+        if not borders:
+            waiting.pop()
+            continue
+        border = max(borders, key=lambda edges: sum(edge.calc_length() for edge in edges))
+        for edge in border:
+            edge.seam = False
+        own.difference_update(border)
+        gone += border
+    return gone
+
+
+def _crumb_at(face: bmesh.types.BMFace, least: float, large: set[bmesh.types.BMFace]) -> set[bmesh.types.BMFace]:
+    """Return the faces of the island with a face, none where it has a `least` area; those found of such islands become `large`."""
+    found, waiting, area = {face}, [face], 0.0
+    while waiting:
+        here = waiting.pop()
+        area += here.calc_area()
+        if area >= least or here in large:
+            large |= found
+            return set()
+        beside = {other for edge in here.edges if not edge.seam for other in edge.link_faces if not other.hide} - found
+        found |= beside
+        waiting += beside
+    return found
+
+
+def _borders(island: set[bmesh.types.BMFace], cuts: set[bmesh.types.BMEdge]) -> list[list[bmesh.types.BMEdge]]:
+    """Return the cuts that part an island from others, in stretches between where seams branch or end."""
+    left = {
+        edge
+        for face in island
+        for edge in face.edges
+        if edge in cuts and any(other not in island and not other.hide for other in edge.link_faces)
+    }
+    stretches = []
+    while left:
+        waiting = [left.pop()]
+        stretches.append(stretch := [])
+        while waiting:
+            stretch.append(edge := waiting.pop())
+            for vert in edge.verts:
+                seams = [other for other in vert.link_edges if other.seam]
+                if len(seams) == 2 and not vert.is_boundary:
+                    following = left.intersection(seams)
+                    left -= following
+                    waiting += following
+    return stretches
 
 
 def _vert_inside(

@@ -428,6 +428,7 @@ class ObjectSession:
         kept: bool = False,
         before: Network | None = None,
         taken: Collection[TakenCut] | None = None,
+        crumb: float = 0.0,
     ) -> cut.Cut:
         """Cut the mesh; what was cut are wires along its edges then, between the seeds of those across the surface.
 
@@ -445,6 +446,8 @@ class ObjectSession:
             A network that the mesh had: what wires of it were cut along that are there no more is taken back first.
         taken
             The closed cuts that are among these wires; None: those of the session.
+        crumb
+            The part of the mesh's area below which an island beside the cuts becomes part of a larger one.
 
         Raises
         ------
@@ -465,7 +468,7 @@ class ObjectSession:
             placed = after._placed((*wires, *images))
             return after.cut(after.plan_cut(placed), placed, taken=taken)
         seeds = {end for wire in wires for end in (wire.start, wire.end)}
-        done = cut.carry_out(self.cage, plan, seeds)
+        done = cut.carry_out(self.cage, plan, seeds, crumb)
         after = ObjectSession(self.obj)
         claimed = {edge for wire in after.session.wires for edge in wire.claims()}
         after.take_over(after._cut_wires({edge for edge in done.edges if edge not in claimed}, wires, done.seeds))

@@ -42,6 +42,7 @@ def cut_wires(
     context: bpy.types.Context,
     wires: Mapping[ObjectSession, Sequence[Wire]],
     kept: bool = False,
+    crumb: float = 0.0,
 ) -> set[str]:
     """Cut wires across the surface into meshes and say what was done; nothing is changed where one of them cannot be cut.
 
@@ -53,6 +54,8 @@ def cut_wires(
         Of each mesh. Its session is over then.
     kept
         Whether meshes have these wires already: their snapped edges cease to be seams.
+    crumb
+        The part of a mesh's area below which an island beside the cuts becomes part of a larger one.
     """
     from ..core.cutting import CuttingError
     from ..mesh import edit_mesh
@@ -62,7 +65,7 @@ def cut_wires(
     except CuttingError as error:
         operator.report({"ERROR"}, str(error))
         return {"CANCELLED"}
-    cuts = [mesh.cut(plan, wires[mesh], kept) for mesh, plan in plans.items()]
+    cuts = [mesh.cut(plan, wires[mesh], kept, crumb=crumb) for mesh, plan in plans.items()]
     edit_mesh.live_unwrap(context)
     uncut = sum(cut.uncut for cut in cuts)
     if uncut:
