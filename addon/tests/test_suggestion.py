@@ -8,7 +8,16 @@ from math import pi
 import numpy as np
 import pytest
 import seamwire_core as sw
-from seamwire.core.suggestion import best_along, best_finish, narrowed, planned_wires, seeds_for, spread_of, spreads
+from seamwire.core.suggestion import (
+    best_along,
+    best_finish,
+    is_parted,
+    narrowed,
+    planned_wires,
+    seeds_for,
+    spread_of,
+    spreads,
+)
 
 CUBE = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], dtype=np.float64)
 SIDES = np.array([(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)])
@@ -37,10 +46,17 @@ def test_spreads_of_islands() -> None:
 
 def test_only_stretched_islands_are_narrowed() -> None:
     islands = np.array([0, 0, 1, 2], dtype=np.int32)
-    limits = narrowed(np.array([0.4, 0.1, 0.4, 0.4]), [0], islands, np.array([0.3, 0.2, 0.2]))
-    assert limits[0] < 0.3
-    assert limits[1] < 0.1
-    assert limits[2:].tolist() == [0.4, 0.4]
+    limits = narrowed(np.array([0.4, 0.1, 0.4, 0.1]), [0], islands, np.array([0.3, 0.2, 0.2]))
+    assert limits[0] == limits[1] < 0.3
+    assert limits[2:].tolist() == [0.4, 0.2], "the others may be as they are"
+
+
+def test_an_island_is_parted_where_more_than_its_border_has_moved() -> None:
+    before = np.array([0, 0, 0, 0, 1, 1, 1, 1], dtype=np.int32)
+    areas = np.array([1.0, 1.0, 1.0, 0.01, 1.0, 1.0, 1.0, 1.0])
+    assert is_parted(before, np.array([1, 1, 1, 0, 0, 0, 0, 0], dtype=np.int32), areas).tolist() == [False, False]
+    assert is_parted(before, np.array([1, 1, 2, 2, 0, 0, 0, 0], dtype=np.int32), areas).tolist() == [True, False]
+    assert is_parted(before, np.zeros(8, dtype=np.int32), areas).tolist() == [False, False]
 
 
 def test_more_islands_take_more_seeds() -> None:

@@ -9,13 +9,11 @@ import bpy
 import numpy as np
 import pytest
 from scene import add_grid, add_suzanne, edit, seams, snapshot
+from seamwire.core.suggestion import seeds_for, spread_of
 from seamwire.mesh import edit_mesh, seam_islands, unwrap, uv_map
+from seamwire.mesh.seam_islands import island_count as islands
 from seamwire.mesh.suggestion import Suggestion
 from stored import agree, chains, session_on
-
-
-def islands(obj: bpy.types.Object) -> int:
-    return int(seam_islands.labels_of(edit_mesh.read(obj)).max()) + 1
 
 
 def open_islands(obj: bpy.types.Object) -> int:
@@ -136,14 +134,15 @@ def test_of_the_cuts_that_part_the_worst_island_the_one_that_lowers_its_stretch_
     trial = Suggestion(obj, None, True, (24,), None)
     trial.prepare(lambda _: True)
     worst = trial.worst()
-    plans = trial.parting(worst)
+    trial.part(worst, lambda _: True)
     found = []
-    for plan in plans:
+    for plan in trial.partings:
         trial.use(plan)
         trial.write()
-        with unwrap.taken_back(obj):
-            unwrap.unwrap_changed(bpy.context)
-            found.append((plan.island_count, trial.stretch_within(worst.faces)))
+        saved = unwrap.SavedUvs(obj)
+        unwrap.unwrap_changed(bpy.context)
+        found.append((plan.island_count, trial.stretch_within(worst.faces)))
+        saved.restore()
         trial.take_back()
     lower = [(count, stretched) for count, stretched in found if stretched < worst.value]
     fewest = lower[0][0]
@@ -159,11 +158,11 @@ def test_of_the_cuts_that_part_the_worst_island_the_one_that_lowers_its_stretch_
 
 def test_unless_asked_to_unwrap_the_worst_island_is_parted_with_its_uvs_kept() -> None:
     obj = unwrapped_ball(3)
-    before, old, edges_before = uv_map.read_uvs(obj), seams(obj), unwrap._Map(obj).remembered()
+    before, old, edges_before = uv_map.read_uvs(obj), seams(obj), unwrap.SavedUvs(obj).remembered
     assert bpy.ops.mesh.seamwire_suggest(limit="WORST", unwrap=False) == {"FINISHED"}
     assert set(seams(obj)) > set(old)
     assert np.array_equal(uv_map.read_uvs(obj), before)
-    assert unwrap._Map(obj).remembered() == edges_before
+    assert unwrap.SavedUvs(obj).remembered == edges_before
 
 
 def test_another_object_without_uvs_gets_none_from_parting_the_worst_island() -> None:
@@ -231,6 +230,22 @@ def test_across_the_surface(finish: str) -> None:
     assert islands(obj) == 3
     assert open_islands(obj) == 0
     assert agree(obj)
+
+
+@pytest.mark.parametrize("angle", [60.0, 45.0, 30.0])
+def test_islands_are_those_planned_where_wires_run_side_by_side(angle: float) -> None:
+    """On an uneven surface both metrics' wires leave a seed close to each other, and cross there."""
+    obj = add_ball()
+    dice = np.random.default_rng(2)
+    for vertex in obj.data.vertices:
+        vertex.co *= 1.0 + 0.05 * dice.random()
+    edit()
+    spread = spread_of(math.radians(angle))
+    suggestion = Suggestion(obj, "SURFACE", True, (seeds_for(spread),), "CUT")
+    suggestion.prepare(lambda _: True)
+    suggestion.suggest(lambda _: True, spread)
+    assert bpy.ops.mesh.seamwire_suggest(angle=math.radians(angle), along="SURFACE", finish="CUT") == {"FINISHED"}
+    assert islands(obj) == suggestion.plan.island_count
 
 
 def test_unwraps_on_request() -> None:

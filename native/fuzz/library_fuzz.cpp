@@ -350,7 +350,7 @@ void check_plan(Bytes& from, const Patience& patience, const Surface& surface) {
   limits.islands = static_cast<std::size_t>(from.below(6));
   limits.may_start_on_others = from.coin();
   limits.are_straightened = from.coin();
-  const SeamPlan plan = planner.plan(limits, patience.task());
+  const SeamPlan plan = planner.plan(limits, {}, patience.task());
   require(plan.islands.size() == surface.face_count(), "each face is in an island");
   for (const PlannedWire& wire : plan.wires) {
     check_chain(surface, wire.vertices);

@@ -21,6 +21,16 @@ struct SeamPlannerObject {
   SeamPlanner planner;
 };
 
+/// Throws InvalidInput, with what is to be said then.
+std::vector<double> values_from(const py::object& from, const char* otherwise) {
+  const auto values = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(from);
+  if (!values || values.ndim() != 1) {
+    PyErr_Clear();
+    throw InvalidInput(otherwise);
+  }
+  return {values.data(), values.data() + values.size()};
+}
+
 /// One limit for all triangles, or one for each.
 SeamLimits limits_from(const py::object& max_spread, std::size_t islands) {
   SeamLimits limits{.islands = islands};
@@ -28,12 +38,7 @@ SeamLimits limits_from(const py::object& max_spread, std::size_t islands) {
     limits.max_spread = max_spread.cast<double>();
     return limits;
   }
-  const auto values = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(max_spread);
-  if (!values || values.ndim() != 1) {
-    PyErr_Clear();
-    throw InvalidInput("max_spread: expected a number, or an array of one for each triangle");
-  }
-  limits.max_spreads.assign(values.data(), values.data() + values.size());
+  limits.max_spreads = values_from(max_spread, "max_spread: expected a number, or an array of one for each triangle");
   return limits;
 }
 
@@ -85,8 +90,13 @@ along : {'surface', 'edges'}
     Where the wires run.
 max_anisotropy, clamp_percentile : float
     Of the feature metric that they are short in, see `feature_metric`.
+seeds_at : (k,) array_like of int, optional
+    Vertices that are seeds whatever else is.
 seeds, most_seeds : int
-    To begin with; and at most, where the surface is not cut into discs yet.
+    To begin with, those included; and at most, where the surface is not cut into discs yet.
+density : (n,) array_like of float, optional
+    How many times denser seeds are at each vertex than elsewhere. Where it is 0 there are those of `seeds_at` alone, and
+    no wires from them.
 images : (n,) array_like of int, optional
     The mirror image of each vertex, itself or -1 where it has none: seeds come and wires go in pairs.
 seams : (k, 2) array_like of int, optional
@@ -101,13 +111,18 @@ ValueError
 Cancelled
 )")
       .def(py::init([](const SurfaceObject& surface, const std::string& along, double max_anisotropy,
-                       double clamp_percentile, std::size_t seeds, std::size_t most_seeds, const py::object& images,
-                       const py::object& seams, const py::object& progress) {
+                       double clamp_percentile, const py::object& seeds_at, std::size_t seeds, std::size_t most_seeds,
+                       const py::object& density, const py::object& images, const py::object& seams,
+                       const py::object& progress) {
              const SeamPlannerOptions options{
                  .along = along_from(along),
                  .strength = {.max_anisotropy = max_anisotropy, .clamp_percentile = clamp_percentile},
+                 .seeds_at = seeds_at.is_none() ? std::vector<std::int32_t>{} : numbers_from(seeds_at, "seeds_at"),
                  .seeds = seeds,
                  .most_seeds = most_seeds,
+                 .density = density.is_none()
+                                ? std::vector<double>{}
+                                : values_from(density, "density: expected an array of one number for each vertex"),
                  .images = images.is_none() ? std::vector<std::int32_t>{} : numbers_from(images, "images"),
                  .seams = seams.is_none() ? std::vector<Edge>{} : edges_from(seams, "seams")};
              return Watch(progress).run([&](const Task& task) {
@@ -115,19 +130,24 @@ Cancelled
              });
            }),
            py::arg("surface"), py::kw_only(), py::arg("along") = "surface", py::arg("max_anisotropy") = 20.0,
-           py::arg("clamp_percentile") = 99.0, py::arg("seeds") = 24, py::arg("most_seeds") = 120,
-           py::arg("images") = py::none(), py::arg("seams") = py::none(), py::arg("progress") = py::none())
+           py::arg("clamp_percentile") = 99.0, py::arg("seeds_at") = py::none(), py::arg("seeds") = 24,
+           py::arg("most_seeds") = 120, py::arg("density") = py::none(), py::arg("images") = py::none(),
+           py::arg("seams") = py::none(), py::arg("progress") = py::none())
       .def(
           "plan",
-          [](const SeamPlannerObject& object, const py::object& max_spread, std::size_t islands,
-             bool may_start_on_others, bool straightened, const py::object& progress) {
+          [](const SeamPlannerObject& object, const py::object& max_spread, std::size_t islands, double crumb,
+             double crumb_of_island, const std::vector<PlannedWire>& kept, bool may_start_on_others, bool straightened,
+             const py::object& progress) {
             SeamLimits limits = limits_from(max_spread, islands);
+            limits.crumb = crumb;
+            limits.crumb_of_island = crumb_of_island;
             limits.may_start_on_others = may_start_on_others;
             limits.are_straightened = straightened;
-            return Watch(progress).run([&](const Task& task) { return object.planner.plan(limits, task); });
+            return Watch(progress).run([&](const Task& task) { return object.planner.plan(limits, kept, task); });
           },
-          py::kw_only(), py::arg("max_spread") = 0.42, py::arg("islands") = 0, py::arg("may_start_on_others") = true,
-          py::arg("straightened") = true, py::arg("progress") = py::none(),
+          py::kw_only(), py::arg("max_spread") = 0.42, py::arg("islands") = 0, py::arg("crumb") = 0.004,
+          py::arg("crumb_of_island") = 1.0, py::arg("kept") = std::vector<PlannedWire>(),
+          py::arg("may_start_on_others") = true, py::arg("straightened") = true, py::arg("progress") = py::none(),
           R"(The wires that are needed for islands within limits.
 
 Parameters
@@ -137,6 +157,11 @@ max_spread : float or (m,) array_like of float
     triangle, of which the least in an island counts.
 islands : int
     Islands are joined until there are so many, however far their normals spread; 0: as few as the spread allows.
+crumb, crumb_of_island : float
+    An island of less than this part of the surface, and of the island that it becomes part of, is joined to another one
+    wherever that makes a disc, however far normals spread then.
+kept : list of PlannedWire
+    Those of another plan of the same surface that this one has as well, whatever the limits.
 may_start_on_others : bool
     Whether wires may start on the edges of others, where they ran beside them and left crumbs between. Where curves are
     cut, not edges marked, they have to run from seed to seed.

@@ -218,6 +218,78 @@ TEST(SeamPlanner, MakesAsManyIslandsAsAreAskedFor) {
   }
 }
 
+TEST(SeamPlanner, KeptWiresStayAndOnlyWhatIsToBeSmallerIsParted) {
+  const auto sphere = shared(shapes::icosphere(4).surface());
+  for (const bool may_start_on_others : {true, false}) {
+    const SeamLimits wide{.max_spread = 0.6, .may_start_on_others = may_start_on_others};
+    const SeamPlan first = SeamPlanner(sphere).plan(wide);
+    ASSERT_GT(first.island_count, 1U);
+    // The first island is to be parted, by wires between seeds in it.
+    SeamLimits narrow = wide;
+    narrow.max_spreads.assign(sphere->face_count(), 2.0);
+    SeamPlannerOptions within;
+    within.density.assign(sphere->vertex_count(), 0.0);
+    for (std::size_t f = 0; f < sphere->face_count(); ++f) {
+      if (first.islands[f] != 0) continue;
+      narrow.max_spreads[f] = 0.2;
+      for (const std::int32_t v : sphere->triangles()[f]) within.density[v] = 1.0;
+    }
+    for (const PlannedWire& wire : first.wires) {
+      within.seeds_at.insert(within.seeds_at.end(), {wire.from, wire.to});
+      for (std::size_t i = 1; i < wire.vertices.size(); ++i) {
+        within.seams.push_back({wire.vertices[i - 1], wire.vertices[i]});
+      }
+    }
+    within.seeds = 40;
+    const SeamPlan second = SeamPlanner(sphere, within).plan(narrow, first.wires);
+    expect_discs(*sphere, second);
+    EXPECT_GT(second.island_count, first.island_count);
+    for (const PlannedWire& wire : first.wires) {
+      EXPECT_EQ(std::ranges::count(second.wires, wire.vertices, &PlannedWire::vertices), 1);
+    }
+    std::map<std::int32_t, std::set<std::int32_t>> parts;
+    for (std::size_t f = 0; f < sphere->face_count(); ++f) parts[first.islands[f]].insert(second.islands[f]);
+    for (const auto& [island, now] : parts) EXPECT_EQ(now.size() > 1, island == 0);
+    for (const PlannedWire& wire : second.wires) {
+      for (const std::int32_t seed : {wire.from, wire.to}) {
+        EXPECT_TRUE(within.density[seed] > 0.0 || std::ranges::count(within.seeds_at, seed) > 0);
+      }
+    }
+  }
+}
+
+TEST(SeamPlanner, PiecesThatAreCrumbsBesideAnIslandJoinIt) {
+  const auto sphere = shared(shapes::icosphere(4).surface());
+  const SeamPlanner planner(sphere, {.seeds = 200, .most_seeds = 200});
+  const auto islands = [&](double crumb, double crumb_of_island) {
+    const SeamLimits limits{
+        .max_spread = 0.01, .crumb = crumb, .crumb_of_island = crumb_of_island, .may_start_on_others = false};
+    return planner.plan(limits).island_count;
+  };
+  // Islands have half a percent of the sphere.
+  EXPECT_GT(islands(0.0, 1.0), 100U);
+  EXPECT_LT(islands(0.02, 1.0), 40U);
+  EXPECT_EQ(islands(0.02, 0.0), islands(0.0, 1.0));
+}
+
+TEST(SeamPlanner, SeedsAreAsDenseAsAskedFor) {
+  const auto sphere = shared(shapes::icosphere(4).surface());
+  SeamPlannerOptions options{.seeds = 60, .most_seeds = 60};
+  const auto above = [&](const SeamPlannerOptions& with) {
+    std::set<std::int32_t> all, upper;
+    for (const PlannedWire& wire : SeamPlanner(sphere, with).plan({.max_spread = 0.0, .crumb = 0.0}).wires) {
+      for (const std::int32_t seed : {wire.from, wire.to}) {
+        all.insert(seed);
+        if (sphere->points()[seed].z() > 0.0) upper.insert(seed);
+      }
+    }
+    return static_cast<double>(upper.size()) / static_cast<double>(all.size());
+  };
+  EXPECT_NEAR(above(options), 0.5, 0.1);
+  for (const Vector& point : sphere->points()) options.density.push_back(point.z() > 0.0 ? 4.0 : 1.0);
+  EXPECT_NEAR(above(options), 0.8, 0.1);
+}
+
 TEST(SeamPlanner, WiresAreThoseThatLiveWireShows) {
   const auto surface = shared(shapes::bumpy(shapes::icosphere(3), 0.05).surface());
   for (const Along along : {Along::kSurface, Along::kEdges}) {
@@ -372,7 +444,7 @@ TEST(SeamPlanner, IsCancelled) {
   const Task never{.stop = {}, .progress = [&](double) { return ++calls < 2; }};
   EXPECT_THROW(SeamPlanner(sphere, {}, never), Cancelled);
   const SeamPlanner planner(sphere);
-  EXPECT_THROW(planner.plan({}, {.stop = {}, .progress = [](double) { return false; }}), Cancelled);
+  EXPECT_THROW(planner.plan({}, {}, {.stop = {}, .progress = [](double) { return false; }}), Cancelled);
   std::stop_source stop;
   stop.request_stop();
   EXPECT_THROW(SeamPlanner(sphere, {}, {.stop = stop.get_token(), .progress = {}}), Cancelled);
@@ -386,8 +458,16 @@ TEST(SeamPlanner, RefusesWhatMakesNoSense) {
   EXPECT_THROW(SeamPlanner(sphere, {.seeds = 5, .most_seeds = 4}), InvalidInput);
   EXPECT_THROW(SeamPlanner(sphere, {.images = std::vector<std::int32_t>(sphere->vertex_count() + 1)}), InvalidInput);
   EXPECT_THROW(SeamPlanner(sphere, {.images = std::vector<std::int32_t>(sphere->vertex_count(), 1000)}), InvalidInput);
+  EXPECT_THROW(SeamPlanner(sphere, {.seeds_at = {-1}}), InvalidInput);
+  EXPECT_THROW(SeamPlanner(sphere, {.density = {1.0}}), InvalidInput);
+  EXPECT_THROW(SeamPlanner(sphere, {.density = std::vector<double>(sphere->vertex_count(), -1.0)}), InvalidInput);
   const SeamPlanner planner(sphere);
   EXPECT_THROW(planner.plan({.max_spread = -0.1}), InvalidInput);
+  EXPECT_THROW(planner.plan({.crumb = -0.1}), InvalidInput);
+  EXPECT_THROW(planner.plan({.crumb_of_island = std::nan("")}), InvalidInput);
+  std::vector<PlannedWire> kept(1);
+  kept[0].vertices = {0, 1000};
+  EXPECT_THROW(planner.plan({}, kept), InvalidInput);
   EXPECT_THROW(planner.plan({.max_spread = std::nan("")}), InvalidInput);
   EXPECT_THROW(planner.plan({.max_spreads = std::vector<double>(1, 0.1)}), InvalidInput);
   EXPECT_THROW(planner.plan({.max_spreads = std::vector<double>(sphere->face_count(), -1.0)}), InvalidInput);

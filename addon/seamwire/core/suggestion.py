@@ -21,6 +21,12 @@ _DENSE = 5_000
 """Triangles of a mesh from which on they are taken for those of a scan or a sculpt."""
 NARROWER = 0.6
 """What is left of an island's spread where it was stretched too much."""
+CRUMB = 0.004
+"""The part of a mesh's area below which there is to be no island."""
+CRUMB_OF_ISLAND = 0.1
+"""The same of each island, where islands are parted that may be that small themselves."""
+_SAME = 0.95
+"""The part of an island's area that is in one island still where it was not parted, but its border has moved."""
 _SEEDS = 24, 400
 """Seeds to choose wires between: at least, and at most."""
 SEEDS_TO_OPEN = 24, 300
@@ -96,7 +102,7 @@ def narrowed(
     island_spreads: NDArray[np.float64],
     left: float = NARROWER,
 ) -> NDArray[np.float64]:
-    """Return limits with which islands that were stretched too much are planned smaller.
+    """Return limits with which islands that were stretched too much are planned smaller, and others may stay as they are.
 
     Parameters
     ----------
@@ -113,4 +119,23 @@ def narrowed(
     """
     is_stretched = np.zeros(len(island_spreads), dtype=bool)
     is_stretched[list(stretched)] = True
-    return np.where(is_stretched[islands], left * np.minimum(limits, island_spreads[islands]), limits)
+    own = island_spreads[islands]
+    return np.where(is_stretched[islands], left * own, np.maximum(limits, own))
+
+
+def is_parted(before: NDArray[np.int32], after: NDArray[np.int32], areas: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Return for each island whether others have come in its place, rather than one that is nearly the same.
+
+    Parameters
+    ----------
+    before, after
+        (m,) the island of each triangle then, and now.
+    areas
+        (m,) of the triangles.
+    """
+    count = int(after.max(initial=-1)) + 1
+    pairs, of_pair = np.unique(before.astype(np.int64) * count + after, return_inverse=True)
+    shared = np.bincount(of_pair, areas)
+    largest = np.zeros(int(before.max(initial=-1)) + 1)
+    np.maximum.at(largest, pairs // count, shared)
+    return largest < _SAME * np.bincount(before, areas)

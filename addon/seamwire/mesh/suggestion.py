@@ -9,7 +9,17 @@ import numpy as np
 
 from ..core import native
 from ..core.defaults import CLAMP_PERCENTILE, STRENGTHS
-from ..core.suggestion import best_along, best_finish, narrowed, planned_wires, spread_of, spreads
+from ..core.suggestion import (
+    CRUMB,
+    CRUMB_OF_ISLAND,
+    best_along,
+    best_finish,
+    is_parted,
+    narrowed,
+    planned_wires,
+    spread_of,
+    spreads,
+)
 from .object_session import ObjectSession, mirror_axes
 from .seam_islands import Worst, stretch_of, worst_island
 
@@ -25,8 +35,10 @@ if TYPE_CHECKING:
 
 _MORE_SEEDS = 120
 """How many more seeds than at first there may be for pieces that are no discs."""
-_MOST_DOUBLINGS = 3
-"""How often there are twice as many seeds for smaller islands."""
+_SEEDS_IN_ISLAND = (12, 24, 48)
+"""How many seeds are laid in each island that is not parted otherwise, one number after the other."""
+_KEPT = 0.5
+"""The part of the mesh's area, in islands that are to be smaller, from which on all is planned anew, not within these alone."""
 _TRIED = (0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3)
 """What may be left of the spread of an island that is parted for its stretch."""
 
@@ -53,6 +65,8 @@ class Suggestion:
         Those suggested last.
     plan
         What they were made of; None: nothing was planned yet.
+    partings
+        Plans that part one island, those with the fewest islands first; see `part`.
     marked
         How many edges they have made seams.
 
@@ -69,13 +83,17 @@ class Suggestion:
         self.mesh = ObjectSession(obj)
         self.along: Along = along or best_along(self.mesh.arrays.polygons)
         self._symmetric = symmetric
-        self._seeds, self._most_seeds = tuple(seeds), max(seeds) << _MOST_DOUBLINGS
+        self._crumb_of_island = 1.0
+        self._seeds = tuple(seeds)
         self.finish: Finish = finish or best_finish(self.mesh.arrays.polygons)
         self._mirror = mirror_axes(obj.data)
+        corners = self.mesh.arrays.points[self.mesh.arrays.triangles]
+        self._areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
         self._planners: list[seamwire_core.SeamPlanner] = []
         self._limits: NDArray[np.float64] | None = None
         self.plan: seamwire_core.SeamPlan | None = None
         self.wires: list[Wire] = []
+        self.partings: list[seamwire_core.SeamPlan] = []
         self.marked = 0
 
     def prepare(self, progress: Callable[[float], bool]) -> None:
@@ -86,37 +104,62 @@ class Suggestion:
         progress
             Is told the fraction done; where it returns False, `seamwire_core.Cancelled` is raised.
         """
+        self._planners = self._find_wires(self._seeds, progress, seams=self.mesh.arrays.seams)
+
+    def _find_wires(
+        self, seeds: Sequence[int], progress: Callable[[float], bool], **seeding: NDArray[np.generic]
+    ) -> list[seamwire_core.SeamPlanner]:
+        """Return a planner for each number of seeds; `density`, `seeds_at` and `seams` as ``seamwire_core.SeamPlanner`` has them."""
         arrays = self.mesh.arrays
         images = None
         axes = (self._mirror or self.mesh.session.symmetric_axes)[:1] if self._symmetric else ()
         if axes:
             images = self.mesh.session.partners(axes)
         surface = self._core.Surface(arrays.points, arrays.triangles, arrays.edges)
-        self._planners = [
+        return [
             self._core.SeamPlanner(
                 surface,
                 along=self.along.lower(),
                 max_anisotropy=STRENGTHS[self.along],
                 clamp_percentile=CLAMP_PERCENTILE,
-                seeds=seeds,
-                most_seeds=seeds + _MORE_SEEDS,
+                seeds=number,
+                most_seeds=number + _MORE_SEEDS,
+                **seeding,
                 images=images,
-                seams=arrays.seams,
-                progress=lambda fraction, done=done: progress((done + fraction) / len(self._seeds)),
+                progress=lambda fraction, done=done: progress((done + fraction) / len(seeds)),
             )
-            for done, seeds in enumerate(self._seeds)
+            for done, number in enumerate(seeds)
         ]
 
-    def suggest(self, max_spread: float, islands: int = 0, straightened: bool = True) -> None:
-        """Choose wires; `islands` and `straightened` as ``seamwire_core.SeamPlanner.plan`` has them."""
+    def suggest(
+        self,
+        progress: Callable[[float], bool],
+        max_spread: float,
+        islands: int = 0,
+        straightened: bool = True,
+        kept: Sequence[seamwire_core.PlannedWire] = (),
+        planners: Sequence[seamwire_core.SeamPlanner] = (),
+    ) -> None:
+        """Choose wires of some planners, else of those prepared; any thread may.
+
+        `islands`, `straightened` and `kept` are those of ``seamwire_core.SeamPlanner.plan``.
+        """
+        planners = planners or self._planners
         if self._limits is None:
             self._limits = np.full(len(self.mesh.arrays.triangles), max_spread)
         cuts = self.along == "SURFACE" and self.finish == "CUT"
         plans = [
             planner.plan(
-                max_spread=self._limits, islands=islands, may_start_on_others=not cuts, straightened=straightened
+                max_spread=self._limits,
+                islands=islands,
+                crumb=CRUMB,
+                crumb_of_island=self._crumb_of_island,
+                kept=list(kept),
+                may_start_on_others=not cuts,
+                straightened=straightened,
+                progress=lambda fraction, done=done: progress((done + fraction) / len(planners)),
             )
-            for planner in self._planners
+            for done, planner in enumerate(planners)
         ]
         self.use(min(plans, key=lambda plan: (plan.not_discs, plan.cost)))
 
@@ -124,6 +167,14 @@ class Suggestion:
         """Suggest the wires of a plan."""
         self.plan = plan
         self.wires = planned_wires(plan, self.along, STRENGTHS[self.along])
+
+    def smallest(self) -> float:
+        """Return the part of the mesh's area that the smallest island has that may be planned, or is."""
+        assert self.plan is not None
+        if self._crumb_of_island == 1.0:
+            return CRUMB
+        areas = np.bincount(self.plan.islands, self._areas)
+        return min(CRUMB, float(areas.min() / areas.sum()))
 
     def write(self) -> None:
         """Keep the wires with the mesh."""
@@ -142,39 +193,73 @@ class Suggestion:
         stretch = stretch_of(self.mesh.obj, self.mesh.arrays, self.plan.islands)
         return [] if stretch is None else np.flatnonzero(np.maximum(stretch.angle, stretch.area) > most).tolist()
 
-    def narrow(self, stretched: list[int]) -> None:
-        """Suggest again, with smaller islands in place of some; between more seeds where there are no wires for that."""
+    def narrow(self, stretched: Sequence[int], progress: Callable[[float], bool]) -> None:
+        """Suggest again, with smaller islands in place of some; any thread may.
+
+        What bounds other islands is kept, unless these are most of the mesh. Where the wires there are do not part an island,
+        more are found within it.
+        """
         assert self.plan is not None and self._limits is not None
-        before = self.plan.island_count
-        arrays, islands = self.mesh.arrays, self.plan.islands
-        self._limits = narrowed(self._limits, stretched, islands, spreads(arrays.points, arrays.triangles, islands))
-        self.suggest(0.0, straightened=False)
-        if self.plan.island_count <= before and max(self._seeds) < self._most_seeds:
-            self._seeds = (min(2 * max(self._seeds), self._most_seeds),)
-            self.prepare(lambda _: True)
-            self.suggest(0.0, straightened=False)
+        arrays, before = self.mesh.arrays, self.plan.islands
+        own = spreads(arrays.points, arrays.triangles, before)
+        self._limits = narrowed(self._limits, stretched, before, own)
+        self._crumb_of_island = CRUMB_OF_ISLAND
+        whole = np.isin(before, stretched)
+        is_kept = self._areas[whole].sum() < _KEPT * self._areas.sum()
+        self.suggest(progress, 0.0, straightened=False, kept=self.plan.wires if is_kept else [])
+        for seeds in _SEEDS_IN_ISLAND:
+            whole &= ~is_parted(before, self.plan.islands, self._areas)[before]
+            if not whole.any():
+                break
+            kept = self.plan.wires
+            planners = self._find_wires_within(whole, seeds * len(np.unique(before[whole])), kept, progress)
+            self.suggest(progress, 0.0, straightened=False, kept=kept, planners=planners)
+
+    def _find_wires_within(
+        self,
+        is_part: NDArray[np.bool_],
+        seeds: int,
+        wires: Sequence[seamwire_core.PlannedWire],
+        progress: Callable[[float], bool],
+    ) -> list[seamwire_core.SeamPlanner]:
+        """Return a planner with the seeds of wires and some more, in a part of the triangles alone."""
+        density = np.zeros(len(self.mesh.arrays.points))
+        density[self.mesh.arrays.triangles[is_part]] = 1.0
+        seeds_at = np.unique(np.array([wire.seeds for wire in wires], dtype=np.int32))
+        edges = [np.stack([wire.vertices[:-1], wire.vertices[1:]], axis=1) for wire in wires]
+        seams = np.concatenate([self.mesh.arrays.seams, *edges])
+        return self._find_wires((len(seeds_at) + seeds,), progress, density=density, seeds_at=seeds_at, seams=seams)
 
     def worst(self) -> Worst | None:
         """Return the island that the UV map stretches most, by angle or by area; None: there are no UVs."""
         found = [worst_island(self.mesh.obj, kind) for kind in ("ANGLE", "AREA")]
         return max((one for one in found if one is not None), key=lambda one: one.value, default=None)
 
-    def parting(self, island: Worst) -> list[seamwire_core.SeamPlan]:
-        """Return plans with smaller islands in place of one that there is, those with the fewest islands first."""
+    def part(self, island: Worst, progress: Callable[[float], bool]) -> None:
+        """Find `partings`, with smaller islands in place of one that there is; any thread may."""
         arrays = self.mesh.arrays
         labels = np.where(np.isin(arrays.polygons, island.faces), 0, 1).astype(np.int32)
         whole = np.full(len(labels), spread_of(np.pi))
         own = spreads(arrays.points, arrays.triangles, labels)
         # Wires may also be slits within an island: it is they that tell plans apart.
         plans: dict[frozenset[bytes], seamwire_core.SeamPlan] = {}
-        for left in _TRIED:
-            self._limits = narrowed(whole, [0], labels, own, left)
-            self.suggest(0.0)
-            assert self.plan is not None
-            if self.wires:
-                plans.setdefault(frozenset(wire.vertices.tobytes() for wire in self.plan.wires), self.plan)
+        self._crumb_of_island = CRUMB_OF_ISLAND
+        planners = self._planners
+        for seeds in (0, *_SEEDS_IN_ISLAND):
+            if seeds:
+                planners = self._find_wires_within(labels == 0, seeds, (), progress)
+            for done, left in enumerate(_TRIED):
+                self._limits = narrowed(whole, [0], labels, own, left)
+                self.suggest(
+                    lambda fraction, done=done: progress((done + fraction) / len(_TRIED)), 0.0, planners=planners
+                )
+                assert self.plan is not None
+                if self.wires:
+                    plans.setdefault(frozenset(wire.vertices.tobytes() for wire in self.plan.wires), self.plan)
+            if plans:
+                break
         self._limits = whole
-        return sorted(plans.values(), key=lambda plan: plan.island_count)
+        self.partings = sorted(plans.values(), key=lambda plan: plan.island_count)
 
     def stretch_within(self, faces: NDArray[np.int32]) -> float:
         """Return how much the UV map stretches the planned islands that have some of these faces, at most, in octaves."""

@@ -124,12 +124,12 @@ class _Map:
         known = (sums > 0.0).all(axis=0)
         return np.sqrt(np.divide(sums[0], sums[1], out=np.full(self.count, fallback**2), where=known))
 
-    def new_islands(self, density: float) -> list[tuple[NDArray[np.int64], NewIsland]]:
+    def new_islands(self, density: float, even: bool) -> list[tuple[NDArray[np.int64], NewIsland]]:
         """Return the corners of each island that was unwrapped and may be moved, and what it has become.
 
-        `density` is for those that had no place.
+        `density` is for those that had no place; `even`: for all.
         """
-        densities = self.densities(density)
+        densities = np.full(self.count, density) if even else self.densities(density)
         after = uv_map.read_uvs(self.obj)
         before = np.zeros_like(after) if self._uvs is None else self._uvs
         islands = []
@@ -164,24 +164,6 @@ class _Map:
         for face, within, uv in zip(faces.tolist(), (corners - starts[faces]).tolist(), uvs.tolist(), strict=True):
             bm.faces[face].loops[within][layer].uv = uv
 
-    def restore(self, remembered: Sequence[int]) -> None:
-        """Give all corners the places they had when this was read, and edges what `remembered` returned then."""
-        if self._uvs is not None:
-            moved = np.flatnonzero((uv_map.read_uvs(self.obj) != self._uvs).any(axis=1))
-            self.write(moved, self._uvs[moved])
-        bm = self.bm
-        layer = bm.edges.layers.int.get(UNWRAPPED)
-        if layer is not None:
-            for edge, value in zip(bm.edges, remembered, strict=True):
-                edge[layer] = value
-        bmesh.update_edit_mesh(self.obj.data, loop_triangles=False, destructive=False)
-
-    def remembered(self) -> list[int]:
-        """Return what the hidden layer holds of each edge."""
-        bm = self.bm
-        layer = bm.edges.layers.int.get(UNWRAPPED)
-        return [edge[layer] for edge in bm.edges] if layer is not None else [0] * len(bm.edges)
-
     def remember(self) -> None:
         """Let visible edges hold whether they were seams when they were unwrapped last."""
         bm = self.bm
@@ -193,11 +175,14 @@ class _Map:
         bmesh.update_edit_mesh(self.obj.data, loop_triangles=False, destructive=False)
 
 
-def unwrap_changed(context: bpy.types.Context, objects: Sequence[bpy.types.Object] | None = None) -> Unwrapped:
+def unwrap_changed(
+    context: bpy.types.Context, objects: Sequence[bpy.types.Object] | None = None, even: bool = False
+) -> Unwrapped:
     """Unwrap the islands whose seams have changed, of some objects in edit mode, else of all; selections stay.
 
     Where nothing stays, Blender's own packing is kept. Else each new island gets the texel density it had, and a place
-    near its old one, see `core.uv_islands.place`; islands with pinned corners stay where Blender puts them.
+    near its old one, see `core.uv_islands.place`; islands with pinned corners stay where Blender puts them. `even`: it gets the
+    mean texel density of those that stay instead.
 
     Raises
     ------
@@ -223,32 +208,60 @@ def unwrap_changed(context: bpy.types.Context, objects: Sequence[bpy.types.Objec
                     bpy.ops.uv.unwrap()
             except RuntimeError as error:
                 raise ValueError(f"Blender could not unwrap: {str(error).strip()}") from error
-        _place(maps)
+        _place(maps, even)
     for found in maps:
         if len(found.changed):
             found.remember()
     return Unwrapped(unwrapped, kept)
 
 
-@contextmanager
-def taken_back(obj: bpy.types.Object) -> Iterator[None]:
-    """Let an object in edit mode, which has a UV map, have the UVs afterwards that it has now: for unwrapping on trial."""
-    before = _Map(obj)
-    remembered = before.remembered()
-    try:
-        yield
-    finally:
-        before.restore(remembered)
+class SavedUvs:
+    """The UVs of an object in edit mode, or that it has none, to come back to after unwrapping on trial.
+
+    Attributes
+    ----------
+    remembered
+        What the hidden layer holds of each edge; None: there is no such layer.
+    """
+
+    def __init__(self, obj: bpy.types.Object) -> None:
+        self._obj = obj
+        self._uvs = uv_map.read_uvs(obj)
+        bm = bmesh.from_edit_mesh(obj.data)
+        layer = bm.edges.layers.int.get(UNWRAPPED)
+        self.remembered = None if layer is None else [edge[layer] for edge in bm.edges]
+
+    def restore(self) -> None:
+        """Give the object back what it had."""
+        mesh = self._obj.data
+        if self._uvs is None:
+            for made in list(mesh.uv_layers):
+                mesh.uv_layers.remove(made)
+        else:
+            moved = np.flatnonzero((uv_map.read_uvs(self._obj) != self._uvs).any(axis=1))
+            bm = bmesh.from_edit_mesh(mesh)
+            corners = [loop for face in bm.faces for loop in face.loops]
+            places = bm.loops.layers.uv.active
+            for corner, uv in zip(moved.tolist(), self._uvs[moved].tolist(), strict=True):
+                corners[corner][places].uv = uv
+        bm = bmesh.from_edit_mesh(mesh)
+        layer = bm.edges.layers.int.get(UNWRAPPED)
+        if layer is not None and self.remembered is None:
+            bm.edges.layers.int.remove(layer)
+        elif layer is not None:
+            for edge, value in zip(bm.edges, self.remembered, strict=True):
+                edge[layer] = value
+        bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
 
 
-def _place(maps: Sequence[_Map]) -> None:
+def _place(maps: Sequence[_Map], even: bool) -> None:
     """Move new islands to where there is room among those that stay."""
     taken = np.concatenate([found.staying() for found in maps])
     if not len(taken):
         return
     in_map, on_model = sum(np.delete(found.areas(), found.changed, axis=1).sum(axis=1) for found in maps)
     density = float(np.sqrt(in_map / on_model)) if on_model > 0.0 else 0.0
-    new = [(found, *island) for found in maps if len(found.changed) for island in found.new_islands(density)]
+    new = [(found, *island) for found in maps if len(found.changed) for island in found.new_islands(density, even)]
     for (found, corners, _), uvs in zip(new, place([island for _, _, island in new], taken), strict=True):
         found.write(corners, uvs)
 

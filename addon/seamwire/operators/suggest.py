@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-import threading
+from functools import partial
 from typing import TYPE_CHECKING
 
 import bpy
@@ -13,19 +13,21 @@ from ..mesh.settings import ALONG_ITEMS, AUTO_FINISH_ITEMS
 from .cut import cut_wires
 from .report import count, in_edit_mode
 from .slide import slide_wires
+from .steps import Step, Stepwise
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Generator, Sequence
 
     from ..mesh.suggestion import Suggestion
 
+_CUT_CRUMB = 0.25
+"""What cuts enclose is no island either below this part of the area below which none is planned: where they run side by side, they
+cross here and there."""
 _ROUNDS = 12
 """How often islands that are stretched too much are made smaller."""
-_PERIOD = 0.05
-"""Seconds between two looks at whether the planning has ended."""
 
 
-class MESH_OT_seamwire_suggest(bpy.types.Operator):
+class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
     """Mark seams that cut the mesh into islands which unwrap well: wires like those drawn, to be moved, dropped and added to. Seams that are there stay"""  # noqa: D400, E501 - a tooltip
 
     bl_idname = "mesh.seamwire_suggest"
@@ -110,60 +112,38 @@ class MESH_OT_seamwire_suggest(bpy.types.Operator):
         if self.limit != "STRETCH":
             layout.prop(self, "unwrap")
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Plan and mark at once."""
+    def steps(self, context: bpy.types.Context) -> Generator[Step, None, set[str]]:
+        """Plan, unwrap on trial where that decides, and mark or cut."""
+        from ..mesh.unwrap import SavedUvs
+
         suggestions = self._begin(context)
         if not suggestions:
             return {"CANCELLED"}
+        for suggestion in suggestions:
+            yield from _planning(suggestions, suggestion.prepare)
+        parted = (yield from _part_worst(context, suggestions)) if self.limit == "WORST" else None
+        for suggestion in suggestions:
+            if suggestion is not parted:
+                # Against stretch, detours are of use.
+                choose = partial(
+                    suggestion.suggest,
+                    max_spread=self._spread,
+                    islands=self._islands,
+                    straightened=self.limit != "STRETCH",
+                )
+                yield from _planning(suggestions, choose)
+        if self.limit != "STRETCH":
+            return self._carry_out(context, suggestions)
+        saved = {suggestion: SavedUvs(suggestion.mesh.obj) for suggestion in suggestions}
+        result = {"CANCELLED"}
         try:
-            for suggestion in suggestions:
-                suggestion.prepare(lambda _: True)
-        except ValueError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        return self._carry_out(context, suggestions)
-
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        """Plan beside the interface, so that it can be cancelled."""
-        if bpy.app.background or context.window is None:
-            return self.execute(context)
-        self._suggestions = self._begin(context)
-        if not self._suggestions:
-            return {"CANCELLED"}
-        self._cancelled, self._fraction, self._error = False, 0.0, ""
-        self._thread = threading.Thread(target=self._prepare, name="seamwire suggestion")
-        self._thread.start()
-        self._timer = context.window_manager.event_timer_add(_PERIOD, window=context.window)
-        context.window_manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
-
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Wait for the planning, and carry it out."""
-        if event.type == "ESC":
-            self._cancelled = True
-        if self._thread.is_alive():
-            context.workspace.status_text_set(f"Planning seams: {100.0 * self._fraction:.0f} %    Esc: Cancel")
-            return {"RUNNING_MODAL"}
-        self._end(context)
-        if self._cancelled:
-            return {"CANCELLED"}
-        if not self._error and not all(suggestion.mesh.alive() for suggestion in self._suggestions):
-            self._error = "The mesh was changed meanwhile"
-        if self._error:
-            self.report({"ERROR"}, self._error)
-            return {"CANCELLED"}
-        return self._carry_out(context, self._suggestions)
-
-    def cancel(self, context: bpy.types.Context) -> None:
-        """End with Blender, or with the file."""
-        self._cancelled = True
-        self._thread.join()
-        self._end(context)
-
-    def _end(self, context: bpy.types.Context) -> None:
-        context.window_manager.event_timer_remove(self._timer)
-        if context.workspace is not None:
-            context.workspace.status_text_set(None)
+            stretched = yield from _limit_stretch(context, suggestions, math.log2(self.stretch))
+            result = self._carry_out(context, suggestions, stretched)
+        finally:
+            for suggestion, uvs in saved.items():
+                if result == {"CANCELLED"} and suggestion.mesh.alive():
+                    uvs.restore()
+        return result
 
     @property
     def _spread(self) -> float:
@@ -202,99 +182,41 @@ class MESH_OT_seamwire_suggest(bpy.types.Operator):
             self.report({"ERROR"}, problem)
         return found
 
-    def _prepare(self) -> None:
-        """Find the wires to choose from, on a thread of its own."""
-        from ..core import native
+    def _carry_out(self, context: bpy.types.Context, suggestions: Sequence[Suggestion], stretched: int = 0) -> set[str]:
+        """Write or cut the wires, unwrap, and say what was done; `stretched` islands are so more than they may be."""
+        from ..mesh.seam_islands import island_count
 
-        def progress(fraction: float, done: int) -> bool:
-            self._fraction = (done + fraction) / len(self._suggestions)
-            return not self._cancelled
-
-        try:
-            for i, suggestion in enumerate(self._suggestions):
-                suggestion.prepare(lambda fraction, done=i: progress(fraction, done))
-        except native.load().Cancelled:
-            self._cancelled = True
-        except ValueError as error:
-            self._error = str(error)
-
-    def _carry_out(self, context: bpy.types.Context, suggestions: Sequence[Suggestion]) -> set[str]:
-        """Choose the wires, write or cut them, and unwrap."""
-        try:
-            parted = _part_worst(context, suggestions) if self.limit == "WORST" else None
-        except ValueError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        for suggestion in suggestions:
-            if suggestion is not parted:
-                # Against stretch, detours are of use.
-                suggestion.suggest(self._spread, self._islands, straightened=self.limit != "STRETCH")
-            suggestion.write()
-        left = 0
-        if self.limit == "STRETCH":
-            try:
-                left = self._limit_stretch(context, suggestions)
-            except ValueError as error:
-                for suggestion in suggestions:
-                    suggestion.take_back()
-                self.report({"ERROR"}, str(error))
-                return {"CANCELLED"}
         if not any(suggestion.wires for suggestion in suggestions):
             limit = "no cut lowers the worst stretch" if self.limit == "WORST" else "within the limit"
             self.report({"INFO"}, f"The islands are discs already, and {limit}: nothing to add")
             return {"CANCELLED"}
-        islands = sum(suggestion.plan.island_count for suggestion in suggestions)
         across = [suggestion for suggestion in suggestions if suggestion.along == "SURFACE" and suggestion.wires]
         to_cut = {suggestion.mesh: suggestion.wires for suggestion in across if suggestion.finish == "CUT"}
-        if to_cut:
-            for suggestion in across:
-                if suggestion.mesh in to_cut:
-                    suggestion.take_back()
-            if cut_wires(self, context, to_cut) == {"CANCELLED"}:
-                for suggestion in suggestions:
-                    suggestion.take_back()
-                return {"CANCELLED"}
+        crumb = _CUT_CRUMB * min((suggestion.smallest() for suggestion in across), default=0.0)
+        if to_cut and cut_wires(self, context, to_cut, crumb=crumb) == {"CANCELLED"}:
+            return {"CANCELLED"}
+        for suggestion in suggestions:
+            if suggestion.mesh not in to_cut:
+                suggestion.write()
         slide_wires({suggestion.mesh: suggestion.wires for suggestion in across if suggestion.finish == "SLIDE"})
+        islands = sum(island_count(suggestion.mesh.obj) for suggestion in suggestions)
         problem = self._unwrap(context)
         if problem:
             self.report({"WARNING"}, problem)
         wires = sum(len(suggestion.wires) for suggestion in suggestions)
-        marked = sum(suggestion.marked for suggestion in suggestions)
-        parts = [count(wires, "wire"), f"{count(marked, 'edge')} marked", count(islands, "island")]
+        marked = sum(suggestion.marked for suggestion in suggestions if suggestion.mesh not in to_cut)
+        parts = [
+            count(wires, "wire"),
+            *([f"{count(marked, 'edge')} marked"] if marked else ()),
+            count(islands, "island"),
+        ]
         open_ones = sum(suggestion.plan.not_discs for suggestion in suggestions)
         if open_ones:
             parts.append(f"{open_ones} of them no {'disc' if open_ones == 1 else 'discs'}")
-        if left:
-            parts.append(f"{left} stretched more than {self.stretch:.2f} times still")
-        self.report({"WARNING"} if open_ones or left else {"INFO"}, ", ".join(parts))
+        if stretched:
+            parts.append(f"{stretched} stretched more than {self.stretch:.2f} times still")
+        self.report({"WARNING"} if open_ones or stretched else {"INFO"}, ", ".join(parts))
         return {"FINISHED"}
-
-    def _limit_stretch(self, context: bpy.types.Context, suggestions: Sequence[Suggestion]) -> int:
-        """Unwrap, and make islands that are stretched too much smaller; return how many still are.
-
-        Raises
-        ------
-        ValueError
-            Where Blender cannot unwrap.
-        """
-        from ..core.native import NativeError
-        from ..mesh.unwrap import unwrap_changed
-
-        most = math.log2(self.stretch)
-        for turn in range(_ROUNDS + 1):
-            try:
-                unwrap_changed(context)
-            except NativeError as error:
-                raise ValueError(str(error)) from error
-            stretched = {suggestion: suggestion.stretched(most) for suggestion in suggestions}
-            if turn == _ROUNDS or not any(stretched.values()):
-                break
-            for suggestion, islands in stretched.items():
-                if islands:
-                    suggestion.take_back()
-                    suggestion.narrow(islands)
-                    suggestion.write()
-        return sum(map(len, stretched.values()))
 
     def _unwrap(self, context: bpy.types.Context) -> str:
         """Unwrap as asked, or as Blender is set; return what could not be done."""
@@ -312,7 +234,62 @@ class MESH_OT_seamwire_suggest(bpy.types.Operator):
         return ""
 
 
-def _part_worst(context: bpy.types.Context, suggestions: Sequence[Suggestion]) -> Suggestion | None:
+def _step(suggestions: Sequence[Suggestion], step: Step) -> Generator[Step, None, None]:
+    """Yield one step.
+
+    Raises
+    ------
+    ValueError
+        Where a mesh is another one afterwards.
+    """
+    yield step
+    if not all(suggestion.mesh.alive() for suggestion in suggestions):
+        raise ValueError("The mesh was changed meanwhile")
+
+
+def _planning(
+    suggestions: Sequence[Suggestion], work: Callable[..., None], text: str = "Planning seams"
+) -> Generator[Step, None, None]:
+    """Yield the step of planning: `work` is told `progress`."""
+    yield from _step(suggestions, Step(text, lambda progress: work(progress=progress)))
+
+
+def _limit_stretch(
+    context: bpy.types.Context, suggestions: Sequence[Suggestion], most: float
+) -> Generator[Step, None, int]:
+    """Unwrap on trial, and plan islands that are stretched more than so many octaves smaller; return how many still are.
+
+    Raises
+    ------
+    ValueError
+        Where Blender cannot unwrap, or a mesh is changed meanwhile.
+    """
+    from ..mesh.unwrap import unwrap_changed
+
+    objects = [suggestion.mesh.obj for suggestion in suggestions]
+    turn = 0
+    while True:
+        for suggestion in suggestions:
+            suggestion.write()
+        try:
+            unwrap_changed(context, objects, even=True)
+            stretched = {suggestion: suggestion.stretched(most) for suggestion in suggestions}
+        finally:
+            for suggestion in suggestions:
+                suggestion.take_back()
+        left = sum(map(len, stretched.values()))
+        if turn == _ROUNDS or not left:
+            return left
+        turn += 1
+        for suggestion, islands in stretched.items():
+            if islands:
+                text = f"{count(left, 'island')} stretched too much, planning again"
+                yield from _planning(suggestions, partial(suggestion.narrow, islands), text)
+
+
+def _part_worst(
+    context: bpy.types.Context, suggestions: Sequence[Suggestion]
+) -> Generator[Step, None, Suggestion | None]:
     """Let a suggestion be the one that lowers the stretch of the island most that is stretched most; None: none lowers it.
 
     Of those that lower it at all, only the ones with the fewest islands count, and those with one more, for wires come in pairs
@@ -321,39 +298,34 @@ def _part_worst(context: bpy.types.Context, suggestions: Sequence[Suggestion]) -
     Raises
     ------
     ValueError
-        Where there are no UVs, or Blender cannot unwrap.
+        Where there are no UVs, Blender cannot unwrap, or a mesh is changed meanwhile.
     """
-    from ..core.native import NativeError
-    from ..mesh.unwrap import taken_back, unwrap_changed
+    from ..mesh.unwrap import SavedUvs, unwrap_changed
 
     stretched = {suggestion: worst for suggestion in suggestions if (worst := suggestion.worst()) is not None}
     if not stretched:
         raise ValueError("No visible face has UVs: unwrap first")
     suggestion = max(stretched, key=lambda one: stretched[one].value)
     worst = stretched[suggestion]
+    yield from _planning(suggestions, partial(suggestion.part, worst))
     best, least, most_islands = None, worst.value, math.inf
-    plans, obj, progress = suggestion.parting(worst), suggestion.mesh.obj, context.window_manager
-    progress.progress_begin(0, len(plans))
-    try:
-        for number, plan in enumerate(plans):
-            progress.progress_update(number)
-            if plan.island_count > most_islands:
-                break
-            suggestion.use(plan)
-            suggestion.write()
-            try:
-                with taken_back(obj):
-                    unwrap_changed(context, [obj])
-                    stretch = suggestion.stretch_within(worst.faces)
-            finally:
-                suggestion.take_back()
-            if stretch < least:
-                best, least = plan, stretch
-                most_islands = min(most_islands, plan.island_count + 1)
-    except NativeError as error:
-        raise ValueError(str(error)) from error
-    finally:
-        progress.progress_end()
+    for number, plan in enumerate(suggestion.partings, start=1):
+        if plan.island_count > most_islands:
+            break
+        text = f"Unwrapping on trial, {number} of {len(suggestion.partings)}"
+        yield from _step(suggestions, Step(text))
+        suggestion.use(plan)
+        suggestion.write()
+        saved = SavedUvs(suggestion.mesh.obj)
+        try:
+            unwrap_changed(context, [suggestion.mesh.obj])
+            stretch = suggestion.stretch_within(worst.faces)
+        finally:
+            saved.restore()
+            suggestion.take_back()
+        if stretch < least:
+            best, least = plan, stretch
+            most_islands = min(most_islands, plan.island_count + 1)
     if best is None:
         return None
     suggestion.use(best)

@@ -38,6 +38,25 @@ def test_limits(torus: sw.Surface, planner: sw.SeamPlanner) -> None:
     assert planner.plan(max_spread=np.full(len(torus.triangles), 0.15)).island_count == many
 
 
+def test_kept_wires_and_what_is_found_within_an_island(torus: sw.Surface, planner: sw.SeamPlanner) -> None:
+    first = planner.plan(islands=3)
+    within = first.islands == 0
+    density = np.zeros(len(torus.points))
+    density[torus.triangles[within]] = 1.0
+    edges = np.concatenate([np.column_stack([wire.vertices[:-1], wire.vertices[1:]]) for wire in first.wires])
+    seeds = np.unique([wire.seeds for wire in first.wires])
+    more = sw.SeamPlanner(torus, seeds_at=seeds, seeds=len(seeds) + 20, density=density, seams=edges)
+    second = more.plan(max_spread=np.where(within, 0.1, 2.0), kept=first.wires, crumb_of_island=0.1)
+    kept = {tuple(wire.vertices.tolist()) for wire in first.wires}
+    assert kept < {tuple(wire.vertices.tolist()) for wire in second.wires}
+    assert second.island_count > 3
+    assert len(np.unique(second.islands[~within])) == 2
+    with pytest.raises(ValueError, match="density"):
+        sw.SeamPlanner(torus, density=[[1.0]])
+    with pytest.raises(ValueError, match="crumb is 2"):
+        planner.plan(crumb=2.0)
+
+
 def test_arrays_outlive_what_they_came_from(planner: sw.SeamPlanner) -> None:
     islands = planner.plan().islands
     vertices = planner.plan().wires[0].vertices

@@ -5,14 +5,14 @@
 #include <cstddef>
 
 #include "seams/cut_pieces.hpp"
-#include "seams/thinning.hpp"
+#include "seamwire/seams/seam_planner.hpp"
 
 namespace seamwire {
 
 /// How good a set of wires is, but for their length.
 struct Quality {
-  explicit Quality(const CutPieces& pieces) {
-    for (const Piece& piece : pieces.pieces()) crumb += kCrumb * piece.area;
+  Quality(const CutPieces& pieces, const SeamLimits& limits) {
+    for (const Piece& piece : pieces.pieces()) crumb += limits.crumb * piece.area;
     for (const Piece& piece : pieces.pieces()) {
       if (piece.area < crumb) {
         ++crumbs;

@@ -121,7 +121,8 @@ std::vector<std::vector<std::int32_t>> chains_of(const std::vector<Choice>& choi
 }
 
 std::vector<Choice> meeting_at_seeds(std::vector<Choice> choices) {
-  std::ranges::stable_sort(choices, std::greater<>(), &Choice::worth);
+  std::ranges::stable_sort(choices, std::greater<>(),
+                           [](const Choice& choice) { return std::pair(choice.is_kept, choice.worth()); });
   std::vector<Choice> taken;
   std::map<std::int32_t, std::vector<std::size_t>> through;
   for (Choice& choice : choices) {
@@ -133,7 +134,7 @@ std::vector<Choice> meeting_at_seeds(std::vector<Choice> choices) {
     const bool meets_between = std::ranges::any_of(contacts, [&](const auto& contact) {
       return contact.second > common_at_ends(chain, taken[contact.first].wire.vertices);
     });
-    if (meets_between) continue;
+    if (meets_between && !choice.is_kept) continue;
     for (const std::int32_t v : chain) through[v].push_back(taken.size());
     taken.push_back(std::move(choice));
   }

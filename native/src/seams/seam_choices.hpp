@@ -38,6 +38,7 @@ struct Choice {
   std::vector<std::int32_t> faces;  ///< of the caller's that each segment of its curve lies in; none of one along edges
   double strength = 0.0;            ///< how well it follows features
   double seclusion = 1.0;           ///< Seclusion::of()
+  bool is_kept = false;             ///< whether it stays whatever the limits
 
   double worth() const { return strength * seclusion; }
 };
@@ -53,8 +54,8 @@ inline Ends ends_of(std::int32_t a, std::int32_t b) { return {std::min(a, b), st
 std::optional<Choice> mirrored(const Choice& choice, const Surface& surface, const SeamPlannerOptions& options);
 /// The chains of choices, then the seams that stay, an edge each.
 std::vector<std::vector<std::int32_t>> chains_of(const std::vector<Choice>& choices, const std::vector<Edge>& seams);
-/// Those whose chains of edges meet where their curves do, at seeds; of two others the one that is worth more. What
-/// edges enclose, curves then enclose too.
+/// Those whose chains of edges meet where their curves do, at seeds; of two others the one that is kept, or worth more.
+/// What edges enclose, curves then enclose too.
 std::vector<Choice> meeting_at_seeds(std::vector<Choice> choices);
 
 }  // namespace seamwire

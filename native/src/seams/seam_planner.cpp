@@ -56,12 +56,13 @@ struct SeamPlanner::Impl {
 std::vector<Choice> SeamPlanner::Impl::swept(std::vector<Choice> best, const SeamLimits& limits,
                                              std::span<const double> max_spreads, const Task& task) const {
   CutPieces cut = pieces(best, max_spreads);
-  Quality quality(cut);
+  Quality quality(cut, limits);
   std::vector<Choice> order = best;
   std::stable_sort(order.begin(), order.end(),
                    [](const Choice& a, const Choice& b) { return a.strength < b.strength; });
   for (const Choice& wire : order) {
     if (quality.crumbs == 0) break;
+    if (wire.is_kept) continue;
     const auto place = std::ranges::find(best, wire.wire.vertices, [](const Choice& c) { return c.wire.vertices; });
     if (place == best.end() || !cut.has_beside(static_cast<std::int32_t>(place - best.begin()), quality.crumb))
       continue;
@@ -84,7 +85,7 @@ std::vector<Choice> SeamPlanner::Impl::swept(std::vector<Choice> best, const Sea
         if (const std::optional<Choice> other = mirrored(part, surface(), options)) trial.push_back(*other);
       }
       CutPieces trial_cut = pieces(trial, max_spreads);
-      const Quality now(trial_cut);
+      const Quality now(trial_cut, limits);
       if (trial_cut.piece_count() >= limits.islands && now.crumbs < quality.crumbs &&
           now.not_discs <= quality.not_discs && now.bent <= quality.bent + kBentForCrumbs) {
         quality = now;
@@ -153,6 +154,17 @@ SeamPlanner::SeamPlanner(std::shared_ptr<const Surface> surface, const SeamPlann
     throw InvalidInput("images has " + std::to_string(options.images.size()) + " items: there are " +
                        std::to_string(count) + " vertices");
   }
+  if (!options.density.empty() && options.density.size() != count) {
+    throw InvalidInput("density has " + std::to_string(options.density.size()) + " items: there are " +
+                       std::to_string(count) + " vertices");
+  }
+  for (std::size_t v = 0; v < options.density.size(); ++v) {
+    if (!(options.density[v] >= 0.0)) {
+      throw InvalidInput("density[" + std::to_string(v) + "] is " + text(options.density[v]) +
+                         ", not a number of at least 0");
+    }
+  }
+  for (const std::int32_t v : options.seeds_at) check_index(v, count, "seeds_at: vertex");
   for (const std::int32_t v : options.images) {
     if (v != -1) check_index(v, count, "images: vertex");
   }
@@ -162,11 +174,15 @@ SeamPlanner::SeamPlanner(std::shared_ptr<const Surface> surface, const SeamPlann
   impl_ = std::make_shared<const Impl>(std::move(surface), options, task);
 }
 
-SeamPlan SeamPlanner::plan(const SeamLimits& limits, const Task& task) const {
+SeamPlan SeamPlanner::plan(const SeamLimits& limits, std::span<const PlannedWire> kept, const Task& task) const {
   const auto check = [](double spread, const std::string& name) {
     if (!(spread >= 0.0)) throw InvalidInput(name + " is " + text(spread) + ", not a number of at least 0");
   };
   check(limits.max_spread, "max_spread");
+  for (const auto& [crumb, name] : {std::pair(limits.crumb, "crumb"), {limits.crumb_of_island, "crumb_of_island"}}) {
+    if (crumb >= 0.0 && crumb <= 1.0) continue;
+    throw InvalidInput(std::string(name) + " is " + text(crumb) + ", not between 0 and 1");
+  }
   const Surface& surface = impl_->surface();
   std::vector<double> max_spreads = limits.max_spreads;
   if (max_spreads.empty()) max_spreads.assign(surface.face_count(), limits.max_spread);
@@ -176,21 +192,29 @@ SeamPlan SeamPlanner::plan(const SeamLimits& limits, const Task& task) const {
   }
   for (std::size_t f = 0; f < max_spreads.size(); ++f) check(max_spreads[f], "max_spreads[" + std::to_string(f) + "]");
 
-  const std::vector<Choice> among = limits.may_start_on_others ? impl_->choices : meeting_at_seeds(impl_->choices);
+  std::vector<Choice> among;
+  among.reserve(kept.size() + impl_->choices.size());
+  for (const PlannedWire& wire : kept) {
+    for (const std::int32_t v : wire.vertices) check_index(v, surface.vertex_count(), "kept: vertex");
+    among.push_back({.wire = wire, .faces = {}, .strength = wire.worth, .is_kept = true});
+  }
+  among.insert(among.end(), impl_->choices.begin(), impl_->choices.end());
+  if (!limits.may_start_on_others) among = meeting_at_seeds(std::move(among));
   CutPieces all = impl_->pieces(among, max_spreads);
-  std::vector<Choice> kept = thinned(surface, impl_->options.images, among, std::move(all), limits.islands, task);
-  if (limits.may_start_on_others) kept = impl_->swept(std::move(kept), limits, max_spreads, task);
+  std::vector<Choice> taken = thinned(surface, impl_->options.images, among, std::move(all), limits, task);
+  if (limits.may_start_on_others) taken = impl_->swept(std::move(taken), limits, max_spreads, task);
   if (limits.are_straightened) {
-    kept = straightened(std::move(kept), impl_->direct, surface, impl_->options, limits, max_spreads, task);
+    taken = straightened(std::move(taken), impl_->direct, surface, impl_->options, limits, max_spreads, task);
   }
   SeamPlan plan;
-  const CutPieces pieces = impl_->pieces(kept, max_spreads);
-  plan.not_discs = Quality(pieces).not_discs;
+  const CutPieces pieces = impl_->pieces(taken, max_spreads);
+  plan.not_discs = Quality(pieces, limits).not_discs;
   std::vector<Edge> cuts = impl_->options.seams;
-  for (Choice& choice : kept) {
+  for (Choice& choice : taken) {
     const std::vector<std::int32_t>& chain = choice.wire.vertices;
     for (std::size_t i = 1; i < chain.size(); ++i) cuts.push_back({chain[i - 1], chain[i]});
     plan.cost += price(surface, choice);
+    choice.wire.worth = choice.worth();
     plan.wires.push_back(std::move(choice.wire));
   }
   plan.islands = face_segments(surface, cuts);

@@ -122,6 +122,9 @@ class Seeding {
 
   std::vector<Choice> choices(const Task& task) {
     task.check(0.0);
+    for (const std::int32_t v : options_.seeds_at) {
+      if (is_used_[v] != 0 && !cells_.has(v)) cells_.add(v);
+    }
     while (cells_.seeds().size() < options_.seeds && add_seed(is_used_)) task.check(0.0);
     const std::vector<double> no_limits(wires_.surface().face_count(), kInfinity);
     while (true) {
@@ -144,7 +147,8 @@ class Seeding {
     for (std::int32_t v = 0; index(v) < is_used_.size(); ++v) {
       if (among[v] == 0 || is_used_[v] == 0 || cells_.distance(v) <= 0.0) continue;
       // Components without a seed come first.
-      const double score = std::min(cells_.distance(v), 2.0 * reach) * (kPlainSeed + feature_[v]);
+      const double score =
+          std::min(cells_.distance(v), 2.0 * reach) * (kPlainSeed + feature_[v]) * std::sqrt(density(v));
       if (score > most) {
         most = score;
         best = v;
@@ -162,7 +166,8 @@ class Seeding {
     std::set<Ends> wanted;
     for (const auto& [a, b] : wires_.surface().edges()) {
       const std::int32_t one = cells_.cell(a), other = cells_.cell(b);
-      if (one >= 0 && other >= 0 && one != other) wanted.insert({ends_of(one, other), image(ends_of(one, other))});
+      if (one < 0 || other < 0 || one == other || !has_wires(one) || !has_wires(other)) continue;
+      wanted.insert({ends_of(one, other), image(ends_of(one, other))});
     }
     std::map<std::int32_t, CandidateWires::Fan> missing;
     for (const auto& [one, other] : wanted) {
@@ -200,6 +205,9 @@ class Seeding {
     }
     return all;
   }
+
+  double density(std::int32_t v) const { return options_.density.empty() ? 1.0 : options_.density[v]; }
+  bool has_wires(std::int32_t cell) const { return density(cells_.seeds()[cell]) > 0.0; }
 
   /// The cells of the images of two seeds; those of the seeds themselves where one has none.
   Ends image(const Ends& pair) const {

@@ -40,7 +40,7 @@ Junctions junctions_of(const std::vector<Choice>& wires, const std::vector<Edge>
     junctions[wire.from].push_back({wire.to, i});
     junctions[wire.to].push_back({wire.from, i});
     for (const std::int32_t v : wire.vertices) {
-      if (v != wire.from && v != wire.to) passed.insert(v);
+      if (wires[i].is_kept || (v != wire.from && v != wire.to)) passed.insert(v);
     }
   }
   for (auto& [seed, junction] : junctions) std::ranges::sort(junction, {}, &Meeting::other);
@@ -116,7 +116,7 @@ bool Straightening::is_as_good(const std::vector<Choice>& trial) const {
     return false;
   }
   const CutPieces cut = pieces(trial);
-  const Quality now(cut);
+  const Quality now(cut, limits_);
   return cut.piece_count() == piece_count_ && now.crumbs <= quality_->crumbs && now.not_discs <= quality_->not_discs &&
          now.bent <= quality_->bent;
 }
@@ -220,7 +220,7 @@ std::vector<Choice> Straightening::done() {
   {
     const CutPieces cut = pieces(wires_);
     piece_count_ = cut.piece_count();
-    quality_.emplace(cut);
+    quality_.emplace(cut, limits_);
     crossings_ = limits_.may_start_on_others ? 0 : curve_crossings(surface_, wires_);
   }
   do {

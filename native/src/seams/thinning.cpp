@@ -14,16 +14,17 @@ namespace {
 class Thinning {
  public:
   Thinning(const Surface& surface, const std::vector<std::int32_t>& images, const std::vector<Choice>& choices,
-           CutPieces pieces, std::size_t islands)
+           CutPieces pieces, const SeamLimits& limits)
       : images_(images),
         choices_(choices),
         pieces_(std::move(pieces)),
-        islands_(islands),
+        islands_(limits.islands),
+        crumb_of_island_(limits.crumb_of_island),
         prices_(choices_.size()),
         freedoms_(choices_.size(), Freedom::kNeeded),
         is_there_(choices_.size(), 1),
         is_needed_(choices_.size(), 0) {
-    for (const Piece& piece : pieces_.pieces()) area_ += piece.area;
+    for (const Piece& piece : pieces_.pieces()) crumb_ += limits.crumb * piece.area;
     for (std::size_t i = 0; i < choices_.size(); ++i) {
       prices_[i] = price(surface, choices_[i]);
     }
@@ -58,6 +59,7 @@ class Thinning {
   /// all others have.
   enum class Freedom : std::uint8_t { kNeeded, kCutsNothing, kFree };
   Freedom freedom(std::int32_t i) const {
+    if (choices_[i].is_kept) return Freedom::kNeeded;
     const std::vector<CutPieces::Joined> joined = pieces_.joined_without(i);
     if (joined.empty()) return Freedom::kCutsNothing;
     std::size_t fewer = 0;
@@ -68,11 +70,14 @@ class Thinning {
     const bool is_enough = islands_ > 0 && fewer > 0 && pieces_.piece_count() < islands_ + fewer;
     return is_enough ? Freedom::kNeeded : Freedom::kFree;
   }
+  bool is_crumb(const CutPieces::Joined& joined) const {
+    return joined.smallest < std::min(crumb_, crumb_of_island_ * joined.piece.area);
+  }
   bool is_allowed(const CutPieces::Joined& joined) const {
     const Piece& piece = joined.piece;
     if (!piece.is_disc()) return false;
     const bool is_cut = joined.pieces == 1, is_limited = islands_ == 0 || is_cut;
-    return !is_limited || piece.spread() <= piece.max_spread || (!is_cut && joined.smallest < kCrumb * area_);
+    return !is_limited || piece.spread() <= piece.max_spread || (!is_cut && is_crumb(joined));
   }
 
   std::int32_t find_dearest() const {
@@ -138,7 +143,8 @@ class Thinning {
   const std::vector<Choice>& choices_;
   CutPieces pieces_;
   const std::size_t islands_;
-  double area_ = 0.0;
+  const double crumb_of_island_;
+  double crumb_ = 0.0;  ///< the area below which a piece is one
   std::vector<double> prices_;
   std::vector<Freedom> freedoms_;  ///< of those that are there
   std::vector<std::uint8_t> is_there_, is_needed_;
@@ -148,9 +154,9 @@ class Thinning {
 }  // namespace
 
 std::vector<Choice> thinned(const Surface& surface, const std::vector<std::int32_t>& images,
-                            const std::vector<Choice>& choices, CutPieces pieces, std::size_t islands,
+                            const std::vector<Choice>& choices, CutPieces pieces, const SeamLimits& limits,
                             const Task& task) {
-  return Thinning(surface, images, choices, std::move(pieces), islands).run(task);
+  return Thinning(surface, images, choices, std::move(pieces), limits).run(task);
 }
 
 }  // namespace seamwire

@@ -12,14 +12,11 @@
 
 namespace seamwire {
 
-/// Pieces of less than this part of the surface are joined to others wherever that makes a disc.
-inline constexpr double kCrumb = 0.004;
-
 /// Takes wires away until each that is left is needed, mirror images together: the longest for its worth first, as
 /// Kruskal's algorithm turned round finds a shortest tree. `images`: as SeamPlannerOptions. `pieces`: those of the
-/// choices and of the seams that stay. `islands`: as SeamLimits.
+/// choices and of the seams that stay.
 std::vector<Choice> thinned(const Surface& surface, const std::vector<std::int32_t>& images,
-                            const std::vector<Choice>& choices, CutPieces pieces, std::size_t islands,
+                            const std::vector<Choice>& choices, CutPieces pieces, const SeamLimits& limits,
                             const Task& task);
 
 }  // namespace seamwire

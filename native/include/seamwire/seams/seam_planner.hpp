@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "seamwire/live/livewire.hpp"
@@ -17,8 +18,12 @@ struct SeamPlannerOptions {
   Along along = Along::kSurface;  ///< where they run
   /// Of the two feature metrics that they are short in.
   Strength strength = {.max_anisotropy = 20.0, .clamp_percentile = 99.0};
-  std::size_t seeds = 24;        ///< to begin with, 1 or more
-  std::size_t most_seeds = 120;  ///< at most, where the surface is not cut into discs yet; `seeds` or more
+  std::vector<std::int32_t> seeds_at = {};  ///< vertices that are seeds whatever else is
+  std::size_t seeds = 24;                   ///< to begin with, those included, 1 or more
+  std::size_t most_seeds = 120;             ///< at most, where the surface is not cut into discs yet; `seeds` or more
+  /// How many times denser seeds are at each vertex than elsewhere; empty: as dense everywhere. Where it is 0 there are
+  /// those of `seeds_at` alone, and no wires from them.
+  std::vector<double> density = {};
   /// The mirror image of each vertex, itself or -1 where it has none: seeds come and wires go in pairs. Empty: the
   /// surface is not symmetric.
   std::vector<std::int32_t> images = {};
@@ -36,6 +41,9 @@ struct SeamLimits {
   /// Islands are joined until there are so many, however far their normals spread then, or no two can be joined to a
   /// disc. 0: as few as the spread allows.
   std::size_t islands = 0;
+  /// A piece of less than this part of the surface, and of the island that it becomes part of, is joined to another one
+  /// wherever that makes a disc, however far normals spread then. 0 to 1.
+  double crumb = 0.004, crumb_of_island = 1.0;
   /// Whether wires may start on the edges of others, where they ran beside them and left crumbs between. Where curves
   /// are cut, not edges marked, they have to run from seed to seed: these alone their curves have in common.
   bool may_start_on_others = true;
@@ -51,6 +59,7 @@ struct PlannedWire {
   Follow follow = Follow::kMin;        ///< whose metric it is the shortest in
   std::vector<std::int32_t> vertices;  ///< the chain of edges that it marks, from `from` to `to`
   std::vector<Vector> points;          ///< its curve, in the caller's coordinates
+  double worth = 1.0;                  ///< what its length is divided by in SeamPlan::cost
 };
 
 /// Seams that cut a surface into islands.
@@ -80,7 +89,8 @@ class SeamPlanner {
                        const Task& task = {});
   /// The wires that are needed for islands within limits; no wires where the surface is a disc within them. Throws
   /// InvalidInput for limits that are not as said above; Cancelled.
-  SeamPlan plan(const SeamLimits& limits = {}, const Task& task = {}) const;
+  /// `kept`: wires of another plan of the same surface that this one has as well, whatever the limits.
+  SeamPlan plan(const SeamLimits& limits = {}, std::span<const PlannedWire> kept = {}, const Task& task = {}) const;
 
  private:
   struct Impl;

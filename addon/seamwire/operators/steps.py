@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Long work of an operator in steps: beside the interface, which goes on drawing, or at once; Esc ends it with all as it was."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import bpy
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Generator
+    from concurrent.futures import Future
+
+    Progress = Callable[[float], bool]
+    """Is told the fraction done; returns whether to go on."""
+
+_PERIOD = 0.05
+"""Seconds between two looks at whether a step has ended."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """What the generator of steps yields, and goes on after.
+
+    Parameters
+    ----------
+    text
+        What the status bar says meanwhile.
+    work
+        What any thread may do; None: the interface has its turn, and what comes next is done by Blender itself.
+    """
+
+    text: str
+    work: Callable[[Progress], None] | None = None
+
+
+class Stepwise:
+    """Gives an operator `execute`, and `invoke` with a thread for the work of steps; the operator has `steps`."""
+
+    def steps(self, context: bpy.types.Context) -> Generator[Step, None, set[str]]:
+        """Yield the steps; return the operator's result.
+
+        A ValueError is reported. Closed between two steps, it leaves all as it was.
+        """
+        raise NotImplementedError
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Take all steps at once."""
+        self._steps = self.steps(context)
+        try:
+            while True:
+                step = next(self._steps)
+                if step.work is not None:
+                    step.work(lambda _: True)
+        except StopIteration as end:
+            return end.value
+        except ValueError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        finally:
+            self._steps.close()
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        """Take the steps beside the interface."""
+        from concurrent.futures import ThreadPoolExecutor
+
+        if bpy.app.background or context.window is None:
+            return self.execute(context)
+        self._steps = self.steps(context)
+        self._cancelled, self._fraction = False, 0.0
+        self._work: Future[None] | None = None
+        self._thread = ThreadPoolExecutor(1, "seamwire steps")
+        self._timer = context.window_manager.event_timer_add(_PERIOD, window=context.window)
+        result = self._advance(context)
+        if result == {"RUNNING_MODAL"}:
+            context.window_manager.modal_handler_add(self)
+        return result
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Wait for a step, and take the next one."""
+        if event.type == "ESC":
+            self._cancelled = True
+        is_at_work = self._work is not None and not self._work.done()
+        if is_at_work:
+            self._show(context)
+        if is_at_work or event.type not in {"TIMER", "ESC"}:
+            return {"RUNNING_MODAL"}
+        return self._advance(context)
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """End with Blender, or with the file."""
+        self._cancelled = True
+        self._end(context)
+
+    def _advance(self, context: bpy.types.Context) -> set[str]:
+        """Take the next step, or end."""
+        result = {"CANCELLED"}
+        try:
+            if not self._cancelled:
+                if self._work is not None:
+                    self._work.result()
+                self._step, self._fraction = next(self._steps), 0.0
+                self._work = self._thread.submit(self._step.work, self._progress) if self._step.work else None
+                self._show(context)
+                return {"RUNNING_MODAL"}
+        except StopIteration as end:
+            result = end.value
+        except ValueError as error:
+            self.report({"ERROR"}, str(error))
+        except BaseException:
+            self._end(context)
+            raise
+        self._end(context)
+        return result
+
+    def _progress(self, fraction: float) -> bool:
+        self._fraction = fraction
+        return not self._cancelled
+
+    def _show(self, context: bpy.types.Context) -> None:
+        done = f": {100.0 * self._fraction:.0f} %" if self._work is not None else ""
+        context.workspace.status_text_set(f"{self._step.text}{done}    Esc: Cancel")
+
+    def _end(self, context: bpy.types.Context) -> None:
+        self._thread.shutdown()
+        self._steps.close()
+        context.window_manager.event_timer_remove(self._timer)
+        if context.workspace is not None:
+            context.workspace.status_text_set(None)
