@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from scene import add_grid, add_layers, add_object, add_suzanne, edit, snapshot
+from seamwire.mesh.unwrap import SavedUvs, unwrap_changed
 
 ROWS = 9
 OWN = "edges int .seamwire_unwrapped"
@@ -120,6 +121,38 @@ def test_only_the_islands_whose_seams_changed_are_unwrapped_and_the_others_keep_
     low, high = boxes(after)
     assert (low >= 0.0).all()
     assert (high <= 1.0).all()
+
+
+@pytest.mark.parametrize("even", [False, True])
+def test_new_islands_are_as_dense_as_what_they_were_part_of_or_as_the_others(even: bool) -> None:
+    obj = add_hill()
+    edit()
+    mark(obj, row(4))
+    assert unwrap() == {"FINISHED"}
+    lower, upper = slice(0, 32), slice(32, 64)
+    move(obj, lower, (0.0, 0.0), 0.5)
+    dense, thin = density(obj, upper), density(obj, lower)
+    assert dense == pytest.approx(2.0 * thin, rel=0.1)
+    mark(obj, tuple(range(4, ROWS * 4 + 5, ROWS)))
+    unwrap_changed(bpy.context, [obj], even)
+    assert density(obj, upper) == dense
+    assert density(obj, lower) == pytest.approx(dense if even else thin, rel=1e-3)
+
+
+@pytest.mark.parametrize("has_map", [False, True])
+def test_uvs_come_back_after_unwrapping_on_trial(has_map: bool) -> None:
+    obj = add_hill()
+    edit()
+    if has_map:
+        mark(obj, row(4))
+        assert unwrap() == {"FINISHED"}
+    mark(obj, row(6))
+    before = snapshot(obj)
+    saved = SavedUvs(obj)
+    unwrap_changed(bpy.context, [obj])
+    assert snapshot(obj) != before
+    saved.restore()
+    assert snapshot(obj) == before
 
 
 def test_without_room_in_the_square_new_islands_lie_beside_it() -> None:

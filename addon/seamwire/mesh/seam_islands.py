@@ -150,6 +150,13 @@ def worst_island(obj: bpy.types.Object, kind: str) -> Worst | None:
     return Worst(float(values[number]), np.unique(arrays.polygons[labels == number]), len(values))
 
 
+def stretched_count(obj: bpy.types.Object, most: float) -> int:
+    """Return how many islands of an edit mesh the UV map stretches more than so many octaves, by angle or by area."""
+    arrays = edit_mesh.read(obj)
+    islands = stretch_of(obj, arrays, labels_of(arrays))
+    return 0 if islands is None else int((np.maximum(islands.angle, islands.area) > most).sum())
+
+
 def stretch_of(obj: bpy.types.Object, arrays: edit_mesh.Arrays, labels: NDArray[np.int32]) -> IslandStretch | None:
     """Return how much the active UV map of an edit mesh stretches islands; None: there is no UV map, or no visible face.
 

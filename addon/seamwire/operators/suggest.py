@@ -137,8 +137,8 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         saved = {suggestion: SavedUvs(suggestion.mesh.obj) for suggestion in suggestions}
         result = {"CANCELLED"}
         try:
-            stretched = yield from _limit_stretch(context, suggestions, math.log2(self.stretch))
-            result = self._carry_out(context, suggestions, stretched)
+            yield from _limit_stretch(context, suggestions, math.log2(self.stretch))
+            result = self._carry_out(context, suggestions)
         finally:
             for suggestion, uvs in saved.items():
                 if result == {"CANCELLED"} and suggestion.mesh.alive():
@@ -182,9 +182,9 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
             self.report({"ERROR"}, problem)
         return found
 
-    def _carry_out(self, context: bpy.types.Context, suggestions: Sequence[Suggestion], stretched: int = 0) -> set[str]:
-        """Write or cut the wires, unwrap, and say what was done; `stretched` islands are so more than they may be."""
-        from ..mesh.seam_islands import island_count
+    def _carry_out(self, context: bpy.types.Context, suggestions: Sequence[Suggestion]) -> set[str]:
+        """Write or cut the wires, unwrap, and say what was done."""
+        from ..mesh.seam_islands import island_count, stretched_count
 
         if not any(suggestion.wires for suggestion in suggestions):
             limit = "no cut lowers the worst stretch" if self.limit == "WORST" else "within the limit"
@@ -213,6 +213,10 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         open_ones = sum(suggestion.plan.not_discs for suggestion in suggestions)
         if open_ones:
             parts.append(f"{open_ones} of them no {'disc' if open_ones == 1 else 'discs'}")
+        stretched = 0
+        if self.limit == "STRETCH":
+            most = math.log2(self.stretch)
+            stretched = sum(stretched_count(suggestion.mesh.obj, most) for suggestion in suggestions)
         if stretched:
             parts.append(f"{stretched} stretched more than {self.stretch:.2f} times still")
         self.report({"WARNING"} if open_ones or stretched else {"INFO"}, ", ".join(parts))
@@ -228,7 +232,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
             edit_mesh.live_unwrap(context)
             return ""
         try:
-            unwrap_changed(context)
+            unwrap_changed(context, even=self.limit == "STRETCH")
         except (ValueError, NativeError) as error:
             return str(error)
         return ""
@@ -256,8 +260,8 @@ def _planning(
 
 def _limit_stretch(
     context: bpy.types.Context, suggestions: Sequence[Suggestion], most: float
-) -> Generator[Step, None, int]:
-    """Unwrap on trial, and plan islands that are stretched more than so many octaves smaller; return how many still are.
+) -> Generator[Step, None, None]:
+    """Unwrap on trial, and plan islands that are stretched more than so many octaves smaller; leave the UVs of the last trial.
 
     Raises
     ------
@@ -279,7 +283,7 @@ def _limit_stretch(
                 suggestion.take_back()
         left = sum(map(len, stretched.values()))
         if turn == _ROUNDS or not left:
-            return left
+            return
         turn += 1
         for suggestion, islands in stretched.items():
             if islands:
