@@ -19,6 +19,7 @@ namespace {
 
 struct SeamPlannerObject {
   SeamPlanner planner;
+  SeamPlannerOptions options;
 };
 
 /// Throws InvalidInput, with what is to be said then.
@@ -29,6 +30,21 @@ std::vector<double> values_from(const py::object& from, const char* otherwise) {
     throw InvalidInput(otherwise);
   }
   return {values.data(), values.data() + values.size()};
+}
+
+SeamPlannerOptions seeding_from(const py::object& seeds_at, std::size_t seeds, std::size_t most_seeds,
+                                const py::object& density, const py::object& images, const py::object& seams) {
+  const auto numbers = [](const py::object& from, const char* name) {
+    return from.is_none() ? std::vector<std::int32_t>{} : numbers_from(from, name);
+  };
+  return {.seeds_at = numbers(seeds_at, "seeds_at"),
+          .seeds = seeds,
+          .most_seeds = most_seeds,
+          .density = density.is_none()
+                         ? std::vector<double>{}
+                         : values_from(density, "density: expected an array of one number for each vertex"),
+          .images = numbers(images, "images"),
+          .seams = seams.is_none() ? std::vector<Edge>{} : edges_from(seams, "seams")};
 }
 
 /// One limit for all triangles, or one for each.
@@ -114,25 +130,46 @@ Cancelled
                        double clamp_percentile, const py::object& seeds_at, std::size_t seeds, std::size_t most_seeds,
                        const py::object& density, const py::object& images, const py::object& seams,
                        const py::object& progress) {
-             const SeamPlannerOptions options{
-                 .along = along_from(along),
-                 .strength = {.max_anisotropy = max_anisotropy, .clamp_percentile = clamp_percentile},
-                 .seeds_at = seeds_at.is_none() ? std::vector<std::int32_t>{} : numbers_from(seeds_at, "seeds_at"),
-                 .seeds = seeds,
-                 .most_seeds = most_seeds,
-                 .density = density.is_none()
-                                ? std::vector<double>{}
-                                : values_from(density, "density: expected an array of one number for each vertex"),
-                 .images = images.is_none() ? std::vector<std::int32_t>{} : numbers_from(images, "images"),
-                 .seams = seams.is_none() ? std::vector<Edge>{} : edges_from(seams, "seams")};
+             SeamPlannerOptions options = seeding_from(seeds_at, seeds, most_seeds, density, images, seams);
+             options.along = along_from(along);
+             options.strength = {.max_anisotropy = max_anisotropy, .clamp_percentile = clamp_percentile};
              return Watch(progress).run([&](const Task& task) {
-               return make_held<SeamPlannerObject>(SeamPlannerObject{SeamPlanner(surface.surface, options, task)});
+               return make_held<SeamPlannerObject>(
+                   SeamPlannerObject{SeamPlanner(surface.surface, options, task), options});
              });
            }),
            py::arg("surface"), py::kw_only(), py::arg("along") = "surface", py::arg("max_anisotropy") = 20.0,
            py::arg("clamp_percentile") = 99.0, py::arg("seeds_at") = py::none(), py::arg("seeds") = 24,
            py::arg("most_seeds") = 120, py::arg("density") = py::none(), py::arg("images") = py::none(),
            py::arg("seams") = py::none(), py::arg("progress") = py::none())
+      .def(
+          "with_seeds",
+          [](const SeamPlannerObject& object, const py::object& seeds_at, std::size_t seeds, std::size_t most_seeds,
+             const py::object& density, const py::object& images, const py::object& seams, const py::object& progress) {
+            SeamPlannerOptions options = seeding_from(seeds_at, seeds, most_seeds, density, images, seams);
+            options.along = object.options.along;
+            options.strength = object.options.strength;
+            return Watch(progress).run([&](const Task& task) {
+              return make_held<SeamPlannerObject>(SeamPlannerObject{object.planner.with(options, task), options});
+            });
+          },
+          py::kw_only(), py::arg("seeds_at") = py::none(), py::arg("seeds") = 24, py::arg("most_seeds") = 120,
+          py::arg("density") = py::none(), py::arg("images") = py::none(), py::arg("seams") = py::none(),
+          py::arg("progress") = py::none(),
+          R"(A planner with other seeds on the same surface, in less time, for the metrics are there.
+
+Parameters are those of the constructor.
+
+Returns
+-------
+SeamPlanner
+
+Raises
+------
+ValueError
+    Where a parameter is wrong.
+Cancelled
+)")
       .def(
           "plan",
           [](const SeamPlannerObject& object, const py::object& max_spread, std::size_t islands, double crumb,

@@ -220,9 +220,10 @@ TEST(SeamPlanner, MakesAsManyIslandsAsAreAskedFor) {
 
 TEST(SeamPlanner, KeptWiresStayAndOnlyWhatIsToBeSmallerIsParted) {
   const auto sphere = shared(shapes::icosphere(4).surface());
+  const SeamPlanner planner(sphere);
   for (const bool may_start_on_others : {true, false}) {
     const SeamLimits wide{.max_spread = 0.6, .may_start_on_others = may_start_on_others};
-    const SeamPlan first = SeamPlanner(sphere).plan(wide);
+    const SeamPlan first = planner.plan(wide);
     ASSERT_GT(first.island_count, 1U);
     // The first island is to be parted, by wires between seeds in it.
     SeamLimits narrow = wide;
@@ -241,7 +242,7 @@ TEST(SeamPlanner, KeptWiresStayAndOnlyWhatIsToBeSmallerIsParted) {
       }
     }
     within.seeds = 40;
-    const SeamPlan second = SeamPlanner(sphere, within).plan(narrow, first.wires);
+    const SeamPlan second = planner.with(within).plan(narrow, first.wires);
     expect_discs(*sphere, second);
     EXPECT_GT(second.island_count, first.island_count);
     for (const PlannedWire& wire : first.wires) {
@@ -256,6 +257,19 @@ TEST(SeamPlanner, KeptWiresStayAndOnlyWhatIsToBeSmallerIsParted) {
       }
     }
   }
+}
+
+TEST(SeamPlanner, WithOtherSeedsIsAsOneMadeAnew) {
+  const auto surface = shared(shapes::bumpy(shapes::icosphere(3), 0.05).surface());
+  const SeamPlanner planner(surface);
+  const SeamPlannerOptions more{.seeds = 60};
+  const SeamPlan plan = planner.with(more).plan(), anew = SeamPlanner(surface, more).plan();
+  EXPECT_NE(plan.cost, planner.plan().cost);
+  EXPECT_EQ(plan.islands, anew.islands);
+  EXPECT_EQ(plan.cost, anew.cost);
+  EXPECT_THROW(planner.with({.along = Along::kEdges}), InvalidInput);
+  EXPECT_THROW(planner.with({.strength = {.max_anisotropy = 5.0}}), InvalidInput);
+  EXPECT_THROW(planner.with({.seeds = 0}), InvalidInput);
 }
 
 TEST(SeamPlanner, PiecesThatAreCrumbsBesideAnIslandJoinIt) {

@@ -110,26 +110,33 @@ class Suggestion:
         self, seeds: Sequence[int], progress: Callable[[float], bool], **seeding: NDArray[np.generic]
     ) -> list[seamwire_core.SeamPlanner]:
         """Return a planner for each number of seeds; `density`, `seeds_at` and `seams` as ``seamwire_core.SeamPlanner`` has them."""
-        arrays = self.mesh.arrays
         images = None
         axes = (self._mirror or self.mesh.session.symmetric_axes)[:1] if self._symmetric else ()
         if axes:
             images = self.mesh.session.partners(axes)
-        surface = self._core.Surface(arrays.points, arrays.triangles, arrays.edges)
-        return [
-            self._core.SeamPlanner(
-                surface,
-                along=self.along.lower(),
-                max_anisotropy=STRENGTHS[self.along],
-                clamp_percentile=CLAMP_PERCENTILE,
+        make = self._planners[0].with_seeds if self._planners else self._make_planner
+        planners = []
+        for done, number in enumerate(seeds):
+            planner = make(
                 seeds=number,
                 most_seeds=number + _MORE_SEEDS,
                 **seeding,
                 images=images,
                 progress=lambda fraction, done=done: progress((done + fraction) / len(seeds)),
             )
-            for done, number in enumerate(seeds)
-        ]
+            planners.append(planner)
+            make = planner.with_seeds
+        return planners
+
+    def _make_planner(self, **options: object) -> seamwire_core.SeamPlanner:
+        arrays = self.mesh.arrays
+        return self._core.SeamPlanner(
+            self._core.Surface(arrays.points, arrays.triangles, arrays.edges),
+            along=self.along.lower(),
+            max_anisotropy=STRENGTHS[self.along],
+            clamp_percentile=CLAMP_PERCENTILE,
+            **options,
+        )
 
     def suggest(
         self,
@@ -147,7 +154,6 @@ class Suggestion:
         planners = planners or self._planners
         if self._limits is None:
             self._limits = np.full(len(self.mesh.arrays.triangles), max_spread)
-        cuts = self.along == "SURFACE" and self.finish == "CUT"
         plans = [
             planner.plan(
                 max_spread=self._limits,
@@ -155,13 +161,18 @@ class Suggestion:
                 crumb=CRUMB,
                 crumb_of_island=self._crumb_of_island,
                 kept=list(kept),
-                may_start_on_others=not cuts,
+                may_start_on_others=not self.is_cut,
                 straightened=straightened,
                 progress=lambda fraction, done=done: progress((done + fraction) / len(planners)),
             )
             for done, planner in enumerate(planners)
         ]
         self.use(min(plans, key=lambda plan: (plan.not_discs, plan.cost)))
+
+    @property
+    def is_cut(self) -> bool:
+        """Whether the wires are to be cut into the faces."""
+        return self.along == "SURFACE" and self.finish == "CUT"
 
     def use(self, plan: seamwire_core.SeamPlan) -> None:
         """Suggest the wires of a plan."""

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 _CUT_CRUMB = 0.25
 """What cuts enclose is no island either below this part of the area below which none is planned: where they run side by side, they
 cross here and there."""
+_ON_TRIAL = 0.9
+"""The part of the bound on stretch that is for trials along edges, where the wires are cut into the faces afterwards."""
 _ROUNDS = 12
 """How often islands that are stretched too much are made smaller."""
 
@@ -277,7 +279,10 @@ def _limit_stretch(
             suggestion.write()
         try:
             unwrap_changed(context, objects, even=True)
-            stretched = {suggestion: suggestion.stretched(most) for suggestion in suggestions}
+            stretched = {
+                suggestion: suggestion.stretched(_ON_TRIAL * most if suggestion.is_cut else most)
+                for suggestion in suggestions
+            }
         finally:
             for suggestion in suggestions:
                 suggestion.take_back()

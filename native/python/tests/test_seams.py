@@ -45,7 +45,7 @@ def test_kept_wires_and_what_is_found_within_an_island(torus: sw.Surface, planne
     density[torus.triangles[within]] = 1.0
     edges = np.concatenate([np.column_stack([wire.vertices[:-1], wire.vertices[1:]]) for wire in first.wires])
     seeds = np.unique([wire.seeds for wire in first.wires])
-    more = sw.SeamPlanner(torus, seeds_at=seeds, seeds=len(seeds) + 20, density=density, seams=edges)
+    more = planner.with_seeds(seeds_at=seeds, seeds=len(seeds) + 20, density=density, seams=edges)
     second = more.plan(max_spread=np.where(within, 0.1, 2.0), kept=first.wires, crumb_of_island=0.1)
     kept = {tuple(wire.vertices.tolist()) for wire in first.wires}
     assert kept < {tuple(wire.vertices.tolist()) for wire in second.wires}

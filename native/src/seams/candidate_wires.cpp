@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "seamwire/edges/edge_wires.hpp"
+#include "seamwire/geodesics/corridor_paths.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/wires/snap.hpp"
 #include "seamwire/wires/wire.hpp"
@@ -93,12 +94,15 @@ CandidateWires::CandidateWires(std::shared_ptr<const Surface> surface, Along alo
       });
 }
 
-std::vector<std::vector<CandidateWire>> CandidateWires::find(std::span<const Fan> fans, const Task& task) const {
+std::vector<std::vector<CandidateWire>> CandidateWires::find(std::span<const Fan> fans, const Task& task,
+                                                             Effort effort) const {
   std::vector<std::array<std::vector<Found>, 2>> found(fans.size());
   const auto all = static_cast<double>(std::max<std::size_t>(2 * fans.size(), 1));
   run_on_threads(
       2 * fans.size(), task, [&](std::size_t done) { return static_cast<double>(done) / all; },
-      [&](std::size_t i, const Task& own) { found[i / 2][i % 2] = find_in(metrics_[i % 2], fans[i / 2], own); });
+      [&](std::size_t i, const Task& own) {
+        found[i / 2][i % 2] = find_in(metrics_[i % 2], fans[i / 2], effort, own);
+      });
   std::vector<std::vector<CandidateWire>> wires(fans.size());
   for (std::size_t i = 0; i < fans.size(); ++i) {
     for (std::size_t k = 0; k < fans[i].to.size(); ++k) {
@@ -115,9 +119,28 @@ std::vector<std::vector<CandidateWire>> CandidateWires::find(std::span<const Fan
   return wires;
 }
 
-std::vector<CandidateWires::Found> CandidateWires::find_in(const Prepared& metric, const Fan& fan,
+std::vector<CandidateWires::Found> CandidateWires::find_in(const Prepared& metric, const Fan& fan, Effort effort,
                                                            const Task& task) const {
-  return along_ == Along::kSurface ? find_on_surface(metric, fan, task) : find_along_edges(metric, fan, task);
+  if (along_ == Along::kEdges) return find_along_edges(metric, fan, task);
+  return effort == Effort::kExact ? find_on_surface(metric, fan, task) : find_quickly(metric, fan, task);
+}
+
+CandidateWires::Found CandidateWires::found(const Prepared& metric, Wire wire, const Task& task) const {
+  std::vector<std::int32_t> vertices = snap_to_edges(surface(), *metric.snap_graph, wire, task);
+  return {std::move(vertices), std::move(wire.points), std::move(wire.faces), wire.length, wire.euclidean_length};
+}
+
+std::vector<CandidateWires::Found> CandidateWires::find_quickly(const Prepared& metric, const Fan& fan,
+                                                                const Task& task) const {
+  CorridorPaths paths(*metric.geodesics, fan.from);
+  std::vector<Found> all;
+  for (const std::int32_t v : fan.to) {
+    Wire wire = map_wire(surface(), *metric.embedding, paths.path(v, task));
+    wire.from = fan.from;
+    wire.to = v;
+    all.push_back(found(metric, std::move(wire), task));
+  }
+  return all;
 }
 
 std::vector<CandidateWires::Found> CandidateWires::find_on_surface(const Prepared& metric, const Fan& fan,
@@ -126,14 +149,12 @@ std::vector<CandidateWires::Found> CandidateWires::find_on_surface(const Prepare
   for (const std::int32_t v : fan.to) until.targets.push_back(SurfacePoint::at_vertex(v));
   const std::array<SurfacePoint, 1> from = {SurfacePoint::at_vertex(fan.from)};
   const DistanceField field = metric.geodesics->solve(from, until, task);
-  std::vector<Found> found;
+  std::vector<Found> all;
+  all.reserve(fan.to.size());
   for (const std::int32_t v : fan.to) {
-    Wire wire = trace_wire(surface(), *metric.embedding, field, v, task);
-    std::vector<std::int32_t> vertices = snap_to_edges(surface(), *metric.snap_graph, wire, task);
-    found.push_back(
-        {std::move(vertices), std::move(wire.points), std::move(wire.faces), wire.length, wire.euclidean_length});
+    all.push_back(found(metric, trace_wire(surface(), *metric.embedding, field, v, task), task));
   }
-  return found;
+  return all;
 }
 
 std::vector<CandidateWires::Found> CandidateWires::find_along_edges(const Prepared& metric, const Fan& fan,

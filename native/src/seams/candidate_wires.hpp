@@ -12,6 +12,7 @@
 #include "seamwire/live/livewire.hpp"
 #include "seamwire/metric/curvature.hpp"
 #include "seamwire/task.hpp"
+#include "seamwire/wires/wire.hpp"
 
 namespace seamwire {
 
@@ -41,8 +42,12 @@ class CandidateWires {
     std::int32_t from;
     std::vector<std::int32_t> to;
   };
+  /// Whether wires are the shortest ones, or, across the surface, as good as always and found in a third of the time,
+  /// see CorridorPaths.
+  enum class Effort : std::uint8_t { kExact, kQuick };
   /// For each fan its wires, in order. On several threads.
-  std::vector<std::vector<CandidateWire>> find(std::span<const Fan> fans, const Task& task) const;
+  std::vector<std::vector<CandidateWire>> find(std::span<const Fan> fans, const Task& task,
+                                               Effort effort = Effort::kExact) const;
 
  private:
   /// A wire in one metric, with its length there.
@@ -52,7 +57,9 @@ class CandidateWires {
     std::vector<std::int32_t> faces;
     double length, euclidean;
   };
-  std::vector<Found> find_in(const Prepared& metric, const Fan& fan, const Task& task) const;
+  std::vector<Found> find_in(const Prepared& metric, const Fan& fan, Effort effort, const Task& task) const;
+  Found found(const Prepared& metric, Wire wire, const Task& task) const;
+  std::vector<Found> find_quickly(const Prepared& metric, const Fan& fan, const Task& task) const;
   std::vector<Found> find_on_surface(const Prepared& metric, const Fan& fan, const Task& task) const;
   std::vector<Found> find_along_edges(const Prepared& metric, const Fan& fan, const Task& task) const;
 

@@ -39,6 +39,7 @@ struct Choice {
   double strength = 0.0;            ///< how well it follows features
   double seclusion = 1.0;           ///< Seclusion::of()
   bool is_kept = false;             ///< whether it stays whatever the limits
+  bool is_quick = false;            ///< whether CandidateWires found it quickly
 
   double worth() const { return strength * seclusion; }
 };

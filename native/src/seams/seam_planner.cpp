@@ -7,6 +7,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "detail/index.hpp"
@@ -26,17 +27,59 @@ namespace {
 /// How much more the worst piece may be bent for fewer crumbs.
 constexpr double kBentForCrumbs = 0.02;
 
+/// What does not depend on seeds.
+struct Wires {
+  Wires(std::shared_ptr<const Surface> on, const SeamPlannerOptions& options, const Task& task)
+      : found(std::move(on), options.along, options.strength, task),
+        seclusion(found.surface(), found.curvature()),
+        direct(found, seclusion) {}
+
+  const CandidateWires found;
+  const Seclusion seclusion;
+  const DirectWires direct;
+};
+
+/// Throws what the constructor throws for options.
+void check_options(const Surface& surface, const SeamPlannerOptions& options) {
+  check_strength(options.strength);
+  if (options.seeds < 1) throw InvalidInput("seeds is 0, not 1 or more");
+  if (options.most_seeds < options.seeds) {
+    throw InvalidInput("most_seeds is " + std::to_string(options.most_seeds) + ", less than seeds, " +
+                       std::to_string(options.seeds));
+  }
+  const std::size_t count = surface.vertex_count();
+  if (!options.images.empty() && options.images.size() != count) {
+    throw InvalidInput("images has " + std::to_string(options.images.size()) + " items: there are " +
+                       std::to_string(count) + " vertices");
+  }
+  if (!options.density.empty() && options.density.size() != count) {
+    throw InvalidInput("density has " + std::to_string(options.density.size()) + " items: there are " +
+                       std::to_string(count) + " vertices");
+  }
+  for (std::size_t v = 0; v < options.density.size(); ++v) {
+    if (!(options.density[v] >= 0.0)) {
+      throw InvalidInput("density[" + std::to_string(v) + "] is " + text(options.density[v]) +
+                         ", not a number of at least 0");
+    }
+  }
+  for (const std::int32_t v : options.seeds_at) check_index(v, count, "seeds_at: vertex");
+  for (const std::int32_t v : options.images) {
+    if (v != -1) check_index(v, count, "images: vertex");
+  }
+  for (const Edge& edge : options.seams) {
+    for (const std::int32_t v : edge) check_index(v, count, "seams: vertex");
+  }
+}
+
 }  // namespace
 
 struct SeamPlanner::Impl {
-  Impl(std::shared_ptr<const Surface> on, const SeamPlannerOptions& with, const Task& task)
+  Impl(std::shared_ptr<const Wires> among, const SeamPlannerOptions& with, const Task& task)
       : options(with),
-        wires(std::move(on), with.along, with.strength, task),
-        seclusion(wires.surface(), wires.curvature()),
-        choices(wires_between_seeds(wires, seclusion, options, task)),
-        direct(wires, seclusion) {}
+        wires(std::move(among)),
+        choices(wires_between_seeds(wires->found, wires->seclusion, options, task)) {}
 
-  const Surface& surface() const { return wires.surface(); }
+  const Surface& surface() const { return wires->found.surface(); }
   CutPieces pieces(const std::vector<Choice>& of, std::span<const double> max_spreads) const {
     return CutPieces(surface(), chains_of(of, options.seams), max_spreads);
   }
@@ -46,10 +89,8 @@ struct SeamPlanner::Impl {
                                              const Task& task) const;
 
   const SeamPlannerOptions options;
-  const CandidateWires wires;
-  const Seclusion seclusion;
+  const std::shared_ptr<const Wires> wires;
   const std::vector<Choice> choices;
-  const DirectWires direct;
 };
 
 /// Lets wires start on others where they ran beside them, as long as that leaves fewer crumbs and pieces as good.
@@ -125,10 +166,10 @@ std::vector<std::vector<Choice>> SeamPlanner::Impl::shortened(const Choice& wire
     fans.push_back({chain[a], {chain[b]}});
   }
   std::vector<Choice> stretches;
-  std::vector<std::vector<CandidateWire>> found = wires.find(fans, task);
+  std::vector<std::vector<CandidateWire>> found = wires->found.find(fans, task);
   stretches.reserve(fans.size());
   for (std::size_t i = 0; i < fans.size(); ++i) {
-    stretches.push_back(make_choice(fans[i].from, fans[i].to.front(), std::move(found[i].front()), seclusion));
+    stretches.push_back(make_choice(fans[i].from, fans[i].to.front(), std::move(found[i].front()), wires->seclusion));
   }
   std::vector<std::vector<Choice>> ways;
   for (std::size_t left_out = 0; left_out < stretches.size(); ++left_out) {
@@ -143,35 +184,22 @@ std::vector<std::vector<Choice>> SeamPlanner::Impl::shortened(const Choice& wire
 
 SeamPlanner::SeamPlanner(std::shared_ptr<const Surface> surface, const SeamPlannerOptions& options, const Task& task) {
   if (!surface) throw InvalidInput("surface: there is none");
-  check_strength(options.strength);
-  if (options.seeds < 1) throw InvalidInput("seeds is 0, not 1 or more");
-  if (options.most_seeds < options.seeds) {
-    throw InvalidInput("most_seeds is " + std::to_string(options.most_seeds) + ", less than seeds, " +
-                       std::to_string(options.seeds));
+  check_options(*surface, options);
+  impl_ = std::make_shared<const Impl>(std::make_shared<const Wires>(std::move(surface), options, task), options, task);
+}
+
+SeamPlanner SeamPlanner::with(const SeamPlannerOptions& options, const Task& task) const {
+  const SeamPlannerOptions& own = impl_->options;
+  const auto strength_of = [](const SeamPlannerOptions& of) {
+    return std::tie(of.strength.parameter, of.strength.max_anisotropy, of.strength.clamp_percentile);
+  };
+  if (options.along != own.along || strength_of(options) != strength_of(own)) {
+    throw InvalidInput("along, strength: others than those of the planner");
   }
-  const std::size_t count = surface->vertex_count();
-  if (!options.images.empty() && options.images.size() != count) {
-    throw InvalidInput("images has " + std::to_string(options.images.size()) + " items: there are " +
-                       std::to_string(count) + " vertices");
-  }
-  if (!options.density.empty() && options.density.size() != count) {
-    throw InvalidInput("density has " + std::to_string(options.density.size()) + " items: there are " +
-                       std::to_string(count) + " vertices");
-  }
-  for (std::size_t v = 0; v < options.density.size(); ++v) {
-    if (!(options.density[v] >= 0.0)) {
-      throw InvalidInput("density[" + std::to_string(v) + "] is " + text(options.density[v]) +
-                         ", not a number of at least 0");
-    }
-  }
-  for (const std::int32_t v : options.seeds_at) check_index(v, count, "seeds_at: vertex");
-  for (const std::int32_t v : options.images) {
-    if (v != -1) check_index(v, count, "images: vertex");
-  }
-  for (const Edge& edge : options.seams) {
-    for (const std::int32_t v : edge) check_index(v, count, "seams: vertex");
-  }
-  impl_ = std::make_shared<const Impl>(std::move(surface), options, task);
+  check_options(impl_->surface(), options);
+  SeamPlanner other(*this);
+  other.impl_ = std::make_shared<const Impl>(impl_->wires, options, task);
+  return other;
 }
 
 SeamPlan SeamPlanner::plan(const SeamLimits& limits, std::span<const PlannedWire> kept, const Task& task) const {
@@ -204,7 +232,7 @@ SeamPlan SeamPlanner::plan(const SeamLimits& limits, std::span<const PlannedWire
   std::vector<Choice> taken = thinned(surface, impl_->options.images, among, std::move(all), limits, task);
   if (limits.may_start_on_others) taken = impl_->swept(std::move(taken), limits, max_spreads, task);
   if (limits.are_straightened) {
-    taken = straightened(std::move(taken), impl_->direct, surface, impl_->options, limits, max_spreads, task);
+    taken = straightened(std::move(taken), impl_->wires->direct, surface, impl_->options, limits, max_spreads, task);
   }
   SeamPlan plan;
   const CutPieces pieces = impl_->pieces(taken, max_spreads);

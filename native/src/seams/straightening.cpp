@@ -85,6 +85,8 @@ class Straightening {
   }
   void find(const std::set<Ends>& pairs);
   bool is_as_good(const std::vector<Choice>& trial) const;
+  bool replace(const Junctions& junctions, std::int32_t seed, const std::vector<Ends>& by, double least_gain);
+  void settle();
   bool straighten_one();
   bool slide();
   std::vector<std::int32_t> places_to_slide_to(std::int32_t seed, const Junction& junction) const;
@@ -121,12 +123,12 @@ bool Straightening::is_as_good(const std::vector<Choice>& trial) const {
          now.bent <= quality_->bent;
 }
 
-/// Finds the wires between pairs that are not known here, on several threads.
+/// Finds wires between pairs that are not known here, to see what they are good for, on several threads.
 void Straightening::find(const std::set<Ends>& pairs) {
   std::set<Ends> missing;
   std::ranges::copy_if(pairs, std::inserter(missing, missing.end()),
                        [this](const Ends& ends) { return !direct_.contains(ends); });
-  if (!missing.empty()) direct_.merge(known_.find(missing, task_));
+  if (!missing.empty()) direct_.merge(known_.find(missing, task_, CandidateWires::Effort::kQuick));
 }
 
 bool Straightening::straighten_one() {
@@ -135,10 +137,7 @@ bool Straightening::straighten_one() {
     task_.check(0.0);
     const std::optional<Ends> ends = joint_ends(junction);
     if (!ends || !direct_.contains(*ends) || !tried_.insert({seed, *ends}).second) continue;
-    std::optional<std::vector<Choice>> trial = replaced(junctions, seed, {*ends}, 0.0);
-    if (!trial || !is_as_good(*trial)) continue;
-    wires_ = std::move(*trial);
-    return true;
+    if (replace(junctions, seed, {*ends}, 0.0)) return true;
   }
   return false;
 }
@@ -206,12 +205,41 @@ bool Straightening::slide() {
     const Junctions junctions = junctions_of(wires_, options_.seams);
     const auto junction = junctions.find(slide.seed);
     if (junction == junctions.end() || others_of(junction->second) != slide.others) continue;
-    std::optional<std::vector<Choice>> trial = replaced(junctions, slide.seed, slide.by, kLeastGain);
-    if (!trial || !is_as_good(*trial)) continue;
-    wires_ = std::move(*trial);
-    has_slid = true;
+    has_slid |= replace(junctions, slide.seed, slide.by, kLeastGain);
   }
   return has_slid;
+}
+
+/// Lets direct wires be the shortest ones, all of them, or those with which the pieces stay as good.
+void Straightening::settle() {
+  std::map<Ends, std::vector<std::size_t>> quick;
+  for (std::size_t i = 0; i < wires_.size(); ++i) {
+    if (wires_[i].is_quick) quick[ends_of(wires_[i].wire.from, wires_[i].wire.to)].push_back(i);
+  }
+  std::set<Ends> pairs;
+  for (const auto& [ends, numbers] : quick) pairs.insert(ends);
+  const std::map<Ends, Choice> shortest = known_.find(pairs, task_);
+  const auto settle_those = [&](const std::set<Ends>& those) {
+    std::vector<Choice> trial = wires_;
+    for (const Ends& ends : those) {
+      for (const std::size_t i : quick.at(ends)) trial[i] = shortest.at(ends);
+    }
+    if (!is_as_good(trial)) return false;
+    wires_ = std::move(trial);
+    return true;
+  };
+  if (pairs.empty() || settle_those(pairs)) return;
+  for (const Ends& ends : pairs) settle_those({ends});
+}
+
+/// Puts direct wires in the place of those that meet at a seed, where that is as good and costs less; returns whether
+/// it does.
+bool Straightening::replace(const Junctions& junctions, std::int32_t seed, const std::vector<Ends>& by,
+                            double least_gain) {
+  std::optional<std::vector<Choice>> trial = replaced(junctions, seed, by, least_gain);
+  if (!trial || !is_as_good(*trial)) return false;
+  wires_ = std::move(*trial);
+  return true;
 }
 
 /// All that can be tried with the wires that are known, before more are found.
@@ -235,6 +263,7 @@ std::vector<Choice> Straightening::done() {
       find(pairs);
     } while (!pairs.empty());
   } while (slide());
+  settle();
   return std::move(wires_);
 }
 
@@ -282,13 +311,15 @@ std::optional<std::vector<Choice>> Straightening::replaced(const Junctions& junc
 
 }  // namespace
 
-std::map<Ends, Choice> DirectWires::find(const std::set<Ends>& pairs, const Task& task) const {
+std::map<Ends, Choice> DirectWires::find(const std::set<Ends>& pairs, const Task& task,
+                                         CandidateWires::Effort effort) const {
+  std::map<Ends, Choice>& all_known = known_[static_cast<std::size_t>(effort)];
   std::map<Ends, Choice> out;
   std::vector<Ends> missing;
   {
     const std::scoped_lock lock(mutex_);
     for (const Ends& ends : pairs) {
-      if (const auto known = known_.find(ends); known != known_.end()) {
+      if (const auto known = all_known.find(ends); known != all_known.end()) {
         out.insert(*known);
       } else {
         missing.push_back(ends);
@@ -309,16 +340,18 @@ std::map<Ends, Choice> DirectWires::find(const std::set<Ends>& pairs, const Task
   std::vector<CandidateWires::Fan> fans;
   fans.reserve(beginning.size());
   for (auto& [from, to] : beginning) fans.push_back({from, std::move(to)});
-  std::vector<std::vector<CandidateWire>> found = wires_.find(fans, task);
+  std::vector<std::vector<CandidateWire>> found = wires_.find(fans, task, effort);
   for (std::size_t i = 0; i < fans.size(); ++i) {
     const std::int32_t from = fans[i].from;
     for (std::size_t k = 0; k < fans[i].to.size(); ++k) {
       const std::int32_t to = fans[i].to[k];
-      out.insert({ends_of(from, to), make_choice(from, to, std::move(found[i][k]), seclusion_)});
+      Choice choice = make_choice(from, to, std::move(found[i][k]), seclusion_);
+      choice.is_quick = effort == CandidateWires::Effort::kQuick;
+      out.insert({ends_of(from, to), std::move(choice)});
     }
   }
   const std::scoped_lock lock(mutex_);
-  known_.insert(out.begin(), out.end());
+  all_known.insert(out.begin(), out.end());
   return out;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <map>
 #include <mutex>
 #include <set>
@@ -18,13 +19,14 @@ namespace seamwire {
 class DirectWires {
  public:
   DirectWires(const CandidateWires& wires, const Seclusion& seclusion) : wires_(wires), seclusion_(seclusion) {}
-  std::map<Ends, Choice> find(const std::set<Ends>& pairs, const Task& task) const;
+  std::map<Ends, Choice> find(const std::set<Ends>& pairs, const Task& task,
+                              CandidateWires::Effort effort = CandidateWires::Effort::kExact) const;
 
  private:
   const CandidateWires& wires_;
   const Seclusion& seclusion_;
   mutable std::mutex mutex_;
-  mutable std::map<Ends, Choice> known_;
+  mutable std::array<std::map<Ends, Choice>, 2> known_;  // by the effort
 };
 
 /// Makes chosen wires cost less, as long as the pieces stay as many and as good: a direct one takes the place of two

@@ -87,6 +87,9 @@ class SeamPlanner {
   /// in metric.hpp; Cancelled.
   explicit SeamPlanner(std::shared_ptr<const Surface> surface, const SeamPlannerOptions& options = {},
                        const Task& task = {});
+  /// One with other seeds, images or seams on the same surface, in less time, for the metrics are there. Throws as that
+  /// does, and InvalidInput where wires would run elsewhere or in other metrics.
+  SeamPlanner with(const SeamPlannerOptions& options, const Task& task = {}) const;
   /// The wires that are needed for islands within limits; no wires where the surface is a disc within them. Throws
   /// InvalidInput for limits that are not as said above; Cancelled.
   /// `kept`: wires of another plan of the same surface that this one has as well, whatever the limits.
