@@ -74,8 +74,8 @@ void check_options(const Surface& surface, const SeamPlannerOptions& options) {
 }  // namespace
 
 struct SeamPlanner::Impl {
-  Impl(std::shared_ptr<const Wires> among, const SeamPlannerOptions& with, const Task& task)
-      : options(with),
+  Impl(std::shared_ptr<const Wires> among, SeamPlannerOptions with, const Task& task)
+      : options(std::move(with)),
         wires(std::move(among)),
         choices(wires_between_seeds(wires->found, wires->seclusion, options, task)) {}
 

@@ -12,8 +12,8 @@
 namespace seamwire {
 namespace {
 
-/// How near to its longest side a triangle's corner is where the triangle has no area, as part of that side: vertices are
-/// placed on edges in single precision.
+/// How near to its longest side a triangle's corner is where the triangle has no area, as part of that side: vertices
+/// are placed on edges in single precision.
 constexpr double kFlat = 1e-4;
 
 /// Whether a quad abcd can be cut from a to c, into abc and acd: neither lies on the other, nor has no area.
@@ -55,10 +55,9 @@ Triangulation triangulate(std::span<const Vector> points, std::span<const std::i
     const std::int32_t a = corner[0], b = corner[1], c = corner[2];
     if (sizes[p] == 3) {
       out.triangles.push_back({a, b, c});
-    } else if (const std::int32_t d = corner[3];
-               is_folded(points[a], points[b], points[c], points[d]) ||
-               (!can_be_cut(points[a], points[b], points[c], points[d]) &&
-                can_be_cut(points[b], points[c], points[d], points[a]))) {
+    } else if (const std::int32_t d = corner[3]; is_folded(points[a], points[b], points[c], points[d]) ||
+                                                 (!can_be_cut(points[a], points[b], points[c], points[d]) &&
+                                                  can_be_cut(points[b], points[c], points[d], points[a]))) {
       out.triangles.push_back({a, b, d});
       out.triangles.push_back({b, c, d});
     } else {

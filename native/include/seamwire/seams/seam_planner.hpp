@@ -43,7 +43,8 @@ struct SeamLimits {
   std::size_t islands = 0;
   /// A piece of less than this part of the surface, and of the island that it becomes part of, is joined to another one
   /// wherever that makes a disc, however far normals spread then. 0 to 1.
-  double crumb = 0.004, crumb_of_island = 1.0;
+  double crumb = 0.004;
+  double crumb_of_island = 1.0;  ///< see `crumb`
   /// Whether wires may start on the edges of others, where they ran beside them and left crumbs between. Where curves
   /// are cut, not edges marked, they have to run from seed to seed: these alone their curves have in common.
   bool may_start_on_others = true;
