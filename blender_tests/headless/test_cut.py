@@ -618,3 +618,21 @@ def test_small_parts_of_a_mesh_are_cut_all_the_same() -> None:
     mesh = lines(obj, ((2.98, -0.02), (3.02, 0.01)))
     cut_with(mesh, 1e-3)
     assert island_count(obj) == 3
+
+
+def test_a_seam_that_was_there_stays_though_it_borders_a_crumb() -> None:
+    obj = add_grid(21)
+    edit()
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    row = [bm.edges.get((bm.verts[10 * 21 + x], bm.verts[10 * 21 + x + 1])) for x in range(20)]
+    for edge in row:
+        edge.seam = True
+    bmesh.update_edit_mesh(obj.data)
+    # The part of it between the two others is the longest border of what they enclose with it, 0.25 % of the square.
+    mesh = lines(obj, ((-1.0, 0.0), (1.0, 0.0)), ((-1.0, -0.2), (1.0, 0.3)), ((-1.0, 0.3), (1.0, -0.2)))
+    cut_with(mesh, 5e-3)
+    assert island_count(obj) == 6
+    across = [edge for edge in bmesh.from_edit_mesh(obj.data).edges if all(abs(v.co.y) < 1e-6 for v in edge.verts)]
+    assert sum(edge.calc_length() for edge in across) == pytest.approx(2.0)
+    assert all(edge.seam for edge in across)

@@ -54,6 +54,19 @@ def test_escape_leaves_all_as_it_was(
     assert undo_steps(capfd) == before
 
 
+def test_meanwhile_the_view_can_be_moved_and_nothing_else_done(ui: driver.Ui, suzanne: bpy.types.Object) -> None:
+    distance, vertices, selected = ui.view.view_distance, len(suzanne.data.vertices), suzanne.data.total_vert_sel
+    invoke(ui)
+    ui.wheel(True, (0.5 * ui.region.width, 0.5 * ui.region.height))
+    ui.key("A")
+    ui.key("X")
+    ui.wait_until(lambda: bool(seams(suzanne)))
+    assert ui.view.view_distance != distance
+    suzanne.update_from_editmode()
+    assert len(suzanne.data.vertices) == vertices
+    assert suzanne.data.total_vert_sel == selected
+
+
 def test_a_mesh_that_is_changed_meanwhile_keeps_what_it_has(ui: driver.Ui, suzanne: bpy.types.Object) -> None:
     invoke(ui)
     with ui.override():

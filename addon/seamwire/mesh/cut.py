@@ -128,10 +128,11 @@ def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = (), 
         edges = _split(bm, faces[polygon], [(vert_of[one], vert_of[two]) for one, two in segments], of_edges)
         uncut += len(edges) < len(segments)
         seams += edges
+    new = [edge for edge in seams if not edge.seam]
     for edge in seams:
         edge.seam = True
     if crumb > 0.0:
-        _join(bm, _crumb_borders(bm, seams, crumb * sum(face.calc_area() for face in bm.faces)))
+        _join(bm, _crumb_borders(bm, new, crumb * sum(face.calc_area() for face in bm.faces)))
         seams = [edge for edge in seams if edge.is_valid and edge.seam]
     for items in (bm.verts, bm.edges, bm.faces):
         items.index_update()

@@ -180,7 +180,7 @@ class Suggestion:
         self.wires = planned_wires(plan, self.along, STRENGTHS[self.along])
 
     def smallest(self) -> float:
-        """Return the part of the mesh's area that the smallest island has that may be planned, or is."""
+        """Return the least part of the mesh's area that an island has: of those planned, or of those that may be."""
         assert self.plan is not None
         if self._crumb_of_island == 1.0:
             return CRUMB

@@ -62,15 +62,28 @@ class Meaning(Enum):
 
 def meaning(event: bpy.types.Event, manager: bpy.types.WindowManager) -> Meaning:
     """Return what Blender would do with an event over a 3D view in edit mode."""
+    item = _item_for(event, manager)
+    return Meaning.NOTHING if item is None else _meaning_of(item)
+
+
+def moves_view(event: bpy.types.Event, manager: bpy.types.WindowManager) -> bool:
+    """Whether Blender would move the view, or does so already."""
+    item = _item_for(event, manager)
+    return event.type in {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"} or (
+        item is not None and item.idname.startswith(_NAVIGATION)
+    )
+
+
+def _item_for(event: bpy.types.Event, manager: bpy.types.WindowManager) -> bpy.types.KeyMapItem | None:
     if event.value not in {"PRESS", "CLICK", "DOUBLE_CLICK", "CLICK_DRAG", "ANY"} or event.type.startswith("TIMER"):
-        return Meaning.NOTHING
+        return None
     configuration = manager.keyconfigs.user
     for name in _KEYMAPS:
         keymap = configuration.keymaps.get(name) if configuration is not None else None
         item = keymap.keymap_items.match_event(event) if keymap is not None else None
         if item is not None and item.active:
-            return _meaning_of(item)
-    return Meaning.NOTHING
+            return item
+    return None
 
 
 def _meaning_of(item: bpy.types.KeyMapItem) -> Meaning:

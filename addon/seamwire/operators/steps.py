@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import bpy
 
+from .navigation import moves_view
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
     from concurrent.futures import Future
@@ -78,7 +80,9 @@ class Stepwise:
         return result
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Wait for a step, and take the next one."""
+        """Wait for a step, and take the next one. Meanwhile the view can be moved, and nothing else be done."""
+        if moves_view(event, context.window_manager):
+            return {"PASS_THROUGH"}
         if event.type == "ESC":
             self._cancelled = True
         is_at_work = self._work is not None and not self._work.done()
