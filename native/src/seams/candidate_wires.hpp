@@ -33,6 +33,7 @@ class CandidateWires {
   CandidateWires(std::shared_ptr<const Surface> surface, Along along, const Strength& strength, const Task& task);
 
   const Surface& surface() const { return surfaces_->surface(); }
+  Along along() const { return along_; }
   const Curvature& curvature() const { return curvatures_->curvature; }
   /// s of eq. 5.
   const std::vector<double>& feature_strength() const { return curvatures_->difference; }

@@ -313,6 +313,7 @@ std::optional<std::vector<Choice>> Straightening::replaced(const Junctions& junc
 
 std::map<Ends, Choice> DirectWires::find(const std::set<Ends>& pairs, const Task& task,
                                          CandidateWires::Effort effort) const {
+  if (wires_.along() == Along::kEdges) effort = CandidateWires::Effort::kExact;  // which is as quick
   std::map<Ends, Choice>& all_known = known_[static_cast<std::size_t>(effort)];
   std::map<Ends, Choice> out;
   std::vector<Ends> missing;
