@@ -456,17 +456,35 @@ class SeamPlanner:
         along: Literal["surface", "edges"] = "surface",
         max_anisotropy: float = 20.0,
         clamp_percentile: float = 99.0,
+        seeds_at: ArrayLike | None = None,
         seeds: int = 24,
         most_seeds: int = 120,
+        density: ArrayLike | None = None,
         images: ArrayLike | None = None,
         seams: ArrayLike | None = None,
         progress: Progress | None = None,
     ) -> None: ...
+    def with_seeds(
+        self,
+        *,
+        seeds_at: ArrayLike | None = None,
+        seeds: int = 24,
+        most_seeds: int = 120,
+        density: ArrayLike | None = None,
+        images: ArrayLike | None = None,
+        seams: ArrayLike | None = None,
+        progress: Progress | None = None,
+    ) -> SeamPlanner:
+        """Return one with other seeds on the same surface, in less time, for the metrics are there."""
+
     def plan(
         self,
         *,
         max_spread: float | ArrayLike = 0.42,
         islands: int = 0,
+        crumb: float = 0.004,
+        crumb_of_island: float = 1.0,
+        kept: Sequence[PlannedWire] = [],
         may_start_on_others: bool = True,
         straightened: bool = True,
         progress: Progress | None = None,
