@@ -215,6 +215,20 @@ def test_an_end_inside_a_face_goes_back_to_the_last_edge() -> None:
     assert plan(faces, [inside(faces, (0.6, 0.3), (0.7, 0.2))]).segments() == []
 
 
+def test_of_faces_on_each_other_a_curve_cuts_those_that_it_runs_over() -> None:
+    # Two rows of quads on each other that have the first vertex in common; the second one is longer.
+    points = np.array([(x, y) for y in (0, 1) for x in range(4)], dtype=float)
+    one = [[x, x + 1, x + 5, x + 4] for x in range(3)]
+    more = [*points[1:].tolist(), (4.0, 0.0), (4.0, 1.0)]
+    number = {tuple(place): 8 + i for i, place in enumerate(more)} | {(0.0, 0.0): 0}
+    other = [[number[x, 0.0], number[x + 1, 0.0], number[x + 1, 1.0], number[x, 1.0]] for x in map(float, range(4))]
+    faces = Polygons(np.concatenate([points, more]), [*one, *other])
+    curve = np.array([(x, 0.25 * x, 0.0) for x in (0.0, 1.0, 4 / 3, 2.0, 8 / 3, 3.0, 4.0)])
+    cuts = plan(faces, [(0, curve)])
+    assert Node((number[4.0, 1.0],)) in reached(cuts, 0)
+    assert set(cuts.across) <= set(range(3, 7))
+
+
 def test_a_curve_beside_the_mesh_is_refused() -> None:
     faces = grid(2)
     with pytest.raises(CuttingError, match="does not run over the mesh near vertex 0"):

@@ -108,6 +108,9 @@ Segment = tuple[Node, Node]
 Piece = tuple[Node, Node, int]
 """One in a polygon, by that polygon's number."""
 
+_Trail = tuple[Piece, "_Trail"] | None
+"""The pieces up to one, the last first."""
+
 
 @dataclass
 class CutPlan:
@@ -194,25 +197,49 @@ def _ends(faces: Faces, pieces: Sequence[Piece]) -> Iterator[Node]:
         yield from itertools.islice(on_rims, 1)
 
 
-def _walk(faces: Faces, start: int, points: NDArray[np.float64]) -> Iterator[Piece]:
-    """Yield what a curve passes: from node to node, and the polygon between them."""
-    here, polygons = Node((start,)), list(faces.polygons_at(start))
+def _walk(faces: Faces, start: int, points: NDArray[np.float64]) -> list[Piece]:
+    """Return what a curve passes: from node to node, and the polygon between them.
+
+    Where faces lie on each other a point is on several; the curve runs over those that its next points are on as well.
+    """
+    here = Node((start,))
     begins_there = bool(np.linalg.norm(points[0] - faces.points[start]) <= ON * np.ptp(points, axis=0).max())
-    for number, point in enumerate(points[begins_there:]):
+    places = points[begins_there:]
+    waiting: list[tuple[int, Node, Sequence[int], _Trail]] = [(0, here, faces.polygons_at(start), None)]
+    tried: set[tuple[int, tuple[int, ...]]] = set()
+    stuck = (-1, here)
+    while waiting:
+        number, here, polygons, trail = waiting.pop()
+        if number == len(places):
+            return _pieces_of(trail)
+        stuck = max(stuck, (number, here), key=lambda step: step[0])
         beside = [(row, polygon) for polygon in polygons for row in faces.rows_of(polygon)]
         corners = faces.triangles[[row for row, _ in beside]]
-        weights, off = barycentric(faces.points[corners], point)
-        best = int(np.argmin(off)) if len(off) else -1
-        if best < 0 or not off[best] < OFF:
-            raise CuttingError(f"A wire does not run over the mesh near vertex {here.vertices[0]}")
-        polygon = beside[best][1]
-        there = _on_side(faces, polygon, Node.between(corners[best], weights[best], NEAR), NEAR)
-        if there != here and (number or begins_there):
-            yield here, there, polygon
-        here = there
-        # Where it goes on, the exact place says: the node may have been moved away from it.
-        on = _on_side(faces, polygon, Node.between(corners[best], weights[best], ON), ON).vertices
-        polygons = [p for p in faces.polygons_at(on[0]) if {*on} <= {*faces.corners(p)}]
+        weights, off = barycentric(faces.points[corners], places[number])
+        steps = []
+        for best in np.argsort(off, kind="stable").tolist():
+            if not off[best] < OFF or off[best] > off.min() + ON:
+                break
+            polygon = beside[best][1]
+            # Where it goes on, the exact place says: the node may have been moved away from it.
+            on = _on_side(faces, polygon, Node.between(corners[best], weights[best], ON), ON).vertices
+            if (number, on) in tried:
+                continue
+            tried.add((number, on))
+            there = _on_side(faces, polygon, Node.between(corners[best], weights[best], NEAR), NEAR)
+            passes = there != here and (number or begins_there)
+            beyond = [p for p in faces.polygons_at(on[0]) if {*on} <= {*faces.corners(p)}]
+            steps.append((number + 1, there, beyond, ((here, there, polygon), trail) if passes else trail))
+        waiting += reversed(steps)
+    raise CuttingError(f"A wire does not run over the mesh near vertex {stuck[1].vertices[0]}")
+
+
+def _pieces_of(trail: _Trail) -> list[Piece]:
+    pieces = []
+    while trail is not None:
+        piece, trail = trail
+        pieces.append(piece)
+    return pieces[::-1]
 
 
 def _on_side(faces: Faces, polygon: int, node: Node, near: float) -> Node:
