@@ -222,11 +222,12 @@ def _walk(faces: Faces, start: int, points: NDArray[np.float64]) -> list[Piece]:
                 break
             polygon = beside[best][1]
             # Where it goes on, the exact place says: the node may have been moved away from it.
-            on = _on_side(faces, polygon, Node.between(corners[best], weights[best], ON), ON).vertices
-            if (number, on) in tried:
+            exact = Node.between(corners[best], weights[best], ON)
+            if (number, exact.vertices) in tried:
                 continue
-            tried.add((number, on))
+            on = _on_side(faces, polygon, exact, ON).vertices
             there = _on_side(faces, polygon, Node.between(corners[best], weights[best], NEAR), NEAR)
+            tried |= {(number, exact.vertices), (number, on)}
             passes = there != here and (number or begins_there)
             beyond = [p for p in faces.polygons_at(on[0]) if {*on} <= {*faces.corners(p)}]
             steps.append((number + 1, there, beyond, ((here, there, polygon), trail) if passes else trail))
