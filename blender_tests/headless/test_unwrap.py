@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from scene import add_grid, add_layers, add_object, add_suzanne, edit, snapshot
+from seamwire.mesh import uv_map
 from seamwire.mesh.unwrap import SavedUvs, unwrap_changed
 
 ROWS = 9
@@ -137,6 +138,29 @@ def test_new_islands_are_as_dense_as_what_they_were_part_of_or_as_the_others(eve
     unwrap_changed(bpy.context, [obj], even)
     assert density(obj, upper) == dense
     assert density(obj, lower) == pytest.approx(dense if even else thin, rel=1e-3)
+
+
+@pytest.mark.parametrize("has_map", [False, True])
+def test_uvs_come_back_out_of_edit_mode_too_but_not_where_faces_are_others(has_map: bool) -> None:
+    obj = add_hill()
+    edit()
+    if has_map:
+        mark(obj, row(4))
+        assert unwrap() == {"FINISHED"}
+    before = uv_map.read_uvs(obj)
+    mark(obj, row(6))
+    saved = SavedUvs(obj)
+    unwrap_changed(bpy.context, [obj])
+    bpy.ops.object.mode_set(mode="OBJECT")
+    saved.restore()
+    after = uv_map.read_uvs(obj)
+    assert np.array_equal(after, before) if has_map else after is None
+    edit()
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.subdivide()
+    then = uv_map.read_uvs(obj)
+    saved.restore()
+    assert not has_map or np.array_equal(uv_map.read_uvs(obj), then)
 
 
 @pytest.mark.parametrize("has_map", [False, True])

@@ -225,30 +225,31 @@ class SavedUvs:
     """
 
     def __init__(self, obj: bpy.types.Object) -> None:
-        self._obj = obj
+        self._obj, self._mesh = obj, obj.data
         self._uvs = uv_map.read_uvs(obj)
         bm = bmesh.from_edit_mesh(obj.data)
         layer = bm.edges.layers.int.get(UNWRAPPED)
         self.remembered = None if layer is None else [edge[layer] for edge in bm.edges]
 
     def restore(self) -> None:
-        """Give the object back what it had."""
-        mesh = self._obj.data
+        """Give the object back what it had, out of edit mode its UVs; nothing where it, or its faces, are others now."""
+        try:
+            now = uv_map.read_uvs(self._obj) if self._obj.data == self._mesh else None
+        except ReferenceError:
+            return
+        mesh = self._mesh
         if self._uvs is None:
             for made in list(mesh.uv_layers):
                 mesh.uv_layers.remove(made)
-        else:
-            moved = np.flatnonzero((uv_map.read_uvs(self._obj) != self._uvs).any(axis=1))
-            bm = bmesh.from_edit_mesh(mesh)
-            corners = [loop for face in bm.faces for loop in face.loops]
-            places = bm.loops.layers.uv.active
-            for corner, uv in zip(moved.tolist(), self._uvs[moved].tolist(), strict=True):
-                corners[corner][places].uv = uv
+        elif now is not None and len(now) == len(self._uvs):
+            uv_map.write(self._obj, self._uvs)
+        if self._obj.mode != "EDIT":
+            return
         bm = bmesh.from_edit_mesh(mesh)
         layer = bm.edges.layers.int.get(UNWRAPPED)
         if layer is not None and self.remembered is None:
             bm.edges.layers.int.remove(layer)
-        elif layer is not None:
+        elif layer is not None and len(bm.edges) == len(self.remembered):
             for edge, value in zip(bm.edges, self.remembered, strict=True):
                 edge[layer] = value
         bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)

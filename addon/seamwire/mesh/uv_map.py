@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import bmesh
 import bpy
 import numpy as np
 
@@ -83,13 +84,30 @@ def _copied(obj: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
         bpy.data.meshes.remove(mesh)
 
 
+def write(obj: bpy.types.Object, uvs: NDArray[np.float32]) -> None:
+    """Give the corners of a mesh, in edit mode or not, their places in the active UV map, (c, 2)."""
+    mesh = obj.data
+    if obj.mode != "EDIT":
+        column, name = _column(mesh.uv_layers.active)
+        column.foreach_set(name, uvs.ravel())
+        return
+    moved = np.flatnonzero((read_uvs(obj) != uvs).any(axis=1))
+    bm = bmesh.from_edit_mesh(mesh)
+    corners = [loop for face in bm.faces for loop in face.loops]
+    places = bm.loops.layers.uv.active
+    for corner, uv in zip(moved.tolist(), uvs[moved].tolist(), strict=True):
+        corners[corner][places].uv = uv
+
+
 def _uvs(mesh: bpy.types.Mesh) -> NDArray[np.float32] | None:
     layer = mesh.uv_layers.active
     if layer is None:
         return None
     uvs = np.empty(2 * len(mesh.loops), dtype=np.float32)
-    if hasattr(layer, "uv"):
-        layer.uv.foreach_get("vector", uvs)
-    else:
-        layer.data.foreach_get("uv", uvs)
+    column, name = _column(layer)
+    column.foreach_get(name, uvs)
     return uvs.reshape(-1, 2)
+
+
+def _column(layer: bpy.types.MeshUVLoopLayer) -> tuple[bpy.types.bpy_prop_collection, str]:
+    return (layer.uv, "vector") if hasattr(layer, "uv") else (layer.data, "uv")

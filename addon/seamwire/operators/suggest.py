@@ -136,14 +136,14 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
                 yield from _planning(suggestions, choose)
         if self.limit != "STRETCH":
             return self._carry_out(context, suggestions)
-        saved = {suggestion: SavedUvs(suggestion.mesh.obj) for suggestion in suggestions}
+        saved = [SavedUvs(suggestion.mesh.obj) for suggestion in suggestions]
         result = {"CANCELLED"}
         try:
             yield from _limit_stretch(context, suggestions, math.log2(self.stretch))
             result = self._carry_out(context, suggestions)
         finally:
-            for suggestion, uvs in saved.items():
-                if result == {"CANCELLED"} and suggestion.mesh.alive():
+            if result == {"CANCELLED"}:
+                for uvs in saved:
                     uvs.restore()
         return result
 
