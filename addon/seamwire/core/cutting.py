@@ -294,11 +294,6 @@ def _together(pieces: Iterable[Piece]) -> list[Piece]:
             if first is None:
                 inside[node.vertices].append(node)
             same[node] = first or node
-    return _renamed(pieces, same)
-
-
-def _renamed(pieces: Iterable[Piece], same: Mapping[Node, Node]) -> list[Piece]:
-    """Put nodes in the place of others, and keep each piece once."""
     kept: dict[frozenset[Node], Piece] = {}
     for one, two, polygon in pieces:
         begin, end = same.get(one, one), same.get(two, two)

@@ -89,6 +89,7 @@ class Suggestion:
         self._mirror = mirror_axes(obj.data)
         corners = self.mesh.arrays.points[self.mesh.arrays.triangles]
         self._areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+        self._images: NDArray[np.int32] | None = None
         self._planners: list[seamwire_core.SeamPlanner] = []
         self._limits: NDArray[np.float64] | None = None
         self.plan: seamwire_core.SeamPlan | None = None
@@ -104,16 +105,14 @@ class Suggestion:
         progress
             Is told the fraction done; where it returns False, `seamwire_core.Cancelled` is raised.
         """
+        axes = (self._mirror or self.mesh.session.symmetric_axes)[:1] if self._symmetric else ()
+        self._images = self.mesh.session.partners(axes) if axes else None
         self._planners = self._find_wires(self._seeds, progress, seams=self.mesh.arrays.seams)
 
     def _find_wires(
         self, seeds: Sequence[int], progress: Callable[[float], bool], **seeding: NDArray[np.generic]
     ) -> list[seamwire_core.SeamPlanner]:
         """Return a planner for each number of seeds; `density`, `seeds_at` and `seams` as ``seamwire_core.SeamPlanner`` has them."""
-        images = None
-        axes = (self._mirror or self.mesh.session.symmetric_axes)[:1] if self._symmetric else ()
-        if axes:
-            images = self.mesh.session.partners(axes)
         make = self._planners[0].with_seeds if self._planners else self._make_planner
         planners = []
         for done, number in enumerate(seeds):
@@ -121,7 +120,7 @@ class Suggestion:
                 seeds=number,
                 most_seeds=number + _MORE_SEEDS,
                 **seeding,
-                images=images,
+                images=self._images,
                 progress=lambda fraction, done=done: progress((done + fraction) / len(seeds)),
             )
             planners.append(planner)

@@ -233,11 +233,13 @@ class SavedUvs:
 
     def restore(self) -> None:
         """Give the object back what it had, out of edit mode its UVs; nothing where it, or its faces, are others now."""
+        mesh = self._mesh
         try:
-            now = uv_map.read_uvs(self._obj) if self._obj.data == self._mesh else None
+            if self._obj.data != mesh:
+                return
         except ReferenceError:
             return
-        mesh = self._mesh
+        now = uv_map.read_uvs(self._obj)
         if self._uvs is None:
             for made in list(mesh.uv_layers):
                 mesh.uv_layers.remove(made)

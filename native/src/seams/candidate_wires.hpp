@@ -43,8 +43,8 @@ class CandidateWires {
     std::int32_t from;
     std::vector<std::int32_t> to;
   };
-  /// Whether wires are the shortest ones, or, across the surface, as good as always and found in a third of the time,
-  /// see CorridorPaths.
+  /// kExact: wires are the shortest ones. kQuick: across the surface they are nearly always, and found in a third of
+  /// the time, see CorridorPaths.
   enum class Effort : std::uint8_t { kExact, kQuick };
   /// For each fan its wires, in order. On several threads.
   std::vector<std::vector<CandidateWire>> find(std::span<const Fan> fans, const Task& task,
