@@ -22,8 +22,9 @@ WORKER = Path(__file__).with_name("worker.py")
 _LOG_LINES = 40
 _NO_MEMORY = re.compile(
     r"MemoryError|[Mm]alloc returns null|bad_alloc|Unable to allocate|Out of memory|Cannot allocate memory"
+    r"|thread constructor failed|can't start new thread"
 )
-"""What Blender, NumPy and C++ say where there is no memory left, before they end."""
+"""What Blender, NumPy, Python and C++ say where there is no memory left, before they end or of what failed for it."""
 
 _running: set[subprocess.Popen] = set()
 _lock = threading.Lock()
@@ -125,13 +126,19 @@ def start(machine: Machine, told: dict[str, Any], folder: Path) -> tuple[str, di
     except (OSError, ValueError):
         text = (folder / "log.txt").read_text(encoding="utf-8", errors="replace")
         last = "\n".join(text.strip().splitlines()[-_LOG_LINES:])
-        if machine.memory and _NO_MEMORY.search(text):
+        if _is_too_much(text, machine):
             return "memory", {"error": f"More than {machine.memory} MB", "warnings": [], "log": last}
         how = f"signal {signal.Signals(-code).name}" if code < 0 else f"exit code {code}"
         return "crashed", {"error": f"Blender ended with {how}", "warnings": [], "log": last}
     if result["error"] == "Out of memory":
         return "memory", result
+    if result["error"] and _is_too_much(result["error"], machine):
+        return "memory", {**result, "error": f"More than {machine.memory} MB", "log": result["error"]}
     return ("failed" if result["error"] else "done"), result
+
+
+def _is_too_much(said: str, machine: Machine) -> bool:
+    return bool(machine.memory and _NO_MEMORY.search(said))
 
 
 def _end(process: subprocess.Popen) -> None:

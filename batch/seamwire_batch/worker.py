@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import importlib
 import json
+import os
 import pkgutil
 import sys
 import time
@@ -32,12 +33,17 @@ if TYPE_CHECKING:
 
 
 def limit_memory(megabytes: int) -> None:
-    """Let this process take so much more memory than it has now; what asks for more fails."""
+    """Let this process take so much more memory than it has now; what asks for more fails.
+
+    What counts is memory that can be written to. Addresses that are only reserved do not count: each thread's heap reserves 64 MB. Nor do
+    the stacks of a thread for each processor, which Blender starts sooner or later.
+    """
     import resource
 
-    pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
-    most = pages * resource.getpagesize() + megabytes * (1 << 20)
-    resource.setrlimit(resource.RLIMIT_AS, (most, most))
+    stack = resource.getrlimit(resource.RLIMIT_STACK)[0]
+    stacks = (os.cpu_count() or 1) * (8 << 20 if stack == resource.RLIM_INFINITY else stack)
+    most = _kilobytes("VmData") * 1024 + stacks + megabytes * (1 << 20)
+    resource.setrlimit(resource.RLIMIT_DATA, (most, most))
 
 
 def end_with_parent() -> None:
@@ -50,12 +56,17 @@ def end_with_parent() -> None:
 
 def peak_memory() -> float:
     """Return the most memory that this process had, in megabytes; 0: not known."""
+    # What getrusage tells is at least what the process had that started this one.
+    return _kilobytes("VmHWM") / 1024.0
+
+
+def _kilobytes(of: str) -> int:
+    """Return what Linux tells of this process's memory; 0: not known."""
     try:
-        # What getrusage tells is at least what the process had that started this one.
         lines = Path("/proc/self/status").read_text(encoding="ascii").splitlines()
     except OSError:
-        return 0.0
-    return next((int(line.split()[1]) / 1024.0 for line in lines if line.startswith("VmHWM:")), 0.0)
+        return 0
+    return next((int(line.split()[1]) for line in lines if line.startswith(f"{of}:")), 0)
 
 
 def enable_addon(folder: str | None) -> None:

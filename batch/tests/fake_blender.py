@@ -38,6 +38,7 @@ else:
     (folder / job["output"]).write_text(content.upper())
     (folder / f"{job['name']}.png").write_bytes(b"P")
     numbers = {"objects": 1, "faces": 6, "seams": 7, "islands": 1, "angle": 1.1, "area": 1.2, "worst": 1.3}
-    result = {"error": "It is no good" if content == "fail" else None, "warnings": ["a|b"], "megabytes": 9.0, **numbers}
+    errors = {"fail": "It is no good", "need": "Grid: Python: Traceback\nMemoryError: bad allocation"}
+    result = {"error": errors.get(content), "warnings": ["a|b"], "megabytes": 9.0, **numbers}
 (folder / "result.part").write_text(json.dumps(result))
 (folder / "result.part").rename(folder / "result.json")

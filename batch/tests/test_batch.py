@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 from place import ASSETS, ENDS, Place
-from seamwire_batch import cli
+from seamwire_batch import cli, worker
 from seamwire_batch.jobs import Job, Journal, Machine, Options, UsageError, find_assets
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="processes end otherwise there")
@@ -40,6 +40,37 @@ def test_each_asset_ends_as_it_does_and_the_others_are_done(place: Place) -> Non
     text = (place.out / "results.md").read_text()
     assert "7 assets: 2 done, 1 failed, 2 crashed, 1 hung, 1 memory." in text
     assert "- d.ply: It is no good" in text and "- a.obj: a\\|b" in text and "![c.glb](<c.glb.png>)" in text
+
+
+def test_an_operator_without_memory_is_told_from_one_that_fails(tmp_path: Path) -> None:
+    place = Place(tmp_path, {"a.obj": "need", "b.obj": "fail", "c.obj": "c"})
+    assert place.run("--memory", "64") == 1
+    rows = place.rows()
+    assert {name: row["status"] for name, row in rows.items()} == {"a.obj": "memory", "b.obj": "failed", "c.obj": "done"}
+    assert rows["a.obj"]["error"] == "More than 64 MB"
+    assert place.run("--retry") == 1
+    assert place.rows()["a.obj"]["status"] == "failed", "no limit is to blame"
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="memory is limited on Linux only")
+def test_the_limit_counts_memory_that_is_used_and_not_what_threads_reserve() -> None:
+    code = """
+import sys, threading
+from seamwire_batch import worker
+worker.limit_memory(192)
+threading.stack_size(1 << 18)
+done = threading.Barrier(33)
+for _ in range(32):
+    threading.Thread(target=lambda: (b" ".join([b"x" * 9000]), done.wait())).start()
+done.wait()
+bytearray(128 << 20)
+try:
+    bytearray(256 << 20)
+except MemoryError:
+    sys.exit(7)
+"""
+    done = subprocess.run([sys.executable, "-c", code], cwd=Path(worker.__file__).parent.parent, timeout=60, check=False)
+    assert done.returncode == 7
 
 
 def test_what_hangs_is_ended_with_its_children(tmp_path: Path) -> None:
