@@ -378,22 +378,29 @@ TEST(SeamPlanner, GoesOnFromSeamsThatAreThere) {
   EXPECT_THROW(SeamPlanner(cube, options), InvalidInput);
 }
 
-TEST(SeamPlanner, MirrorImagesGoTogether) {
-  // The bumps are the same on both sides of x = 0.
-  shapes::QuadMesh mesh = shapes::quad_cube(10);
-  for (Vector& p : mesh.points) p -= Vector::Constant(0.5);
-  for (Vector& p : mesh.points) p *= 1.0 + 0.2 * std::abs(p.x()) + 0.1 * p.y() * p.z();
-  std::vector<std::int32_t> images;
-  for (const Vector& p : mesh.points) {
-    const Vector mirrored(-p.x(), p.y(), p.z());
-    const auto image =
-        std::ranges::min_element(mesh.points, {}, [&](const Vector& q) { return (q - mirrored).squaredNorm(); });
-    images.push_back(static_cast<std::int32_t>(image - mesh.points.begin()));
+/// A cube with bumps that are the same on both sides of x = 0.
+struct SymmetricCube {
+  SymmetricCube() {
+    shapes::QuadMesh mesh = shapes::quad_cube(10);
+    for (Vector& p : mesh.points) p -= Vector::Constant(0.5);
+    for (Vector& p : mesh.points) p *= 1.0 + 0.2 * std::abs(p.x()) + 0.1 * p.y() * p.z();
+    for (const Vector& p : mesh.points) {
+      const Vector mirrored(-p.x(), p.y(), p.z());
+      const auto image =
+          std::ranges::min_element(mesh.points, {}, [&](const Vector& q) { return (q - mirrored).squaredNorm(); });
+      options.images.push_back(static_cast<std::int32_t>(image - mesh.points.begin()));
+    }
+    surface = shared(mesh.surface());
   }
-  const auto surface = shared(mesh.surface());
+
   SeamPlannerOptions options = along_edges();
-  options.images = images;
-  const SeamPlan plan = SeamPlanner(surface, options).plan();
+  std::shared_ptr<const Surface> surface;
+};
+
+TEST(SeamPlanner, MirrorImagesGoTogether) {
+  const SymmetricCube cube;
+  const std::vector<std::int32_t>& images = cube.options.images;
+  const SeamPlan plan = SeamPlanner(cube.surface, cube.options).plan();
   std::multiset<Edge> ends, mirrored;
   for (const PlannedWire& wire : plan.wires) {
     ends.insert(sorted(wire.from, wire.to));
@@ -401,6 +408,15 @@ TEST(SeamPlanner, MirrorImagesGoTogether) {
   }
   EXPECT_EQ(ends, mirrored);
   EXPECT_GT(ends.size(), 4U);
+}
+
+TEST(SeamPlanner, OnASymmetricSurfaceWhatRunsAsAKeptWireDoesGoes) {
+  const SymmetricCube cube;
+  const SeamPlanner planner(cube.surface, cube.options);
+  const SeamPlan plan = planner.plan();
+  const SeamPlan again = planner.plan({}, plan.wires);
+  EXPECT_EQ(again.wires.size(), plan.wires.size());
+  EXPECT_NEAR(again.cost, plan.cost, 1e-9 * plan.cost);
 }
 
 /// The part of the vertices of a bumpy sphere's seams that lie in its lower half.

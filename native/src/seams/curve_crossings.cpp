@@ -42,10 +42,10 @@ bool cross(const Surface& surface, const Segment& one, const Segment& two) {
 std::size_t curve_crossings(const Surface& surface, std::span<const Choice> choices) {
   std::vector<Segment> segments;
   for (std::size_t i = 0; i < choices.size(); ++i) {
-    const std::vector<Vector>& points = choices[i].wire.points;
-    for (std::size_t k = 0; k < choices[i].faces.size(); ++k) {
-      const std::int32_t face = choices[i].faces[k];
-      if (face >= 0) segments.push_back({.face = face, .choice = i, .from = &points[k], .to = &points[k + 1]});
+    const PlannedWire& wire = choices[i].wire;
+    for (std::size_t k = 0; k < wire.faces.size(); ++k) {
+      if (wire.faces[k] < 0) continue;
+      segments.push_back({.face = wire.faces[k], .choice = i, .from = &wire.points[k], .to = &wire.points[k + 1]});
     }
   }
   std::ranges::sort(segments, {}, &Segment::face);

@@ -85,8 +85,8 @@ Choice make_choice(std::int32_t from, std::int32_t to, CandidateWire found, cons
                    .to = to,
                    .follow = found.follow,
                    .vertices = std::move(found.vertices),
-                   .points = std::move(found.points)},
-          .faces = std::move(found.faces),
+                   .points = std::move(found.points),
+                   .faces = std::move(found.faces)},
           .strength = found.strength,
           .seclusion = secluded};
 }

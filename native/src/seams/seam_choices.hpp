@@ -35,11 +35,10 @@ class Seclusion {
 /// A wire to choose from.
 struct Choice {
   PlannedWire wire;
-  std::vector<std::int32_t> faces;  ///< of the caller's that each segment of its curve lies in; none of one along edges
-  double strength = 0.0;            ///< how well it follows features
-  double seclusion = 1.0;           ///< Seclusion::of()
-  bool is_kept = false;             ///< whether it stays whatever the limits
-  bool is_quick = false;            ///< whether CandidateWires found it quickly
+  double strength = 0.0;   ///< how well it follows features
+  double seclusion = 1.0;  ///< Seclusion::of()
+  bool is_kept = false;    ///< whether it stays whatever the limits
+  bool is_quick = false;   ///< whether CandidateWires found it quickly
 
   double worth() const { return strength * seclusion; }
 };

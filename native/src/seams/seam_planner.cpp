@@ -224,7 +224,7 @@ SeamPlan SeamPlanner::plan(const SeamLimits& limits, std::span<const PlannedWire
   among.reserve(kept.size() + impl_->choices.size());
   for (const PlannedWire& wire : kept) {
     for (const std::int32_t v : wire.vertices) check_index(v, surface.vertex_count(), "kept: vertex");
-    among.push_back({.wire = wire, .faces = {}, .strength = wire.worth, .is_kept = true});
+    among.push_back({.wire = wire, .strength = wire.worth, .is_kept = true});
   }
   among.insert(among.end(), impl_->choices.begin(), impl_->choices.end());
   if (!limits.may_start_on_others) among = meeting_at_seeds(std::move(among));

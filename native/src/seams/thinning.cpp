@@ -133,8 +133,9 @@ class Thinning {
     const Ends ends = ends_of(image(own.from), image(own.to));
     std::vector<std::int32_t> found;
     for (std::int32_t i = 0; index(i) < choices_.size() && !images_.empty(); ++i) {
+      if (i == wire || is_there_[i] == 0 || choices_[i].is_kept) continue;
       const PlannedWire& other = choices_[i].wire;
-      if (i != wire && is_there_[i] != 0 && ends_of(other.from, other.to) == ends) found.push_back(i);
+      if (ends_of(other.from, other.to) == ends) found.push_back(i);
     }
     return found;
   }

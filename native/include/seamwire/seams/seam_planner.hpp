@@ -60,6 +60,8 @@ struct PlannedWire {
   Follow follow = Follow::kMin;        ///< whose metric it is the shortest in
   std::vector<std::int32_t> vertices;  ///< the chain of edges that it marks, from `from` to `to`
   std::vector<Vector> points;          ///< its curve, in the caller's coordinates
+  /// The caller's face that each segment of it lies in, -1 along an edge without one; none of a wire along edges.
+  std::vector<std::int32_t> faces;
   double worth = 1.0;                  ///< what its length is divided by in SeamPlan::cost
 };
 
