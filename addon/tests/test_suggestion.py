@@ -11,6 +11,7 @@ import seamwire_core as sw
 from seamwire.core.suggestion import (
     best_along,
     best_finish,
+    bordering_seeds,
     is_parted,
     narrowed,
     planned_wires,
@@ -22,6 +23,11 @@ from seamwire.core.suggestion import (
 CUBE = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], dtype=np.float64)
 SIDES = np.array([(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)])
 TRIANGLES = SIDES[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3).astype(np.int32)
+
+
+def cube_of_quads() -> sw.Surface:
+    edges = np.sort(np.concatenate([SIDES[:, [i, (i + 1) % 4]] for i in range(4)]), axis=1)
+    return sw.Surface(CUBE, TRIANGLES, np.unique(edges, axis=0))
 
 
 def test_wires_run_along_edges_of_quads_and_across_triangles() -> None:
@@ -59,6 +65,15 @@ def test_an_island_is_parted_where_more_than_its_border_has_moved() -> None:
     assert is_parted(before, np.zeros(8, dtype=np.int32), areas).tolist() == [False, False]
 
 
+def test_seeds_around_triangles_are_those_of_wires_along_them() -> None:
+    wires = sw.SeamPlanner(cube_of_quads(), along="edges", max_anisotropy=10.0).plan(max_spread=0.1).wires
+    below = (TRIANGLES < 4).all(axis=1)  # the side of vertices 0 to 3
+    on_it = [wire for wire in wires if sum(v < 4 for v in wire.vertices) > 1]
+    assert 0 < len(on_it) < len(wires)
+    assert bordering_seeds(wires, TRIANGLES, below) == {seed for wire in on_it for seed in wire.seeds}
+    assert bordering_seeds(wires, TRIANGLES, np.zeros(len(TRIANGLES), dtype=bool)) == set()
+
+
 def test_more_islands_take_more_seeds() -> None:
     assert seeds_for(1.0) == seeds_for(0.42) == 24
     assert seeds_for(0.01) == 200
@@ -67,9 +82,7 @@ def test_more_islands_take_more_seeds() -> None:
 
 
 def test_wires_of_a_plan() -> None:
-    edges = np.sort(np.concatenate([SIDES[:, [i, (i + 1) % 4]] for i in range(4)]), axis=1)
-    surface = sw.Surface(CUBE, TRIANGLES, np.unique(edges, axis=0))
-    plan = sw.SeamPlanner(surface, along="edges", max_anisotropy=10.0).plan()
+    plan = sw.SeamPlanner(cube_of_quads(), along="edges", max_anisotropy=10.0).plan()
     wires = planned_wires(plan, "EDGES", 10.0)
     assert len(wires) == len(plan.wires) > 0
     for wire, planned in zip(wires, plan.wires, strict=True):

@@ -46,7 +46,11 @@ def test_an_operator_without_memory_is_told_from_one_that_fails(tmp_path: Path) 
     place = Place(tmp_path, {"a.obj": "need", "b.obj": "fail", "c.obj": "c"})
     assert place.run("--memory", "64") == 1
     rows = place.rows()
-    assert {name: row["status"] for name, row in rows.items()} == {"a.obj": "memory", "b.obj": "failed", "c.obj": "done"}
+    assert {name: row["status"] for name, row in rows.items()} == {
+        "a.obj": "memory",
+        "b.obj": "failed",
+        "c.obj": "done",
+    }
     assert rows["a.obj"]["error"] == "More than 64 MB"
     assert place.run("--retry") == 1
     assert place.rows()["a.obj"]["status"] == "failed", "no limit is to blame"
@@ -69,7 +73,9 @@ try:
 except MemoryError:
     sys.exit(7)
 """
-    done = subprocess.run([sys.executable, "-c", code], cwd=Path(worker.__file__).parent.parent, timeout=60, check=False)
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=Path(worker.__file__).parent.parent, timeout=60, check=False
+    )
     assert done.returncode == 7
 
 

@@ -13,6 +13,7 @@ from seamwire.core.suggestion import seeds_for, spread_of
 from seamwire.mesh import edit_mesh, seam_islands, unwrap, uv_map
 from seamwire.mesh.seam_islands import island_count as islands
 from seamwire.mesh.suggestion import Suggestion
+from seamwire.operators import suggest
 from stored import agree, chains, session_on
 
 
@@ -23,6 +24,13 @@ def open_islands(obj: bpy.types.Object) -> int:
 def stretch(obj: bpy.types.Object) -> float:
     """Return by how many times the worst island is stretched."""
     return max(2.0 ** seam_islands.worst_island(obj, kind).value for kind in ("ANGLE", "AREA"))
+
+
+def length(obj: bpy.types.Object) -> float:
+    """Return that of the seams."""
+    verts = bmesh.from_edit_mesh(obj.data).verts
+    verts.ensure_lookup_table()
+    return sum((verts[a].co - verts[b].co).length for a, b in seams(obj))
 
 
 @pytest.fixture
@@ -90,6 +98,50 @@ def test_no_island_is_stretched_more_than_asked() -> None:
         bpy.ops.mesh.select_all(action="SELECT")
         bpy.ops.mesh.mark_seam(clear=True)
     assert found[1.03] > found[1.1] > found[1.3]
+
+
+def test_seams_against_stretch_are_straight_where_that_keeps_the_bound(monkeypatch: pytest.MonkeyPatch) -> None:
+    obj = add_suzanne(1)
+    edit()
+    found = {}
+    for straightenings in (0, suggest._STRAIGHTENINGS):
+        monkeypatch.setattr(suggest, "_STRAIGHTENINGS", straightenings)
+        assert bpy.ops.mesh.seamwire_suggest(limit="STRETCH", stretch=1.2) == {"FINISHED"}
+        assert stretch(obj) <= 1.2
+        assert open_islands(obj) == 0
+        found[straightenings] = (islands(obj), len(session_on(obj).session.wires), length(obj))
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.mesh.mark_seam(clear=True)
+    (count, *detailed), (straight_count, *straight) = found.values()
+    assert count == straight_count
+    assert straight[0] < detailed[0] and straight[1] < detailed[1]
+
+
+def test_seams_that_stretch_an_island_once_straight_stay_as_they_were(monkeypatch: pytest.MonkeyPatch) -> None:
+    obj = add_suzanne(1)
+    edit()
+    straight_plans = []
+    straighten, stretched = Suggestion.straighten, Suggestion.stretched
+
+    def noted(self: Suggestion, *arguments: object, **options: object) -> None:
+        straighten(self, *arguments, **options)
+        straight_plans.append(self.plan)
+
+    def stretched_if_straight(self: Suggestion, most: float) -> list[int]:
+        return [0] if self.plan in straight_plans else stretched(self, most)
+
+    monkeypatch.setattr(Suggestion, "straighten", noted)
+    monkeypatch.setattr(Suggestion, "stretched", stretched_if_straight)
+    found = []
+    for straightenings in (0, 2):
+        monkeypatch.setattr(suggest, "_STRAIGHTENINGS", straightenings)
+        assert bpy.ops.mesh.seamwire_suggest(limit="STRETCH", stretch=1.2) == {"FINISHED"}
+        assert stretch(obj) <= 1.2
+        found.append(seams(obj))
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.mesh.mark_seam(clear=True)
+    assert len(straight_plans) == 2
+    assert found[0] == found[1]
 
 
 def test_open_islands_are_cut_into_discs_and_no_more(suzanne: bpy.types.Object) -> None:

@@ -48,8 +48,8 @@ SeamPlannerOptions seeding_from(const py::object& seeds_at, std::size_t seeds, s
 }
 
 /// One limit for all triangles, or one for each.
-SeamLimits limits_from(const py::object& max_spread, std::size_t islands) {
-  SeamLimits limits{.islands = islands};
+SeamLimits limits_from(const py::object& max_spread, double crumb, double crumb_of_island, bool may_start_on_others) {
+  SeamLimits limits{.crumb = crumb, .crumb_of_island = crumb_of_island, .may_start_on_others = may_start_on_others};
   if (PyFloat_Check(max_spread.ptr()) != 0 || PyLong_Check(max_spread.ptr()) != 0) {
     limits.max_spread = max_spread.cast<double>();
     return limits;
@@ -175,10 +175,8 @@ Cancelled
           [](const SeamPlannerObject& object, const py::object& max_spread, std::size_t islands, double crumb,
              double crumb_of_island, const std::vector<PlannedWire>& kept, bool may_start_on_others, bool straightened,
              const py::object& progress) {
-            SeamLimits limits = limits_from(max_spread, islands);
-            limits.crumb = crumb;
-            limits.crumb_of_island = crumb_of_island;
-            limits.may_start_on_others = may_start_on_others;
+            SeamLimits limits = limits_from(max_spread, crumb, crumb_of_island, may_start_on_others);
+            limits.islands = islands;
             limits.are_straightened = straightened;
             return Watch(progress).run([&](const Task& task) { return object.planner.plan(limits, kept, task); });
           },
@@ -215,6 +213,43 @@ Raises
 ------
 ValueError
     Where a limit is wrong.
+Cancelled
+)")
+      .def(
+          "straightened",
+          [](const SeamPlannerObject& object, const std::vector<PlannedWire>& wires, const py::object& max_spread,
+             double crumb, double crumb_of_island, bool may_start_on_others, const py::object& fixed,
+             const py::object& progress) {
+            const SeamLimits limits = limits_from(max_spread, crumb, crumb_of_island, may_start_on_others);
+            const std::vector<std::int32_t> stays =
+                fixed.is_none() ? std::vector<std::int32_t>{} : numbers_from(fixed, "fixed");
+            return Watch(progress).run(
+                [&](const Task& task) { return object.planner.straightened(wires, limits, stays, task); });
+          },
+          py::arg("wires"), py::kw_only(), py::arg("max_spread") = 0.42, py::arg("crumb") = 0.004,
+          py::arg("crumb_of_island") = 1.0, py::arg("may_start_on_others") = true, py::arg("fixed") = py::none(),
+          py::arg("progress") = py::none(),
+          R"(The wires of a plan, straightened as the end of `plan` does it: islands stay as many and as good.
+
+Parameters
+----------
+wires : list of PlannedWire
+    Those of a plan of the same surface and seams.
+max_spread, crumb, crumb_of_island, may_start_on_others
+    The limits with which it was planned, see `plan`.
+fixed : (k,) array_like of int, optional
+    Vertices; a seed there stays, and what meets there.
+progress : callable, optional
+    As above.
+
+Returns
+-------
+SeamPlan
+
+Raises
+------
+ValueError
+    Where a limit, a wire or a vertex is wrong.
 Cancelled
 )")
       .def("__repr__", [](const SeamPlannerObject&) { return std::string("<SeamPlanner>"); });

@@ -490,3 +490,16 @@ class SeamPlanner:
         progress: Progress | None = None,
     ) -> SeamPlan:
         """Return the wires that are needed for islands within limits."""
+
+    def straightened(
+        self,
+        wires: Sequence[PlannedWire],
+        *,
+        max_spread: float | ArrayLike = 0.42,
+        crumb: float = 0.004,
+        crumb_of_island: float = 1.0,
+        may_start_on_others: bool = True,
+        fixed: ArrayLike | None = None,
+        progress: Progress | None = None,
+    ) -> SeamPlan:
+        """Return the wires of a plan, straightened as the end of `plan` does it: islands stay as many and as good."""

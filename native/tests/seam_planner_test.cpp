@@ -259,6 +259,27 @@ TEST(SeamPlanner, KeptWiresStayAndOnlyWhatIsToBeSmallerIsParted) {
   }
 }
 
+TEST(SeamPlanner, APlanIsStraightenedAfterwardsAsAtItsEnd) {
+  const auto surface = shared(shapes::bumpy(shapes::torus(48, 24), 0.05, 3).surface());
+  const SeamPlanner planner(surface);
+  for (const bool may_start_on_others : {true, false}) {
+    SeamLimits limits{.max_spread = 0.3, .may_start_on_others = may_start_on_others};
+    const SeamPlan at_once = planner.plan(limits);
+    limits.are_straightened = false;
+    const SeamPlan before = planner.plan(limits);
+    const SeamPlan after = planner.straightened(before.wires, limits);
+    EXPECT_LT(after.cost, 0.95 * before.cost);
+    EXPECT_NEAR(after.cost, at_once.cost, 1e-9 * after.cost);
+    EXPECT_EQ(after.islands, at_once.islands);
+    expect_discs(*surface, after);
+    std::vector<std::int32_t> seeds;
+    for (const PlannedWire& wire : before.wires) seeds.insert(seeds.end(), {wire.from, wire.to});
+    const SeamPlan same = planner.straightened(before.wires, limits, seeds);
+    EXPECT_EQ(same.islands, before.islands);
+    EXPECT_NEAR(same.cost, before.cost, 1e-9 * before.cost);
+  }
+}
+
 TEST(SeamPlanner, WithOtherSeedsIsAsOneMadeAnew) {
   const auto surface = shared(shapes::bumpy(shapes::icosphere(3), 0.05).surface());
   const SeamPlanner planner(surface);
@@ -498,6 +519,9 @@ TEST(SeamPlanner, RefusesWhatMakesNoSense) {
   std::vector<PlannedWire> kept(1);
   kept[0].vertices = {0, 1000};
   EXPECT_THROW(planner.plan({}, kept), InvalidInput);
+  EXPECT_THROW(planner.straightened(kept), InvalidInput);
+  EXPECT_THROW(planner.straightened({}, {.crumb = 2.0}), InvalidInput);
+  EXPECT_THROW(planner.straightened({}, {}, std::vector<std::int32_t>{1000}), InvalidInput);
   EXPECT_THROW(planner.plan({.max_spread = std::nan("")}), InvalidInput);
   EXPECT_THROW(planner.plan({.max_spreads = std::vector<double>(1, 0.1)}), InvalidInput);
   EXPECT_THROW(planner.plan({.max_spreads = std::vector<double>(sphere->face_count(), -1.0)}), InvalidInput);

@@ -34,10 +34,12 @@ struct Sheet {
     for (auto& [ends, choice] : direct.find(pairs, {})) choices.push_back(choice);
     return choices;
   }
-  std::vector<Choice> straightened(std::vector<Choice> choices, std::vector<std::int32_t> images = {}) const {
+  std::vector<Choice> straightened(std::vector<Choice> choices, std::vector<std::int32_t> images = {},
+                                   const std::vector<std::int32_t>& fixed = {}) const {
     const SeamPlannerOptions options{.strength = {.max_anisotropy = 1.0}, .images = std::move(images)};
     const std::vector<double> max_spreads(surface->face_count(), 1.0);
-    return seamwire::straightened(std::move(choices), direct, *surface, options, {.max_spread = 1.0}, max_spreads, {});
+    return seamwire::straightened(std::move(choices), fixed, direct, *surface, options, {.max_spread = 1.0},
+                                  max_spreads, {});
   }
 };
 
@@ -86,6 +88,25 @@ TEST(Straightening, OnASymmetricSheetSeedsSlideInPairs) {
   EXPECT_FALSE(found.contains(ends_of(seed, top)));
 }
 
+TEST(Straightening, WhatIsFixedStaysOnASymmetricSheetWithItsImage) {
+  const Sheet sheet;
+  const std::int32_t top = at(6, 12), left = at(0, 0), right = at(12, 0), seed = at(6, 10);
+  const std::vector<Choice> before = sheet.between({ends_of(seed, top), ends_of(seed, left), ends_of(seed, right)});
+  EXPECT_EQ(length(sheet.straightened(before, {}, {seed})), length(before));
+  EXPECT_LT(length(sheet.straightened(before, {}, {top})), length(before));
+  // Detours on both sides, one of them fixed.
+  std::vector<std::int32_t> images;
+  for (std::int32_t v = 0; v < (kCells + 1) * (kCells + 1); ++v) {
+    images.push_back(at(kCells - v % (kCells + 1), v / (kCells + 1)));
+  }
+  const std::int32_t bottom = at(2, 0), detour = at(4, 6), up = at(2, 12);
+  const std::vector<Choice> pairs =
+      sheet.between({ends_of(bottom, detour), ends_of(detour, up), ends_of(images[bottom], images[detour]),
+                     ends_of(images[detour], images[up])});
+  EXPECT_LT(length(sheet.straightened(pairs, images)), length(pairs));
+  EXPECT_EQ(length(sheet.straightened(pairs, images, {images[detour]})), length(pairs));
+}
+
 TEST(CurveCrossings, AreCountedWithinFaces) {
   const Sheet sheet;
   const std::int32_t a = at(0, 1), b = at(12, 10), c = at(2, 12), d = at(11, 0);
@@ -111,7 +132,7 @@ TEST(Straightening, CurvesThatAreCutCrossNoMoreOftenThanBefore) {
         before.push_back(direct.find({ends}, {}).at(ends));
       }
       const std::vector<double> max_spreads(surface->face_count(), spread);
-      const std::vector<Choice> after = straightened(before, direct, *surface, options, limits, max_spreads, {});
+      const std::vector<Choice> after = straightened(before, {}, direct, *surface, options, limits, max_spreads, {});
       EXPECT_LE(curve_crossings(*surface, after), curve_crossings(*surface, before)) << seed << " " << spread;
     }
   }

@@ -123,6 +123,29 @@ def narrowed(
     return np.where(is_stretched[islands], left * own, np.maximum(limits, own))
 
 
+def bordering_seeds(
+    wires: Sequence[seamwire_core.PlannedWire], triangles: NDArray[np.int32], is_within: NDArray[np.bool_]
+) -> set[int]:
+    """Return the seeds of wires that run along some of the triangles.
+
+    Parameters
+    ----------
+    wires
+        Of a plan.
+    triangles
+        (m, 3) vertices.
+    is_within
+        (m,) whether a triangle is one of them.
+    """
+    vertices = np.unique(triangles[is_within])
+    seeds: set[int] = set()
+    for wire in wires:
+        is_beside = np.isin(wire.vertices, vertices)
+        if (is_beside[:-1] & is_beside[1:]).any():
+            seeds.update(wire.seeds)
+    return seeds
+
+
 def is_parted(before: NDArray[np.int32], after: NDArray[np.int32], areas: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return for each island whether others have come in its place, rather than one that is nearly the same.
 

@@ -14,6 +14,7 @@ from ..core.suggestion import (
     CRUMB_OF_ISLAND,
     best_along,
     best_finish,
+    bordering_seeds,
     is_parted,
     narrowed,
     planned_wires,
@@ -239,6 +240,29 @@ class Suggestion:
         edges = [np.stack([wire.vertices[:-1], wire.vertices[1:]], axis=1) for wire in wires]
         seams = np.concatenate([self.mesh.arrays.seams, *edges])
         return self._find_wires((len(seeds_at) + seeds,), progress, density=density, seeds_at=seeds_at, seams=seams)
+
+    def straighten(self, plan: seamwire_core.SeamPlan, fixed: set[int], progress: Callable[[float], bool]) -> None:
+        """Suggest the wires of a plan with direct ones in place of detours, but not at fixed seeds; any thread may."""
+        assert self._limits is not None
+        straight = self._planners[0].straightened(
+            plan.wires,
+            max_spread=self._limits,
+            crumb=CRUMB,
+            crumb_of_island=self._crumb_of_island,
+            may_start_on_others=not self.is_cut,
+            fixed=sorted(fixed),
+            progress=progress,
+        )
+        self.use(straight)
+
+    def seeds_around(self, stretched: Sequence[int], before: seamwire_core.SeamPlan) -> set[int]:
+        """Return the seeds of what bounds those islands of a former plan that some of the present ones have come from."""
+        assert self.plan is not None
+        area = np.zeros((self.plan.island_count, before.island_count))
+        np.add.at(area, (self.plan.islands, before.islands), self._areas)
+        came_from = np.flatnonzero(np.isin(area.argmax(axis=0), stretched))
+        came_from = np.union1d(came_from, area[stretched].argmax(axis=1))
+        return bordering_seeds(before.wires, self.mesh.arrays.triangles, np.isin(before.islands, came_from))
 
     def worst(self) -> Worst | None:
         """Return the island that the UV map stretches most, by angle or by area; None: there are no UVs."""

@@ -27,6 +27,8 @@ _ON_TRIAL = 0.9
 """The part of the bound on stretch that is for trials along edges, where the wires are cut into the faces afterwards."""
 _ROUNDS = 12
 """How often islands that are stretched too much are made smaller."""
+_STRAIGHTENINGS = 3
+"""How often seams are straightened, each time but for those around islands that got stretched too much by it."""
 
 
 class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
@@ -139,7 +141,9 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         saved = [SavedUvs(suggestion.mesh.obj) for suggestion in suggestions]
         result = {"CANCELLED"}
         try:
-            yield from _limit_stretch(context, suggestions, math.log2(self.stretch))
+            most = math.log2(self.stretch)
+            if (yield from _limit_stretch(context, suggestions, most)):
+                yield from _straighten(context, suggestions, most)
             result = self._carry_out(context, suggestions)
         finally:
             if result == {"CANCELLED"}:
@@ -260,40 +264,80 @@ def _planning(
     yield from _step(suggestions, Step(text, lambda progress: work(progress=progress)))
 
 
+def _stretched(
+    context: bpy.types.Context, suggestions: Sequence[Suggestion], most: float
+) -> dict[Suggestion, list[int]]:
+    """Unwrap on trial, and return the islands that are stretched more than so many octaves; leave the UVs.
+
+    Raises
+    ------
+    ValueError
+        Where Blender cannot unwrap.
+    """
+    from ..mesh.unwrap import unwrap_changed
+
+    for suggestion in suggestions:
+        suggestion.write()
+    try:
+        unwrap_changed(context, [suggestion.mesh.obj for suggestion in suggestions], even=True)
+        return {
+            suggestion: suggestion.stretched(_ON_TRIAL * most if suggestion.is_cut else most)
+            for suggestion in suggestions
+        }
+    finally:
+        for suggestion in suggestions:
+            suggestion.take_back()
+
+
 def _limit_stretch(
     context: bpy.types.Context, suggestions: Sequence[Suggestion], most: float
-) -> Generator[Step, None, None]:
-    """Unwrap on trial, and plan islands that are stretched more than so many octaves smaller; leave the UVs of the last trial.
+) -> Generator[Step, None, bool]:
+    """Plan islands smaller that are stretched more than so many octaves in a trial, until none is; return whether that was reached.
 
     Raises
     ------
     ValueError
         Where Blender cannot unwrap, or a mesh is changed meanwhile.
     """
-    from ..mesh.unwrap import unwrap_changed
-
-    objects = [suggestion.mesh.obj for suggestion in suggestions]
     turn = 0
     while True:
-        for suggestion in suggestions:
-            suggestion.write()
-        try:
-            unwrap_changed(context, objects, even=True)
-            stretched = {
-                suggestion: suggestion.stretched(_ON_TRIAL * most if suggestion.is_cut else most)
-                for suggestion in suggestions
-            }
-        finally:
-            for suggestion in suggestions:
-                suggestion.take_back()
+        stretched = _stretched(context, suggestions, most)
         left = sum(map(len, stretched.values()))
         if turn == _ROUNDS or not left:
-            return
+            return not left
         turn += 1
         for suggestion, islands in stretched.items():
             if islands:
                 text = f"{count(left, 'island')} stretched too much, planning again"
                 yield from _planning(suggestions, partial(suggestion.narrow, islands), text)
+
+
+def _straighten(
+    context: bpy.types.Context, suggestions: Sequence[Suggestion], most: float
+) -> Generator[Step, None, None]:
+    """Put direct wires in the place of detours, where no island is stretched more than so many octaves in a trial.
+
+    Raises
+    ------
+    ValueError
+        Where Blender cannot unwrap, or a mesh is changed meanwhile.
+    """
+    before = {suggestion: suggestion.plan for suggestion in suggestions}
+    fixed: dict[Suggestion, set[int]] = {suggestion: set() for suggestion in suggestions}
+    for _ in range(_STRAIGHTENINGS):
+        for suggestion, seeds in fixed.items():
+            straighten = partial(suggestion.straighten, before[suggestion], seeds)
+            yield from _planning(suggestions, straighten, "Straightening seams")
+        stretched = _stretched(context, list(fixed), most)
+        fixed = {
+            suggestion: fixed[suggestion] | suggestion.seeds_around(islands, before[suggestion])
+            for suggestion, islands in stretched.items()
+            if islands
+        }
+        if not fixed:
+            return
+    for suggestion in fixed:
+        suggestion.use(before[suggestion])
 
 
 def _part_worst(

@@ -57,6 +57,17 @@ def test_kept_wires_and_what_is_found_within_an_island(torus: sw.Surface, planne
         planner.plan(crumb=2.0)
 
 
+def test_a_plan_is_straightened_where_nothing_is_fixed(planner: sw.SeamPlanner) -> None:
+    plan = planner.plan(max_spread=0.3, straightened=False)
+    straight = planner.straightened(plan.wires, max_spread=0.3)
+    assert straight.cost < plan.cost and straight.island_count == plan.island_count
+    seeds = [seed for wire in plan.wires for seed in wire.seeds]
+    same = planner.straightened(plan.wires, max_spread=0.3, fixed=seeds)
+    np.testing.assert_array_equal(same.islands, plan.islands)
+    with pytest.raises(ValueError, match="fixed"):
+        planner.straightened(plan.wires, fixed=[-5])
+
+
 def test_arrays_outlive_what_they_came_from(planner: sw.SeamPlanner) -> None:
     islands = planner.plan().islands
     vertices = planner.plan().wires[0].vertices

@@ -71,6 +71,37 @@ void check_options(const Surface& surface, const SeamPlannerOptions& options) {
   }
 }
 
+/// Throws what plan() throws for limits; returns those of triangles.
+std::vector<double> checked_spreads(const Surface& surface, const SeamLimits& limits) {
+  const auto check = [](double spread, const std::string& name) {
+    if (!(spread >= 0.0)) throw InvalidInput(name + " is " + text(spread) + ", not a number of at least 0");
+  };
+  check(limits.max_spread, "max_spread");
+  for (const auto& [crumb, name] : {std::pair(limits.crumb, "crumb"), {limits.crumb_of_island, "crumb_of_island"}}) {
+    if (crumb >= 0.0 && crumb <= 1.0) continue;
+    throw InvalidInput(std::string(name) + " is " + text(crumb) + ", not between 0 and 1");
+  }
+  std::vector<double> max_spreads = limits.max_spreads;
+  if (max_spreads.empty()) max_spreads.assign(surface.face_count(), limits.max_spread);
+  if (max_spreads.size() != surface.face_count()) {
+    throw InvalidInput("max_spreads has " + std::to_string(max_spreads.size()) + " items: there are " +
+                       std::to_string(surface.face_count()) + " triangles");
+  }
+  for (std::size_t f = 0; f < max_spreads.size(); ++f) check(max_spreads[f], "max_spreads[" + std::to_string(f) + "]");
+  return max_spreads;
+}
+
+/// Wires of a plan as wires to choose from. Throws InvalidInput where they are none of the surface.
+std::vector<Choice> choices_of(const Surface& surface, std::span<const PlannedWire> wires, const std::string& name) {
+  std::vector<Choice> choices;
+  choices.reserve(wires.size());
+  for (const PlannedWire& wire : wires) {
+    for (const std::int32_t v : wire.vertices) check_index(v, surface.vertex_count(), name + ": vertex");
+    choices.push_back({.wire = wire, .strength = wire.worth});
+  }
+  return choices;
+}
+
 }  // namespace
 
 struct SeamPlanner::Impl {
@@ -83,6 +114,12 @@ struct SeamPlanner::Impl {
   CutPieces pieces(const std::vector<Choice>& of, std::span<const double> max_spreads) const {
     return CutPieces(surface(), chains_of(of, options.seams), max_spreads);
   }
+  std::vector<Choice> straightened(std::vector<Choice> of, std::span<const std::int32_t> fixed,
+                                   const SeamLimits& limits, std::span<const double> max_spreads,
+                                   const Task& task) const {
+    return seamwire::straightened(std::move(of), fixed, wires->direct, surface(), options, limits, max_spreads, task);
+  }
+  SeamPlan plan_of(std::vector<Choice> taken, const SeamLimits& limits, std::span<const double> max_spreads) const;
   std::vector<Choice> swept(std::vector<Choice> best, const SeamLimits& limits, std::span<const double> max_spreads,
                             const Task& task) const;
   std::vector<std::vector<Choice>> shortened(const Choice& wire, const std::vector<Choice>& others,
@@ -182,6 +219,23 @@ std::vector<std::vector<Choice>> SeamPlanner::Impl::shortened(const Choice& wire
   return ways;
 }
 
+SeamPlan SeamPlanner::Impl::plan_of(std::vector<Choice> taken, const SeamLimits& limits,
+                                    std::span<const double> max_spreads) const {
+  SeamPlan plan;
+  plan.not_discs = Quality(pieces(taken, max_spreads), limits).not_discs;
+  std::vector<Edge> cuts = options.seams;
+  for (Choice& choice : taken) {
+    const std::vector<std::int32_t>& chain = choice.wire.vertices;
+    for (std::size_t i = 1; i < chain.size(); ++i) cuts.push_back({chain[i - 1], chain[i]});
+    plan.cost += price(surface(), choice);
+    choice.wire.worth = choice.worth();
+    plan.wires.push_back(std::move(choice.wire));
+  }
+  plan.islands = face_segments(surface(), cuts);
+  for (const std::int32_t island : plan.islands) plan.island_count = std::max(plan.island_count, index(island) + 1);
+  return plan;
+}
+
 SeamPlanner::SeamPlanner(std::shared_ptr<const Surface> surface, const SeamPlannerOptions& options, const Task& task) {
   if (!surface) throw InvalidInput("surface: there is none");
   check_options(*surface, options);
@@ -203,51 +257,30 @@ SeamPlanner SeamPlanner::with(const SeamPlannerOptions& options, const Task& tas
 }
 
 SeamPlan SeamPlanner::plan(const SeamLimits& limits, std::span<const PlannedWire> kept, const Task& task) const {
-  const auto check = [](double spread, const std::string& name) {
-    if (!(spread >= 0.0)) throw InvalidInput(name + " is " + text(spread) + ", not a number of at least 0");
-  };
-  check(limits.max_spread, "max_spread");
-  for (const auto& [crumb, name] : {std::pair(limits.crumb, "crumb"), {limits.crumb_of_island, "crumb_of_island"}}) {
-    if (crumb >= 0.0 && crumb <= 1.0) continue;
-    throw InvalidInput(std::string(name) + " is " + text(crumb) + ", not between 0 and 1");
-  }
   const Surface& surface = impl_->surface();
-  std::vector<double> max_spreads = limits.max_spreads;
-  if (max_spreads.empty()) max_spreads.assign(surface.face_count(), limits.max_spread);
-  if (max_spreads.size() != surface.face_count()) {
-    throw InvalidInput("max_spreads has " + std::to_string(max_spreads.size()) + " items: there are " +
-                       std::to_string(surface.face_count()) + " triangles");
-  }
-  for (std::size_t f = 0; f < max_spreads.size(); ++f) check(max_spreads[f], "max_spreads[" + std::to_string(f) + "]");
-
-  std::vector<Choice> among;
-  among.reserve(kept.size() + impl_->choices.size());
-  for (const PlannedWire& wire : kept) {
-    for (const std::int32_t v : wire.vertices) check_index(v, surface.vertex_count(), "kept: vertex");
-    among.push_back({.wire = wire, .strength = wire.worth, .is_kept = true});
+  const std::vector<double> max_spreads = checked_spreads(surface, limits);
+  std::vector<Choice> among = choices_of(surface, kept, "kept");
+  std::vector<std::int32_t> fixed;
+  for (Choice& choice : among) {
+    choice.is_kept = true;
+    fixed.insert(fixed.end(), choice.wire.vertices.begin(), choice.wire.vertices.end());
   }
   among.insert(among.end(), impl_->choices.begin(), impl_->choices.end());
   if (!limits.may_start_on_others) among = meeting_at_seeds(std::move(among));
   CutPieces all = impl_->pieces(among, max_spreads);
   std::vector<Choice> taken = thinned(surface, impl_->options.images, among, std::move(all), limits, task);
   if (limits.may_start_on_others) taken = impl_->swept(std::move(taken), limits, max_spreads, task);
-  if (limits.are_straightened) {
-    taken = straightened(std::move(taken), impl_->wires->direct, surface, impl_->options, limits, max_spreads, task);
-  }
-  SeamPlan plan;
-  const CutPieces pieces = impl_->pieces(taken, max_spreads);
-  plan.not_discs = Quality(pieces, limits).not_discs;
-  std::vector<Edge> cuts = impl_->options.seams;
-  for (Choice& choice : taken) {
-    const std::vector<std::int32_t>& chain = choice.wire.vertices;
-    for (std::size_t i = 1; i < chain.size(); ++i) cuts.push_back({chain[i - 1], chain[i]});
-    plan.cost += price(surface, choice);
-    choice.wire.worth = choice.worth();
-    plan.wires.push_back(std::move(choice.wire));
-  }
-  plan.islands = face_segments(surface, cuts);
-  for (const std::int32_t island : plan.islands) plan.island_count = std::max(plan.island_count, index(island) + 1);
-  return plan;
+  if (limits.are_straightened) taken = impl_->straightened(std::move(taken), fixed, limits, max_spreads, task);
+  return impl_->plan_of(std::move(taken), limits, max_spreads);
+}
+
+SeamPlan SeamPlanner::straightened(std::span<const PlannedWire> wires, const SeamLimits& limits,
+                                   std::span<const std::int32_t> fixed, const Task& task) const {
+  const Surface& surface = impl_->surface();
+  const std::vector<double> max_spreads = checked_spreads(surface, limits);
+  for (const std::int32_t v : fixed) check_index(v, surface.vertex_count(), "fixed: vertex");
+  return impl_->plan_of(impl_->straightened(choices_of(surface, wires, "wires"), fixed, limits, max_spreads, task),
+                        limits, max_spreads);
 }
 
 }  // namespace seamwire

@@ -31,16 +31,15 @@ struct Meeting {
 using Junction = std::vector<Meeting>;
 using Junctions = std::map<std::int32_t, Junction>;  // by the vertices of the seeds
 
-Junctions junctions_of(const std::vector<Choice>& wires, const std::vector<Edge>& seams) {
+/// `passed`: vertices where something else is.
+Junctions junctions_of(const std::vector<Choice>& wires, std::set<std::int32_t> passed) {
   Junctions junctions;
-  std::set<std::int32_t> passed;
-  for (const auto& [a, b] : seams) passed.insert({a, b});
   for (std::size_t i = 0; i < wires.size(); ++i) {
     const PlannedWire& wire = wires[i].wire;
     junctions[wire.from].push_back({wire.to, i});
     junctions[wire.to].push_back({wire.from, i});
     for (const std::int32_t v : wire.vertices) {
-      if (wires[i].is_kept || (v != wire.from && v != wire.to)) passed.insert(v);
+      if (v != wire.from && v != wire.to) passed.insert(v);
     }
   }
   for (auto& [seed, junction] : junctions) std::ranges::sort(junction, {}, &Meeting::other);
@@ -66,20 +65,24 @@ std::optional<Ends> joint_ends(const Junction& junction) {
 
 class Straightening {
  public:
-  Straightening(std::vector<Choice> wires, const DirectWires& direct, const Surface& surface,
-                const SeamPlannerOptions& options, const SeamLimits& limits, std::span<const double> max_spreads,
-                const Task& task)
+  Straightening(std::vector<Choice> wires, std::span<const std::int32_t> fixed, const DirectWires& direct,
+                const Surface& surface, const SeamPlannerOptions& options, const SeamLimits& limits,
+                std::span<const double> max_spreads, const Task& task)
       : wires_(std::move(wires)),
+        fixed_(fixed.begin(), fixed.end()),
         known_(direct),
         surface_(surface),
         options_(options),
         limits_(limits),
         max_spreads_(max_spreads),
-        task_(task) {}
+        task_(task) {
+    for (const auto& [a, b] : options.seams) fixed_.insert({a, b});
+  }
 
   std::vector<Choice> done();
 
  private:
+  Junctions junctions() const { return junctions_of(wires_, fixed_); }
   CutPieces pieces(const std::vector<Choice>& of) const {
     return CutPieces(surface_, chains_of(of, options_.seams), max_spreads_);
   }
@@ -96,6 +99,7 @@ class Straightening {
                                               const std::vector<Ends>& by, double least_gain) const;
 
   std::vector<Choice> wires_;
+  std::set<std::int32_t> fixed_;  // and what is on the seams that are there
   const DirectWires& known_;
   const Surface& surface_;
   const SeamPlannerOptions& options_;
@@ -132,12 +136,12 @@ void Straightening::find(const std::set<Ends>& pairs) {
 }
 
 bool Straightening::straighten_one() {
-  const Junctions junctions = junctions_of(wires_, options_.seams);
-  for (const auto& [seed, junction] : junctions) {
+  const Junctions now = junctions();
+  for (const auto& [seed, junction] : now) {
     task_.check(0.0);
     const std::optional<Ends> ends = joint_ends(junction);
     if (!ends || !direct_.contains(*ends) || !tried_.insert({seed, *ends}).second) continue;
-    if (replace(junctions, seed, {*ends}, 0.0)) return true;
+    if (replace(now, seed, {*ends}, 0.0)) return true;
   }
   return false;
 }
@@ -182,7 +186,7 @@ bool Straightening::slide() {
   };
   std::vector<Slide> slides;
   std::set<Ends> pairs;
-  for (const auto& [seed, junction] : junctions_of(wires_, options_.seams)) {
+  for (const auto& [seed, junction] : junctions()) {
     // From the plane of symmetry it would slide away.
     if (junction.size() > kMostSliding || image(seed) == seed) continue;
     const std::vector<std::int32_t> places = places_to_slide_to(seed, junction), others = others_of(junction);
@@ -202,10 +206,10 @@ bool Straightening::slide() {
   bool has_slid = false;
   for (const Slide& slide : slides) {
     task_.check(0.0);
-    const Junctions junctions = junctions_of(wires_, options_.seams);
-    const auto junction = junctions.find(slide.seed);
-    if (junction == junctions.end() || others_of(junction->second) != slide.others) continue;
-    has_slid |= replace(junctions, slide.seed, slide.by, kLeastGain);
+    const Junctions now = junctions();
+    const auto junction = now.find(slide.seed);
+    if (junction == now.end() || others_of(junction->second) != slide.others) continue;
+    has_slid |= replace(now, slide.seed, slide.by, kLeastGain);
   }
   return has_slid;
 }
@@ -244,7 +248,7 @@ bool Straightening::replace(const Junctions& junctions, std::int32_t seed, const
 
 /// All that can be tried with the wires that are known, before more are found.
 std::vector<Choice> Straightening::done() {
-  if (junctions_of(wires_, options_.seams).empty()) return std::move(wires_);
+  if (junctions().empty()) return std::move(wires_);
   {
     const CutPieces cut = pieces(wires_);
     piece_count_ = cut.piece_count();
@@ -256,7 +260,7 @@ std::vector<Choice> Straightening::done() {
     do {
       while (straighten_one()) continue;
       pairs.clear();
-      for (const auto& [seed, junction] : junctions_of(wires_, options_.seams)) {
+      for (const auto& [seed, junction] : junctions()) {
         if (const std::optional<Ends> ends = joint_ends(junction); ends && !direct_.contains(*ends))
           pairs.insert(*ends);
       }
@@ -356,10 +360,10 @@ std::map<Ends, Choice> DirectWires::find(const std::set<Ends>& pairs, const Task
   return out;
 }
 
-std::vector<Choice> straightened(std::vector<Choice> wires, const DirectWires& direct, const Surface& surface,
-                                 const SeamPlannerOptions& options, const SeamLimits& limits,
-                                 std::span<const double> max_spreads, const Task& task) {
-  return Straightening(std::move(wires), direct, surface, options, limits, max_spreads, task).done();
+std::vector<Choice> straightened(std::vector<Choice> wires, std::span<const std::int32_t> fixed,
+                                 const DirectWires& direct, const Surface& surface, const SeamPlannerOptions& options,
+                                 const SeamLimits& limits, std::span<const double> max_spreads, const Task& task) {
+  return Straightening(std::move(wires), fixed, direct, surface, options, limits, max_spreads, task).done();
 }
 
 }  // namespace seamwire

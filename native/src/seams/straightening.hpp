@@ -30,10 +30,10 @@ class DirectWires {
 };
 
 /// Makes chosen wires cost less, as long as the pieces stay as many and as good: a direct one takes the place of two
-/// that meet at a seed where nothing else is, and seeds slide along wires that end there. `options` and `limits`: those
-/// of the plan; `max_spreads`: one a triangle.
-std::vector<Choice> straightened(std::vector<Choice> wires, const DirectWires& direct, const Surface& surface,
-                                 const SeamPlannerOptions& options, const SeamLimits& limits,
-                                 std::span<const double> max_spreads, const Task& task);
+/// that meet at a seed where nothing else is, and seeds slide along wires that end there. `fixed`: vertices where all
+/// stays. `options` and `limits`: those of the plan; `max_spreads`: one a triangle.
+std::vector<Choice> straightened(std::vector<Choice> wires, std::span<const std::int32_t> fixed,
+                                 const DirectWires& direct, const Surface& surface, const SeamPlannerOptions& options,
+                                 const SeamLimits& limits, std::span<const double> max_spreads, const Task& task);
 
 }  // namespace seamwire

@@ -62,7 +62,7 @@ struct PlannedWire {
   std::vector<Vector> points;          ///< its curve, in the caller's coordinates
   /// The caller's face that each segment of it lies in, -1 along an edge without one; none of a wire along edges.
   std::vector<std::int32_t> faces;
-  double worth = 1.0;                  ///< what its length is divided by in SeamPlan::cost
+  double worth = 1.0;  ///< what its length is divided by in SeamPlan::cost
 };
 
 /// Seams that cut a surface into islands.
@@ -97,6 +97,10 @@ class SeamPlanner {
   /// InvalidInput for limits that are not as said above; Cancelled.
   /// `kept`: wires of another plan of the same surface that this one has as well, whatever the limits.
   SeamPlan plan(const SeamLimits& limits = {}, std::span<const PlannedWire> kept = {}, const Task& task = {}) const;
+  /// The wires of a plan of the same surface and seams, straightened as the end of plan() does it: islands stay as many
+  /// and as good within the limits. `fixed`: vertices; a seed there stays, and what meets there. Throws as plan() does.
+  SeamPlan straightened(std::span<const PlannedWire> wires, const SeamLimits& limits = {},
+                        std::span<const std::int32_t> fixed = {}, const Task& task = {}) const;
 
  private:
   struct Impl;
