@@ -186,7 +186,7 @@ def test_of_the_cuts_that_part_the_worst_island_the_one_that_lowers_its_stretch_
     trial = Suggestion(obj, None, True, (24,), None)
     trial.prepare(lambda _: True)
     worst = trial.worst()
-    trial.part(worst, lambda _: True)
+    trial.part(worst, 0, lambda _: True)
     found = []
     for plan in trial.partings:
         trial.use(plan)
@@ -206,6 +206,30 @@ def test_of_the_cuts_that_part_the_worst_island_the_one_that_lowers_its_stretch_
     after = seam_islands.stretch_of(obj, arrays, labels)
     parts = np.unique(labels[np.isin(arrays.polygons, worst.faces)])
     assert np.maximum(after.angle, after.area)[parts].max() == pytest.approx(least, abs=1e-4)
+
+
+@pytest.mark.parametrize("what", ["NONE_LOWERS", "MANY_ISLANDS", "FEW_ISLANDS"])
+def test_there_is_more_to_choose_from_in_the_worst_island_where_that_is_needed(
+    monkeypatch: pytest.MonkeyPatch, what: str
+) -> None:
+    obj = unwrapped_ball(3)
+    was, numbers = stretch(obj), []
+    part, stretch_within = Suggestion.part, suggest._stretch_within
+
+    def noted(self: Suggestion, island: object, seeds: int, progress: object) -> None:
+        part(self, island, seeds, progress)
+        numbers.append(seeds)
+
+    monkeypatch.setattr(Suggestion, "part", noted)
+    if what == "NONE_LOWERS":
+        monkeypatch.setattr(
+            suggest, "_stretch_within", lambda *of: stretch_within(*of) if numbers[-1] > 0 else math.inf
+        )
+    if what == "MANY_ISLANDS":
+        monkeypatch.setattr(suggest, "_FEW", -9)
+    assert bpy.ops.mesh.seamwire_suggest(limit="WORST", unwrap=True) == {"FINISHED"}
+    assert numbers == {"NONE_LOWERS": [0, 12], "MANY_ISLANDS": [0, 12, 24, 48], "FEW_ISLANDS": [0]}[what]
+    assert stretch(obj) < was
 
 
 def test_unless_asked_to_unwrap_the_worst_island_is_parted_with_its_uvs_kept() -> None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -36,12 +37,17 @@ if TYPE_CHECKING:
 
 _MORE_SEEDS = 120
 """How many more seeds than at first there may be for pieces that are no discs."""
-_SEEDS_IN_ISLAND = (12, 24, 48)
+SEEDS_IN_ISLAND = (12, 24, 48)
 """How many seeds are laid in each island that is not parted otherwise, one number after the other."""
 _KEPT = 0.5
 """The part of the mesh's area, in islands that are to be smaller, from which on all is planned anew, not within these alone."""
 _TRIED = (0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3)
 """What may be left of the spread of an island that is parted for its stretch."""
+
+
+def _progress_of(progress: Callable[[float], bool], done: int, number: int, fraction: float) -> bool:
+    """Tell the fraction of one of several parts as that of all."""
+    return progress((done + fraction) / number)
 
 
 class Suggestion:
@@ -122,7 +128,7 @@ class Suggestion:
                 most_seeds=number + _MORE_SEEDS,
                 **seeding,
                 images=self._images,
-                progress=lambda fraction, done=done: progress((done + fraction) / len(seeds)),
+                progress=partial(_progress_of, progress, done, len(seeds)),
             )
             planners.append(planner)
             make = planner.with_seeds
@@ -163,7 +169,7 @@ class Suggestion:
                 kept=list(kept),
                 may_start_on_others=not self.is_cut,
                 straightened=straightened,
-                progress=lambda fraction, done=done: progress((done + fraction) / len(planners)),
+                progress=partial(_progress_of, progress, done, len(planners)),
             )
             for done, planner in enumerate(planners)
         ]
@@ -218,7 +224,7 @@ class Suggestion:
         whole = np.isin(before, stretched)
         is_kept = self._areas[whole].sum() < _KEPT * self._areas.sum()
         self.suggest(progress, 0.0, straightened=False, kept=self.plan.wires if is_kept else [])
-        for seeds in _SEEDS_IN_ISLAND:
+        for seeds in SEEDS_IN_ISLAND:
             whole &= ~is_parted(before, self.plan.islands, self._areas)[before]
             if not whole.any():
                 break
@@ -269,8 +275,18 @@ class Suggestion:
         found = [worst_island(self.mesh.obj, kind) for kind in ("ANGLE", "AREA")]
         return max((one for one in found if one is not None), key=lambda one: one.value, default=None)
 
-    def part(self, island: Worst, progress: Callable[[float], bool]) -> None:
-        """Find `partings`, with smaller islands in place of one that there is; any thread may."""
+    def part(self, island: Worst, seeds: int, progress: Callable[[float], bool]) -> None:
+        """Find `partings`, with smaller islands in place of one that there is; any thread may.
+
+        Parameters
+        ----------
+        island
+            The one.
+        seeds
+            How many there are in it alone; 0: those prepared, all over the mesh.
+        progress
+            As above.
+        """
         arrays = self.mesh.arrays
         labels = np.where(np.isin(arrays.polygons, island.faces), 0, 1).astype(np.int32)
         whole = np.full(len(labels), spread_of(np.pi))
@@ -278,20 +294,14 @@ class Suggestion:
         # Wires may also be slits within an island: it is they that tell plans apart.
         plans: dict[frozenset[bytes], seamwire_core.SeamPlan] = {}
         self._crumb_of_island = CRUMB_OF_ISLAND
-        planners = self._planners
-        for seeds in (0, *_SEEDS_IN_ISLAND):
-            if seeds:
-                planners = self._find_wires_within(labels == 0, seeds, (), progress)
-            for done, left in enumerate(_TRIED):
-                self._limits = narrowed(whole, [0], labels, own, left)
-                self.suggest(
-                    lambda fraction, done=done: progress((done + fraction) / len(_TRIED)), 0.0, planners=planners
-                )
-                assert self.plan is not None
-                if self.wires:
-                    plans.setdefault(frozenset(wire.vertices.tobytes() for wire in self.plan.wires), self.plan)
-            if plans:
-                break
+        planners = self._find_wires_within(labels == 0, seeds, (), progress) if seeds else self._planners
+        for done, left in enumerate(_TRIED):
+            self._limits = narrowed(whole, [0], labels, own, left)
+            told = partial(_progress_of, progress, done, len(_TRIED))
+            self.suggest(told, 0.0, straightened=False, planners=planners)
+            assert self.plan is not None
+            if self.wires:
+                plans.setdefault(frozenset(wire.vertices.tobytes() for wire in self.plan.wires), self.plan)
         self._limits = whole
         self.partings = sorted(plans.values(), key=lambda plan: plan.island_count)
 

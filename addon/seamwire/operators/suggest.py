@@ -18,6 +18,9 @@ from .steps import Step, Stepwise
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Sequence
 
+    from seamwire_core import SeamPlan
+
+    from ..mesh.seam_islands import Worst
     from ..mesh.suggestion import Suggestion
 
 _CUT_CRUMB = 0.25
@@ -27,6 +30,8 @@ _ON_TRIAL = 0.9
 """The part of the bound on stretch that is for trials along edges, where the wires are cut into the faces afterwards."""
 _ROUNDS = 12
 """How often islands that are stretched too much are made smaller."""
+_FEW = 2
+"""How many islands more are few, in place of the worst one."""
 _STRAIGHTENINGS = 3
 """How often seams are straightened, each time but for those around islands that got stretched too much by it."""
 
@@ -346,43 +351,70 @@ def _part_worst(
     """Let a suggestion be the one that lowers the stretch of the island most that is stretched most; None: none lowers it.
 
     Of those that lower it at all, only the ones with the fewest islands count, and those with one more, for wires come in pairs
-    where the mesh is symmetric. Blender unwraps each of them; afterwards the UVs are as they were.
+    where the mesh is symmetric. Where none does, or it takes many islands, there is more to choose from in the island. Blender unwraps
+    each of them; afterwards the UVs are as they were.
 
     Raises
     ------
     ValueError
         Where there are no UVs, Blender cannot unwrap, or a mesh is changed meanwhile.
     """
-    from ..mesh.unwrap import SavedUvs, unwrap_changed
+    from ..mesh.seam_islands import island_count
+    from ..mesh.suggestion import SEEDS_IN_ISLAND
 
     stretched = {suggestion: worst for suggestion in suggestions if (worst := suggestion.worst()) is not None}
     if not stretched:
         raise ValueError("No visible face has UVs: unwrap first")
     suggestion = max(stretched, key=lambda one: stretched[one].value)
     worst = stretched[suggestion]
-    yield from _planning(suggestions, partial(suggestion.part, worst))
-    best, least, most_islands = None, worst.value, math.inf
-    for number, plan in enumerate(suggestion.partings, start=1):
-        if plan.island_count > most_islands:
+    few = island_count(suggestion.mesh.obj) + _FEW
+    lower: list[tuple[float, SeamPlan]] = []
+    most_islands = math.inf
+    for seeds in (0, *SEEDS_IN_ISLAND):
+        yield from _planning(suggestions, partial(suggestion.part, worst, seeds))
+        for number, plan in enumerate(suggestion.partings, start=1):
+            if plan.island_count > most_islands:
+                break
+            yield from _step(suggestions, Step(f"Unwrapping on trial, {number} of {len(suggestion.partings)}"))
+            stretch = _stretch_within(context, suggestion, plan, worst)
+            if stretch < worst.value:
+                lower.append((stretch, plan))
+                most_islands = min(most_islands, plan.island_count + 1)
+        if most_islands <= few + 1:
             break
-        text = f"Unwrapping on trial, {number} of {len(suggestion.partings)}"
-        yield from _step(suggestions, Step(text))
-        suggestion.use(plan)
-        suggestion.write()
-        saved = SavedUvs(suggestion.mesh.obj)
-        try:
-            unwrap_changed(context, [suggestion.mesh.obj])
-            stretch = suggestion.stretch_within(worst.faces)
-        finally:
-            saved.restore()
-            suggestion.take_back()
-        if stretch < least:
-            best, least = plan, stretch
-            most_islands = min(most_islands, plan.island_count + 1)
-    if best is None:
+    if not lower:
         return None
+    least, best = min((one for one in lower if one[1].island_count <= most_islands), key=lambda one: one[0])
+    # Detours are of use, but not all of them.
+    yield from _planning(suggestions, partial(suggestion.straighten, best, set()), "Straightening seams")
+    straight = suggestion.plan
+    if straight.cost < best.cost:
+        yield from _step(suggestions, Step("Unwrapping on trial"))
+        if _stretch_within(context, suggestion, straight, worst) <= least:
+            best = straight
     suggestion.use(best)
     return suggestion
+
+
+def _stretch_within(context: bpy.types.Context, suggestion: Suggestion, plan: SeamPlan, worst: Worst) -> float:
+    """Unwrap a plan on trial, and return how much the islands are stretched that come of one, at most; the UVs are as before then.
+
+    Raises
+    ------
+    ValueError
+        Where Blender cannot unwrap.
+    """
+    from ..mesh.unwrap import SavedUvs, unwrap_changed
+
+    suggestion.use(plan)
+    suggestion.write()
+    saved = SavedUvs(suggestion.mesh.obj)
+    try:
+        unwrap_changed(context, [suggestion.mesh.obj])
+        return suggestion.stretch_within(worst.faces)
+    finally:
+        saved.restore()
+        suggestion.take_back()
 
 
 def register() -> None:
