@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 import pytest
 from mathutils import Matrix, Vector
-from scene import add_grid, add_layers, add_suzanne, edit, head, items_of, layer_kinds, plain, seams, snapshot
+from scene import add_grid, add_layers, add_object, add_suzanne, edit, head, items_of, layer_kinds, plain, seams, snapshot
 from seamwire.core.network import Network
 from seamwire.mesh.cut import CUTS
 from seamwire.mesh.edit_mesh import LABELS
@@ -541,6 +541,32 @@ def test_what_another_wire_was_cut_along_stays_where_one_is_taken_back() -> None
     assert lengths == pytest.approx((a - b).length, rel=1e-5)
     bpy.ops.object.mode_set(mode="OBJECT")
     assert not obj.data.validate(verbose=True)
+
+
+@pytest.mark.parametrize("moved", [0.0, 2.0], ids=["", "beside it"])
+@pytest.mark.parametrize("sheet", [0, 1])
+@pytest.mark.parametrize("row", [0, 2, 6])
+def test_a_dragged_cut_stays_on_its_part_of_the_mesh_where_another_lies(moved: float, sheet: int, row: int) -> None:
+    points, faces = [], []
+    for x in (0.0, moved):
+        grid = add_grid(9)
+        faces += [[v + len(points) for v in face.vertices] for face in grid.data.polygons]
+        points += [(vertex.co.x + x, vertex.co.y, 0.0) for vertex in grid.data.vertices]
+        bpy.data.objects.remove(grid)
+    obj = add_object(points, faces)
+    edit()
+    # The border of the one is where that of the other is, side by side.
+    border = 9 * row + (8 if sheet == 0 else 0)
+    first, seed, to = (81 * sheet + v for v in (border, 40, 50 if row == 2 else 48))
+    cut(f"{first} {seed}")
+    own = joined(obj, first)
+    assert seams(obj) and {v for pair in seams(obj) for v in pair} <= own
+    drag(obj, seed, to)
+    own = joined(obj, first)
+    assert {first, to} <= {v for pair in seams(obj) for v in pair} <= own
+    assert agree(obj)
+    (wire,) = session_on(obj).session.wires
+    assert wire.is_cut
 
 
 def test_mirror_images_of_a_cut_follow_its_seed() -> None:

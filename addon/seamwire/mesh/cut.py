@@ -14,18 +14,21 @@ import bmesh
 import numpy as np
 
 from ..core import cutting
-from ..core.network import FacePoint
+from ..core.network import FacePoint, vertices_of
 from .edit_mesh import LABELS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.cutting import CutPlan, Node
-    from ..core.network import Edge
+    from ..core.network import Edge, Pick
     from .edit_mesh import Arrays, Cage
 
 CUTS = ".seamwire_cut"
 """The layer of vertices, and of edges, that is 1 where a cut made them: those can be taken back."""
+
+_RINGS = 3
+"""How far around a pick vertices stay for the face that it lies in to be among theirs: beside a cut others are found first."""
 
 
 @dataclass(frozen=True)
@@ -75,6 +78,54 @@ class CageFaces:
     def is_edge(self, a: int, b: int) -> bool:
         """Whether two vertices have an edge between them."""
         return self._bm.edges.get((self._bm.verts[a], self._bm.verts[b])) is not None
+
+
+class PickedPlaces:
+    """Where picks are, whatever cuts are taken back meanwhile; other parts of the mesh may lie at the same places.
+
+    Parameters
+    ----------
+    cage
+        The mesh before.
+    picks
+        On visible faces.
+    """
+
+    def __init__(self, cage: Cage, picks: Iterable[Pick]) -> None:
+        bm = cage.bm
+        of_verts = bm.verts.layers.int.get(CUTS)
+        self._bm = bm
+        self._verts: dict[Pick, bmesh.types.BMVert] = {}
+        self._around: dict[Pick, list[bmesh.types.BMVert]] = {}
+        for pick in picks:
+            corners = [bm.verts[v] for v in (pick.corners if isinstance(pick, FacePoint) else vertices_of(pick))]
+            if isinstance(pick, int):
+                self._verts[pick] = corners[0]
+            self._around[pick] = _verts_that_stay(corners, of_verts)
+
+    def vertex(self, pick: Pick) -> int | None:
+        """Return the number of a vertex that is there still; None of one that is not, and of another pick."""
+        vert = self._verts.get(pick)
+        return vert.index if vert is not None and vert.is_valid else None
+
+    def faces(self, pick: Pick) -> list[int]:
+        """Return the visible faces that a pick may lie in."""
+        around = (face for vert in self._around[pick] if vert.is_valid for face in vert.link_faces)
+        return sorted({face.index for face in around if not face.hide})
+
+
+def _verts_that_stay(
+    verts: Iterable[bmesh.types.BMVert], of_verts: bmesh.types.BMLayerItem | None
+) -> list[bmesh.types.BMVert]:
+    """Return the vertices near some that no cut made."""
+    found = set(verts)
+    waiting, rings = list(found), _RINGS
+    while waiting and rings:
+        stay = [vert for vert in found if of_verts is None or not vert[of_verts]]
+        rings -= bool(stay)
+        waiting = [vert for vert in {edge.other_vert(v) for v in waiting for edge in v.link_edges} if vert not in found]
+        found.update(waiting)
+    return [vert for vert in found if of_verts is None or not vert[of_verts]]
 
 
 def plan(cage: Cage, arrays: Arrays, curves: Iterable[tuple[int, NDArray[np.float64]]]) -> CutPlan:

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
     from ..core.closed_cuts import TakenCut
     from ..core.cutting import CutPlan
-    from ..core.network import Along, Edge, Finish, Network, Wire
+    from ..core.network import Along, Edge, Finish, Network, Pick, Wire
     from ..core.strokes import Scribble
     from .settings import SeamwireSettings
 
@@ -399,17 +399,22 @@ class ObjectSession:
         session.adopt(network, self.plain_seams)
         self._found = replace(self._found, network=session.network)
 
-    def finder(self) -> Callable[[Sequence[float]], FacePoint]:
-        """Return what finds the point of the visible surface that is nearest to a place in object coordinates."""
+    def finder(self, faces: Collection[int] = ()) -> Callable[[Sequence[float]], FacePoint]:
+        """Return what finds the point of the visible surface, or of some faces, that is nearest to a place in object coordinates."""
         triangles, in_object = self.arrays.triangles, self.arrays.points @ self.arrays.to_object.T
+        rows = np.arange(len(triangles))
+        if len(faces):
+            rows = rows[np.isin(self.arrays.polygons, list(faces))]
 
         @functools.cache
         def tree() -> BVHTree:
-            return BVHTree.FromPolygons(in_object.tolist(), triangles.tolist(), all_triangles=True)
+            used, corners = np.unique(triangles[rows], return_inverse=True)
+            polygons = corners.reshape(-1, 3).tolist()
+            return BVHTree.FromPolygons(in_object[used].tolist(), polygons, all_triangles=True)
 
         def find(place: Sequence[float]) -> FacePoint:
-            found, _, triangle, _ = tree().find_nearest(place)
-            return FacePoint.at(np.array(found), triangle, triangles, in_object)
+            found, _, row, _ = tree().find_nearest(place)
+            return FacePoint.at(np.array(found), rows[row], triangles, in_object)
 
         return find
 
@@ -462,11 +467,17 @@ class ObjectSession:
             self.write(self.plan())
         left = [] if before is None else self._left_cuts(before)
         if left:
+            # Those of images as well: there is no chain of edges to be mirrored yet.
+            both = (*wires, *images)
+            places = cut.PickedPlaces(self.cage, {end for wire in both for end in (wire.start, wire.end)})
             cut.take_back(self.cage, left)
             after = ObjectSession(self.obj)
-            # Those of images as well: there is no chain of edges to be mirrored yet.
-            placed = after._placed((*wires, *images))
-            return after.cut(after.plan_cut(placed), placed, taken=taken)
+            placed = after._placed(both, places)
+            try:
+                again = after.plan_cut(placed)
+            except CuttingError as error:
+                raise CuttingError(f"{error}; what was cut before is taken back, undo brings it again") from error
+            return after.cut(again, placed, taken=taken)
         seeds = {end for wire in wires for end in (wire.start, wire.end)}
         done = cut.carry_out(self.cage, plan, seeds, crumb)
         after = ObjectSession(self.obj)
@@ -494,17 +505,19 @@ class ObjectSession:
         own = {edge for wire in before.wires if wire.is_cut for edge in wire.claims()}
         return [edge for edge in sorted(own) if not self.cage.is_seam(edge)]
 
-    def _placed(self, wires: Iterable[Wire]) -> list[Wire]:
-        """Return wires across a mesh with other vertices and faces, but the same surface, as wires across this mesh."""
-        find = self.finder()
+    def _placed(self, wires: Iterable[Wire], places: cut.PickedPlaces) -> list[Wire]:
+        """Return wires across a mesh from which cuts were taken back, the same surface, as wires across this mesh."""
 
-        def seed_at(place: NDArray[np.float64]) -> int | FacePoint:
-            point = find((self.arrays.to_object @ place).tolist())
+        def seed_at(pick: Pick, place: NDArray[np.float64]) -> int | FacePoint:
+            vertex = places.vertex(pick)
+            if vertex is not None:
+                return vertex
+            point = self.finder(places.faces(pick))((self.arrays.to_object @ place).tolist())
             return point.vertex if max(point.weights) > 1.0 - cutting.NEAR else point
 
         placed = []
         for wire in wires:
-            start, end = seed_at(wire.points[0]), seed_at(wire.points[-1])
+            start, end = seed_at(wire.start, wire.points[0]), seed_at(wire.end, wire.points[-1])
             vertices = (*vertices_of(start), *vertices_of(end))
             placed.append(wire.changed(vertices=vertices, start=start, end=end, images=()))
         return placed
