@@ -100,6 +100,16 @@ def test_no_island_is_stretched_more_than_asked() -> None:
     assert found[1.03] > found[1.1] > found[1.3]
 
 
+def test_an_objects_scale_stretches_no_uv_map() -> None:
+    obj = add_ball()
+    obj.scale = (1.0, 1.0, 3.0)
+    bpy.context.view_layer.update()
+    edit()
+    assert bpy.ops.mesh.seamwire_suggest(limit="STRETCH", stretch=1.2) == {"FINISHED"}
+    assert stretch(obj) <= 1.2
+    assert islands(obj) < 20
+
+
 def test_seams_against_stretch_are_straight_where_that_keeps_the_bound(monkeypatch: pytest.MonkeyPatch) -> None:
     obj = add_suzanne(1)
     edit()

@@ -46,7 +46,7 @@ class Arrays:
     edges
         (e, 2) the visible edges of the polygons, no diagonals.
     to_object
-        (3, 3) takes `points` to object coordinates: ``points @ to_object.T``.
+        (3, 3) takes `points` to object coordinates, see `in_object`.
     seams
         (k, 2) those of the visible edges that are seams.
     """
@@ -57,6 +57,11 @@ class Arrays:
     edges: NDArray[np.int32]
     to_object: NDArray[np.float64]
     seams: NDArray[np.int32]
+
+    @property
+    def in_object(self) -> NDArray[np.float64]:
+        """(n, 3) vertices in object coordinates, without the object's scale: those that Blender unwraps."""
+        return self.points @ self.to_object.T
 
     def same_as(self, other: Arrays) -> bool:
         """Whether wires run on another mesh as they do on this one; its seams may be others."""

@@ -401,7 +401,7 @@ class ObjectSession:
 
     def finder(self, faces: Collection[int] = ()) -> Callable[[Sequence[float]], FacePoint]:
         """Return what finds the point of the visible surface, or of some faces, that is nearest to a place in object coordinates."""
-        triangles, in_object = self.arrays.triangles, self.arrays.points @ self.arrays.to_object.T
+        triangles, in_object = self.arrays.triangles, self.arrays.in_object
         rows = np.arange(len(triangles))
         if len(faces):
             rows = rows[np.isin(self.arrays.polygons, list(faces))]

@@ -160,6 +160,8 @@ def stretched_count(obj: bpy.types.Object, most: float) -> int:
 def stretch_of(obj: bpy.types.Object, arrays: edit_mesh.Arrays, labels: NDArray[np.int32]) -> IslandStretch | None:
     """Return how much the active UV map of an edit mesh stretches islands; None: there is no UV map, or no visible face.
 
+    As Blender unwraps it: without the object's scale.
+
     Parameters
     ----------
     obj, arrays
@@ -170,6 +172,6 @@ def stretch_of(obj: bpy.types.Object, arrays: edit_mesh.Arrays, labels: NDArray[
     corners, uvs = uv_map.read(obj)
     if uvs is None or not len(arrays.triangles):
         return None
-    stretch = Stretch(arrays.points, arrays.triangles, arrays.polygons, corners.of_triangles(arrays))
+    stretch = Stretch(arrays.in_object, arrays.triangles, arrays.polygons, corners.of_triangles(arrays))
     stretch.update(uvs)
     return stretch.islands(labels)

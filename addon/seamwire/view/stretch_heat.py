@@ -127,7 +127,7 @@ class StretchHeat:
         arrays = self._arrays
         if self._stretch is None:
             corners, uvs = uv_map.read(obj)
-            self._stretch = Stretch(arrays.points, arrays.triangles, arrays.polygons, corners.of_triangles(arrays))
+            self._stretch = Stretch(arrays.in_object, arrays.triangles, arrays.polygons, corners.of_triangles(arrays))
         else:
             uvs = uv_map.read_uvs(obj)
         self._missing = uvs is None
