@@ -10,7 +10,19 @@ import bpy
 import numpy as np
 import pytest
 from mathutils import Matrix, Vector
-from scene import add_grid, add_layers, add_object, add_suzanne, edit, head, items_of, layer_kinds, plain, seams, snapshot
+from scene import (
+    add_grid,
+    add_layers,
+    add_object,
+    add_suzanne,
+    edit,
+    head,
+    items_of,
+    layer_kinds,
+    plain,
+    seams,
+    snapshot,
+)
 from seamwire.core.network import Network
 from seamwire.mesh.cut import CUTS
 from seamwire.mesh.edit_mesh import LABELS

@@ -16,6 +16,7 @@ import numpy as np
 from ..core import cutting
 from ..core.network import FacePoint, vertices_of
 from .edit_mesh import LABELS
+from .unwrap import JOINED, UNWRAPPED
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -93,8 +94,9 @@ class PickedPlaces:
 
     def __init__(self, cage: Cage, picks: Iterable[Pick]) -> None:
         bm = cage.bm
-        of_verts = bm.verts.layers.int.get(CUTS)
-        self._bm = bm
+        # First of all, as below.
+        _add_unwrapped(bm)
+        of_verts, _ = _cut_layers(bm)
         self._verts: dict[Pick, bmesh.types.BMVert] = {}
         self._around: dict[Pick, list[bmesh.types.BMVert]] = {}
         for pick in picks:
@@ -115,17 +117,16 @@ class PickedPlaces:
 
 
 def _verts_that_stay(
-    verts: Iterable[bmesh.types.BMVert], of_verts: bmesh.types.BMLayerItem | None
+    verts: Iterable[bmesh.types.BMVert], of_verts: bmesh.types.BMLayerItem
 ) -> list[bmesh.types.BMVert]:
     """Return the vertices near some that no cut made."""
     found = set(verts)
     waiting, rings = list(found), _RINGS
     while waiting and rings:
-        stay = [vert for vert in found if of_verts is None or not vert[of_verts]]
-        rings -= bool(stay)
+        rings -= any(not vert[of_verts] for vert in found)
         waiting = [vert for vert in {edge.other_vert(v) for v in waiting for edge in v.link_edges} if vert not in found]
         found.update(waiting)
-    return [vert for vert in found if of_verts is None or not vert[of_verts]]
+    return [vert for vert in found if not vert[of_verts]]
 
 
 def plan(cage: Cage, arrays: Arrays, curves: Iterable[tuple[int, NDArray[np.float64]]]) -> CutPlan:
@@ -202,6 +203,12 @@ def _cut_layers(bm: bmesh.types.BMesh) -> tuple[bmesh.types.BMLayerItem, bmesh.t
     return layers
 
 
+def _add_unwrapped(bm: bmesh.types.BMesh) -> None:
+    """See that unwrapping can be told where faces were joined."""
+    if bm.loops.layers.uv and bm.edges.layers.int.get(UNWRAPPED) is None:
+        bm.edges.layers.int.new(UNWRAPPED)
+
+
 def take_back(cage: Cage, edges: Iterable[Edge]) -> int:
     """Join what cuts along some edges parted, and return how many edges went.
 
@@ -209,6 +216,8 @@ def take_back(cage: Cage, edges: Iterable[Edge]) -> int:
     one edge that passes there and no wire has. Vertices, edges and faces have other numbers then.
     """
     bm = cage.bm
+    _add_unwrapped(bm)
+    _cut_layers(bm)
     gone = _join(bm, [edge for a, b in edges if (edge := bm.edges.get((bm.verts[a], bm.verts[b]))) is not None])
     for items in (bm.verts, bm.edges, bm.faces):
         items.index_update()
@@ -218,16 +227,16 @@ def take_back(cage: Cage, edges: Iterable[Edge]) -> int:
 
 def _join(bm: bmesh.types.BMesh, edges: Collection[bmesh.types.BMEdge]) -> int:
     """Join what cuts along some edges parted as `take_back` does, and return how many edges went."""
-    of_verts, of_edges, labels = (
-        bm.verts.layers.int.get(CUTS),
-        bm.edges.layers.int.get(CUTS),
-        bm.edges.layers.int.get(LABELS),
-    )
-    if of_verts is None or of_edges is None:
-        return 0
+    of_verts, of_edges = bm.verts.layers.int.get(CUTS), bm.edges.layers.int.get(CUTS)
+    labels, unwrapped = bm.edges.layers.int.get(LABELS), bm.edges.layers.int.get(UNWRAPPED)
     verts = {vert for edge in edges for vert in edge.verts if vert[of_verts]}
     count = len(bm.edges)
     cuts = [edge for edge in edges if edge[of_edges] and not any(face.hide for face in edge.link_faces)]
+    if unwrapped is not None:
+        for face in {face for edge in cuts for face in edge.link_faces}:
+            within = [edge for edge in face.edges if not edge.seam]
+            for edge in within or face.edges:
+                edge[unwrapped] = JOINED
     bmesh.ops.dissolve_edges(bm, edges=cuts, use_verts=False)
     gone = count - len(bm.edges)
     passed = [

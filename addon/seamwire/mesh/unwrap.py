@@ -4,6 +4,7 @@
 An island has changed where its UVs are torn over an edge that is no seam, or hang together over one that is, or have no area.
 Both can be meant, and unwrapping a flat island leaves a slit closed: a hidden layer of the edges holds what was a seam when
 they were unwrapped last, and while that is so, they are left alone. Being a layer it goes with Blender's undo, saving, joining.
+Where a cut was taken back, nothing is torn any more that was: the layer tells that too.
 """
 
 from __future__ import annotations
@@ -27,7 +28,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 UNWRAPPED = ".seamwire_unwrapped"
-"""The layer of the edges: twice a number that stands for the UV map, plus one where the edge was a seam; 0: not known."""
+"""The layer of the edges: twice a number that stands for the UV map, plus one where the edge was a seam; 0: not known, or `JOINED`."""
+JOINED = 1
+"""What it holds of edges around faces that were joined since: their corners may be of several islands in the map."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +59,7 @@ class _Map:
         self._triangles = self.corners.of_triangles(arrays)
         self._labels = labels_of(arrays)
         self.count = int(self._labels.max(initial=-1)) + 1
-        p = arrays.points[arrays.triangles]
+        p = arrays.in_object[arrays.triangles]
         self._areas = 0.5 * np.linalg.norm(np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1)
         self._of_face = np.full(int(self.corners.faces.max(initial=-1)) + 1, -1, dtype=np.int64)
         self._of_face[arrays.polygons] = self._labels
@@ -84,6 +87,7 @@ class _Map:
         self._families = families(self.count, islands[~torn])
         edges = corners.edges[pairs[:, 0]]
         odd = (torn != seams[edges]) & (known[edges] != self._signs(seams[edges]))
+        odd |= known[edges] == JOINED
         areas = uv_areas(self._uvs[self._triangles].astype(np.float64))
         changed = np.bincount(self._labels, areas, self.count) <= 0.0
         # An island without area on the model cannot have one in the map.
