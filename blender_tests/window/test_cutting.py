@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 from desk import Desk, drag, draw
 from scene import chain, seams, snapshot
+from seamwire.mesh import cut
 from seamwire.mesh.settings import settings
+from seamwire.operators.report import running
 from stored import agree, chains, session_on
 
 
@@ -67,6 +69,36 @@ def test_drawing_goes_on_after_a_cut_on_the_mesh_as_it_is(cutting: Desk) -> None
     assert agree(cutting.obj)
     assert set(chain(*range(72, 81))) <= set(seams(cutting.obj))
     assert {(own[0], own[-1]) for own in chains(cutting.obj)} == {(0, 44), (72, 80)}
+
+
+@pytest.mark.parametrize("where", ["before", "within"])
+def test_an_error_while_cutting_loses_no_wire_and_undo_leads_back(
+    cutting: Desk, monkeypatch: pytest.MonkeyPatch, where: str
+) -> None:
+    def fail(*_: object) -> None:
+        raise ZeroDivisionError("on purpose")
+
+    monkeypatch.setattr(cut, *{"before": ("plan", fail), "within": ("_split", fail)}[where])
+    session, ui = cutting.start(), cutting.ui
+    ui.click(cutting.at(0), ctrl=True)
+    ui.click(cutting.at(44))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    (drawing,) = running
+    ui.key("RET")
+    assert len(drawing.errors) == 1 and "on purpose" in drawing.errors[0]
+    assert cutting.left_clean()
+    if where == "before":
+        assert seams(cutting.obj), "the wire, along edges"
+        assert agree(cutting.obj)
+    # The report has opened below the mouse, and closes when that leaves it.
+    for place in (80, 8, 72):
+        ui.move(cutting.at(place))
+        ui.wait(redraw=True)
+    ui.key("Z", ctrl=True)
+    obj = bpy.data.objects[cutting.name]
+    obj.update_from_editmode()
+    assert seams(obj) == []
+    assert len(obj.data.vertices) == 81 and len(obj.data.edges) == 144
 
 
 def test_along_edges_nothing_is_cut(cutting: Desk) -> None:

@@ -6,7 +6,8 @@ Blender's own operations on the edit mesh do it, those that its knife is made of
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -147,13 +148,41 @@ def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = (), 
         The part of the mesh's area below which an island beside the cuts becomes part of a larger one.
     """
     bm = cage.bm
+    before = len(bm.verts)
+    with _changing(cage):
+        seams, seed_verts, uncut = _carry_out(bm, what, list(seeds))
+        new = [edge for edge in seams if not edge.seam]
+        for edge in seams:
+            edge.seam = True
+        if crumb > 0.0:
+            _join(bm, _crumb_borders(bm, new, crumb * sum(face.calc_area() for face in bm.faces)))
+            seams = [edge for edge in seams if edge.is_valid and edge.seam]
+    pairs = {(min(pair), max(pair)) for pair in ((edge.verts[0].index, edge.verts[1].index) for edge in seams)}
+    # Those inside a face that could not be cut went.
+    numbers = {seed: vert.index for seed, vert in seed_verts.items() if vert.is_valid}
+    return Cut(tuple(sorted(pairs)), numbers, len(bm.verts) - before, uncut)
+
+
+@contextmanager
+def _changing(cage: Cage) -> Iterator[None]:
+    """Number what there is anew after changes, and tell Blender of them, even where they end on an error."""
+    try:
+        yield
+    finally:
+        for items in (cage.bm.verts, cage.bm.edges, cage.bm.faces):
+            items.index_update()
+        bmesh.update_edit_mesh(cage.mesh, loop_triangles=True, destructive=True)
+
+
+def _carry_out(
+    bm: bmesh.types.BMesh, what: CutPlan, seeds: Sequence[int | FacePoint]
+) -> tuple[list[bmesh.types.BMEdge], dict[int | FacePoint, bmesh.types.BMVert], int]:
+    """Cut, and return the edges along the cuts, the seeds, and how many faces could not be cut."""
     # First of all: a new layer makes what was found before invalid.
     of_verts, of_edges = _cut_layers(bm)
-    seeds = list(seeds)
     seed_verts = {seed: bm.verts[seed] for seed in seeds if isinstance(seed, int)}
     at_points = {seed: what.node_at(seed.corners, seed.weights) for seed in seeds if isinstance(seed, FacePoint)}
     faces = {polygon: bm.faces[polygon] for polygon in what.across}
-    before = len(bm.verts)
     vert_of: dict[Node, bmesh.types.BMVert] = {}
     nodes = what.nodes()
     corners = {vertex: bm.verts[vertex] for node in nodes for vertex in node.vertices}
@@ -180,19 +209,7 @@ def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = (), 
         edges = _split(bm, faces[polygon], [(vert_of[one], vert_of[two]) for one, two in segments], of_edges)
         uncut += len(edges) < len(segments)
         seams += edges
-    new = [edge for edge in seams if not edge.seam]
-    for edge in seams:
-        edge.seam = True
-    if crumb > 0.0:
-        _join(bm, _crumb_borders(bm, new, crumb * sum(face.calc_area() for face in bm.faces)))
-        seams = [edge for edge in seams if edge.is_valid and edge.seam]
-    for items in (bm.verts, bm.edges, bm.faces):
-        items.index_update()
-    bmesh.update_edit_mesh(cage.mesh, loop_triangles=True, destructive=True)
-    pairs = {(min(pair), max(pair)) for pair in ((edge.verts[0].index, edge.verts[1].index) for edge in seams)}
-    # Those inside a face that could not be cut went.
-    numbers = {seed: vert.index for seed, vert in seed_verts.items() if vert.is_valid}
-    return Cut(tuple(sorted(pairs)), numbers, len(bm.verts) - before, uncut)
+    return seams, seed_verts, uncut
 
 
 def _cut_layers(bm: bmesh.types.BMesh) -> tuple[bmesh.types.BMLayerItem, bmesh.types.BMLayerItem]:
@@ -216,13 +233,10 @@ def take_back(cage: Cage, edges: Iterable[Edge]) -> int:
     one edge that passes there and no wire has. Vertices, edges and faces have other numbers then.
     """
     bm = cage.bm
-    _add_unwrapped(bm)
-    _cut_layers(bm)
-    gone = _join(bm, [edge for a, b in edges if (edge := bm.edges.get((bm.verts[a], bm.verts[b]))) is not None])
-    for items in (bm.verts, bm.edges, bm.faces):
-        items.index_update()
-    bmesh.update_edit_mesh(cage.mesh, loop_triangles=True, destructive=True)
-    return gone
+    with _changing(cage):
+        _add_unwrapped(bm)
+        _cut_layers(bm)
+        return _join(bm, [edge for a, b in edges if (edge := bm.edges.get((bm.verts[a], bm.verts[b]))) is not None])
 
 
 def _join(bm: bmesh.types.BMesh, edges: Collection[bmesh.types.BMEdge]) -> int:

@@ -130,6 +130,8 @@ class MESH_OT_seamwire_draw(bpy.types.Operator):
             return {"CANCELLED"}
         for told in self._chain.told:
             self.report({"INFO"}, told)
+        for error in self._chain.errors:
+            self.report({"ERROR"}, error)
         return {"FINISHED"} if self._chain.told else {"CANCELLED"}
 
     def _failed(self, error: Exception) -> set[str]:

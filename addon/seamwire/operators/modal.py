@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import time
+import traceback
 from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
@@ -51,6 +52,8 @@ class Chain:
         What was done, in words for Blender's undo history, each once.
     told
         What became of it, in words, for each step of undo.
+    errors
+        What ended on an error of ours after that, in words.
     """
 
     def __init__(self, context: bpy.types.Context) -> None:
@@ -72,6 +75,7 @@ class Chain:
         self.message = ""
         self.done: list[str] = []
         self.told: list[str] = []
+        self.errors: list[str] = []
         self.keys = bindings.of_user(self._manager).without(lambda key: navigation.takes(key, self._manager))
         self._cleanup = ExitStack()
         try:
@@ -189,7 +193,14 @@ class Chain:
         changed = {wire.id for wire in view.session.network.wires if id(wire) not in same}
         marked, cleared = self._write(view, adopt=True)
         self._drawn, self._saved, problem = None, False, ""
-        finished = self._finish_wires(view, before, changed)
+        try:
+            finished = self._finish_wires(view, before, changed)
+        except Exception as error:
+            # The wires are in the mesh by now, and undo is to lead back from what was left half done.
+            traceback.print_exc()
+            edited.forget(view)
+            finished = ""
+            self.errors.append(f"Cutting or sliding wires ended on an error, undo takes them back: {error}")
         if undo_step:
             if (marked or cleared) and context.mode == "EDIT_MESH":
                 problem = unwrap_after_chain(context)
