@@ -64,6 +64,19 @@ def test_the_way_across_a_gap_leads_from_the_end_to_the_target_along_edges() -> 
     assert gap.path == (22, 31, 40)
 
 
+def test_where_the_mesh_goes_on_hidden_there_is_no_border_to_meet() -> None:
+    points, triangles, edges = grid_points(SIZE), grid_triangles(SIZE), grid_edges(SIZE)
+    right = points[:, 0] == points[:, 0].max()
+    beside = edges[right[edges].all(axis=1)]
+    assert len(beside) == SIZE - 1
+    row = seams(range(4 * SIZE, 5 * SIZE - 1))
+    (gap,) = GapFinder(points, triangles, edges).find(row)
+    assert gap.target == 5 * SIZE - 1
+    assert GapFinder(points, triangles, edges, beside).find(row) == []
+    # A cut that leads up to where it is hidden may go on there.
+    assert GapFinder(points, triangles, edges, beside).find(seams(range(4 * SIZE, 5 * SIZE))) == []
+
+
 def test_islands_tell_of_gaps_where_they_are_asked_for() -> None:
     finder = GapFinder(grid_points(SIZE), grid_triangles(SIZE), grid_edges(SIZE))
     maker = IslandMaker(grid_triangles(SIZE), lambda _: np.zeros(2 * (SIZE - 1) ** 2, dtype=np.int32), gaps=finder)

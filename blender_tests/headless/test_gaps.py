@@ -47,6 +47,19 @@ def test_longer_ones_stay_open_unless_they_are_asked_for(nearly: bpy.types.Objec
     assert snapshot(nearly) == before
 
 
+@pytest.mark.parametrize("hidden", [False, True])
+def test_the_edge_of_what_is_hidden_is_no_border(hidden: bool) -> None:
+    obj = add_grid(9)
+    edit()
+    mark(obj, chain(*range(36, 43)))
+    bm = bmesh.from_edit_mesh(obj.data)
+    for face in list(bm.faces):
+        if face.calc_center_median().x > 0.75:
+            face.hide_set(True) if hidden else bm.faces.remove(face)
+    bmesh.update_edit_mesh(obj.data)
+    assert bpy.ops.mesh.seamwire_close_gaps() == ({"CANCELLED"} if hidden else {"FINISHED"})
+
+
 def test_where_the_mesh_is_mirrored_both_sides_are_closed() -> None:
     obj = add_grid(9)
     edit()

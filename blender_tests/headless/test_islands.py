@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Islands that seams make: those that are no discs are selected, all are stored."""
 
+import math
+
 import bmesh
 import bpy
 import pytest
-from scene import add_grid, edit, seams, snapshot
+from scene import add_grid, add_object, edit, seams, snapshot
 
 SETS = ".sculpt_face_set"
 
@@ -108,3 +110,52 @@ def test_hidden_faces_keep_what_they_have_and_nothing_visible_is_said() -> None:
     bpy.ops.mesh.hide()
     with pytest.raises(RuntimeError, match="No face is visible"):
         bpy.ops.mesh.seamwire_store_islands(kind="ATTRIBUTE")
+
+
+def test_hidden_faces_that_have_nothing_yet_become_no_island() -> None:
+    obj = add_grid(9)
+    edit()
+    mark(obj, halves)
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.faces.ensure_lookup_table()
+    bm.faces[0].hide_set(True)
+    bmesh.update_edit_mesh(obj.data)
+    assert bpy.ops.mesh.seamwire_store_islands(kind="ATTRIBUTE") == {"FINISHED"}
+    assert {number for number, _ in numbers(obj, "island")} == {-1, 0, 1}
+    assert bpy.ops.mesh.seamwire_store_islands(kind="MATERIALS") == {"FINISHED"}
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.faces.ensure_lookup_table()
+    assert {slot is None for slot in obj.data.materials} == {True, False}
+    assert [obj.data.materials[face.material_index] is None for face in bm.faces] == [True] + [False] * 63
+    if bpy.app.version >= (3, 6, 0):
+        assert bpy.ops.mesh.seamwire_store_islands(kind="FACE_SETS") == {"FINISHED"}
+        assert sorted({number for number, _ in numbers(obj, SETS)}) == [1, 2, 3]
+
+
+@pytest.mark.parametrize(("domain", "kind"), [("POINT", "INT"), ("FACE", "FLOAT")])
+def test_an_attribute_of_the_users_is_not_taken_for_that_of_the_islands(domain: str, kind: str) -> None:
+    obj = add_grid(5)
+    obj.data.attributes.new("island", kind, domain)
+    edit()
+    before = snapshot(obj)
+    with pytest.raises(RuntimeError, match="has an attribute 'island' of another kind"):
+        bpy.ops.mesh.seamwire_store_islands(kind="ATTRIBUTE")
+    assert snapshot(obj) == before
+
+
+def test_what_cannot_be_read_is_said() -> None:
+    operators = (
+        bpy.ops.mesh.seamwire_store_islands,
+        bpy.ops.mesh.seamwire_select_islands_to_cut,
+        bpy.ops.mesh.seamwire_worst_island,
+        bpy.ops.mesh.seamwire_suggest,
+    )
+    for x, faces, words in ((1.0, [], "No face is visible"), (math.nan, [(0, 1, 2)], "not finite")):
+        obj = add_object([(0, 0, 0), (1, 0, 0), (x, 1, 0)], faces, [(0, 1), (1, 2)])
+        obj.data.uv_layers.new()
+        edit()
+        for operator in operators:
+            with pytest.raises(RuntimeError, match=words):
+                operator()
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.data.objects.remove(obj)

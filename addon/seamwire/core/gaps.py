@@ -24,6 +24,9 @@ MOST_LOOKED_AT = 50_000
 """Vertices around an end: one from which nothing is met among so many lies in the middle of nowhere."""
 
 
+_NO_EDGES = np.empty((0, 2), dtype=np.int32)
+
+
 @dataclass(frozen=True)
 class Gap:
     """Where a cut ends, and what it nearly meets.
@@ -57,14 +60,24 @@ class GapFinder:
         (m, 3) what the polygons are divided into.
     edges
         (e, 2) edges of the polygons.
+    partly_hidden
+        (h, 2) those beside which there is more of the mesh: cuts may lead on there, and have not met the border.
     """
 
-    def __init__(self, points: NDArray[np.float64], triangles: NDArray[np.int32], edges: NDArray[np.int32]) -> None:
-        self._points, self._triangles, self._edges = points, triangles, edges
+    def __init__(
+        self,
+        points: NDArray[np.float64],
+        triangles: NDArray[np.int32],
+        edges: NDArray[np.int32],
+        partly_hidden: NDArray[np.int32] = _NO_EDGES,
+    ) -> None:
+        self._points, self._triangles, self._edges, self._partly_hidden = points, triangles, edges, partly_hidden
 
     @functools.cached_property
     def _border(self) -> NDArray[np.int32]:
-        return border_edges(self._triangles, self._edges)
+        around = border_edges(self._triangles, self._edges)
+        hidden = set(map(frozenset, self._partly_hidden.tolist()))
+        return around[[frozenset(edge) not in hidden for edge in around.tolist()]]
 
     @functools.cached_property
     def _mesh(self) -> _Ways:
@@ -84,7 +97,7 @@ class GapFinder:
             Vertices around an end.
         """
         points, cuts = self._points, _Ways(self._points, np.concatenate([seams, self._border]))
-        on_border = set(self._border.ravel().tolist())
+        on_border = {*self._border.ravel().tolist(), *self._partly_hidden.ravel().tolist()}
         found: dict[frozenset[int], Gap] = {}
         for chain in seam_chains(seams):
             length = float(np.linalg.norm(np.diff(points[chain], axis=0), axis=1).sum())
@@ -98,11 +111,20 @@ class GapFinder:
 
 def border_edges(triangles: NDArray[np.int32], edges: NDArray[np.int32]) -> NDArray[np.int32]:
     """Return those edges, (b, 2), that one triangle alone has."""
+    return edges[triangles_at(triangles, edges) == 1]
+
+
+def triangles_at(triangles: NDArray[np.int32], edges: NDArray[np.int32]) -> NDArray[np.int64]:
+    """Return how many triangles each edge has, (e,)."""
     sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
     count = 1 + int(max(triangles.max(initial=0), edges.max(initial=0)))
     keys, counts = np.unique(sides[:, 0].astype(np.int64) * count + sides[:, 1], return_counts=True)
     ends = np.sort(edges, axis=1).astype(np.int64)
-    return edges[np.isin(ends[:, 0] * count + ends[:, 1], keys[counts == 1])]
+    own = ends[:, 0] * count + ends[:, 1]
+    if not len(keys):
+        return np.zeros(len(edges), dtype=np.int64)
+    at = np.minimum(np.searchsorted(keys, own), len(keys) - 1)
+    return np.where(keys[at] == own, counts[at], 0)
 
 
 class _Ways:

@@ -57,7 +57,7 @@ def best_finish(polygons: NDArray[np.int32]) -> Finish:
 
 def _most_are_quads(polygons: NDArray[np.int32]) -> bool:
     _, triangles = np.unique(polygons, return_counts=True)
-    return bool((triangles > 1).mean() > 0.5)
+    return bool((triangles > 1).sum() > 0.5 * len(triangles))
 
 
 def spread_of(angle: float) -> float:

@@ -165,7 +165,7 @@ def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = (), 
 
 @contextmanager
 def _changing(cage: Cage) -> Iterator[None]:
-    """Number what there is anew after changes, and tell Blender of them, even where they end on an error."""
+    """Tell Blender of changes, and number what there is anew, even where they end on an error."""
     try:
         yield
     finally:

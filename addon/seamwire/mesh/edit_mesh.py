@@ -17,6 +17,7 @@ import bpy
 import numpy as np
 
 from ..core import native
+from ..core.gaps import triangles_at
 from ..core.network import vertices_of
 from ..core.triangulation import without_flat_triangles
 from ..core.wire_labels import EdgeLabels
@@ -29,6 +30,10 @@ if TYPE_CHECKING:
 
 LABELS = ".seamwire"
 """The layer of the edges that holds their labels, see `core.wire_labels`. Blender does not show names that begin so."""
+
+
+class NothingVisibleError(ValueError):
+    """There is nothing of the mesh to work on: it has none, or all of it is hidden."""
 
 
 @dataclass(frozen=True)
@@ -49,6 +54,8 @@ class Arrays:
         (3, 3) takes `points` to object coordinates, see `in_object`.
     seams
         (k, 2) those of the visible edges that are seams.
+    partly_hidden
+        (h, 2) those of the visible edges that hidden faces have too.
     """
 
     points: NDArray[np.float64]
@@ -57,6 +64,7 @@ class Arrays:
     edges: NDArray[np.int32]
     to_object: NDArray[np.float64]
     seams: NDArray[np.int32]
+    partly_hidden: NDArray[np.int32]
 
     @property
     def in_object(self) -> NDArray[np.float64]:
@@ -276,7 +284,7 @@ def read(obj: bpy.types.Object) -> Arrays:
 
     Raises
     ------
-    ValueError
+    NothingVisibleError
         Where no edge is visible.
     """
     obj.update_from_editmode()  # the mesh then has the edit mesh's data, by the same numbers
@@ -304,7 +312,7 @@ def read_evaluated(obj: bpy.types.Object) -> tuple[Arrays, NDArray[np.bool_]]:
 
     Raises
     ------
-    ValueError
+    NothingVisibleError
         Where no edge is visible.
     """
     evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
@@ -326,14 +334,16 @@ def _arrays(
     seams = edges[visible & columns.flags("edges", "use_seam")]
     edges = edges[visible]
     if len(edges) == 0:
-        raise ValueError("No edge of the mesh is visible: there is nothing to draw on")
+        raise NothingVisibleError("No edge of the mesh is visible: there is nothing to draw on")
     hidden = columns.flags("polygons", "hide")
     triangles, polygons = _cut(mesh, columns.corners(), points)
+    partly_hidden = edges[:0]
     if hidden.any():
         visible = ~hidden[polygons]
+        partly_hidden = edges[triangles_at(triangles[~visible], edges) > 0]
         triangles, polygons = triangles[visible], polygons[visible]
     stretch = visible_stretch(obj.matrix_world)
-    return Arrays(points @ stretch, triangles, polygons, edges, np.linalg.inv(stretch), seams)
+    return Arrays(points @ stretch, triangles, polygons, edges, np.linalg.inv(stretch), seams, partly_hidden)
 
 
 def _on_basis(obj: bpy.types.Object) -> bool:

@@ -25,6 +25,14 @@ _HUES = [place / 12 for place in places_of(12)]
 """Of the materials, around the circle of hues."""
 
 
+def read(obj: bpy.types.Object) -> edit_mesh.Arrays:
+    """Read the edit mesh of an object; raises `edit_mesh.NothingVisibleError` where no face is visible."""
+    arrays = edit_mesh.read(obj)
+    if not len(arrays.triangles):
+        raise edit_mesh.NothingVisibleError("No face is visible")
+    return arrays
+
+
 def labels_of(arrays: edit_mesh.Arrays) -> NDArray[np.int32]:
     """Return the island of each triangle, (m,): 0, 1, ..., largest first."""
     core = native.load()
@@ -43,9 +51,9 @@ def faces_to_cut(obj: bpy.types.Object) -> tuple[NDArray[np.int32], NDArray[np.i
     Raises
     ------
     ValueError, native.NativeError
-        Where no edge is visible, or the compiled part is missing.
+        Where no face is visible, a coordinate is no number, or the compiled part is missing.
     """
-    arrays = edit_mesh.read(obj)
+    arrays = read(obj)
     labels = labels_of(arrays)
     missing = CutCounter(arrays.triangles).missing(labels, arrays.seams)
     return np.unique(arrays.polygons[missing[labels] > 0]), missing[missing > 0]
@@ -60,27 +68,32 @@ def store(obj: bpy.types.Object, kind: str) -> int:
         In edit mode.
     kind
         ``ATTRIBUTE``: as the face attribute `ATTRIBUTE`, from 0, largest first. ``FACE_SETS``: as the sculpt mode's face
-        sets, from 1. ``MATERIALS``: as materials of their own, one a hue for neighbors to differ, in new slots.
+        sets, from 1. ``MATERIALS``: as materials of their own, one a hue for neighbors to differ, in new slots. Hidden faces
+        keep what they have; where they had nothing, that is -1, a set of their own, an empty slot.
 
     Raises
     ------
     ValueError, native.NativeError
-        Where no edge is visible, or the compiled part is missing.
+        Where no face is visible, a coordinate is no number, the attribute's name is taken, or the compiled part is missing.
     """
-    arrays = edit_mesh.read(obj)
+    arrays = read(obj)
     labels = labels_of(arrays)
     count = int(labels.max(initial=-1)) + 1
-    numbers = labels + (kind == "FACE_SETS")
+    polygons, first = np.unique(arrays.polygons, return_index=True)
     if kind == "MATERIALS":
         hues = choose_hues(np.full(count, -1), neighbours(arrays.triangles, labels, arrays.seams), len(_HUES))
+        if not obj.data.materials and len(polygons) < len(bmesh.from_edit_mesh(obj.data).faces):
+            obj.data.materials.append(None)
         numbers = np.array(_material_slots(obj, sorted(set(hues.tolist()))))[hues[labels]]
+    else:
+        numbers = labels + (kind == "FACE_SETS")
     bm = bmesh.from_edit_mesh(obj.data)
     layer = None
-    if kind != "MATERIALS":
-        name = ATTRIBUTE if kind == "ATTRIBUTE" else ".sculpt_face_set"
-        layer = bm.faces.layers.int.get(name) or bm.faces.layers.int.new(name)
+    if kind == "ATTRIBUTE":
+        layer = _face_layer(obj, bm, ATTRIBUTE, hidden=-1)
+    elif kind == "FACE_SETS":
+        layer = _face_layer(obj, bm, ".sculpt_face_set", hidden=count + 1)
     bm.faces.ensure_lookup_table()
-    polygons, first = np.unique(arrays.polygons, return_index=True)
     for face, number in zip(polygons.tolist(), numbers[first].tolist(), strict=True):
         if layer is None:
             bm.faces[face].material_index = number
@@ -88,6 +101,21 @@ def store(obj: bpy.types.Object, kind: str) -> int:
             bm.faces[face][layer] = number
     bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
     return count
+
+
+def _face_layer(obj: bpy.types.Object, bm: bmesh.types.BMesh, name: str, hidden: int) -> bmesh.types.BMLayerItem:
+    """Return the layer of the faces for whole numbers of this name; raises ValueError where an attribute of another kind has it."""
+    layer = bm.faces.layers.int.get(name)
+    if layer is not None:
+        return layer
+    other = obj.data.attributes.get(name)
+    if other is not None:
+        kind = f"{other.domain.lower()}, {other.data_type.lower().replace('_', ' ')}"
+        raise ValueError(f"{obj.name} has an attribute {name!r} of another kind ({kind}): rename it")
+    layer = bm.faces.layers.int.new(name)
+    for face in bm.faces:
+        face[layer] = hidden
+    return layer
 
 
 def _material_slots(obj: bpy.types.Object, hues: list[int]) -> list[int]:
@@ -126,7 +154,7 @@ class Worst:
 
 
 def worst_island(obj: bpy.types.Object, kind: str) -> Worst | None:
-    """Find the island of an edit mesh that is stretched most; None: it has no UV map, or no visible face.
+    """Find the island of an edit mesh that is stretched most; None: it has no UV map.
 
     Parameters
     ----------
@@ -138,9 +166,9 @@ def worst_island(obj: bpy.types.Object, kind: str) -> Worst | None:
     Raises
     ------
     ValueError, native.NativeError
-        Where no edge is visible, or the compiled part is missing.
+        Where no face is visible, a coordinate is no number, or the compiled part is missing.
     """
-    arrays = edit_mesh.read(obj)
+    arrays = read(obj)
     labels = labels_of(arrays)
     islands = stretch_of(obj, arrays, labels)
     if islands is None:

@@ -68,7 +68,8 @@ class MESH_OT_seamwire_close_gaps(bpy.types.Operator):
             except ValueError:
                 continue  # nothing of it is visible
             arrays = mesh.arrays
-            gaps = GapFinder(arrays.points, arrays.triangles, arrays.edges).find(arrays.seams, self.longest)
+            finder = GapFinder(arrays.points, arrays.triangles, arrays.edges, arrays.partly_hidden)
+            gaps = finder.find(arrays.seams, self.longest)
             if gaps:
                 found[mesh] = gaps
         return found

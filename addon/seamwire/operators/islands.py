@@ -3,14 +3,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import bpy
 
-from .report import count, in_edit_mode
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
+from .report import count, for_each_object, in_edit_mode
 
 
 class MESH_OT_seamwire_select_islands_to_cut(bpy.types.Operator):
@@ -30,8 +25,8 @@ class MESH_OT_seamwire_select_islands_to_cut(bpy.types.Operator):
         from ..mesh import edit_mesh
         from ..mesh.seam_islands import faces_to_cut
 
-        found = _for_each(self, context, faces_to_cut)
-        if found is None:
+        found = for_each_object(self, context, faces_to_cut)
+        if not found:
             return {"CANCELLED"}
         bpy.ops.mesh.select_all(action="DESELECT")
         for obj, (faces, _) in found.items():
@@ -73,32 +68,11 @@ class MESH_OT_seamwire_store_islands(bpy.types.Operator):
         if self.kind == "FACE_SETS" and bpy.app.version < (3, 6, 0):
             self.report({"ERROR"}, "Face sets can be stored from Blender 3.6 on")
             return {"CANCELLED"}
-        found = _for_each(self, context, lambda obj: store(obj, self.kind))
-        if found is None:
+        found = for_each_object(self, context, lambda obj: store(obj, self.kind))
+        if not found:
             return {"CANCELLED"}
         self.report({"INFO"}, f"{count(sum(found.values()), 'island')} stored")
         return {"FINISHED"}
-
-
-def _for_each(
-    operator: bpy.types.Operator, context: bpy.types.Context, work: Callable[[bpy.types.Object], object]
-) -> dict[bpy.types.Object, object] | None:
-    """Return what work gives for each object in edit mode of which something is visible; None, and say so, for none."""
-    from ..core.native import NativeError
-
-    found = {}
-    for obj in context.objects_in_mode_unique_data:
-        try:
-            found[obj] = work(obj)
-        except NativeError as error:
-            operator.report({"ERROR"}, str(error))
-            return None
-        except ValueError:
-            continue  # nothing of it is visible
-    if not found:
-        operator.report({"ERROR"}, "No face is visible")
-        return None
-    return found
 
 
 def register() -> None:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -11,6 +11,8 @@ if TYPE_CHECKING:
     import bpy
 
     from .modal import Chain
+
+_Found = TypeVar("_Found")
 
 running: list[Chain] = []
 """The chain that is being drawn."""
@@ -25,6 +27,29 @@ def in_edit_mode(operator: type[bpy.types.Operator], context: bpy.types.Context)
         return True
     operator.poll_message_set("Needs a mesh in Edit Mode")
     return False
+
+
+def for_each_object(
+    operator: bpy.types.Operator, context: bpy.types.Context, work: Callable[[bpy.types.Object], _Found]
+) -> dict[bpy.types.Object, _Found]:
+    """Return what work gives for each object in edit mode of which something is visible; nothing, and say why, for none."""
+    from ..core.native import NativeError
+    from ..mesh.edit_mesh import NothingVisibleError
+
+    found, problems = {}, []
+    for obj in context.objects_in_mode_unique_data:
+        try:
+            found[obj] = work(obj)
+        except NativeError as error:
+            operator.report({"ERROR"}, str(error))
+            return {}
+        except NothingVisibleError:
+            continue
+        except ValueError as error:
+            problems.append(str(error))
+    for problem in problems if found else problems[:1] or ["No face is visible"]:
+        operator.report({"WARNING"} if found else {"ERROR"}, problem)
+    return found
 
 
 def count(number: int, what: str, several: str = "") -> str:

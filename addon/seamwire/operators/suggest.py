@@ -72,7 +72,11 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         max=math.pi,
     )
     islands: bpy.props.IntProperty(
-        name="Islands", description="How many islands there are to be, each a disc", default=8, min=1, soft_max=64
+        name="Islands",
+        description="How many islands of each object there are to be, each a disc",
+        default=8,
+        min=1,
+        soft_max=64,
     )
     stretch: bpy.props.FloatProperty(
         name="Stretch",

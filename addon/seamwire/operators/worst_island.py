@@ -6,7 +6,7 @@ from __future__ import annotations
 import bpy
 
 from ..mesh.settings import STRETCH_ITEMS, settings
-from .report import in_edit_mode
+from .report import for_each_object, in_edit_mode
 
 OPERATOR = "mesh.seamwire_worst_island"
 
@@ -32,32 +32,24 @@ class MESH_OT_seamwire_worst_island(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Select it, of all objects in edit mode, in the user's select mode."""
-        from ..core.native import NativeError
         from ..mesh import edit_mesh
         from ..mesh.seam_islands import worst_island
 
         if not self.properties.is_property_set("kind") and settings(context).heat == "AREA":
             self.kind = "AREA"
-        found = []
-        for obj in context.objects_in_mode_unique_data:
-            try:
-                worst = worst_island(obj, self.kind)
-            except NativeError as error:
-                self.report({"ERROR"}, str(error))
-                return {"CANCELLED"}
-            except ValueError:
-                continue  # nothing of it is visible
-            if worst is not None:
-                found.append((worst.value, obj, worst))
+        found = for_each_object(self, context, lambda obj: worst_island(obj, self.kind))
         if not found:
+            return {"CANCELLED"}
+        with_uvs = {obj: worst for obj, worst in found.items() if worst is not None}
+        if not with_uvs:
             self.report({"ERROR"}, "No visible face has UVs: unwrap first")
             return {"CANCELLED"}
-        value, obj, worst = max(found, key=lambda one: one[0])
+        obj, worst = max(with_uvs.items(), key=lambda one: one[1].value)
         bpy.ops.mesh.select_all(action="DESELECT")
         edit_mesh.select_faces(obj, worst.faces)
         if context.area is not None and context.area.type == "VIEW_3D" and context.region.type == "WINDOW":
             bpy.ops.view3d.view_selected("INVOKE_DEFAULT")
-        self.report({"INFO"}, f"{obj.name}: stretched {2.0**value:.2f} times, worst of {worst.count} islands")
+        self.report({"INFO"}, f"{obj.name}: stretched {2.0**worst.value:.2f} times, worst of {worst.count} islands")
         return {"FINISHED"}
 
 

@@ -69,7 +69,7 @@ class ObjectView:
         self.mesh = ObjectSession(obj, settings.along)
         self.mesh.follow(settings)
         arrays = self.mesh.arrays
-        gaps = GapFinder(arrays.points, arrays.triangles, arrays.edges)
+        gaps = GapFinder(arrays.points, arrays.triangles, arrays.edges, arrays.partly_hidden)
         self._islands = islands.IslandMaker(arrays.triangles, self.mesh.make_live.face_segments, HUES, gaps)
         self.views = MetricViews(arrays, native.load(), self.mesh.make_live.wait)
         self._picker = Picker(self.mesh.cage.bm, arrays, self.mesh.plain_seams)
