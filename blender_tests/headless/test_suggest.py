@@ -273,6 +273,31 @@ def test_where_no_cut_lowers_the_worst_stretch_nothing_changes() -> None:
     assert snapshot(obj) == before
 
 
+@pytest.mark.parametrize("limit", ["BEND", "ISLANDS", "STRETCH", "DISCS"])
+def test_only_islands_with_selected_faces_are_parted(limit: str) -> None:
+    obj = add_suzanne(1)
+    edit()
+    bpy.ops.mesh.select_all(action="DESELECT")
+    with pytest.raises(RuntimeError, match="No face is selected"):
+        bpy.ops.mesh.seamwire_suggest(limit=limit, selected=True)
+    labels = seam_islands.labels_of(edit_mesh.read(obj))
+    head_and_eyes = islands(obj)
+    assert head_and_eyes == 3
+    polygons = edit_mesh.read(obj).polygons
+    head = set(polygons[labels == 0].tolist())
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.faces.ensure_lookup_table()
+    bm.faces[min(head)].select = True
+    bmesh.update_edit_mesh(obj.data)
+    options = {"islands": 4} if limit == "ISLANDS" else {}
+    bpy.ops.mesh.seamwire_suggest(limit=limit, selected=True, stretch=1.3, **options)
+    bm = bmesh.from_edit_mesh(obj.data)
+    assert seams(obj)
+    assert {face.index for edge in bm.edges if edge.seam for face in edge.link_faces} <= head
+    assert islands(obj) == {"ISLANDS": 2 + 4, "DISCS": 3}.get(limit, islands(obj))
+    assert limit == "DISCS" or islands(obj) > head_and_eyes
+
+
 def test_seams_that_are_there_stay_and_are_no_wires(suzanne: bpy.types.Object) -> None:
     bpy.ops.mesh.seamwire_mark(loops="0-8" if "0-8" in edges(suzanne) else edges(suzanne)[0])
     before = seams(suzanne)

@@ -112,7 +112,7 @@ seeds, most_seeds : int
     To begin with, those included; and at most, where the surface is not cut into discs yet.
 density : (n,) array_like of float, optional
     How many times denser seeds are at each vertex than elsewhere. Where it is 0 there are those of `seeds_at` alone, and
-    no wires from them.
+    no wire comes there.
 images : (n,) array_like of int, optional
     The mirror image of each vertex, itself or -1 where it has none: seeds come and wires go in pairs.
 seams : (k, 2) array_like of int, optional

@@ -255,6 +255,8 @@ TEST(SeamPlanner, KeptWiresStayAndOnlyWhatIsToBeSmallerIsParted) {
       for (const std::int32_t seed : {wire.from, wire.to}) {
         EXPECT_TRUE(within.density[seed] > 0.0 || std::ranges::count(within.seeds_at, seed) > 0);
       }
+      if (std::ranges::count(first.wires, wire.vertices, &PlannedWire::vertices) > 0) continue;
+      for (const std::int32_t v : wire.vertices) EXPECT_GT(within.density[v], 0.0);
     }
   }
 }
@@ -467,6 +469,30 @@ TEST(SeamPlanner, PrefersWhatIsOutOfSight) {
     return below(both, sphere.points.size());
   };
   EXPECT_GT(in_bowl(-1.0), in_bowl(1.0) + 0.1);
+}
+
+TEST(SeamPlanner, WhereNoSeedMayBeNothingIsCutAndTheRestIs) {
+  // Two spheres; the larger one, which is no disc either, is left alone.
+  shapes::Mesh both = shapes::icosphere(3);
+  const std::size_t large = both.points.size();
+  const shapes::Mesh small = shapes::torus(24, 12);
+  for (Vector& p : both.points) p *= 4.0;
+  for (const Vector& p : small.points) both.points.emplace_back(p + Vector(20.0, 0.0, 0.0));
+  for (Triangle t : small.triangles) {
+    for (std::int32_t& v : t) v += static_cast<std::int32_t>(large);
+    both.triangles.push_back(t);
+  }
+  const auto surface = shared(both.surface());
+  SeamPlannerOptions options;
+  options.density.assign(both.points.size(), 1.0);
+  std::fill_n(options.density.begin(), large, 0.0);
+  options.seeds = 1;
+  const SeamPlan plan = SeamPlanner(surface, options).plan({.max_spread = 2.0});
+  EXPECT_EQ(plan.not_discs, 1U) << "the sphere";
+  EXPECT_FALSE(plan.wires.empty());
+  for (const PlannedWire& wire : plan.wires) {
+    for (const std::int32_t v : wire.vertices) EXPECT_GE(v, static_cast<std::int32_t>(large));
+  }
 }
 
 TEST(SeamPlanner, ComponentsAndWhatIsOddAreCutToo) {

@@ -23,7 +23,7 @@ from ..core.suggestion import (
     spreads,
 )
 from .object_session import ObjectSession, mirror_axes
-from .seam_islands import Worst, stretch_of, worst_island
+from .seam_islands import Worst, labels_of, stretch_of, worst_island
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -65,6 +65,8 @@ class Suggestion:
         How many seeds there are to begin with; of several such numbers the one that makes the better seams.
     finish
         What becomes the seam of wires across the surface; None: as is best for the mesh.
+    selected
+        Whether only islands with selected faces are parted.
 
     Attributes
     ----------
@@ -80,11 +82,17 @@ class Suggestion:
     Raises
     ------
     ValueError, native.NativeError
-        Where no edge is visible, or the compiled part is missing.
+        Where no edge is visible, no face is selected that has to be, or the compiled part is missing.
     """
 
     def __init__(
-        self, obj: bpy.types.Object, along: Along | None, symmetric: bool, seeds: Sequence[int], finish: Finish | None
+        self,
+        obj: bpy.types.Object,
+        along: Along | None,
+        symmetric: bool,
+        seeds: Sequence[int],
+        finish: Finish | None,
+        selected: bool = False,
     ) -> None:
         self._core = native.load()
         self.mesh = ObjectSession(obj)
@@ -97,12 +105,25 @@ class Suggestion:
         corners = self.mesh.arrays.points[self.mesh.arrays.triangles]
         self._areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
         self._images: NDArray[np.int32] | None = None
+        self._within: NDArray[np.bool_] | None = None
+        self._others = 0
+        if selected:
+            labels = labels_of(self.mesh.arrays)
+            parted = np.unique(labels[self._is_selected()])
+            if not len(parted):
+                raise ValueError("No face is selected")
+            self._within = np.isin(labels, parted)
+            self._others = int(labels.max()) + 1 - len(parted)
         self._planners: list[seamwire_core.SeamPlanner] = []
         self._limits: NDArray[np.float64] | None = None
         self.plan: seamwire_core.SeamPlan | None = None
         self.wires: list[Wire] = []
         self.partings: list[seamwire_core.SeamPlan] = []
         self.marked = 0
+
+    def _is_selected(self) -> NDArray[np.bool_]:
+        """Return which triangles are of selected faces, (m,)."""
+        return np.array([face.select for face in self.mesh.cage.bm.faces], dtype=bool)[self.mesh.arrays.polygons]
 
     def prepare(self, progress: Callable[[float], bool]) -> None:
         """Find the wires to choose from; any thread may.
@@ -114,7 +135,18 @@ class Suggestion:
         """
         axes = (self._mirror or self.mesh.session.symmetric_axes)[:1] if self._symmetric else ()
         self._images = self.mesh.session.partners(axes) if axes else None
-        self._planners = self._find_wires(self._seeds, progress, seams=self.mesh.arrays.seams)
+        seeding = {"seams": self.mesh.arrays.seams}
+        if self._within is not None:
+            seeding["density"] = density = self._density(self._within)
+            if self._images is not None and not np.array_equal(density, density[self._images] * (self._images >= 0)):
+                self._images = None  # the selected islands are not symmetric
+        self._planners = self._find_wires(self._seeds, progress, **seeding)
+
+    def _density(self, is_part: NDArray[np.bool_]) -> NDArray[np.float64]:
+        """Return the density of seeds that are to be in a part of the triangles alone."""
+        density = np.zeros(len(self.mesh.arrays.points))
+        density[self.mesh.arrays.triangles[is_part]] = 1.0
+        return density
 
     def _find_wires(
         self, seeds: Sequence[int], progress: Callable[[float], bool], **seeding: NDArray[np.generic]
@@ -155,7 +187,7 @@ class Suggestion:
     ) -> None:
         """Choose wires of some planners, else of those prepared; any thread may.
 
-        `islands`, `straightened` and `kept` are those of ``seamwire_core.SeamPlanner.plan``.
+        `islands`, of those that are to be parted, `straightened` and `kept` are those of ``seamwire_core.SeamPlanner.plan``.
         """
         planners = planners or self._planners
         if self._limits is None:
@@ -163,7 +195,7 @@ class Suggestion:
         plans = [
             planner.plan(
                 max_spread=self._limits,
-                islands=islands,
+                islands=islands and islands + self._others,
                 crumb=CRUMB,
                 crumb_of_island=self._crumb_of_island,
                 kept=list(kept),
@@ -208,7 +240,12 @@ class Suggestion:
         """Return the islands that the UV map stretches more than so many octaves, by angle or area, see `core.stretch`."""
         assert self.plan is not None
         stretch = stretch_of(self.mesh.obj, self.mesh.arrays, self.plan.islands)
-        return [] if stretch is None else np.flatnonzero(np.maximum(stretch.angle, stretch.area) > most).tolist()
+        if stretch is None:
+            return []
+        is_stretched = np.maximum(stretch.angle, stretch.area) > most
+        if self._within is not None:
+            is_stretched[self.plan.islands[~self._within]] = False
+        return np.flatnonzero(is_stretched).tolist()
 
     def narrow(self, stretched: Sequence[int], progress: Callable[[float], bool]) -> None:
         """Suggest again, with smaller islands in place of some; any thread may.
@@ -240,12 +277,12 @@ class Suggestion:
         progress: Callable[[float], bool],
     ) -> list[seamwire_core.SeamPlanner]:
         """Return a planner with the seeds of wires and some more, in a part of the triangles alone."""
-        density = np.zeros(len(self.mesh.arrays.points))
-        density[self.mesh.arrays.triangles[is_part]] = 1.0
         seeds_at = np.unique(np.array([wire.seeds for wire in wires], dtype=np.int32))
         edges = [np.stack([wire.vertices[:-1], wire.vertices[1:]], axis=1) for wire in wires]
         seams = np.concatenate([self.mesh.arrays.seams, *edges])
-        return self._find_wires((len(seeds_at) + seeds,), progress, density=density, seeds_at=seeds_at, seams=seams)
+        return self._find_wires(
+            (len(seeds_at) + seeds,), progress, density=self._density(is_part), seeds_at=seeds_at, seams=seams
+        )
 
     def straighten(self, plan: seamwire_core.SeamPlan, fixed: set[int], progress: Callable[[float], bool]) -> None:
         """Suggest the wires of a plan with direct ones in place of detours, but not at fixed seeds; any thread may."""

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -48,13 +49,20 @@ class Stepwise:
         raise NotImplementedError
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Take all steps at once."""
+        """Take all steps at once, as redoing does: the mouse pointer shows the progress of each."""
         self._steps = self.steps(context)
+        pointer = context.window_manager
+
+        def show(fraction: float) -> bool:
+            pointer.progress_update(100.0 * fraction)
+            return True
+
+        pointer.progress_begin(0.0, 100.0)
         try:
             while True:
                 step = next(self._steps)
                 if step.work is not None:
-                    step.work(lambda _: True)
+                    step.work(show)
         except StopIteration as end:
             return end.value
         except ValueError as error:
@@ -62,6 +70,7 @@ class Stepwise:
             return {"CANCELLED"}
         finally:
             self._steps.close()
+            pointer.progress_end()
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         """Take the steps beside the interface."""
@@ -71,6 +80,7 @@ class Stepwise:
             return self.execute(context)
         self._steps = self.steps(context)
         self._cancelled, self._fraction = False, 0.0
+        self._workspace = context.workspace
         self._work: Future[None] | None = None
         self._thread = ThreadPoolExecutor(1, "seamwire steps")
         self._timer = context.window_manager.event_timer_add(_PERIOD, window=context.window)
@@ -87,7 +97,7 @@ class Stepwise:
             self._cancelled = True
         is_at_work = self._work is not None and not self._work.done()
         if is_at_work:
-            self._show(context)
+            self._show()
         if is_at_work or event.type not in {"TIMER", "ESC"}:
             return {"RUNNING_MODAL"}
         return self._advance(context)
@@ -106,7 +116,7 @@ class Stepwise:
                     self._work.result()
                 self._step, self._fraction = next(self._steps), 0.0
                 self._work = self._thread.submit(self._step.work, self._progress) if self._step.work else None
-                self._show(context)
+                self._show()
                 return {"RUNNING_MODAL"}
         except StopIteration as end:
             result = end.value
@@ -122,13 +132,13 @@ class Stepwise:
         self._fraction = fraction
         return not self._cancelled
 
-    def _show(self, context: bpy.types.Context) -> None:
+    def _show(self) -> None:
         done = f": {100.0 * self._fraction:.0f} %" if self._work is not None else ""
-        context.workspace.status_text_set(f"{self._step.text}{done}    Esc: Cancel")
+        self._workspace.status_text_set(f"{self._step.text}{done}    Esc: Cancel")
 
     def _end(self, context: bpy.types.Context) -> None:
         self._thread.shutdown()
         self._steps.close()
         context.window_manager.event_timer_remove(self._timer)
-        if context.workspace is not None:
-            context.workspace.status_text_set(None)
+        with suppress(ReferenceError):  # it may have gone with its file
+            self._workspace.status_text_set(None)

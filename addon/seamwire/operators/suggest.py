@@ -101,6 +101,9 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
     symmetric: bpy.props.BoolProperty(
         name="Symmetric", description="Wires come in pairs where the mesh is symmetric", default=True
     )
+    selected: bpy.props.BoolProperty(
+        name="Selected Only", description="Only islands that have selected faces are parted", default=False
+    )
     unwrap: bpy.props.BoolProperty(
         name="Unwrap", description="Unwrap the islands whose seams have changed", default=False
     )
@@ -122,6 +125,8 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         if self.along != "EDGES":
             layout.prop(self, "finish")
         layout.prop(self, "symmetric")
+        if self.limit != "WORST":
+            layout.prop(self, "selected")
         if self.limit != "STRETCH":
             layout.prop(self, "unwrap")
 
@@ -179,10 +184,11 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
 
         seeds = SEEDS_TO_OPEN if self.limit == "DISCS" else (seeds_for(self._spread, self._islands),)
         along, finish = (None if chosen == "AUTO" else chosen for chosen in (self.along, self.finish))
+        selected = self.selected and self.limit != "WORST"
         found, problem = [], "No face is visible"
         for obj in context.objects_in_mode_unique_data:
             try:
-                suggestion = Suggestion(obj, along, self.symmetric, seeds, finish)
+                suggestion = Suggestion(obj, along, self.symmetric, seeds, finish, selected)
             except NativeError as error:
                 self.report({"ERROR"}, str(error))
                 return []

@@ -243,17 +243,24 @@ std::vector<Piece> CutPieces::pieces() const {
   return all;
 }
 
-std::vector<std::uint8_t> CutPieces::vertices_of_worst(const Surface& surface) const {
+std::vector<std::uint8_t> CutPieces::vertices_of_worst(const Surface& surface,
+                                                       std::span<const std::uint8_t> among) const {
+  const auto corners_of = [&](std::size_t f) {
+    Triangle corners = surface.face_fans()[f];
+    for (std::int32_t& corner : corners) corner = surface.vertex_of_fan()[corner];
+    return corners;
+  };
   std::int32_t worst = -1;
-  for (std::int32_t p = 0; index(p) < pieces_.size(); ++p) {
-    if (piece_sets_.find(p) != p || pieces_[p].is_disc()) continue;
-    if (worst < 0 || pieces_[p].area > pieces_[worst].area) worst = p;
+  for (std::size_t f = 0; f < piece_of_face_.size(); ++f) {
+    const std::int32_t piece = piece_sets_.find(piece_of_face_[f]);
+    if (pieces_[piece].is_disc() || (worst >= 0 && !(pieces_[piece].area > pieces_[worst].area))) continue;
+    if (std::ranges::all_of(corners_of(f), [&](std::int32_t v) { return among[v] != 0; })) worst = piece;
   }
   if (worst < 0) return {};
   std::vector<std::uint8_t> is_inside(surface.vertex_count(), 0);
   for (std::size_t f = 0; f < piece_of_face_.size(); ++f) {
     if (piece_sets_.find(piece_of_face_[f]) != worst) continue;
-    for (const std::int32_t fan : surface.face_fans()[f]) is_inside[surface.vertex_of_fan()[fan]] = 1;
+    for (const std::int32_t v : corners_of(f)) is_inside[v] = 1;
   }
   return is_inside;
 }

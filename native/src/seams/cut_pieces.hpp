@@ -57,8 +57,9 @@ class CutPieces {
   /// All pieces.
   std::vector<Piece> pieces() const;
   std::size_t piece_count() const { return piece_count_; }
-  /// For each vertex of the surface whether it lies in the piece of most area that is no disc; empty: all are.
-  std::vector<std::uint8_t> vertices_of_worst(const Surface& surface) const;
+  /// For each vertex of the surface whether it lies in the piece of most area that is no disc, of those with a triangle
+  /// whose vertices are all `among` some; empty: all these are.
+  std::vector<std::uint8_t> vertices_of_worst(const Surface& surface, std::span<const std::uint8_t> among) const;
 
  private:
   /// An edge that chains cut: the pieces on both sides, and the sets of corners at its ends, one side's first.

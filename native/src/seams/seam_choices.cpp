@@ -95,6 +95,11 @@ double price(const Surface& surface, const Choice& choice) {
   return length(surface, choice.wire.vertices) / choice.worth();
 }
 
+bool is_barred(const Choice& choice, const std::vector<double>& density) {
+  return !density.empty() &&
+         std::ranges::any_of(choice.wire.vertices, [&](std::int32_t v) { return !(density[v] > 0.0); });
+}
+
 std::optional<Choice> mirrored(const Choice& choice, const Surface& surface, const SeamPlannerOptions& options) {
   if (options.images.empty() || options.along != Along::kEdges) return std::nullopt;
   Choice out = choice;

@@ -50,6 +50,8 @@ double price(const Surface& surface, const Choice& choice);
 using Ends = std::pair<std::int32_t, std::int32_t>;
 inline Ends ends_of(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
+/// Whether a wire comes where `density`, see SeamPlannerOptions, is 0.
+bool is_barred(const Choice& choice, const std::vector<double>& density);
 /// The image of a wire along edges; nullopt where it has none, or runs across the surface.
 std::optional<Choice> mirrored(const Choice& choice, const Surface& surface, const SeamPlannerOptions& options);
 /// The chains of choices, then the seams that stay, an edge each.

@@ -118,6 +118,10 @@ class Seeding {
     for (const Triangle& t : wires.surface().face_fans()) {
       for (const std::int32_t fan : t) is_used_[wires.surface().vertex_of_fan()[fan]] = 1;
     }
+    may_have_seeds_ = is_used_;
+    for (std::size_t v = 0; v < options.density.size(); ++v) {
+      if (!(options.density[v] > 0.0)) may_have_seeds_[v] = 0;
+    }
   }
 
   std::vector<Choice> choices(const Task& task) {
@@ -130,7 +134,7 @@ class Seeding {
     while (true) {
       std::vector<Choice> found = join(task);
       const CutPieces pieces(wires_.surface(), chains_of(found, options_.seams), no_limits);
-      const std::vector<std::uint8_t> worst = pieces.vertices_of_worst(wires_.surface());
+      const std::vector<std::uint8_t> worst = pieces.vertices_of_worst(wires_.surface(), may_have_seeds_);
       if (worst.empty() || cells_.seeds().size() >= options_.most_seeds || !add_seed(worst)) return found;
     }
   }
@@ -196,7 +200,7 @@ class Seeding {
     std::vector<Choice> all;
     for (const Ends& pair : wanted) {
       Choice choice = known_.at(pair);
-      if (choice.wire.vertices.size() < 2) continue;
+      if (choice.wire.vertices.size() < 2 || is_barred(choice, options_.density)) continue;
       const auto strays = std::ranges::count_if(choice.wire.vertices, [&](std::int32_t v) {
         return cells_.cell(v) != pair.first && cells_.cell(v) != pair.second;
       });
@@ -226,6 +230,7 @@ class Seeding {
   SeedCells cells_;
   std::vector<double> feature_;
   std::vector<std::uint8_t> is_used_;
+  std::vector<std::uint8_t> may_have_seeds_;  // is_used_ where density is not 0
   std::map<Ends, Choice> known_;  // by the numbers of their seeds
 };
 

@@ -301,7 +301,7 @@ std::optional<std::vector<Choice>> Straightening::replaced(const Junctions& junc
   double before = 0.0, after = 0.0;
   for (const std::size_t wire : gone) before += price(surface_, wires_[wire]);
   for (const Choice& choice : come) {
-    if (choice.wire.vertices.size() < 2) return std::nullopt;
+    if (choice.wire.vertices.size() < 2 || is_barred(choice, options_.density)) return std::nullopt;
     after += price(surface_, choice);
   }
   if (!(after < (1.0 - least_gain) * before)) return std::nullopt;

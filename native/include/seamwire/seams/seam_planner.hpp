@@ -22,7 +22,7 @@ struct SeamPlannerOptions {
   std::size_t seeds = 24;                   ///< to begin with, those included, 1 or more
   std::size_t most_seeds = 120;             ///< at most, where the surface is not cut into discs yet; `seeds` or more
   /// How many times denser seeds are at each vertex than elsewhere; empty: as dense everywhere. Where it is 0 there are
-  /// those of `seeds_at` alone, and no wires from them.
+  /// those of `seeds_at` alone, and no wire comes there.
   std::vector<double> density = {};
   /// The mirror image of each vertex, itself or -1 where it has none: seeds come and wires go in pairs. Empty: the
   /// surface is not symmetric.
