@@ -28,6 +28,8 @@ _CUT_CRUMB = 0.25
 cross here and there."""
 _ON_TRIAL = 0.9
 """The part of the bound on stretch that is for trials along edges, where the wires are cut into the faces afterwards."""
+_ON_TRIAL_STRAIGHT = 0.8
+"""The same of straightened wires: they run farther from edges."""
 _ROUNDS = 12
 """How often islands that are stretched too much are made smaller."""
 _FEW = 2
@@ -280,9 +282,11 @@ def _planning(
 
 
 def _stretched(
-    context: bpy.types.Context, suggestions: Sequence[Suggestion], most: float
+    context: bpy.types.Context, suggestions: Sequence[Suggestion], most: float, on_trial: float = _ON_TRIAL
 ) -> dict[Suggestion, list[int]]:
     """Unwrap on trial, and return the islands that are stretched more than so many octaves; leave the UVs.
+
+    `on_trial` is the part of that where the wires are cut into the faces afterwards.
 
     Raises
     ------
@@ -296,7 +300,7 @@ def _stretched(
     try:
         unwrap_changed(context, [suggestion.mesh.obj for suggestion in suggestions], even=True)
         return {
-            suggestion: suggestion.stretched(_ON_TRIAL * most if suggestion.is_cut else most)
+            suggestion: suggestion.stretched(on_trial * most if suggestion.is_cut else most)
             for suggestion in suggestions
         }
     finally:
@@ -343,11 +347,15 @@ def _straighten(
         for suggestion, seeds in fixed.items():
             straighten = partial(suggestion.straighten, before[suggestion], seeds)
             yield from _planning(suggestions, straighten, "Straightening seams")
-        stretched = _stretched(context, list(fixed), most)
-        fixed = {
-            suggestion: fixed[suggestion] | suggestion.seeds_around(islands, before[suggestion])
+        stretched = _stretched(context, list(fixed), most, _ON_TRIAL_STRAIGHT)
+        around = {
+            suggestion: suggestion.seeds_around(islands, before[suggestion])
             for suggestion, islands in stretched.items()
             if islands
+        }
+        # Where all seeds around were fixed, nothing has changed.
+        fixed = {
+            suggestion: fixed[suggestion] | seeds for suggestion, seeds in around.items() if seeds - fixed[suggestion]
         }
         if not fixed:
             return
