@@ -218,6 +218,23 @@ TEST(SeamPlanner, MakesAsManyIslandsAsAreAskedFor) {
   }
 }
 
+/// To find more wires within an island of a plan.
+SeamPlannerOptions within_island(const Surface& surface, const SeamPlan& plan, std::int32_t island) {
+  SeamPlannerOptions options;
+  options.density.assign(surface.vertex_count(), 0.0);
+  for (std::size_t f = 0; f < surface.face_count(); ++f) {
+    if (plan.islands[f] != island) continue;
+    for (const std::int32_t v : surface.triangles()[f]) options.density[v] = 1.0;
+  }
+  for (const PlannedWire& wire : plan.wires) {
+    options.seeds_at.insert(options.seeds_at.end(), {wire.from, wire.to});
+    for (std::size_t i = 1; i < wire.vertices.size(); ++i) {
+      options.seams.push_back({wire.vertices[i - 1], wire.vertices[i]});
+    }
+  }
+  return options;
+}
+
 TEST(SeamPlanner, KeptWiresStayAndOnlyWhatIsToBeSmallerIsParted) {
   const auto sphere = shared(shapes::icosphere(4).surface());
   const SeamPlanner planner(sphere);
@@ -228,19 +245,10 @@ TEST(SeamPlanner, KeptWiresStayAndOnlyWhatIsToBeSmallerIsParted) {
     // The first island is to be parted, by wires between seeds in it.
     SeamLimits narrow = wide;
     narrow.max_spreads.assign(sphere->face_count(), 2.0);
-    SeamPlannerOptions within;
-    within.density.assign(sphere->vertex_count(), 0.0);
     for (std::size_t f = 0; f < sphere->face_count(); ++f) {
-      if (first.islands[f] != 0) continue;
-      narrow.max_spreads[f] = 0.2;
-      for (const std::int32_t v : sphere->triangles()[f]) within.density[v] = 1.0;
+      if (first.islands[f] == 0) narrow.max_spreads[f] = 0.2;
     }
-    for (const PlannedWire& wire : first.wires) {
-      within.seeds_at.insert(within.seeds_at.end(), {wire.from, wire.to});
-      for (std::size_t i = 1; i < wire.vertices.size(); ++i) {
-        within.seams.push_back({wire.vertices[i - 1], wire.vertices[i]});
-      }
-    }
+    SeamPlannerOptions within = within_island(*sphere, first, 0);
     within.seeds = 40;
     const SeamPlan second = planner.with(within).plan(narrow, first.wires);
     expect_discs(*sphere, second);
@@ -307,6 +315,20 @@ TEST(SeamPlanner, PiecesThatAreCrumbsBesideAnIslandJoinIt) {
   EXPECT_GT(islands(0.0, 1.0), 100U);
   EXPECT_LT(islands(0.02, 1.0), 40U);
   EXPECT_EQ(islands(0.02, 0.0), islands(0.0, 1.0));
+}
+
+TEST(SeamPlanner, WhereSmallIslandsArePartedOneBelowACrumbIsToo) {
+  const auto surface = shared(shapes::bumpy(shapes::icosphere(4), 0.05, 4).surface());
+  const SeamPlanner planner(surface);
+  const SeamPlan first = planner.plan({.max_spread = 0.4, .are_straightened = false});
+  const std::vector<double> own = spreads(*surface, first.islands);
+  for (std::int32_t island = 0; island < static_cast<std::int32_t>(first.island_count); ++island) {
+    SeamPlannerOptions within = within_island(*surface, first, island);
+    within.seeds = 30;
+    SeamLimits narrow{.crumb = 0.5, .crumb_of_island = 0.1, .are_straightened = false};
+    for (const std::int32_t of : first.islands) narrow.max_spreads.push_back(of == island ? 0.8 * own[of] : 2.0);
+    EXPECT_GT(planner.with(within).plan(narrow, first.wires).island_count, first.island_count) << island;
+  }
 }
 
 TEST(SeamPlanner, SeedsAreAsDenseAsAskedFor) {

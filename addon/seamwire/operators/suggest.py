@@ -341,9 +341,9 @@ def _straighten(
     ValueError
         Where Blender cannot unwrap, or a mesh is changed meanwhile.
     """
-    before = {suggestion: suggestion.plan for suggestion in suggestions}
-    fixed: dict[Suggestion, set[int]] = {suggestion: set() for suggestion in suggestions}
-    for _ in range(_STRAIGHTENINGS):
+    before = {suggestion: suggestion.plan for suggestion in suggestions if suggestion.wires}
+    fixed: dict[Suggestion, set[int]] = {suggestion: set() for suggestion in before}
+    for _ in range(_STRAIGHTENINGS if before else 0):
         for suggestion, seeds in fixed.items():
             straighten = partial(suggestion.straighten, before[suggestion], seeds)
             yield from _planning(suggestions, straighten, "Straightening seams")

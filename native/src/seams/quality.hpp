@@ -14,11 +14,10 @@ struct Quality {
   Quality(const CutPieces& pieces, const SeamLimits& limits) {
     for (const Piece& piece : pieces.pieces()) crumb += limits.crumb * piece.area;
     for (const Piece& piece : pieces.pieces()) {
-      if (piece.area < crumb) {
-        ++crumbs;
-      } else {
-        bent = std::max(bent, piece.spread() - piece.max_spread);
-      }
+      const bool is_crumb = piece.area < crumb;
+      crumbs += is_crumb ? 1 : 0;
+      // Where small islands are parted, each is an island.
+      if (!is_crumb || limits.crumb_of_island < 1.0) bent = std::max(bent, piece.spread() - piece.max_spread);
       not_discs += piece.is_disc() ? 0 : 1;
     }
   }

@@ -231,7 +231,7 @@ class Seeding {
   std::vector<double> feature_;
   std::vector<std::uint8_t> is_used_;
   std::vector<std::uint8_t> may_have_seeds_;  // is_used_ where density is not 0
-  std::map<Ends, Choice> known_;  // by the numbers of their seeds
+  std::map<Ends, Choice> known_;              // by the numbers of their seeds
 };
 
 }  // namespace
