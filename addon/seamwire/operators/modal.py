@@ -200,7 +200,9 @@ class Chain:
             traceback.print_exc()
             edited.forget(view)
             finished = ""
-            self.errors.append(f"Wires are kept, but cutting or sliding them ended on an error, undo leads back: {error}")
+            self.errors.append(
+                f"Wires are kept, but cutting or sliding them ended on an error, undo leads back: {error}"
+            )
         if undo_step:
             if (marked or cleared) and context.mode == "EDIT_MESH":
                 problem = unwrap_after_chain(context)
