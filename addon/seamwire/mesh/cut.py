@@ -30,7 +30,7 @@ CUTS = ".seamwire_cut"
 """The layer of vertices, and of edges, that is 1 where a cut made them: those can be taken back."""
 
 _RINGS = 3
-"""How far around a pick vertices stay for the face that it lies in to be among theirs: beside a cut others are found first."""
+"""How far one looks around a pick once vertices are found that stay: those of the face that it lies in may not be the first."""
 
 
 @dataclass(frozen=True)
@@ -95,7 +95,7 @@ class PickedPlaces:
 
     def __init__(self, cage: Cage, picks: Iterable[Pick]) -> None:
         bm = cage.bm
-        # First of all, as below.
+        # First of all: a new layer makes what was found before invalid.
         _add_unwrapped(bm)
         of_verts, _ = _cut_layers(bm)
         self._verts: dict[Pick, bmesh.types.BMVert] = {}

@@ -226,6 +226,7 @@ void Straightening::settle() {
   const auto settle_those = [&](const std::set<Ends>& those) {
     std::vector<Choice> trial = wires_;
     for (const Ends& ends : those) {
+      if (is_barred(shortest.at(ends), options_.density)) return false;
       for (const std::size_t i : quick.at(ends)) trial[i] = shortest.at(ends);
     }
     if (!is_as_good(trial)) return false;
