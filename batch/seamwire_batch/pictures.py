@@ -103,8 +103,8 @@ class Scene:
         self._light()
         self._render_settings()
 
-    def pictures(self, folder: Path, name: str, tell: Callable[[str], None]) -> None:
-        """Render everything into NAME-*.png, and all of it side by side into NAME.png."""
+    def pictures(self, folder: Path, name: str, progress: Callable[[float], None]) -> None:
+        """Render everything into NAME-*.png, and all of it side by side into NAME.png; `progress` receives the fraction done."""
         folder.mkdir(parents=True, exist_ok=True)
         clay, islands, checked = self._clay(), self._island_material(), self._checked()
         tiles = [
@@ -118,6 +118,7 @@ class Scene:
         for tile, material, view, with_wires in tiles:
             self._show(material, with_wires)
             self._look_from(*view)
+            progress(len(images) / len(tiles))
             images[tile] = self._render(folder / f"{name}-{tile}.png")
         images["uv"] = self._uv_layout(folder / f"{name}-uv.png")
         rows = [
@@ -125,8 +126,6 @@ class Scene:
             np.concatenate([images["wires-back"], images["islands-back"], images["checked"]], axis=1),
         ]
         save(np.concatenate(rows[::-1], axis=0), folder / f"{name}.png")
-        for tile in (*images, ""):
-            tell(str(folder / f"{name}{'-' if tile else ''}{tile}.png"))
 
     def islands(self, path: Path) -> NDArray[np.float32]:
         """Render the islands in their colors from the front into a file, and return the picture, bottom row first."""

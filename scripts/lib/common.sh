@@ -27,26 +27,29 @@ REPORTS=$ROOT/build/reports
 
 say() { printf '\033[1m== %s\033[0m\n' "$*"; }
 die() { printf '%s\n' "$*" >&2; exit 1; }
+source scripts/lib/steps.sh
 
-# install_debian_packages PACKAGE...: installs those that are missing, as root or with sudo; apt's own words go to build/apt.log. Fails
-# with a sentence where that cannot be.
+# install_debian_packages PACKAGE...: installs the missing ones, as root or with sudo, and shows the progress. apt's own words go to
+# build/apt*.log. Fails with a sentence that names the missing packages.
 install_debian_packages() {
-  local missing=() as_root=() package log=$ROOT/build/apt.log
+  local missing=() as_root=() package log
   for package in "$@"; do
     [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
   done
   [ ${#missing[@]} -gt 0 ] || return 0
-  say "Debian packages: ${missing[*]}"
+  printf '   Debian packages: %s\n' "${missing[*]}"
   if [ "$(id -u)" -ne 0 ]; then
     command -v sudo >/dev/null || { echo "not root, and no sudo: these Debian packages are missing: ${missing[*]}" >&2; return 1; }
     as_root=(sudo)
   fi
-  # Another script of ours may be installing.
-  local apt_get=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=300)
   mkdir -p "$ROOT/build"
-  "${apt_get[@]}" update >"$log" 2>&1 || say "apt-get update had errors; trying with the lists at hand"
-  "${apt_get[@]}" install -y --no-install-recommends "${missing[@]}" >>"$log" 2>&1 ||
-    { tail -n 20 "$log" >&2; echo "not installed: ${missing[*]} ($log)" >&2; return 1; }
+  log=$ROOT/build/apt-${missing[0]}.log
+  # Another script of ours may be installing. What a test machine writes need not survive a power failure.
+  local apt_get=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=600
+    -o APT::Status-Fd=1 -o Dpkg::Options::=--force-unsafe-io)
+  watched "$log" "${apt_get[@]}" update || echo "   apt-get update had errors; trying with the package lists that are here"
+  watched "$log" "${apt_get[@]}" install -y --no-install-recommends "${missing[@]}" ||
+    { echo "not installed: ${missing[*]} ($log)" >&2; return 1; }
 }
 
 # A number that changes with the contents of the files and folders named.

@@ -31,6 +31,11 @@ def tell(line: str) -> None:
     print(f"   {line}", flush=True)
 
 
+def show(percent: float, doing: str) -> None:
+    """Print how far the demo has come, for scripts/demo to show."""
+    print(f"progress {percent:.0f} {doing}", flush=True)
+
+
 def suzanne() -> bpy.types.Object:
     """Make Blender's monkey, subdivided twice."""
     bpy.ops.mesh.primitive_monkey_add()
@@ -115,6 +120,7 @@ def run(folder: Path, path: Path | None) -> None:
         raise DemoError(f"{len(mesh.loop_triangles)} triangles: the demo takes {MOST_TRIANGLES} at most")
     tell(f"{obj.name}: {len(mesh.vertices)} vertices, {len(mesh.polygons)} faces")
 
+    show(5, "planning seams")
     started = time.monotonic()
     network = suggest(obj)
     if any(wire.is_cut for wire in network.wires):
@@ -126,6 +132,7 @@ def run(folder: Path, path: Path | None) -> None:
         f"{len(network.wires)} wires {where}, {network.islands.max() + 1} islands: "
         f"mesh.seamwire_suggest took {time.monotonic() - started:.1f} s"
     )
+    show(30, "unwrapping")
     bpy.ops.object.mode_set(mode="EDIT")
     unwrap()
     bpy.ops.object.mode_set(mode="OBJECT")
@@ -147,13 +154,12 @@ def run(folder: Path, path: Path | None) -> None:
             os.environ.get("SEAMWIRE_DEMO_SAMPLES", "64")
         ),  # nobody looks at the tests' pictures: they take fewer
     )
-    scene.pictures(folder, obj.name, tell)
+    scene.pictures(folder, obj.name, lambda fraction: show(40 + 60 * fraction, "rendering pictures"))
     tell(f"pictures made in {time.monotonic() - started:.1f} s")
     scene.clean()
     bpy.context.view_layer.objects.active = obj
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / f"{obj.name}.blend"), compress=True)
     (folder / "latest").write_text(str(folder / f"{obj.name}.blend"))
-    tell(str(folder / f"{obj.name}.blend"))
 
 
 def main() -> int:
@@ -162,7 +168,7 @@ def main() -> int:
     try:
         run(Path(folder), Path(rest[0]) if rest else None)
     except DemoError as error:
-        print(f"The demo ends here: {error}", file=sys.stderr)
+        tell(f"The demo ends here: {error}")
         return 1
     return 0
 

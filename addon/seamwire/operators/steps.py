@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import time
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 
 _PERIOD = 0.05
 """Seconds between two looks at whether a step has ended."""
+_CONSOLE_PERIOD = 5.0
+"""Seconds between two lines about the progress."""
 
 
 @dataclass(frozen=True)
@@ -49,12 +52,20 @@ class Stepwise:
         raise NotImplementedError
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Take all steps at once, as redoing does: the mouse pointer shows the progress of each."""
+        """Take all steps at once, as redoing does.
+
+        The mouse pointer shows the progress of each step. Without a window the console does, while a step takes longer than a few seconds.
+        """
         self._steps = self.steps(context)
         pointer = context.window_manager
+        shown = time.monotonic()
 
         def show(fraction: float) -> bool:
+            nonlocal shown
             pointer.progress_update(100.0 * fraction)
+            if bpy.app.background and time.monotonic() - shown > _CONSOLE_PERIOD:
+                print(f"progress {100.0 * fraction:.0f} {step.text}", flush=True)
+                shown = time.monotonic()
             return True
 
         pointer.progress_begin(0.0, 100.0)

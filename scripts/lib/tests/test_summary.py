@@ -35,12 +35,48 @@ def test_all_passed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, lines = told(tmp_path, capsys, files)
     assert code == 0
     assert lines == [
-        "cpp took 12 s, 5 s of the processor",
-        "cpp: 1 passed, 0 failed",
-        "lint took 3 s, 5 s of the processor",
-        "lint: 2 passed, 0 failed",
+        "cpp:                      12 s,     5 s of the processor; 1 passed, 0 failed",
+        "lint:                      3 s,     5 s of the processor; 2 passed, 0 failed",
         "3 passed, 0 failed",
     ]
+
+
+PYTEST = """<testsuite><testcase classname="a.b" name="test_breaks"><failure message="assert 1 == 2">def test():
+E   assert 1 == 2</failure></testcase></testsuite>"""
+GTEST = """<testsuite><testcase classname="Wire" name="Ends"><failure message="wire_test.cpp:3&#x0A;Expected: 1" type=""/></testcase>
+</testsuite>"""
+CTEST = """<testsuite><testcase classname="install.example" name="install.example" status="fail"><failure message="Failed"/>
+<system-out>built
+1.5 over 2 faces
+</system-out></testcase></testsuite>"""
+
+
+@pytest.mark.parametrize(
+    ("files", "what", "message"),
+    [
+        ({"cpp.xml": PYTEST}, "cpp: a.b test_breaks", "assert 1 == 2"),
+        ({"cpp.xml": GTEST}, "cpp: Wire Ends", "wire_test.cpp:3 Expected: 1"),
+        ({"cpp.xml": CTEST}, "cpp: install.example install.example", "built / 1.5 over 2 faces"),
+        ({"cpp.txt": "passed one\nfailed two\n  first line\n  second\n"}, "cpp: two", "first line second"),
+    ],
+    ids=["pytest", "GoogleTest", "CTest", "check"],
+)
+def test_failures_and_their_messages_are_in_the_last_lines(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], files: dict[str, str], what: str, message: str
+) -> None:
+    stages = "".join(f"stage{i} 0 1 1\n" for i in range(30)) + "cpp 1 12 5\n"
+    passed = {f"stage{i}.xml": PASSED for i in range(30)}
+    _, lines = told(tmp_path, capsys, {"stages.txt": stages, **passed, **files})
+    at = lines.index(f"FAILED {what}")
+    assert lines[at + 1].strip() == message
+    assert len(lines) - at <= 20
+
+
+def test_many_failures_leave_the_first_ones_in_the_last_lines(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    files = {"stages.txt": "cpp 1 12 5\n", "cpp.txt": "".join(f"failed test {i}\n  why\n" for i in range(50))}
+    _, lines = told(tmp_path, capsys, files)
+    assert "FAILED cpp: test 0" in lines[-20:]
+    assert any(line.startswith("and 42 more failures") for line in lines[-3:])
 
 
 @pytest.mark.parametrize(
@@ -92,7 +128,7 @@ def test_skipped_blender_is_named_and_the_rest_counts(tmp_path: Path, capsys: py
 def test_run_without_any_blender_fails(tmp_path: Path, capsys: pytest.CaptureFixture[str], blenders: str) -> None:
     code, lines = told(tmp_path, capsys, {"stages.txt": "cpp 0 12 5\n", "cpp.xml": PASSED, "blenders.txt": blenders})
     assert code == 1
-    assert "failed: Blender: no Blender could be had" in lines
+    assert "       no Blender is available" in lines
     assert lines[-1] == "1 passed, 1 failed"
 
 
@@ -101,7 +137,7 @@ def test_blender_that_does_not_start_fails(tmp_path: Path, capsys: pytest.Captur
     files = {"stages.txt": "headless-3.4 0 9 5\n", "headless-3.4.xml": PASSED, "blenders.txt": blenders}
     code, lines = told(tmp_path, capsys, files)
     assert code == 1
-    assert "failed: Blender: 4.3: failed: it was installed, but does not start: (log)" in lines
+    assert "       4.3: failed: it was installed, but does not start: (log)" in lines
     assert lines[-1] == "1 passed, 1 failed"
 
 
@@ -109,4 +145,4 @@ def test_time_of_all_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     (tmp_path / "stages.txt").write_text("cpp 0 12 5\n")
     (tmp_path / "cpp.xml").write_text(PASSED)
     assert summary.summarize(tmp_path, 1894) == 0
-    assert capsys.readouterr().out.splitlines()[-2:] == ["all took 31 min 34 s", "1 passed, 0 failed"]
+    assert capsys.readouterr().out.splitlines()[-2:] == ["everything took 31 min 34 s", "1 passed, 0 failed"]

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# shellcheck shell=bash
+# What reads the code and runs nothing of it; to be sourced after common.sh by scripts/test, which has `check`.
+
+CLANG=clang++-14
+
+format_check() { git ls-files -z '*.cpp' '*.hpp' | xargs -0 "$VENV/bin/clang-format" --dry-run --Werror; }
+
+stage_lint() {
+  local result=0
+  check lint clang-format format_check || result=1
+  check lint ruff "$VENV/bin/ruff" check . || result=1
+  check lint ruff-format "$VENV/bin/ruff" format --check . || result=1
+  return $result
+}
+
+# tidy PATHSPEC...: clang-tidy on the files that git knows.
+tidy() {
+  git ls-files -z "$@" |
+    xargs -0 -n 1 -P "$(nproc)" "$VENV/bin/clang-tidy" -p build/tidy --quiet --warnings-as-errors='*' "${tidy_options[@]}" 2>/dev/null
+}
+
+# The build folder tells clang-tidy how each file is compiled; nothing is built there.
+tidy_check() {
+  local result=0 tidy_options=()
+  cmake -S . -B build/tidy -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INTERPROCEDURAL_OPTIMIZATION=OFF \
+    -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DSEAMWIRE_BENCHMARKS=ON -DSEAMWIRE_PYTHON=ON \
+    -DPython_EXECUTABLE="$VENV/bin/python" -Dpybind11_DIR="$("$VENV/bin/python" -m pybind11 --cmakedir)" \
+    >build/configure-tidy.log || { cat build/configure-tidy.log; return 1; }
+  tidy 'native/*.cpp' ':!native/tests' ':!native/python' ':!native/bench' || result=1
+  # Bytes there are numbers from NumPy, not characters; the module's own function uses the namespace of its parts.
+  tidy_options=(--checks=-bugprone-signed-char-misuse,-google-build-using-namespace,-performance-unnecessary-value-param)
+  tidy native/python/*.cpp || result=1
+  # The analyzer takes two thirds of the time, a minute per test file, and the tests run under sanitizers.
+  tidy_options=('--checks=-clang-analyzer-*')
+  tidy 'native/tests/*.cpp' ':!native/tests/install' || result=1
+  # In the benchmarks the analyzer complains about OpenMesh's and Google Benchmark's headers only. CGAL's peer is built without our flags.
+  tidy_options=('--checks=-clang-analyzer-*,-google-build-using-namespace')
+  tidy native/bench/*.cpp ':!native/bench/cgal_bench.cpp' ':!native/bench/lengths_bench.cpp' || result=1
+  return $result
+}
+
+# Each kernel of the wavefront is one loop, to be vectorized for SSE (16 bytes) and for AVX2 (32), by GCC and by Clang.
+vectorized_kernels() {
+  local kernels=native/src/geodesics/window_kernels.cpp result=0 loops width count
+  local compile=(-std=c++20 -O3 -march=x86-64-v2 -ffp-contract=off -fno-math-errno -fno-trapping-math -Inative/include -Inative/src
+    -c "$kernels" -o /dev/null)
+  [ "$(uname -m)" = x86_64 ] || { say "Kernels: checked on x86-64 only"; return; }
+  loops=$(grep -c '^  SEAMWIRE_VECTORIZE$' "$kernels")
+  "$CLANG" "${compile[@]}" -Werror=pass-failed || result=1
+  for width in 16 32; do
+    count=$(g++ "${compile[@]}" -fopt-info-vec-optimized 2>&1 | grep -c "loop vectorized using $width byte vectors")
+    [ "$count" -eq "$loops" ] || { echo "GCC vectorizes $count of the $loops loops of $kernels with $width bytes"; result=1; }
+  done
+  return $result
+}
+
+stage_analysis() {
+  local result=0
+  check analysis thread-safety scripts/lib/thread_safety || result=1
+  check analysis other-systems scripts/lib/read_for_macos || result=1
+  check analysis clang-tidy tidy_check || result=1
+  check analysis vectorized-kernels vectorized_kernels || result=1
+  check analysis api-docs scripts/docs --ready || result=1
+  return $result
+}
