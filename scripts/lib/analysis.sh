@@ -55,12 +55,20 @@ vectorized_kernels() {
   return $result
 }
 
+# The library as Debian's users build it: static, with the installed OpenMesh, found and linked by another project.
+debian_openmesh() {
+  cmake -S . -B build/debian -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=OFF >build/configure-debian.log || return 1
+  cmake --build build/debian --target seamwire --parallel "$(nproc)" || return 1
+  ctest --test-dir build/debian --no-tests=error --output-on-failure -R '^install\.'
+}
+
 stage_analysis() {
   local result=0
   check analysis thread-safety scripts/lib/thread_safety || result=1
   check analysis other-systems scripts/lib/read_for_macos || result=1
   check analysis clang-tidy tidy_check || result=1
   check analysis vectorized-kernels vectorized_kernels || result=1
+  check analysis debian-openmesh debian_openmesh || result=1
   check analysis api-docs scripts/docs --ready || result=1
   return $result
 }

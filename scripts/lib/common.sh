@@ -45,11 +45,18 @@ install_debian_packages() {
   mkdir -p "$ROOT/build"
   log=$ROOT/build/apt-${missing[0]}.log
   # Another script of ours may be installing. What a test machine writes need not survive a power failure.
-  local apt_get=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=600
-    -o APT::Status-Fd=1 -o Dpkg::Options::=--force-unsafe-io)
-  watched "$log" "${apt_get[@]}" update || echo "   apt-get update had errors; trying with the package lists that are here"
-  watched "$log" "${apt_get[@]}" install -y --no-install-recommends "${missing[@]}" ||
-    { echo "not installed: ${missing[*]} ($log)" >&2; return 1; }
+  local apt_get="apt-get -q -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=600 -o APT::Status-Fd=3 -o Dpkg::Options::=--force-unsafe-io"
+  local install="$apt_get install -y --no-install-recommends ${missing[*]}"
+  # apt makes its status pipe non-blocking, so packages must not write there: their words go to the log.
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive sh -c "exec 3>&1 >'$log' 2>&1; $apt_get update; $install" </dev/null |
+    show_progress /dev/null || { tail -n 20 "$log" >&2; echo "not installed: ${missing[*]} ($log)" >&2; return 1; }
+}
+
+# configure PRESET [OPTION...]: CMake's first step, with OpenMesh's sources from PyPI: Debian's package brings half a desktop with it.
+configure() {
+  once sources "$(fingerprint scripts/lib/wheel_sources.py scripts/lib/wheel-sources.txt) $ROOT" \
+    "$VENV/bin/python" scripts/lib/wheel_sources.py build/sources
+  cmake --preset "$@" -DSEAMWIRE_OPENMESH_SOURCES="$ROOT/build/sources/openmesh"
 }
 
 # A number that changes with the contents of the files and folders named.
