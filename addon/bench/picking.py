@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Times of finding what is under the cursor: ``python picking.py``, without Blender.
 
-Grids of quads with 50 seeds and a wire, seen from above. One line a mesh: milliseconds until the first snap, until the picker's tables are
+Grids of quads with 50 seeds and a wire, seen from above. One line a mesh: milliseconds until the first snap, until all that threads make is
 ready, and of a snap along edges and across the surface (medians); then the most calls that a snap makes and the most bytes that it takes.
 Ends with an error where a snap makes more calls on the larger mesh.
 """

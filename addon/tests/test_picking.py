@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 from meshes import arrays_of, grid_places, grid_polygons
-from seamwire.core.incidence import Incidence
 from seamwire.core.mesh_arrays import Arrays
 from seamwire.core.network import FacePoint, Pick, Snap, Wire
 from seamwire.view.picking import Picker, nearest_edge
@@ -248,20 +247,6 @@ def test_across_the_surface_a_point_is_picked_or_the_vertex_that_is_meant() -> N
         np.array(found.weights) @ grid().points[list(found.corners)], (0.3, 0.15, 0.0), atol=1e-9
     )
     assert find.snap(view, HERE, pixel(view, (0.03, 0.02, 0.0)), vertices_only=True, anywhere=True) == Snap(12)
-
-
-def test_picks_are_the_same_before_the_tables_are_ready(monkeypatch: pytest.MonkeyPatch) -> None:
-    arrays, view = ball(), from_above()
-    late = Picker(arrays)
-    late.wait()
-    with monkeypatch.context() as patch:
-        patch.setattr(Incidence, "_sort", lambda self: None)
-        early = Picker(arrays)
-    strength = np.random.default_rng(2).random(len(arrays.points))
-    for x in range(60, 340, 40):
-        for y in range(60, 340, 40):
-            for options in ({"vertices_only": False}, {"vertices_only": True, "strength": strength}):
-                assert early.snap(view, HERE, (x, y), **options) == late.snap(view, HERE, (x, y), **options)
 
 
 def test_the_nearest_segment_is_found_and_its_end_near_the_end() -> None:

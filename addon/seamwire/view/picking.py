@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -170,8 +170,8 @@ class Picker:
 
     Notes
     -----
-    Threads build the library's tree of the triangles and the tables of what meets at each vertex. Until they have finished, a lookup
-    takes some milliseconds longer.
+    Threads build the library's tree of the triangles and the tables of what meets at each vertex. What is asked before these are there
+    waits for the tables.
     """
 
     def __init__(self, arrays: Arrays, seams: ArrayLike = ()) -> None:
@@ -427,15 +427,16 @@ class Picker:
         if self._strength[0] is not strength:
             self._strength = (strength, float(np.quantile(strength, FEATURE_QUANTILE)) if len(strength) else 0.0)
         radius = FEATURE_REACH * scale
-        frontier = np.unique(pick.corners if isinstance(pick, FacePoint) else vertices_of(pick))
-        seen = frontier
+        frontier = sorted(set(pick.corners if isinstance(pick, FacePoint) else vertices_of(pick)))
+        seen = set(frontier)
         near: list[int] = []
-        while len(frontier) and len(seen) < _MAX_NEAR:
+        while frontier and len(seen) < _MAX_NEAR:
             gaps = np.linalg.norm(self._pixels(view, placement, frontier) - np.asarray(cursor), axis=1)
-            inside = frontier[gaps <= radius]
-            near += inside.tolist()
-            frontier = np.setdiff1d(self._all_edges[self._edges_at.rows(inside)], seen)
-            seen = np.concatenate([seen, frontier])
+            inside = [vertex for vertex, gap in zip(frontier, gaps.tolist(), strict=True) if gap <= radius]
+            near += inside
+            reached = self._all_edges[self._edges_at.rows(inside)]
+            frontier = sorted(set(reached.reshape(-1).tolist()) - seen)
+            seen.update(frontier)
         for vertex in sorted(near, key=lambda v: -strength[v])[:4]:
             if strength[vertex] <= self._strength[1]:
                 return None
@@ -520,14 +521,14 @@ class Picker:
         edges_only: bool,
     ) -> Pick | None:
         rows = self._edges_near(view, placement, cursor, scale, loose_too=not vertices_only)
-        if not len(rows):
+        if not rows:
             return None
         pairs = self._all_edges[rows]
         if vertices_only:
             numbers = np.unique(pairs)
             gaps = np.linalg.norm(self._pixels(view, placement, numbers) - np.asarray(cursor), axis=1)
             return None if np.isnan(gaps).all() else int(numbers[np.nanargmin(gaps)])
-        starts, ends = (self._pixels(view, placement, column) for column in pairs.T)
+        starts, ends = self._pixels(view, placement, pairs.T.reshape(-1)).reshape(2, -1, 2)
         index, end = nearest_edge(cursor, starts, ends, scale)
         if index < 0:
             return None
@@ -558,23 +559,18 @@ class Picker:
 
     @cached_property
     def _loose_rows(self) -> NDArray[np.int64]:
-        count = len(self._points)
-        sides = np.concatenate([self._triangles[:, [0, 1]], self._triangles[:, [1, 2]], self._triangles[:, [2, 0]]])
-        keys = np.sort(sides.astype(np.int64), axis=1) @ (count, 1)
-        own = np.sort(self._all_edges.astype(np.int64), axis=1) @ (count, 1)
-        return np.flatnonzero(~np.isin(own, keys))
+        return np.flatnonzero(~self._triangles_at.contain(self._all_edges))
 
     def _edges_near(
         self, view: View, placement: _Placement, cursor: tuple[float, float], scale: float, loose_too: bool
-    ) -> NDArray[np.int64]:
+    ) -> list[int]:
         """Return the edges that may be meant, by their rows: those of polygons near the cursor, and those without one."""
-        found = [np.empty(0, dtype=np.int64)]
         hits = set(self._polygons_at(view, placement, cursor, REACH * scale))
-        found += [self._surroundings(polygon, view, placement) for polygon in hits]
+        found = {row for polygon in hits for row in self._surroundings(polygon, view, placement)}
         if loose_too:
             loose = self._loose.near(view, placement.matrix, cursor, REACH * scale)
-            found.append(self._loose_rows[[row for row, place in loose if self._sees(view, placement, place)]])
-        return np.unique(np.concatenate(found))
+            found.update(int(self._loose_rows[row]) for row, place in loose if self._sees(view, placement, place))
+        return sorted(found)
 
     def _polygons_at(
         self, view: View, placement: _Placement, cursor: tuple[float, float], reach: float
@@ -599,7 +595,7 @@ class Picker:
         self, view: View, placement: _Placement, cursor: tuple[float, float]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return both ends of the line that a pixel shows, as `Arrays.points` are given."""
-        near, far = placement.from_world(np.stack(view.ray(cursor))) @ self._to_points.T
+        near, far = placement.from_world(np.array(view.ray(cursor))) @ self._to_points.T
         return near, far
 
     def _cast(
@@ -612,51 +608,46 @@ class Picker:
             return None
         return hit[0], self._to_object @ (origin + hit[1] * (end - origin))
 
-    def _triangles_of(self, polygons: NDArray[np.integer]) -> NDArray[np.int64]:
+    def _triangles_of(self, polygons: Collection[int]) -> list[int]:
         """Return the rows of the triangles that polygons are cut into."""
-        bounds = np.searchsorted(self._polygons, [polygons, polygons + 1])
-        return np.concatenate([np.arange(*pair) for pair in bounds.T])
+        # Of the same type, or NumPy would convert the whole array each time.
+        wanted = np.fromiter(polygons, self._polygons.dtype, len(polygons))
+        begins, ends = (np.searchsorted(self._polygons, wanted, side).tolist() for side in ("left", "right"))
+        return [row for begin, end in zip(begins, ends, strict=True) for row in range(begin, end)]
 
-    def _surroundings(self, polygon: int, view: View, placement: _Placement) -> NDArray[np.int64]:
+    def _surroundings(self, polygon: int, view: View, placement: _Placement) -> list[int]:
         """Return the edges of a polygon and of those around it that turn the same side to the viewer, by their rows."""
-        corners = np.unique(self._triangles[self._triangles_of(np.array([polygon]))])
-        around = np.unique(self._polygons[self._triangles_at.rows(corners)])
-        rows = self._triangles_of(around)
-        owners = np.searchsorted(around, self._polygons[rows])
-        triangles = self._triangles[rows]
-        places = placement.to_world(self._in_object(self._points[triangles]))
-        areas = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
-        # The middle of a polygon is the mean of its corners, however many of its triangles meet at each.
-        keys, first = np.unique(np.repeat(owners, 3) * len(self._points) + triangles.reshape(-1), return_index=True)
-        members = keys // len(self._points)
-        middles = _sums(members, places.reshape(-1, 3)[first]) / np.bincount(members)[:, None]
-        # (0, 0, -1, 0) in clip space is the eye, or the direction to it where there is no perspective.
-        *eye, weight = view.inverse @ (0.0, 0.0, -1.0, 0.0)
-        to_eye = np.array(eye) / weight - middles if abs(weight) > 1e-9 else np.array([eye])
-        facing = (to_eye * _sums(owners, areas)).sum(axis=1)
-        alike = (facing * facing[np.searchsorted(around, polygon)] > 0.0) | (around == polygon)
-        return self._sides(rows[alike[owners]])
+        corners = set(self._triangles[self._triangles_of([polygon])].reshape(-1).tolist())
+        rows = self._triangles_of(set(self._polygons[self._triangles_at.rows(corners)].tolist()))
+        triangles, owners = self._triangles[rows], self._polygons[rows].tolist()
+        # The volume between the eye and a triangle is below 0 for those that turn one side to it, and above 0 for the others.
+        to_clip = (view.perspective @ placement.matrix)[[0, 1, 3]]
+        places = self._in_object(self._points[triangles]) @ to_clip[:, :3].T + to_clip[:, 3]
+        facing = dict.fromkeys(owners, 0.0)
+        for owner, volume in zip(owners, np.linalg.det(places).tolist(), strict=True):
+            facing[owner] += volume
+        alike = {owner for owner, volume in facing.items() if volume * facing[polygon] > 0.0 or owner == polygon}
+        return self._sides(
+            (owner, *corners) for owner, corners in zip(owners, triangles.tolist(), strict=True) if owner in alike
+        )
 
-    def _sides(self, rows: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Return the edges of the polygons that have these triangles, by their rows.
+    def _sides(self, triangles: Iterable[tuple[int, int, int, int]]) -> list[int]:
+        """Return the edges of polygons, by their rows. Their triangles are given, each as its polygon and its corners.
 
         A side that two triangles of a polygon share is a diagonal and not one of its edges.
         """
-        vertices, numbers = np.unique(self._triangles[rows], return_inverse=True)
-        count = len(vertices)
-        sides = np.sort(numbers.reshape(-1, 3)[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1) @ (count, 1)
-        _, owners = np.unique(self._polygons[rows], return_inverse=True)
-        keys, times = np.unique(np.repeat(owners, 3) * count**2 + sides, return_counts=True)
-        edges = self._edges_at.rows(vertices)
-        pairs = self._all_edges[edges]
-        places = np.searchsorted(vertices, pairs).clip(max=count - 1)
-        known = (vertices[places] == pairs).all(axis=1)
-        return edges[known & np.isin(np.sort(places, axis=1) @ (count, 1), keys[times == 1] % count**2)]
-
-
-def _sums(groups: NDArray[np.int64], values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the sums of (k, 3) values by their groups."""
-    return np.stack([np.bincount(groups, column) for column in values.T], axis=1)
+        sides: set[tuple[int, int, int]] = set()
+        for owner, a, b, c in triangles:
+            for one, two in ((a, b), (b, c), (c, a)):
+                side = (owner, one, two) if one < two else (owner, two, one)
+                if side in sides:
+                    sides.remove(side)
+                else:
+                    sides.add(side)
+        own = {(one, two) for _, one, two in sides}
+        rows = self._edges_at.rows({vertex for side in own for vertex in side})
+        pairs = zip(rows.tolist(), self._all_edges[rows].tolist(), strict=True)
+        return [row for row, (one, two) in pairs if (one, two) in own or (two, one) in own]
 
 
 def stroke_at(
