@@ -4,6 +4,18 @@
 import bpy
 import pytest
 
+MARKERS = {
+    "every_blender": "runs in every Blender, because its outcome can differ between Blender's versions.",
+    "oldest_and_newest": "runs in the oldest and the newest Blender only: it compares pixels, plays at random, or kills Blender.",
+    "smoke": "is one of the window tests of the default run: it covers one operator or gesture.",
+}
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Register the markers; ``run.py`` has pytest refuse others."""
+    for name, meaning in MARKERS.items():
+        config.addinivalue_line("markers", f"{name}: {meaning}")
+
 
 @pytest.fixture(autouse=True)
 def empty_scene() -> None:

@@ -43,7 +43,7 @@ def enable_addon() -> None:
 def run_pytest() -> int:
     """Run pytest with the arguments after ``--`` and return its exit code."""
     arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
-    return int(pytest.main(["-p", "no:cacheprovider", *arguments]))
+    return int(pytest.main(["-p", "no:cacheprovider", "--strict-markers", *arguments]))
 
 
 faulthandler.enable()

@@ -59,11 +59,11 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
 
     steps = {}
     watch = Watch()
-    cage = edit_mesh.Cage(obj)
+    edit_mesh.Cage(obj)  # as the tool does
     arrays = edit_mesh.read(obj)
     steps["read"] = watch.lap()
     wires = session.Session(LiveMaker(arrays), arrays.points, along)
-    picking.Picker(cage.bm, arrays).depth(viewport.View(1.0, 1.0, np.eye(4)), obj.matrix_world, (0.5, 0.5))
+    picking.Picker(arrays).depth(viewport.View(1.0, 1.0, np.eye(4)), obj.matrix_world, (0.5, 0.5))
     steps["begun"] = watch.lap()
     wires.wait()
     steps["ready"] = watch.lap()

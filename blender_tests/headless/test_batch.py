@@ -63,6 +63,7 @@ def network(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.every_blender
 def test_files_come_out_with_seams_islands_and_uvs(network: Path, tmp_path: Path) -> None:
     export(tmp_path, ["a.obj", "b.blend", "c.glb"])
     before = {path: path.read_bytes() for path in (tmp_path / "assets").iterdir()}
@@ -116,6 +117,7 @@ def test_what_crashes_hangs_or_is_damaged_costs_itself_alone(network: Path, tmp_
     assert {path.name for path in (tmp_path / "out").glob("*.obj")} == {"a.obj"}
 
 
+@pytest.mark.every_blender
 def test_seams_go_from_a_source_to_another_topology_with_pictures(tmp_path: Path, capfd: pytest.CaptureFixture) -> None:
     obj = add_grid(15, name="Sheet")
     edit()

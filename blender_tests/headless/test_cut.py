@@ -162,6 +162,7 @@ def by_place(obj: bpy.types.Object) -> dict[str, object]:
     return found
 
 
+@pytest.mark.every_blender
 def test_layers_come_out_as_blenders_own_bisect_leaves_them() -> None:
     found = []
     for name in ("ours", "blenders"):
@@ -189,6 +190,7 @@ def test_layers_come_out_as_blenders_own_bisect_leaves_them() -> None:
         assert ours[name] == blenders[name], name
 
 
+@pytest.mark.every_blender
 def test_in_every_shape_key_new_vertices_lie_on_the_faces_as_they_were() -> None:
     obj = add_grid(9)
     obj.shape_key_add(name="Basis")
@@ -264,6 +266,7 @@ def test_several_objects_are_cut_at_once() -> None:
     assert seams(first) == seams(second) != []
 
 
+@pytest.mark.every_blender
 def test_a_cut_is_one_step_of_undo_and_brings_every_layer_back() -> None:
     obj = add_grid(9)
     add_layers(obj)
@@ -305,6 +308,7 @@ def test_a_face_that_cannot_be_cut_stays_whole_and_is_told_of(
     assert len(seams(obj)) == 7
 
 
+@pytest.mark.every_blender
 def test_kept_wires_are_cut_and_their_snapped_seams_are_gone() -> None:
     obj = add_scan()
     edit()
@@ -450,6 +454,7 @@ def test_seams_cannot_be_cleared_by_a_cut() -> None:
     assert seams(bpy.context.active_object) == [], "along edges there is nothing to cut"
 
 
+@pytest.mark.every_blender
 def test_hidden_faces_are_not_cut() -> None:
     obj = add_grid(9)
     edit()
@@ -492,6 +497,7 @@ def vertex_near(obj: bpy.types.Object, place: tuple[float, float, float]) -> int
     return min(bm.verts, key=lambda v: (v.co - Vector(place)).length).index
 
 
+@pytest.mark.every_blender
 def test_a_dragged_seed_of_a_cut_wire_takes_the_old_cut_back() -> None:
     found = []
     for dragged in (True, False):
@@ -515,6 +521,7 @@ def test_a_dragged_seed_of_a_cut_wire_takes_the_old_cut_back() -> None:
         assert found[0][name] == found[1][name], name
 
 
+@pytest.mark.every_blender
 @pytest.mark.parametrize("shape", SHAPES)
 def test_removing_a_cut_wire_gives_the_mesh_back_as_it_was(shape: str) -> None:
     make, seeds_of = SHAPES[shape]
@@ -599,6 +606,7 @@ def test_mirror_images_of_a_cut_follow_its_seed() -> None:
     assert sum(e.calc_length() for e in bm.edges if e.seam) == pytest.approx(2.0 * straight.length, rel=1e-5)
 
 
+@pytest.mark.every_blender
 def test_undo_of_a_drag_brings_the_old_cut_back() -> None:
     obj = add_grid(9)
     edit()

@@ -6,6 +6,8 @@ import bpy
 import pytest
 from scene import add_grid, add_layers, chain, edit, seams, snapshot
 
+pytestmark = pytest.mark.every_blender
+
 
 def marked_as(obj: bpy.types.Object, kind: str) -> list[tuple[int, int]]:
     """Return the edges that Blender knows as such, in object mode."""

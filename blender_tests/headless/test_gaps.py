@@ -20,6 +20,7 @@ def nearly() -> bpy.types.Object:
     return obj
 
 
+@pytest.mark.every_blender
 def test_a_wire_closes_it_and_what_is_marked_stays(nearly: bpy.types.Object) -> None:
     assert bpy.ops.mesh.seamwire_close_gaps() == {"FINISHED"}
     assert seams(nearly) == sorted([*ROW, *COLUMN, (31, 40)])

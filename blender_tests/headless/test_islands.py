@@ -8,6 +8,8 @@ import bpy
 import pytest
 from scene import add_grid, add_object, edit, seams, snapshot
 
+pytestmark = pytest.mark.every_blender
+
 SETS = ".sculpt_face_set"
 
 

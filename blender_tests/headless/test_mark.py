@@ -48,6 +48,7 @@ def test_edges_are_seeds_and_part_of_the_wire() -> None:
     assert ends(marked) == [36, 80]
 
 
+@pytest.mark.every_blender
 @pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
 def test_on_suzanne_a_wire_joins_its_seeds_and_nothing_else_changes(along: str) -> None:
     obj = add_suzanne(levels=1)
@@ -82,6 +83,7 @@ def test_no_wire_takes_the_diagonal_of_a_polygon() -> None:
     assert ends(seams(obj)) in ([], sorted((corners[0], corners[-1]))), "chains between the two corners only"
 
 
+@pytest.mark.every_blender
 @pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
 def test_wires_do_not_enter_hidden_faces(along: str) -> None:
     # The faces of the middle column are hidden up to the topmost: the only way leads over the top row.
@@ -147,6 +149,7 @@ def test_a_flattened_object_is_read_without_its_matrix() -> None:
     assert mark("0 2") == {"FINISHED"}
 
 
+@pytest.mark.every_blender
 def test_modifiers_do_not_count() -> None:
     obj = add_grid(5)
     obj.modifiers.new("Subdivision", "SUBSURF").levels = 2
@@ -310,6 +313,7 @@ def test_a_mesh_without_edges_is_said(size: int) -> None:
         mark("0 0")
 
 
+@pytest.mark.every_blender
 def test_outside_edit_mode_the_operators_cannot_be_called() -> None:
     add_grid(3)
     assert not bpy.ops.mesh.seamwire_mark.poll()
@@ -320,6 +324,7 @@ def test_outside_edit_mode_the_operators_cannot_be_called() -> None:
         bpy.ops.mesh.seamwire_draw()
 
 
+@pytest.mark.every_blender
 def test_marking_is_one_step_of_undo() -> None:
     obj = add_grid(5)
     edit()
@@ -398,6 +403,7 @@ def test_across_the_surface_closed_cuts_are_taken_through_vertices_and_places() 
         mark(loops="3", take="STRIP")
 
 
+@pytest.mark.every_blender
 def test_live_unwrap_follows_the_seams_and_leaves_the_selection() -> None:
     obj = add_grid(9)
     add_layers(obj)

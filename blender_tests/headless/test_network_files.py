@@ -22,6 +22,7 @@ def drawn(tmp_path: Path) -> tuple[bpy.types.Object, Path]:
     return obj, path
 
 
+@pytest.mark.every_blender
 def test_another_copy_of_the_mesh_gets_the_same_seams_and_wires(drawn: tuple[bpy.types.Object, Path]) -> None:
     obj, path = drawn
     wanted, wires = seams(obj), chains(obj)

@@ -79,6 +79,7 @@ def test_what_wires_cannot_run_on_is_said(grid: bpy.types.Object) -> None:
 # What is written
 
 
+@pytest.mark.every_blender
 def test_a_mesh_without_wires_stays_untouched(grid: bpy.types.Object) -> None:
     before = snapshot(grid)
     mesh = session_on(grid)
@@ -89,6 +90,7 @@ def test_a_mesh_without_wires_stays_untouched(grid: bpy.types.Object) -> None:
     assert snapshot(grid) == before
 
 
+@pytest.mark.every_blender
 @pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
 def test_wires_drawn_moved_and_removed_change_seams_and_nothing_else(grid: bpy.types.Object, along: str) -> None:
     before = snapshot(grid)
@@ -233,6 +235,7 @@ def test_it_tells_when_its_mesh_is_gone(grid: bpy.types.Object) -> None:
     assert not mesh.alive()
 
 
+@pytest.mark.every_blender
 def test_what_is_drawn_is_written_after_edit_mode_was_left_too(grid: bpy.types.Object) -> None:
     draw(session_on(grid), 4, 22)
     mesh = session_on(grid)
@@ -249,6 +252,7 @@ def test_what_is_drawn_is_written_after_edit_mode_was_left_too(grid: bpy.types.O
     assert agree(grid)
 
 
+@pytest.mark.every_blender
 def test_after_edit_mode_was_left_removed_wires_leave_no_labels(grid: bpy.types.Object) -> None:
     draw(session_on(grid), 36, 44)
     mesh = session_on(grid)
@@ -265,6 +269,7 @@ def test_after_edit_mode_was_left_removed_wires_leave_no_labels(grid: bpy.types.
 # Shapes
 
 
+@pytest.mark.every_blender
 def test_with_a_shape_key_active_the_shape_is_the_one_seen(grid: bpy.types.Object) -> None:
     bpy.ops.object.mode_set(mode="OBJECT")
     grid.active_shape_key_index = 1
@@ -306,6 +311,7 @@ def test_wires_do_not_mind_the_objects_scale(
     assert agree(grid)
 
 
+@pytest.mark.every_blender
 def test_strokes_stay_with_the_mesh_and_go_when_removed(
     grid: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
 ) -> None:

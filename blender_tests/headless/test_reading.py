@@ -9,6 +9,8 @@ from scene import add_grid, add_object, add_suzanne, edit
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.seam_islands import island_count as islands
 
+pytestmark = pytest.mark.every_blender
+
 
 def add_mixed() -> bpy.types.Object:
     """Triangles and quads in turns, one of them bent in, one not flat."""

@@ -44,6 +44,7 @@ def test_what_was_drawn_last_is_drawn_on_all_that_is_alike(bolts: bpy.types.Obje
     assert snapshot(bolts) == before
 
 
+@pytest.mark.every_blender
 def test_all_that_hangs_together_is_repeated_and_one_undo_takes_it_back(bolts: bpy.types.Object) -> None:
     assert bpy.ops.mesh.seamwire_mark(chains="0 1 3 2") == {"FINISHED"}
     assert len(chains(bolts)) == 3

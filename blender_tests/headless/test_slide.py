@@ -40,6 +40,7 @@ def add_triangles() -> bpy.types.Object:
     return obj
 
 
+@pytest.mark.every_blender
 def test_the_seam_lies_on_the_wire_and_nothing_else_changes() -> None:
     obj = add_triangles()
     before = places(obj)
@@ -85,6 +86,7 @@ def test_sliding_again_changes_nothing() -> None:
     assert np.allclose(places(obj), once, atol=0.02), "apart from spreading along the wire"
 
 
+@pytest.mark.every_blender
 def test_what_the_corners_hold_stays_where_it_is_on_the_surface() -> None:
     obj = add_quads()
     bm = bmesh.from_edit_mesh(obj.data)
@@ -106,6 +108,7 @@ def test_what_the_corners_hold_stays_where_it_is_on_the_surface() -> None:
             assert loop[color][:] == pytest.approx((x, y, 0.25, 1.0), abs=1e-5)
 
 
+@pytest.mark.every_blender
 def test_islands_of_a_uv_map_stay_apart_and_each_as_it_was() -> None:
     obj = add_quads()
     bm = bmesh.from_edit_mesh(obj.data)
@@ -127,6 +130,7 @@ def test_islands_of_a_uv_map_stay_apart_and_each_as_it_was() -> None:
     assert any(far)
 
 
+@pytest.mark.every_blender
 @pytest.mark.parametrize("active", [0, 1, 2])
 def test_the_surface_stays_in_every_shape_key(active: int) -> None:
     obj = add_grid(12)
@@ -155,6 +159,7 @@ def test_the_surface_stays_in_every_shape_key(active: int) -> None:
     )
 
 
+@pytest.mark.every_blender
 @pytest.mark.parametrize("what", ["sharp", "crease", "material", "seam"])
 def test_vertices_on_marks_stay(what: str) -> None:
     obj = add_quads()
@@ -182,6 +187,7 @@ def test_vertices_on_marks_stay(what: str) -> None:
     assert not any(vertex % 12 == 6 for vertex in moved)
 
 
+@pytest.mark.every_blender
 def test_undo_and_layers() -> None:
     obj = add_grid(12)
     add_layers(obj)

@@ -70,6 +70,7 @@ def entered(obj: bpy.types.Object) -> bpy.types.Object:
 # Files
 
 
+@pytest.mark.every_blender
 @pytest.mark.parametrize("where", ["EDIT", "OBJECT"])
 def test_a_file_saved_and_opened_has_them(
     drawn: bpy.types.Object, where: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -85,6 +86,7 @@ def test_a_file_saved_and_opened_has_them(
     assert agree(obj)
 
 
+@pytest.mark.every_blender
 def test_what_was_read_of_a_file_can_be_removed(
     drawn: bpy.types.Object, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -98,6 +100,7 @@ def test_what_was_read_of_a_file_can_be_removed(
     assert obj.data.seamwire_wires == ""
 
 
+@pytest.mark.every_blender
 @pytest.mark.parametrize("link", [False, True], ids=["appended", "linked and made local"])
 def test_an_object_from_another_file_has_them(
     drawn: bpy.types.Object, link: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -133,6 +136,7 @@ def undo_step(name: str) -> None:
     bpy.ops.ed.undo_push(message=name)
 
 
+@pytest.mark.every_blender
 def test_undo_and_redo_take_wires_back_and_bring_them_again() -> None:
     name = add_grid(9).name
     edit()
@@ -154,6 +158,7 @@ def test_undo_and_redo_take_wires_back_and_bring_them_again() -> None:
         assert agree(obj)
 
 
+@pytest.mark.every_blender
 def test_what_was_undone_stays_undone_when_more_is_drawn() -> None:
     name = add_grid(9).name
     edit()
@@ -167,6 +172,7 @@ def test_what_was_undone_stays_undone_when_more_is_drawn() -> None:
     assert seams(obj) == chain(*COLUMN)
 
 
+@pytest.mark.every_blender
 def test_undo_over_a_switch_of_modes_brings_them_back() -> None:
     name = add_grid(9).name
     edit()
@@ -187,6 +193,7 @@ def test_undo_over_a_switch_of_modes_brings_them_back() -> None:
 # Modes and objects
 
 
+@pytest.mark.every_blender
 def test_modes_are_switched_and_they_stay(drawn: bpy.types.Object, monkeypatch: pytest.MonkeyPatch) -> None:
     before = chains(drawn)
     forget(monkeypatch)
@@ -197,6 +204,7 @@ def test_modes_are_switched_and_they_stay(drawn: bpy.types.Object, monkeypatch: 
         assert agree(drawn)
 
 
+@pytest.mark.every_blender
 @pytest.mark.parametrize("linked", [False, True], ids=["a copy", "the same mesh"])
 def test_a_duplicate_has_them_too(drawn: bpy.types.Object, linked: bool) -> None:
     before = chains(drawn)
@@ -216,6 +224,7 @@ def test_a_duplicate_has_them_too(drawn: bpy.types.Object, linked: bool) -> None
     assert agree(drawn)
 
 
+@pytest.mark.every_blender
 def test_joined_objects_keep_the_wires_of_all() -> None:
     one, two = add_grid(9, name="One"), add_grid(9, name="Two")
     two.location = (3.0, 0.0, 0.0)
@@ -246,6 +255,7 @@ def test_joined_with_its_own_copy_the_mesh_has_each_wire_twice(drawn: bpy.types.
 # The mesh
 
 
+@pytest.mark.every_blender
 def test_a_part_duplicated_in_edit_mode_has_its_wires_twice(drawn: bpy.types.Object) -> None:
     before = chains(drawn)
     select(drawn, lambda face: True)
@@ -273,6 +283,7 @@ def test_half_a_wire_duplicated_is_no_wire_and_stays_a_seam(drawn: bpy.types.Obj
     assert len(set(seams(drawn)) - set(wired(drawn))) == 2
 
 
+@pytest.mark.every_blender
 def test_a_separated_part_takes_its_wires_along(drawn: bpy.types.Object) -> None:
     select(drawn, lambda face: face.calc_center_median().y < -0.13)
     bpy.ops.mesh.separate(type="SELECTED")
@@ -286,6 +297,7 @@ def test_a_separated_part_takes_its_wires_along(drawn: bpy.types.Object) -> None
     assert agree(other)
 
 
+@pytest.mark.every_blender
 def test_subdivided_they_run_along_twice_as_many_edges(drawn: bpy.types.Object) -> None:
     bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.mesh.subdivide()
@@ -295,6 +307,7 @@ def test_subdivided_they_run_along_twice_as_many_edges(drawn: bpy.types.Object) 
     assert sorted(session_on(drawn).session.seeds()) == sorted(seeds)
 
 
+@pytest.mark.every_blender
 def test_where_a_part_was_deleted_the_rest_of_a_wire_is_a_plain_seam(drawn: bpy.types.Object) -> None:
     select(drawn, lambda face: face.calc_center_median().x > 0.5)
     bpy.ops.mesh.delete(type="FACE")
@@ -316,6 +329,7 @@ def test_dissolved_edges_under_a_wire_leave_no_wire_and_no_error(drawn: bpy.type
     assert len(chains(drawn)) == 2
 
 
+@pytest.mark.every_blender
 def test_hidden_wires_stay(drawn: bpy.types.Object, monkeypatch: pytest.MonkeyPatch) -> None:
     before, marked = chains(drawn), seams(drawn)
     select(drawn, lambda face: face.calc_center_median().y < -0.3)
@@ -341,6 +355,7 @@ def test_moved_by_a_cell_of_its_own_pattern_they_stay_on_their_vertices(drawn: b
     assert agree(drawn)
 
 
+@pytest.mark.every_blender
 def test_sorted_anew_their_vertices_have_other_numbers(drawn: bpy.types.Object) -> None:
     places = [(x / 4.0 - 1.0, 0.0) for x in range(9)]
     bpy.ops.mesh.select_all(action="SELECT")
@@ -351,6 +366,7 @@ def test_sorted_anew_their_vertices_have_other_numbers(drawn: bpy.types.Object) 
     assert agree(drawn)
 
 
+@pytest.mark.every_blender
 def test_a_shape_key_added_or_removed_changes_nothing(drawn: bpy.types.Object) -> None:
     before = chains(drawn)
     mode("OBJECT")
@@ -371,6 +387,7 @@ def test_a_shape_key_added_or_removed_changes_nothing(drawn: bpy.types.Object) -
 # Other versions
 
 
+@pytest.mark.every_blender
 def test_wires_of_the_first_version_are_taken_over(monkeypatch: pytest.MonkeyPatch) -> None:
     text = (FIXTURES / "wires-version-1.json").read_text(encoding="utf-8")
     obj = add_grid(9)
@@ -396,6 +413,7 @@ def test_wires_of_the_first_version_are_taken_over(monkeypatch: pytest.MonkeyPat
     assert seams(obj) == chain(*ROW)
 
 
+@pytest.mark.every_blender
 def test_wires_of_the_second_version_are_read(monkeypatch: pytest.MonkeyPatch) -> None:
     obj = add_grid(9)
     column = (4, 13, 22, 31)
@@ -416,6 +434,7 @@ def test_wires_of_the_second_version_are_read(monkeypatch: pytest.MonkeyPatch) -
     assert agree(obj)
 
 
+@pytest.mark.every_blender
 def test_what_a_newer_version_wrote_stays_byte_by_byte_and_is_said(
     drawn: bpy.types.Object, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:

@@ -29,6 +29,7 @@ def expected(obj: bpy.types.Object) -> tuple[object, object]:
     return surface, sw.principal_curvatures(surface)
 
 
+@pytest.mark.every_blender
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 def test_strengths_and_concavity_are_stored_as_the_library_has_them(mode: str) -> None:
     obj = add_suzanne(1)
@@ -89,6 +90,7 @@ def test_what_is_shown_as_heat_is_what_is_stored_where_nothing_is_named() -> Non
     assert bmesh.from_edit_mesh(obj.data).verts.layers.float.get("feature_strength") is not None
 
 
+@pytest.mark.every_blender
 def test_an_attribute_of_that_name_and_another_kind_is_left_alone() -> None:
     obj = add_suzanne()
     obj.data.attributes.new("concavity", "INT", "FACE")

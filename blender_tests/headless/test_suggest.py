@@ -58,6 +58,7 @@ def add_ball(name: str = "Ball") -> bpy.types.Object:
     return obj
 
 
+@pytest.mark.every_blender
 def test_islands_are_discs_and_seams_are_wires(suzanne: bpy.types.Object) -> None:
     before = snapshot(suzanne, with_seams=False)
     assert open_islands(suzanne) > 0
@@ -368,6 +369,7 @@ def test_islands_are_those_planned_where_wires_run_side_by_side(angle: float) ->
     assert islands(obj) == suggestion.plan.island_count
 
 
+@pytest.mark.every_blender
 def test_unwraps_on_request() -> None:
     obj = add_ball()
     edit()

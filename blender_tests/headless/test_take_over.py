@@ -27,6 +27,7 @@ def seamed() -> bpy.types.Object:
     return obj
 
 
+@pytest.mark.every_blender
 def test_seams_are_wires_then_and_nothing_else_has_changed(seamed: bpy.types.Object) -> None:
     before = snapshot(seamed)
     assert bpy.ops.mesh.seamwire_take_over() == {"FINISHED"}

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The tool's slot in Blender's toolbar, and Blender's own beside it. Choosing tools needs a window: see ``window/test_toolbar.py``."""
 
+import pytest
 import traces
 from bl_ui.space_toolsystem_toolbar import VIEW3D_PT_tools_active
 from scene import add_grid, edit
 from seamwire.mesh.settings import TOOL
 from toolbar import slots
+
+pytestmark = pytest.mark.every_blender
 
 
 def test_the_tool_has_a_slot_of_its_own_and_no_group_has_a_gap() -> None:

@@ -74,6 +74,7 @@ def test_seams_without_wires_come_too_and_stay_as_they_are(heads: Pair) -> None:
     assert ".seamwire" not in source.data.attributes
 
 
+@pytest.mark.every_blender
 def test_a_mesh_that_was_moved_and_scaled_is_found_and_one_undo_takes_it_back(heads: Pair) -> None:
     source, target = heads
     leave()

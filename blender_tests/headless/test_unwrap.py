@@ -81,6 +81,7 @@ def density(obj: bpy.types.Object, faces: slice) -> float:
     return float(np.sqrt(area / sum(face.calc_area() for face in list(bmesh.from_edit_mesh(obj.data).faces)[faces])))
 
 
+@pytest.mark.every_blender
 def test_a_mesh_without_uvs_is_unwrapped_and_packed_as_blender_does() -> None:
     found = []
     for name in ("ours", "blenders"):
@@ -100,6 +101,7 @@ def test_a_mesh_without_uvs_is_unwrapped_and_packed_as_blender_does() -> None:
     assert np.ptp(found[0]) > 0.5
 
 
+@pytest.mark.every_blender
 def test_only_the_islands_whose_seams_changed_are_unwrapped_and_the_others_keep_every_bit() -> None:
     obj = add_hill()
     edit()
@@ -142,6 +144,7 @@ def test_new_islands_are_as_dense_as_what_they_were_part_of_or_as_the_others(eve
     assert density(obj, lower) == pytest.approx(dense if even else thin, rel=1e-3)
 
 
+@pytest.mark.every_blender
 @pytest.mark.parametrize("has_map", [False, True])
 def test_uvs_come_back_out_of_edit_mode_too_but_not_where_faces_are_others(has_map: bool) -> None:
     obj = add_hill()
@@ -242,6 +245,7 @@ def test_a_seam_that_is_cleared_joins_its_islands() -> None:
     assert after[16:24, 3] == pytest.approx(after[24:32, 0])
 
 
+@pytest.mark.every_blender
 @pytest.mark.parametrize("by_blender", [False, True])
 def test_islands_that_were_parted_by_a_cut_are_unwrapped_as_one_once_it_is_taken_back(by_blender: bool) -> None:
     obj = add_hill()
@@ -271,6 +275,7 @@ def test_islands_that_were_parted_by_a_cut_are_unwrapped_as_one_once_it_is_taken
     assert unwrap() == {"CANCELLED"}
 
 
+@pytest.mark.every_blender
 def test_uvs_that_blender_unwrapped_meanwhile_are_kept() -> None:
     obj = add_hill()
     edit()
@@ -283,6 +288,7 @@ def test_uvs_that_blender_unwrapped_meanwhile_are_kept() -> None:
     assert np.array_equal(uvs(obj), places)
 
 
+@pytest.mark.every_blender
 @pytest.mark.parametrize("sync", [False, True])
 @pytest.mark.parametrize("mode", ["VERT", "EDGE", "FACE"])
 def test_selections_hidden_faces_and_every_layer_stay(mode: str, sync: bool) -> None:
@@ -319,6 +325,7 @@ def test_selections_hidden_faces_and_every_layer_stay(mode: str, sync: bool) -> 
     bpy.ops.mesh.select_mode(type="VERT")
 
 
+@pytest.mark.every_blender
 def test_pinned_corners_stay() -> None:
     obj = add_hill()
     edit()
@@ -339,6 +346,7 @@ def test_pinned_corners_stay() -> None:
     assert np.array_equal(after[32:], before[32:])
 
 
+@pytest.mark.every_blender
 def test_another_uv_map_is_unwrapped_for_itself() -> None:
     obj = add_hill()
     edit()
@@ -369,6 +377,7 @@ def test_all_objects_in_edit_mode_are_unwrapped_among_each_other() -> None:
     assert OWN.rpartition(" ")[2] in bmesh.from_edit_mesh(objects[0].data).edges.layers.int
 
 
+@pytest.mark.every_blender
 def test_undo_is_one_step() -> None:
     obj = add_hill()
     name = obj.name
@@ -407,6 +416,7 @@ def selected(obj: bpy.types.Object) -> list[int]:
     return [face.index for face in bmesh.from_edit_mesh(obj.data).faces if face.select]
 
 
+@pytest.mark.every_blender
 @pytest.mark.parametrize("mode", ["EDGE", "FACE"])
 def test_the_worst_island_is_selected(mode: str) -> None:
     objects = [add_hill() for _ in range(2)]

@@ -23,8 +23,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.cutting import CutPlan, Node
+    from ..core.mesh_arrays import Arrays
     from ..core.network import Edge, Pick
-    from .edit_mesh import Arrays, Cage
+    from .edit_mesh import Cage
 
 CUTS = ".seamwire_cut"
 """The layer of vertices, and of edges, that is 1 where a cut made them: those can be taken back."""
@@ -61,6 +62,7 @@ class CageFaces:
     def __init__(self, cage: Cage, arrays: Arrays) -> None:
         self.points, self.triangles = arrays.points, arrays.triangles
         self._polygons = arrays.polygons
+        cage.number_items()
         self._bm = cage.bm
 
     def polygons_at(self, vertex: int) -> Sequence[int]:

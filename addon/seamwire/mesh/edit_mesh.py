@@ -8,7 +8,6 @@ edges are left out of what wires may run on.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -18,6 +17,7 @@ import numpy as np
 
 from ..core import native
 from ..core.gaps import triangles_at
+from ..core.mesh_arrays import Arrays
 from ..core.network import vertices_of
 from ..core.triangulation import without_flat_triangles
 from ..core.wire_labels import EdgeLabels
@@ -36,47 +36,6 @@ class NothingVisibleError(ValueError):
     """There is nothing of the mesh to work on: it has none, or all of it is hidden."""
 
 
-@dataclass(frozen=True)
-class Arrays:
-    """What the library needs of an edit mesh.
-
-    Parameters
-    ----------
-    points
-        (n, 3) vertices, stretched as the object's matrix stretches them: lengths are those that are seen.
-    triangles
-        (m, 3) the visible faces, cut into triangles as Blender does, but for those without area.
-    polygons
-        (m,) the face that each triangle is part of, ascending.
-    edges
-        (e, 2) the visible edges of the polygons, no diagonals.
-    to_object
-        (3, 3) takes `points` to object coordinates, see `in_object`.
-    seams
-        (k, 2) those of the visible edges that are seams.
-    partly_hidden
-        (h, 2) those of the visible edges that hidden faces have too.
-    """
-
-    points: NDArray[np.float64]
-    triangles: NDArray[np.int32]
-    polygons: NDArray[np.int32]
-    edges: NDArray[np.int32]
-    to_object: NDArray[np.float64]
-    seams: NDArray[np.int32]
-    partly_hidden: NDArray[np.int32]
-
-    @property
-    def in_object(self) -> NDArray[np.float64]:
-        """(n, 3) vertices in object coordinates, without the object's scale: those that Blender unwraps."""
-        return self.points @ self.to_object.T
-
-    def same_as(self, other: Arrays) -> bool:
-        """Whether wires run on another mesh as they do on this one; its seams may be others."""
-        names = ("points", "triangles", "edges", "to_object")
-        return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in names)
-
-
 class Cage:
     """The edit mesh of one object, as long as its topology stays what it is.
 
@@ -89,10 +48,14 @@ class Cage:
     def __init__(self, obj: bpy.types.Object) -> None:
         self.mesh = obj.data
         self.bm = bmesh.from_edit_mesh(obj.data)
-        self._lookup()
+        self.number_items()
         self._counts = self._count()
 
-    def _lookup(self) -> None:
+    def number_items(self) -> None:
+        """Let each vertex, edge and face know its number. Some of Blender's operators, such as View Selected, leave other numbers behind.
+
+        This takes no time where the numbers are right.
+        """
         for sequence in (self.bm.verts, self.bm.edges, self.bm.faces):
             sequence.ensure_lookup_table()
             sequence.index_update()
@@ -134,6 +97,7 @@ class Cage:
         active = self.bm.select_history.active
         if not isinstance(active, bmesh.types.BMVert) or active.hide:
             return None
+        self.number_items()
         return active.index
 
     def is_seam(self, pair: tuple[int, int]) -> bool:
@@ -146,6 +110,7 @@ class Cage:
         layer = self.bm.edges.layers.int.get(LABELS)
         if layer is None:
             return EdgeLabels.none()
+        self.number_items()
         found = [(label, edge) for edge in self.bm.edges if (label := edge[layer])]
         return EdgeLabels(
             np.array([[v.index for v in edge.verts] for _, edge in found], dtype=np.int64).reshape(-1, 2),
@@ -172,7 +137,7 @@ class Cage:
         ValueError
             Where two vertices have no edge between them; then nothing is changed.
         """
-        self._lookup()
+        self.number_items()
         # Looked up twice: a new layer makes what was found before invalid.
         for pairs in (mark := list(mark), clear := list(clear), labels):
             self._found(pairs)
@@ -188,7 +153,7 @@ class Cage:
                 edge[layer] = label
             if labels and not any(edge[layer] for edge in self.bm.edges):
                 self.bm.edges.layers.int.remove(layer)
-                self._lookup()
+                self.number_items()
         if new or old or labels:
             bmesh.update_edit_mesh(self.mesh, loop_triangles=False, destructive=False)
         return len(new), len(old)
@@ -198,7 +163,7 @@ class Cage:
         layer = layers.get(LABELS)
         if layer is None:
             layer = layers.new(LABELS)
-            self._lookup()
+            self.number_items()
         return layer
 
     def _found(self, pairs: Iterable[tuple[int, int]]) -> list[bmesh.types.BMEdge]:

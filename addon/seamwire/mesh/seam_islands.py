@@ -19,13 +19,15 @@ from . import edit_mesh, uv_map
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ..core.mesh_arrays import Arrays
+
 ATTRIBUTE = "island"
 """The face attribute that islands are stored as."""
 _HUES = [place / 12 for place in places_of(12)]
 """Of the materials, around the circle of hues."""
 
 
-def read(obj: bpy.types.Object) -> edit_mesh.Arrays:
+def read(obj: bpy.types.Object) -> Arrays:
     """Read the edit mesh of an object; raises `edit_mesh.NothingVisibleError` where no face is visible."""
     arrays = edit_mesh.read(obj)
     if not len(arrays.triangles):
@@ -33,7 +35,7 @@ def read(obj: bpy.types.Object) -> edit_mesh.Arrays:
     return arrays
 
 
-def labels_of(arrays: edit_mesh.Arrays) -> NDArray[np.int32]:
+def labels_of(arrays: Arrays) -> NDArray[np.int32]:
     """Return the island of each triangle, (m,): 0, 1, ..., largest first."""
     core = native.load()
     surface = core.Surface(arrays.points, arrays.triangles, arrays.edges)
@@ -185,7 +187,7 @@ def stretched_count(obj: bpy.types.Object, most: float) -> int:
     return 0 if islands is None else int((np.maximum(islands.angle, islands.area) > most).sum())
 
 
-def stretch_of(obj: bpy.types.Object, arrays: edit_mesh.Arrays, labels: NDArray[np.int32]) -> IslandStretch | None:
+def stretch_of(obj: bpy.types.Object, arrays: Arrays, labels: NDArray[np.int32]) -> IslandStretch | None:
     """Return how much the active UV map of an edit mesh stretches islands; None: there is no UV map, or no visible face.
 
     As Blender unwraps it: without the object's scale.

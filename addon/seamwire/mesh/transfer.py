@@ -16,10 +16,10 @@ if TYPE_CHECKING:
 
     import bpy
 
+    from ..core.mesh_arrays import Arrays
     from ..core.network import Edge
     from ..core.network_file import NetworkFile
     from ..core.transfer import Transfer
-    from .edit_mesh import Arrays
     from .settings import SeamwireSettings
 
 Place = Literal["AUTO", "NUMBERS", "SURFACE", "PAIRS"]

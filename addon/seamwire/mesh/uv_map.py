@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from .edit_mesh import Arrays
+    from ..core.mesh_arrays import Arrays
 
 
 @dataclass(frozen=True)

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
     from ..core.color_maps import ColorMap
     from ..core.crests import Crests
+    from ..core.mesh_arrays import Arrays
     from ..core.metric_fields import Ellipses, Fields, Part, Source
-    from ..mesh.edit_mesh import Arrays
     from ..mesh.settings import SeamwireSettings
     from .gpu_draw import Eye
     from .theme import Color

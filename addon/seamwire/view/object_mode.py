@@ -20,7 +20,7 @@ from .metric_views import MetricViews
 from .overlay import free_room
 
 if TYPE_CHECKING:
-    from ..mesh.edit_mesh import Arrays
+    from ..core.mesh_arrays import Arrays
 
 _RHYTHM = 0.05
 """Seconds between two looks at running work."""

@@ -72,7 +72,7 @@ class ObjectView:
         gaps = GapFinder(arrays.points, arrays.triangles, arrays.edges, arrays.partly_hidden)
         self._islands = islands.IslandMaker(arrays.triangles, self.mesh.make_live.face_segments, HUES, gaps)
         self.views = MetricViews(arrays, native.load(), self.mesh.make_live.wait)
-        self._picker = Picker(self.mesh.cage.bm, arrays, self.mesh.plain_seams)
+        self._picker = Picker(arrays, self.mesh.plain_seams)
         self.overlay = Overlay(
             self.session,
             obj,
@@ -123,7 +123,7 @@ class ObjectView:
 
     def renew(self) -> None:
         """Let picker and overlay follow the mesh that was read, or written."""
-        self._picker.renew(self.mesh.cage.bm, self.mesh.plain_seams)
+        self._picker.set_seams(self.mesh.plain_seams)
         self.overlay.renew(self.obj, self.mesh.arrays.seams)
         self.measure(anew=True)
 

@@ -3,29 +3,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from mathutils import Vector
 
 from ..core import native
 from ..core.geometry import nearest_on_segments
+from ..core.incidence import Incidence
 from ..core.network import FacePoint, Snap, place_of, vertices_of
 from .viewport import Projected
 
 if TYPE_CHECKING:
-    import bmesh
     from mathutils import Matrix
     from numpy.typing import ArrayLike, NDArray
 
     from ..core.crests import Crests
+    from ..core.mesh_arrays import Arrays
     from ..core.network import Pick, Wire
     from ..core.session import Session
     from ..core.strokes import Scribble
-    from ..mesh.edit_mesh import Arrays
     from .viewport import View
 
 VERTEX_RADIUS = 12.0
@@ -54,6 +53,37 @@ _FEW_EDGES = 50_000
 """So many are projected all; of more, those at the vertices that are near."""
 
 
+class _Placement:
+    """Where an object stands in the world.
+
+    Parameters
+    ----------
+    matrix
+        The object's matrix; may rotate, scale and shear.
+    """
+
+    def __init__(self, matrix: Matrix | NDArray[np.float64]) -> None:
+        self.matrix = np.array(matrix, dtype=np.float64)
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether the matrix flattens the object, so that nothing of it can be picked."""
+        return abs(float(np.linalg.det(self.matrix))) < 1e-30
+
+    @cached_property
+    def inverse(self) -> NDArray[np.float64]:
+        """(4, 4), takes world coordinates to object coordinates."""
+        return np.linalg.inv(self.matrix)
+
+    def to_world(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Take (..., 3) points from object coordinates to world coordinates."""
+        return points @ self.matrix[:3, :3].T + self.matrix[:3, 3]
+
+    def from_world(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Take (..., 3) points from world coordinates to object coordinates."""
+        return points @ self.inverse[:3, :3].T + self.inverse[:3, 3]
+
+
 class _Segments:
     """Straight pieces of curves, each with the number of its owner.
 
@@ -70,7 +100,7 @@ class _Segments:
         self.owners = np.repeat(np.arange(len(curves)), [max(len(curve) - 1, 0) for curve in curves])
 
     def near(
-        self, view: View, matrix: Matrix, cursor: tuple[float, float], radius: float
+        self, view: View, matrix: NDArray[np.float64], cursor: tuple[float, float], radius: float
     ) -> Iterator[tuple[int, NDArray[np.float64]]]:
         """Yield owners and their points under the cursor, nearest first: of one that lies there more than once, each."""
         if not len(self.owners):
@@ -133,42 +163,44 @@ class Picker:
 
     Parameters
     ----------
-    bm
-        The edit mesh. Its topology and its coordinates must stay as they are while the picker is used.
     arrays
-        The same as arrays.
+        The edit mesh.
     seams
-        (s, 2) the edges that are seams and no wires.
+        (s, 2) the edges that are seams and that no wire runs along.
 
     Notes
     -----
-    The library's tree of the faces is built on a thread; what is asked before it is there takes some milliseconds longer.
+    Threads build the library's tree of the triangles and the tables of what meets at each vertex. What is asked before these are there
+    waits for the tables.
     """
 
-    def __init__(self, bm: bmesh.types.BMesh, arrays: Arrays, seams: ArrayLike = ()) -> None:
-        self._bm = bm
+    def __init__(self, arrays: Arrays, seams: ArrayLike = ()) -> None:
         self._points = arrays.points
         self._to_object = arrays.to_object
         self._all_edges = arrays.edges
         self._triangles = arrays.triangles
+        self._polygons = arrays.polygons
         self._to_points = np.linalg.inv(arrays.to_object)
         self._rays = native.load().RayTree(arrays.points, arrays.triangles)
+        self._triangles_at = Incidence(arrays.triangles, len(arrays.points))
+        self._edges_at = Incidence(arrays.edges, len(arrays.points))
         self._seam_edges = np.asarray(seams, dtype=np.int64).reshape(-1, 2)
         self._drawn: _Drawn | None = None
         self._strength: tuple[object, float] = (None, 0.0)
         self._crests: tuple[Crests | None, _Segments] = (None, _Segments([]))
-        bm.verts.ensure_lookup_table()
-        bm.faces.ensure_lookup_table()
 
-    def renew(self, bm: bmesh.types.BMesh, seams: ArrayLike) -> None:
-        """Go on with an edit mesh that was read anew and is the same, but for its seams."""
-        self._bm = bm
+    def wait(self) -> None:
+        """Wait until the threads have finished."""
+        self._rays.wait()
+        self._triangles_at.wait()
+        self._edges_at.wait()
+
+    def set_seams(self, seams: ArrayLike) -> None:
+        """Take other edges, (s, 2), as the seams that no wire runs along."""
         edges = np.asarray(seams, dtype=np.int64).reshape(-1, 2)
         if not np.array_equal(edges, self._seam_edges):
             self._seam_edges = edges
             self.__dict__.pop("_seams", None)
-        bm.verts.ensure_lookup_table()
-        bm.faces.ensure_lookup_table()
 
     @cached_property
     def _seams(self) -> _Segments:
@@ -185,6 +217,10 @@ class Picker:
 
     def _in_object(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         return np.asarray(points) @ self._to_object.T
+
+    def _pixels(self, view: View, placement: _Placement, vertices: ArrayLike) -> NDArray[np.float64]:
+        """Return where vertices are seen, (k, 2)."""
+        return view.to_pixels(placement.to_world(self._in_object(self._points[vertices])))
 
     def snap(
         self,
@@ -226,69 +262,77 @@ class Picker:
         scale
             Of the display.
         """
-        if abs(matrix.determinant()) < 1e-30:
+        placement = _Placement(matrix)
+        if placement.is_flat:
             return None
         if session is not None:
-            found = self._drawn_at(session, view, matrix, cursor, xray, scale)
+            found = self._drawn_at(session, view, placement, cursor, xray, scale)
             if found is not None:
                 return found
         if xray:
-            pick = self._pick_through(view, matrix, cursor, vertices_only, scale)
+            pick = self._pick_through(view, placement, cursor, vertices_only, scale)
         else:
-            pick = self._point_at(view, matrix, cursor, scale) if anywhere else None
+            pick = self._point_at(view, placement, cursor, scale) if anywhere else None
             if pick is None:
-                pick = self.pick(view, matrix, cursor, vertices_only, scale, edges_only)
+                pick = self._pick(view, placement, cursor, vertices_only, scale, edges_only)
         if pick is None:
             return None
-        crest = None if crests is None else self._crest_at(view, matrix, cursor, crests, anywhere, xray, scale)
+        crest = None if crests is None else self._crest_at(view, placement, cursor, crests, anywhere, xray, scale)
         if crest is not None:
             return Snap(crest, "FEATURE")
         if strength is None:
             return Snap(pick)
-        feature = self._feature_at(view, matrix, cursor, pick, strength, xray, scale)
+        feature = self._feature_at(view, placement, cursor, pick, strength, xray, scale)
         return Snap(pick) if feature is None else Snap(feature, "FEATURE")
 
     def seen_along(self, view: View, matrix: Matrix, pick: Pick) -> tuple[float, float, float] | None:
         """Return the direction from the viewer to a pick, as `Arrays.points` are given; None: it lies behind the viewer."""
-        if abs(matrix.determinant()) < 1e-30:
+        placement = _Placement(matrix)
+        if placement.is_flat:
             return None
         place = self._to_object @ place_of(pick, self._points)
-        pixel = view.to_pixels(np.array(matrix @ Vector(place))[None])[0]
+        pixel = view.to_pixels(placement.to_world(place)[None])[0]
         if not np.isfinite(pixel).all():
             return None
-        inverse = matrix.inverted()
-        near, far = (
-            self._to_points @ np.array(inverse @ Vector(end)) for end in view.ray((float(pixel[0]), float(pixel[1])))
-        )
+        near, far = self._ray(view, placement, (float(pixel[0]), float(pixel[1])))
         x, y, z = (far - near).tolist()
         return x, y, z
 
     def depth(self, view: View, matrix: Matrix, cursor: tuple[float, float]) -> float | None:
         """Return how far away the face under the cursor is, in world units from the near plane; None: there is none."""
-        if abs(matrix.determinant()) < 1e-30:
-            return None
-        hit = self._cast(view, matrix, cursor)
-        return None if hit is None else float(np.linalg.norm(np.array(matrix @ hit[1]) - view.ray(cursor)[0]))
+        placement = _Placement(matrix)
+        hit = None if placement.is_flat else self._cast(view, placement, cursor)
+        return None if hit is None else float(np.linalg.norm(placement.to_world(hit[1]) - view.ray(cursor)[0]))
 
     def surface_at(
         self, view: View, matrix: Matrix, cursor: tuple[float, float]
     ) -> tuple[NDArray[np.float64], int] | None:
         """Return the point of the surface under the cursor, as `Arrays.points` are given, and the triangle it lies in."""
-        if abs(matrix.determinant()) < 1e-30:
-            return None
-        hit = self._cast(view, matrix, cursor)
-        return None if hit is None else (self._to_points @ np.array(hit[1]), hit[0])
+        placement = _Placement(matrix)
+        hit = None if placement.is_flat else self._cast(view, placement, cursor)
+        return None if hit is None else (self._to_points @ hit[1], hit[0])
+
+    def sees(self, view: View, matrix: Matrix, place: NDArray[np.float64]) -> bool:
+        """Whether nothing lies before a point, (3,), but for what is nearer by no more than a few pixels: it may lie in a crease."""
+        return self._sees(view, _Placement(matrix), place)
 
     # Seeds, wires, seams
 
     def _drawn_at(
-        self, session: Session, view: View, matrix: Matrix, cursor: tuple[float, float], xray: bool, scale: float
+        self,
+        session: Session,
+        view: View,
+        placement: _Placement,
+        cursor: tuple[float, float],
+        xray: bool,
+        scale: float,
     ) -> Snap | None:
         drawn = self._drawn_now(session)
 
         def free(place: NDArray[np.float64]) -> bool:
-            return xray or self.sees(view, matrix, place)
+            return xray or self._sees(view, placement, place)
 
+        matrix = placement.matrix
         rows = drawn.seeds.near(view, matrix, cursor, SEED_REACH * scale)
         x, y, _ = drawn.seeds.seen(view, matrix)
         gaps = np.hypot(x[rows] - cursor[0], y[rows] - cursor[1])
@@ -329,17 +373,17 @@ class Picker:
         )
         return self._drawn
 
-    def sees(self, view: View, matrix: Matrix, place: NDArray[np.float64]) -> bool:
-        """Whether nothing lies before a point, but for what is nearer by no more than a few pixels: it may lie in a crease."""
-        world = np.array(matrix @ Vector(place))
-        at = view.to_pixels(world[None])[0]
-        if np.isnan(at).any():
+    def _sees(self, view: View, placement: _Placement, place: NDArray[np.float64]) -> bool:
+        world = placement.to_world(place)
+        pixel = view.to_pixels(world[None])[0]
+        if np.isnan(pixel).any():
             return False
-        hit = self._cast(view, matrix, (float(at[0]), float(at[1])))
+        at = (float(pixel[0]), float(pixel[1]))
+        hit = self._cast(view, placement, at)
         if hit is None:
             return True
-        near = view.ray((float(at[0]), float(at[1])))[0]
-        before = np.linalg.norm(world - near) - np.linalg.norm(np.array(matrix @ hit[1]) - near)
+        near = view.ray(at)[0]
+        before = np.linalg.norm(world - near) - np.linalg.norm(placement.to_world(hit[1]) - near)
         return bool(before <= 6.0 * view.pixel_size(world))
 
     # Features
@@ -347,7 +391,7 @@ class Picker:
     def _crest_at(
         self,
         view: View,
-        matrix: Matrix,
+        placement: _Placement,
         cursor: tuple[float, float],
         crests: Crests,
         anywhere: bool,
@@ -358,13 +402,13 @@ class Picker:
         if self._crests[0] is not crests:
             ends = self._in_object(crests.segments.reshape(-1, 3)).reshape(-1, 2, 3)
             self._crests = crests, _Segments(list(ends))
-        for piece, seen in self._crests[1].near(view, matrix, cursor, FEATURE_REACH * scale):
-            if not (xray or self.sees(view, matrix, seen)):
+        for piece, seen in self._crests[1].near(view, placement.matrix, cursor, FEATURE_REACH * scale):
+            if not (xray or self._sees(view, placement, seen)):
                 continue
             place, triangle, vertex = crests.place_at(piece, self._to_points @ seen)
             if anywhere:
                 return FacePoint.at(place, triangle, self._triangles, self._points)
-            pixel = view.to_pixels(np.array(matrix @ self._bm.verts[vertex].co, dtype=np.float64)[None])[0]
+            pixel = self._pixels(view, placement, [vertex])[0]
             if np.linalg.norm(pixel - np.asarray(cursor)) <= FEATURE_REACH * scale:
                 return vertex
         return None
@@ -372,7 +416,7 @@ class Picker:
     def _feature_at(
         self,
         view: View,
-        matrix: Matrix,
+        placement: _Placement,
         cursor: tuple[float, float],
         pick: Pick,
         strength: NDArray[np.float64],
@@ -383,38 +427,33 @@ class Picker:
         if self._strength[0] is not strength:
             self._strength = (strength, float(np.quantile(strength, FEATURE_QUANTILE)) if len(strength) else 0.0)
         radius = FEATURE_REACH * scale
-        frontier = [self._bm.verts[v] for v in (pick.corners if isinstance(pick, FacePoint) else vertices_of(pick))]
-        seen = {v.index for v in frontier}
+        frontier = sorted(set(pick.corners if isinstance(pick, FacePoint) else vertices_of(pick)))
+        seen = set(frontier)
         near: list[int] = []
         while frontier and len(seen) < _MAX_NEAR:
-            world = np.array([matrix @ v.co for v in frontier], dtype=np.float64)
-            gaps = np.linalg.norm(view.to_pixels(world) - np.asarray(cursor), axis=1)
-            inside = [v for v, gap in zip(frontier, gaps, strict=True) if gap <= radius]
-            near += [v.index for v in inside]
-            frontier = []
-            for v in inside:
-                for edge in v.link_edges:
-                    other = edge.other_vert(v)
-                    if not edge.hide and other.index not in seen:
-                        seen.add(other.index)
-                        frontier.append(other)
+            gaps = np.linalg.norm(self._pixels(view, placement, frontier) - np.asarray(cursor), axis=1)
+            inside = [vertex for vertex, gap in zip(frontier, gaps.tolist(), strict=True) if gap <= radius]
+            near += inside
+            reached = self._all_edges[self._edges_at.rows(inside)]
+            frontier = sorted(set(reached.reshape(-1).tolist()) - seen)
+            seen.update(frontier)
         for vertex in sorted(near, key=lambda v: -strength[v])[:4]:
             if strength[vertex] <= self._strength[1]:
                 return None
-            if xray or self.sees(view, matrix, np.array(self._bm.verts[vertex].co)):
+            if xray or self._sees(view, placement, self._to_object @ self._points[vertex]):
                 return vertex
         return None
 
     # The mesh
 
     def _pick_through(
-        self, view: View, matrix: Matrix, cursor: tuple[float, float], vertices_only: bool, scale: float
+        self, view: View, placement: _Placement, cursor: tuple[float, float], vertices_only: bool, scale: float
     ) -> Pick | None:
         """Return the vertex or edge that is nearest on the screen, however much lies before it."""
         numbers, projected = self._vertices
-        x, y, depth = projected.seen(view, matrix)
+        x, y, depth = projected.seen(view, placement.matrix)
         for radius in (REACH * scale, 5.0 * REACH * scale):
-            rows = projected.near(view, matrix, cursor, radius)
+            rows = projected.near(view, placement.matrix, cursor, radius)
             if len(rows):
                 break
         if vertices_only:
@@ -428,8 +467,7 @@ class Picker:
         else:
             gaps = np.hypot(x[rows] - cursor[0], y[rows] - cursor[1])
             nearest = numbers[rows[np.argsort(gaps)[:_MAX_NEAR]]]
-            edges = {e for v in nearest.tolist() for e in self._bm.verts[v].link_edges if not e.hide}
-            pairs = np.array([[v.index for v in e.verts] for e in edges], dtype=np.int64).reshape(-1, 2)
+            pairs = self._all_edges[self._edges_at.rows(nearest)]
         at = np.searchsorted(numbers, pairs)
         screen = np.stack([x, y], axis=1)
         starts, ends = screen[at[:, 0]], screen[at[:, 1]]
@@ -468,123 +506,148 @@ class Picker:
         int, tuple of int or None
             A vertex, an edge by its vertices, or nothing.
         """
-        if abs(matrix.determinant()) < 1e-30:
+        placement = _Placement(matrix)
+        if placement.is_flat:
             return None
-        faces = list(self._faces_at(view, matrix, cursor, REACH * scale))
-        edges = {edge for face in faces for edge in self._surroundings(face, view, matrix) if not edge.hide}
-        if not vertices_only:
-            edges |= self._loose_at(view, matrix, cursor, scale)
-        if not edges:
+        return self._pick(view, placement, cursor, vertices_only, scale, edges_only)
+
+    def _pick(
+        self,
+        view: View,
+        placement: _Placement,
+        cursor: tuple[float, float],
+        vertices_only: bool,
+        scale: float,
+        edges_only: bool,
+    ) -> Pick | None:
+        rows = self._edges_near(view, placement, cursor, scale, loose_too=not vertices_only)
+        if not rows:
             return None
-        pairs = [(edge.verts[0].index, edge.verts[1].index) for edge in sorted(edges, key=lambda edge: edge.index)]
-        numbers = sorted({vertex for pair in pairs for vertex in pair})
-        world = np.array([matrix @ self._bm.verts[vertex].co for vertex in numbers], dtype=np.float64)
-        pixels = view.to_pixels(world)
+        pairs = self._all_edges[rows]
         if vertices_only:
-            gaps = np.linalg.norm(pixels - np.asarray(cursor), axis=1)
-            return None if np.isnan(gaps).all() else numbers[int(np.nanargmin(gaps))]
-        row = {vertex: i for i, vertex in enumerate(numbers)}
-        ends = np.array([[row[a], row[b]] for a, b in pairs])
-        index, end = nearest_edge(cursor, pixels[ends[:, 0]], pixels[ends[:, 1]], scale)
+            numbers = np.unique(pairs)
+            gaps = np.linalg.norm(self._pixels(view, placement, numbers) - np.asarray(cursor), axis=1)
+            return None if np.isnan(gaps).all() else int(numbers[np.nanargmin(gaps)])
+        starts, ends = self._pixels(view, placement, pairs.T.reshape(-1)).reshape(2, -1, 2)
+        index, end = nearest_edge(cursor, starts, ends, scale)
         if index < 0:
             return None
-        return pairs[index] if end is None or edges_only else pairs[index][end]
+        pair = (int(pairs[index, 0]), int(pairs[index, 1]))
+        return pair if end is None or edges_only else pair[end]
 
     def _point_at(
-        self, view: View, matrix: Matrix, cursor: tuple[float, float], scale: float
+        self, view: View, placement: _Placement, cursor: tuple[float, float], scale: float
     ) -> int | FacePoint | None:
         """Return the point of the surface under the cursor, or the vertex that is meant."""
-        hit = self._cast(view, matrix, cursor)
+        hit = self._cast(view, placement, cursor)
         if hit is None:
             return None
         corners = self._triangles[hit[0]].tolist()
-        pixels = view.to_pixels(np.array([matrix @ self._bm.verts[vertex].co for vertex in corners], dtype=np.float64))
+        pixels = self._pixels(view, placement, corners)
         gaps = np.linalg.norm(pixels - np.asarray(cursor), axis=1)
         if not np.isnan(gaps).any():
             nearest = int(np.argmin(gaps))
             shorter = np.linalg.norm(np.delete(pixels, nearest, axis=0) - pixels[nearest], axis=1).min()
             if gaps[nearest] <= min(VERTEX_RADIUS * scale, VERTEX_SHARE * float(shorter)):
                 return corners[nearest]
-        return FacePoint.at(self._to_points @ np.array(hit[1]), hit[0], self._triangles, self._points)
+        return FacePoint.at(self._to_points @ hit[1], hit[0], self._triangles, self._points)
 
     @cached_property
     def _loose(self) -> _Segments:
-        """The edges that no face has."""
-        return _Segments(list(self._in_object(self._points[self._loose_edges.reshape(-1)]).reshape(-1, 2, 3)))
+        """The edges without a visible face."""
+        return _Segments(list(self._in_object(self._points[self._all_edges[self._loose_rows]])))
 
     @cached_property
-    def _loose_edges(self) -> NDArray[np.int32]:
-        count = len(self._points)
-        sides = np.concatenate([self._triangles[:, [0, 1]], self._triangles[:, [1, 2]], self._triangles[:, [2, 0]]])
-        keys = np.sort(sides.astype(np.int64), axis=1) @ (count, 1)
-        own = np.sort(self._all_edges.astype(np.int64), axis=1) @ (count, 1)
-        return self._all_edges[~np.isin(own, keys)]
+    def _loose_rows(self) -> NDArray[np.int64]:
+        return np.flatnonzero(~self._triangles_at.contain(self._all_edges))
 
-    def _loose_at(
-        self, view: View, matrix: Matrix, cursor: tuple[float, float], scale: float
-    ) -> set[bmesh.types.BMEdge]:
-        """Return the edges without a face that are seen near the cursor."""
-        found = set()
-        for row, place in self._loose.near(view, matrix, cursor, REACH * scale):
-            if self.sees(view, matrix, place):
-                one, two = (self._bm.verts[int(vertex)] for vertex in self._loose_edges[row])
-                edge = self._bm.edges.get((one, two))
-                if edge is not None:
-                    found.add(edge)
-        return found
+    def _edges_near(
+        self, view: View, placement: _Placement, cursor: tuple[float, float], scale: float, loose_too: bool
+    ) -> list[int]:
+        """Return the edges that may be meant, by their rows: those of polygons near the cursor, and those without one."""
+        hits = set(self._polygons_at(view, placement, cursor, REACH * scale))
+        found = {row for polygon in hits for row in self._surroundings(polygon, view, placement)}
+        if loose_too:
+            loose = self._loose.near(view, placement.matrix, cursor, REACH * scale)
+            found.update(int(self._loose_rows[row]) for row, place in loose if self._sees(view, placement, place))
+        return sorted(found)
 
-    def _faces_at(
-        self, view: View, matrix: Matrix, cursor: tuple[float, float], reach: float
-    ) -> Iterator[bmesh.types.BMFace]:
-        """Yield the face under the cursor; where there is none, those just beside it."""
-        hit = self._cast(view, matrix, cursor)
+    def _polygons_at(
+        self, view: View, placement: _Placement, cursor: tuple[float, float], reach: float
+    ) -> Iterator[int]:
+        """Yield the polygon under the cursor; where there is none, those just beside it."""
+        hit = self._cast(view, placement, cursor)
         if hit is not None:
-            yield self._face_of(hit[0])
+            yield int(self._polygons[hit[0]])
             return
         for radius in (0.5 * reach, reach):
             found = False
             for turn in np.arange(8) * (np.pi / 4.0):
                 beside = (cursor[0] + radius * float(np.cos(turn)), cursor[1] + radius * float(np.sin(turn)))
-                hit = self._cast(view, matrix, beside)
+                hit = self._cast(view, placement, beside)
                 if hit is not None:
                     found = True
-                    yield self._face_of(hit[0])
+                    yield int(self._polygons[hit[0]])
             if found:
                 return
 
-    def _cast(self, view: View, matrix: Matrix, cursor: tuple[float, float]) -> tuple[int, Vector] | None:
+    def _ray(
+        self, view: View, placement: _Placement, cursor: tuple[float, float]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return both ends of the line that a pixel shows, as `Arrays.points` are given."""
+        near, far = placement.from_world(np.array(view.ray(cursor))) @ self._to_points.T
+        return near, far
+
+    def _cast(
+        self, view: View, placement: _Placement, cursor: tuple[float, float]
+    ) -> tuple[int, NDArray[np.float64]] | None:
         """Return the first visible triangle along the line that a pixel shows, and where, in object coordinates."""
-        inverse = matrix.inverted()
-        origin, end = (self._to_points @ np.array(inverse @ Vector(place)) for place in view.ray(cursor))
+        origin, end = self._ray(view, placement, cursor)
         hit = self._rays.first_hit(origin, end - origin)
         if hit is None or hit[1] > 1.0:  # behind the far plane
             return None
-        return hit[0], Vector(self._to_object @ (origin + hit[1] * (end - origin)))
+        return hit[0], self._to_object @ (origin + hit[1] * (end - origin))
 
-    def _face_of(self, triangle: int) -> bmesh.types.BMFace:
-        """Return the polygon that a triangle is a part of."""
-        one, two, three = (set(self._bm.verts[int(v)].link_faces) for v in self._triangles[triangle])
-        found = [face for face in one & two & three if not face.hide]
-        return min(found, key=lambda face: face.index)
+    def _triangles_of(self, polygons: Collection[int]) -> list[int]:
+        """Return the rows of the triangles that polygons are cut into."""
+        # Of the same type, or NumPy would convert the whole array each time.
+        wanted = np.fromiter(polygons, self._polygons.dtype, len(polygons))
+        begins, ends = (np.searchsorted(self._polygons, wanted, side).tolist() for side in ("left", "right"))
+        return [row for begin, end in zip(begins, ends, strict=True) for row in range(begin, end)]
 
-    @staticmethod
-    def _surroundings(face: bmesh.types.BMFace, view: View, matrix: Matrix) -> Iterator[bmesh.types.BMEdge]:
-        """Yield the edges of a face and of those around it that turn the same side to the viewer."""
-        # (0, 0, -1, 0) in clip space is the eye, or the direction to it where there is no perspective.
-        *eye, weight = view.inverse @ (0.0, 0.0, -1.0, 0.0)
-        to_eye = Vector(eye)
-        normals = matrix.to_3x3().inverted().transposed()
+    def _surroundings(self, polygon: int, view: View, placement: _Placement) -> list[int]:
+        """Return the edges of a polygon and of those around it that turn the same side to the viewer, by their rows."""
+        corners = set(self._triangles[self._triangles_of([polygon])].reshape(-1).tolist())
+        rows = self._triangles_of(set(self._polygons[self._triangles_at.rows(corners)].tolist()))
+        triangles, owners = self._triangles[rows], self._polygons[rows].tolist()
+        # The volume between the eye and a triangle is below 0 for those that turn one side to it, and above 0 for the others.
+        to_clip = (view.perspective @ placement.matrix)[[0, 1, 3]]
+        places = self._in_object(self._points[triangles]) @ to_clip[:, :3].T + to_clip[:, 3]
+        facing = dict.fromkeys(owners, 0.0)
+        for owner, volume in zip(owners, np.linalg.det(places).tolist(), strict=True):
+            facing[owner] += volume
+        alike = {owner for owner, volume in facing.items() if volume * facing[polygon] > 0.0 or owner == polygon}
+        return self._sides(
+            (owner, *corners) for owner, corners in zip(owners, triangles.tolist(), strict=True) if owner in alike
+        )
 
-        def side(of: bmesh.types.BMFace) -> float:
-            towards = to_eye / weight - matrix @ of.calc_center_median() if abs(weight) > 1e-9 else to_eye
-            return towards.dot(normals @ of.normal)
+    def _sides(self, triangles: Iterable[tuple[int, int, int, int]]) -> list[int]:
+        """Return the edges of polygons, by their rows. Their triangles are given, each as its polygon and its corners.
 
-        yield from face.edges
-        facing = side(face)
-        around = {other for vertex in face.verts for other in vertex.link_faces if not other.hide}
-        for other in around - {face}:
-            if side(other) * facing > 0.0:
-                yield from other.edges
+        A side that two triangles of a polygon share is a diagonal and not one of its edges.
+        """
+        sides: set[tuple[int, int, int]] = set()
+        for owner, a, b, c in triangles:
+            for one, two in ((a, b), (b, c), (c, a)):
+                side = (owner, one, two) if one < two else (owner, two, one)
+                if side in sides:
+                    sides.remove(side)
+                else:
+                    sides.add(side)
+        own = {(one, two) for _, one, two in sides}
+        rows = self._edges_at.rows({vertex for side in own for vertex in side})
+        pairs = zip(rows.tolist(), self._all_edges[rows].tolist(), strict=True)
+        return [row for row, (one, two) in pairs if (one, two) in own or (two, one) in own]
 
 
 def stroke_at(

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.islands import IslandMaker
-    from ..mesh.edit_mesh import Arrays
+    from ..core.mesh_arrays import Arrays
     from .gpu_draw import Eye
     from .theme import Color
 

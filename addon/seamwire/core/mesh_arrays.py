@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A mesh as arrays."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class Arrays:
+    """What the library needs of an edit mesh.
+
+    Parameters
+    ----------
+    points
+        (n, 3) vertices, stretched as the object's matrix stretches them: lengths are those that are seen.
+    triangles
+        (m, 3) the visible faces, cut into triangles as Blender does, but for those without area.
+    polygons
+        (m,) the face that each triangle is part of, ascending.
+    edges
+        (e, 2) the visible edges of the polygons, no diagonals.
+    to_object
+        (3, 3) takes `points` to object coordinates, see `in_object`.
+    seams
+        (k, 2) those of the visible edges that are seams.
+    partly_hidden
+        (h, 2) those of the visible edges that hidden faces have too.
+    """
+
+    points: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+    polygons: NDArray[np.int32]
+    edges: NDArray[np.int32]
+    to_object: NDArray[np.float64]
+    seams: NDArray[np.int32]
+    partly_hidden: NDArray[np.int32]
+
+    @property
+    def in_object(self) -> NDArray[np.float64]:
+        """(n, 3) vertices in object coordinates, without the object's scale: those that Blender unwraps."""
+        return self.points @ self.to_object.T
+
+    def same_as(self, other: Arrays) -> bool:
+        """Whether wires run on another mesh as they do on this one; its seams may be others."""
+        names = ("points", "triangles", "edges", "to_object")
+        return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in names)

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the status bar says: what each button and key would do now."""
+
+import pytest
+from meshes import arrays_of, grid_places, grid_polygons
+from seamwire.core.live_maker import LiveMaker
+from seamwire.core.network import Snap
+from seamwire.core.session import Session
+from seamwire.operators.bindings import Action, Bindings, Key
+from seamwire.ui.status_bar import Status, hints
+
+pytest.importorskip("seamwire_core")
+
+
+@pytest.fixture
+def session() -> Session:
+    """A session on a grid; vertex y * 9 + x is column x of row y."""
+    arrays = arrays_of(grid_places(9), grid_polygons(9))
+    session = Session(LiveMaker(arrays), arrays.points)
+    session.wait()
+    return session
+
+
+def first(session: Session, number: int | None = None, **more: str) -> list[str]:
+    return [text for _, text in hints(Status(session, Bindings(), **more))][:number]
+
+
+def said(session: Session, **more: str) -> str:
+    return "; ".join(first(session, **more))
+
+
+def test_the_hints_follow_what_is_going_on(session: Session) -> None:
+    assert "Add Seed" not in said(session), "nothing is under the cursor"
+    session.hover(36)
+    assert "Add Seed" in said(session)
+    assert "Keep Wire" not in said(session)
+    session.click(36)
+    session.wait()
+    session.hover(44)
+    assert "Keep Wire" in said(session)
+    assert "End Chain" in said(session)
+    assert "Undo" in said(session)
+    assert "Loop" not in said(session)
+    session.click(44)
+    session.wait()
+    session.hover(76)
+    assert "Close" in said(session)
+    session.end_chain()
+    assert "Loop" not in said(session), "a vertex is under the cursor"
+    session.hover((76, 77))
+    assert "Loop" in said(session)
+    session.hover(Snap(36, "SEED"))
+    assert "Begin at This Seed" in said(session)
+    session.hover(Snap(40, "WIRE", session.wires[0]))
+    assert "Begin on This Wire" in said(session)
+    assert "Remove Wire" in said(session)
+    assert "Swap Path" in said(session)
+    assert "Switch to Clear" in said(session)
+    session.toggle_marking()
+    assert "Switch to Mark" in said(session)
+    assert "Across Surface" in said(session)
+    session.switch("SURFACE")
+    session.wait()
+    assert "Along Edges" in said(session)
+    assert "Loop" not in said(session)
+
+
+def test_the_mirror_is_offered_and_told(session: Session) -> None:
+    assert said(session, mirror_offer="XY").endswith("Mirror? Symmetric on XY")
+    session.set_mirror((0,))
+    assert said(session).endswith("Mirror X")
+
+
+def test_the_hints_name_the_keys_as_they_are_bound(session: Session) -> None:
+    keys = Bindings([(Action.CLEAR, Key("J", shift=1))])
+    shown = hints(Status(session, keys))
+    assert ("EVENT_J", "Shift: Switch to Clear") in shown
+    assert not any("Keys" in text for _, text in shown), "what has no key is not offered"
+
+
+def test_what_a_click_does_comes_first_then_the_way_out_and_the_keys(session: Session) -> None:
+    session.hover((36, 37))
+    assert first(session, 3) == ["Add Seed, Drag: Draw Line", "End Chain", "Keys"]
+    session.click(36)
+    session.wait()
+    session.hover(44)
+    assert first(session, 3) == ["Keep Wire", "End Chain", "Keys"]
+    assert first(session, 2, message="Something was done") == ["Something was done", "Keep Wire"]
+    session.end_chain()
+    session.hover((40, 49), loop=True)
+    session.wait()
+    assert len(session.loop_offers) > 1
+    said_first = first(session, 4)
+    assert said_first[0].startswith("Alt: Add ")
+    assert said_first[0].endswith(f", 1 of {len(session.loop_offers)}")
+    assert said_first[1].endswith(" Instead")
+    assert said_first[2:] == ["End Chain", "Keys"]
+
+
+def test_what_does_not_apply_is_not_hinted_at(session: Session) -> None:
+    shown = said(session)
+    for text in ("Stroke", "Undo", "Loop", "Mirror", "Candidate", "Close", "Remove", "Seed", "Extend"):
+        assert text not in shown, text
+    assert "Strength" in shown
+    session.hover(36)
+    assert "Guide Stroke" in said(session)
+    assert "Avoid Stroke" in said(session)
+    session.set_metric("euclidean")
+    assert "Strength" not in said(session), "straight ways have none"
