@@ -2,17 +2,16 @@
 # A toolchain for wheels that run where Blender does, made on Linux for all systems. The compiler is zig's clang with its libc++ linked in,
 # as PyPI's package ziglang brings it. scripts/package uses it.
 #
-# SEAMWIRE_PLATFORM: the system to build for, as Blender names it. SEAMWIRE_ZIG: the zig program. SEAMWIRE_PYTHON_INCLUDE: the folder of
-# Python.h of the Python to build for, which need not run here. SEAMWIRE_PYTHON_DLL: for Windows, its DLL, with the
-# import library beside it. SEAMWIRE_PYTHON_SUFFIX: what that Python's modules end with.
+# SEAMWIRE_PLATFORM: the system to build for, as Blender names it. SEAMWIRE_ZIG: the zig program.
 
 set(SEAMWIRE_PLATFORM "linux-x64" CACHE STRING "The system to build for, as Blender names it")
 set(SEAMWIRE_ZIG "zig" CACHE FILEPATH "The zig program")
 # CMake's trial builds read this file afresh, without the cache.
 list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES SEAMWIRE_PLATFORM SEAMWIRE_ZIG)
 
-# In the trial builds too: zig makes its C++ library once for what is optimized, and once for what is not.
-set(CMAKE_CXX_FLAGS_INIT "-O3")
+# -s leaves out symbols, and the debug information that takes a quarter of the compiler's time. Trial builds have the same options, because
+# zig needs a minute to make its C++ library for each combination of them.
+set(CMAKE_CXX_FLAGS_INIT "-O3 -s")
 if(SEAMWIRE_PLATFORM MATCHES "-x64$")
   set(CMAKE_SYSTEM_PROCESSOR x86_64)
   string(APPEND CMAKE_CXX_FLAGS_INIT " -mcpu=x86_64_v2") # any x86-64 CPU with SSE4.2
@@ -34,24 +33,10 @@ else()
 endif()
 
 set(CMAKE_CXX_COMPILER "${SEAMWIRE_ZIG}" "c++")
+set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_CURRENT_LIST_DIR}/zig-compile")
 set(CMAKE_CXX_COMPILER_TARGET "${CMAKE_SYSTEM_PROCESSOR}-${system}")
-set(CMAKE_MODULE_LINKER_FLAGS_INIT "-s") # no symbols beyond those that Python looks up
 set(CMAKE_STRIP "" CACHE FILEPATH "Not needed" FORCE)
 # The archiver of this machine knows its own object files only.
 set(CMAKE_CXX_ARCHIVE_CREATE "\"${SEAMWIRE_ZIG}\" ar qc <TARGET> <OBJECTS>")
 set(CMAKE_CXX_ARCHIVE_APPEND "\"${SEAMWIRE_ZIG}\" ar q <TARGET> <OBJECTS>")
 set(CMAKE_CXX_ARCHIVE_FINISH "\"${SEAMWIRE_ZIG}\" ranlib <TARGET>")
-
-# The wheel's Python, not the one that runs the build.
-if(DEFINED SEAMWIRE_PYTHON_INCLUDE)
-  set(Python_INCLUDE_DIR "${SEAMWIRE_PYTHON_INCLUDE}" CACHE PATH "Headers of the Python to build for" FORCE)
-  if(DEFINED SEAMWIRE_PYTHON_DLL)
-    set(Python_LIBRARY "${SEAMWIRE_PYTHON_DLL}.a" CACHE FILEPATH "Import library of the Python to build for" FORCE)
-    # Without it CMake takes the import library for a static one, and adds what this machine's Python links.
-    set(Python_RUNTIME_LIBRARY_RELEASE "${SEAMWIRE_PYTHON_DLL}")
-  endif()
-  set(PYBIND11_USE_CROSSCOMPILING ON)
-  set(PYTHON_MODULE_EXTENSION "${SEAMWIRE_PYTHON_SUFFIX}")
-  set(PYTHON_MODULE_DEBUG_POSTFIX "")
-  set(PYTHON_IS_DEBUG FALSE)
-endif()

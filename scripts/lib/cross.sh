@@ -3,7 +3,12 @@
 # What builds for other systems than this one; to be sourced after common.sh.
 
 WORK=$ROOT/build/package
-TOOLS=$WORK/tools
+# All checkouts share this folder, and `rm -rf build` leaves it: tools, sources, headers, and what zig has compiled. You can delete it.
+KEPT=${XDG_CACHE_HOME:-$HOME/.cache}/seamwire
+TOOLS=$KEPT/tools-$({ "$PYTHON" -V; cat scripts/lib/requirements-package.txt; } | sha256sum | cut -c1-12)
+# The sources of OpenMesh and Eigen.
+SOURCES=$KEPT/sources-$(cat scripts/lib/wheel_sources.py scripts/lib/wheel-sources.txt | sha256sum | cut -c1-12)
+export ZIG_GLOBAL_CACHE_DIR=$KEPT/zig
 # The Python that blender.org's Blender 4.2 to 5.0 have.
 WINDOWS_PYTHON=3.11
 
@@ -14,23 +19,22 @@ UBUNTU=http://archive.ubuntu.com/ubuntu
 # suite_of PYTHON
 suite_of() { echo "${SUITES[$1]:-sid}"; }
 
-# alone COMMAND...: not while another script does what is run so; they share folders of build/package.
+# alone COMMAND...: runs the command while no other script changes $KEPT.
 alone() {
-  mkdir -p "$WORK"
-  (flock 8; "$@") 8>"$WORK/lock"
-}
-
-make_package_tools() {
-  say "Tools for wheels in build/package/tools"
-  rm -rf "$TOOLS"
-  "$PYTHON" -m venv "$TOOLS"
-  "$TOOLS/bin/pip" install -q --disable-pip-version-check -r scripts/lib/requirements-package.txt
+  mkdir -p "$KEPT"
+  (flock 8; "$@") 8>"$KEPT/lock"
 }
 
 get_package_tools() {
-  [ -x "$TOOLS/bin/python" ] || rm -f build/stamps/package-tools
-  once package-tools "$(fingerprint scripts/lib/requirements-package.txt) $ROOT" make_package_tools
+  [ ! -f "$TOOLS/complete" ] || return 0
+  rm -rf "$TOOLS"
+  "$PYTHON" -m venv "$TOOLS" &&
+    "$TOOLS/bin/pip" install -q --disable-pip-version-check -r scripts/lib/requirements-package.txt &&
+    touch "$TOOLS/complete"
 }
+
+# Downloads the sources of OpenMesh and Eigen into $SOURCES.
+wheel_sources() { alone "$TOOLS/bin/python" scripts/lib/wheel_sources.py "$SOURCES"; }
 
 # Makes the tools that wheels are built with ready, and sets ZIG.
 package_tools() {
@@ -64,10 +68,10 @@ get_from() {
 
 # Prints the file of the key that Ubuntu's lists are signed with, from Debian's package.
 get_ubuntu_key() {
-  local key=$WORK/keys/usr/share/keyrings/ubuntu-archive-keyring.gpg got
+  local key=$KEPT/keys/usr/share/keyrings/ubuntu-archive-keyring.gpg got
   if [ ! -f "$key" ]; then
     got=$(get_from trixie deb download ubuntu-keyring) || { echo "$got"; return 1; }
-    dpkg-deb -x "$got"/ubuntu-keyring_*.deb "$WORK/keys"
+    dpkg-deb -x "$got"/ubuntu-keyring_*.deb "$KEPT/keys"
   fi
   echo "$key"
 }
@@ -93,10 +97,13 @@ linux_python() {
 # build_cross_tests PLATFORM: the library's tests, in the folder of the platform's wheels, so that the library is compiled once. scripts/package
 # was there before.
 build_cross_tests() {
-  local folder=$WORK/$1/build log=$ROOT/build/configure-$1.log
-  PATH=$TOOLS/bin:$PATH cmake -S . -B "$folder" -DSEAMWIRE_TESTS=ON -DSEAMWIRE_GOOGLETEST_SOURCES=/usr/src/googletest/googletest >"$log" ||
-    { cat "$log"; return 1; }
-  PATH=$TOOLS/bin:$PATH cmake --build "$folder" --target seamwire_tests --parallel "$(nproc)"
+  local folder=$WORK/$1/build
+  (
+    flock 7
+    watched "$WORK/$1/configure-tests.log" \
+      cmake -S . -B "$folder" -DSEAMWIRE_TESTS=ON -DSEAMWIRE_GOOGLETEST_SOURCES=/usr/src/googletest/googletest &&
+      watched "$WORK/$1/compile-tests.log" cmake --build "$folder" --target seamwire_tests --parallel "$(nproc)"
+  ) 7>"$WORK/$1/lock"
 }
 
 # windows_dll PYTHON FOLDER: a Python's DLLs for Windows in the folder (scripts/lib/windows_python.py), with its import library.

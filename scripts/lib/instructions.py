@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Finds what an x86-64 processor with SSE4.2 alone does not understand: ``instructions.py MODULE OBJECT...``.
+"""Finds what an x86-64 processor with SSE4.2 alone does not understand: ``instructions.py MODULE... -- OBJECT...``.
 
-MODULE is what was linked, and has no symbols; OBJECTs are what it was linked from. In those, AVX instructions may be in the functions of a
-namespace ``avx2`` alone, which the library calls where the processor has them; the module may have no more than these. An object of LLVM's
-bitcode has no instructions before it is linked: the module's count covers it.
+MODULEs are linked and have no symbols; OBJECTs are what they were linked from. In an object only functions of a namespace ``avx2`` may have
+AVX instructions: the library calls them where the processor has AVX2. A module may have no more of these instructions than all objects
+together. An object of LLVM's bitcode has no instructions before it is linked, so only the count of the module covers it.
 """
 
 import re
@@ -34,7 +34,7 @@ def count_newer(path: Path) -> dict[str, int]:
     return found
 
 
-def faults_of_instructions(module: Path, objects: list[Path]) -> list[str]:
+def faults_of_instructions(modules: list[Path], objects: list[Path]) -> list[str]:
     """Return a sentence for each function that has instructions above SSE4.2 and must not."""
     compiled = [path for path in objects if not path.read_bytes().startswith(BITCODE)]
     counts = [(path, function, count) for path in compiled for function, count in count_newer(path).items()]
@@ -44,11 +44,14 @@ def faults_of_instructions(module: Path, objects: list[Path]) -> list[str]:
         if not DISPATCHED.search(function)
     ]
     known = sum(count for _, _, count in counts)
-    there = sum(count_newer(module).values())
-    if there > known:
-        faults.append(f"{module.name}: {there - known} instructions above SSE4.2 come from none of its objects")
+    for module in modules:
+        there = sum(count_newer(module).values())
+        if there > known:
+            faults.append(f"{module.name}: {there - known} instructions above SSE4.2 come from none of its objects")
     return faults
 
 
 if __name__ == "__main__":
-    sys.exit("\n".join(faults_of_instructions(Path(sys.argv[1]), [Path(name) for name in sys.argv[2:]])) or 0)
+    end = sys.argv.index("--")
+    linked, compiled_files = ([Path(name) for name in names] for names in (sys.argv[1:end], sys.argv[end + 1 :]))
+    sys.exit("\n".join(faults_of_instructions(linked, compiled_files)) or 0)

@@ -38,16 +38,16 @@ def test_dispatched_functions_may_have_them(tmp_path: Path) -> None:
     ]
     assert instructions.count_newer(objects[0])
     assert not instructions.count_newer(objects[1])
-    assert instructions.faults_of_instructions(linked(tmp_path, objects), objects) == []
+    assert instructions.faults_of_instructions([linked(tmp_path, objects)], objects) == []
 
 
 def test_other_functions_may_not(tmp_path: Path) -> None:
     objects = [compiled(tmp_path, "other", AVX2)]
-    (fault,) = instructions.faults_of_instructions(linked(tmp_path, objects), objects)
+    (fault,) = instructions.faults_of_instructions([linked(tmp_path, objects)], objects)
     assert fault.startswith("other.o: _Z3sumPKd has ")
 
 
 def test_what_comes_from_elsewhere_is_found(tmp_path: Path) -> None:
     library = compiled(tmp_path, "library", AVX2)
-    (fault,) = instructions.faults_of_instructions(linked(tmp_path, [library]), [])
+    (fault,) = instructions.faults_of_instructions([linked(tmp_path, [library])], [])
     assert fault.endswith("come from none of its objects")
