@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -217,12 +219,34 @@ class FakeLive:
         pieces = [FakePiece(grid_points(self.size)[chain], np.array(chain, dtype=np.int32)) for chain in chains]
         return FakeCut(pieces, joints, separates=dx > 0, which=0 if dx > 0 else 4)
 
-    def extend_straight(self, edge: tuple[int, int], stops: list[int]) -> FakeChain:
-        if isinstance(stops, tuple) and edge in self.rings:  # asked without a list of stops: for a loop, not for a wire
-            return FakeChain(np.array([edge[1], self.rings[edge]], dtype=np.int32))
-        return self._straight(edge, stops)
+    def extend_straight(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> FakeChain:
+        """Return the way on to a stop, to the boundary (or around along it), or to a vertex where it has been."""
+        stops = set(stops)
+        before, at = edge
+        way, visited = [at], {before, at}
+        while (after := self._straight_on(before, at)) is not None:
+            way.append(after)
+            if after in stops or after in visited:
+                break
+            visited.add(after)
+            before, at = at, after
+        return FakeChain(np.array(way, dtype=np.int32))
 
-    def _straight(self, edge: tuple[int, int], stops: list[int]) -> FakeChain:
+    def _straight_on(self, before: int, at: int) -> int | None:
+        if (before, at) in self.rings:
+            return self.rings[before, at]
+        last = self.size - 1
+        (from_x, from_y), (x, y) = ((v % self.size, v // self.size) for v in (before, at))
+        dx, dy = x - from_x, y - from_y
+        if 0 <= x + dx <= last and 0 <= y + dy <= last:
+            return at + dx + self.size * dy
+        if (x, y) in itertools.product((0, last), repeat=2):  # a boundary does not turn at its corners
+            dx, dy = (0, -1 if y else 1) if dx else (-1 if x else 1, 0)
+            return at + dx + self.size * dy
+        return None
+
+    def _straight(self, edge: tuple[int, int], stops: Iterable[int]) -> list[int]:
+        """Return the way on in one direction; an edge loop ends at the corners of the grid."""
         way = [edge[1]]
         dx, dy = edge[1] % self.size - edge[0] % self.size, edge[1] // self.size - edge[0] // self.size
         while way[-1] not in stops:
@@ -230,14 +254,12 @@ class FakeLive:
             if not (0 <= x < self.size and 0 <= y < self.size):
                 break
             way.append(y * self.size + x)
-        return FakeChain(np.array(way, dtype=np.int32))
+        return way
 
-    def edge_loop(self, edge: tuple[int, int], stops: list[int]) -> FakeChain:
+    def edge_loop(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> FakeChain:
         if not any(self.ready):
             return FakeChain(np.empty(0, dtype=np.int32))
-        ways = [
-            [end] if end in stops else self._straight((start, end), stops).vertices for start, end in (edge, edge[::-1])
-        ]
+        ways = [self._straight(one, stops) for one in (edge, edge[::-1])]
         return FakeChain(np.array([*ways[1][::-1], *ways[0]], dtype=np.int32))
 
     def fit_chain(

@@ -337,18 +337,27 @@ def test_a_stored_loop_that_no_click_took_has_no_other_way() -> None:
 
 def test_a_wire_runs_straight_on_to_the_boundary() -> None:
     session = Table().session
-    session.click(0)
-    session.hover(2)
+    session.click(7)
+    session.hover(9)
     assert session.run_to_end(preview=True)
-    assert session.end_preview.vertices == (0, 1, 2, 3, 4, 5)
+    assert session.end_preview.vertices == (7, 8, 9, 10, 11)
     assert session.intent is Intent.RUN
-    session.hover(12)
-    assert session.end_preview.vertices == (0, 6, 12, 18, 24, 30), "the preview follows the cursor"
-    assert session.click(12)
-    assert courses(session) == [(0, 6, 12, 18, 24, 30)]
+    session.hover(19)
+    assert session.end_preview.vertices == (7, 13, 19, 25, 31), "the preview follows the cursor"
+    assert session.click(19)
+    assert courses(session) == [(7, 13, 19, 25, 31)]
     assert session.seed is None
     assert session.undo()
-    assert session.seed == 0
+    assert session.seed == 7
+
+
+def test_along_the_boundary_a_wire_runs_all_the_way_around() -> None:
+    session = Table().session
+    session.click(1)
+    session.hover(3)
+    assert session.run_to_end()
+    assert courses(session)[0][:7] == (1, 2, 3, 4, 5, 11, 17)
+    assert len(courses(session)[0]) == 21
 
 
 def test_it_ends_at_a_seam_and_at_another_wire() -> None:
@@ -397,12 +406,12 @@ def test_the_preview_of_the_end_can_be_let_go() -> None:
 def test_running_on_waits_for_the_wire() -> None:
     table = Table(ready=(False, False))
     session = table.session
-    session.click(0)
-    session.hover(2)
+    session.click(6)
+    session.hover(8)
     assert session.run_to_end()
     assert session.waiting_clicks == 1
     table.compute()
-    assert courses(session) == [(0, 1, 2, 3, 4, 5)]
+    assert courses(session) == [(6, 7, 8, 9, 10, 11)]
 
 
 # What a click would do

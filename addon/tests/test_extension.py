@@ -15,8 +15,8 @@ def extension(*seams: tuple[int, int]) -> Extension:
 
 
 def test_the_live_wire_goes_on_as_it_runs_to_the_boundary() -> None:
-    found = extension().find(Network(seed=Seed(0)), wire(0, 1, 2), True)
-    assert found.vertices == (0, 1, 2, 3, 4, 5)
+    found = extension().find(Network(seed=Seed(6)), wire(6, 7, 8), True)
+    assert found.vertices == (6, 7, 8, 9, 10, 11)
 
 
 def test_without_a_live_wire_it_goes_on_from_the_edge_before_the_seed() -> None:
@@ -32,14 +32,14 @@ def test_without_a_direction_it_is_refused() -> None:
 
 
 def test_it_ends_at_seams_and_kept_wires_until_they_are_others() -> None:
-    stops = Stops([(4, 10)], symmetry())
+    stops = Stops([(10, 16)], symmetry())
     one = Extension(Grid().engines, stops, POINTS)
-    network = Network((wire(3, 9, 15),), Seed(0))
-    assert one.find(network, wire(0, 1), True).vertices == (0, 1, 2, 3)
-    network = Network(seed=Seed(0))
-    assert one.find(network, wire(0, 1), True).vertices == (0, 1, 2, 3, 4)
+    network = Network((wire(9, 15, 21),), Seed(6))
+    assert one.find(network, wire(6, 7), True).vertices == (6, 7, 8, 9)
+    network = Network(seed=Seed(6))
+    assert one.find(network, wire(6, 7), True).vertices == (6, 7, 8, 9, 10)
     stops.set_seams([])
-    assert one.find(network, wire(0, 1), True).vertices == (0, 1, 2, 3, 4, 5)
+    assert one.find(network, wire(6, 7), True).vertices == (6, 7, 8, 9, 10, 11)
 
 
 def test_showing_the_same_way_again_shows_nothing_new() -> None:

@@ -3,11 +3,12 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from fake_live import FakeLive, grid_edges, grid_points
+from fake_live import grid_edges, grid_points
 from seamwire.core.network import Network, Snap, Wire
 from seamwire.core.session import Intent, Session
 from seamwire.core.stops import Stops
@@ -59,7 +60,9 @@ def test_what_was_taken_last_comes_first_again() -> None:
 
 def test_a_loop_across_wires_or_seams_comes_later() -> None:
     assert first_offer((14, 15), seams=[(21, 22)]) == "CLOSED", "across one"
-    assert first_offer((14, 15), seams=[(21, 22), (27, 28), (20, 19), (26, 25)]) == "STRIP"
+    seams = [(21, 22), (27, 28), (20, 19), (26, 25)]
+    assert first_offer((14, 15), seams=seams) == "PAST", "the way that ends at the first seam on each side"
+    assert first_offer((14, 15), seams=seams, boxes=True) == "STRIP"
 
 
 def test_where_there_is_no_closed_loop_the_strip_is_taken() -> None:
@@ -148,9 +151,9 @@ def test_what_is_chosen_is_kept(keep: str) -> None:
 
 
 def test_a_single_offer_has_no_next() -> None:
-    session = Session(lambda _: FakeLive(2), grid_points(2))
-    session.hover((0, 2), loop=True)
-    assert session.loop_offers == ("STRIP",), "which is the edge alone"
+    session = Table().session
+    session.hover((14, 20), loop=True)
+    assert session.loop_offers == ("STRIP",)
     assert not session.toggle()
     assert "Nothing else" in session.message
     session.hover(None)
@@ -408,31 +411,36 @@ def test_stops_are_the_vertices_of_seams_wires_and_their_images(axes: tuple[int,
     generator = np.random.default_rng(6)
     seams = generator.permutation(edges)[:8][:, ::-1]
 
-    def wire(*vertices: int) -> Wire:
-        return Wire("EDGES", vertices, points[list(vertices)], vertices[0], vertices[-1])
+    def images(*chain: int) -> list[tuple[int, ...]]:
+        """Return the mirror images of a chain; vertex 7 y + x has the images 7 y + 6 - x, 7 (6 - y) + x and 48 - v."""
+        across_x, across_y, across_both = (
+            [tuple(image(*divmod(v, 7)) for v in chain)]
+            for image in (lambda y, x: 7 * y + 6 - x, lambda y, x: 7 * (6 - y) + x, lambda y, x: 48 - 7 * y - x)
+        )
+        return {(): [], (0,): across_x, (0, 1): across_x + across_y + across_both}[axes]
 
-    def imaged(own: Wire) -> Wire:
-        return replace(own, images=tuple(edge for image in symmetry.images(own, axes) for edge in image.edges()))
+    def wire(*chain: int) -> Wire:
+        return Wire("EDGES", chain, points[list(chain)], chain[0], chain[-1])
 
-    kept, live = (imaged(wire(1, 2, 9)), imaged(wire(43, 36, 35))), wire(10, 11, 12)
+    def pairs_of(chains: list[tuple[int, ...]]) -> set[tuple[int, int]]:
+        return {(min(pair), max(pair)) for one in chains for pair in itertools.pairwise(one)}
+
+    kept_chains, live = [(1, 2, 9), (43, 36, 35)], (14, 15, 16)
+    kept = tuple(replace(wire(*one), images=tuple(sorted(pairs_of(images(*one))))) for one in kept_chains)
     network = Network(kept, mirror=axes)
     stops = Stops(seams, symmetry)
 
-    def with_images(*wires: Wire) -> list[Wire]:
-        return [one for own in wires for one in (own, *symmetry.images(own, axes))]
-
-    pairs = {tuple(sorted(pair)) for pair in seams.tolist()}
-    vertices = {vertex for pair in pairs for vertex in pair}
-    expected = vertices.union(*(one.vertices for one in with_images(*kept)))
-    plane = symmetry.on_plane(axes)
+    chains = [one for own in kept_chains for one in (own, *images(*own))]
+    pairs = {tuple(sorted(pair)) for pair in seams.tolist()} | pairs_of(chains)
+    expected = {vertex for pair in pairs for vertex in pair}
+    middle_column, middle_row = {3, 10, 17, 24, 31, 38, 45}, {21, 22, 23, 24, 25, 26, 27}
+    plane = {(): set(), (0,): middle_column, (0, 1): middle_column | middle_row}[axes]
     assert stops.kept(network).tolist() == sorted(expected)
     assert stops.of(network, None, (0, 1)).tolist() == sorted(expected | plane)
-    assert stops.of(network, None, (17, 24)).tolist() == sorted(expected if axes else expected | plane), (
-        "along the plane"
-    )
-    both = expected.union(*(one.vertices for one in with_images(live)))
-    assert stops.of(network, live, (0, 1)).tolist() == sorted(both | plane)
-    taken = pairs.union(*(one.edges() for one in with_images(*kept)))
+    assert stops.of(network, None, (17, 24)).tolist() == sorted(expected), "along the plane"
+    assert not any((expected | plane).issuperset(one) for one in (live, *images(*live))), "each one adds stops"
+    both = expected.union(live, *images(*live))
+    assert stops.of(network, wire(*live), (0, 1)).tolist() == sorted(both | plane)
     for edge in edges.tolist():
-        assert stops.taken(network, tuple(edge[::-1])) == (tuple(edge) in taken)
+        assert stops.taken(network, tuple(edge[::-1])) == (tuple(edge) in pairs)
     assert Stops([], symmetry).of(Network(), None, (0, 1)).tolist() == []

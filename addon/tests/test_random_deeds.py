@@ -12,7 +12,7 @@ from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from paper_mesh import PaperMesh
 from seamwire.core.network import Edge, Network, Pick, Snap
-from seamwire.core.session import CLAMP_PERCENTILE, STRENGTHS, Session
+from seamwire.core.session import CLAMP_PERCENTILE, STRENGTHS, Intent, Session
 from seamwire.core.wire_labels import Plan
 
 core = pytest.importorskip("seamwire_core")
@@ -182,7 +182,7 @@ class Monkey:
         assert (session.loop_choice is None) == (session.loop_offers == ())
         offers = session._loops.offers
         assert len({frozenset(offer.edges()) for offer in offers}) == len(offers)
-        assert session.intent is not None
+        assert (session.intent is Intent.MOVE) == session.dragging
 
 
 def looks(network: Network) -> set[tuple[object, ...]]:

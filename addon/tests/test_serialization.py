@@ -52,7 +52,7 @@ def drawn(**options: object) -> PaperMesh:
     for pick in (0, 3, 21):
         session.click(pick)
     session.end_chain()
-    session.loop((27, 28))
+    session.loop((25, 26))
     session.switch("SURFACE")
     for pick in (30, 32):
         session.click(pick)

@@ -3,13 +3,28 @@
 
 from __future__ import annotations
 
-import sys
+import contextlib
+import importlib
+import pkgutil
 
+import pytest
+from blender_refusal import BlenderRefusal
+from seamwire import core
 from table import Table
 
 
-def test_nothing_of_blender_is_needed() -> None:
-    assert "bpy" not in sys.modules
+@pytest.mark.parametrize("name", [module.name for module in pkgutil.iter_modules(core.__path__)])
+def test_no_module_asks_for_blender(name: str, blender_refusal: BlenderRefusal) -> None:
+    # What functions ask for when they are called is noticed in all other tests, too.
+    importlib.import_module(f"seamwire.core.{name}")
+    assert blender_refusal.asked == []
+
+
+def test_who_asks_for_blender_is_noticed_even_if_that_may_fail(blender_refusal: BlenderRefusal) -> None:
+    with contextlib.suppress(ImportError):
+        importlib.import_module("bpy.types")
+    assert blender_refusal.asked == ["bpy"]
+    blender_refusal.asked.clear()
 
 
 def test_a_click_without_a_seed_places_one() -> None:

@@ -82,7 +82,9 @@ except MemoryError:
 def test_what_hangs_is_ended_with_its_children(tmp_path: Path) -> None:
     place = Place(tmp_path, {"e.fbx": "hang"})
     place.run("--limit", "1")
-    for text in place.blender.with_name("pids.txt").read_text().split():
+    processes = place.blender.with_name("pids.txt").read_text().split()
+    assert len(processes) == 2, "the one that hangs and its child"
+    for text in processes:
         for _ in range(50):
             if not Path(f"/proc/{text}").exists() or " Z " in Path(f"/proc/{text}/stat").read_text():
                 break

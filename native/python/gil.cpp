@@ -6,9 +6,10 @@
 #include <condition_variable>
 #include <cstddef>
 #include <functional>
-#include <mutex>
 #include <system_error>
 #include <thread>
+
+#include "detail/thread_safety.hpp"
 
 namespace seamwire::python {
 namespace {
@@ -27,12 +28,14 @@ enum class Phase {
 
 /// The threads inside the library.
 struct Calls {
-  std::mutex mutex;
-  std::condition_variable changed;
+  Mutex mutex;
+  std::condition_variable_any changed;
   std::atomic<Phase> phase = Phase::kRunning;  // changed with the mutex
   std::atomic<std::thread::id> ending_thread;  // set before the phase
-  std::size_t inside = 0;                      // without the GIL, in a callback, or in a PythonCall
-  std::size_t returning = 0;                   // of these, on the way to the GIL
+  /// Threads without the GIL, in a callback, or in a PythonCall.
+  std::size_t inside SEAMWIRE_GUARDED_BY(mutex) = 0;
+  /// Of these, the threads on the way to the GIL.
+  std::size_t returning SEAMWIRE_GUARDED_BY(mutex) = 0;
 };
 
 /// Never freed: threads may outlive the module and main().
@@ -45,12 +48,12 @@ Calls& calls() {
 bool take(PyThreadState* state, Phase last) {
   Calls& all = calls();
   {
-    const std::scoped_lock lock(all.mutex);
+    const MutexLock lock(all.mutex);
     if (is_cut_off() && all.phase >= last) return false;
     ++all.returning;
   }
   PyEval_RestoreThread(state);
-  const std::scoped_lock lock(all.mutex);
+  const MutexLock lock(all.mutex);
   --all.returning;
   all.changed.notify_all();
   return true;
@@ -58,13 +61,13 @@ bool take(PyThreadState* state, Phase last) {
 
 void enter() {
   Calls& all = calls();
-  const std::scoped_lock lock(all.mutex);
+  const MutexLock lock(all.mutex);
   ++all.inside;
 }
 
 void leave() {
   Calls& all = calls();
-  const std::scoped_lock lock(all.mutex);
+  const MutexLock lock(all.mutex);
   --all.inside;
   all.changed.notify_all();
 }
@@ -73,18 +76,18 @@ void leave() {
 void end_calls() {
   Calls& all = calls();
   {
-    const std::scoped_lock lock(all.mutex);
+    const MutexLock lock(all.mutex);
     if (all.phase != Phase::kRunning) return;
     all.ending_thread = std::this_thread::get_id();
     all.phase = Phase::kEnding;
   }
   PyThreadState* const state = PyEval_SaveThread();
   {
-    std::unique_lock lock(all.mutex);
-    all.changed.wait_for(lock, kPatience, [&] { return all.inside == 0; });
+    MutexLock lock(all.mutex);
+    all.changed.wait_for(lock, kPatience, [&]() SEAMWIRE_REQUIRES(all.mutex) { return all.inside == 0; });
     all.phase = Phase::kEnded;
     // They have been let through, and the GIL is free for them.
-    all.changed.wait(lock, [&] { return all.returning == 0; });
+    all.changed.wait(lock, [&]() SEAMWIRE_REQUIRES(all.mutex) { return all.returning == 0; });
   }
   PyEval_RestoreThread(state);
 }

@@ -3,15 +3,14 @@
 
 #include <pybind11/pybind11.h>
 
-#include <chrono>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "gil.hpp"
+#include "lazy.hpp"
 #include "seamwire/edges/edge_wires.hpp"
 #include "seamwire/edges/fit_chain.hpp"
 #include "seamwire/embedding/embedding.hpp"
@@ -35,41 +34,6 @@ inline const char* name_of(Follow follow) {
 }
 
 namespace py = pybind11;
-
-/// Of what is built once for several threads. The thread that has it may lock it again: a progress function may ask for
-/// what is being built.
-class BuildingLock {
- public:
-  /// Waits for the thread that has it; throws Cancelled where the task is told to stop meanwhile.
-  BuildingLock(std::recursive_timed_mutex& mutex, const Task& task) : lock_(mutex, std::defer_lock) {
-    while (!lock_.try_lock_for(kPeriod)) task.check(0.0);
-  }
-
- private:
-  static constexpr std::chrono::milliseconds kPeriod{5};
-
-  std::unique_lock<std::recursive_timed_mutex> lock_;
-};
-
-/// A value built once, by the first thread that asks; the others wait, and where that one is stopped, one of them
-/// builds it. What a progress function asks for while it is being built is built apart, and kept. Ask without the GIL.
-template <class T>
-class Lazy {
- public:
-  template <class Make>
-  const T& get(const Task& task, const Make& make) const {
-    const BuildingLock lock(mutex_, task);
-    if (!value_) {
-      auto made = std::make_unique<const T>(make());
-      if (!value_) value_ = std::move(made);
-    }
-    return *value_;
-  }
-
- private:
-  mutable std::recursive_timed_mutex mutex_;
-  mutable std::unique_ptr<const T> value_;
-};
 
 /// Frees without the GIL what may take milliseconds to free.
 struct FreeWithoutGil {
@@ -128,20 +92,13 @@ struct MetricObject {
   explicit MetricObject(Metric computed) : metric(std::move(computed)) {}
   /// The graph of a surface in this metric. That of the last surface is kept; ask without the GIL.
   std::shared_ptr<const EdgeGraph> edge_graph(const std::shared_ptr<const Surface>& surface, const Task& task) const {
-    const BuildingLock lock(mutex_, task);
-    if (graph_ && graph_surface_.lock() == surface) return graph_;
-    auto made = make_edge_graph(*surface, metric, nullptr, task);
-    graph_ = made;
-    graph_surface_ = surface;
-    return made;
+    return graph_.get(surface, task, [&] { return make_edge_graph(*surface, metric, nullptr, task); });
   }
 
   Metric metric;
 
  private:
-  mutable std::recursive_timed_mutex mutex_;
-  mutable std::weak_ptr<const Surface> graph_surface_;
-  mutable std::shared_ptr<const EdgeGraph> graph_;
+  OfLastSurface<EdgeGraph> graph_;
 };
 
 struct EmbeddingObject {

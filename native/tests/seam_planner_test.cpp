@@ -19,6 +19,7 @@
 #include "detail/disjoint_sets.hpp"
 #include "seams/cut_pieces.hpp"
 #include "shapes.hpp"
+#include "thread_sanitizer.hpp"
 
 namespace seamwire {
 namespace {
@@ -139,7 +140,7 @@ double length_of(const SeamPlan& plan, const Surface& surface) {
 }
 
 TEST(SeamPlanner, ACutGraphTakesFewDetoursOverSeeds) {
-  const auto torus = shared(shapes::torus(32, 16).surface());
+  const auto torus = shared(shapes::torus(sized(32, 16), sized(16, 8)).surface());
   // Two loops, around the tube and around the hole, and nothing else.
   const double shortest = 2 * std::numbers::pi * (0.15 + 0.2);
   for (const std::size_t seeds : {24, 40, 60, 90}) {
@@ -182,7 +183,7 @@ TEST(SeamPlanner, SeedsAreAddedUntilAllPiecesAreDiscs) {
 }
 
 TEST(SeamPlanner, NormalsOfIslandsSpreadNoFurtherThanAllowed) {
-  const auto sphere = shared(shapes::icosphere(4).surface());
+  const auto sphere = shared(shapes::icosphere(sized(4, 3)).surface());
   const SeamPlanner planner(sphere);
   for (const double most : {0.6, 0.42, 0.2}) {
     const SeamPlan plan = planner.plan({.max_spread = most});
@@ -193,7 +194,7 @@ TEST(SeamPlanner, NormalsOfIslandsSpreadNoFurtherThanAllowed) {
 }
 
 TEST(SeamPlanner, LimitsOfTrianglesHoldWhereTheyAre) {
-  const auto sphere = shared(shapes::icosphere(4).surface());
+  const auto sphere = shared(shapes::icosphere(sized(4, 3)).surface());
   const SeamPlanner planner(sphere);
   std::vector<double> limits(sphere->face_count());
   const auto is_above = [&](std::size_t f) { return sphere->points()[sphere->triangles()[f][0]].z() > 0.1; };
@@ -209,7 +210,7 @@ TEST(SeamPlanner, LimitsOfTrianglesHoldWhereTheyAre) {
 }
 
 TEST(SeamPlanner, MakesAsManyIslandsAsAreAskedFor) {
-  const auto sphere = shared(shapes::bumpy(shapes::icosphere(4), 0.03).surface());
+  const auto sphere = shared(shapes::bumpy(shapes::icosphere(sized(4, 3)), 0.03).surface());
   const SeamPlanner planner(sphere);
   for (const std::size_t islands : {1U, 2U, 5U, 9U}) {
     const SeamPlan plan = planner.plan({.islands = islands});
@@ -236,7 +237,7 @@ SeamPlannerOptions within_island(const Surface& surface, const SeamPlan& plan, s
 }
 
 TEST(SeamPlanner, KeptWiresStayAndOnlyWhatIsToBeSmallerIsParted) {
-  const auto sphere = shared(shapes::icosphere(4).surface());
+  const auto sphere = shared(shapes::icosphere(sized(4, 3)).surface());
   const SeamPlanner planner(sphere);
   for (const bool may_start_on_others : {true, false}) {
     const SeamLimits wide{.max_spread = 0.6, .may_start_on_others = may_start_on_others};
@@ -270,7 +271,7 @@ TEST(SeamPlanner, KeptWiresStayAndOnlyWhatIsToBeSmallerIsParted) {
 }
 
 TEST(SeamPlanner, APlanIsStraightenedAfterwardsAsAtItsEnd) {
-  const auto surface = shared(shapes::bumpy(shapes::torus(48, 24), 0.05, 3).surface());
+  const auto surface = shared(shapes::bumpy(shapes::torus(sized(48, 36), sized(24, 18)), 0.05, 3).surface());
   const SeamPlanner planner(surface);
   for (const bool may_start_on_others : {true, false}) {
     SeamLimits limits{.max_spread = 0.3, .may_start_on_others = may_start_on_others};
@@ -291,7 +292,7 @@ TEST(SeamPlanner, APlanIsStraightenedAfterwardsAsAtItsEnd) {
 }
 
 TEST(SeamPlanner, WithOtherSeedsIsAsOneMadeAnew) {
-  const auto surface = shared(shapes::bumpy(shapes::icosphere(3), 0.05).surface());
+  const auto surface = shared(shapes::bumpy(shapes::icosphere(sized(3, 2)), 0.05).surface());
   const SeamPlanner planner(surface);
   const SeamPlannerOptions more{.seeds = 60};
   const SeamPlan plan = planner.with(more).plan(), anew = SeamPlanner(surface, more).plan();
@@ -304,7 +305,7 @@ TEST(SeamPlanner, WithOtherSeedsIsAsOneMadeAnew) {
 }
 
 TEST(SeamPlanner, PiecesThatAreCrumbsBesideAnIslandJoinIt) {
-  const auto sphere = shared(shapes::icosphere(4).surface());
+  const auto sphere = shared(shapes::icosphere(sized(4, 3)).surface());
   const SeamPlanner planner(sphere, {.seeds = 200, .most_seeds = 200});
   const auto islands = [&](double crumb, double crumb_of_island) {
     const SeamLimits limits{
@@ -318,7 +319,7 @@ TEST(SeamPlanner, PiecesThatAreCrumbsBesideAnIslandJoinIt) {
 }
 
 TEST(SeamPlanner, WhereSmallIslandsArePartedOneBelowACrumbIsToo) {
-  const auto surface = shared(shapes::bumpy(shapes::icosphere(4), 0.05, 4).surface());
+  const auto surface = shared(shapes::bumpy(shapes::icosphere(sized(4, 3)), 0.05, 4).surface());
   const SeamPlanner planner(surface);
   const SeamPlan first = planner.plan({.max_spread = 0.4, .are_straightened = false});
   const std::vector<double> own = spreads(*surface, first.islands);
@@ -332,7 +333,7 @@ TEST(SeamPlanner, WhereSmallIslandsArePartedOneBelowACrumbIsToo) {
 }
 
 TEST(SeamPlanner, SeedsAreAsDenseAsAskedFor) {
-  const auto sphere = shared(shapes::icosphere(4).surface());
+  const auto sphere = shared(shapes::icosphere(sized(4, 3)).surface());
   SeamPlannerOptions options{.seeds = 60, .most_seeds = 60};
   const auto above = [&](const SeamPlannerOptions& with) {
     std::set<std::int32_t> all, upper;

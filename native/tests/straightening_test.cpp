@@ -13,6 +13,7 @@
 
 #include "seams/curve_crossings.hpp"
 #include "shapes.hpp"
+#include "thread_sanitizer.hpp"
 
 namespace seamwire {
 namespace {
@@ -118,7 +119,9 @@ TEST(CurveCrossings, AreCountedWithinFaces) {
 TEST(Straightening, CurvesThatAreCutCrossNoMoreOftenThanBefore) {
   for (const unsigned seed : {3U, 7U, 12U, 18U}) {
     const auto surface = std::make_shared<const Surface>(
-        shapes::bumpy(seed % 2 ? shapes::torus(48, 24) : shapes::icosphere(4), 0.05, seed).surface());
+        shapes::bumpy(seed % 2 ? shapes::torus(sized(48, 16), sized(24, 8)) : shapes::icosphere(sized(4, 2)), 0.05,
+                      seed)
+            .surface());
     const SeamPlannerOptions options;
     const CandidateWires wires(surface, options.along, options.strength, {});
     const Seclusion seclusion(*surface, wires.curvature());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <chrono>
 #include <mutex>
 
 /// Clang's thread-safety analysis (-Wthread-safety) checks at compile time that what is guarded by a mutex is touched
@@ -15,8 +16,8 @@
 #define SEAMWIRE_SCOPED_CAPABILITY SEAMWIRE_THREAD_ANNOTATION(scoped_lockable)
 #define SEAMWIRE_GUARDED_BY(mutex) SEAMWIRE_THREAD_ANNOTATION(guarded_by(mutex))
 #define SEAMWIRE_REQUIRES(...) SEAMWIRE_THREAD_ANNOTATION(requires_capability(__VA_ARGS__))
-#define SEAMWIRE_EXCLUDES(...) SEAMWIRE_THREAD_ANNOTATION(locks_excluded(__VA_ARGS__))
 #define SEAMWIRE_ACQUIRE(...) SEAMWIRE_THREAD_ANNOTATION(acquire_capability(__VA_ARGS__))
+#define SEAMWIRE_TRY_ACQUIRE(...) SEAMWIRE_THREAD_ANNOTATION(try_acquire_capability(__VA_ARGS__))
 #define SEAMWIRE_RELEASE(...) SEAMWIRE_THREAD_ANNOTATION(release_capability(__VA_ARGS__))
 
 namespace seamwire {
@@ -29,6 +30,18 @@ class SEAMWIRE_CAPABILITY("mutex") Mutex {
 
  private:
   std::mutex mutex_;
+};
+
+/// std::recursive_timed_mutex, annotated in the same way.
+class SEAMWIRE_CAPABILITY("mutex") RecursiveTimedMutex {
+ public:
+  bool try_lock_for(std::chrono::milliseconds duration) SEAMWIRE_TRY_ACQUIRE(true) {
+    return mutex_.try_lock_for(duration);
+  }
+  void unlock() SEAMWIRE_RELEASE() { mutex_.unlock(); }
+
+ private:
+  std::recursive_timed_mutex mutex_;
 };
 
 /// Holds a Mutex as long as it lives. lock() and unlock() are for std::condition_variable_any, which gives the mutex up

@@ -6,12 +6,13 @@
 #include <condition_variable>
 #include <exception>
 #include <functional>
-#include <mutex>
+#include <optional>
 #include <stop_token>
 #include <system_error>
 #include <thread>
 #include <utility>
 
+#include "detail/thread_safety.hpp"
 #include "seamwire/edges/edge_wires.hpp"
 #include "seamwire/geodesics/corridor_paths.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
@@ -28,56 +29,94 @@ constexpr double kTurning = 3.0;  // as LiveWireOptions
 /// How often the caller is told of the progress, and asked whether to go on.
 constexpr std::chrono::milliseconds kPeriod{20};
 
+/// What the threads of run_on_threads() have done, and what is left to do.
+class SharedWork {
+ public:
+  SharedWork(std::size_t count, std::size_t threads) : count_(count), running_(threads) {}
+
+  /// The next piece of work; nullopt if all are taken or one has failed.
+  std::optional<std::size_t> take() {
+    const MutexLock lock(mutex_);
+    if (next_ == count_ || error_) return std::nullopt;
+    return next_++;
+  }
+  /// A piece of work is done; `thrown`: what it threw, or null.
+  void finish(const std::exception_ptr& thrown) {
+    const MutexLock lock(mutex_);
+    if (thrown && !error_) error_ = thrown;
+    ++done_;
+  }
+  /// No more pieces are taken. An earlier error stays.
+  void fail(const std::exception_ptr& error) {
+    const MutexLock lock(mutex_);
+    if (!error_) error_ = error;
+  }
+  /// That many threads have ended, or could not be started.
+  void end_threads(std::size_t threads) {
+    const MutexLock lock(mutex_);
+    running_ -= threads;
+    changed_.notify_one();
+  }
+
+  /// Waits at most that long; whether all threads have ended.
+  bool wait(std::chrono::milliseconds duration) {
+    MutexLock lock(mutex_);
+    return changed_.wait_for(lock, duration, [this]() SEAMWIRE_REQUIRES(mutex_) { return running_ == 0; });
+  }
+  std::size_t done() const {
+    const MutexLock lock(mutex_);
+    return done_;
+  }
+  std::exception_ptr error() const {
+    const MutexLock lock(mutex_);
+    return error_;
+  }
+
+ private:
+  const std::size_t count_;
+  mutable Mutex mutex_;
+  std::condition_variable_any changed_;  // running_
+  std::size_t next_ SEAMWIRE_GUARDED_BY(mutex_) = 0;
+  std::size_t done_ SEAMWIRE_GUARDED_BY(mutex_) = 0;
+  std::size_t running_ SEAMWIRE_GUARDED_BY(mutex_);
+  std::exception_ptr error_ SEAMWIRE_GUARDED_BY(mutex_);
+};
+
 /// Calls work(i, task) for each i below `count` on as many threads as there are cores, while this one tells the caller
 /// fraction(how many are done). What one of them throws comes out of here, when all have ended.
 void run_on_threads(std::size_t count, const Task& task, const std::function<double(std::size_t)>& fraction,
                     const std::function<void(std::size_t, const Task&)>& work) {
   std::stop_source stop;
   const std::stop_callback forward(task.stop, [&stop] { stop.request_stop(); });
-  std::mutex mutex;
-  std::condition_variable changed;
-  std::size_t next = 0, done = 0, running = 0;  // with the mutex
-  std::exception_ptr error;                     // with the mutex
-  const auto take = [&] {
-    std::unique_lock lock(mutex);
-    while (next < count && !error) {
-      const std::size_t i = next++;
-      lock.unlock();
+  const std::size_t cores = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, kMostThreads);
+  const std::size_t thread_count = std::min(cores, count);
+  SharedWork shared(count, thread_count);
+  const auto run = [&] {
+    while (const std::optional<std::size_t> i = shared.take()) {
       std::exception_ptr thrown;
       try {
-        work(i, {.stop = stop.get_token(), .progress = {}});
+        work(*i, {.stop = stop.get_token(), .progress = {}});
       } catch (...) {
         thrown = std::current_exception();
         stop.request_stop();
       }
-      lock.lock();
-      if (thrown && !error) error = thrown;
-      ++done;
+      shared.finish(thrown);
     }
-    --running;
-    changed.notify_one();
+    shared.end_threads(1);
   };
-  const std::size_t cores = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, kMostThreads);
   std::vector<std::jthread> threads;
-  running = std::min(cores, count);
   try {
-    for (std::size_t i = 0; i < std::min(cores, count); ++i) threads.emplace_back(take);
+    for (std::size_t i = 0; i < thread_count; ++i) threads.emplace_back(run);
   } catch (const std::system_error&) {
     if (threads.empty()) throw;
-    const std::scoped_lock lock(mutex);
-    running -= std::min(cores, count) - threads.size();
+    shared.end_threads(thread_count - threads.size());
   }
-  std::unique_lock lock(mutex);
-  while (!changed.wait_for(lock, kPeriod, [&] { return running == 0; })) {
-    if (!task.progress) continue;
-    const std::size_t now = done;
-    lock.unlock();
-    const bool goes_on = task.progress(fraction(now));
-    if (!goes_on) stop.request_stop();
-    lock.lock();
-    if (!goes_on && !error) error = std::make_exception_ptr(Cancelled());
+  while (!shared.wait(kPeriod)) {
+    if (!task.progress || task.progress(fraction(shared.done()))) continue;
+    stop.request_stop();
+    shared.fail(std::make_exception_ptr(Cancelled()));
   }
-  if (error) std::rethrow_exception(error);
+  if (const std::exception_ptr error = shared.error()) std::rethrow_exception(error);
 }
 
 }  // namespace

@@ -319,11 +319,11 @@ std::optional<std::vector<Choice>> Straightening::replaced(const Junctions& junc
 std::map<Ends, Choice> DirectWires::find(const std::set<Ends>& pairs, const Task& task,
                                          CandidateWires::Effort effort) const {
   if (wires_.along() == Along::kEdges) effort = CandidateWires::Effort::kExact;  // which is as quick
-  std::map<Ends, Choice>& all_known = known_[static_cast<std::size_t>(effort)];
   std::map<Ends, Choice> out;
   std::vector<Ends> missing;
   {
-    const std::scoped_lock lock(mutex_);
+    const MutexLock lock(mutex_);
+    const std::map<Ends, Choice>& all_known = known_[static_cast<std::size_t>(effort)];
     for (const Ends& ends : pairs) {
       if (const auto known = all_known.find(ends); known != all_known.end()) {
         out.insert(*known);
@@ -356,8 +356,8 @@ std::map<Ends, Choice> DirectWires::find(const std::set<Ends>& pairs, const Task
       out.insert({ends_of(from, to), std::move(choice)});
     }
   }
-  const std::scoped_lock lock(mutex_);
-  all_known.insert(out.begin(), out.end());
+  const MutexLock lock(mutex_);
+  known_[static_cast<std::size_t>(effort)].insert(out.begin(), out.end());
   return out;
 }
 

@@ -3,11 +3,11 @@
 
 #include <array>
 #include <map>
-#include <mutex>
 #include <set>
 #include <span>
 #include <vector>
 
+#include "detail/thread_safety.hpp"
 #include "seams/candidate_wires.hpp"
 #include "seams/seam_choices.hpp"
 #include "seamwire/seams/seam_planner.hpp"
@@ -25,8 +25,8 @@ class DirectWires {
  private:
   const CandidateWires& wires_;
   const Seclusion& seclusion_;
-  mutable std::mutex mutex_;
-  mutable std::array<std::map<Ends, Choice>, 2> known_;  // by the effort
+  mutable Mutex mutex_;
+  mutable std::array<std::map<Ends, Choice>, 2> known_ SEAMWIRE_GUARDED_BY(mutex_);  // by the effort
 };
 
 /// Makes chosen wires cost less, as long as the pieces stay as many and as good: a direct one takes the place of two

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <utility>
+
+#include "detail/thread_safety.hpp"
+#include "seamwire/surface/surface.hpp"
+#include "seamwire/task.hpp"
+
+/// What Python objects build when it is first needed, for several threads.
+namespace seamwire::python {
+
+/// Of what is built once for several threads. The thread that has it may lock it again: a progress function may ask for
+/// what is being built.
+class SEAMWIRE_SCOPED_CAPABILITY BuildingLock {
+ public:
+  /// Waits for the thread that has it; throws Cancelled where the task is told to stop meanwhile.
+  BuildingLock(RecursiveTimedMutex& mutex, const Task& task) SEAMWIRE_ACQUIRE(mutex) : mutex_(mutex) {
+    while (!mutex_.try_lock_for(kPeriod)) task.check(0.0);
+  }
+  ~BuildingLock() SEAMWIRE_RELEASE() { mutex_.unlock(); }
+  BuildingLock(const BuildingLock&) = delete;
+  BuildingLock& operator=(const BuildingLock&) = delete;
+
+ private:
+  static constexpr std::chrono::milliseconds kPeriod{5};
+
+  RecursiveTimedMutex& mutex_;
+};
+
+/// A value built once, by the first thread that asks; the others wait, and where that one is stopped, one of them
+/// builds it. What a progress function asks for while it is being built is built apart, and kept. Ask without the GIL.
+template <class T>
+class Lazy {
+ public:
+  template <class Make>
+  const T& get(const Task& task, const Make& make) const {
+    const BuildingLock lock(mutex_, task);
+    if (!value_) {
+      auto made = std::make_unique<const T>(make());
+      if (!value_) value_ = std::move(made);
+    }
+    return *value_;
+  }
+
+ private:
+  mutable RecursiveTimedMutex mutex_;
+  mutable std::unique_ptr<const T> value_ SEAMWIRE_GUARDED_BY(mutex_);
+};
+
+/// What is built for a surface, kept until it is asked for another one. Ask without the GIL.
+template <class T>
+class OfLastSurface {
+ public:
+  template <class Make>
+  std::shared_ptr<const T> get(const std::shared_ptr<const Surface>& surface, const Task& task,
+                               const Make& make) const {
+    const BuildingLock lock(mutex_, task);
+    if (value_ && surface_.lock() == surface) return value_;
+    std::shared_ptr<const T> made = make();
+    value_ = made;
+    surface_ = surface;
+    return made;
+  }
+
+ private:
+  mutable RecursiveTimedMutex mutex_;
+  mutable std::weak_ptr<const Surface> surface_ SEAMWIRE_GUARDED_BY(mutex_);
+  mutable std::shared_ptr<const T> value_ SEAMWIRE_GUARDED_BY(mutex_);
+};
+
+}  // namespace seamwire::python
