@@ -248,7 +248,6 @@ def distance(cutting: Desk, one: int, two: int) -> float:
     return (vertices[one].co - vertices[two].co).length
 
 
-@pytest.mark.smoke
 def test_a_dragged_seed_of_a_cut_wire_is_one_step_and_leaves_no_old_cut(cutting: Desk) -> None:
     drawn_cut(cutting, 0, 44)
     cutting.obj.update_from_editmode()

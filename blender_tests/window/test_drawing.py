@@ -57,7 +57,6 @@ def test_wires_are_drawn_kept_and_marked(desk: Desk) -> None:
     assert shows(ui.pixels(), desk.at(36), WHITE), "with the tool the seeds are"
 
 
-@pytest.mark.smoke
 def test_a_chain_is_one_step_of_undo_named_for_what_it_did(desk: Desk, capfd: pytest.CaptureFixture[str]) -> None:
     bpy.ops.ed.undo_push(message="Before")  # calls from Python leave no steps of their own
     session, ui = desk.start(), desk.ui
@@ -77,7 +76,6 @@ def test_a_chain_is_one_step_of_undo_named_for_what_it_did(desk: Desk, capfd: py
     assert len(seams(bpy.data.objects[name])) == 8
 
 
-@pytest.mark.smoke
 def test_edges_are_lit_before_the_click_and_picked(desk: Desk) -> None:
     session, ui = desk.start(), desk.ui
     middle = desk.at(36, 37)

@@ -180,7 +180,6 @@ def test_convex_is_orange_and_concave_purple(ui: driver.Ui) -> None:
         leave(ui)
 
 
-@pytest.mark.smoke
 def test_distances_are_from_the_seed_of_the_chain_and_from_a_selected_vertex_before(ui: driver.Ui) -> None:
     desk = grid(ui)
     try:

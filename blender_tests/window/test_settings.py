@@ -19,7 +19,6 @@ def gate(ui: driver.Ui) -> Iterator[Desk]:
     leave(ui)
 
 
-@pytest.mark.smoke
 def test_metric_clamp_and_strength_change_the_live_wire(gate: Desk) -> None:
     session, ui = gate.start(), gate.ui
     chosen = settings()

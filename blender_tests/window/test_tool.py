@@ -15,7 +15,7 @@ from seamwire.view import text_overlay
 from seamwire.view.edited_objects import edited
 
 
-@pytest.mark.parametrize("modifiers", [pytest.param({}, marks=pytest.mark.smoke), {"ctrl": True}])
+@pytest.mark.parametrize("modifiers", [{}, {"ctrl": True}])
 def test_the_first_click_with_the_tool_places_a_seed(desk: Desk, modifiers: dict[str, bool]) -> None:
     ui = desk.ui
     desk.choose()
@@ -34,7 +34,6 @@ def test_the_first_click_with_the_tool_places_a_seed(desk: Desk, modifiers: dict
     assert desk.left_clean()
 
 
-@pytest.mark.smoke
 def test_the_island_under_the_mouse_is_named(desk: Desk) -> None:
     ui = desk.ui
     desk.choose()

@@ -27,7 +27,6 @@ def scaled(ui: driver.Ui) -> Iterator[driver.Ui]:
     ui.wait(4, redraw=True)
 
 
-@pytest.mark.smoke
 @pytest.mark.oldest_and_newest
 def test_in_perspective_wires_lie_where_they_are_seen(desk: Desk) -> None:
     ui = desk.ui

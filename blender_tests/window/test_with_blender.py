@@ -229,7 +229,6 @@ def test_a_chain_reads_its_mesh_when_it_begins_and_no_more(
     assert len(reads) <= 1
 
 
-@pytest.mark.smoke
 def test_saved_and_reopened_the_network_is_there(desk: Desk, tmp_path: Path) -> None:
     desk.choose()
     draw(desk, 36, 40, 76)
