@@ -22,6 +22,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 import addon_utils
 import bpy
 import pytest
+from progress import plugins
 from turns import leave, play
 
 ADDON = os.environ.get("SEAMWIRE_ADDON", "seamwire")
@@ -43,7 +44,8 @@ def enable_addon() -> None:
 def run_pytest() -> int:
     """Run pytest with the arguments after ``--`` and return its exit code."""
     arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
-    return int(pytest.main(["-p", "no:cacheprovider", "--strict-markers", *arguments]))
+    options = ["-p", "no:cacheprovider", "--strict-markers"]
+    return int(pytest.main([*options, *arguments], plugins(has_limit=not bpy.app.background)))
 
 
 faulthandler.enable()

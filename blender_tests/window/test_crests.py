@@ -56,7 +56,7 @@ def said() -> str:
     return "; ".join(text for _, text in status_bar.hints(status_bar.status_of(running[0])))
 
 
-@pytest.mark.parametrize("finish", ["SNAP", "CUT"])
+@pytest.mark.parametrize("finish", [pytest.param("SNAP", marks=pytest.mark.smoke), "CUT"])
 def test_with_alt_a_click_on_a_ridge_that_is_seen_draws_wires_along_it(desk: Desk, finish: str) -> None:
     ui = desk.ui
     settings().finish = finish
@@ -107,6 +107,7 @@ def test_its_seed_is_dragged_as_any_other(desk: Desk) -> None:
     ui.wait_until(lambda: edited.front.session.wires[-1].end == goal)
 
 
+@pytest.mark.smoke
 def test_seeds_snap_to_ridges_beside_the_cursor(desk: Desk) -> None:
     ui = desk.ui
     session = desk.start()

@@ -27,6 +27,8 @@ def length(desk: Desk) -> float:
     return sum((vertices[a].co - vertices[b].co).length for a, b in seams(desk.obj))
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_a_chain_is_cut_when_it_ends_in_one_step_of_undo(cutting: Desk) -> None:
     session, ui = cutting.start(), cutting.ui
     count = len(cutting.obj.data.vertices)
@@ -165,6 +167,7 @@ def soften(cutting: Desk) -> None:
     bpy.ops.ed.undo_push(message="Soft")
 
 
+@pytest.mark.smoke
 def test_a_chain_is_slid_when_it_ends_in_one_step_of_undo(cutting: Desk) -> None:
     soften(cutting)
     settings().finish = "SLIDE"

@@ -22,6 +22,8 @@ def with_a_wire(desk: Desk) -> Session:
     return session
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_wires_are_drawn_kept_and_marked(desk: Desk) -> None:
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(36), ctrl=True)
@@ -105,9 +107,12 @@ def test_alt_shows_the_loop_and_an_alt_click_takes_it(cone: Desk) -> None:
     assert session.loop_preview is None
 
 
-def test_a_double_click_on_an_edge_takes_its_loop(cone: Desk) -> None:
+@pytest.mark.smoke
+@pytest.mark.every_blender
+def test_a_double_click_on_an_edge_takes_its_loop(cone: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     session, ui = cone.start(), cone.ui
-    bpy.context.preferences.inputs.mouse_double_click_time = 1000  # redraws may be slow here
+    # Redraws may be slow here.
+    monkeypatch.setattr(bpy.context.preferences.inputs, "mouse_double_click_time", 1000)
     edge = cone.at(40, 49)
     ui.wait_until(lambda: not session.computing)
     ui.move(edge)
@@ -120,6 +125,7 @@ def test_a_double_click_on_an_edge_takes_its_loop(cone: Desk) -> None:
     assert not cone.running, "the first of the two clicks left nothing"
 
 
+@pytest.mark.smoke
 def test_e_switches_to_the_surface_and_back(cone: Desk) -> None:
     session, ui = cone.start(), cone.ui
     ui.click(cone.at(20), ctrl=True)
@@ -147,6 +153,7 @@ def test_e_switches_to_the_surface_and_back(cone: Desk) -> None:
     assert seams(cone.obj) == marked
 
 
+@pytest.mark.oldest_and_newest
 def test_wires_on_the_far_side_are_faint(desk: Desk) -> None:
     with_a_wire(desk)
     ui = desk.ui
@@ -165,6 +172,7 @@ def test_wires_on_the_far_side_are_faint(desk: Desk) -> None:
     assert (faint[:, 0] - faint[:, 1]).max() > (surroundings[0] - surroundings[1]) + 0.05, "reddish still"
 
 
+@pytest.mark.oldest_and_newest
 def test_on_a_turned_and_unevenly_scaled_object_wires_lie_on_the_mesh(ui: driver.Ui) -> None:
     obj = add_grid(9)
     obj.scale = (0.5, 1.4, 2.0)
@@ -222,6 +230,8 @@ def test_wires_that_are_being_computed_come_when_they_are_ready(desk: Desk, monk
     ui.wait_until(lambda: not session.computing)
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_escape_drops_the_live_wire_only(desk: Desk) -> None:
     session, ui = desk.start(), desk.ui
     assert not desk.left_clean()
@@ -247,6 +257,8 @@ def test_a_chain_without_a_wire_leaves_the_mesh_and_undo_as_they_were(
     assert undo_steps(capfd) == before
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_undo_and_redo_within_a_chain_go_wire_by_wire(desk: Desk, capfd: pytest.CaptureFixture[str]) -> None:
     session, ui = desk.start(), desk.ui
     before = undo_steps(capfd)

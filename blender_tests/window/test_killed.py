@@ -17,6 +17,8 @@ import ui as driver
 from scene import ADDON, add_grid, chain, edit, seams
 from seamwire.view.edited_objects import edited
 
+pytestmark = pytest.mark.oldest_and_newest
+
 SIDE = 41
 DRAW = """
 import os, sys, time

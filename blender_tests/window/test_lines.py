@@ -24,6 +24,8 @@ def beside(place: tuple[float, float], x: float = 0.0, y: float = 0.0) -> tuple[
     return place[0] + x, place[1] + y
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_a_drag_over_the_mesh_draws_along_its_edges_in_one_step(desk: Desk, capfd: pytest.CaptureFixture[str]) -> None:
     session, ui = desk.choose(), desk.ui
     ui.wait_until(lambda: session.progress == 1.0)
@@ -105,12 +107,13 @@ def test_a_cancelled_line_leaves_nothing(desk: Desk) -> None:
     assert desk.unchanged()
 
 
-def test_a_line_from_the_live_seed_goes_on_with_the_chain(desk: Desk) -> None:
+def test_a_line_from_the_live_seed_goes_on_with_the_chain(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(0))
     ui.click(desk.at(4))
     ui.wait_until(lambda: len(session.wires) == 1)
-    bpy.context.preferences.inputs.mouse_double_click_time = 1  # it is pressed where it was clicked last
+    # The line begins at the place of the last click.
+    monkeypatch.setattr(bpy.context.preferences.inputs, "mouse_double_click_time", 1)
     drag(desk, desk.at(4), desk.at(40))
     ui.wait_until(lambda: session.seed_place == 40)
     ui.click(desk.at(44))

@@ -46,6 +46,7 @@ def take(desk: Desk, kind: str, *edge: int) -> list[tuple[int, int]]:
     return seams(desk.obj)
 
 
+@pytest.mark.smoke
 def test_alt_shows_what_a_click_takes_and_w_and_the_wheel_turn_from_one_to_the_next(desk: Desk) -> None:
     place, ui = offer(desk, 40, 41), desk.ui
     session = desk.session
@@ -99,6 +100,8 @@ def stub(desk: Desk) -> None:
     bmesh.update_edit_mesh(desk.obj.data)
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_a_strip_is_taken_up_to_the_seams_in_one_step(desk: Desk, capfd: pytest.CaptureFixture[str]) -> None:
     stub(desk)
     bpy.ops.ed.undo_push(message="Before")
@@ -147,6 +150,7 @@ def test_a_taken_strip_is_changed_in_place(desk: Desk) -> None:
     assert seams(desk.obj) == chain(*range(36, 45)), "one step"
 
 
+@pytest.mark.oldest_and_newest
 def test_the_offer_that_is_shown_is_seen(ui: driver.Ui, desk: Desk) -> None:
     place = offer(desk, 40, 41)
     turn_to(desk, "STRIP")

@@ -62,6 +62,7 @@ def alike(one: np.ndarray, two: np.ndarray) -> bool:
     return bool((np.abs(one - two).max(axis=2) > 0.05).mean() < 0.001)
 
 
+@pytest.mark.oldest_and_newest
 def test_each_view_is_seen_with_its_legend_and_gone_when_it_is_switched_off(desk: Desk) -> None:
     desk.choose()
     draw(desk, 20, 300)
@@ -107,6 +108,7 @@ def test_a_sheet_seen_from_above_has_no_silhouette(ui: driver.Ui) -> None:
 
 
 @pytest.mark.parametrize("perspective", ["ORTHO", "PERSP"])
+@pytest.mark.oldest_and_newest
 def test_the_silhouette_follows_the_view(desk: Desk, perspective: str) -> None:
     desk.ui.view.view_perspective = perspective
     desk.choose()
@@ -162,6 +164,7 @@ def test_turning_the_view_hands_nothing_to_the_gpu_again(desk: Desk, monkeypatch
     assert made == []
 
 
+@pytest.mark.oldest_and_newest
 def test_convex_is_orange_and_concave_purple(ui: driver.Ui) -> None:
     desk = half_cone(ui)
     try:
@@ -200,6 +203,8 @@ def test_distances_are_from_the_seed_of_the_chain_and_from_a_selected_vertex_bef
         leave(ui)
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_in_object_mode_what_is_shown_follows_the_active_object_and_its_mesh(desk: Desk) -> None:
     ui = desk.ui
     bpy.ops.object.mode_set(mode="OBJECT")

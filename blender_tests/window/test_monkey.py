@@ -178,6 +178,7 @@ class Monkey:
 
 
 @pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.oldest_and_newest
 def test_whatever_is_pressed_seams_and_network_agree_and_nothing_else_changes(
     cone: Desk, seed: int, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -37,6 +37,7 @@ def finish(desk: Desk) -> None:
     assert seams(desk.obj) == chain(*range(36, 45))
 
 
+@pytest.mark.smoke
 def test_the_middle_button_turns_moves_and_zooms(desk: Desk) -> None:
     begin(desk)
     ui = desk.ui

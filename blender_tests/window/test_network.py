@@ -43,6 +43,8 @@ def test_a_plain_click_seeds_and_enter_ends(desk: Desk) -> None:
     nothing_else_changed(desk)
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_c_and_a_click_on_the_first_seed_close_the_chain_and_end_it(desk: Desk) -> None:
     session, ui = desk.start(), desk.ui
     for vertex in (10, 16, 70):
@@ -63,6 +65,8 @@ def test_c_and_a_click_on_the_first_seed_close_the_chain_and_end_it(desk: Desk) 
     assert seams(desk.obj) == once
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_f_shows_the_wire_to_the_end_and_keeps_it(desk: Desk) -> None:
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(36))
@@ -77,6 +81,8 @@ def test_f_shows_the_wire_to_the_end_and_keeps_it(desk: Desk) -> None:
     assert seams(desk.obj) == chain(*range(36, 45))
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_clearing_takes_seams_away_and_breaks_the_wires_there(desk: Desk) -> None:
     desk.choose()
     draw(desk, 36, 44)
@@ -101,6 +107,8 @@ def test_enter_waits_for_the_clicks_that_wait(desk: Desk) -> None:
     assert len(session.wires) == 1
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_w_takes_the_next_candidate_and_the_wheel_zooms(cone: Desk) -> None:
     session, ui = cone.start(), cone.ui
     ui.click(cone.at(20))
@@ -171,6 +179,8 @@ def test_the_wheel_takes_the_next_candidate_where_it_is_given_to_it(cone: Desk) 
         preferences().property_unset("wheel_switches")
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_shift_and_the_wheel_change_the_strength_and_say_it(cone: Desk) -> None:
     session, ui = cone.start(), cone.ui
     ui.move(cone.at(40))
@@ -185,6 +195,8 @@ def test_shift_and_the_wheel_change_the_strength_and_say_it(cone: Desk) -> None:
     assert session.strength == 40.0, "the header's setting reaches the chain"
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_v_and_e_switch_settings_that_the_header_shows(desk: Desk) -> None:
     desk.start()
     desk.ui.move(desk.at(40))
@@ -225,6 +237,8 @@ def test_keys_can_be_bound_anew(ui: driver.Ui, desk: Desk) -> None:
     assert len(session.wires) == 3
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_f1_shows_the_keys(desk: Desk) -> None:
     desk.start()
     desk.ui.move(desk.at(40))
@@ -238,6 +252,8 @@ def test_f1_shows_the_keys(desk: Desk) -> None:
 # Between chains
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_a_dragged_seed_takes_its_wires_along_in_one_step(desk: Desk, capfd: pytest.CaptureFixture[str]) -> None:
     session = desk.choose()
     draw(desk, 36, 40, 44)
@@ -272,6 +288,7 @@ def test_escape_lets_a_dragged_seed_go_back(desk: Desk) -> None:
     assert seams(desk.obj) == chain(*range(36, 45))
 
 
+@pytest.mark.smoke
 def test_a_dragged_wire_gets_a_seed(desk: Desk) -> None:
     session = desk.choose()
     draw(desk, 36, 44)
@@ -284,6 +301,7 @@ def test_a_dragged_wire_gets_a_seed(desk: Desk) -> None:
     assert seams(desk.obj) == chain(*range(36, 45))
 
 
+@pytest.mark.smoke
 def test_clicks_begin_at_seeds_and_end_on_wires(desk: Desk) -> None:
     session, ui = desk.choose(), desk.ui
     draw(desk, 36, 44)
@@ -303,7 +321,7 @@ def test_clicks_begin_at_seeds_and_end_on_wires(desk: Desk) -> None:
     nothing_else_changed(desk)
 
 
-@pytest.mark.parametrize("key", ["X", "DEL"])
+@pytest.mark.parametrize("key", [pytest.param("X", marks=[pytest.mark.smoke, pytest.mark.every_blender]), "DEL"])
 def test_x_and_delete_remove_the_wire_under_the_cursor(desk: Desk, key: str, capfd: pytest.CaptureFixture[str]) -> None:
     session, ui = desk.choose(), desk.ui
     draw(desk, 36, 44)
@@ -335,6 +353,8 @@ def test_seams_that_were_there_before_a_wire_stay_when_it_is_removed(desk: Desk)
     assert seams(desk.obj) == [(36, 37), (38, 39)]
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_a_kept_wire_takes_its_other_path(cone: Desk, capfd: pytest.CaptureFixture[str]) -> None:
     session, ui = cone.choose(), cone.ui
     ui.click(cone.at(20))
@@ -354,6 +374,8 @@ def test_a_kept_wire_takes_its_other_path(cone: Desk, capfd: pytest.CaptureFixtu
     assert undo_steps(capfd)[-1] == "Swap Path"
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_the_meshs_own_mirror_counts_and_m_sets_it(desk: Desk) -> None:
     session, ui = desk.start(), desk.ui
     assert session.mirror_axes == ()
@@ -382,6 +404,7 @@ def test_the_meshs_own_mirror_counts_and_m_sets_it(desk: Desk) -> None:
     assert seams(desk.obj) == []
 
 
+@pytest.mark.smoke
 def test_gaps_in_seams_are_shown_until_they_are_closed(desk: Desk) -> None:
     desk.choose()
     draw(desk, 36, 44)

@@ -24,6 +24,8 @@ from seamwire.mesh import edit_mesh
 from seamwire.view.overlay import Overlay
 from seamwire.view.theme import Looks, Style
 
+pytestmark = pytest.mark.oldest_and_newest
+
 SIDE = 9
 HUES = {"red": (0, 30), "orange": (35, 60), "green": (110, 170), "blue": (190, 225)}
 

@@ -26,6 +26,8 @@ def recorded(function: Callable, calls: list[str]) -> Callable:
     return record
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_the_preferences_show_the_keys(ui: driver.Ui, monkeypatch: pytest.MonkeyPatch) -> None:
     calls: list[str] = []
     monkeypatch.setattr(preferences, "draw_keys", recorded(preferences.draw_keys, calls))
@@ -55,6 +57,8 @@ def preferences_expanded() -> bool:
     return bool(addon_utils.module_bl_info(module).get("show_expanded"))
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_the_tools_settings_are_shown_in_its_header_and_in_the_properties(
     desk: Desk, monkeypatch: pytest.MonkeyPatch
 ) -> None:

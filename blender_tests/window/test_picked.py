@@ -28,6 +28,7 @@ def layers(ui: driver.Ui) -> Iterator[Desk]:
     leave(ui)
 
 
+@pytest.mark.smoke
 def test_v_lets_wires_be_drawn_on_the_far_side(layers: Desk) -> None:
     session, ui = layers.start(), layers.ui
     ui.move(layers.at(81))
@@ -58,6 +59,7 @@ def roof(ui: driver.Ui) -> Iterator[Desk]:
     leave(ui)
 
 
+@pytest.mark.smoke
 def test_snapping_takes_the_feature_near_the_cursor(roof: Desk) -> None:
     session, ui = roof.start(), roof.ui
     ui.wait_until(lambda: session.feature_strength() is not None)

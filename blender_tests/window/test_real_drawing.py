@@ -3,15 +3,19 @@
 
 import bpy
 import numpy as np
+import pytest
 import ui as driver
 from scene import add_grid, chain, edit, seams, snapshot
 from seamwire.operators.report import running
 
 
-def test_a_double_click_takes_a_loop_and_single_clicks_draw(real_ui: driver.RealUi) -> None:
+def test_a_double_click_takes_a_loop_and_single_clicks_draw(
+    real_ui: driver.RealUi, monkeypatch: pytest.MonkeyPatch
+) -> None:
     ui = real_ui
     # A band around the z axis: its middle ring is the loop through each of the ring's edges.
-    bpy.context.preferences.inputs.mouse_double_click_time = 1000  # the redraw between the clicks may be slow here
+    # The redraw between the clicks may be slow here.
+    monkeypatch.setattr(bpy.context.preferences.inputs, "mouse_double_click_time", 1000)
     bpy.ops.mesh.primitive_cylinder_add(vertices=12, depth=2.0, end_fill_type="NOTHING")
     obj = bpy.context.active_object
     ui.wait()
@@ -41,6 +45,7 @@ def test_a_double_click_takes_a_loop_and_single_clicks_draw(real_ui: driver.Real
     assert after == before
 
 
+@pytest.mark.smoke
 def test_a_wire_is_drawn_by_hand(real_ui: driver.RealUi) -> None:
     ui = real_ui
     obj = add_grid(9)

@@ -1,57 +1,40 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Enabling and disabling the add-on where there are keymaps, and while it draws."""
+"""Disabling the add-on while it draws, and its keys among the user's keymaps. Blender has no keymaps without a window."""
 
 import bpy
+import pytest
 import traces
 import ui as driver
-from scene import add_grid, edit
+from desk import Desk
 from seamwire.operators import bindings
-from seamwire.operators.report import running
-
-TIMES = 20
 
 
-def test_enabled_and_disabled_many_times_it_leaves_nothing_behind(ui: driver.Ui) -> None:
-    enabled = traces.traces()
-    assert any("Mesh: wm.tool_set_by_id W" in one for one in enabled["keymap items"])
-    traces.disable()
-    try:
-        ui.wait()
-        disabled = traces.traces()
-        assert traces.ours(disabled) == []
-        for _ in range(TIMES):
-            traces.enable()
-            traces.disable()
-        ui.wait()
-        assert traces.difference(disabled, traces.traces()) == {}
-    finally:
-        traces.enable()
-    ui.wait()
-    assert traces.difference(enabled, traces.traces()) == {}
-
-
-def test_disabled_while_drawing_it_ends_and_leaves_nothing_behind(ui: driver.Ui) -> None:
-    add_grid(5)
-    ui.wait()
-    with ui.override():
-        edit()
-    ui.look_from_top(distance=4.0)
+@pytest.mark.smoke
+@pytest.mark.every_blender
+def test_disabled_while_drawing_it_ends_and_leaves_nothing_behind(desk: Desk) -> None:
+    ui = desk.ui
     before = traces.traces()
-    with ui.override():
-        bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT")
-    ui.move((ui.region.width * 0.5, ui.region.height * 0.5))
-    assert running
+    assert any("Mesh: wm.tool_set_by_id W" in one for one in before["keymap items"])
+    session = desk.start()
+    ui.click(desk.at(36))
+    ui.click(desk.at(44))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.move(desk.at(60))
+    assert desk.running
     traces.disable()
     try:
-        assert not running
-        ui.move((ui.region.width * 0.4, ui.region.height * 0.5))
+        assert not desk.running
+        ui.move(desk.at(40))
         ui.pixels()
+        assert traces.ours(traces.traces()) == []
+        assert desk.unchanged()
     finally:
         traces.enable()
     ui.wait()  # the user's keymaps follow at the next turn of the event loop
     assert traces.difference(before, traces.traces()) == {}
 
 
+@pytest.mark.smoke
 def test_the_users_keys_are_the_add_ons_in_the_same_order(ui: driver.Ui) -> None:
     ui.wait()
     of_user, defaults = bindings.of_user(bpy.context.window_manager), bindings.Bindings()

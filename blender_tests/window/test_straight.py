@@ -2,13 +2,14 @@
 """Straight in View: across the surface the wire that is straight on the screen leads, and the wheel goes on to the others."""
 
 import math
+from collections.abc import Iterator
 
 import bpy
 import numpy as np
 import pytest
 import ui as driver
 from bpy_extras.view3d_utils import location_3d_to_region_2d
-from desk import ORANGE, Desk, shows
+from desk import ORANGE, Desk, leave, shows
 from mathutils import Euler, Vector
 from scene import add_object, seams
 from seamwire.core.network import Wire
@@ -20,7 +21,7 @@ START, END, THIRD = 4 * SIDE + 5, 26 * SIDE + 27, 27 * SIDE + 8
 
 
 @pytest.fixture
-def desk(ui: driver.Ui) -> Desk:
+def desk(ui: driver.Ui) -> Iterator[Desk]:
     """A sheet with a hill, moved and stretched, seen in perspective from above."""
     points = [
         (x, y, 0.7 * math.exp(-4.0 * (x * x + y * y)) + 0.04 * math.sin(9.0 * x))
@@ -37,7 +38,8 @@ def desk(ui: driver.Ui) -> Desk:
     ui.view.view_perspective = "PERSP"
     settings().along = "SURFACE"
     settings().straight = True
-    return made
+    yield made
+    leave(ui)
 
 
 def bend_on_screen(desk: Desk, wire: Wire) -> float:
@@ -57,6 +59,7 @@ def aim(desk: Desk) -> None:
     desk.ui.wait_until(lambda: not desk.session.computing and desk.session.active is not None)
 
 
+@pytest.mark.smoke
 def test_it_is_straight_on_the_screen_and_a_click_keeps_it(desk: Desk) -> None:
     ui = desk.ui
     desk.choose()

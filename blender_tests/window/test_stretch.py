@@ -75,6 +75,8 @@ def colored(pixels: np.ndarray, desk: Desk, corners: tuple[int, int]) -> bool:
     return bool(np.ptp(seen) > 0.25)
 
 
+@pytest.mark.smoke
+@pytest.mark.oldest_and_newest
 def test_stretched_faces_are_red_and_others_blue_where_overlays_are_shown(desk: Desk) -> None:
     desk.choose()
     lay_out(desk, right=2.0)
@@ -144,6 +146,8 @@ def test_areas_are_compared_with_the_mean_and_a_missing_map_is_told_of(desk: Des
     screen(desk)
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_a_chain_unwraps_what_it_changed_in_its_own_step_of_undo(desk: Desk, capfd: pytest.CaptureFixture[str]) -> None:
     settings().unwrap = True
     settings().heat = "ANGLE"
@@ -162,6 +166,7 @@ def test_a_chain_unwraps_what_it_changed_in_its_own_step_of_undo(desk: Desk, cap
     assert np.array_equal(uvs(desk), before)
 
 
+@pytest.mark.smoke
 def test_the_worst_island_is_one_key_away(desk: Desk) -> None:
     bm = bmesh.from_edit_mesh(desk.obj.data)
     for edge in bm.edges:

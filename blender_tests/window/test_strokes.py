@@ -95,6 +95,8 @@ def test_a_stroke_leads_the_live_wire_and_undo_takes_it_back(fine: Desk) -> None
     assert not fine.running
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_between_chains_a_stroke_is_a_step_of_blenders_undo_and_kept_with_the_mesh(
     fine: Desk, capfd: pytest.CaptureFixture[str]
 ) -> None:
@@ -117,6 +119,7 @@ def test_between_chains_a_stroke_is_a_step_of_blenders_undo_and_kept_with_the_me
     assert wire(fine) == sorted(ROUND)
 
 
+@pytest.mark.smoke
 def test_x_removes_the_stroke_under_the_cursor(fine: Desk, capfd: pytest.CaptureFixture[str]) -> None:
     ui = fine.ui
     bpy.ops.ed.undo_push(message="Before")
@@ -131,6 +134,8 @@ def test_x_removes_the_stroke_under_the_cursor(fine: Desk, capfd: pytest.Capture
     assert wire(fine) == STRAIGHT
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_wires_keep_off_a_stroke_that_repels(fine: Desk) -> None:
     choose(fine.ui)
     ui = fine.ui

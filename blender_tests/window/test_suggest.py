@@ -30,6 +30,8 @@ def invoke(ui: driver.Ui) -> None:
         assert bpy.ops.mesh.seamwire_suggest("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_seams_come_when_the_planning_has_ended(
     ui: driver.Ui, suzanne: bpy.types.Object, capfd: pytest.CaptureFixture[str]
 ) -> None:
@@ -43,6 +45,8 @@ def test_seams_come_when_the_planning_has_ended(
     assert seams(bpy.context.active_object) == []
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_escape_leaves_all_as_it_was(
     ui: driver.Ui, suzanne: bpy.types.Object, capfd: pytest.CaptureFixture[str]
 ) -> None:

@@ -3,11 +3,12 @@
 
 import math
 from collections import Counter
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
 import ui as driver
-from desk import GREEN, Desk, shows
+from desk import GREEN, Desk, leave, shows
 from scene import add_object, seams
 from seamwire.core.geometry import nearest_on_segments
 from seamwire.core.surface_loops import SurfaceLoops
@@ -40,10 +41,11 @@ def limb(ui: driver.Ui) -> Desk:
 
 
 @pytest.fixture
-def desk(ui: driver.Ui) -> Desk:
+def desk(ui: driver.Ui) -> Iterator[Desk]:
     made = limb(ui)
     settings().along = "SURFACE"
-    return made
+    yield made
+    leave(ui)
 
 
 WAIST = 20 * AROUND
@@ -84,6 +86,8 @@ def test_alt_over_a_limb_shows_the_cut_around_it_and_a_click_takes_it(desk: Desk
     assert seams(desk.obj) == []
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_shift_alt_shows_the_cut_bent_to_the_cursor_and_a_click_keeps_it_in_its_place(desk: Desk) -> None:
     ui = desk.ui
     place = offer(desk, WAIST)

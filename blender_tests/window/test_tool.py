@@ -7,7 +7,6 @@ import bmesh
 import bpy
 import pytest
 import ui as driver
-from bl_ui.space_toolsystem_common import ToolSelectPanelHelper
 from desk import Desk, choose, leave
 from scene import add_grid, chain, edit, seams
 from seamwire.mesh.settings import TOOL
@@ -65,33 +64,12 @@ def test_a_click_beside_the_mesh_begins_nothing(desk: Desk) -> None:
     assert not desk.running
 
 
+@pytest.mark.smoke
 def test_the_shortcut_and_the_menu_choose_the_tool(desk: Desk) -> None:
     ui = desk.ui
     ui.move(desk.at(40))
     ui.key("W", ctrl=True, alt=True)
     assert bpy.context.workspace.tools.from_space_view3d_mode("EDIT_MESH").idname == TOOL
-
-
-def tools() -> list[object]:
-    cls = ToolSelectPanelHelper._tool_class_from_space_type("VIEW_3D")
-    return list(cls._tools["EDIT_MESH"])
-
-
-def test_the_tool_has_a_slot_of_its_own_and_no_group_has_a_gap(desk: Desk) -> None:
-    found = tools()
-    assert sum(getattr(tool, "idname", None) == TOOL for tool in found) == 1
-    groups = [tool for tool in found if type(tool) is tuple]
-    assert all(None not in group for group in groups)
-    names = [
-        one.idname
-        for tool in found
-        if tool and not callable(tool)
-        for one in (tool if type(tool) is tuple else (tool,))
-    ]
-    for name in names:
-        with desk.ui.override():
-            bpy.ops.wm.tool_set_by_id(name=name, cycle=True)
-            bpy.ops.wm.tool_set_by_id(name=name, cycle=True)
 
 
 class Two:
@@ -123,6 +101,8 @@ def two(ui: driver.Ui) -> Iterator[Two]:
     leave(ui)
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_the_object_under_the_cursor_is_drawn_on_each_in_a_chain_of_its_own(two: Two) -> None:
     ui, names = two.ui, (two.left.name, two.right.name)
     bpy.ops.ed.undo_push(message="Before")

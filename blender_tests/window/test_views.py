@@ -27,6 +27,7 @@ def scaled(ui: driver.Ui) -> Iterator[driver.Ui]:
     ui.wait(4, redraw=True)
 
 
+@pytest.mark.oldest_and_newest
 def test_in_perspective_wires_lie_where_they_are_seen(desk: Desk) -> None:
     ui = desk.ui
     ui.look((0.9, 0.35, 0.1, 0.2), (0.0, 0.0, 0.0), 4.0)
@@ -64,6 +65,7 @@ def test_at_a_scale_of_one_and_three_quarters_it_draws_and_says_first_what_matte
         leave(scaled)
 
 
+@pytest.mark.oldest_and_newest
 def test_what_the_clipping_border_hides_is_neither_picked_nor_drawn(desk: Desk) -> None:
     ui = desk.ui
     session = desk.choose()
@@ -147,7 +149,9 @@ def test_blenders_undo_in_a_second_window_leaves_a_chain_its_wires(desk: Desk) -
         assert bool(edited.of(obj).session.wires) == bool(seams(obj))
 
 
-@pytest.mark.parametrize("name", ["show_gizmo", "show_gizmo_tool"])
+@pytest.mark.parametrize(
+    "name", [pytest.param("show_gizmo", marks=[pytest.mark.smoke, pytest.mark.every_blender]), "show_gizmo_tool"]
+)
 def test_what_a_click_takes_is_lit_where_gizmos_are_hidden_too(desk: Desk, name: str) -> None:
     session = desk.choose()
     setattr(desk.ui.space, name, False)

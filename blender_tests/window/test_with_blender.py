@@ -11,7 +11,7 @@ import bpy
 import pytest
 import ui as driver
 from desk import ORANGE, Desk, choose, dismiss, draw, shows, undo_steps
-from scene import ADDON, chain, edit, seams
+from scene import chain, edit, seams
 from seamwire.core.session import Session
 from seamwire.mesh import edit_mesh
 from seamwire.operators.report import running
@@ -257,6 +257,8 @@ def test_saved_and_reopened_the_network_is_there(desk: Desk, tmp_path: Path) -> 
 # Within a chain
 
 
+@pytest.mark.smoke
+@pytest.mark.every_blender
 def test_ctrl_s_saves_what_is_drawn_so_far_and_the_chain_goes_on(desk: Desk, tmp_path: Path) -> None:
     path = tmp_path / "drawn.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(path))
@@ -290,7 +292,15 @@ def test_what_was_saved_within_a_chain_and_then_taken_back_is_no_seam(desk: Desk
 
 
 @pytest.mark.parametrize(
-    ("key", "held"), [("TAB", {}), ("H", {}), ("A", {}), ("F3", {}), ("I", {"ctrl": True}), ("THREE", {})]
+    ("key", "held"),
+    [
+        pytest.param("TAB", {}, marks=pytest.mark.smoke),
+        ("H", {}),
+        ("A", {}),
+        ("F3", {}),
+        ("I", {"ctrl": True}),
+        ("THREE", {}),
+    ],
 )
 def test_keys_that_change_mode_or_mesh_end_the_chain_first(desk: Desk, key: str, held: dict[str, bool]) -> None:
     live(desk)
@@ -415,6 +425,7 @@ def test_another_add_ons_seams_under_a_chain_are_heard_of(desk: Desk) -> None:
     assert seams(desk.obj) == [(0, 1), *ROW]
 
 
+@pytest.mark.smoke
 def test_an_exception_ends_the_chain_and_leaves_the_mesh_as_it_was(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     session = live(desk)
 
@@ -466,20 +477,6 @@ def test_an_exception_in_the_overlay_ends_the_chain(desk: Desk, monkeypatch: pyt
     assert desk.unchanged()
 
 
-def test_disabling_the_addon_ends_the_chain(desk: Desk) -> None:
-    import addon_utils
-
-    live(desk)
-    choose(desk.ui, "builtin.select_box")
-    try:
-        addon_utils.disable(ADDON)
-        assert not running
-        desk.ui.move(desk.at(40))
-        assert desk.unchanged()
-    finally:
-        addon_utils.enable(ADDON)
-
-
 def test_one_chain_at_a_time_and_only_in_edit_mode(desk: Desk) -> None:
     desk.start()
     with desk.ui.override():
@@ -490,6 +487,7 @@ def test_one_chain_at_a_time_and_only_in_edit_mode(desk: Desk) -> None:
         assert bpy.ops.mesh.seamwire_draw.poll()
 
 
+@pytest.mark.oldest_and_newest
 def test_what_is_lit_goes_with_another_tool(desk: Desk) -> None:
     with desk.ui.override():
         bpy.ops.mesh.select_all(action="DESELECT")  # Blender's orange is not to be taken for ours
