@@ -2,7 +2,7 @@
 """What the status bar says: what each button and key would do now."""
 
 import pytest
-from meshes import arrays_of, grid_places, grid_polygons
+from polygon_meshes import arrays_of, grid_places, grid_polygons
 from seamwire.core.live_maker import LiveMaker
 from seamwire.core.network import Snap
 from seamwire.core.session import Session

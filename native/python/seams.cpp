@@ -23,7 +23,7 @@ struct SeamPlannerObject {
 };
 
 /// Throws InvalidInput, with what is to be said then.
-std::vector<double> values_from(const py::object& from, const char* otherwise) {
+std::vector<double> values_or_reason(const py::object& from, const char* otherwise) {
   const auto values = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(from);
   if (!values || values.ndim() != 1) {
     PyErr_Clear();
@@ -42,7 +42,7 @@ SeamPlannerOptions seeding_from(const py::object& seeds_at, std::size_t seeds, s
           .most_seeds = most_seeds,
           .density = density.is_none()
                          ? std::vector<double>{}
-                         : values_from(density, "density: expected an array of one number for each vertex"),
+                         : values_or_reason(density, "density: expected an array of one number for each vertex"),
           .images = numbers(images, "images"),
           .seams = seams.is_none() ? std::vector<Edge>{} : edges_from(seams, "seams")};
 }
@@ -54,7 +54,8 @@ SeamLimits limits_from(const py::object& max_spread, double crumb, double crumb_
     limits.max_spread = max_spread.cast<double>();
     return limits;
   }
-  limits.max_spreads = values_from(max_spread, "max_spread: expected a number, or an array of one for each triangle");
+  limits.max_spreads =
+      values_or_reason(max_spread, "max_spread: expected a number, or an array of one for each triangle");
   return limits;
 }
 

@@ -4,7 +4,7 @@
 
 STEP=0
 # How many steps there are in all: the script that begins with the first step says so.
-STEPS=${STEPS:-1}
+STEPS=${STEPS:-3}
 
 # step WHAT TIME: the headline of the next step, with how long it takes on two cores where nothing is installed or built yet.
 step() {

@@ -2,7 +2,7 @@
 """Counts what ``scripts/test`` ran: ``summary.py REPORTS [SECONDS]``. Ends with 1 when anything failed.
 
 REPORTS holds ``stages.txt``, with a line ``name exit-code seconds processor-seconds`` for each stage. A stage has ``name.xml`` or
-``name.*.xml`` in JUnit's form, or ``name.txt`` with a line ``passed|failed what`` for each check, followed by indented lines of its message.
+``name.*.xml`` in JUnit's form, or ``name.txt`` with a line ``passed|failed what`` for each check and the indented lines of its message.
 ``blenders.txt`` is there if several Blenders were asked for, with a line ``ready|skipped|failed what`` for each. A Blender that is not
 available is named; one that does not start is a failure, and so is a run in which none was ready. SECONDS is how long all of it took.
 

@@ -72,7 +72,9 @@ def test_failures_and_their_messages_are_in_the_last_lines(
     assert len(lines) - at <= 20
 
 
-def test_many_failures_leave_the_first_ones_in_the_last_lines(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_many_failures_leave_the_first_ones_in_the_last_lines(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     files = {"stages.txt": "cpp 1 12 5\n", "cpp.txt": "".join(f"failed test {i}\n  why\n" for i in range(50))}
     _, lines = told(tmp_path, capsys, files)
     assert "FAILED cpp: test 0" in lines[-20:]
