@@ -151,7 +151,7 @@ def run(folder: Path, path: Path | None) -> None:
         triangles,
         column(mesh.loop_triangles, "polygon_index", np.int32, 1).ravel(),
         samples=int(
-            os.environ.get("SEAMWIRE_DEMO_SAMPLES", "64")
+            os.environ.get("SEAMWIRE_DEMO_SAMPLES", "16")
         ),  # nobody looks at the tests' pictures: they take fewer
     )
     scene.pictures(folder, obj.name, lambda fraction: show(40 + 60 * fraction, "rendering pictures"))

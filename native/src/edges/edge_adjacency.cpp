@@ -17,7 +17,7 @@ namespace seamwire {
 namespace {
 
 // Steps between two looks at the task: well under a millisecond.
-constexpr std::size_t kStepsBetweenChecks = 1024;
+constexpr std::size_t kEdgesBetweenChecks = 1024;
 
 }  // namespace
 
@@ -52,7 +52,7 @@ EdgeAdjacency::EdgeAdjacency(const Surface& surface, const Task& task) {
   const std::size_t total = surface.vertex_count() + vertex_of_fan.size();
   std::size_t count = 0;
   const auto look = [&] {
-    if (++count % kStepsBetweenChecks == 0) task.check(static_cast<double>(count) / static_cast<double>(total));
+    if (++count % kEdgesBetweenChecks == 0) task.check(static_cast<double>(count) / static_cast<double>(total));
   };
   for (std::int32_t v = 0; v < vertex_count(); ++v, look()) {
     if (umbrellas[v] != 1) set_directions_in_space(surface, v);
