@@ -52,8 +52,8 @@ install_debian_packages() {
     show_progress /dev/null || { tail -n 20 "$log" >&2; echo "not installed: ${missing[*]} ($log)" >&2; return 1; }
 }
 
-# configure PRESET [OPTION...]: CMake's first step, with OpenMesh's sources from PyPI: Debian's package brings half a desktop with it.
-configure() {
+# configure_preset PRESET [OPTION...]: CMake's first step, with OpenMesh's sources from PyPI: Debian's package brings half a desktop with it.
+configure_preset() {
   once sources "$(fingerprint scripts/lib/wheel_sources.py scripts/lib/wheel-sources.txt) $ROOT" \
     "$VENV/bin/python" scripts/lib/wheel_sources.py build/sources
   cmake --preset "$@" -DSEAMWIRE_OPENMESH_SOURCES="$ROOT/build/sources/openmesh"
