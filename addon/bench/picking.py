@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Times of finding what is under the cursor: ``python picking.py``, without Blender.
 
-Grids of quads with 50 seeds and a wire, seen from above. One line a mesh: milliseconds until the first snap, until all that threads make is
-ready, and of a snap along edges and across the surface (medians); then the most calls that a snap makes and the most bytes that it takes.
-Ends with an error where a snap makes more calls on the larger mesh.
+The meshes are grids of quads with 50 seeds and a wire, seen from above. Each line is about one mesh. It gives the milliseconds until the
+first snap and until the threads are done. Then come the medians for a snap along edges and for one across the surface. The last numbers are
+the most calls that a snap makes and the most bytes it takes. The program ends with an error if a snap makes more calls on a larger mesh.
 """
 
 import statistics
@@ -32,7 +32,7 @@ CURSORS = [(120.0 + 4.0 * step, 131.0 + 3.0 * step) for step in range(40)]
 
 @dataclass
 class Network:
-    """What a picker asks of a session."""
+    """The part of a session that a picker reads."""
 
     placed: tuple[int, ...]
     wires: tuple[Wire, ...]

@@ -30,8 +30,9 @@ class SEAMWIRE_SCOPED_CAPABILITY BuildingLock {
   RecursiveTimedMutex& mutex_;
 };
 
-/// A value built once, by the first thread that asks; the others wait, and where that one is stopped, one of them
-/// builds it. What a progress function asks for while it is being built is built apart, and kept. Ask without the GIL.
+/// A value that the first thread to ask for it builds, once. The other threads wait; if the first one is stopped, one
+/// of them builds it. A progress function may ask for the value during the build: it gets another copy, which is kept.
+/// Ask without the GIL.
 template <class T>
 class Lazy {
  public:
@@ -50,7 +51,7 @@ class Lazy {
   mutable std::unique_ptr<const T> value_ SEAMWIRE_GUARDED_BY(mutex_);
 };
 
-/// What is built for a surface, kept until it is asked for another one. Ask without the GIL.
+/// The value for the last surface, kept until somebody asks for another surface. Ask without the GIL.
 template <class T>
 class OfLastSurface {
  public:

@@ -44,7 +44,7 @@ install_debian_packages() {
   fi
   mkdir -p "$ROOT/build"
   log=$ROOT/build/apt-${missing[0]}.log
-  # Another script of ours may be installing. What a test machine writes need not survive a power failure.
+  # Another script of ours may be installing. Packages need not survive a power failure during the installation.
   local apt_get="apt-get -q -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=600 -o APT::Status-Fd=3 -o Dpkg::Options::=--force-unsafe-io"
   local install="$apt_get install -y --no-install-recommends ${missing[*]}"
   # apt makes its status pipe non-blocking, so packages must not write there: their words go to the log.

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Arrays:
-    """What the library needs of an edit mesh.
+    """An edit mesh as the library needs it.
 
     Parameters
     ----------

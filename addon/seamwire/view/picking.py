@@ -170,7 +170,7 @@ class Picker:
 
     Notes
     -----
-    Threads build the library's tree of the triangles and the tables of what meets at each vertex. What is asked before these are there
+    Threads build the library's tree of the triangles and the tables of what meets at each vertex. A lookup before they are ready
     waits for the tables.
     """
 
@@ -299,7 +299,7 @@ class Picker:
         return x, y, z
 
     def depth(self, view: View, matrix: Matrix, cursor: tuple[float, float]) -> float | None:
-        """Return how far away the face under the cursor is, in world units from the near plane; None: there is none."""
+        """Return how far away the face under the cursor is, in world units from the near plane; None beside the mesh."""
         placement = _Placement(matrix)
         hit = None if placement.is_flat else self._cast(view, placement, cursor)
         return None if hit is None else float(np.linalg.norm(placement.to_world(hit[1]) - view.ray(cursor)[0]))
@@ -575,7 +575,7 @@ class Picker:
     def _polygons_at(
         self, view: View, placement: _Placement, cursor: tuple[float, float], reach: float
     ) -> Iterator[int]:
-        """Yield the polygon under the cursor; where there is none, those just beside it."""
+        """Yield the polygon under the cursor, or the polygons just beside a cursor that is over no polygon."""
         hit = self._cast(view, placement, cursor)
         if hit is not None:
             yield int(self._polygons[hit[0]])

@@ -29,7 +29,7 @@ constexpr double kTurning = 3.0;  // as LiveWireOptions
 /// How often the caller is told of the progress, and asked whether to go on.
 constexpr std::chrono::milliseconds kPeriod{20};
 
-/// What the threads of run_on_threads() have done, and what is left to do.
+/// The work of the threads of run_on_threads(): done and left.
 class SharedWork {
  public:
   SharedWork(std::size_t count, std::size_t threads) : count_(count), running_(threads) {}
