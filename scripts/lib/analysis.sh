@@ -57,7 +57,7 @@ vectorized_kernels() {
 
 # The library as Debian's users build it: static, with the installed OpenMesh, found and linked by another project.
 debian_openmesh() {
-  cmake -S . -B build/debian -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=OFF >build/configure-debian.log || return 1
+  cmake -S . -B build/debian -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=OFF >build/configure-debian.log || { cat build/configure-debian.log; return 1; }
   cmake --build build/debian --target seamwire --parallel "$(nproc)" || return 1
   ctest --test-dir build/debian --no-tests=error --output-on-failure -R '^install\.'
 }

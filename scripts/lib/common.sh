@@ -47,15 +47,16 @@ install_debian_packages() {
   # Another script of ours may be installing. Packages need not survive a power failure during the installation.
   local apt_get="apt-get -q -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=600 -o APT::Status-Fd=3 -o Dpkg::Options::=--force-unsafe-io"
   local install="$apt_get install -y --no-install-recommends ${missing[*]}"
-  # apt makes its status pipe non-blocking, so packages must not write there: their words go to the log.
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive sh -c "exec 3>&1 >'$log' 2>&1; $apt_get update; $install" </dev/null |
+  # apt makes its status pipe non-blocking, so packages must not write there: their words go to the log. apt itself waits for nobody who
+  # updates the lists, so one script does so at a time.
+  flock "$ROOT/build/apt.lock" "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    sh -c "exec 3>&1 >'$log' 2>&1; $apt_get update; $install" </dev/null |
     show_progress /dev/null || { tail -n 20 "$log" >&2; echo "not installed: ${missing[*]} ($log)" >&2; return 1; }
 }
 
 # configure_preset PRESET [OPTION...]: CMake's first step, with OpenMesh's sources from PyPI: Debian's package brings half a desktop with it.
 configure_preset() {
-  once sources "$(fingerprint scripts/lib/wheel_sources.py scripts/lib/wheel-sources.txt) $ROOT" \
-    "$VENV/bin/python" scripts/lib/wheel_sources.py build/sources
+  "$VENV/bin/python" scripts/lib/wheel_sources.py build/sources || return
   cmake --preset "$@" -DSEAMWIRE_OPENMESH_SOURCES="$ROOT/build/sources/openmesh"
 }
 
@@ -70,7 +71,7 @@ once() {
   shift 2
   if [ "$(cat "$stamp" 2>/dev/null)" = "$print" ]; then return 0; fi
   rm -f "$stamp"
-  "$@"
+  "$@" || return # also where bash ignores errors, as within a condition
   mkdir -p "$ROOT/build/stamps"
   printf '%s\n' "$print" >"$stamp"
 }
@@ -80,7 +81,7 @@ once() {
 with_window() {
   local folder code=0
   folder=$(mktemp -d)
-  # The search for a free display begins where nobody else does who begins at the same time.
+  # Start at a different display number for each process, so that two runs do not choose the same one.
   env -u WAYLAND_DISPLAY LIBGL_ALWAYS_SOFTWARE=1 SEAMWIRE_SCREEN="$folder/Xvfb_screen0" \
     xvfb-run -n "$((100 + BASHPID % 400))" -a -s "-screen 0 ${SEAMWIRE_SCREEN_SIZE:-1280x960}x24 -fbdir $folder" "$@" || code=$?
   rm -rf "$folder"

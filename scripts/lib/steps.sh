@@ -56,7 +56,7 @@ show_progress() {
   [ -z "$is_open" ] || printf '\r\033[K'
 }
 
-# watched LOG COMMAND...: runs the command with its progress shown; where it fails, the end of what it printed is.
+# watched LOG COMMAND...: runs the command and shows its progress. If the command fails, shows the last lines of its output.
 watched() {
   local log=$1
   shift
