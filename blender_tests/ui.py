@@ -35,12 +35,6 @@ def prepare_blender(switch_to_blender: Callable[[], object]) -> None:
     preferences.view.smooth_view = 0
     preferences.view.use_save_prompt = False
     preferences.filepaths.use_auto_save_temporary_files = False
-    # The processor draws here. The grid and the axes take a fifth of its time.
-    for screen in bpy.data.screens:
-        for area in screen.areas:
-            if area.type == "VIEW_3D":
-                overlay = area.spaces.active.overlay
-                overlay.show_floor = overlay.show_ortho_grid = overlay.show_axis_x = overlay.show_axis_y = False
     sys.excepthook = _collect_unhandled
     for name in dir(bpy.types):
         cls = getattr(bpy.types, name)
