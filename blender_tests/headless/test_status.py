@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The icons in the status bar. What it says is tested without Blender."""
+"""The icons in the status bar. The texts are tested without Blender."""
 
 import bpy
 import pytest
