@@ -35,6 +35,7 @@ _PARTS = (
     "operators.unwrap",
     "operators.worst_island",
     "operators.store_view",
+    "operators.undo_steps",
     "operators.draw",
     "operators.hover",
     "ui.keymap",

@@ -139,7 +139,8 @@ def test_picks_follow_an_objects_rotation_and_its_uneven_scale(perspective: bool
         touching = np.isin(arrays.triangles, corners).any(axis=1)
         around = np.unique(arrays.triangles[np.isin(arrays.polygons, arrays.polygons[touching])])
         assert found in around
-        assert np.linalg.norm(pixels[found] - at) <= np.linalg.norm(pixels[corners] - at, axis=1).min()
+        rounding = 1e-9  # pixels: equally near vertices differ by less
+        assert np.linalg.norm(pixels[found] - at) <= np.linalg.norm(pixels[corners] - at, axis=1).min() + rounding
     assert hits > 20
 
 

@@ -264,7 +264,8 @@ def work(arguments: argparse.Namespace) -> int:
     given = list(arguments.assets)
     if arguments.list:
         try:
-            lines = Path(arguments.list).read_text(encoding="utf-8").splitlines()
+            # File names may have any bytes.
+            lines = Path(arguments.list).read_text(encoding="utf-8", errors="surrogateescape").splitlines()
         except OSError as error:
             raise UsageError(f"--list: {error}") from error
         given += [line.strip() for line in lines if line.strip()]
@@ -274,7 +275,10 @@ def work(arguments: argparse.Namespace) -> int:
     for path, name in assets:
         if (out / Path(name).parent).resolve() == path.parent:
             raise UsageError(f"Results would lie beside the asset {path}: choose another --out")
-    out.mkdir(parents=True, exist_ok=True)
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UsageError(f"--out: {error}") from error
     shard, shards = arguments.shard
     journal = Journal(out, shard)
     records = {} if arguments.fresh else journal.read()
@@ -316,6 +320,8 @@ def _line(record: dict[str, Any]) -> str:
 def main(words: Sequence[str] | None = None) -> int:
     """Run the command."""
     arguments = parser().parse_intermixed_args(words)
+    for stream in (sys.stdout, sys.stderr):
+        stream.reconfigure(errors="backslashreplace")  # file names may have any bytes
 
     def ended(number: int, _frame: object) -> None:
         raise SystemExit(128 + number)

@@ -17,9 +17,9 @@ COLUMNS = (
 
 
 def write(path: Path, text: str) -> None:
-    """Write a file whole or not at all."""
+    r"""Write a file whole or not at all; bytes of file names that are not UTF-8 are written as ``\udcXX``."""
     part = path.with_name(f".{path.name}.part")
-    part.write_text(text, encoding="utf-8")
+    part.write_text(text, encoding="utf-8", errors="backslashreplace")
     part.replace(path)
 
 

@@ -18,7 +18,7 @@ elif job["kind"] == "source":
     result = {"error": None, "warnings": [], "sources": {"Shirt": "source-0"}}
 else:
     asset = Path(job["asset"])
-    with Path(__file__).with_name("calls.txt").open("a") as calls:
+    with Path(__file__).with_name("calls.txt").open("a", errors="backslashreplace") as calls:
         calls.write(f"{job['name']}\n")
     content = asset.read_text() if asset.is_file() else "fail"
     (folder / job["output"]).write_text("half")

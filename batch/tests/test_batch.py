@@ -181,12 +181,14 @@ def test_folders_keep_their_shape_and_formats_without_uvs_become_blend(tmp_path:
         (["--network", "NET", "--list", "none.txt"], "--list"),
         (["--network", "NET", "--out", "ASSETS"], "no assets"),
         (["--network", "NET", "nothing.txt"], "neither a folder nor one of"),
+        (["--network", "NET", "--out", "NET"], "--out: "),
+        (["--network", "NET", "--out", "NET/below"], "--out: "),
     ],
 )
 def test_what_cannot_be_done_is_said_before_anything_begins(
     place: Place, words: list[str], message: str, capsys: pytest.CaptureFixture
 ) -> None:
-    names = {"NET": str(place.network), "ASSETS": str(place.assets)}
+    names = {"NET": str(place.network), "NET/below": str(place.network / "below"), "ASSETS": str(place.assets)}
     known = ["--blender", f"{sys.executable} {place.blender}", "--out", str(place.out), str(place.assets)]
     assert cli.main([*known, *(names.get(word, word) for word in words)]) == 2
     assert message in capsys.readouterr().err
@@ -205,6 +207,14 @@ def test_a_list_names_assets_and_one_that_is_gone_is_a_failure(place: Place, tmp
     listed.write_text(f"{place.assets / 'a.obj'}\n\n{place.assets / 'gone.obj'}\n")
     assert cli.main([*place.words()[1:], "--list", str(listed)]) == 1
     assert {name: row["status"] for name, row in place.rows().items()} == {"a.obj": "done", "gone.obj": "failed"}
+
+
+def test_a_file_name_that_is_not_utf_8_costs_no_table(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+    place = Place(tmp_path, {"a.obj": "done", os.fsdecode(b"b\xff.obj"): "done"})
+    assert place.run("--limit", "1") == 0
+    assert "2 done, 0 not" in capsys.readouterr().out
+    assert sorted(place.rows()) == ["a.obj", "b\\udcff.obj"]
+    assert "b\\udcff.obj" in (place.out / "results.md").read_text(encoding="utf-8")
 
 
 def test_options_tell_results_apart() -> None:

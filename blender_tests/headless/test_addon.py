@@ -2,10 +2,12 @@
 """What the add-on says without its compiled part, and what enabling it reads."""
 
 import subprocess
+from pathlib import Path
 
 import bpy
 import pytest
 from scene import ADDON, add_grid, edit, seams
+from seamwire.mesh import settings
 
 pytestmark = pytest.mark.every_blender
 
@@ -46,3 +48,20 @@ print("Read:", sorted(dict.fromkeys(name.split(".")[0] for name in set(sys.modul
     read = next(line for line in output.splitlines() if line.startswith("Read:"))
     assert "numpy" not in read, "it takes longer than all else, and Blender's start would wait"
     assert "seamwire_core" not in read
+
+
+def test_without_an_entry_in_the_preferences_there_are_defaults(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(settings, "ADDON", "seamwire_unlisted")  # as after `blender --addons seamwire`
+    source, target = add_grid(5, name="Source"), add_grid(5, name="Target")
+    edit()
+    assert settings.settings().along == "EDGES"
+    assert settings.preferences().line_width == 1.0
+    bpy.ops.mesh.seamwire_mark(chains="10 14", objects="Source")
+    assert bpy.ops.mesh.seamwire_store_view(view="STRENGTH") == {"FINISHED"}
+    assert bpy.ops.mesh.seamwire_transfer(source="Source") == {"FINISHED"}
+    assert seams(target) == seams(source) != []
+    path = tmp_path / "net.json"
+    assert bpy.ops.mesh.seamwire_save_network(filepath=str(path)) == {"FINISHED"}
+    assert path.exists()

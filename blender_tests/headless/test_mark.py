@@ -210,6 +210,18 @@ def test_what_is_wrong_with_one_of_several_objects_is_said_with_its_name_and_non
     assert seams(one) == seams(two) == []
 
 
+def test_an_object_of_which_nothing_is_visible_keeps_no_other_from_being_marked() -> None:
+    empty = bpy.data.objects.new("Empty", bpy.data.meshes.new("Empty"))
+    bpy.context.collection.objects.link(empty)
+    empty.select_set(True)
+    one, two, _ = several()
+    assert empty.mode == "EDIT"
+    assert bpy.ops.mesh.seamwire_mark(chains="10 14", objects="*") == {"FINISHED"}
+    assert seams(one) == seams(two) == chain(10, 11, 12, 13, 14)
+    with pytest.raises(RuntimeError, match="Empty: No edge of the mesh is visible"):
+        bpy.ops.mesh.seamwire_mark(chains="10 14", objects="One; Empty")
+
+
 def test_what_is_there_already_is_said_and_nothing_is_done_again() -> None:
     bpy.ops.mesh.primitive_cylinder_add(vertices=8, end_fill_type="NOTHING")
     edit()

@@ -41,6 +41,20 @@ def test_another_copy_of_the_mesh_gets_the_same_seams_and_wires(drawn: tuple[bpy
     assert snapshot(copy) == before, "what is there already is not drawn again"
 
 
+def test_two_slashes_begin_a_path_beside_the_blend_file(drawn: tuple[bpy.types.Object, Path]) -> None:
+    obj, path = drawn
+    bpy.ops.wm.save_as_mainfile(filepath=str(path.with_name("model.blend")))
+    beside = path.with_name("beside.json")
+    assert bpy.ops.mesh.seamwire_save_network(filepath="//beside.json") == {"FINISHED"}
+    assert beside.read_text() == path.read_text()
+    obj = bpy.data.objects[obj.name]
+    bpy.ops.mesh.select_all(action="SELECT")
+    wanted = seams(obj)
+    bpy.ops.mesh.mark_seam(clear=True)
+    assert bpy.ops.mesh.seamwire_load_network(filepath="//beside.json") == {"FINISHED"}
+    assert seams(obj) == wanted
+
+
 def test_another_mesh_is_refused_and_stays_as_it_is(drawn: tuple[bpy.types.Object, Path]) -> None:
     bpy.ops.object.mode_set(mode="OBJECT")
     grid = add_grid(9)

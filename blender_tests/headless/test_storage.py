@@ -2,6 +2,7 @@
 """Wires that stay with their mesh, whatever is done to it: afterwards wires and seams agree, in this Blender and the next one."""
 
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 import bmesh
@@ -454,6 +455,50 @@ def test_what_a_newer_version_wrote_stays_byte_by_byte_and_is_said(
     assert snapshot(drawn, with_seams=False) == before
     obj = reopened(tmp_path / "newer.blend", drawn.name)
     assert obj.data.seamwire_wires == NEWER
+
+
+@pytest.mark.parametrize(
+    "operator",
+    [
+        "close_gaps",
+        "cut",
+        "load_network",
+        "mark",
+        "repeat",
+        "save_network",
+        "slide",
+        "suggest",
+        "take_over",
+        "transfer",
+    ],
+)
+def test_each_operator_tells_of_wires_that_it_cannot_read(
+    drawn: bpy.types.Object,
+    operator: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    path = tmp_path / "net.json"
+    bpy.ops.mesh.seamwire_save_network(filepath=str(path))
+    bpy.ops.object.mode_set(mode="OBJECT")
+    source = add_grid(9, name="Source")
+    for edge in source.data.edges:
+        edge.use_seam = True
+    bpy.context.view_layer.objects.active = drawn
+    edit()
+    drawn.data.seamwire_wires = NEWER
+    forget(monkeypatch)
+    options = {
+        "load_network": {"filepath": str(path)},
+        "mark": {"chains": "54 62"},
+        "save_network": {"filepath": str(path)},
+        "transfer": {"source": "Source"},
+    }
+    capfd.readouterr()
+    with suppress(RuntimeError):  # without wires some have nothing to do
+        getattr(bpy.ops.mesh, f"seamwire_{operator}")(**options.get(operator, {}))
+    assert capfd.readouterr().out.count("newer Seamwire") == 1
 
 
 @pytest.mark.parametrize("text", ["seamwire 2 not base64", "seamwire 2 AAAA", "nonsense", "{"])

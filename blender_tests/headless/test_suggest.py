@@ -404,3 +404,14 @@ def test_what_hides_all_is_an_error() -> None:
     with pytest.raises(RuntimeError, match="visible"):
         bpy.ops.mesh.seamwire_suggest()
     assert seams(obj) == []
+
+
+def test_what_needs_no_seam_is_unwrapped_all_the_same_if_asked_for() -> None:
+    obj = add_grid(5)
+    edit()
+    assert bpy.ops.mesh.seamwire_suggest() == {"CANCELLED"}
+    assert not obj.data.uv_layers
+    assert bpy.ops.mesh.seamwire_suggest(unwrap=True) == {"FINISHED"}
+    assert seams(obj) == []
+    assert np.ptp(uv_map.read_uvs(obj), axis=0).min() > 0.5
+    assert bpy.ops.mesh.seamwire_suggest(unwrap=True) == {"CANCELLED"}, "nothing has changed since"

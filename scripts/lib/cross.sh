@@ -5,7 +5,9 @@
 WORK=$ROOT/build/package
 # All checkouts share this folder, and `rm -rf build` leaves it: tools, sources, headers, and what zig has compiled. You can delete it.
 KEPT=${XDG_CACHE_HOME:-$HOME/.cache}/seamwire
-TOOLS=$KEPT/tools-$({ "$PYTHON" -V; cat scripts/lib/requirements-package.txt; } | sha256sum | cut -c1-12)
+# Named after the system's release, which decides what Python there is: Python itself may not be installed yet.
+# shellcheck disable=SC1091
+TOOLS=$KEPT/tools-$({ (. /etc/os-release && echo "${VERSION_ID:-unstable}"); cat scripts/lib/requirements-package.txt; } | sha256sum | cut -c1-12)
 # The sources of OpenMesh and Eigen.
 SOURCES=$KEPT/sources-$(cat scripts/lib/wheel_sources.py scripts/lib/wheel-sources.txt | sha256sum | cut -c1-12)
 export ZIG_GLOBAL_CACHE_DIR=$KEPT/zig

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import functools
 import threading
+import traceback
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -97,6 +98,10 @@ class ObjectSession:
         What there is to say of the wires that came with the mesh, once.
     generation
         Grows whenever the edit mesh was read anew.
+    symmetric
+        The axes over which the mesh is symmetric; None while that is not known.
+    symmetry_problem
+        Why that could not be found out.
 
     Raises
     ------
@@ -123,6 +128,7 @@ class ObjectSession:
         self.generation = 0
         self.plain_seams: NDArray[np.int32] = self.arrays.seams
         self.symmetric: tuple[int, ...] | None = None
+        self.symmetry_problem = ""
         self._looking: threading.Thread | None = None
         self._labels = EdgeLabels.none()
         self._found = Found()
@@ -138,11 +144,17 @@ class ObjectSession:
     def look_for_symmetry(self) -> None:
         """Begin to find out over which axes the mesh is symmetric."""
         if self._looking is None:
-            self._looking = threading.Thread(target=self._look_for_symmetry, name="seamwire symmetry")
+            # A daemon: Blender must not wait for it to quit.
+            self._looking = threading.Thread(target=self._look_for_symmetry, name="seamwire symmetry", daemon=True)
             self._looking.start()
 
     def _look_for_symmetry(self) -> None:
-        self.symmetric = self.session.symmetric_axes
+        try:
+            self.symmetric = self.session.symmetric_axes
+        except Exception as error:
+            traceback.print_exc()
+            self.symmetry_problem = f"The mesh could not be checked for symmetry: {error}"
+            self.symmetric = ()
 
     def symmetric_soon(self) -> tuple[int, ...] | None:
         """Return the axes over which the mesh is symmetric; None where that takes longer than a moment to find out."""

@@ -196,22 +196,19 @@ class SeamwireSettings(bpy.types.PropertyGroup):
     )
 
 
-def preferences(context: bpy.types.Context | None = None) -> bpy.types.AddonPreferences:
+def preferences(context: bpy.types.Context | None = None) -> bpy.types.AddonPreferences | bpy.types.PropertyGroup:
     """Return the add-on's preferences.
 
-    Raises
-    ------
-    ValueError
-        Where the add-on is not enabled in Blender's preferences.
+    If the add-on is enabled but not listed in Blender's preferences, as after ``blender --addons seamwire``, these are defaults that
+    last until Blender quits.
     """
-    addons = (context or bpy.context).preferences.addons
-    if ADDON not in addons:
-        raise ValueError("Enable Seamwire in Blender's preferences first")
-    return addons[ADDON].preferences
+    context = context or bpy.context
+    addon = context.preferences.addons.get(ADDON)
+    return context.window_manager.seamwire_preferences if addon is None else addon.preferences
 
 
 def settings(context: bpy.types.Context | None = None) -> SeamwireSettings:
-    """Return the tool's settings; raises as `preferences` does."""
+    """Return the tool's settings."""
     return preferences(context).tool
 
 

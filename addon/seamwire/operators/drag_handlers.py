@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
+from . import undo_steps
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -81,10 +83,10 @@ class SeedHold:
         """Leave the seed there, or click."""
         if self._dragging:
             self._view.session.drag_end()
-            self._note("Move Seed")
+            self._note(undo_steps.MOVE_SEED)
         else:
             self._view.session.click(self._snap)
-            self._note("Draw Wires")
+            self._note(undo_steps.DRAW_WIRES)
 
     def cancel(self) -> bool:
         """Let the seed go back."""
@@ -225,7 +227,7 @@ class LineHold:
                 return
             self._draw()
         session.line_end()
-        self._note("Draw Line")
+        self._note(undo_steps.DRAW_LINE)
 
     def cancel(self) -> bool:
         """Forget the line."""

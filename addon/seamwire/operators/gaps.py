@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from .report import count, in_edit_mode
+from .report import count, in_edit_mode, open_meshes
 
 if TYPE_CHECKING:
     from ..core.gaps import Gap
@@ -59,14 +59,9 @@ class MESH_OT_seamwire_close_gaps(bpy.types.Operator):
     def _find(self, context: bpy.types.Context) -> dict[ObjectSession, list[Gap]]:
         """Return the gaps of each object that has some."""
         from ..core.gaps import GapFinder
-        from ..mesh.object_session import ObjectSession
 
         found = {}
-        for obj in context.objects_in_mode_unique_data:
-            try:
-                mesh = ObjectSession(obj)
-            except ValueError:
-                continue  # nothing of it is visible
+        for mesh in open_meshes(self, context):
             arrays = mesh.arrays
             finder = GapFinder(arrays.points, arrays.triangles, arrays.edges, arrays.partly_hidden)
             gaps = finder.find(arrays.seams, self.longest)

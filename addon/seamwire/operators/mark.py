@@ -101,7 +101,7 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
         try:
             chosen = self._chosen(context)
             # Nothing is written before all is drawn: where one object fails, none is changed.
-            drawn = [self._draw(obj, "" if len(chosen) == 1 else f"{obj.name}: ") for obj in chosen]
+            drawn = list(filter(None, (self._draw(obj, "" if len(chosen) == 1 else f"{obj.name}: ") for obj in chosen)))
         except (ValueError, NativeError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -140,8 +140,19 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
             raise ValueError(f"Not a mesh in Edit Mode: {', '.join(missing)}")
         return list({obj.data: obj for obj in edited if obj.name in names or "*" in names}.values())
 
-    def _draw(self, obj: bpy.types.Object, prefix: str) -> tuple[ObjectSession, list[str]]:
-        """Draw on one object; return its session, and what could not be done, in words that begin with a prefix."""
+    def _draw(self, obj: bpy.types.Object, prefix: str) -> tuple[ObjectSession, list[str]] | None:
+        """Draw on one object.
+
+        Returns
+        -------
+        ObjectSession
+            Its session.
+        list of str
+            What could not be done, in words that begin with the prefix.
+
+        None if all objects are asked for and nothing of this one is visible.
+        """
+        from ..mesh.edit_mesh import NothingVisibleError
         from ..mesh.object_session import ObjectSession
         from . import seed_text
 
@@ -149,6 +160,10 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
             mesh = ObjectSession(obj, self.along)
             mesh.make_live.wait()
             seeds, loops, strokes = self._read(mesh)
+        except NothingVisibleError as error:
+            if prefix and "*" in self.objects:
+                return None
+            raise ValueError(f"{prefix}{error}") from error
         except ValueError as error:
             raise ValueError(f"{prefix}{error}") from error
         session = mesh.session

@@ -14,7 +14,7 @@ from ..core.network import Network
 from ..mesh import settings as chosen
 from ..view.edited_objects import edited
 from ..view.viewport import Place, place_of
-from . import bindings, navigation
+from . import bindings, navigation, undo_steps
 from .bindings import Action
 from .cut import gaps
 from .drag_handlers import Hold, LineHold, SeedHold, StrokeHold
@@ -49,7 +49,7 @@ class Chain:
     message
         What there is to say about the last key.
     done
-        What was done, in words for Blender's undo history, each once.
+        What was done, as titles of `undo_steps`, each once.
     told
         What became of it, in words, for each step of undo.
     errors
@@ -182,7 +182,7 @@ class Chain:
         for view in edited.views():
             view.session.end_chain()
         view, before = self._drawn, self._before
-        title = self.done[0] if len(self.done) == 1 else "Draw Seamwires"
+        title = self.done[0] if len(self.done) == 1 else undo_steps.DRAW_SEVERAL
         self.done.clear()
         if view is None or not (self._saved or _differs(view.session.network, before)):
             self._drawn = None
@@ -206,7 +206,7 @@ class Chain:
         if undo_step:
             if (marked or cleared) and context.mode == "EDIT_MESH":
                 problem = unwrap_after_chain(context)
-            bpy.ops.ed.undo_push(message=title)
+            undo_steps.push(title)
         self.told.append(f"{title}: {finished or summary(wires, marked, cleared)}{problem and f'. {problem}'}")
 
     @staticmethod
@@ -313,8 +313,10 @@ class Chain:
             place = None
         self._set_cursor("CROSSHAIR" if place else "")
         if place is None:
-            if press and not _in_tool_settings(self._window, event):
+            if press and not _in_regions(self._window, event, {"TOOL_HEADER", "UI"}):
                 self._end()
+                # The panel of an operator from before the chain: adjusting it would undo the chain. It goes with the next redraw.
+                return not _in_regions(self._window, event, {"HUD"})
             if event.type == "MOUSEMOVE" and self.session.target is not None and self._hold is None:
                 self.session.hover(None)
                 self.show()
@@ -454,13 +456,13 @@ class Chain:
         if action is Action.NEW_CHAIN:
             session.start(snap)
             session.hover(snap)
-            self._note("Draw Wires")
+            self._note(undo_steps.DRAW_WIRES)
         elif action is Action.BEND:
             session.bend(snap)
-            self._note("Bend Closed Cut")
+            self._note(undo_steps.BEND_CUT)
         elif action is Action.LOOP and self._is_loop(session, snap, event):
             session.loop(snap)
-            self._note("Add Loop")
+            self._note(undo_steps.ADD_LOOP)
         elif session.seed is None and not session.waiting_clicks and snap.to in {"SEED", "WIRE"}:
             # Whether it is a click or the beginning of a drag is known when the button or the mouse has moved.
             session.hover(snap)
@@ -474,7 +476,7 @@ class Chain:
 
     def _click_at(self, view: ObjectView, snap: Snap) -> None:
         view.session.click(snap)
-        self._note("Draw Wires")
+        self._note(undo_steps.DRAW_WIRES)
 
     def _keep_chain(self) -> bool:
         """Keep what is live as a chain of its own; return whether the object that is drawn on is still the same."""
@@ -501,7 +503,7 @@ class Chain:
         self._cancel_hold()
         scale = bpy.context.preferences.system.ui_scale
         self._hold = StrokeHold(event.type, view, place, action is Action.GUIDE, scale)
-        self._note("Draw Guide Stroke" if action is Action.GUIDE else "Draw Avoid Stroke")
+        self._note(undo_steps.GUIDE_STROKE if action is Action.GUIDE else undo_steps.AVOID_STROKE)
 
     def _cancel_hold(self) -> bool:
         hold, self._hold = self._hold, None
@@ -556,10 +558,10 @@ class Chain:
         self._draw_on(view)
         if wire is not None:
             view.session.drop(wire)
-            self._note("Remove Wire")
+            self._note(undo_steps.REMOVE_WIRE)
         elif stroke is not None:
             view.session.erase(stroke)
-            self._note("Remove Stroke")
+            self._note(undo_steps.REMOVE_STROKE)
         self._rehover(place)
         return True
 
@@ -571,7 +573,7 @@ class Chain:
         self._draw_on(view)
         view.session.hover(snap)
         view.session.toggle_kept(snap.wire)
-        self._note("Swap Path")
+        self._note(undo_steps.SWAP_PATH)
         return True
 
     def _cycle_mirror(self) -> None:
@@ -579,6 +581,9 @@ class Chain:
         symmetric = self.view.mesh.symmetric_soon()
         if symmetric is None:
             self.message = "Still checking the mesh for symmetry"
+            return
+        if self.view.mesh.symmetry_problem:
+            self.message = self.view.mesh.symmetry_problem
             return
         ways = [(), *((axis,) for axis in symmetric), *([symmetric] if len(symmetric) > 1 else ())]
         if len(ways) == 1 and not session.mirror_axes:
@@ -665,14 +670,14 @@ def _differs(now: Network, before: Network) -> bool:
     return now.wires != before.wires or now.scribbles != before.scribbles
 
 
-def _in_tool_settings(window: bpy.types.Window, event: bpy.types.Event) -> bool:
-    """Whether the mouse is over the settings of a 3D view's tool, which a chain follows."""
+def _in_regions(window: bpy.types.Window, event: bpy.types.Event, types: set[str]) -> bool:
+    """Whether the mouse is over a region of a 3D view of one of some types."""
     x, y = event.mouse_x, event.mouse_y
     regions = (region for area in window.screen.areas if area.type == "VIEW_3D" for region in area.regions)
     return any(
         region.x <= x < region.x + region.width and region.y <= y < region.y + region.height
         for region in regions
-        if region.type in {"TOOL_HEADER", "UI"}
+        if region.type in types
     )
 
 

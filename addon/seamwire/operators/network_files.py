@@ -10,7 +10,7 @@ import bpy
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 from ..mesh.settings import settings
-from .report import count, in_edit_mode
+from .report import count, in_edit_mode, open_mesh
 from .transfer import ALIGN, MIRROR_ITEMS, PLACE_ITEMS, axis_of, write_and_report
 
 if TYPE_CHECKING:
@@ -36,21 +36,18 @@ class MESH_OT_seamwire_save_network(bpy.types.Operator, ExportHelper):
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Write the file, whole or not at all."""
         from ..core.native import NativeError
-        from ..mesh.object_session import ObjectSession
 
         try:
-            mesh = ObjectSession(context.active_object)
+            mesh = open_mesh(self, context.active_object)
             network = mesh.network_file(settings(context))
         except (ValueError, NativeError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        if mesh.problem:
-            self.report({"WARNING"}, mesh.problem)
         if not network.courses and not network.strokes:
             self.report({"ERROR"}, "The mesh has no wires to save: Take Over Seams makes wires of its seams")
             return {"CANCELLED"}
         try:
-            _write(Path(self.filepath), network.text())
+            _write(Path(bpy.path.abspath(self.filepath)), network.text())
         except OSError as error:
             self.report({"ERROR"}, f"The file cannot be written: {error}")
             return {"CANCELLED"}
@@ -73,7 +70,7 @@ def read_network(path: str) -> NetworkFile:
     from ..core.network_file import NetworkFile
 
     try:
-        text = Path(path).read_text(encoding="utf-8")
+        text = Path(bpy.path.abspath(path)).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise ValueError(f"The file cannot be read: {error}") from error
     return NetworkFile.parse(text)
@@ -105,12 +102,11 @@ class MESH_OT_seamwire_load_network(bpy.types.Operator, ImportHelper):
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Read the file, and write its wires to the mesh."""
         from ..core.native import NativeError
-        from ..mesh.object_session import ObjectSession
         from ..mesh.transfer import carry_over
 
         try:
             network = read_network(self.filepath)
-            mesh = ObjectSession(context.active_object)
+            mesh = open_mesh(self, context.active_object)
             found = carry_over(mesh, network, place=self.place, mirror=axis_of(self.mirror), align=self.align)
         except (ValueError, NativeError) as error:
             self.report({"ERROR"}, str(error))

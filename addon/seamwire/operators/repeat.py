@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from .report import count, in_edit_mode
+from .report import count, in_edit_mode, open_mesh
 
 if TYPE_CHECKING:
     from ..core.network import Wire
@@ -35,10 +35,9 @@ class MESH_OT_seamwire_repeat(bpy.types.Operator):
         from ..core.native import NativeError
         from ..core.repeats import Repeats
         from ..mesh import edit_mesh
-        from ..mesh.object_session import ObjectSession
 
         try:
-            mesh = ObjectSession(context.active_object)
+            mesh = open_mesh(self, context.active_object)
         except (ValueError, NativeError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

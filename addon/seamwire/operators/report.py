@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import TYPE_CHECKING, TypeVar
 
 if TYPE_CHECKING:
@@ -10,6 +11,8 @@ if TYPE_CHECKING:
 
     import bpy
 
+    from ..core.network import Along
+    from ..mesh.object_session import ObjectSession
     from .modal import Chain
 
 _Found = TypeVar("_Found")
@@ -49,6 +52,33 @@ def for_each_object(
             problems.append(str(error))
     for problem in problems if found else problems[:1] or ["No face is visible"]:
         operator.report({"WARNING"} if found else {"ERROR"}, problem)
+    return found
+
+
+def open_mesh(operator: bpy.types.Operator, obj: bpy.types.Object, along: Along = "EDGES") -> ObjectSession:
+    """Read an object to draw on, and report what is wrong with the wires that came with it.
+
+    Raises
+    ------
+    ValueError, native.NativeError
+        If there is nothing to draw on, or nothing to draw with.
+    """
+    from ..mesh.object_session import ObjectSession
+
+    mesh = ObjectSession(obj, along)
+    if mesh.problem:
+        operator.report({"WARNING"}, mesh.problem)
+    return mesh
+
+
+def open_meshes(operator: bpy.types.Operator, context: bpy.types.Context) -> list[ObjectSession]:
+    """Read each object in edit mode of which something is visible, as `open_mesh` does."""
+    from ..mesh.edit_mesh import NothingVisibleError
+
+    found = []
+    for obj in context.objects_in_mode_unique_data:
+        with suppress(NothingVisibleError):
+            found.append(open_mesh(operator, obj))
     return found
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from .report import count, in_edit_mode
+from .report import count, in_edit_mode, open_meshes
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
@@ -44,19 +44,14 @@ class MESH_OT_seamwire_slide(bpy.types.Operator):
 def wires_across(operator: bpy.types.Operator, context: bpy.types.Context) -> dict[ObjectSession, list[Wire]]:
     """Return the kept wires across the surface of all objects in edit mode; where there is none, say so and return nothing."""
     from ..core.native import NativeError
-    from ..mesh.object_session import ObjectSession
 
     wires: dict[ObjectSession, list[Wire]] = {}
-    for obj in context.objects_in_mode_unique_data:
-        try:
-            mesh = ObjectSession(obj)
-        except NativeError as error:
-            operator.report({"ERROR"}, str(error))
-            return {}
-        except ValueError:
-            continue  # nothing of it is visible, and so no wire
-        if mesh.problem:
-            operator.report({"WARNING"}, mesh.problem)
+    try:
+        meshes = open_meshes(operator, context)
+    except (ValueError, NativeError) as error:
+        operator.report({"ERROR"}, str(error))
+        return {}
+    for mesh in meshes:
         own = [wire for wire in mesh.session.wires if wire.along == "SURFACE" and wire.marks]
         if own:
             wires[mesh] = own

@@ -210,6 +210,8 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         from ..mesh.seam_islands import island_count, stretched_count
 
         if not any(suggestion.wires for suggestion in suggestions):
+            if self.unwrap and self._unwrap_uncut(context):
+                return {"FINISHED"}
             limit = "no cut lowers the worst stretch" if self.limit == "WORST" else "within the limit"
             self.report({"INFO"}, f"The islands are discs already, and {limit}: nothing to add")
             return {"CANCELLED"}
@@ -244,6 +246,20 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
             parts.append(f"{stretched} stretched more than {self.stretch:.2f} times still")
         self.report({"WARNING"} if open_ones or stretched else {"INFO"}, ", ".join(parts))
         return {"FINISHED"}
+
+    def _unwrap_uncut(self, context: bpy.types.Context) -> bool:
+        """Unwrap where no seam is needed, and report it; return whether any island got other UVs."""
+        from ..core.native import NativeError
+        from ..mesh.unwrap import unwrap_changed
+
+        try:
+            done = unwrap_changed(context)
+        except (ValueError, NativeError) as error:
+            self.report({"WARNING"}, str(error))
+            return False
+        if done.islands:
+            self.report({"INFO"}, f"No seam is needed: {count(done.islands, 'island')} unwrapped")
+        return done.islands > 0
 
     def _unwrap(self, context: bpy.types.Context) -> str:
         """Unwrap as asked, or as Blender is set; return what could not be done."""

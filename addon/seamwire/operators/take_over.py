@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from .report import count, in_edit_mode
+from .report import count, in_edit_mode, open_meshes
 
 if TYPE_CHECKING:
     import numpy as np
@@ -36,19 +36,14 @@ class MESH_OT_seamwire_take_over(bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Find the wires of all objects in edit mode, then write them: the seams stay as they are."""
         from ..core.native import NativeError
-        from ..mesh.object_session import ObjectSession
 
         found: dict[ObjectSession, list[Wire]] = {}
-        for obj in context.objects_in_mode_unique_data:
-            try:
-                mesh = ObjectSession(obj)
-            except NativeError as error:
-                self.report({"ERROR"}, str(error))
-                return {"CANCELLED"}
-            except ValueError:
-                continue  # nothing of it is visible
-            if mesh.problem:
-                self.report({"WARNING"}, mesh.problem)
+        try:
+            meshes = open_meshes(self, context)
+        except (ValueError, NativeError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        for mesh in meshes:
             seams = mesh.plain_seams
             if self.selected:
                 edges = mesh.cage.bm.edges

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..mesh.settings import settings
-from .report import count, in_edit_mode
+from .report import count, in_edit_mode, open_mesh
 
 if TYPE_CHECKING:
     from ..core.transfer import Transfer
@@ -117,7 +117,6 @@ class MESH_OT_seamwire_transfer(bpy.types.Operator):
         """Read the source, and write its seams to the active mesh."""
         from ..core.native import NativeError
         from ..mesh import transfer
-        from ..mesh.object_session import ObjectSession
         from .seed_text import parse_pairs
 
         target = context.active_object
@@ -131,11 +130,9 @@ class MESH_OT_seamwire_transfer(bpy.types.Operator):
                     raise ValueError(
                         f"Give three pairs of vertices at least: the objects have {count(len(pairs), 'vertex group')} in common"
                     )
-            drawn = ObjectSession(source)
-            if drawn.problem:
-                self.report({"WARNING"}, drawn.problem)
+            drawn = open_mesh(self, source)
             network = transfer.network_of(drawn, settings(context))
-            mesh = ObjectSession(target)
+            mesh = open_mesh(self, target)
             found = transfer.carry_over(
                 mesh,
                 network,

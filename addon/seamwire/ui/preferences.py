@@ -17,10 +17,8 @@ def _color(name: str, description: str, default: tuple[float, float, float, floa
     )
 
 
-class SeamwirePreferences(bpy.types.AddonPreferences):
-    """What the add-on remembers from one start of Blender to the next."""
-
-    bl_idname = ADDON
+class _Properties:
+    """What the artist can set, wherever it is kept."""
 
     tool: bpy.props.PointerProperty(type=SeamwireSettings)
 
@@ -57,6 +55,12 @@ class SeamwirePreferences(bpy.types.AddonPreferences):
     show_text: bpy.props.BoolProperty(
         name="Viewport Text", description="Write the number of islands and other hints in the 3D view", default=True
     )
+
+
+class SeamwirePreferences(_Properties, bpy.types.AddonPreferences):
+    """What the add-on remembers from one start of Blender to the next."""
+
+    bl_idname = ADDON
 
     def draw(self, context: bpy.types.Context) -> None:
         """Show them in Blender's preferences."""
@@ -125,11 +129,21 @@ def _draw_key(box: bpy.types.UILayout, keys: bpy.types.KeyMap, item: bpy.types.K
         row.operator("preferences.keyitem_restore", text="", icon="BACK").item_id = item.id
 
 
+class SeamwireSessionPreferences(_Properties, bpy.types.PropertyGroup):
+    """The same until Blender quits, for an add-on that is enabled without being listed in Blender's preferences."""
+
+
 def register() -> None:
     """Add the preferences."""
     bpy.utils.register_class(SeamwirePreferences)
+    bpy.utils.register_class(SeamwireSessionPreferences)
+    bpy.types.WindowManager.seamwire_preferences = bpy.props.PointerProperty(
+        type=SeamwireSessionPreferences, options={"HIDDEN"}
+    )
 
 
 def unregister() -> None:
     """Remove them."""
+    del bpy.types.WindowManager.seamwire_preferences
+    bpy.utils.unregister_class(SeamwireSessionPreferences)
     bpy.utils.unregister_class(SeamwirePreferences)

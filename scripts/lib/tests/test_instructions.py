@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import platform
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -14,7 +15,12 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 import instructions
 
-pytestmark = pytest.mark.skipif(platform.machine() != "x86_64", reason="the compiler makes no x86-64 code")
+pytestmark = [
+    pytest.mark.skipif(platform.machine() != "x86_64", reason="the compiler makes no x86-64 code"),
+    pytest.mark.skipif(
+        shutil.which("llvm-objdump") is None, reason="llvm is not installed: scripts/setup full installs it"
+    ),
+]
 
 AVX2 = '__attribute__((target("avx2"))) double sum(const double* of) { return (of[0] + of[1]) * (of[2] + of[3]); }\n'
 

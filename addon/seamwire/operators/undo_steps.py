@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Steps of Blender's undo for what a chain did, named for it.
+
+Blender's *Adjust Last Operation* undoes everything back to the operator that was registered last, then runs that operator again.
+A plain `ed.undo_push` registers nothing: adjusting an operator from before the chain would take the chain away. So each step is
+pushed by an operator of its own. These operators have no properties and no `execute`, so Blender offers nothing to adjust or repeat.
+"""
+
+from __future__ import annotations
+
+import bpy
+
+DRAW_SEVERAL = "Draw Seamwires"
+"""The step of a chain that did several of these."""
+DRAW_WIRES = "Draw Wires"
+DRAW_LINE = "Draw Line"
+ADD_LOOP = "Add Loop"
+BEND_CUT = "Bend Closed Cut"
+MOVE_SEED = "Move Seed"
+SWAP_PATH = "Swap Path"
+REMOVE_WIRE = "Remove Wire"
+GUIDE_STROKE = "Draw Guide Stroke"
+AVOID_STROKE = "Draw Avoid Stroke"
+REMOVE_STROKE = "Remove Stroke"
+
+_TITLES = (
+    DRAW_SEVERAL,
+    DRAW_WIRES,
+    DRAW_LINE,
+    ADD_LOOP,
+    BEND_CUT,
+    MOVE_SEED,
+    SWAP_PATH,
+    REMOVE_WIRE,
+    GUIDE_STROKE,
+    AVOID_STROKE,
+    REMOVE_STROKE,
+)
+
+
+def _name(title: str) -> str:
+    return f"seamwire_step_{title.lower().replace(' ', '_')}"
+
+
+def _invoke(_self: bpy.types.Operator, _context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+    """Let Blender push a step of undo."""
+    return {"FINISHED"}
+
+
+def _operator(title: str) -> type[bpy.types.Operator]:
+    """Return the operator that pushes the step with a title."""
+    body = {
+        "__doc__": "Push a step of undo for a chain",
+        "bl_idname": f"mesh.{_name(title)}",
+        "bl_label": title,
+        "bl_options": {"REGISTER", "UNDO", "INTERNAL"},
+        "invoke": _invoke,
+    }
+    return type(f"MESH_OT_{_name(title)}", (bpy.types.Operator,), body)
+
+
+_CLASSES = tuple(_operator(title) for title in _TITLES)
+
+
+def push(title: str) -> None:
+    """Push a step of undo, and let it be the last operator.
+
+    Parameters
+    ----------
+    title
+        One of the constants of this module.
+    """
+    getattr(bpy.ops.mesh, _name(title))("INVOKE_DEFAULT", True)
+
+
+def register() -> None:
+    """Add the operators."""
+    for cls in _CLASSES:
+        bpy.utils.register_class(cls)
+
+
+def unregister() -> None:
+    """Remove them."""
+    for cls in reversed(_CLASSES):
+        bpy.utils.unregister_class(cls)
