@@ -164,19 +164,3 @@ def test_f9_after_a_loop_shows_nothing_to_adjust_and_leaves_it(unwrapped: Desk) 
     dismiss(unwrapped.ui)
     assert seams(unwrapped.obj) == after
     assert set(MIDDLE) <= set(after)
-
-
-def test_a_press_on_the_panel_of_an_operator_ends_a_chain_and_does_no_more(unwrapped: Desk) -> None:
-    ui = unwrapped.ui
-    panel = next((region for region in ui.area.regions if region.type == "HUD" and region.width > 1), None)
-    if panel is None:
-        pytest.skip("this Blender does not show the panel for operators that a script calls")
-    ui.click(unwrapped.at(36))
-    ui.click(unwrapped.at(44))
-    ui.wait_until(lambda: len(unwrapped.session.wires) == 2)
-    at = (panel.x - ui.region.x + panel.width * 0.7, panel.y - ui.region.y + panel.height * 0.4)
-    ui.event("LEFTMOUSE", "PRESS", at)
-    ui.event("MOUSEMOVE", "NOTHING", (at[0] + 30.0, at[1]))
-    ui.event("LEFTMOUSE", "RELEASE", (at[0] + 30.0, at[1]))
-    ui.wait_until(lambda: not unwrapped.running)
-    assert set(MIDDLE) <= set(seams(unwrapped.obj))

@@ -313,10 +313,8 @@ class Chain:
             place = None
         self._set_cursor("CROSSHAIR" if place else "")
         if place is None:
-            if press and not _in_regions(self._window, event, {"TOOL_HEADER", "UI"}):
+            if press and not _in_tool_settings(self._window, event):
                 self._end()
-                # The panel of an operator from before the chain: adjusting it would undo the chain. It goes with the next redraw.
-                return not _in_regions(self._window, event, {"HUD"})
             if event.type == "MOUSEMOVE" and self.session.target is not None and self._hold is None:
                 self.session.hover(None)
                 self.show()
@@ -670,14 +668,14 @@ def _differs(now: Network, before: Network) -> bool:
     return now.wires != before.wires or now.scribbles != before.scribbles
 
 
-def _in_regions(window: bpy.types.Window, event: bpy.types.Event, types: set[str]) -> bool:
-    """Whether the mouse is over a region of a 3D view of one of some types."""
+def _in_tool_settings(window: bpy.types.Window, event: bpy.types.Event) -> bool:
+    """Whether the mouse is over the settings of a 3D view's tool, which a chain follows."""
     x, y = event.mouse_x, event.mouse_y
     regions = (region for area in window.screen.areas if area.type == "VIEW_3D" for region in area.regions)
     return any(
         region.x <= x < region.x + region.width and region.y <= y < region.y + region.height
         for region in regions
-        if region.type in types
+        if region.type in {"TOOL_HEADER", "UI"}
     )
 
 
