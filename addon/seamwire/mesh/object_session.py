@@ -420,7 +420,8 @@ class ObjectSession:
 
     def plan_cut(self, wires: Iterable[Wire]) -> CutPlan:
         """Find what wires across the surface and their mirror images cut; raises `CuttingError`, also where that is nothing."""
-        curves = [(own.vertices[0], own.points) for wire in wires for own in (wire, *self.session.mirrored(wire))]
+        every = [own for wire in wires for own in (wire, *self.session.mirrored(wire))]
+        curves = [(own.vertices[0], own.points, own.vertices[-1]) for own in every]
         plan = cut.plan(self.cage, self.arrays, curves)
         if not plan.segments():
             raise CuttingError("No wire leaves the face that it begins in")
