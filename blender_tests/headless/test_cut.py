@@ -316,6 +316,16 @@ def test_a_face_that_cannot_be_cut_stays_whole_and_is_told_of(
     assert len(seams(obj)) == 7
 
 
+def test_a_seed_that_the_wire_passes_on_its_way_back_is_no_gap(capfd: pytest.CaptureFixture[str]) -> None:
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=14, ring_count=9)
+    obj = bpy.context.active_object
+    edit()
+    assert cut("85 (-0.438349 -0.183387 -0.856156) 90") == {"FINISHED"}
+    assert "could not be cut" not in capfd.readouterr().out
+    assert 90 in joined(obj, 85)
+    assert is_sound(obj)
+
+
 @pytest.mark.every_blender
 def test_kept_wires_are_cut_and_their_snapped_seams_are_gone() -> None:
     obj = add_scan()
