@@ -316,6 +316,89 @@ def test_a_face_that_cannot_be_cut_stays_whole_and_is_told_of(
     assert len(seams(obj)) == 7
 
 
+def refuse(monkeypatch: pytest.MonkeyPatch, call: int) -> None:
+    """Let a cut end on an error, at one of its faces."""
+    from seamwire.mesh import cut as cutting
+
+    split, calls = bmesh.utils.face_split_edgenet, []
+
+    def split_some(face: bmesh.types.BMFace, edges: list[bmesh.types.BMEdge]) -> object:
+        calls.append(1)
+        if len(calls) == call:
+            raise KeyError("refused on purpose")
+        return split(face, edges)
+
+    class Utils:
+        edge_split = staticmethod(bmesh.utils.edge_split)
+        face_split_edgenet = staticmethod(split_some)
+
+    monkeypatch.setattr(cutting.bmesh, "utils", Utils)
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("keys", [False, True], ids=["", "shape keys"])
+@pytest.mark.parametrize("kept", [False, True], ids=["new", "kept"])
+def test_a_cut_that_ends_on_an_error_leaves_every_mesh_as_it_was(
+    monkeypatch: pytest.MonkeyPatch, keys: bool, kept: bool
+) -> None:
+    objects = [add_grid(9, name=name) for name in ("First", "Second")]
+    for obj in objects:
+        add_layers(obj)
+        obj.select_set(True)
+        if keys:
+            obj.shape_key_add(name="Basis")
+            for point in obj.shape_key_add(name="Wavy", from_mix=False).data:
+                point.co.z += 0.1 * point.co.x
+            obj.active_shape_key_index = 1
+    edit()
+    for obj in objects:
+        select_some(obj, "VERT")
+    if kept:
+        bpy.ops.mesh.seamwire_mark(chains="0 44; 8 36", along="SURFACE", objects="*")
+    bpy.ops.ed.undo_push(message="Before")
+    before = [(snapshot(obj), seams(obj), obj.data.seamwire_wires) for obj in objects]
+    refuse(monkeypatch, 12)  # the first mesh is planned by then
+    with pytest.raises(RuntimeError, match="refused on purpose"):
+        bpy.ops.mesh.seamwire_cut() if kept else cut("0 44", objects="*")
+    assert [(snapshot(obj), seams(obj), obj.data.seamwire_wires) for obj in objects] == before
+    monkeypatch.undo()
+    assert (bpy.ops.mesh.seamwire_cut() if kept else cut("0 44", objects="*")) == {"FINISHED"}
+
+
+def select_some(obj: bpy.types.Object, mode: str) -> None:
+    """Select some faces of a mesh in a select mode, and make one active."""
+    bpy.context.tool_settings.mesh_select_mode = [mode == name for name in ("VERT", "EDGE", "FACE")]
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.select_mode = {mode}
+    bm.faces.ensure_lookup_table()
+    for item in (*bm.verts, *bm.edges, *bm.faces):
+        item.select = False
+    for number in (1, 2, 9, 18, 27):
+        bm.faces[number].select = True
+    bm.select_history.clear()
+    if mode == "FACE":
+        bm.select_history.add(bm.faces[9])
+    bm.faces.active = bm.faces[9]
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(obj.data)
+
+
+def test_faces_around_a_corner_of_the_mesh_are_cut() -> None:
+    bpy.ops.mesh.primitive_cube_add(size=2)
+    obj = bpy.context.active_object
+    bm = bmesh.new()
+    bmesh.ops.create_cube(bm, size=2)
+    bmesh.ops.subdivide_edges(bm, edges=bm.edges, cuts=1, use_grid_fill=True)
+    bm.verts.ensure_lookup_table()
+    bmesh.ops.dissolve_verts(bm, verts=[bm.verts[9], bm.verts[15]])
+    bm.to_mesh(obj.data)
+    bm.free()
+    edit()
+    assert cut("19 1") == {"FINISHED"}
+    assert 1 in joined(obj, 19)
+    assert is_sound(obj)
+
+
 def test_a_seed_that_the_wire_passes_on_its_way_back_is_no_gap(capfd: pytest.CaptureFixture[str]) -> None:
     bpy.ops.mesh.primitive_uv_sphere_add(segments=14, ring_count=9)
     obj = bpy.context.active_object

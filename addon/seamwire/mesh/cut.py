@@ -136,6 +136,15 @@ def plan(cage: Cage, arrays: Arrays, curves: Iterable[Curve]) -> CutPlan:
     return cutting.plan(CageFaces(cage, arrays), curves)
 
 
+def rehearse(cage: Cage, what: CutPlan) -> None:
+    """Cut a copy of an edit mesh, so that whatever may go wrong does so before anything is changed."""
+    bm = cage.bm.copy()
+    try:
+        _carry_out(bm, what, [])
+    finally:
+        bm.free()
+
+
 def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = (), crumb: float = 0.0) -> Cut:
     """Cut an edit mesh, and make seams of the cuts. Vertices, edges and faces have other numbers then.
 

@@ -419,12 +419,19 @@ class ObjectSession:
         return find
 
     def plan_cut(self, wires: Iterable[Wire]) -> CutPlan:
-        """Find what wires across the surface and their mirror images cut; raises `CuttingError`, also where that is nothing."""
+        """Find what wires across the surface and their mirror images cut, and try it on a copy of the edit mesh.
+
+        Raises
+        ------
+        CuttingError
+            If a wire does not run over the mesh, or nothing is cut.
+        """
         every = [own for wire in wires for own in (wire, *self.session.mirrored(wire))]
         curves = [(own.vertices[0], own.points, own.vertices[-1]) for own in every]
         plan = cut.plan(self.cage, self.arrays, curves)
         if not plan.segments():
             raise CuttingError("No wire leaves the face that it begins in")
+        cut.rehearse(self.cage, plan)
         return plan
 
     def cut(
