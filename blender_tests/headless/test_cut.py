@@ -4,6 +4,7 @@
 import math
 import random
 from collections import defaultdict
+from dataclasses import replace
 
 import bmesh
 import bpy
@@ -407,6 +408,39 @@ def test_a_seed_that_the_wire_passes_on_its_way_back_is_no_gap(capfd: pytest.Cap
     assert "could not be cut" not in capfd.readouterr().out
     assert 90 in joined(obj, 85)
     assert is_sound(obj)
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("chains", ["68 291", "32 130", "48 249", "228 136", "55 83"])
+def test_slid_wires_can_be_cut(chains: str) -> None:
+    bpy.ops.mesh.primitive_cube_add(size=2)
+    obj = bpy.context.active_object
+    edit()
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.subdivide(number_cuts=6)
+    bpy.ops.mesh.seamwire_mark(chains=chains, along="SURFACE", finish="SLIDE")
+    (wire,) = session_on(obj).session.wires
+    length = float(np.linalg.norm(np.diff(wire.points, axis=0), axis=1).sum())
+    assert bpy.ops.mesh.seamwire_cut() == {"FINISHED"}
+    assert wire.end in joined(obj, wire.start)
+    cuts = sum(edge.calc_length() for edge in bmesh.from_edit_mesh(obj.data).edges if edge.seam)
+    assert cuts == pytest.approx(length, rel=0.01)
+    assert is_sound(obj)
+
+
+def test_a_wire_that_left_the_mesh_keeps_no_other_from_being_cut() -> None:
+    obj = add_grid(9)
+    edit()
+    bpy.ops.mesh.seamwire_mark(chains="0 16; 64 79", along="SURFACE")
+    mesh = session_on(obj)
+    wires = [wire if wire.start == 64 else replace(wire, points=wire.points * 3.0) for wire in mesh.session.wires]
+    plan = mesh.plan_cut(wires)
+    assert [wires[number].start for number in plan.left_out] == [0]
+    assert mesh.cut(plan, wires, kept=True).wires == 1
+    kept = session_on(obj).session.wires
+    assert sorted((wire.along, wire.start) for wire in kept) == [("EDGES", 64), ("SURFACE", 0)]
+    assert agree(obj)
+    assert {16, 79} <= joined(obj, 0) | joined(obj, 64)
 
 
 @pytest.mark.every_blender

@@ -47,12 +47,15 @@ class Cut:
         How many vertices are new.
     uncut
         How many faces could not be cut.
+    wires
+        How many wires were cut.
     """
 
     edges: tuple[Edge, ...]
     seeds: Mapping[int | FacePoint, int]
     vertices: int
     uncut: int
+    wires: int = 0
 
 
 class CageFaces:
