@@ -432,7 +432,7 @@ class ObjectSession:
             If no wire runs over the mesh, or nothing is cut.
         """
         wires = list(wires)
-        images = {wire: self.session.mirrored(wire) for wire in wires}
+        images = {wire: self.session.mirrored(wire, curves=True) for wire in wires}
 
         def planned() -> CutPlan:
             every = (*wires, *(image for wire in wires for image in images[wire]))
@@ -484,7 +484,7 @@ class ObjectSession:
         """
         taken = self.session.taken_cuts if taken is None else taken
         wires = [wire for number, wire in enumerate(wires) if number not in plan.left_out]
-        images = [replace(image, mirror=()) for wire in wires for image in self.session.mirrored(wire)]
+        images = [replace(image, mirror=()) for wire in wires for image in self.session.mirrored(wire, curves=True)]
         if kept:
             for wire in wires:
                 self.session.drop(wire)
