@@ -384,6 +384,27 @@ def select_some(obj: bpy.types.Object, mode: str) -> None:
     bmesh.update_edit_mesh(obj.data)
 
 
+@pytest.mark.every_blender
+@pytest.mark.parametrize("mode", ["VERT", "EDGE", "FACE"])
+def test_what_lies_on_selected_faces_is_selected_after_a_cut(mode: str) -> None:
+    obj = add_grid(9)
+    edit()
+    select_some(obj, mode)
+    area = sum(face.calc_area() for face in bmesh.from_edit_mesh(obj.data).faces if face.select)
+    # Of the face that the last wire begins in, only an edge is split.
+    assert cut("0 44; 1 30; (-0.4 -0.9 0) 80") == {"FINISHED"}
+    bm = bmesh.from_edit_mesh(obj.data)
+    selected = [face for face in bm.faces if face.select]
+    assert sum(face.calc_area() for face in selected) == pytest.approx(area)
+    assert len(selected) > 5
+    for face in selected:
+        assert all(item.select for item in (*face.verts, *face.edges))
+    for edge in bm.edges:
+        assert not edge.select or all(vert.select for vert in edge.verts)
+        if mode == "VERT":
+            assert edge.select == all(vert.select for vert in edge.verts)
+
+
 def test_faces_around_a_corner_of_the_mesh_are_cut() -> None:
     bpy.ops.mesh.primitive_cube_add(size=2)
     obj = bpy.context.active_object
@@ -408,6 +429,16 @@ def test_a_seed_that_the_wire_passes_on_its_way_back_is_no_gap(capfd: pytest.Cap
     assert "could not be cut" not in capfd.readouterr().out
     assert 90 in joined(obj, 85)
     assert is_sound(obj)
+
+
+@pytest.mark.every_blender
+def test_a_mesh_of_edges_alone_has_no_places() -> None:
+    obj = add_object([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [], [(0, 1), (1, 2)])
+    edit()
+    for run in (lambda: cut("(0 0 0) 2"), lambda: bpy.ops.mesh.seamwire_mark(loops="(0 0 0)", along="SURFACE")):
+        with pytest.raises(RuntimeError, match="No face is visible"):
+            run()
+    assert seams(obj) == []
 
 
 def add_unlike_halves(count: int = 1) -> bpy.types.Object:

@@ -228,6 +228,7 @@ def _carry_out(
         left |= loose
         seams += [edge for edge in edges if edge not in loose]
     _remove_loose(bm, [edge for edge in left if edge[of_edges]])
+    _spread_selection(bm, [vert for node, vert in vert_of.items() if len(node.vertices) > 1 and vert.is_valid])
     return seams, seed_verts, uncut
 
 
@@ -284,6 +285,15 @@ def _remove_loose(bm: bmesh.types.BMesh, edges: Iterable[bmesh.types.BMEdge]) ->
     for vert in ends:
         if not vert.link_edges:
             bm.verts.remove(vert)
+
+
+def _spread_selection(bm: bmesh.types.BMesh, verts: Iterable[bmesh.types.BMVert]) -> None:
+    """Select new vertices, and the edges between them, that lie on selected faces and edges."""
+    selected = [item for vert in verts for item in (*vert.link_faces, *vert.link_edges) if item.select]
+    for item in selected:
+        item.select = True
+    if selected:
+        bm.select_flush_mode()
 
 
 def _cut_layers(bm: bmesh.types.BMesh) -> tuple[bmesh.types.BMLayerItem, bmesh.types.BMLayerItem]:

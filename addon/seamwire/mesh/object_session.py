@@ -403,7 +403,10 @@ class ObjectSession:
         self._found = replace(self._found, network=session.network)
 
     def finder(self, faces: Collection[int] = ()) -> Callable[[Sequence[float]], FacePoint]:
-        """Return what finds the point of the visible surface, or of some faces, that is nearest to a place in object coordinates."""
+        """Return what finds the point of the visible surface, or of some faces, that is nearest to a place in object coordinates.
+
+        The function raises ValueError if no face is visible.
+        """
         triangles, in_object = self.arrays.triangles, self.arrays.in_object
         rows = np.arange(len(triangles))
         if len(faces):
@@ -416,6 +419,8 @@ class ObjectSession:
             return BVHTree.FromPolygons(in_object[used].tolist(), polygons, all_triangles=True)
 
         def find(place: Sequence[float]) -> FacePoint:
+            if not len(rows):
+                raise ValueError("No face is visible: give vertices or edges instead of places")
             found, _, row, _ = tree().find_nearest(place)
             return FacePoint.at(np.array(found), rows[row], triangles, in_object)
 
