@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import itertools
-from collections import defaultdict
+from collections import Counter, defaultdict
 
 import numpy as np
 import pytest
@@ -213,6 +213,79 @@ def test_an_end_inside_a_face_goes_back_to_the_last_edge() -> None:
     places = [node.place(faces.points)[:2].tolist() for node in reached(cuts, 2)]
     assert sorted(places) == [pytest.approx([1.0, 0.2]), [2.0, 0.0]]
     assert plan(faces, [inside(faces, (0.6, 0.3), (0.7, 0.2))]).segments() == []
+
+
+def test_a_curve_that_goes_back_along_a_diagonal_leaves_no_spur() -> None:
+    faces = grid(3)
+    turn = np.array([(np.cos(1.0), np.sin(1.0), 0), (-np.sin(1.0), np.cos(1.0), 0), (0, 0, 1)])
+    faces.points = faces.points @ turn  # by rounding the curves do not meet exactly
+    there = np.array([(0, 0, 0), (0.8, 0.8, 0)]) @ turn
+    on = np.array([(0.8, 0.8, 0), (0.6, 0.6, 0), (1.0, 0.2, 0), (2.0, 0.0, 0)]) @ turn
+    cuts = plan(faces, [(0, there), (1, on)])
+    assert Node((2,)) in reached(cuts, 0)
+    counts = Counter(node for segment in cuts.segments() for node in segment)
+    assert [node for node, count in counts.items() if count == 1] == [Node((0,)), Node((2,))]
+
+
+FLAT = {
+    "needle": ([(0, 0), (1, -1), (1, -1), (1, 1), (2, 0.2)], [[0, 1, 3], [1, 2, 3], [2, 4, 3]]),
+    "cap": ([(0, 0), (1, -1), (1, 0.3), (1, 1), (2, 0.2)], [[0, 1, 3], [1, 2, 3], [1, 4, 2], [2, 4, 3]]),
+    "caps in a row": (
+        [(0, 0), (1, -1), (1, 0.3), (1, 0.4), (1, 1), (2, 0.2)],
+        [[0, 1, 4], [1, 2, 4], [2, 3, 4], [1, 5, 2], [2, 5, 3], [3, 5, 4]],
+    ),
+    "all in one point": (
+        [(0, 0), (1, 0), (1, 0), (1, 0), (2, 0), (1, 1), (1, -1)],
+        [[1, 2, 3], [0, 1, 5], [0, 6, 1], [1, 6, 2], [6, 4, 2], [2, 4, 3], [3, 4, 5], [1, 3, 5]],
+    ),
+    "quad": (
+        [(0, 0), (1, -1), (1, 0), (1, 1), (1, 0.5), (2, 0.2)],
+        [[0, 1, 3], [1, 2, 4, 3], [1, 5, 2], [2, 5, 4], [4, 5, 3]],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", FLAT)
+@pytest.mark.parametrize("height", [-0.5, 0.0, 0.05, 0.1, 0.3, 0.35])
+def test_a_polygon_without_area_is_passed_in_one_point(name: str, height: float) -> None:
+    points, polygons = FLAT[name]
+    faces = Polygons(np.array(points, dtype=float), polygons)
+    end = max(range(len(points)), key=lambda vertex: points[vertex][0])
+    curve = np.array([(0, 0, 0), (1, height, 0), (*points[end], 0)], dtype=float)
+    if name == "all in one point":
+        curve[1, 1] = 0.0
+    for start, way, goal in ((0, curve, end), (end, curve[::-1], 0)):
+        cuts = plan(faces, [(start, way, goal)])
+        assert Node((goal,)) in reached(cuts, start)
+        for polygon, own in cuts.across.items():
+            used = {vertex for segment in own for node in segment for vertex in node.vertices}
+            assert used <= {*faces.corners(polygon)}
+
+
+def test_of_vertices_in_one_place_a_curve_ends_at_its_own() -> None:
+    points, polygons = FLAT["cap"]
+    faces = Polygons(np.array(points, dtype=float), polygons)
+    cuts = plan(faces, [(0, np.array([(0, 0, 0), (1, 0.3, 0)]), 2)])
+    assert Node((2,)) in reached(cuts, 0)
+
+
+def test_a_curve_of_other_triangles_is_led_straight_on() -> None:
+    faces = grid(6, np.random.default_rng(2))
+    start, straight = faces.straight(7, 34)
+    few = straight[[0, len(straight) // 2, -1]]
+    many, found = (plan(faces, [(start, curve)]) for curve in (straight, few))
+    assert many.across.keys() == found.across.keys()
+    places = [sorted(node.place(faces.points).tolist() for node in cuts.nodes()) for cuts in (many, found)]
+    assert places[1] == [pytest.approx(place) for place in places[0]]
+
+
+def test_what_does_not_run_over_the_mesh_is_left_out() -> None:
+    faces = grid(4)
+    off = (0, np.array([(0, 0, 0), (0.5, 0.5, 9.0), (4, 4, 0)]))
+    good = faces.straight(0, 14)
+    cuts = plan(faces, [off, good, off])
+    assert cuts.left_out == [0, 2]
+    assert cuts.across == plan(faces, [good]).across
 
 
 def test_of_faces_on_each_other_a_curve_cuts_those_that_it_runs_over() -> None:

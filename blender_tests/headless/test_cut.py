@@ -4,6 +4,7 @@
 import math
 import random
 from collections import defaultdict
+from dataclasses import replace
 
 import bmesh
 import bpy
@@ -33,6 +34,15 @@ from stored import agree, session_on, write
 
 def cut(chains: str, **options: object) -> set[str]:
     return bpy.ops.mesh.seamwire_mark(chains=chains, along="SURFACE", finish="CUT", **options)
+
+
+def is_sound(obj: bpy.types.Object) -> bool:
+    """Whether a mesh in edit mode has nothing to mend, and no edge or vertex is loose."""
+    bpy.ops.object.mode_set(mode="OBJECT")
+    sound = not obj.data.validate(verbose=True)
+    edit()
+    bm = bmesh.from_edit_mesh(obj.data)
+    return sound and all(edge.link_faces for edge in bm.edges) and all(vert.link_edges for vert in bm.verts)
 
 
 def triangles(obj: bpy.types.Object, key: str = "") -> list[tuple[Vector, Vector, Vector]]:
@@ -284,17 +294,16 @@ def test_a_cut_is_one_step_of_undo_and_brings_every_layer_back() -> None:
 def test_a_face_that_cannot_be_cut_stays_whole_and_is_told_of(
     monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    split, calls = bmesh.utils.face_split_edgenet, []
+    split = bmesh.utils.face_split_edgenet
 
-    def refuse_the_third(face: bmesh.types.BMFace, edges: list[bmesh.types.BMEdge]) -> object:
-        calls.append(1)
-        if len(calls) == 3:
+    def refuse_one(face: bmesh.types.BMFace, edges: list[bmesh.types.BMEdge]) -> object:
+        if (face.calc_center_bounds() - Vector((-0.375, -0.625, 0.0))).length < 0.01:
             raise ValueError("refused on purpose")
         return split(face, edges)
 
     class Utils:
         edge_split = staticmethod(bmesh.utils.edge_split)
-        face_split_edgenet = staticmethod(refuse_the_third)
+        face_split_edgenet = staticmethod(refuse_one)
 
     from seamwire.mesh import cut as cutting
 
@@ -306,6 +315,202 @@ def test_a_face_that_cannot_be_cut_stays_whole_and_is_told_of(
     bm = bmesh.from_edit_mesh(obj.data)
     assert all(edge.link_faces for edge in bm.edges) and all(vert.link_edges for vert in bm.verts)
     assert len(seams(obj)) == 7
+
+
+def refuse(monkeypatch: pytest.MonkeyPatch, call: int) -> None:
+    """Let a cut end on an error, at one of its faces."""
+    from seamwire.mesh import cut as cutting
+
+    split, calls = bmesh.utils.face_split_edgenet, []
+
+    def split_some(face: bmesh.types.BMFace, edges: list[bmesh.types.BMEdge]) -> object:
+        calls.append(1)
+        if len(calls) == call:
+            raise KeyError("refused on purpose")
+        return split(face, edges)
+
+    class Utils:
+        edge_split = staticmethod(bmesh.utils.edge_split)
+        face_split_edgenet = staticmethod(split_some)
+
+    monkeypatch.setattr(cutting.bmesh, "utils", Utils)
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("keys", [False, True], ids=["", "shape keys"])
+@pytest.mark.parametrize("kept", [False, True], ids=["new", "kept"])
+def test_a_cut_that_ends_on_an_error_leaves_every_mesh_as_it_was(
+    monkeypatch: pytest.MonkeyPatch, keys: bool, kept: bool
+) -> None:
+    objects = [add_grid(9, name=name) for name in ("First", "Second")]
+    for obj in objects:
+        add_layers(obj)
+        obj.select_set(True)
+        if keys:
+            obj.shape_key_add(name="Basis")
+            for point in obj.shape_key_add(name="Wavy", from_mix=False).data:
+                point.co.z += 0.1 * point.co.x
+            obj.active_shape_key_index = 1
+    edit()
+    for obj in objects:
+        select_some(obj, "VERT")
+    if kept:
+        bpy.ops.mesh.seamwire_mark(chains="0 44; 8 36", along="SURFACE", objects="*")
+    bpy.ops.ed.undo_push(message="Before")
+    before = [(snapshot(obj), seams(obj), obj.data.seamwire_wires) for obj in objects]
+    refuse(monkeypatch, 12)  # the first mesh is planned by then
+    with pytest.raises(RuntimeError, match="refused on purpose"):
+        bpy.ops.mesh.seamwire_cut() if kept else cut("0 44", objects="*")
+    assert [(snapshot(obj), seams(obj), obj.data.seamwire_wires) for obj in objects] == before
+    monkeypatch.undo()
+    assert (bpy.ops.mesh.seamwire_cut() if kept else cut("0 44", objects="*")) == {"FINISHED"}
+
+
+def select_some(obj: bpy.types.Object, mode: str) -> None:
+    """Select some faces of a mesh in a select mode, and make one active."""
+    bpy.context.tool_settings.mesh_select_mode = [mode == name for name in ("VERT", "EDGE", "FACE")]
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.select_mode = {mode}
+    bm.faces.ensure_lookup_table()
+    for item in (*bm.verts, *bm.edges, *bm.faces):
+        item.select = False
+    for number in (1, 2, 9, 18, 27):
+        bm.faces[number].select = True
+    bm.select_history.clear()
+    if mode == "FACE":
+        bm.select_history.add(bm.faces[9])
+    bm.faces.active = bm.faces[9]
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(obj.data)
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("mode", ["VERT", "EDGE", "FACE"])
+def test_what_lies_on_selected_faces_is_selected_after_a_cut(mode: str) -> None:
+    obj = add_grid(9)
+    edit()
+    select_some(obj, mode)
+    area = sum(face.calc_area() for face in bmesh.from_edit_mesh(obj.data).faces if face.select)
+    # Of the face that the last wire begins in, only an edge is split.
+    assert cut("0 44; 1 30; (-0.4 -0.9 0) 80") == {"FINISHED"}
+    bm = bmesh.from_edit_mesh(obj.data)
+    selected = [face for face in bm.faces if face.select]
+    assert sum(face.calc_area() for face in selected) == pytest.approx(area)
+    assert len(selected) > 5
+    for face in selected:
+        assert all(item.select for item in (*face.verts, *face.edges))
+    for edge in bm.edges:
+        assert not edge.select or all(vert.select for vert in edge.verts)
+        if mode == "VERT":
+            assert edge.select == all(vert.select for vert in edge.verts)
+
+
+def test_faces_around_a_corner_of_the_mesh_are_cut() -> None:
+    bpy.ops.mesh.primitive_cube_add(size=2)
+    obj = bpy.context.active_object
+    bm = bmesh.new()
+    bmesh.ops.create_cube(bm, size=2)
+    bmesh.ops.subdivide_edges(bm, edges=bm.edges, cuts=1, use_grid_fill=True)
+    bm.verts.ensure_lookup_table()
+    bmesh.ops.dissolve_verts(bm, verts=[bm.verts[9], bm.verts[15]])
+    bm.to_mesh(obj.data)
+    bm.free()
+    edit()
+    assert cut("19 1") == {"FINISHED"}
+    assert 1 in joined(obj, 19)
+    assert is_sound(obj)
+
+
+def test_a_seed_that_the_wire_passes_on_its_way_back_is_no_gap(capfd: pytest.CaptureFixture[str]) -> None:
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=14, ring_count=9)
+    obj = bpy.context.active_object
+    edit()
+    assert cut("85 (-0.438349 -0.183387 -0.856156) 90") == {"FINISHED"}
+    assert "could not be cut" not in capfd.readouterr().out
+    assert 90 in joined(obj, 85)
+    assert is_sound(obj)
+
+
+@pytest.mark.every_blender
+def test_a_mesh_of_edges_alone_has_no_places() -> None:
+    obj = add_object([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [], [(0, 1), (1, 2)])
+    edit()
+    for run in (lambda: cut("(0 0 0) 2"), lambda: bpy.ops.mesh.seamwire_mark(loops="(0 0 0)", along="SURFACE")):
+        with pytest.raises(RuntimeError, match="No face is visible"):
+            run()
+    assert seams(obj) == []
+
+
+def add_unlike_halves(count: int = 1) -> bpy.types.Object:
+    """Add a cube whose quads are cut into triangles the same way on both sides, not mirrored."""
+    bpy.ops.mesh.primitive_cube_add(size=2)
+    obj = bpy.context.active_object
+    edit()
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.subdivide(number_cuts=count)
+    bpy.ops.mesh.quads_convert_to_tris(quad_method="FIXED")
+    return obj
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("chains", ["1 23", "3 15", "7 25", "0 13", "25 7", "6 9"])
+def test_an_image_is_cut_across_other_triangles(chains: str, capfd: pytest.CaptureFixture[str]) -> None:
+    obj = add_unlike_halves()
+    assert cut(chains, mirror={"X"}) == {"FINISHED"}
+    assert "Warning" not in capfd.readouterr().out
+    lengths = defaultdict(float)
+    for edge in bmesh.from_edit_mesh(obj.data).edges:
+        if edge.seam:
+            middle = 0.5 * (edge.verts[0].co.x + edge.verts[1].co.x)
+            lengths[math.copysign(1.0, middle) if abs(middle) > 1e-6 else 0.0] += edge.calc_length()
+    assert lengths[1.0] == pytest.approx(lengths[-1.0], rel=1e-5)
+    assert lengths[1.0] > 0.5
+    assert is_sound(obj)
+
+
+def test_an_image_that_leaves_the_mesh_is_left_out(capfd: pytest.CaptureFixture[str]) -> None:
+    obj = add_grid(9)
+    for v in obj.data.vertices:
+        if 0.2 < v.co.x < 0.9 and abs(v.co.y) < 0.6:
+            v.co.z = 0.6
+    edit()
+    assert cut("0 74", mirror={"X"}) == {"FINISHED"}
+    assert "1 wire or mirror image not cut: it does not run over the mesh" in capfd.readouterr().out
+    assert 74 in joined(obj, 0)
+    assert 8 not in {v for pair in seams(obj) for v in pair}
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("chains", ["68 291", "32 130", "48 249", "228 136", "55 83"])
+def test_slid_wires_can_be_cut(chains: str) -> None:
+    bpy.ops.mesh.primitive_cube_add(size=2)
+    obj = bpy.context.active_object
+    edit()
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.subdivide(number_cuts=6)
+    bpy.ops.mesh.seamwire_mark(chains=chains, along="SURFACE", finish="SLIDE")
+    (wire,) = session_on(obj).session.wires
+    length = float(np.linalg.norm(np.diff(wire.points, axis=0), axis=1).sum())
+    assert bpy.ops.mesh.seamwire_cut() == {"FINISHED"}
+    assert wire.end in joined(obj, wire.start)
+    cuts = sum(edge.calc_length() for edge in bmesh.from_edit_mesh(obj.data).edges if edge.seam)
+    assert cuts == pytest.approx(length, rel=0.01)
+    assert is_sound(obj)
+
+
+def test_a_wire_that_left_the_mesh_keeps_no_other_from_being_cut() -> None:
+    obj = add_grid(9)
+    edit()
+    bpy.ops.mesh.seamwire_mark(chains="0 16; 64 79", along="SURFACE")
+    mesh = session_on(obj)
+    wires = [wire if wire.start == 64 else replace(wire, points=wire.points * 3.0) for wire in mesh.session.wires]
+    plan = mesh.plan_cut(wires)
+    assert [wires[number].start for number in plan.left_out] == [0]
+    assert mesh.cut(plan, wires, kept=True).wires == 1
+    kept = session_on(obj).session.wires
+    assert sorted((wire.along, wire.start) for wire in kept) == [("EDGES", 64), ("SURFACE", 0)]
+    assert agree(obj)
+    assert {16, 79} <= joined(obj, 0) | joined(obj, 64)
 
 
 @pytest.mark.every_blender

@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where curves over a mesh cut its edges and faces, as a plan that somebody else carries out. Knows neither Blender nor the library.
 
-A curve is a list of points, each two of which lie in one triangle. What it passes is found by walking along it, from triangle to
-triangle; then all curves are taken together: they meet in shared points where they cross or run close to each other.
+A curve is a list of points on the mesh. A walk along it, from triangle to triangle, finds the edges and faces that it passes. Then
+all curves are joined: they meet in shared points where they cross or run close to each other.
 """
 
 from __future__ import annotations
 
+import heapq
 import itertools
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Protocol
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
@@ -34,6 +35,12 @@ BEND = 0.1
 """By how much of its length a cut may leave the straight line within a polygon and be straight."""
 ON = 1e-4
 """Which vertex or edge a curve's point is on: stored curves are rounded."""
+FLAT = 1e-3
+"""A polygon of less area than that, as part of the square of its longest side, counts as a polygon without area."""
+_HOP = 1e-3
+"""The cost of a step over a triangle in a single point; the curve passes triangles without area so."""
+_STRAIGHT = 1e-2
+"""The cost of a step over a triangle in which the curve has no point; curves found on other triangles need such steps."""
 
 
 class CuttingError(ValueError):
@@ -71,10 +78,13 @@ class Node:
         One, two or three, ascending.
     weights
         Of each vertex, all positive; their sum is 1.
+    polygon
+        The polygon that it lies inside; -1 if it is a vertex or lies on an edge.
     """
 
     vertices: tuple[int, ...]
     weights: tuple[float, ...] = (1.0,)
+    polygon: int = -1
 
     @classmethod
     def between(cls, vertices: Sequence[int], weights: Sequence[float], near: float = 0.0) -> Node:
@@ -124,11 +134,14 @@ class CutPlan:
         Cuts between two neighboring vertices or nodes of one edge.
     across
         For each polygon, the cuts inside it. Their nodes are its corners, on its edges or inside it.
+    left_out
+        The numbers of the curves that do not run over the mesh.
     """
 
     splits: dict[Edge, list[Node]] = field(default_factory=dict)
     along: list[Segment] = field(default_factory=list)
     across: dict[int, list[Segment]] = field(default_factory=dict)
+    left_out: list[int] = field(default_factory=list)
 
     def segments(self) -> list[Segment]:
         """Return all cuts."""
@@ -146,11 +159,14 @@ class CutPlan:
 
     def inside(self) -> list[Node]:
         """Return the nodes inside polygons."""
-        on_edges = {node for nodes in self.splits.values() for node in nodes}
-        return [node for node in self.nodes() if len(node.vertices) > 1 and node not in on_edges]
+        return [node for node in self.nodes() if node.polygon >= 0]
 
 
-def plan(faces: Faces, curves: Iterable[tuple[int, NDArray[np.float64]]]) -> CutPlan:
+Curve = tuple[int, "NDArray[np.float64]"] | tuple[int, "NDArray[np.float64]", int]
+"""A vertex to begin at, points, and perhaps the vertex to end at; see `plan`."""
+
+
+def plan(faces: Faces, curves: Iterable[Curve]) -> CutPlan:
     """Find what curves cut.
 
     Parameters
@@ -159,22 +175,34 @@ def plan(faces: Faces, curves: Iterable[tuple[int, NDArray[np.float64]]]) -> Cut
         The mesh.
     curves
         For each, the vertex that it begins at, or a corner of the triangle that it begins in, and its points, (k, 3). An
-        end inside a polygon that no other curve leads on from goes back to the last edge.
+        end inside a polygon that no other curve leads on from goes back to the last edge. A third item is the vertex
+        that a curve ends at, if its last point lies there: other vertices may lie in the same place.
 
     Raises
     ------
     CuttingError
-        Where a curve does not run over the mesh.
+        If no curve runs over the mesh.
     """
     pieces: list[Piece] = []
     ends: list[Node] = []
-    for start, points in curves:
-        own = _without_detours(_walk(faces, start, points))
-        ends += _ends(faces, own)
+    left_out: list[int] = []
+    problem: CuttingError | None = None
+    for number, (start, points, *end) in enumerate(curves):
+        try:
+            own = _without_detours(_walk(faces, start, points, *end))
+        except CuttingError as error:
+            problem = problem or error
+            left_out.append(number)
+            continue
+        ends += _ends(own)
         pieces += own
-    together = _together(_crossed(faces, _together(pieces)))
+    if problem is not None and not pieces:
+        raise problem
+    together = _parted(faces, _together(_crossed(faces, _together(pieces))))
     seeds = _Ends(ends)
-    return _sorted_out(faces, _without_spurs(_without_slivers(faces, together, seeds), seeds))
+    result = _sorted_out(faces, _without_spurs(_without_slivers(faces, together, seeds), seeds))
+    result.left_out = left_out
+    return result
 
 
 class _Ends:
@@ -189,50 +217,67 @@ class _Ends:
         return any(node.near(end) for end in self._at.get(node.vertices, ()))
 
 
-def _ends(faces: Faces, pieces: Sequence[Piece]) -> Iterator[Node]:
+def _ends(pieces: Sequence[Piece]) -> Iterator[Node]:
     """Yield the first and the last node of a curve's pieces that are not inside a polygon."""
     nodes = [node for one, two, _ in pieces for node in (one, two)]
     for way in (nodes, nodes[::-1]):
-        on_rims = (n for n in way if len(n.vertices) == 1 or (len(n.vertices) == 2 and faces.is_edge(*n.vertices)))
-        yield from itertools.islice(on_rims, 1)
+        yield from itertools.islice((node for node in way if node.polygon < 0), 1)
 
 
-def _walk(faces: Faces, start: int, points: NDArray[np.float64]) -> list[Piece]:
+class _Step(NamedTuple):
+    """How far a walk along a curve has come.
+
+    Parameters
+    ----------
+    number
+        Of the curve's point that it heads for.
+    on
+        Where it is: a vertex, on an edge or inside a polygon.
+    place
+        The same in space, (3,).
+    here
+        The node there, which may have been moved away from the place; None before the first point.
+    trail
+        The pieces up to there.
+    """
+
+    number: int
+    on: Node
+    place: NDArray[np.float64]
+    here: Node | None
+    trail: _Trail
+
+
+def _walk(faces: Faces, start: int, points: NDArray[np.float64], end: int = -1) -> list[Piece]:
     """Return what a curve passes: from node to node, and the polygon between them.
 
-    Where faces lie on each other a point is on several; the curve runs over those that its next points are on as well.
+    The walk is the cheapest one (Dijkstra's algorithm). A step costs nothing if the curve's next point lies in a polygon beside.
+    Where faces lie on each other, the curve therefore runs over those that its next points are on as well.
     """
-    here = Node((start,))
-    begins_there = bool(np.linalg.norm(points[0] - faces.points[start]) <= ON * np.ptp(points, axis=0).max())
-    places = points[begins_there:]
-    waiting: list[tuple[int, Node, Sequence[int], _Trail]] = [(0, here, faces.polygons_at(start), None)]
-    tried: set[tuple[int, tuple[int, ...]]] = set()
-    stuck = (-1, here)
+    near = ON * float(np.ptp(points, axis=0).max())
+    begins_there = bool(np.linalg.norm(points[0] - faces.points[start]) <= near)
+    ends_there = end >= 0 and bool(np.linalg.norm(points[-1] - faces.points[end]) <= near)
+    first = Node((start,))
+    order = itertools.count()
+    done: set[tuple[int, tuple[int, ...], int]] = set()
+    farthest = _Step(int(begins_there), first, points[0], first if begins_there else None, None)
+    waiting = [(0.0, 0, next(order), 0, farthest)]
     while waiting:
-        number, here, polygons, trail = waiting.pop()
-        if number == len(places):
-            return _pieces_of(trail)
-        stuck = max(stuck, (number, here), key=lambda step: step[0])
-        beside = [(row, polygon) for polygon in polygons for row in faces.rows_of(polygon)]
-        corners = faces.triangles[[row for row, _ in beside]]
-        weights, off = barycentric(faces.points[corners], places[number])
-        steps = []
-        for best in np.argsort(off, kind="stable").tolist():
-            if not off[best] < OFF or off[best] > off.min() + ON:
-                break
-            polygon = beside[best][1]
-            # Where it goes on, the exact place says: the node may have been moved away from it.
-            exact = Node.between(corners[best], weights[best], ON)
-            if (number, exact.vertices) in tried:
+        cost, _, _, stage, step = heapq.heappop(waiting)
+        if stage == 0:
+            key = (step.number, step.on.vertices, step.on.polygon)
+            if key in done:
                 continue
-            on = _on_side(faces, polygon, exact, ON).vertices
-            there = _on_side(faces, polygon, Node.between(corners[best], weights[best], NEAR), NEAR)
-            tried |= {(number, exact.vertices), (number, on)}
-            passes = there != here and (number or begins_there)
-            beyond = [p for p in faces.polygons_at(on[0]) if {*on} <= {*faces.corners(p)}]
-            steps.append((number + 1, there, beyond, ((here, there, polygon), trail) if passes else trail))
-        waiting += reversed(steps)
-    raise CuttingError(f"A wire does not run over the mesh near vertex {stuck[1].vertices[0]}")
+            done.add(key)
+            farthest = max(farthest, step, key=lambda one: one.number)
+            if step.number == len(points) and (not ends_there or step.on.vertices == (end,)):
+                return _pieces_of(step.trail)
+        following = (_forward, _in_place, _straight_on)[stage](faces, points, step)
+        for more, new in following:
+            heapq.heappush(waiting, (cost + more, -new.number, next(order), 0, new))
+        if stage < 2 and step.here is not None:
+            heapq.heappush(waiting, (cost + (_HOP, _STRAIGHT)[stage], -step.number, next(order), stage + 1, step))
+    raise CuttingError(f"A wire does not run over the mesh near vertex {farthest.on.vertices[0]}")
 
 
 def _pieces_of(trail: _Trail) -> list[Piece]:
@@ -241,6 +286,130 @@ def _pieces_of(trail: _Trail) -> list[Piece]:
         piece, trail = trail
         pieces.append(piece)
     return pieces[::-1]
+
+
+def _polygons_beside(faces: Faces, on: Node) -> Sequence[int]:
+    """Return the polygons that a node lies in."""
+    if on.polygon >= 0:
+        return [on.polygon]
+    around = faces.polygons_at(on.vertices[0])
+    return [polygon for polygon in around if {*on.vertices} <= {*faces.corners(polygon)}]
+
+
+def _forward(faces: Faces, points: NDArray[np.float64], step: _Step) -> Iterator[tuple[float, _Step]]:
+    """Yield the steps to the curve's next point in a polygon beside, and what each costs."""
+    if step.number < len(points):
+        place = points[step.number]
+        for off, polygon, on in _nodes_at(faces, _polygons_beside(faces, step.on), place):
+            yield off, _step_to(faces, step, step.number + 1, polygon, on, place)
+
+
+def _in_place(faces: Faces, _points: NDArray[np.float64], step: _Step) -> Iterator[tuple[float, _Step]]:
+    """Yield the steps to other vertices and edges of the polygons beside that lie in the same place."""
+    for off, polygon, on in _nodes_at(faces, _polygons_beside(faces, step.on), step.place):
+        if on.polygon < 0 and on.vertices != step.on.vertices:
+            yield off, _step_to(faces, step, step.number, polygon, on, step.place)
+
+
+def _straight_on(faces: Faces, points: NDArray[np.float64], step: _Step) -> Iterator[tuple[float, _Step]]:
+    """Yield the steps toward the curve's next point to where that way leaves a triangle beside."""
+    if not 0 < step.number < len(points):
+        return
+    place, goal, before = step.place, points[step.number], points[step.number - 1]
+    for polygon in _polygons_beside(faces, step.on):
+        for row in faces.rows_of(polygon):
+            corners = faces.points[faces.triangles[row]]
+            exit_place = _exit(corners, place, goal)
+            if exit_place is None or np.linalg.norm(goal - exit_place) >= np.linalg.norm(goal - place):
+                continue
+            _, (gap,) = nearest_on_segments(exit_place, before[None], goal[None])
+            longest = float(np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1).max())
+            if gap > OFF * longest:
+                continue
+            for off, _, on in _nodes_at(faces, [polygon], exit_place, row):
+                yield off + float(gap) / longest, _step_to(faces, step, step.number, polygon, on, exit_place)
+
+
+def _exit(
+    corners: NDArray[np.float64], place: NDArray[np.float64], goal: NDArray[np.float64]
+) -> NDArray[np.float64] | None:
+    """Return where the way from a place in a triangle, (3, 3), toward another place leaves it; None if it does not run over it."""
+    u, v = corners[1] - corners[0], corners[2] - corners[0]
+    normal = np.cross(u, v)
+    square = float(normal @ normal)
+    longest = max(float(u @ u), float(v @ v), float((u - v) @ (u - v)))
+    if square <= (FLAT * longest) ** 2:
+        return None
+
+    def coordinates(w: NDArray[np.float64]) -> NDArray[np.float64]:
+        s, t = np.cross(w, v) @ normal / square, np.cross(u, w) @ normal / square
+        return np.array([-s - t, s, t])
+
+    own = np.array([1.0, 0.0, 0.0]) + coordinates(place - corners[0])
+    slope = coordinates(goal - place)
+    if own.min() < -OFF or np.linalg.norm(np.clip(own, 0.0, None) @ corners - place) > OFF * np.sqrt(longest):
+        return None
+    own = np.clip(own, 0.0, None)
+    shrinking = slope < -ON
+    if not shrinking.any() or (own[shrinking] <= ON).any():
+        return None
+    part = float((own[shrinking] / -slope[shrinking]).min())
+    there = np.clip(own + part * slope, 0.0, None)
+    return there / there.sum() @ corners if part < 1.0 else None
+
+
+def _nodes_at(
+    faces: Faces, polygons: Iterable[int], place: NDArray[np.float64], only: int = -1
+) -> Iterator[tuple[float, int, Node]]:
+    """Yield the vertices and edges that a place in some polygons, or in one row of their triangles, lies on.
+
+    Yields
+    ------
+    off
+        How far the triangle is from the place, as part of its longest side, as far as rounding does not explain it.
+    polygon
+        Its number.
+    node
+        A vertex that the place is on, an edge between whose ends it lies, or otherwise the place inside.
+    """
+    rows = [(row, polygon) for polygon in polygons for row in faces.rows_of(polygon) if only in (-1, row)]
+    triangles = faces.triangles[[row for row, _ in rows]]
+    corners = faces.points[triangles]
+    ends = np.roll(corners, -1, axis=1)
+    weights, off = barycentric(corners, place)
+    part, gap = (
+        item.reshape(-1, 3) for item in nearest_on_segments(place, corners.reshape(-1, 3), ends.reshape(-1, 3))
+    )
+    longest = np.linalg.norm(ends - corners, axis=2).max(axis=1)
+    with np.errstate(invalid="ignore"):
+        away = np.fmin(gap.min(axis=1), off * longest)
+    to_corners = np.linalg.norm(corners - place, axis=2)
+    for k in np.flatnonzero(away <= OFF * longest).tolist():
+        reach = away[k] + ON * longest[k]
+        polygon, triangle = rows[k][1], triangles[k].tolist()
+        at = to_corners[k] <= reach
+        nodes = [Node((triangle[i],)) for i in range(3) if at[i]]
+        for i, j in ((0, 1), (1, 2), (2, 0)):
+            if gap[k, i] <= reach and not at[i] and not at[j]:
+                share = float(part[k, i])
+                nodes.append(Node.between((triangle[i], triangle[j]), (1.0 - share, share)))
+        for node in nodes or [Node.between(triangle, weights[k])]:
+            cost = max(0.0, float(away[k] / longest[k]) - ON) if longest[k] > 0.0 else 0.0
+            yield cost, polygon, _in_polygon(faces, polygon, node, ON)
+
+
+def _step_to(faces: Faces, step: _Step, number: int, polygon: int, on: Node, place: NDArray[np.float64]) -> _Step:
+    """Return the step from another one to a node in a polygon beside it."""
+    there = _in_polygon(faces, polygon, Node.between(on.vertices, on.weights, NEAR), NEAR)
+    leads_on = step.here is not None and there != step.here
+    return _Step(number, on, place, there, ((step.here, there, polygon), step.trail) if leads_on else step.trail)
+
+
+def _in_polygon(faces: Faces, polygon: int, node: Node, near: float) -> Node:
+    """Return a node of a polygon's triangles as one on the polygon's side, or else as one inside it."""
+    node = _on_side(faces, polygon, node, near)
+    is_inside = len(node.vertices) == 3 or (len(node.vertices) == 2 and not faces.is_edge(*node.vertices))
+    return replace(node, polygon=polygon) if is_inside else node
 
 
 def _on_side(faces: Faces, polygon: int, node: Node, near: float) -> Node:
@@ -287,12 +456,13 @@ def _together(pieces: Iterable[Piece]) -> list[Piece]:
             if node.weights[1] - first.weights[1] > NEAR:
                 first = node
             same[node] = first
-    inside: dict[tuple[int, ...], list[Node]] = defaultdict(list)
+    inside: dict[tuple[tuple[int, ...], int], list[Node]] = defaultdict(list)
     for node in dict.fromkeys(node for one, two, _ in pieces for node in (one, two)):
         if len(node.vertices) == 3:
-            first = next((other for other in inside[node.vertices] if node.near(other)), None)
+            beside = inside[node.vertices, node.polygon]
+            first = next((other for other in beside if node.near(other)), None)
             if first is None:
-                inside[node.vertices].append(node)
+                beside.append(node)
             same[node] = first or node
     kept: dict[frozenset[Node], Piece] = {}
     for one, two, polygon in pieces:
@@ -410,13 +580,13 @@ def _without_spurs(pieces: list[Piece], ends: _Ends) -> list[Piece]:
     return [piece for number, piece in enumerate(pieces) if number not in left_out]
 
 
-def _on_pairs(pieces: Iterable[Piece]) -> dict[tuple[int, ...], list[Node]]:
-    """Return the nodes between each two vertices, in order from the smaller one."""
-    found: dict[tuple[int, ...], set[Node]] = defaultdict(set)
+def _on_pairs(pieces: Iterable[Piece]) -> dict[tuple[tuple[int, ...], int], list[Node]]:
+    """Return the nodes between each two vertices, in order from the smaller one; those of diagonals by their polygon."""
+    found: dict[tuple[tuple[int, ...], int], set[Node]] = defaultdict(set)
     for one, two, _ in pieces:
         for node in (one, two):
             if len(node.vertices) == 2:
-                found[node.vertices].add(node)
+                found[node.vertices, node.polygon].add(node)
     return {pair: sorted(nodes, key=lambda node: node.weights[1]) for pair, nodes in found.items()}
 
 
@@ -459,30 +629,38 @@ def _crossing(
     return (float(s), float(t)) if 0.0 <= s <= 1.0 and 0.0 <= t <= 1.0 else None
 
 
+def _parted(faces: Faces, pieces: list[Piece]) -> list[Piece]:
+    """Return the pieces, each once, those along an edge or a diagonal parted at the nodes of others that they pass."""
+    on_pairs = _on_pairs(pieces)
+    kept: dict[frozenset[Node], Piece] = {}
+    for one, two, polygon in pieces:
+        passed = [one, two]
+        pair = tuple(sorted({*one.vertices, *two.vertices}))
+        if len(pair) == 2:
+            passing = on_pairs.get((pair, -1 if faces.is_edge(*pair) else polygon), ())
+            part = {node: node.weight(pair[1]) for node in (one, two, *passing)}
+            low, high = sorted((part[one], part[two]))
+            passed = sorted((node for node in part if low <= part[node] <= high), key=part.__getitem__)
+        for begin, end in itertools.pairwise(passed):
+            kept.setdefault(frozenset((begin, end)), (begin, end, polygon))
+    return list(kept.values())
+
+
 def _sorted_out(faces: Faces, pieces: list[Piece]) -> CutPlan:
     """Tell cuts along edges from those across polygons."""
-    on_pairs = _on_pairs(pieces)
     result = CutPlan()
-    along: dict[frozenset[Node], Segment] = {}
-    across: dict[int, dict[frozenset[Node], Segment]] = defaultdict(dict)
+    across: dict[int, list[Segment]] = defaultdict(list)
     for one, two, polygon in pieces:
-        pair = tuple(sorted({*one.vertices, *two.vertices}))
-        if len(pair) > 2:
-            across[polygon].setdefault(frozenset((one, two)), (one, two))
-            continue
-        # It runs along an edge or a diagonal, and may pass nodes of others.
-        part = {node: node.weight(pair[1]) for node in (one, two, *on_pairs.get(pair, ()))}
-        low, high = sorted((part[one], part[two]))
-        passed = sorted((node for node in part if low <= part[node] <= high), key=part.__getitem__)
-        for segment in itertools.pairwise(passed):
-            into = along if faces.is_edge(*pair) else across[polygon]
-            into.setdefault(frozenset(segment), segment)
-    result.along = list(along.values())
+        pair = {*one.vertices, *two.vertices}
+        if len(pair) == 2 and faces.is_edge(*pair):
+            result.along.append((one, two))
+        else:
+            across[polygon].append((one, two))
     for polygon, segments in across.items():
-        result.across[polygon] = _straightened(faces, polygon, list(segments.values()))
-    used = {node for segment in result.segments() for node in segment}
-    for pair, nodes in on_pairs.items():
-        if faces.is_edge(*pair) and not used.isdisjoint(nodes):
+        result.across[polygon] = _straightened(faces, polygon, segments)
+    used = set(result.nodes())
+    for (pair, polygon), nodes in _on_pairs(pieces).items():
+        if polygon < 0 and not used.isdisjoint(nodes):
             result.splits[pair] = [node for node in nodes if node in used]
     return result
 
@@ -528,15 +706,34 @@ def _chains(start: Node, beside: dict[Node, list[Node]], inner: set[Node]) -> It
         yield min(tuple(chain), tuple(reversed(chain)), key=lambda nodes: [(n.vertices, n.weights) for n in nodes])
 
 
+def layout(rim: NDArray[np.float64]) -> NDArray[np.float64] | None:
+    """Return where the corners of a polygon without area, (n, 3), are drawn for cuts across it, (n, 2); None if it has an area.
+
+    Such a polygon is drawn as a regular one, where the same cuts meet as on the polygon.
+    """
+    normal = np.cross(rim, np.roll(rim, -1, axis=0)).sum(axis=0)
+    longest = np.linalg.norm(rim - np.roll(rim, 1, axis=0), axis=1).max()
+    if np.linalg.norm(normal) > FLAT * longest**2:
+        return None
+    return regular(len(rim))
+
+
+def regular(count: int) -> NDArray[np.float64]:
+    """Return the corners of a regular polygon, (count, 2)."""
+    angles = 2.0 * np.pi * np.arange(count) / count
+    return np.stack([np.cos(angles), np.sin(angles)], axis=1)
+
+
 class _Shape:
-    """A polygon, seen along its normal."""
+    """A polygon, seen along its normal; one without area as `layout` draws it."""
 
     def __init__(self, faces: Faces, polygon: int) -> None:
         self._faces, self._polygon = faces, polygon
         corners = faces.corners(polygon)
         rim = faces.points[list(corners)]
         normal = np.cross(rim, np.roll(rim, -1, axis=0)).sum(axis=0)
-        self._points = np.delete(faces.points[list(corners)], int(np.argmax(np.abs(normal))), axis=1)
+        drawn = layout(rim)
+        self._points = np.delete(rim, int(np.argmax(np.abs(normal))), axis=1) if drawn is None else drawn
         self._place_of = dict(zip(corners, self._points, strict=True))
         self._sides = [{a, b} for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
         self._triangles = faces.triangles[list(faces.rows_of(polygon))]
@@ -563,7 +760,7 @@ class _Shape:
         corners = np.array([[self._place_of[vertex] for vertex in triangle] for triangle in self._triangles.tolist()])
         weights, off = barycentric(corners, place)
         best = int(np.argmin(off))
-        return _on_side(self._faces, self._polygon, Node.between(self._triangles[best], weights[best], NEAR), NEAR)
+        return _in_polygon(self._faces, self._polygon, Node.between(self._triangles[best], weights[best], NEAR), NEAR)
 
     def lets_through(self, one: Node, two: Node, segments: Sequence[Segment]) -> bool:
         """Whether the straight line between two nodes lies inside, and meets none of some segments."""

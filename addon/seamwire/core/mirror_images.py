@@ -33,10 +33,10 @@ class MirrorImages:
         self._warned = False
         self._effect: tuple[Network, list[Edge], list[Edge]] | None = None
 
-    def of(self, wire: Wire, network: Network) -> list[Wire]:
-        """Return the images that a wire has, or would have if a network kept it now, as far as the mesh has their edges."""
+    def of(self, wire: Wire, network: Network, curves: bool = False) -> list[Wire]:
+        """Return the images that a wire has, or would have if a network kept it now; see `Symmetry.images`."""
         kept = wire.images is not None or network.find(wire) is not None
-        return self._symmetry.images(wire, wire.mirror if kept else network.mirror)
+        return self._symmetry.images(wire, wire.mirror if kept else network.mirror, curves)
 
     def complete(self, network: Network, seams: ArrayLike | None = None) -> Network:
         """Return a network whose wires all know the edges of their images.

@@ -1103,9 +1103,9 @@ class Session:
         """Return the edges that the wires make cease to be seams, each once, sorted, smaller vertex first."""
         return self._images.net_effect(self.network)[1]
 
-    def mirrored(self, wire: Wire) -> list[Wire]:
-        """Return the images that a wire has, or would have if it were kept now, as far as the mesh has their edges."""
-        return self._images.of(wire, self.network)
+    def mirrored(self, wire: Wire, curves: bool = False) -> list[Wire]:
+        """Return the images that a wire has, or would have if it were kept now; see `Symmetry.images`."""
+        return self._images.of(wire, self.network, curves)
 
     @property
     def _loops(self) -> Offers:

@@ -203,16 +203,24 @@ class Symmetry:
             self._on_plane[axis] = frozenset(near[own].tolist())
         return self._on_plane[axis]
 
-    def images(self, wire: Wire, axes: tuple[int, ...]) -> list[Wire]:
+    def images(self, wire: Wire, axes: tuple[int, ...], curves: bool = False) -> list[Wire]:
         """Return the images of a wire over each of the axes and their combinations.
 
-        One that runs along the wire itself, or along another image, is left out. Where vertices have no partners, or the
-        mesh lacks an edge of an image, that falls into several, each drawn along its edges: see `one_sided`.
+        An image that runs along the wire itself, or along another image, is left out. If vertices have no partners, or the
+        mesh lacks an edge of an image, the image falls into several, each drawn along its edges: see `one_sided`.
+
+        Parameters
+        ----------
+        wire, axes
+            The wire, and the axes that it is mirrored over.
+        curves
+            Whether only the curves matter, because they are cut into the faces: across the surface an image stays whole
+            if its ends have partners. If the mesh lacks edges of it, it has only these two vertices.
         """
         images = []
         taken = {frozenset(wire.edges()) or wire.vertices}
         for combination in _combinations(axes):
-            for image in self._image(wire, combination):
+            for image in self._image(wire, combination, curves):
                 edges = frozenset(image.edges()) or image.vertices
                 if edges not in taken:
                     taken.add(edges)
@@ -221,7 +229,14 @@ class Symmetry:
 
     def one_sided(self, wire: Wire, axes: tuple[int, ...]) -> bool:
         """Whether part of a wire has no image over the axes or one of their combinations, so that it stays alone."""
-        return not all(self._mapped(wire, combination)[1].all() for combination in _combinations(axes))
+        curves = wire.finish == "CUT"
+        return not all(self._is_whole(wire, combination, curves) for combination in _combinations(axes))
+
+    def _is_whole(self, wire: Wire, axes: tuple[int, ...], curves: bool) -> bool:
+        """Whether an image does not fall into several; see `images`."""
+        mapped, there = self._mapped(wire, axes)
+        across = curves and wire.along == "SURFACE" and self._triangles is None
+        return bool(there.all()) or (across and min(mapped[0], mapped[-1]) >= 0)
 
     def _mapped(self, wire: Wire, axes: tuple[int, ...]) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
         """Return the partners of a wire's vertices, of a loop the first one's again at the end, and which edges are there."""
@@ -236,14 +251,16 @@ class Symmetry:
             there &= among(self._key(pairs), keys)
         return mapped, there
 
-    def _image(self, wire: Wire, axes: tuple[int, ...]) -> list[Wire]:
+    def _image(self, wire: Wire, axes: tuple[int, ...], curves: bool) -> list[Wire]:
         mapped, there = self._mapped(wire, axes)
+        across = wire.along == "SURFACE" and self._triangles is None
         if there.all():
             vertices = tuple(mapped[:-1].tolist() if wire.closed else mapped.tolist())
-            points = self._points[mapped]
-            if wire.along == "SURFACE" and self._triangles is None:
-                points = self._mirrored_points(wire.points, axes)
+            points = self._mirrored_points(wire.points, axes) if across else self._points[mapped]
             return [self._as_image(wire, vertices, points, wire.closed)]
+        if self._is_whole(wire, axes, curves):
+            ends = (int(mapped[0]), int(mapped[-1]))
+            return [self._as_image(wire, ends, self._mirrored_points(wire.points, axes), False)]
         # Runs of edges that are there; True where one begins, and where it has ended.
         borders = np.flatnonzero(np.diff(np.concatenate([[False], there, [False]]).astype(np.int8)))
         runs = [tuple(mapped[a : b + 1].tolist()) for a, b in zip(borders[::2], borders[1::2], strict=True)]

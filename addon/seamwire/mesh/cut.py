@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import bmesh
 import numpy as np
+from mathutils import Vector
 
 from ..core import cutting
 from ..core.network import FacePoint, vertices_of
@@ -20,9 +21,7 @@ from .edit_mesh import LABELS
 from .unwrap import JOINED, UNWRAPPED
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ..core.cutting import CutPlan, Node
+    from ..core.cutting import Curve, CutPlan, Node
     from ..core.mesh_arrays import Arrays
     from ..core.network import Edge, Pick
     from .edit_mesh import Cage
@@ -48,12 +47,15 @@ class Cut:
         How many vertices are new.
     uncut
         How many faces could not be cut.
+    wires
+        How many wires were cut.
     """
 
     edges: tuple[Edge, ...]
     seeds: Mapping[int | FacePoint, int]
     vertices: int
     uncut: int
+    wires: int = 0
 
 
 class CageFaces:
@@ -132,9 +134,18 @@ def _verts_that_stay(
     return [vert for vert in found if not vert[of_verts]]
 
 
-def plan(cage: Cage, arrays: Arrays, curves: Iterable[tuple[int, NDArray[np.float64]]]) -> CutPlan:
-    """Find what curves cut, each with the vertex that it begins at; raises `CuttingError`, before anything is changed."""
+def plan(cage: Cage, arrays: Arrays, curves: Iterable[Curve]) -> CutPlan:
+    """Find what curves cut, see `cutting.plan`; raises `CuttingError`, before anything is changed."""
     return cutting.plan(CageFaces(cage, arrays), curves)
+
+
+def rehearse(cage: Cage, what: CutPlan) -> None:
+    """Cut a copy of an edit mesh, so that whatever may go wrong does so before anything is changed."""
+    bm = cage.bm.copy()
+    try:
+        _carry_out(bm, what, [])
+    finally:
+        bm.free()
 
 
 def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = (), crumb: float = 0.0) -> Cut:
@@ -184,7 +195,7 @@ def _carry_out(
     of_verts, of_edges = _cut_layers(bm)
     seed_verts = {seed: bm.verts[seed] for seed in seeds if isinstance(seed, int)}
     at_points = {seed: what.node_at(seed.corners, seed.weights) for seed in seeds if isinstance(seed, FacePoint)}
-    faces = {polygon: bm.faces[polygon] for polygon in what.across}
+    faces = {polygon: (bm.faces[polygon], list(bm.faces[polygon].verts)) for polygon in what.across}
     vert_of: dict[Node, bmesh.types.BMVert] = {}
     nodes = what.nodes()
     corners = {vertex: bm.verts[vertex] for node in nodes for vertex in node.vertices}
@@ -206,12 +217,83 @@ def _carry_out(
         if len(node.vertices) > 1:
             vert[of_verts] = 1
     seams = [bm.edges.get((vert_of[one], vert_of[two])) for one, two in what.along]
-    uncut = 0
+    node_of = {vert: node for node, vert in vert_of.items()}
+    uncut, left = 0, set()
     for polygon, segments in what.across.items():
-        edges = _split(bm, faces[polygon], [(vert_of[one], vert_of[two]) for one, two in segments], of_edges)
-        uncut += len(edges) < len(segments)
-        seams += edges
+        face, rim = faces[polygon]
+        with _drawn(face, rim, corners, node_of, {vert_of[node] for segment in segments for node in segment}):
+            edges = _split(bm, face, [(vert_of[one], vert_of[two]) for one, two in segments], of_edges)
+        loose = {edge for edge in edges if not edge.link_faces}
+        uncut += bool(loose)
+        left |= loose
+        seams += [edge for edge in edges if edge not in loose]
+    _remove_loose(bm, [edge for edge in left if edge[of_edges]])
+    _spread_selection(bm, [vert for node, vert in vert_of.items() if len(node.vertices) > 1 and vert.is_valid])
     return seams, seed_verts, uncut
+
+
+@contextmanager
+def _drawn(
+    face: bmesh.types.BMFace,
+    rim: Sequence[bmesh.types.BMVert],
+    corners: Mapping[int, bmesh.types.BMVert],
+    node_of: Mapping[bmesh.types.BMVert, Node],
+    inside: Iterable[bmesh.types.BMVert],
+) -> Iterator[None]:
+    """Move the vertices of a face without area to where its cuts were planned; Blender splits no face without a normal.
+
+    Parameters
+    ----------
+    face
+        With the vertices on its edges.
+    rim
+        Its corners before.
+    corners
+        Vertices by their number before.
+    node_of
+        What new vertices are between.
+    inside
+        The other vertices of its cuts.
+    """
+    drawn = cutting.layout(np.array([vert.co for vert in rim]))
+    if drawn is None:
+        yield
+        return
+    place_of = {vert: Vector((*place, 0.0)) for vert, place in zip(rim, drawn.tolist(), strict=True)}
+    for vert in {*face.verts, *inside} - place_of.keys():
+        node = node_of[vert]
+        weights = zip(node.vertices, node.weights, strict=True)
+        place_of[vert] = sum((weight * place_of[corners[vertex]] for vertex, weight in weights), Vector())
+    before = {vert: vert.co.copy() for vert in place_of}
+    for vert, place in place_of.items():
+        vert.co = place
+    face.normal_update()
+    try:
+        yield
+    finally:
+        for vert, place in before.items():
+            vert.co = place
+
+
+def _remove_loose(bm: bmesh.types.BMesh, edges: Iterable[bmesh.types.BMEdge]) -> None:
+    """Remove edges of faces that could not be cut, and the vertices that nothing else holds."""
+    ends = set()
+    for edge in edges:
+        if not edge.link_faces:
+            ends.update(edge.verts)
+            bm.edges.remove(edge)
+    for vert in ends:
+        if not vert.link_edges:
+            bm.verts.remove(vert)
+
+
+def _spread_selection(bm: bmesh.types.BMesh, verts: Iterable[bmesh.types.BMVert]) -> None:
+    """Select new vertices, and the edges between them, that lie on selected faces and edges."""
+    selected = [item for vert in verts for item in (*vert.link_faces, *vert.link_edges) if item.select]
+    for item in selected:
+        item.select = True
+    if selected:
+        bm.select_flush_mode()
 
 
 def _cut_layers(bm: bmesh.types.BMesh) -> tuple[bmesh.types.BMLayerItem, bmesh.types.BMLayerItem]:
@@ -352,27 +434,22 @@ def _split(
     segments: Sequence[tuple[bmesh.types.BMVert, bmesh.types.BMVert]],
     of_edges: bmesh.types.BMLayerItem,
 ) -> list[bmesh.types.BMEdge]:
-    """Split a face along edges between its corners and vertices inside it; return those edges, none where that cannot be done."""
+    """Split a face along edges between its corners and vertices inside it, and return those edges.
+
+    Where that cannot be done, the edges have no faces.
+    """
     selected = face.select
-    known = [bm.edges.get(segment) for segment in segments]
-    edges = [bm.edges.new(segment) if edge is None else edge for edge, segment in zip(known, segments, strict=True)]
-    for edge, before in zip(edges, known, strict=True):
-        if before is None:
+    edges = []
+    for segment in segments:
+        edge = bm.edges.get(segment)
+        if edge is None:
+            edge = bm.edges.new(segment)
             edge[of_edges] = 1
+        edges.append(edge)
     try:
         parts = bmesh.utils.face_split_edgenet(face, edges)
     except ValueError:
         parts = ()
-    # What is left of new edges must not lie about: they go, and vertices with them that nothing else holds.
-    loose = [edge for edge, before in zip(edges, known, strict=True) if before is None and not edge.link_faces]
-    if loose:
-        ends = {vert for edge in loose for vert in edge.verts}
-        for edge in loose:
-            bm.edges.remove(edge)
-        for vert in ends:
-            if not vert.link_edges:
-                bm.verts.remove(vert)
-        edges = [edge for edge in edges if edge.is_valid]
     if selected:
         for part in parts:
             part.select = True

@@ -64,6 +64,8 @@ class Finished:
         How many wires were slid onto, and how many vertices were.
     cut, edges, uncut
         How many wires were cut into the faces, how many edges they run along, and how many faces could not be cut.
+    left_out
+        How many wires and mirror images were not cut, because they do not run over the mesh.
     problem
         Why nothing was cut.
     taken_back
@@ -75,6 +77,7 @@ class Finished:
     cut: int = 0
     edges: int = 0
     uncut: int = 0
+    left_out: int = 0
     problem: str = ""
     taken_back: int = 0
 
@@ -412,7 +415,10 @@ class ObjectSession:
         self._found = replace(self._found, network=session.network)
 
     def finder(self, faces: Collection[int] = ()) -> Callable[[Sequence[float]], FacePoint]:
-        """Return what finds the point of the visible surface, or of some faces, that is nearest to a place in object coordinates."""
+        """Return what finds the point of the visible surface, or of some faces, that is nearest to a place in object coordinates.
+
+        The function raises ValueError if no face is visible.
+        """
         triangles, in_object = self.arrays.triangles, self.arrays.in_object
         rows = np.arange(len(triangles))
         if len(faces):
@@ -425,17 +431,39 @@ class ObjectSession:
             return BVHTree.FromPolygons(in_object[used].tolist(), polygons, all_triangles=True)
 
         def find(place: Sequence[float]) -> FacePoint:
+            if not len(rows):
+                raise ValueError("No face is visible: give vertices or edges instead of places")
             found, _, row, _ = tree().find_nearest(place)
             return FacePoint.at(np.array(found), rows[row], triangles, in_object)
 
         return find
 
     def plan_cut(self, wires: Iterable[Wire]) -> CutPlan:
-        """Find what wires across the surface and their mirror images cut; raises `CuttingError`, also where that is nothing."""
-        curves = [(own.vertices[0], own.points) for wire in wires for own in (wire, *self.session.mirrored(wire))]
-        plan = cut.plan(self.cage, self.arrays, curves)
+        """Find what wires across the surface and their mirror images cut, and try it on a copy of the edit mesh.
+
+        The plan leaves out wires that do not run over the mesh, by their numbers here, and mirror images, by higher numbers.
+
+        Raises
+        ------
+        CuttingError
+            If no wire runs over the mesh, or nothing is cut.
+        """
+        wires = list(wires)
+        images = {wire: self.session.mirrored(wire, curves=True) for wire in wires}
+
+        def planned() -> CutPlan:
+            every = (*wires, *(image for wire in wires for image in images[wire]))
+            return cut.plan(self.cage, self.arrays, [(own.vertices[0], own.points, own.vertices[-1]) for own in every])
+
+        plan = planned()
+        alone = [wires[number] for number in plan.left_out if number < len(wires)]
+        if any(images[wire] for wire in alone):
+            # The image of a wire that is not cut is not cut either.
+            images.update((wire, []) for wire in alone)
+            plan = planned()
         if not plan.segments():
             raise CuttingError("No wire leaves the face that it begins in")
+        cut.rehearse(self.cage, plan)
         return plan
 
     def cut(
@@ -456,7 +484,7 @@ class ObjectSession:
         plan
             From `plan_cut`.
         wires
-            What is cut.
+            The same as for `plan_cut`. Wires that the plan leaves out stay what they are.
         kept
             Whether the mesh has these wires already: their snapped edges cease to be seams.
         before
@@ -469,10 +497,11 @@ class ObjectSession:
         Raises
         ------
         CuttingError
-            Where a wire cannot be cut into the mesh without the cuts taken back; these, and the wires, are gone then.
+            Where no wire can be cut into the mesh without the cuts taken back; these, and the wires, are gone then.
         """
         taken = self.session.taken_cuts if taken is None else taken
-        images = [replace(image, mirror=()) for wire in wires for image in self.session.mirrored(wire)]
+        wires = [wire for number, wire in enumerate(wires) if number not in plan.left_out]
+        images = [replace(image, mirror=()) for wire in wires for image in self.session.mirrored(wire, curves=True)]
         if kept:
             for wire in wires:
                 self.session.drop(wire)
@@ -489,7 +518,7 @@ class ObjectSession:
                 again = after.plan_cut(placed)
             except CuttingError as error:
                 raise CuttingError(f"{error}; what was cut before is taken back, undo brings it again") from error
-            return after.cut(again, placed, taken=taken)
+            return replace(after.cut(again, placed, taken=taken), wires=len(wires))
         seeds = {end for wire in wires for end in (wire.start, wire.end)}
         done = cut.carry_out(self.cage, plan, seeds, crumb)
         after = ObjectSession(self.obj)
@@ -497,7 +526,7 @@ class ObjectSession:
         after.take_over(after._cut_wires({edge for edge in done.edges if edge not in claimed}, wires, done.seeds))
         after._go_on_with(taken)
         after.write(after.plan())
-        return done
+        return replace(done, wires=len(wires))
 
     def _go_on_with(self, taken: Iterable[TakenCut]) -> None:
         """Let closed cuts that were taken before the mesh was changed be bent on it."""
@@ -582,10 +611,13 @@ class ObjectSession:
         finished = Finished(len(slid), moved)
         if to_cut:
             try:
-                done = mesh.cut(mesh.plan_cut(to_cut), to_cut, kept=True, before=before)
+                plan = mesh.plan_cut(to_cut)
+                done = mesh.cut(plan, to_cut, kept=True, before=before)
             except CuttingError as error:
                 return replace(finished, problem=str(error))
-            return replace(finished, cut=len(to_cut), edges=len(done.edges), uncut=done.uncut)
+            return replace(
+                finished, cut=done.wires, edges=len(done.edges), uncut=done.uncut, left_out=len(plan.left_out)
+            )
         return replace(finished, taken_back=mesh.take_back_cuts(before))
 
     def slide(self, wires: Collection[Wire]) -> int:

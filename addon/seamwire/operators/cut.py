@@ -44,7 +44,9 @@ def cut_wires(
     kept: bool = False,
     crumb: float = 0.0,
 ) -> set[str]:
-    """Cut wires across the surface into meshes and say what was done; nothing is changed where one of them cannot be cut.
+    """Cut wires across the surface into meshes and say what was done.
+
+    Wires that do not run over their mesh are left out. If a mesh cannot be cut, none is changed.
 
     Parameters
     ----------
@@ -60,18 +62,27 @@ def cut_wires(
     from ..core.cutting import CuttingError
     from ..mesh import edit_mesh
 
-    try:
-        plans = {mesh: mesh.plan_cut(own) for mesh, own in wires.items() if own}
-    except CuttingError as error:
-        operator.report({"ERROR"}, str(error))
+    plans, problems = {}, []
+    for mesh, own in wires.items():
+        try:
+            if own:
+                plans[mesh] = mesh.plan_cut(own)
+        except CuttingError as error:
+            problems.append(str(error))
+    for problem in problems if plans else problems[:1]:
+        operator.report({"WARNING"} if plans else {"ERROR"}, problem)
+    if not plans:
         return {"CANCELLED"}
     cuts = [mesh.cut(plan, wires[mesh], kept, crumb=crumb) for mesh, plan in plans.items()]
     edit_mesh.live_unwrap(context)
     uncut = sum(cut.uncut for cut in cuts)
     if uncut:
         operator.report({"WARNING"}, gaps(uncut))
+    missing = sum(len(plan.left_out) for plan in plans.values())
+    if missing:
+        operator.report({"WARNING"}, left_out(missing))
     done = (
-        f"{count(sum(map(len, wires.values())), 'wire')} cut",
+        f"{count(sum(cut.wires for cut in cuts), 'wire')} cut",
         f"{count(sum(len(cut.edges) for cut in cuts), 'edge')} marked",
         count(sum(cut.vertices for cut in cuts), "new vertex", "new vertices"),
     )
@@ -82,6 +93,12 @@ def cut_wires(
 def gaps(uncut: int) -> str:
     """Say that faces could not be cut."""
     return f"{count(uncut, 'face')} could not be cut: the seams have gaps there"
+
+
+def left_out(number: int) -> str:
+    """Say that wires or their mirror images were not cut."""
+    why = "it does not run over the mesh" if number == 1 else "they do not run over the mesh"
+    return f"{count(number, 'wire or mirror image', 'wires or mirror images')} not cut: {why}"
 
 
 def register() -> None:

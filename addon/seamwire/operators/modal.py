@@ -16,7 +16,7 @@ from ..view.edited_objects import edited
 from ..view.viewport import Place, place_of
 from . import bindings, navigation, undo_steps
 from .bindings import Action
-from .cut import gaps
+from .cut import gaps, left_out
 from .drag_handlers import Hold, LineHold, SeedHold, StrokeHold
 from .navigation import Meaning
 from .report import count, running, status_makers, summary
@@ -225,6 +225,8 @@ class Chain:
             told.append(f"{count(done.cut, 'wire')} cut, {count(done.edges, 'edge')} marked")
         if done.uncut:
             told.append(gaps(done.uncut))
+        if done.left_out:
+            told.append(left_out(done.left_out))
         if done.problem:
             told.append(f"not cut: {done.problem}")
         if done.taken_back:

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Wires cut into meshes with faces that have no area."""
+
+import random
+
+import bmesh
+import bpy
+import pytest
+from scene import add_object, edit, seams
+from test_cut import cut, is_sound, joined
+
+
+def add_flat_faces(subdivisions: int, share: float, seed: int) -> bpy.types.Object:
+    """Add a ball of which about a share of the faces have no area: caps and needles, alone and beside each other."""
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=subdivisions)
+    obj = bpy.context.active_object
+    dice = random.Random(seed)
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    for _ in range(int(share * len(bm.faces) / 2)):
+        bm.faces.ensure_lookup_table()
+        face = dice.choice(bm.faces)
+        a, b, _ = (vert.co.copy() for vert in dice.sample(list(face.verts), 3))
+        if dice.random() < 0.5:
+            # A vertex on a side of the face, and the triangle between them.
+            (middle,) = bmesh.ops.poke(bm, faces=[face])["verts"]
+            middle.co = a.lerp(b, dice.choice((0.0, 0.2, 0.5, 0.9)))
+        else:
+            dice.choice(face.verts).co = a.lerp(b, dice.choice((0.0, 0.0, 0.4)))
+    bm.to_mesh(obj.data)
+    bm.free()
+    return obj
+
+
+DOUBLE = ([(0, 0, 0), (1, -1, 0), (1, -1, 0), (1, 1, 0), (2, 0.2, 0)], [(0, 1, 3), (1, 2, 3), (2, 4, 3)], 0, 4)
+CAP = ([(0, 0, 0), (1, -1, 0), (1, 0, 0), (1, 1, 0), (2, 0.2, 0)], [(0, 1, 3), (1, 2, 3), (1, 4, 2), (2, 4, 3)], 0, 2)
+
+
+@pytest.mark.parametrize("shape", [DOUBLE, CAP], ids=["needle", "cap"])
+@pytest.mark.parametrize("back", [False, True], ids=["", "back"])
+def test_a_face_without_area_on_the_way_is_cut(shape: tuple, back: bool) -> None:
+    points, faces, start, end = shape
+    obj = add_object(points, faces)
+    edit()
+    start, end = (end, start) if back else (start, end)
+    assert cut(f"{start} {end}") == {"FINISHED"}
+    assert end in joined(obj, start)
+    assert is_sound(obj)
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("seed", range(6))
+def test_all_chains_over_faces_without_area_are_cut_and_join(seed: int, capfd: pytest.CaptureFixture[str]) -> None:
+    obj = add_flat_faces(2, 0.1 + 0.1 * seed, seed)
+    dice = random.Random(seed)
+    edit()
+    for _ in range(4):
+        start, end = dice.sample(range(42), 2)
+        assert cut(f"{start} {end}") == {"FINISHED"}
+        assert end in joined(obj, start)
+    assert "could not be cut" not in capfd.readouterr().out
+    assert is_sound(obj)
+
+
+def test_suggested_wires_are_cut_where_faces_have_no_area() -> None:
+    obj = add_flat_faces(3, 0.5, 3)
+    edit()
+    assert bpy.ops.mesh.seamwire_suggest(along="SURFACE", finish="CUT") == {"FINISHED"}
+    assert seams(obj)
+    assert is_sound(obj)
