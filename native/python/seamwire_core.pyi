@@ -429,6 +429,9 @@ def cut_polygons(
 def face_segments(surface: Surface, cut_edges: ArrayLike) -> NDArray[np.int32]:
     """Return a segment number per triangle, 0 the one of the most triangles."""
 
+def missing_cuts(surface: Surface, cut_edges: ArrayLike, segments: ArrayLike) -> NDArray[np.int32]:
+    """Return how many more cuts each segment needs to become a disc."""
+
 class PlannedWire:
     """One wire of a plan: the vertices between which it runs, its metric, the edges that it marks, and its curve, (p, 3)."""
 

@@ -19,7 +19,9 @@
 #include "seams/seeding.hpp"
 #include "seams/straightening.hpp"
 #include "seams/thinning.hpp"
+#include "seamwire/seams/missing_cuts.hpp"
 #include "seamwire/surface/segments.hpp"
+#include "wires/curve_check.hpp"
 
 namespace seamwire {
 namespace {
@@ -119,7 +121,7 @@ struct SeamPlanner::Impl {
                                    const Task& task) const {
     return seamwire::straightened(std::move(of), fixed, wires->direct, surface(), options, limits, max_spreads, task);
   }
-  SeamPlan plan_of(std::vector<Choice> taken, const SeamLimits& limits, std::span<const double> max_spreads) const;
+  SeamPlan plan_of(std::vector<Choice> taken) const;
   std::vector<Choice> swept(std::vector<Choice> best, const SeamLimits& limits, std::span<const double> max_spreads,
                             const Task& task) const;
   std::vector<std::vector<Choice>> shortened(const Choice& wire, const std::vector<Choice>& others,
@@ -219,10 +221,8 @@ std::vector<std::vector<Choice>> SeamPlanner::Impl::shortened(const Choice& wire
   return ways;
 }
 
-SeamPlan SeamPlanner::Impl::plan_of(std::vector<Choice> taken, const SeamLimits& limits,
-                                    std::span<const double> max_spreads) const {
+SeamPlan SeamPlanner::Impl::plan_of(std::vector<Choice> taken) const {
   SeamPlan plan;
-  plan.not_discs = Quality(pieces(taken, max_spreads), limits).not_discs;
   std::vector<Edge> cuts = options.seams;
   for (Choice& choice : taken) {
     const std::vector<std::int32_t>& chain = choice.wire.vertices;
@@ -232,7 +232,9 @@ SeamPlan SeamPlanner::Impl::plan_of(std::vector<Choice> taken, const SeamLimits&
     plan.wires.push_back(std::move(choice.wire));
   }
   plan.islands = face_segments(surface(), cuts);
-  for (const std::int32_t island : plan.islands) plan.island_count = std::max(plan.island_count, index(island) + 1);
+  const std::vector<std::int32_t> missing = missing_cuts(surface(), cuts, plan.islands);
+  plan.island_count = missing.size();
+  plan.not_discs = static_cast<std::size_t>(std::ranges::count_if(missing, [](std::int32_t more) { return more > 0; }));
   return plan;
 }
 
@@ -271,7 +273,7 @@ SeamPlan SeamPlanner::plan(const SeamLimits& limits, std::span<const PlannedWire
   std::vector<Choice> taken = thinned(surface, impl_->options.images, among, std::move(all), limits, task);
   if (limits.may_start_on_others) taken = impl_->swept(std::move(taken), limits, max_spreads, task);
   if (limits.are_straightened) taken = impl_->straightened(std::move(taken), fixed, limits, max_spreads, task);
-  return impl_->plan_of(std::move(taken), limits, max_spreads);
+  return impl_->plan_of(std::move(taken));
 }
 
 SeamPlan SeamPlanner::straightened(std::span<const PlannedWire> wires, const SeamLimits& limits,
@@ -279,8 +281,7 @@ SeamPlan SeamPlanner::straightened(std::span<const PlannedWire> wires, const Sea
   const Surface& surface = impl_->surface();
   const std::vector<double> max_spreads = checked_spreads(surface, limits);
   for (const std::int32_t v : fixed) check_index(v, surface.vertex_count(), "fixed: vertex");
-  return impl_->plan_of(impl_->straightened(choices_of(surface, wires, "wires"), fixed, limits, max_spreads, task),
-                        limits, max_spreads);
+  return impl_->plan_of(impl_->straightened(choices_of(surface, wires, "wires"), fixed, limits, max_spreads, task));
 }
 
 }  // namespace seamwire

@@ -70,7 +70,8 @@ struct SeamPlan {
   std::vector<PlannedWire> wires;     ///< without the seams that were there
   std::vector<std::int32_t> islands;  ///< of each of the caller's triangles, as face_segments() numbers them
   std::size_t island_count = 0;       ///< how many
-  std::size_t not_discs = 0;          ///< how many of the islands are no discs, where there were not seeds enough
+  /// How many islands are not discs, see missing_cuts(): there were too few seeds to cut them.
+  std::size_t not_discs = 0;
   /// The lengths of the wires in the caller's units, each over its worth: what is the less of two plans for the same.
   double cost = 0.0;
 };
