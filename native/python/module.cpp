@@ -653,7 +653,7 @@ BentWires
 Raises
 ------
 ValueError
-    Where the cut is of another field, as far as its size tells.
+    Where the cut does not lead through the seed of the field.
 Cancelled
 )")
       .def("__repr__", [](const FieldObject& f) {

@@ -609,6 +609,32 @@ TEST(SeamPlanner, RefusesWhatMakesNoSense) {
   kept[0].vertices = {0, 1000};
   EXPECT_THROW(planner.plan({}, kept), InvalidInput);
   EXPECT_THROW(planner.straightened(kept), InvalidInput);
+  const shapes::Mesh same = shapes::icosphere(2);
+  shapes::Mesh larger = same;
+  for (Vector& p : larger.points) p *= 2.0;
+  for (const Along along : {Along::kEdges, Along::kSurface}) {
+    const SeamPlanner own(shared(same.surface()), {.along = along}), other(shared(larger.surface()), {.along = along});
+    const SeamPlan plan = own.plan({.max_spread = 0.2});
+    ASSERT_FALSE(plan.wires.empty());
+    EXPECT_NO_THROW(own.plan({}, plan.wires));
+    for (const SeamPlanner* another : {&planner, &other}) {
+      EXPECT_THROW(another->plan({}, plan.wires), InvalidInput);
+      EXPECT_THROW(another->straightened(plan.wires, {.may_start_on_others = false}), InvalidInput);
+    }
+    for (const auto& spoil : std::vector<void (*)(PlannedWire&)>{
+             [](PlannedWire& w) { w.vertices.clear(); }, [](PlannedWire& w) { w.from = w.to; },
+             [](PlannedWire& w) { w.vertices.insert(w.vertices.begin() + 1, w.vertices[0]); },
+             [](PlannedWire& w) { w.points.pop_back(); }, [](PlannedWire& w) { w.worth = 0.0; },
+             [](PlannedWire& w) { w.faces.push_back(1000); }, [](PlannedWire& w) { w.points[0].x() = NAN; }}) {
+      std::vector<PlannedWire> wrong = plan.wires;
+      spoil(wrong[0]);
+      EXPECT_THROW(own.plan({}, wrong), InvalidInput);
+      EXPECT_THROW(own.straightened(wrong), InvalidInput);
+    }
+  }
+  std::vector<std::int32_t> around(sphere->vertex_count());
+  for (std::size_t v = 0; v < around.size(); ++v) around[v] = static_cast<std::int32_t>((v + 1) % around.size());
+  EXPECT_THROW(SeamPlanner(sphere, {.images = around}), InvalidInput) << "three images lead elsewhere than one";
   EXPECT_THROW(planner.straightened({}, {.crumb = 2.0}), InvalidInput);
   EXPECT_THROW(planner.straightened({}, {}, std::vector<std::int32_t>{1000}), InvalidInput);
   EXPECT_THROW(planner.plan({.max_spread = std::nan("")}), InvalidInput);

@@ -93,12 +93,42 @@ std::vector<double> checked_spreads(const Surface& surface, const SeamLimits& li
   return max_spreads;
 }
 
-/// Wires of a plan as wires to choose from. Throws InvalidInput where they are none of the surface.
+/// Throws InvalidInput where a wire is not one of the surface.
+void check_wire(const Surface& surface, const PlannedWire& wire, const std::string& name) {
+  const std::vector<std::int32_t>& chain = wire.vertices;
+  for (const std::int32_t v : chain) check_index(v, surface.vertex_count(), name + ": vertex");
+  if (chain.size() < 2 || chain.front() != wire.from || chain.back() != wire.to) {
+    throw InvalidInput(name + ": the edges of a wire do not lead from " + std::to_string(wire.from) + " to " +
+                       std::to_string(wire.to));
+  }
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    const auto [a, b] = std::minmax(chain[i - 1], chain[i]);
+    if (std::ranges::binary_search(surface.edges(), Edge{a, b})) continue;
+    throw InvalidInput(name + ": the surface has no edge between the vertices " + std::to_string(a) + " and " +
+                       std::to_string(b));
+  }
+  const auto check_place = [&](std::int32_t v, const Vector& point) {
+    if (is_same_place(surface, surface.points()[v], point)) return;
+    throw InvalidInput(name + ": a wire is of another surface: it does not pass vertex " + std::to_string(v));
+  };
+  if (wire.faces.empty() && wire.points.size() == chain.size()) {
+    for (std::size_t i = 0; i < chain.size(); ++i) check_place(chain[i], wire.points[i]);
+  } else {
+    check_curve(surface, wire.points, wire.faces, name + ": a wire is of another surface: ");
+    check_place(wire.from, wire.points.front());
+    check_place(wire.to, wire.points.back());
+  }
+  if (!(wire.worth > 0.0 && std::isfinite(wire.worth))) {
+    throw InvalidInput(name + ": the worth of a wire is " + text(wire.worth) + ", not a finite number above 0");
+  }
+}
+
+/// Wires of a plan as wires to choose from. Throws InvalidInput where they are not wires of the surface.
 std::vector<Choice> choices_of(const Surface& surface, std::span<const PlannedWire> wires, const std::string& name) {
   std::vector<Choice> choices;
   choices.reserve(wires.size());
   for (const PlannedWire& wire : wires) {
-    for (const std::int32_t v : wire.vertices) check_index(v, surface.vertex_count(), name + ": vertex");
+    check_wire(surface, wire, name);
     choices.push_back({.wire = wire, .strength = wire.worth});
   }
   return choices;

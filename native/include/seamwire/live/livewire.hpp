@@ -114,7 +114,7 @@ struct LiveEmbedding {
 /// be built, each member throws what the constructor of Surface threw.
 class LiveWire {
  public:
-  /// Throws InvalidInput for options that are not as said above and in metric.hpp.
+  /// Throws InvalidInput for options that are not as said above and in metric.hpp, and where there is no surface.
   explicit LiveWire(std::shared_ptr<const Surface> surface, const LiveWireOptions& options = {});
   /// Builds the surface on its own threads, from the arguments of Surface's constructor, and returns at once.
   LiveWire(std::vector<Vector> points, std::vector<Triangle> triangles,

@@ -96,7 +96,8 @@ class SeamPlanner {
   SeamPlanner with(const SeamPlannerOptions& options, const Task& task = {}) const;
   /// The wires that are needed for islands within limits; no wires where the surface is a disc within them. Throws
   /// InvalidInput for limits that are not as said above; Cancelled.
-  /// `kept`: wires of another plan of the same surface that this one has as well, whatever the limits.
+  /// `kept`: wires of another plan of the same surface that this one has as well, whatever the limits. Throws
+  /// InvalidInput for a wire whose edges or points are not those of the surface.
   SeamPlan plan(const SeamLimits& limits = {}, std::span<const PlannedWire> kept = {}, const Task& task = {}) const;
   /// The wires of a plan of the same surface and seams, straightened as the end of plan() does it: islands stay as many
   /// and as good within the limits. `fixed`: vertices; a seed there stays, and what meets there. Throws as plan() does.
