@@ -402,7 +402,8 @@ Embedding
 Raises
 ------
 ValueError
-    Where there are not as many as edges, one is not positive and finite, or a triangle fails the triangle inequality.)")
+    Where there are not as many as edges, one is not positive or above 1e76, all are below 1e-76, or a triangle fails the
+    triangle inequality.)")
       .def_property_readonly("source_face",
                              array_of<EmbeddingObject>([](const auto& e) -> auto& { return e.embedding.source_face; }),
                              "(t,) int32: the surface's triangle that each triangle lies in.")
@@ -509,7 +510,8 @@ Returns
 Raises
 ------
 ValueError
-    Where the point is not part of the surface, or the embedding has a hole there.
+    Where the point is not part of the surface, its face has no area, or the embedding has a hole there.
+Cancelled
 )");
 
   py::class_<FieldObject, Held<FieldObject>>(module, "DistanceField", "Distances from a seed to every vertex.")
@@ -796,6 +798,7 @@ Raises
 ------
 ValueError
     Where the wire is not on the surface.
+Cancelled
 )");
 }
 
@@ -948,11 +951,12 @@ LineGiven::LineGiven(py::handle points_given, py::handle faces_given, py::handle
 
 SurfacePoint EmbeddingObject::find(const SurfacePoint& point, const std::string& name) const {
   if (point.vertex >= 0) return point;
-  const std::optional<SurfacePoint> found = points().find(point, name);
-  if (!found) {
-    throw InvalidInput(name + ": face " + std::to_string(point.face) + " is a hole of the embedding there");
+  if (const std::optional<SurfacePoint> found = points().find(point, name)) return *found;
+  const std::string face = name + ": face " + std::to_string(point.face);
+  if (std::ranges::binary_search(embedding.hole_faces, point.face)) {
+    throw InvalidInput(face + " is a hole of the embedding there");
   }
-  return *found;
+  throw InvalidInput(face + " has no area, so the embedding leaves it out: name a vertex or another face");
 }
 
 std::shared_ptr<EmbeddingObject> EmbeddingObject::with_lengths(const std::vector<double>& lengths) const {

@@ -37,7 +37,7 @@ std::set<Edge> edges_of(const Chains& chains) {
   return edges;
 }
 
-/// Euler characteristics of the pieces of a manifold, oriented mesh that edges cut: the corners of the cut mesh are
+/// Euler characteristics of the pieces of a manifold mesh that edges cut: the corners of the cut mesh are
 /// glued one by one, and its vertices and edges counted.
 std::multiset<std::int64_t> euler_by_gluing(const std::vector<Triangle>& triangles, const std::set<Edge>& cuts) {
   DisjointSets corners(3 * triangles.size()), faces(triangles.size());

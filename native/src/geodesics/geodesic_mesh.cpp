@@ -22,6 +22,10 @@ constexpr double kFlatness = 1e-7;
 /// Lengths computed from coordinates may miss the triangle inequality by rounding where the corners are in line.
 constexpr double kRounding = 1e-12;
 
+/// Lengths above this are refused, and meshes whose longest edge is shorter than the inverse. The square of a
+/// triangle's area is a product of four lengths, which would overflow or underflow.
+constexpr double kLongest = 1e76;
+
 /// There is a hop over an edge if it is shorter than this part of the path along two edges.
 constexpr double kShortcut = 0.95;
 
@@ -49,8 +53,8 @@ void check_corners(const IntrinsicMesh& mesh, std::size_t f) {
 void check_half_edge(const IntrinsicMesh& mesh, std::int32_t h) {
   const auto where = [&] { return "half-edge " + text(h) + " of triangle " + text(h / 3); };
   const double length = mesh.lengths[h];
-  if (!(length > 0) || !std::isfinite(length)) {
-    throw InvalidInput(where() + ": its length must be positive and finite, not " + text(length));
+  if (!(length > 0 && length <= kLongest)) {
+    throw InvalidInput(where() + ": its length must be positive and at most 1e76, not " + text(length));
   }
   const std::int32_t twin = mesh.twins[h];
   if (twin == -1) return;
@@ -99,10 +103,14 @@ void check(const IntrinsicMesh& mesh, const Task& task) {
     const LooseEdge& edge = mesh.loose_edges[i];
     check_vertex(mesh, edge.a, "loose edge", i);
     check_vertex(mesh, edge.b, "loose edge", i);
-    if (!(edge.length >= 0) || !std::isfinite(edge.length)) {
-      throw InvalidInput("loose edge " + std::to_string(i) + ": its length must be finite and not negative, not " +
+    if (!(edge.length >= 0 && edge.length <= kLongest)) {
+      throw InvalidInput("loose edge " + std::to_string(i) + ": its length must be at least 0 and at most 1e76, not " +
                          text(edge.length));
     }
+  }
+  if (mesh.lengths.empty()) return;
+  if (const double longest = *std::ranges::max_element(mesh.lengths); longest < 1.0 / kLongest) {
+    throw InvalidInput("the longest edge must be at least 1e-76 long, not " + text(longest));
   }
 }
 

@@ -2,6 +2,7 @@
 #include "seamwire/seams/seam_planner.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -67,6 +68,12 @@ void check_options(const Surface& surface, const SeamPlannerOptions& options) {
   for (const std::int32_t v : options.seeds_at) check_index(v, count, "seeds_at: vertex");
   for (const std::int32_t v : options.images) {
     if (v != -1) check_index(v, count, "images: vertex");
+  }
+  for (std::int32_t v = 0; index(v) < options.images.size(); ++v) {
+    const std::int32_t image = options.images[v];
+    if (image == -1 || options.images[image] == v) continue;
+    throw InvalidInput("images: the image of vertex " + std::to_string(v) + " is " + std::to_string(image) +
+                       ", but the image of that is " + std::to_string(options.images[image]));
   }
   for (const Edge& edge : options.seams) {
     for (const std::int32_t v : edge) check_index(v, count, "seams: vertex");

@@ -24,8 +24,8 @@ struct SeamPlannerOptions {
   /// How many times denser seeds are at each vertex than elsewhere; empty: as dense everywhere. Where it is 0 there are
   /// those of `seeds_at` alone, and no wire comes there.
   std::vector<double> density = {};
-  /// The mirror image of each vertex, itself or -1 where it has none: seeds come and wires go in pairs. Empty: the
-  /// surface is not symmetric.
+  /// The mirror image of each vertex, itself or -1 where it has none: seeds come and wires go in pairs. The image of a
+  /// vertex' image is the vertex. Empty: the surface is not symmetric.
   std::vector<std::int32_t> images = {};
   /// Seams that are there already, and stay: vertex pairs; those that are no edges of two triangles cut nothing.
   std::vector<Edge> seams = {};
