@@ -8,7 +8,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from scene import add_grid, add_suzanne, edit, seams, snapshot
+from scene import add_grid, add_object, add_suzanne, edit, seams, snapshot
 from seamwire.core.suggestion import seeds_for, spread_of
 from seamwire.mesh import edit_mesh, seam_islands, unwrap, uv_map
 from seamwire.mesh.seam_islands import island_count as islands
