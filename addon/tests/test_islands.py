@@ -7,7 +7,7 @@ import time
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from seamwire.core.islands import CutCounter, IslandMaker, choose_hues, neighbours, places_of
+from seamwire.core.islands import IslandMaker, choose_hues, neighbours, places_of
 
 
 def strip(count: int) -> NDArray[np.int32]:
@@ -70,68 +70,16 @@ ANY = -1
 PLACES = np.array(places_of(12))
 
 
-def wrapped(columns: int, rows: int, closed: bool) -> NDArray[np.int32]:
-    """Return a tube of rows around, and a torus where it is closed; vertex row * columns + column."""
-    i, j = np.meshgrid(np.arange(columns), np.arange(rows if closed else rows - 1))
-    i, j = i.ravel(), j.ravel()
+def test_the_cuts_that_islands_need_are_counted_by_what_is_given_for_that() -> None:
+    def count(cuts: NDArray[np.int32], labels: NDArray[np.int32]) -> NDArray[np.int32]:
+        return 10 * len(cuts) + np.arange(labels.max() + 1, dtype=np.int32)
 
-    def at(di: int, dj: int) -> NDArray[np.int64]:
-        return (j + dj) % rows * columns + (i + di) % columns
-
-    quads = np.stack([at(0, 0), at(1, 0), at(1, 1), at(0, 1)], axis=1)
-    return np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]).astype(np.int32)
-
-
-def ring(columns: int, row: int) -> list[tuple[int, int]]:
-    return [(row * columns + i, row * columns + (i + 1) % columns) for i in range(columns)]
-
-
-def column(columns: int, rows: int, closed: bool) -> list[tuple[int, int]]:
-    return [(row * columns, (row + 1) % rows * columns) for row in range(rows if closed else rows - 1)]
-
-
-BALL = np.array(
-    [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)], dtype=np.int32
-)
-
-
-@pytest.mark.parametrize(
-    ("triangles", "cuts", "missing"),
-    [
-        (strip(4), [], 0),
-        (wrapped(6, 4, closed=False), [], 1),
-        (wrapped(6, 4, closed=False), column(6, 4, closed=False), 0),
-        (wrapped(6, 4, closed=False), column(6, 4, closed=False)[:2], 1),
-        (wrapped(6, 5, closed=True), [], 3),
-        (wrapped(6, 5, closed=True), ring(6, 2), 1),
-        (wrapped(6, 5, closed=True), [*ring(6, 2), *column(6, 5, closed=True)], 0),
-        (wrapped(6, 5, closed=True), ring(6, 2)[:1], 2),
-        (BALL, [], 1),
-        (BALL, [(0, 4)], 0),
-        (BALL, [(0, 4), (1, 5)], 1),
-    ],
-)
-def test_how_many_cuts_an_island_needs(triangles: NDArray[np.int32], cuts: list[tuple[int, int]], missing: int) -> None:
-    labels = np.zeros(len(triangles), dtype=np.int32)
-    wanted = np.array(cuts, dtype=np.int32).reshape(-1, 2)
-    assert CutCounter(triangles).missing(labels, wanted).tolist() == [missing]
-
-
-def test_each_island_is_told_by_itself_and_none_is_no_error() -> None:
-    tube, ball = wrapped(6, 4, closed=False), BALL + 24
-    triangles = np.concatenate([tube, ball, ball + 6])
-    labels = np.repeat([0, 1, 2], [len(tube), 8, 8]).astype(np.int32)
-    cuts = np.array([*ring(6, 1), (24, 28)], dtype=np.int32)
-    upper = (tube >= 6).all(axis=1)
-    labels[: len(tube)] = np.where(upper, 0, 3)
-    assert CutCounter(triangles).missing(labels, cuts).tolist() == [1, 0, 1, 1]
-    assert CutCounter(triangles[:0]).missing(labels[:0], cuts).tolist() == []
-
-
-def test_where_islands_meet_in_a_vertex_alone_it_is_inside_one_and_at_the_border_of_the_other() -> None:
-    sheet = np.array([(0, 6, 7)], dtype=np.int32)  # at a vertex of the ball
-    triangles, labels = np.concatenate([BALL, sheet]), np.repeat([0, 1], [8, 1]).astype(np.int32)
-    assert CutCounter(triangles).missing(labels, np.empty((0, 2), dtype=np.int32)).tolist() == [1, 0]
+    maker = IslandMaker(strip(30), labelled(30), count=count)
+    maker.want("a", cut_at(30, 4, 11))
+    assert maker.newest.missing.tolist() == [20, 21, 22]
+    maker = IslandMaker(strip(30), labelled(30))
+    maker.want("a", cut_at(30, 4, 11))
+    assert maker.newest.missing.tolist() == [0, 0, 0]
 
 
 def gaps(hues: NDArray[np.uint8], pairs: NDArray[np.int32]) -> NDArray[np.int64]:

@@ -13,6 +13,7 @@ from seamwire.core.suggestion import (
     best_finish,
     bordering_seeds,
     is_parted,
+    mutual,
     narrowed,
     planned_wires,
     seeds_for,
@@ -23,6 +24,10 @@ from seamwire.core.suggestion import (
 CUBE = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], dtype=np.float64)
 SIDES = np.array([(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)])
 TRIANGLES = SIDES[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3).astype(np.int32)
+
+
+def test_images_whose_image_is_another_vertex_are_none() -> None:
+    assert mutual(np.array([1, 0, 2, 4, 5, 4, -1])).tolist() == [1, 0, 2, -1, 5, 4, -1]
 
 
 def cube_of_quads() -> sw.Surface:

@@ -8,7 +8,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from scene import add_grid, add_suzanne, edit, seams, snapshot
+from scene import add_grid, add_object, add_suzanne, edit, seams, snapshot
 from seamwire.core.suggestion import seeds_for, spread_of
 from seamwire.mesh import edit_mesh, seam_islands, unwrap, uv_map
 from seamwire.mesh.seam_islands import island_count as islands
@@ -67,6 +67,36 @@ def test_islands_are_discs_and_seams_are_wires(suzanne: bpy.types.Object) -> Non
     assert agree(suzanne)
     assert len(chains(suzanne)) > 10
     assert snapshot(suzanne, with_seams=False) == before
+
+
+def add_moebius(count: int = 24) -> bpy.types.Object:
+    """Add a band of quads that is closed after half a turn."""
+    points = []
+    for i in range(count):
+        angle = 2.0 * math.pi * i / count
+        for across in (-0.3, 0.3):
+            ring = 1.0 + across * math.cos(angle / 2)
+            points.append((ring * math.cos(angle), ring * math.sin(angle), across * math.sin(angle / 2)))
+    faces = [(2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1) for i in range(count - 1)]
+    return add_object(points, [*faces, (2 * count - 2, 1, 0, 2 * count - 1)], name="Moebius")
+
+
+def test_a_band_that_is_closed_after_half_a_turn_is_cut() -> None:
+    obj = add_moebius()
+    edit()
+    assert open_islands(obj) == 1
+    assert bpy.ops.mesh.seamwire_suggest(limit="DISCS") == {"FINISHED"}
+    assert open_islands(obj) == 0
+    assert seams(obj)
+
+
+def test_the_report_tells_of_the_islands_that_the_mesh_has(
+    suzanne: bpy.types.Object, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert seam_islands.missing_cuts(suzanne).tolist() == [1, 0, 0]  # the head is a tube
+    monkeypatch.setattr(Suggestion, "write", lambda _: None)  # as if a cut through faces had failed to part them
+    assert bpy.ops.mesh.seamwire_suggest() == {"FINISHED"}
+    assert "3 islands, 1 of them no disc, 1 more cut needed" in capfd.readouterr().out
 
 
 def test_a_suggested_wire_can_be_dropped(suzanne: bpy.types.Object) -> None:

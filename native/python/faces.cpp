@@ -7,6 +7,7 @@
 
 #include "arrays.hpp"
 #include "objects.hpp"
+#include "seamwire/seams/missing_cuts.hpp"
 #include "seamwire/surface/segments.hpp"
 #include "seamwire/surface/triangulate.hpp"
 #include "watch.hpp"
@@ -37,6 +38,37 @@ Raises
 ------
 ValueError
     Where a vertex is out of range.
+)");
+  module.def(
+      "missing_cuts",
+      [](const SurfaceObject& surface, const py::object& cut_edges, const py::object& segments) {
+        const std::vector<Edge> cuts = edges_from(cut_edges, "cut_edges");
+        const std::vector<std::int32_t> numbers = numbers_from(segments, "segments");
+        return handed_over(without_gil([&] { return missing_cuts(*surface.surface, cuts, numbers); }));
+      },
+      py::arg("surface"), py::arg("cut_edges"), py::arg("segments"),
+      R"(How many more cuts each segment needs to become a disc.
+
+Each cut leads from border to border. A segment without a border, like a ball, needs another cut first to get one. Edges
+with three or more triangles are borders.
+
+Parameters
+----------
+surface : Surface
+cut_edges : (k, 2) array_like of int
+    Vertex pairs, as for `face_segments`.
+segments : (m,) array_like of int
+    The segment of each triangle, as `face_segments` returns it.
+
+Returns
+-------
+(count,) int32
+    0 for a disc, 1 for a tube, a Moebius strip or a closed ball, 2 for a disc with a handle, 3 for a torus.
+
+Raises
+------
+ValueError
+    Where a vertex is out of range, or the segments are of another surface or of other cuts.
 )");
   module.def(
       "cut_polygons",

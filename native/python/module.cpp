@@ -402,7 +402,8 @@ Embedding
 Raises
 ------
 ValueError
-    Where there are not as many as edges, one is not positive and finite, or a triangle fails the triangle inequality.)")
+    Where there are not as many as edges, one is not positive or above 1e76, all are below 1e-76, or a triangle fails the
+    triangle inequality.)")
       .def_property_readonly("source_face",
                              array_of<EmbeddingObject>([](const auto& e) -> auto& { return e.embedding.source_face; }),
                              "(t,) int32: the surface's triangle that each triangle lies in.")
@@ -482,22 +483,24 @@ ValueError
   py::class_<BentObject, Held<BentObject>>(module, "BentWires", "A closed cut that can be bent to a second point.")
       .def(
           "through",
-          [](const BentObject& object, const py::object& second) -> py::object {
+          [](const BentObject& object, const py::object& second, const py::object& progress) -> py::object {
             const EmbeddingObject& on = *object.embedding;
             const SurfacePoint place =
                 place_from(second, on.surface->vertex_count(), on.surface->face_count(), "second");
-            std::optional<BentWire> bent = Watch(py::none()).run([&](const Task& task) {
-              return object.bent.through(on.find(place, "second"), task);
-            });
+            std::optional<BentWire> bent = Watch(progress).run(
+                [&](const Task& task) { return object.bent.through(on.find(place, "second"), task); });
             if (!bent) return py::none();
             return py::make_tuple(std::move(bent->there), std::move(bent->back));
           },
-          py::arg("second"), R"(The shortest closed wire through both points that lies around what the cut lies around.
+          py::arg("second"), py::arg("progress") = py::none(),
+          R"(The shortest closed wire through both points that lies around what the cut lies around.
 
 Parameters
 ----------
 second : int or (int, (3,) array_like)
     A vertex, or a point by a face and three barycentric coordinates.
+progress : callable, optional
+    Called now and then, with 0; returning False cancels.
 
 Returns
 -------
@@ -507,7 +510,8 @@ Returns
 Raises
 ------
 ValueError
-    Where the point is not part of the surface, or the embedding has a hole there.
+    Where the point is not part of the surface, its face has no area, or the embedding has a hole there.
+Cancelled
 )");
 
   py::class_<FieldObject, Held<FieldObject>>(module, "DistanceField", "Distances from a seed to every vertex.")
@@ -528,14 +532,19 @@ ValueError
           "(n,) float64 at the surface's vertices, in the metric; inf where no path leads.")
       .def(
           "trace",
-          [](const FieldObject& object, const py::object& vertex) {
+          [](const FieldObject& object, const py::object& vertex, const py::object& progress) {
             const EmbeddingObject& on = *object.embedding;
             const std::int32_t target = vertex_from(vertex, on.surface->vertex_count(), "vertex");
-            return Watch(py::none()).run([&](const Task& task) {
-              return trace_wire(*on.surface, on.embedding, object.field, target, task);
-            });
+            return Watch(progress).run(
+                [&](const Task& task) { return trace_wire(*on.surface, on.embedding, object.field, target, task); });
           },
-          py::arg("vertex"), R"(The shortest path from the seed to a vertex.
+          py::arg("vertex"), py::arg("progress") = py::none(), R"(The shortest path from the seed to a vertex.
+
+Parameters
+----------
+vertex : int
+progress : callable, optional
+    Called now and then, with 0; returning False cancels.
 
 Returns
 -------
@@ -546,17 +555,19 @@ Raises
 ------
 ValueError
     Where the vertex is out of range.
+Cancelled
 )")
       .def(
           "distance",
-          [](const FieldObject& object, const py::object& face, const py::object& barycentric) {
+          [](const FieldObject& object, const py::object& face, const py::object& barycentric,
+             const py::object& progress) {
             const EmbeddingObject& on = *object.embedding;
             const SurfacePoint point = face_point_from(face, barycentric, on.surface->face_count(), "point");
-            return Watch(py::none()).run([&](const Task& task) {
-              return object.field.distance(on.find(point, "point"), task);
-            });
+            return Watch(progress).run(
+                [&](const Task& task) { return object.field.distance(on.find(point, "point"), task); });
           },
-          py::arg("face"), py::arg("barycentric"), R"(The distance of any point of a face.
+          py::arg("face"), py::arg("barycentric"), py::arg("progress") = py::none(),
+          R"(The distance of any point of a face.
 
 Exact where the field is, not interpolated from the vertices.
 
@@ -567,6 +578,8 @@ face : int
 barycentric : (3,) array_like
     One coordinate for each of its corners: none below 0, their sum 1. One that is exactly 0: a point on the edge
     opposite to that corner.
+progress : callable, optional
+    Called now and then, with 0; returning False cancels.
 
 Returns
 -------
@@ -576,18 +589,21 @@ float
 Raises
 ------
 ValueError
-    Where the face is out of range, the coordinates are none, or the embedding has a hole there.
+    Where the face is out of range or has no area, the coordinates are none, or the embedding has a hole there.
+Cancelled
 )")
       .def(
           "trace_to",
-          [](const FieldObject& object, const py::object& face, const py::object& barycentric) {
+          [](const FieldObject& object, const py::object& face, const py::object& barycentric,
+             const py::object& progress) {
             const EmbeddingObject& on = *object.embedding;
             const SurfacePoint point = face_point_from(face, barycentric, on.surface->face_count(), "point");
-            return Watch(py::none()).run([&](const Task& task) {
+            return Watch(progress).run([&](const Task& task) {
               return trace_wire(*on.surface, on.embedding, object.field, on.find(point, "point"), task);
             });
           },
-          py::arg("face"), py::arg("barycentric"), R"(The shortest path from the nearest seed to any point of a face.
+          py::arg("face"), py::arg("barycentric"), py::arg("progress") = py::none(),
+          R"(The shortest path from the nearest seed to any point of a face.
 
 Parameters, what it returns and raises: as distance() and trace(). An end that is no vertex has the number -1.
 )")
@@ -653,7 +669,7 @@ BentWires
 Raises
 ------
 ValueError
-    Where the cut is of another field, as far as its size tells.
+    Where the cut does not lead through the seed of the field.
 Cancelled
 )")
       .def("__repr__", [](const FieldObject& f) {
@@ -754,16 +770,24 @@ Cancelled
 )");
   module.def(
       "snap_to_edges",
-      [](const SurfaceObject& surface, const Wire& wire) {
-        return handed_over(Watch(py::none()).run([&](const Task& task) {
+      [](const SurfaceObject& surface, const Wire& wire, const py::object& progress) {
+        return handed_over(Watch(progress).run([&](const Task& task) {
           return snap_to_edges(*surface.surface, surface.snap_graph(beginning(task)), wire, task);
         }));
       },
-      py::arg("surface"), py::arg("wire"),
+      py::arg("surface"), py::arg("wire"), py::arg("progress") = py::none(),
       R"(The path of real edges that stays closest to a wire, from its start to its end.
 
 Of the paths along edges of the faces that the wire crosses and of their neighbors, the one with the least integral of
 its distance to the wire.
+
+Parameters
+----------
+surface : Surface
+wire : Wire
+    On that surface.
+progress : callable, optional
+    Called now and then with the fraction done; returning False cancels.
 
 Returns
 -------
@@ -774,6 +798,7 @@ Raises
 ------
 ValueError
     Where the wire is not on the surface.
+Cancelled
 )");
 }
 
@@ -926,11 +951,12 @@ LineGiven::LineGiven(py::handle points_given, py::handle faces_given, py::handle
 
 SurfacePoint EmbeddingObject::find(const SurfacePoint& point, const std::string& name) const {
   if (point.vertex >= 0) return point;
-  const std::optional<SurfacePoint> found = points().find(point, name);
-  if (!found) {
-    throw InvalidInput(name + ": face " + std::to_string(point.face) + " is a hole of the embedding there");
+  if (const std::optional<SurfacePoint> found = points().find(point, name)) return *found;
+  const std::string face = name + ": face " + std::to_string(point.face);
+  if (std::ranges::binary_search(embedding.hole_faces, point.face)) {
+    throw InvalidInput(face + " is a hole of the embedding there");
   }
-  return *found;
+  throw InvalidInput(face + " has no area, so the embedding leaves it out: name a vertex or another face");
 }
 
 std::shared_ptr<EmbeddingObject> EmbeddingObject::with_lengths(const std::vector<double>& lengths) const {

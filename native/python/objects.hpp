@@ -169,7 +169,7 @@ Along along_from(const std::string& name);
 void bind_scribble(py::module_& module);
 /// Adds LiveWire and what it answers with.
 void bind_live_wire(py::module_& module);
-/// Adds face_segments and cut_polygons.
+/// Adds face_segments, missing_cuts and cut_polygons.
 void bind_faces(py::module_& module);
 /// Adds RayTree.
 void bind_rays(py::module_& module);

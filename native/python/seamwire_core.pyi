@@ -129,7 +129,9 @@ class ClosedWire:
     turn: float  # at the seed, radians: 0 where it runs smoothly through it
 
 class BentWires:
-    def through(self, second: int | tuple[int, ArrayLike]) -> tuple[Wire, Wire] | None:
+    def through(
+        self, second: int | tuple[int, ArrayLike], progress: Progress | None = None
+    ) -> tuple[Wire, Wire] | None:
         """Return the cut through a second point as well, from the seed there and back; None where none leads there."""
 
 class DistanceField:
@@ -137,12 +139,14 @@ class DistanceField:
     is_exact: bool
     radius: float  # distances beyond it are inf
     distances: NDArray[np.float64]  # (n,) at the caller's vertices
-    def trace(self, vertex: int) -> Wire: ...
-    def trace_many(self, vertices: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.float64]]:
+    def trace(self, vertex: int, progress: Progress | None = None) -> Wire: ...
+    def trace_many(
+        self, vertices: ArrayLike, progress: Progress | None = None
+    ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.float64]]:
         """Return the points of all paths, (p, 3), where each begins, (k + 1,), and their lengths, (k,)."""
-    def distance(self, face: int, barycentric: ArrayLike) -> float:
+    def distance(self, face: int, barycentric: ArrayLike, progress: Progress | None = None) -> float:
         """Return the exact distance of a point of a face; barycentric is (3,), 0 or more, its sum 1."""
-    def trace_to(self, face: int, barycentric: ArrayLike) -> Wire:
+    def trace_to(self, face: int, barycentric: ArrayLike, progress: Progress | None = None) -> Wire:
         """Return the shortest path to such a point."""
     def closed_wires(self, count: int = 3, progress: Progress | None = None) -> list[ClosedWire]:
         """Return the closed cuts through the seed that the surface suggests, at most `count`, best first; empty: none."""
@@ -386,7 +390,7 @@ def plane_section(
 ) -> tuple[NDArray[np.float64], NDArray[np.int32], float]:
     """Return the curve (p, 3) in the plane through two points and along a direction, the triangles it crosses, its length."""
 
-def snap_to_edges(surface: Surface, wire: Wire) -> NDArray[np.int32]: ...
+def snap_to_edges(surface: Surface, wire: Wire, progress: Progress | None = None) -> NDArray[np.int32]: ...
 def edge_wires(
     surface: Surface,
     metric: Metric,
@@ -428,6 +432,9 @@ def cut_polygons(
 
 def face_segments(surface: Surface, cut_edges: ArrayLike) -> NDArray[np.int32]:
     """Return a segment number per triangle, 0 the one of the most triangles."""
+
+def missing_cuts(surface: Surface, cut_edges: ArrayLike, segments: ArrayLike) -> NDArray[np.int32]:
+    """Return how many more cuts each segment needs to become a disc."""
 
 class PlannedWire:
     """One wire of a plan: the vertices between which it runs, its metric, the edges that it marks, and its curve, (p, 3)."""

@@ -130,13 +130,13 @@ py::tuple plane_section_of(const SurfaceObject& surface, const py::object& from,
                         handed_over(std::move(section.faces)), section.length);
 }
 
-py::tuple trace_many(const FieldObject& object, const py::object& vertices) {
+py::tuple trace_many(const FieldObject& object, const py::object& vertices, const py::object& progress) {
   const EmbeddingObject& on = *object.embedding;
   const std::vector<std::int32_t> targets = numbers_from(vertices, "vertices");
   std::vector<Vector> points;
   std::vector<std::int32_t> starts{0};
   std::vector<double> lengths;
-  Watch(py::none()).run([&](const Task& task) {
+  Watch(progress).run([&](const Task& task) {
     for (std::size_t i = 0; i < targets.size(); ++i) {
       task.check(static_cast<double>(i) / static_cast<double>(targets.size()));
       const Wire wire = trace_wire(*on.surface, on.embedding, object.field, targets[i], task);
@@ -272,12 +272,14 @@ ValueError
 )");
   module.attr("DistanceField")
       .cast<py::class_<FieldObject, Held<FieldObject>>>()
-      .def("trace_many", &trace_many, py::arg("vertices"),
+      .def("trace_many", &trace_many, py::arg("vertices"), py::arg("progress") = py::none(),
            R"(The shortest paths from the seed to several vertices (Figure 1).
 
 Parameters
 ----------
 vertices : (k,) array_like of int
+progress : callable, optional
+    Called now and then with the fraction done; returning False cancels.
 
 Returns
 -------
@@ -292,6 +294,7 @@ Raises
 ------
 ValueError
     Where a vertex is out of range.
+Cancelled
 )");
 }
 

@@ -162,6 +162,14 @@ TEST(BentWires, WhatIsOfSomethingElseIsRefused) {
   EXPECT_THROW(BentWires(cut.surface, cut.embedding, cut.geodesics, cut.field, ClosedWire{}), InvalidInput);
   const DistanceField two = cut.geodesics.solve(std::vector{SurfacePoint::at_vertex(0), SurfacePoint::at_vertex(5)});
   EXPECT_THROW(BentWires(cut.surface, cut.embedding, cut.geodesics, two, cut.cuts[0]), InvalidInput);
+  const Cut beside(shapes::cylinder(kAround, 30), kAround * 16), finer(shapes::cylinder(kAround, 31), kAround * 15);
+  EXPECT_THROW(BentWires(cut.surface, cut.embedding, cut.geodesics, cut.field, beside.cuts[0]), InvalidInput);
+  EXPECT_THROW(BentWires(cut.surface, cut.embedding, cut.geodesics, cut.field, finer.cuts[0]), InvalidInput);
+  EXPECT_THROW(BentWires(cut.surface, cut.embedding, finer.geodesics, cut.field, cut.cuts[0]), InvalidInput);
+  EXPECT_THROW(BentWires(cut.surface, cut.embedding, cut.geodesics, finer.field, cut.cuts[0]), InvalidInput);
+  EXPECT_THROW(BentWires(cut.surface, finer.embedding, finer.geodesics, finer.field, finer.cuts[0]), InvalidInput);
+  EXPECT_THROW(closed_wires(cut.surface, finer.embedding, finer.field), InvalidInput);
+  EXPECT_THROW(closed_wires(cut.surface, cut.embedding, finer.field), InvalidInput);
   EXPECT_THROW(cut.bent().through(SurfacePoint::at_vertex(100'000)), InvalidInput);
   EXPECT_THROW(cut.bent().through({.face = 100'000, .barycentric = {1, 0, 0}}), InvalidInput);
   const BentWires bent = cut.bent();

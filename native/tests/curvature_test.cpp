@@ -340,6 +340,20 @@ TEST(SmoothedCurvatures, AreSoundOnWhateverThereIs) {
   }
 }
 
+TEST(SmoothedCurvatures, AreThoseOfTheUnitCubeAtAnyScale) {
+  const Mesh mesh = shapes::bumpy(shapes::icosphere(2), 0.1);
+  const auto smoothed = [](const Mesh& of) {
+    const Surface surface = of.surface();
+    return smoothed_curvatures(surface, principal_curvatures(surface), 0.1).k1;
+  };
+  const std::vector<double> expected = smoothed(mesh);
+  for (const int exponent : {-490, -300, 300, 490}) {
+    const Mesh scaled = transformed(mesh, Eigen::Affine3d(Eigen::Scaling(std::ldexp(1.0, exponent))));
+    const std::vector<double> found = smoothed(scaled);
+    for (std::size_t v = 0; v < found.size(); ++v) ASSERT_NEAR(found[v], expected[v], 1e-9) << exponent;
+  }
+}
+
 TEST(SmoothedCurvatures, RefuseWhatIsNoRadiusAndCurvaturesOfAnotherSurface) {
   const Surface surface = shapes::grid(3).surface();
   const Curvature curvature = principal_curvatures(surface);

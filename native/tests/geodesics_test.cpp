@@ -530,6 +530,19 @@ void expect_invalid(const IntrinsicMesh& mesh, const std::string& part_of_messag
   }
 }
 
+TEST(Geodesics, LengthsMayBeInAnyUnit) {
+  const IntrinsicMesh mesh = intrinsic(shapes::bumpy(shapes::grid(6), 0.05));
+  const SurfacePoint point{.face = 11, .barycentric = {0.2, 0.3, 0.5}};
+  const DistanceField expected = ExactGeodesics(mesh).solve(0);
+  for (const int exponent : {-250, 250}) {  // about 1e-75 and 1e75
+    IntrinsicMesh scaled = mesh;
+    for (double& length : scaled.lengths) length = std::ldexp(length, exponent);
+    const DistanceField field = ExactGeodesics(scaled).solve(0);
+    EXPECT_DOUBLE_EQ(std::ldexp(field.distance(point), -exponent), expected.distance(point));
+    EXPECT_DOUBLE_EQ(std::ldexp(field.distances().back(), -exponent), expected.distances().back());
+  }
+}
+
 TEST(Geodesics, WrongInputIsNamed) {
   const IntrinsicMesh good = intrinsic(shapes::grid(3));
   IntrinsicMesh bad = good;
@@ -560,6 +573,14 @@ TEST(Geodesics, WrongInputIsNamed) {
   expect_invalid(bad, "loose edge 1");
   bad.loose_edges = {{0, -4, 1.0}};
   expect_invalid(bad, "vertex -4");
+  for (const double factor : {1e200, 1e100, 1e-100, 1e-200}) {
+    bad = good;
+    for (double& length : bad.lengths) length *= factor;
+    expect_invalid(bad, factor > 1.0 ? "at most 1e76" : "at least 1e-76");
+  }
+  bad = good;
+  bad.loose_edges = {{0, 1, 1e200}};
+  expect_invalid(bad, "loose edge 0");
 
   const ExactGeodesics geodesics(good);
   EXPECT_THROW(geodesics.solve(-1), InvalidInput);

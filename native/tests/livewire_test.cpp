@@ -634,6 +634,30 @@ TEST(LiveWire, OfConcaveCreasesTheFirstWireLeadsAndTheSecondIsTheShortestPath) {
   EXPECT_EQ(fresh_wires(surface, strong, {7}, {333}).active, 0);
 }
 
+TEST(LiveWire, OfTheEuclideanMetricThereIsOneWire) {
+  const auto surface = shared(shapes::torus(24, 16));
+  for (const Along along : {Along::kSurface, Along::kEdges}) {
+    LiveWire live(surface, {.along = along, .family = MetricFamily::kEuclidean});
+    live.seed({0});
+    ASSERT_TRUE(live.wait());
+    const LiveWires found = live.wires({100});
+    ASSERT_EQ(found.wires.size(), 1U);
+    EXPECT_TRUE(found.final() && found.settled);
+    EXPECT_EQ(found.active, 0);
+    EXPECT_EQ(live.embeddings().size(), 1U);
+    EXPECT_EQ(live.progress(), 1.0);
+    if (along == Along::kEdges) {
+      live.loop({0, 1});
+      ASSERT_TRUE(live.wait());
+      EXPECT_FALSE(live.loop({0, 1}).vertices.empty());
+    }
+    live.set_metric(MetricFamily::kFeature, {.max_anisotropy = 10.0});
+    ASSERT_TRUE(live.wait());
+    EXPECT_GT(live.wires({100}).wires.size(), 1U);
+  }
+  EXPECT_THROW(LiveWire(std::shared_ptr<const Surface>()), InvalidInput);
+}
+
 TEST(LiveWire, WhileTheMetricChangesTheWiresAreTheFormerOnesAndNotFinal) {
   const auto surface = shared(shapes::torus(160, 120));
   LiveWire live(surface);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <random>
 #include <set>
 #include <stop_token>
@@ -36,7 +37,7 @@ std::set<Edge> edges_of(const Chains& chains) {
   return edges;
 }
 
-/// Euler characteristics of the pieces of a manifold, oriented mesh that edges cut: the corners of the cut mesh are
+/// Euler characteristics of the pieces of a manifold mesh that edges cut: the corners of the cut mesh are
 /// glued one by one, and its vertices and edges counted.
 std::multiset<std::int64_t> euler_by_gluing(const std::vector<Triangle>& triangles, const std::set<Edge>& cuts) {
   DisjointSets corners(3 * triangles.size()), faces(triangles.size());
@@ -48,8 +49,10 @@ std::multiset<std::int64_t> euler_by_gluing(const std::vector<Triangle>& triangl
   const auto next = [](std::int32_t h) { return h % 3 == 2 ? h - 2 : h + 1; };
   for (const auto& [edge, both] : sides) {
     if (both.size() < 2 || cuts.contains(edge)) continue;
-    corners.join(both[0], next(both[1]));
-    corners.join(next(both[0]), both[1]);
+    const auto vertex = [&](std::int32_t h) { return triangles[h / 3][h % 3]; };
+    const bool agree = vertex(both[0]) != vertex(both[1]);  // on a side
+    corners.join(both[0], agree ? next(both[1]) : both[1]);
+    corners.join(next(both[0]), agree ? both[1] : next(both[1]));
     faces.join(both[0] / 3, both[1] / 3);
   }
   std::map<std::int32_t, std::int64_t> euler;
@@ -102,6 +105,20 @@ std::vector<double> spreads(const Surface& surface, const std::vector<std::int32
   std::vector<double> out;
   for (const auto& [island, sum] : sums) out.push_back(1.0 - sum.second.norm() / sum.first);
   return out;
+}
+
+/// A torus whose tube is turned over before it is closed.
+Surface klein_bottle(int nu, int nv) {
+  shapes::Mesh mesh = shapes::torus(nu, nv);
+  const auto turned = [&](std::int32_t v) { return (nv - v / nu) % nv * nu + v % nu; };
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    Triangle& t = mesh.triangles[f];
+    const bool is_last = f / 2 % static_cast<std::size_t>(nu) == static_cast<std::size_t>(nu) - 1;
+    for (std::int32_t& v : t) {
+      if (is_last && v % nu == 0) v = turned(v);
+    }
+  }
+  return mesh.surface();
 }
 
 TEST(SeamPlanner, CutsIntoDiscs) {
@@ -538,6 +555,29 @@ TEST(SeamPlanner, ComponentsAndWhatIsOddAreCutToo) {
   EXPECT_EQ(plan.islands.size(), mesh.triangles.size());
 }
 
+TEST(SeamPlanner, OneSidedSurfacesAreCutToo) {
+  for (const Along along : {Along::kEdges, Along::kSurface}) {
+    for (const auto& surface : {shared(shapes::moebius(40).surface()), shared(klein_bottle(20, 12))}) {
+      const SeamPlan plan = SeamPlanner(surface, {.along = along}).plan({.max_spread = 2.0});
+      expect_discs(*surface, plan);
+      EXPECT_FALSE(plan.wires.empty());
+    }
+  }
+}
+
+TEST(SeamPlanner, ThePlanDoesNotDependOnTheModelsSize) {
+  const shapes::Mesh torus = shapes::torus(24, 16);
+  const auto islands = [&](double size) {
+    shapes::Mesh mesh = torus;
+    for (Vector& p : mesh.points) p *= size;
+    const SeamPlanner planner(shared(mesh.surface()), along_edges());
+    return std::pair(planner.plan({.max_spread = 0.1}).islands, planner.plan({.max_spread = 0.5}).islands);
+  };
+  const auto expected = islands(1.0);
+  EXPECT_NE(expected.first, expected.second);
+  for (const double size : {0x1p-450, 0x1p-300, 0x1p300, 0x1p450}) EXPECT_EQ(islands(size), expected) << size;
+}
+
 TEST(SeamPlanner, IsCancelled) {
   const auto sphere = shared(shapes::icosphere(4).surface());
   std::size_t calls = 0;
@@ -569,6 +609,32 @@ TEST(SeamPlanner, RefusesWhatMakesNoSense) {
   kept[0].vertices = {0, 1000};
   EXPECT_THROW(planner.plan({}, kept), InvalidInput);
   EXPECT_THROW(planner.straightened(kept), InvalidInput);
+  const shapes::Mesh same = shapes::icosphere(2);
+  shapes::Mesh larger = same;
+  for (Vector& p : larger.points) p *= 2.0;
+  for (const Along along : {Along::kEdges, Along::kSurface}) {
+    const SeamPlanner own(shared(same.surface()), {.along = along}), other(shared(larger.surface()), {.along = along});
+    const SeamPlan plan = own.plan({.max_spread = 0.2});
+    ASSERT_FALSE(plan.wires.empty());
+    EXPECT_NO_THROW(own.plan({}, plan.wires));
+    for (const SeamPlanner* another : {&planner, &other}) {
+      EXPECT_THROW(another->plan({}, plan.wires), InvalidInput);
+      EXPECT_THROW(another->straightened(plan.wires, {.may_start_on_others = false}), InvalidInput);
+    }
+    for (const auto& spoil : std::vector<void (*)(PlannedWire&)>{
+             [](PlannedWire& w) { w.vertices.clear(); }, [](PlannedWire& w) { w.from = w.to; },
+             [](PlannedWire& w) { w.vertices.insert(w.vertices.begin() + 1, w.vertices[0]); },
+             [](PlannedWire& w) { w.points.pop_back(); }, [](PlannedWire& w) { w.worth = 0.0; },
+             [](PlannedWire& w) { w.faces.push_back(1000); }, [](PlannedWire& w) { w.points[0].x() = NAN; }}) {
+      std::vector<PlannedWire> wrong = plan.wires;
+      spoil(wrong[0]);
+      EXPECT_THROW(own.plan({}, wrong), InvalidInput);
+      EXPECT_THROW(own.straightened(wrong), InvalidInput);
+    }
+  }
+  std::vector<std::int32_t> around(sphere->vertex_count());
+  for (std::size_t v = 0; v < around.size(); ++v) around[v] = static_cast<std::int32_t>((v + 1) % around.size());
+  EXPECT_THROW(SeamPlanner(sphere, {.images = around}), InvalidInput) << "three images lead elsewhere than one";
   EXPECT_THROW(planner.straightened({}, {.crumb = 2.0}), InvalidInput);
   EXPECT_THROW(planner.straightened({}, {}, std::vector<std::int32_t>{1000}), InvalidInput);
   EXPECT_THROW(planner.plan({.max_spread = std::nan("")}), InvalidInput);
@@ -597,7 +663,7 @@ Chains random_chains(const Surface& surface, std::size_t count, std::mt19937& ra
 TEST(CutPieces, TakingChainsAwayIsAsCuttingWithoutThem) {
   std::mt19937 random(1);
   const std::array surfaces = {shapes::torus(10, 8).surface(), shapes::icosphere(2).surface(),
-                               shapes::grid(8).surface()};
+                               shapes::grid(8).surface(), klein_bottle(10, 8), shapes::moebius(12).surface()};
   for (int round = 0; round < 60; ++round) {
     const Surface& surface = surfaces[round % surfaces.size()];
     const std::vector<double> limits(surface.face_count(), 0.5);
@@ -630,8 +696,35 @@ TEST(CutPieces, TakingChainsAwayIsAsCuttingWithoutThem) {
       found.clear();
       for (const Piece& piece : pieces.pieces()) found.insert(piece.euler);
       ASSERT_EQ(found, wanted);
+      const auto sums = [](const CutPieces& of) {
+        std::vector<std::pair<std::int64_t, double>> all;
+        for (const Piece& piece : of.pieces()) all.emplace_back(piece.border, piece.is_disc() ? piece.spread() : 0.0);
+        std::ranges::sort(all);
+        return all;
+      };
+      const auto one = sums(pieces), other = sums(anew);
+      for (std::size_t p = 0; p < one.size(); ++p) {
+        ASSERT_EQ(one[p].first, other[p].first);
+        ASSERT_NEAR(one[p].second, other[p].second, 1e-9) << "normals of a disc do not depend on how it came about";
+      }
     }
   }
+}
+
+TEST(CutPieces, NormalsOfADiscOfAOneSidedSurfaceAllFaceTheSameSide) {
+  // Cut across opposite to the edge where its faces do not agree: half of the faces have to be turned over.
+  const Surface strip = shapes::moebius(40).surface();
+  const CutPieces pieces(strip, std::vector<std::vector<std::int32_t>>{{40, 41}},
+                         std::vector<double>(strip.face_count(), 1.0));
+  ASSERT_EQ(pieces.pieces().size(), 1U);
+  ASSERT_TRUE(pieces.pieces()[0].is_disc());
+  // Carried along the strip, the normal at t is (sin(t/2) cos t, sin(t/2) sin t, -cos(t/2)), t from pi to 3 pi.
+  Vector sum = Vector::Zero();
+  for (int i = 0; i < 4000; ++i) {
+    const double t = std::numbers::pi * (1.0 + 2.0 * (i + 0.5) / 4000);
+    sum += Vector(std::sin(t / 2) * std::cos(t), std::sin(t / 2) * std::sin(t), -std::cos(t / 2)) / 4000;
+  }
+  EXPECT_NEAR(pieces.pieces()[0].spread(), 1.0 - sum.norm(), 0.03);  // its width is a fifth of its radius
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -205,6 +206,51 @@ TEST(SurfacePoints, NextToAVertexIsAsGoodAsAtIt) {
           const SurfacePoint far = at(static_cast<std::int32_t>(mesh.face_count()) / 2, 0.3, 0.3, 0.4);
           EXPECT_NEAR(field.distance(far), expected.distance(far), kTolerance);
           EXPECT_NEAR(geodesics.solve(std::array{far}).trace(beside).length, expected.distance(far), kTolerance);
+        }
+      }
+    }
+  }
+}
+
+TEST(SurfacePoints, OnASpikeTheyTakeNoLongerThanElsewhere) {
+  for (const double width : {1e-3, 1e-6, 1e-9}) {
+    // A spike of six triangles that stands on a sheet.
+    shapes::Mesh mesh;
+    for (const double radius : {width, 0.5}) {
+      for (int k = 0; k < 6; ++k) {
+        const double angle = k * std::numbers::pi / 3;
+        mesh.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+      }
+    }
+    mesh.points.emplace_back(0.3, 0.2, 1.0);
+    for (std::int32_t k = 0; k < 6; ++k) {
+      const std::int32_t next = (k + 1) % 6;
+      mesh.triangles.push_back({k, next, 12});
+      mesh.triangles.push_back({k, k + 6, next + 6});
+      mesh.triangles.push_back({k, next + 6, next});
+    }
+    const ExactGeodesics geodesics(shapes::intrinsic(mesh));
+    for (const std::int32_t seed : {0, 6, 9, 12}) {
+      const DistanceField field = geodesics.solve(seed);
+      for (const SurfacePoint& point : {at(0, 0.3, 0.3, 0.4), at(0, 0.5, 0.0, 0.5), at(9, 0.1, 0.8, 0.1),
+                                        at(9, 0.01, 0.01, 0.98), at(1, 0.3, 0.3, 0.4), at(8, 0.4, 0.2, 0.4)}) {
+        SCOPED_TRACE(testing::Message() << width << ", seed " << seed << ", face " << point.face);
+        std::size_t looks = 0;
+        const Task task{.stop = {}, .progress = [&](double) { return ++looks < 3; }};  // each after 2048 beams
+        double distance = 0.0;
+        ASSERT_NO_THROW(distance = field.distance(point, task));
+        EXPECT_NO_THROW(field.trace(point, task));
+        // Along one of the edges of its face it is as near, but for the width of the spike.
+        const Triangle& corners = mesh.triangles[index(point.face)];
+        Vector place = Vector::Zero();
+        for (std::size_t i = 0; i < 3; ++i) place += point.barycentric[i] * mesh.points[index(corners[i])];
+        double over_corners = kInfinity;
+        for (const std::int32_t v : corners) {
+          over_corners = std::min(over_corners, field.distances()[index(v)] + (mesh.points[index(v)] - place).norm());
+        }
+        EXPECT_LE(distance, over_corners * (1 + kTolerance));
+        if (point.face % 3 == 0) {
+          EXPECT_GE(distance, over_corners - 6 * width) << "on the spike";
         }
       }
     }

@@ -443,7 +443,9 @@ TEST(SnapToEdges, RefusesAWireOfAnotherSurface) {
   EXPECT_EQ(snap_to_edges(surface, graph, wire), (std::vector<std::int32_t>{0, 1}));
   for (const auto& spoil : std::vector<void (*)(Wire&)>{
            [](Wire& w) { w.from = 9; }, [](Wire& w) { w.to = -1; }, [](Wire& w) { w.faces[0] = 8; },
-           [](Wire& w) { w.vertices[0] = 9; }, [](Wire& w) { w.vertices.clear(); }, [](Wire& w) { w.faces.clear(); }}) {
+           [](Wire& w) { w.vertices[0] = 9; }, [](Wire& w) { w.vertices.clear(); }, [](Wire& w) { w.faces.clear(); },
+           [](Wire& w) { w.vertices[1] = 2; }, [](Wire& w) { w.faces[0] = 7; },
+           [](Wire& w) { w.points[1].z() = 0.1; }}) {
     Wire wrong = wire;
     spoil(wrong);
     EXPECT_THROW(snap_to_edges(surface, graph, wrong), InvalidInput);

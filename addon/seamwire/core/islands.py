@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 Label = Callable[["NDArray[np.int32]"], "NDArray[np.int32]"]
 """Takes cut edges, (c, 2), and returns a label for every triangle: 0, 1, ..., largest island first."""
+Count = Callable[["NDArray[np.int32]", "NDArray[np.int32]"], "NDArray[np.int32]"]
+"""Takes cut edges, (c, 2), and the labels they make; returns how many more cuts each island needs to become a disc."""
 
 _MOST_LOOKED_AT = 3_000
 """Vertices around the end of a cut for what it nearly meets: less than where gaps are to be closed, for this is asked at each change."""
@@ -47,7 +49,7 @@ class Islands:
     hues
         (count,) a number below the number of hues for each; those of neighbors across a cut are far apart, see `places_of`.
     missing
-        (count,) how many cuts each needs still to be a disc, see `CutCounter`.
+        (count,) how many more cuts each needs to become a disc.
     cut
         Whether anything was cut: else the islands are the parts that the mesh has anyway.
     pieces
@@ -60,7 +62,7 @@ class Islands:
     count: int
     labels: NDArray[np.int32]
     hues: NDArray[np.uint8]
-    missing: NDArray[np.int64]
+    missing: NDArray[np.int32]
     cut: bool
     pieces: tuple[tuple[int, NDArray[np.int32]], ...]
     gaps: tuple[Gap, ...] = ()
@@ -84,17 +86,24 @@ class IslandMaker:
         How many colors there are.
     gaps
         Finds what keeps islands from separating; None: that is not asked for.
+    count
+        Counts the cuts that islands need; called on the thread. None: every island counts as a disc.
     """
 
     def __init__(
-        self, triangles: NDArray[np.int32], label: Label, hues: int = 12, gaps: GapFinder | None = None
+        self,
+        triangles: NDArray[np.int32],
+        label: Label,
+        hues: int = 12,
+        gaps: GapFinder | None = None,
+        count: Count | None = None,
     ) -> None:
         self._triangles = triangles
         self._label = label
         self._hues = hues
         self._gaps = gaps
         self._maker: Newest[tuple[object, NDArray[np.int32]], Islands] = Newest(self._make, "seamwire-islands")
-        self._counter: CutCounter | None = None
+        self._count = count
 
     @property
     def busy(self) -> bool:
@@ -133,9 +142,7 @@ class IslandMaker:
             for hue in range(self._hues)
             if bounds[hue] < bounds[hue + 1]
         )
-        if self._counter is None:
-            self._counter = CutCounter(self._triangles)
-        missing = self._counter.missing(labels, cuts)
+        missing = np.zeros(count, dtype=np.int32) if self._count is None else self._count(cuts, labels)
         gaps = () if self._gaps is None else tuple(self._gaps.find(cuts, most_looked_at=_MOST_LOOKED_AT))
         return Islands(key, count, labels, hues, missing, len(cuts) > 0, pieces, gaps)
 
@@ -163,77 +170,6 @@ def _largest_of_each(groups: NDArray[np.int64], sizes: NDArray[np.int64]) -> NDA
     """Return which one is the largest of each group."""
     order = np.lexsort((sizes, groups))
     return order[np.diff(groups[order], append=-1) != 0]
-
-
-class CutCounter:
-    """Counts how many cuts islands need to be discs, which alone unwrap without tearing.
-
-    Parameters
-    ----------
-    triangles
-        (m, 3).
-    """
-
-    def __init__(self, triangles: NDArray[np.int32]) -> None:
-        self._triangles = triangles.astype(np.int64)
-        self._vertices = int(triangles.max(initial=-1)) + 1
-        self._sides = np.stack([self._triangles, np.roll(self._triangles, -1, axis=1)], axis=2).reshape(-1, 2)
-        keys = self._keys(self._sides)
-        self._order = np.argsort(keys, kind="stable")
-        ordered = keys[self._order]
-        self._begins = np.flatnonzero(np.diff(ordered, prepend=-1))
-        self._edges = ordered[self._begins]
-        self._counts = np.diff(self._begins, append=len(keys))
-        self._any_triangle = np.full(self._vertices, -1, dtype=np.int64)
-        self._any_triangle[self._triangles] = np.arange(len(triangles))[:, None]
-
-    def missing(self, labels: NDArray[np.int32], cuts: NDArray[np.int32]) -> NDArray[np.int64]:
-        """Return how many cuts each island needs still.
-
-        Each cut leads from border to border. An island without any border, like a ball, needs one for a border first.
-
-        Parameters
-        ----------
-        labels
-            (m,) the islands of the triangles: 0, 1, ...
-        cuts
-            (c, 2) cut edges.
-
-        Returns
-        -------
-        (count,) array
-            1 less Euler's characteristic for an island with a border: 0 for a disc, 1 for a tube, 2 for a disc with a handle.
-            3 less it for one without: 1 for a ball, 3 for a torus.
-        """
-        count = int(labels.max(initial=-1)) + 1
-        on_border = self._counts != 2
-        if len(self._edges):
-            wanted = self._keys(cuts[(cuts < self._vertices).all(axis=1)].astype(np.int64))
-            rows = np.searchsorted(self._edges, wanted).clip(max=len(self._edges) - 1)
-            on_border[rows[self._edges[rows] == wanted]] = True
-        border = self._order[np.repeat(on_border, self._counts)]
-        owners, ends = labels[border // 3].astype(np.int64), self._sides[border]
-        # A vertex on a border is as many as it has corners of the cut-open island: half the sides of borders that end
-        # there, so all of them together are as many as there are sides of borders. With F triangles, B such sides and V
-        # vertices inside the characteristic is (V + B) - (3 F + B) / 2 + F.
-        faces, borders = np.bincount(labels, minlength=count), np.bincount(owners, minlength=count)
-        near = np.zeros(self._vertices, dtype=bool)
-        near[ends] = True
-        inner = self._any_triangle[~near]
-        inside = np.bincount(labels[inner[inner >= 0]], minlength=count)
-        # Where islands meet in a vertex alone, it can be inside one and on the border of another.
-        touching = np.flatnonzero(near[self._triangles].any(axis=1))
-        corners = self._triangles[touching]
-        places = (labels[touching].astype(np.int64)[:, None] * self._vertices + corners)[near[corners]]
-        rest = np.setdiff1d(places, owners[:, None] * self._vertices + ends)
-        inside += np.bincount(rest // max(self._vertices, 1), minlength=count)
-        characteristic = inside + (borders - faces) // 2
-        return np.where(borders > 0, 1 - characteristic, 3 - characteristic)
-
-    def _keys(self, edges: NDArray[np.int64]) -> NDArray[np.int64]:
-        if not len(edges):
-            return np.empty(0, dtype=np.int64)
-        return edges.min(axis=1) * self._vertices + edges.max(axis=1)
 
 
 def neighbours(triangles: NDArray[np.int32], labels: NDArray[np.int32], cuts: NDArray[np.int32]) -> NDArray[np.int32]:

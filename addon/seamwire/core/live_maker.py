@@ -63,6 +63,10 @@ class LiveMaker:
         """Return the island of each triangle where edges are cut; it waits for the surface."""
         return self._core.face_segments(self.wait(), cuts)
 
+    def missing_cuts(self, cuts: NDArray[np.int32], islands: NDArray[np.int32]) -> NDArray[np.int32]:
+        """Return how many more cuts each island needs to become a disc; it waits for the surface."""
+        return self._core.missing_cuts(self.wait(), cuts, islands)
+
 
 def _options(along: Along) -> dict[str, object]:
     return {"along": along.lower(), "max_anisotropy": STRENGTHS[along], "clamp_percentile": CLAMP_PERCENTILE}

@@ -60,6 +60,15 @@ def _most_are_quads(polygons: NDArray[np.int32]) -> bool:
     return bool((triangles > 1).sum() > 0.5 * len(triangles))
 
 
+def mutual(images: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return the images of vertices, (n,), with -1 where the image of a vertex' image is another vertex.
+
+    On a mesh that is not quite symmetric the way back may lead elsewhere.
+    """
+    back = np.where(images >= 0, images[images], -1)
+    return np.where(back == np.arange(len(images)), images, -1)
+
+
 def spread_of(angle: float) -> float:
     """Return the spread, see ``seamwire_core.SeamPlanner``, of normals within an angle of their mean, as on a sphere's cap."""
     return 0.5 * (1.0 - np.cos(min(angle, np.pi)))

@@ -12,7 +12,7 @@ import bpy
 import numpy as np
 
 from ..core import native
-from ..core.islands import CutCounter, choose_hues, neighbours, places_of
+from ..core.islands import choose_hues, neighbours, places_of
 from ..core.stretch import IslandStretch, Stretch
 from . import edit_mesh, uv_map
 
@@ -47,7 +47,21 @@ def island_count(obj: bpy.types.Object) -> int:
     return int(labels_of(edit_mesh.read(obj)).max(initial=-1)) + 1
 
 
-def faces_to_cut(obj: bpy.types.Object) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
+def _missing_cuts(arrays: Arrays) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Return the island of each triangle, (m,), and how many more cuts each island needs to become a disc, (count,)."""
+    core = native.load()
+    surface = core.Surface(arrays.points, arrays.triangles, arrays.edges)
+    labels = np.asarray(core.face_segments(surface, arrays.seams))
+    return labels, np.asarray(core.missing_cuts(surface, arrays.seams, labels))
+
+
+def missing_cuts(obj: bpy.types.Object) -> NDArray[np.int32]:
+    """Return how many more cuts each island of an edit mesh needs to become a disc, (count,); raises as `edit_mesh.read`."""
+    arrays = edit_mesh.read(obj)
+    return _missing_cuts(arrays)[1] if len(arrays.triangles) else np.empty(0, dtype=np.int32)
+
+
+def faces_to_cut(obj: bpy.types.Object) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Return the faces of the islands that are no discs, and how many cuts each of these islands needs.
 
     Raises
@@ -56,8 +70,7 @@ def faces_to_cut(obj: bpy.types.Object) -> tuple[NDArray[np.int32], NDArray[np.i
         Where no face is visible, a coordinate is no number, or the compiled part is missing.
     """
     arrays = read(obj)
-    labels = labels_of(arrays)
-    missing = CutCounter(arrays.triangles).missing(labels, arrays.seams)
+    labels, missing = _missing_cuts(arrays)
     return np.unique(arrays.polygons[missing[labels] > 0]), missing[missing > 0]
 
 

@@ -17,6 +17,7 @@ from ..core.suggestion import (
     best_finish,
     bordering_seeds,
     is_parted,
+    mutual,
     narrowed,
     planned_wires,
     spread_of,
@@ -134,7 +135,7 @@ class Suggestion:
             Is told the fraction done; where it returns False, `seamwire_core.Cancelled` is raised.
         """
         axes = (self._mirror or self.mesh.session.symmetric_axes)[:1] if self._symmetric else ()
-        self._images = self.mesh.session.partners(axes) if axes else None
+        self._images = mutual(self.mesh.session.partners(axes)) if axes else None
         seeding = {"seams": self.mesh.arrays.seams}
         if self._within is not None:
             seeding["density"] = density = self._density(self._within)

@@ -207,7 +207,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
 
     def _carry_out(self, context: bpy.types.Context, suggestions: Sequence[Suggestion]) -> set[str]:
         """Write or cut the wires, unwrap, and say what was done."""
-        from ..mesh.seam_islands import island_count, stretched_count
+        from ..mesh.seam_islands import missing_cuts, stretched_count
 
         if not any(suggestion.wires for suggestion in suggestions):
             if self.unwrap and self._unwrap_uncut(context):
@@ -224,7 +224,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
             if suggestion.mesh not in to_cut:
                 suggestion.write()
         slide_wires({suggestion.mesh: suggestion.wires for suggestion in across if suggestion.finish == "SLIDE"})
-        islands = sum(island_count(suggestion.mesh.obj) for suggestion in suggestions)
+        missing = [int(cuts) for suggestion in suggestions for cuts in missing_cuts(suggestion.mesh.obj)]
         problem = self._unwrap(context)
         if problem:
             self.report({"WARNING"}, problem)
@@ -233,11 +233,12 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         parts = [
             count(wires, "wire"),
             *([f"{count(marked, 'edge')} marked"] if marked else ()),
-            count(islands, "island"),
+            count(len(missing), "island"),
         ]
-        open_ones = sum(suggestion.plan.not_discs for suggestion in suggestions)
+        open_ones = sum(cuts > 0 for cuts in missing)
         if open_ones:
             parts.append(f"{open_ones} of them no {'disc' if open_ones == 1 else 'discs'}")
+            parts.append(f"{count(sum(missing), 'more cut')} needed")
         stretched = 0
         if self.limit == "STRETCH":
             most = math.log2(self.stretch)

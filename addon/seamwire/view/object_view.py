@@ -70,7 +70,8 @@ class ObjectView:
         self.mesh.follow(settings)
         arrays = self.mesh.arrays
         gaps = GapFinder(arrays.points, arrays.triangles, arrays.edges, arrays.partly_hidden)
-        self._islands = islands.IslandMaker(arrays.triangles, self.mesh.make_live.face_segments, HUES, gaps)
+        make = self.mesh.make_live
+        self._islands = islands.IslandMaker(arrays.triangles, make.face_segments, HUES, gaps, make.missing_cuts)
         self.views = MetricViews(arrays, native.load(), self.mesh.make_live.wait)
         self._picker = Picker(arrays, self.mesh.plain_seams)
         self.overlay = Overlay(

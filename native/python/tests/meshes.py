@@ -34,6 +34,25 @@ def torus(nu: int, nv: int) -> Mesh:
     return points, _cells(nu, nv, nu, nv)
 
 
+def moebius(n: int) -> Mesh:
+    """Return a band of n cells that is closed after half a turn, at the edge (0, 1); edges across it are (2 i, 2 i + 1)."""
+    angle = np.repeat(2 * np.pi * np.arange(n) / n, 2)
+    across = np.tile([-0.1, 0.1], n)
+    ring = 0.5 + across * np.cos(angle / 2)
+    points = np.stack([ring * np.cos(angle), ring * np.sin(angle), across * np.sin(angle / 2)], 1)
+    a = 2 * np.arange(n)
+    b, c, d = a + 1, a + 2, a + 3
+    c[-1], d[-1] = 1, 0
+    return points, np.stack([a, c, b, c, d, b], 1).reshape(-1, 3)
+
+
+def spike(width: float) -> Mesh:
+    """Return six triangles from a hexagon of this radius to an apex, vertex 6, at (0.3, 0.2, 1)."""
+    angle = np.pi / 3 * np.arange(6)
+    base = width * np.stack([np.cos(angle), np.sin(angle), 0 * angle], 1)
+    return np.vstack([base, [(0.3, 0.2, 1.0)]]), np.array([(k, (k + 1) % 6, 6) for k in range(6)])
+
+
 def joined(*meshes: Mesh) -> Mesh:
     """Return several meshes as one, without sharing a vertex."""
     starts = np.cumsum([0] + [len(points) for points, _ in meshes])

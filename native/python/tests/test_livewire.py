@@ -259,6 +259,31 @@ def test_the_metric_changes_in_the_background(surface: sw.Surface) -> None:
             live.set_metric(**wrong)
 
 
+@pytest.mark.parametrize("along", ["surface", "edges"])
+def test_in_the_euclidean_metric_there_is_one_wire(surface: sw.Surface, along: str) -> None:
+    live = sw.LiveWire(surface, along=along, metric="euclidean")
+    live.seed(3)
+    assert live.wait()
+    found = live.wires(500)
+    assert len(found.wires) == 1
+    assert found.final and found.settled and found.active == 0
+    assert len(live.embeddings()) == 1
+
+
+def test_a_wire_to_a_spike_is_there_at_once() -> None:
+    live = sw.LiveWire(sw.Surface(*meshes.spike(1e-6)), metric="euclidean")
+    live.seed(6)
+    assert live.wait()
+    live.wires((0, (0.2, 0.2, 0.6)))
+    took = []
+    for part in np.linspace(0.05, 0.45, 9):  # each is another point
+        begin = time.perf_counter()
+        wire = live.wires((0, (part, part, 1 - 2 * part))).wires[0]
+        took.append(time.perf_counter() - begin)
+        assert wire.length == pytest.approx(2 * part * np.sqrt(1.13), rel=1e-6)
+    assert np.median(took) < 5e-3
+
+
 def test_a_fork_has_a_seed_of_its_own(surface: sw.Surface) -> None:
     live = sw.LiveWire(surface, along="edges")
     live.seed(3)

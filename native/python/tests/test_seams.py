@@ -87,9 +87,63 @@ def test_progress_and_cancel(torus: sw.Surface, planner: sw.SeamPlanner) -> None
         planner.plan(progress=lambda _: False)
 
 
+def closed_ring(columns: int, row: int) -> list[tuple[int, int]]:
+    return [(row * columns + i, row * columns + (i + 1) % columns) for i in range(columns)]
+
+
+@pytest.mark.parametrize(
+    ("mesh", "cuts", "missing"),
+    [
+        (meshes.grid(4), [], [0]),
+        (meshes.torus(6, 5), [], [3]),
+        (meshes.torus(6, 5), closed_ring(6, 2), [1]),
+        (meshes.torus(6, 5), [*closed_ring(6, 1), *closed_ring(6, 3)], [1, 1]),
+        (meshes.torus(6, 5), closed_ring(6, 2)[:1], [2]),
+        (meshes.moebius(9), [], [1]),
+        (meshes.moebius(9), [(8, 9)], [0]),
+        (meshes.joined(meshes.torus(6, 5), meshes.grid(2)), [], [3, 0]),
+    ],
+)
+def test_how_many_cuts_segments_need(mesh: meshes.Mesh, cuts: list[tuple[int, int]], missing: list[int]) -> None:
+    surface, edges = sw.Surface(*mesh), np.array(cuts, dtype=np.int32).reshape(-1, 2)
+    assert sw.missing_cuts(surface, edges, sw.face_segments(surface, edges)).tolist() == missing
+
+
+def test_segments_of_something_else_are_refused(torus: sw.Surface) -> None:
+    whole = np.zeros(len(torus.triangles), dtype=np.int32)
+    with pytest.raises(ValueError, match="segments has 3 items"):
+        sw.missing_cuts(torus, np.empty((0, 2), dtype=np.int32), [0, 0, 0])
+    with pytest.raises(ValueError, match="other cuts"):
+        sw.missing_cuts(torus, np.empty((0, 2), dtype=np.int32), np.arange(len(whole)))
+    with pytest.raises(ValueError, match="out of range"):
+        sw.missing_cuts(torus, [(0, 10**6)], whole)
+
+
+def test_one_sided_surfaces_are_cut() -> None:
+    plan = sw.SeamPlanner(sw.Surface(*meshes.moebius(40))).plan(max_spread=2.0)
+    assert plan.wires and plan.not_discs == 0
+
+
+@pytest.mark.parametrize("along", ["edges", "surface"])
+def test_wires_of_another_surface_are_refused(along: str) -> None:
+    points, triangles = meshes.torus(20, 12)
+    own = sw.SeamPlanner(sw.Surface(points, triangles), along=along)
+    plan = own.plan(max_spread=0.3)
+    assert plan.wires
+    others = [sw.Surface(2 * points, triangles), sw.Surface(*meshes.torus(21, 12)), sw.Surface(*meshes.torus(6, 5))]
+    for surface in others:
+        planner = sw.SeamPlanner(surface, along=along)
+        with pytest.raises(ValueError, match="wires: "):
+            planner.straightened(plan.wires, may_start_on_others=False)
+        with pytest.raises(ValueError, match="kept: "):
+            planner.plan(kept=plan.wires)
+    assert len(own.plan(kept=plan.wires).wires) >= len(plan.wires)
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [
+        ({"images": np.roll(np.arange(960), 1)}, "images: the image of vertex 0 is 959, but the image of that is 958"),
         ({"along": "air"}, "along"),
         ({"max_anisotropy": 0.0}, "anisotropy"),
         ({"seeds": 0}, "seeds is 0"),

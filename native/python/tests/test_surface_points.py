@@ -98,6 +98,41 @@ def test_what_is_no_seed_is_refused(seed: object, message: str) -> None:
     assert str(refusal.value).startswith(message)
 
 
+def test_a_face_without_an_area_is_told_from_a_hole() -> None:
+    # Three corners in a line: no metric makes a triangle of them, and none lies beside it.
+    surface = sw.Surface([(0, 0, 0), (1, 0, 0), (2, 0, 0), (1, 1, 0)], [(0, 1, 2), (0, 2, 3)])
+    embedding = sw.embed(surface, sw.euclidean_metric(surface, sw.principal_curvatures(surface)))
+    assert len(embedding.hole_faces) == 0
+    field = sw.distance_field(embedding, 3)
+    for call in (field.distance, field.trace_to):
+        with pytest.raises(ValueError, match="point: face 0 has no area"):
+            call(0, (0.2, 0.3, 0.5))
+    with pytest.raises(ValueError, match="seed: face 0 has no area"):
+        sw.distance_field(embedding, (0, (0.2, 0.3, 0.5)))
+    alone = sw.Surface([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)])
+    hole = sw.embed(alone, sw.euclidean_metric(alone, sw.principal_curvatures(alone)))
+    assert hole.hole_faces.tolist() == [0]
+    with pytest.raises(ValueError, match="point: face 0 is a hole of the embedding there"):
+        sw.distance_field(hole, 0).distance(0, (0.2, 0.3, 0.5))
+
+
+def test_tracing_can_be_cancelled() -> None:
+    field = sw.distance_field(STRETCHED, 0, windows=1)
+    calls = {
+        "trace": lambda progress: field.trace(50, progress=progress),
+        "distance": lambda progress: field.distance(5, (0.2, 0.3, 0.5), progress=progress),
+        "trace_to": lambda progress: field.trace_to(5, (0.2, 0.3, 0.5), progress=progress),
+        "trace_many": lambda progress: field.trace_many([50], progress=progress),
+        "snap_to_edges": lambda progress: sw.snap_to_edges(SURFACE, field.trace(50), progress=progress),
+    }
+    for name, call in calls.items():
+        fractions: list[float] = []
+        call(fractions.append)
+        assert fractions, name
+        with pytest.raises(sw.Cancelled):
+            call(lambda _: False)
+
+
 def test_what_is_no_target_is_refused() -> None:
     field = sw.distance_field(STRETCHED, 0)
     for call in (field.distance, field.trace_to):

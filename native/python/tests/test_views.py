@@ -187,6 +187,8 @@ def test_an_embedding_takes_lengths_of_ones_own() -> None:
         (plain.lengths[:-1], "edges"),
         (np.where(np.arange(len(plain.lengths)) == 0, 0.0, plain.lengths), "positive"),
         (np.where(np.arange(len(plain.lengths)) == 0, 9.0, plain.lengths), "triangle"),
+        (1e200 * plain.lengths, "at most 1e76"),
+        (1e-200 * plain.lengths, "at least 1e-76"),
     ):
         with pytest.raises(ValueError, match=why):
             plain.with_lengths(wrong)

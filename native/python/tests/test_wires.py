@@ -29,6 +29,26 @@ def sides(triangles: np.ndarray) -> np.ndarray:
     return np.sort(np.stack([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]], 1), 2)
 
 
+def test_a_wire_of_another_surface_is_not_snapped() -> None:
+    points, triangles = meshes.torus(16, 12)
+    surface, larger = sw.Surface(points, triangles), sw.Surface(2 * points, triangles)
+    embedding = sw.embed(surface, sw.euclidean_metric(surface, sw.principal_curvatures(surface)))
+    wire = sw.distance_field(embedding, 0).trace(100)
+    assert len(sw.snap_to_edges(surface, wire)) > 2
+    with pytest.raises(ValueError, match="the wire is not on this surface"):
+        sw.snap_to_edges(larger, wire)
+
+
+def test_a_cut_through_another_seed_is_not_bent() -> None:
+    surface = sw.Surface(*meshes.torus(60, 30))
+    embedding = sw.embed(surface, sw.euclidean_metric(surface, sw.principal_curvatures(surface)))
+    here, there = sw.distance_field(embedding, 0), sw.distance_field(embedding, 3)
+    (cut, *_) = here.closed_wires()
+    here.bend(cut)
+    with pytest.raises(ValueError, match="the cut does not lead through the seed of the field"):
+        there.bend(cut)
+
+
 def test_a_traced_wire_is_as_long_as_the_distance(field: sw.DistanceField) -> None:
     for vertex, distance in enumerate(field.distances):
         wire = field.trace(vertex)

@@ -48,6 +48,7 @@ struct EdgeWires::Run {
 };
 
 EdgeWires::EdgeWires(std::shared_ptr<const EdgeGraph> graph, const Pick& seed, double turning, bool forward) {
+  if (!graph) throw InvalidInput("graph: there is none");
   check_pick(*graph, seed, "seed");
   check_turning(turning);
   run_ = std::make_shared<Run>(std::move(graph), seed, turning);

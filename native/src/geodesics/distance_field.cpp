@@ -37,6 +37,10 @@ std::int32_t DistanceField::seed() const {
 const std::vector<SurfacePoint>& DistanceField::sources() const { return data_->given_sources; }
 bool DistanceField::is_exact() const { return data_->is_exact; }
 double DistanceField::radius() const { return data_->radius; }
+bool DistanceField::fits(const IntrinsicMesh& mesh) const {
+  return data_->mesh->vertex_count() == index(mesh.vertex_count) &&
+         data_->mesh->half_edge_count() == 3 * mesh.face_count();
+}
 const std::vector<double>& DistanceField::distances() const { return data_->distances; }
 
 IntrinsicPath DistanceField::trace(std::int32_t vertex, const Task& task) const {

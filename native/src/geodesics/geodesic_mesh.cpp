@@ -22,6 +22,10 @@ constexpr double kFlatness = 1e-7;
 /// Lengths computed from coordinates may miss the triangle inequality by rounding where the corners are in line.
 constexpr double kRounding = 1e-12;
 
+/// Lengths above this are refused, and meshes whose longest edge is shorter than the inverse. The square of a
+/// triangle's area is a product of four lengths, which would overflow or underflow.
+constexpr double kLongest = 1e76;
+
 /// There is a hop over an edge if it is shorter than this part of the path along two edges.
 constexpr double kShortcut = 0.95;
 
@@ -49,8 +53,8 @@ void check_corners(const IntrinsicMesh& mesh, std::size_t f) {
 void check_half_edge(const IntrinsicMesh& mesh, std::int32_t h) {
   const auto where = [&] { return "half-edge " + text(h) + " of triangle " + text(h / 3); };
   const double length = mesh.lengths[h];
-  if (!(length > 0) || !std::isfinite(length)) {
-    throw InvalidInput(where() + ": its length must be positive and finite, not " + text(length));
+  if (!(length > 0 && length <= kLongest)) {
+    throw InvalidInput(where() + ": its length must be positive and at most 1e76, not " + text(length));
   }
   const std::int32_t twin = mesh.twins[h];
   if (twin == -1) return;
@@ -99,10 +103,14 @@ void check(const IntrinsicMesh& mesh, const Task& task) {
     const LooseEdge& edge = mesh.loose_edges[i];
     check_vertex(mesh, edge.a, "loose edge", i);
     check_vertex(mesh, edge.b, "loose edge", i);
-    if (!(edge.length >= 0) || !std::isfinite(edge.length)) {
-      throw InvalidInput("loose edge " + std::to_string(i) + ": its length must be finite and not negative, not " +
+    if (!(edge.length >= 0 && edge.length <= kLongest)) {
+      throw InvalidInput("loose edge " + std::to_string(i) + ": its length must be at least 0 and at most 1e76, not " +
                          text(edge.length));
     }
+  }
+  if (mesh.lengths.empty()) return;
+  if (const double longest = *std::ranges::max_element(mesh.lengths); longest < 1.0 / kLongest) {
+    throw InvalidInput("the longest edge must be at least 1e-76 long, not " + text(longest));
   }
 }
 
@@ -259,21 +267,25 @@ void GeodesicMesh::each_hop(std::int32_t vertex, const Add& add) const {
 void GeodesicMesh::list_hops(const Task& task) {
   hops_.reserve(vertex_count(), 2 * half_edges_.size() + loose_.items().size());
   hop_unit_ = unit_of_hops();
-  const auto add = [&](std::int32_t to, double length) {
-    const auto rounded = static_cast<float>(length * hop_unit_);
-    hops_.push({to, rounded});
-    hop_sum_ += length * hop_unit_;
-    longest_hop_ = std::max(longest_hop_, rounded);
-  };
+  const auto add = [&](std::int32_t to, double length) { hops_.push({to, static_cast<float>(length * hop_unit_)}); };
   const Poll poll(task, 0.7, 0.9, vertex_count());
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(vertex_count()); ++v) {
     poll.at(index(v));
     each_hop(v, add);
     hops_.end_row();
   }
-  if (const std::size_t count = hops_.items().size(); count > 0) {
-    mean_hop_ = static_cast<float>(hop_sum_ / static_cast<double>(count));
+  measure_hops();
+}
+
+void GeodesicMesh::measure_hops() {
+  double sum = 0.0;
+  longest_hop_ = 0.0F;
+  for (const Hop& hop : hops_.items()) {
+    sum += static_cast<double>(hop.length);
+    longest_hop_ = std::max(longest_hop_, hop.length);
   }
+  const std::size_t count = hops_.items().size();
+  mean_hop_ = count > 0 ? static_cast<float>(sum / static_cast<double>(count)) : 0.0F;
 }
 
 /// Breadth first over the triangles, a component after the other; a face gets its number with its first vertex.
@@ -416,8 +428,6 @@ std::optional<GeodesicMesh> GeodesicMesh::patched(const IntrinsicMesh& before, c
   out.half_edges_ = half_edges_;
   out.angle_ = angle_;
   out.is_pseudo_source_ = is_pseudo_source_;
-  out.hop_sum_ = hop_sum_;
-  out.longest_hop_ = longest_hop_;
   out.external_vertex_ = external_vertex_;
   out.internal_vertex_ = internal_vertex_;
   out.external_face_ = external_face_;
@@ -498,32 +508,10 @@ void GeodesicMesh::patch_rows(const GeodesicMesh& former, const std::vector<std:
     for (; next != leaving.end() && next->first == v; ++next) add(next->second);
   });
 
-  bool was_longest = false;
-  const auto forget = [&](std::int32_t v) {
-    for (const Hop& hop : former.hops(v)) {
-      hop_sum_ -= static_cast<double>(hop.length);
-      was_longest = was_longest || hop.length == former.longest_hop_;
-    }
-  };
-  const std::size_t common = std::min(vertex_count(), former.vertex_count());
-  for (const std::int32_t v : vertices) {
-    if (index(v) < common) forget(v);
-  }
-  for (std::size_t v = common; v < former.vertex_count(); ++v) forget(static_cast<std::int32_t>(v));
   hops_ = former.hops_.with_rows(vertex_count(), vertices, [&](std::int32_t v, const auto& add) {
-    each_hop(v, [&](std::int32_t to, double length) {
-      const auto rounded = static_cast<float>(length);
-      add(Hop{to, rounded});
-      hop_sum_ += static_cast<double>(rounded);
-      longest_hop_ = std::max(longest_hop_, rounded);
-    });
+    each_hop(v, [&](std::int32_t to, double length) { add(Hop{to, static_cast<float>(length)}); });
   });
-  if (was_longest) {
-    longest_hop_ = 0.0F;
-    for (const Hop& hop : hops_.items()) longest_hop_ = std::max(longest_hop_, hop.length);
-  }
-  const std::size_t count = hops_.items().size();
-  mean_hop_ = count > 0 ? static_cast<float>(hop_sum_ / static_cast<double>(count)) : 0.0F;
+  measure_hops();
 }
 
 }  // namespace seamwire

@@ -109,6 +109,8 @@ class GeodesicMesh {
   template <class Add>
   void each_hop(std::int32_t vertex, const Add& add) const;
   void list_hops(const Task& task);
+  /// Finds the mean and the longest of all hops.
+  void measure_hops();
   void patch_rows(const GeodesicMesh& former, const std::vector<std::int32_t>& faces,
                   const std::vector<std::int32_t>& vertices);
   bool may_bend(std::int32_t vertex) const;
@@ -119,7 +121,7 @@ class GeodesicMesh {
   Csr<std::int32_t> out_;
   Csr<Loose> loose_;
   Csr<Hop> hops_;
-  double hop_unit_ = 1.0, hop_sum_ = 0.0;
+  double hop_unit_ = 1.0;
   float mean_hop_ = 0.0F, longest_hop_ = 0.0F;
   std::vector<std::uint8_t> is_pseudo_source_;
   std::vector<std::int32_t> external_vertex_, internal_vertex_, external_face_, internal_face_;

@@ -26,6 +26,8 @@ using HalfEdge = GeodesicMesh::HalfEdge;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Beams between two looks at the task: a fraction of a millisecond.
 constexpr std::size_t kWorkBetweenChecks = 2048;
+/// Paths this much shorter, in parts of the whole, are not looked for.
+constexpr double kRounding = 1e-12;
 
 Point2 from_left(const HalfEdge& h, const Point2& p) {
   const double c = h.apex_x / h.left_length, s = h.apex_y / h.left_length;
@@ -70,7 +72,7 @@ class PointSearch {
            .left = {{0.0, 0.0}, lower_bound(edge.tail)},
            .right = {{edge.length, 0.0}, lower_bound(edge.tip)}});
     });
-    while (!queue_.empty() && queue_.top().first < best_.distance) {
+    while (!queue_.empty() && is_promising(queue_.top().first)) {
       const std::int32_t beam = queue_.top().second;
       queue_.pop();
       follow(beam);
@@ -84,6 +86,9 @@ class PointSearch {
   }
 
  private:
+  /// Whether a path that is not shorter than `bound` may be the best one. Around a spike many beams are as long as the
+  /// best one but for rounding; to follow them all takes 1 / the spike's angle steps.
+  bool is_promising(double bound) const { return bound < (1.0 - kRounding) * best_.distance; }
   double lower_bound(std::int32_t vertex) const { return std::min(solved_.at(vertex), solved_.radius); }
 
   /// A path was found: straight to `end` in the frame of a half-edge (of `beam`'s, or of the point's own face), and on
@@ -122,10 +127,13 @@ class PointSearch {
     double bound = -beam.point.y;
     for (const Bounding& vertex : {beam.left, beam.right, Bounding{{0.0, 0.0}, lower_bound(edge.tail)},
                                    Bounding{{edge.length, 0.0}, lower_bound(edge.tip)}}) {
-      // Of |px| - |xv|: where it is more than some c >= 0 is convex, the inside of a branch of a hyperbola, so that on
-      // a segment it is least at an end. Where it is less than 0, it is -|pv| or more.
+      // On a line |px| - |xv| has one stationary point at most, where the line meets that through p and v. If p lies
+      // between v and that point, it is the least value, -|pv|. Otherwise the least value on a segment is at an end.
       double detour = std::min(to_begin - distance(vertex.at, begin), to_end - distance(vertex.at, end));
-      if (detour < 0) detour = -distance(beam.point, vertex.at);
+      if (vertex.at.y < beam.point.y) {
+        const double stationary = meets_base(vertex.at, beam.point);
+        if (stationary > beam.begin && stationary < beam.end) detour = -distance(beam.point, vertex.at);
+      }
       bound = std::max(bound, vertex.distance + detour);
     }
     return bound;
@@ -134,7 +142,7 @@ class PointSearch {
   void add(const Beam& beam) {
     if (!(beam.point.y < 0) || !(beam.end - beam.begin > kLeastWidth * mesh_.half_edge(beam.half_edge).length)) return;
     const double bound = lower_bound(beam);
-    if (!(bound < best_.distance) || bound > solved_.radius) return;
+    if (!is_promising(bound) || bound > solved_.radius) return;
     queue_.emplace(bound, static_cast<std::int32_t>(beams_.size()));
     beams_.push_back(beam);
   }

@@ -39,16 +39,20 @@ inline void copy(const Windows& from, std::size_t count, const Windows& to) {
   std::memcpy(to.source, from.source, count * sizeof(std::int32_t));
 }
 
-/// A contiguous piece of memory for windows. Capacities are powers of two; blocks in use are few, as only lists on the
-/// front have one, so those given back are warm in the cache when they are taken again.
+/// A contiguous piece of memory for windows: five arrays of doubles, then one of integers. It is an array of bytes, in
+/// which C++20 lets arrays of such types begin without more ado. Capacities are powers of two; blocks in use are few,
+/// as only lists on the front have one, so those given back are warm in the cache when they are taken again.
 struct WindowBlock {
-  double* memory = nullptr;
+  std::byte* memory = nullptr;
   std::uint32_t capacity = 0;
 
   Windows windows() const {
     const std::size_t n = capacity;
-    return {memory,         memory + n,     memory + 2 * n,
-            memory + 3 * n, memory + 4 * n, reinterpret_cast<std::int32_t*>(memory + 5 * n)};
+    const auto doubles = [&](std::size_t field) {
+      return reinterpret_cast<double*>(memory + field * n * sizeof(double));
+    };
+    return {doubles(0), doubles(1), doubles(2),
+            doubles(3), doubles(4), reinterpret_cast<std::int32_t*>(memory + 5 * n * sizeof(double))};
   }
 };
 
@@ -60,9 +64,9 @@ class WindowBlocks {
 
   WindowBlock take(std::size_t at_least) {
     const auto capacity = std::bit_ceil(std::max(static_cast<std::uint32_t>(at_least), kSmallest));
-    std::vector<double*>& free = free_[static_cast<std::size_t>(std::countr_zero(capacity))];
+    std::vector<std::byte*>& free = free_[static_cast<std::size_t>(std::countr_zero(capacity))];
     if (free.empty()) return {allocate(capacity), capacity};
-    double* const memory = free.back();
+    std::byte* const memory = free.back();
     free.pop_back();
     return {memory, capacity};
   }
@@ -71,24 +75,27 @@ class WindowBlocks {
   }
 
  private:
-  static constexpr std::size_t kChunk = std::size_t{1} << 15;  // doubles: 256 kB
+  static constexpr std::size_t kChunk = std::size_t{1} << 18;  // bytes
+  static constexpr std::size_t kLine = 64;                     // of the cache: blocks are whole lines
+  static constexpr std::size_t kWindow = 5 * sizeof(double) + sizeof(std::int32_t);
 
-  double* allocate(std::uint32_t capacity) {
-    const std::size_t size = (11 * std::size_t{capacity} / 2 + 7) / 8 * 8 + kPadding;
-    if (size > kChunk / 4) return chunks_.emplace_back(std::make_unique_for_overwrite<double[]>(size)).get();
+  std::byte* allocate(std::uint32_t capacity) {
+    const std::size_t used = kWindow * capacity + kPadding * sizeof(double);
+    const std::size_t size = (used + kLine - 1) / kLine * kLine;
+    if (size > kChunk / 4) return chunks_.emplace_back(std::make_unique_for_overwrite<std::byte[]>(size)).get();
     if (size > left_) {
-      rest_ = chunks_.emplace_back(std::make_unique_for_overwrite<double[]>(kChunk)).get();
+      rest_ = chunks_.emplace_back(std::make_unique_for_overwrite<std::byte[]>(kChunk)).get();
       left_ = kChunk;
     }
-    double* const memory = rest_;
+    std::byte* const memory = rest_;
     rest_ += size;
     left_ -= size;
     return memory;
   }
 
-  std::array<std::vector<double*>, 32> free_;
-  std::vector<std::unique_ptr<double[]>> chunks_;
-  double* rest_ = nullptr;
+  std::array<std::vector<std::byte*>, 32> free_;
+  std::vector<std::unique_ptr<std::byte[]>> chunks_;
+  std::byte* rest_ = nullptr;
   std::size_t left_ = 0;
 };
 

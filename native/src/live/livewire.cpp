@@ -154,6 +154,7 @@ struct LiveWire::Impl {
 };
 
 LiveWire::LiveWire(std::shared_ptr<const Surface> surface, const LiveWireOptions& options) {
+  if (!surface) throw InvalidInput("surface: there is none");
   check_options(options);
   impl_ = std::make_unique<Impl>(std::make_shared<SurfaceCache>(std::move(surface)), new_metrics(options),
                                  settings_of(options));

@@ -105,13 +105,16 @@ struct Prepared {
   std::shared_ptr<const EdgeGraph> graph;
 };
 
+/// How many metrics a family has: the Euclidean metric is the same whatever is followed.
+constexpr std::size_t metric_count(MetricFamily of, Along along) {
+  if (of == MetricFamily::kEuclidean) return 1;
+  return of == MetricFamily::kFeature && along == Along::kSurface ? 3 : 2;
+}
+
 /// The metrics of one family and strength, after the scribbles; the first `count` of kFollow. Shared by forks.
 struct MetricSet {
   MetricSet(MetricFamily of, Along along, const Strength& with, std::vector<Scribble> after)
-      : family(of),
-        strength(with),
-        scribbles(std::move(after)),
-        count(of == MetricFamily::kFeature && along == Along::kSurface ? 3 : 2) {
+      : family(of), strength(with), scribbles(std::move(after)), count(metric_count(of, along)) {
     for (auto& metric : prepared) metric = std::make_shared<ComputedOnce<Prepared>>();
   }
 

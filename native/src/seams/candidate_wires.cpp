@@ -216,8 +216,9 @@ std::vector<CandidateWires::Found> CandidateWires::find_along_edges(const Prepar
     points.reserve(chain.vertices.size());
     for (const std::int32_t vertex : chain.vertices) points.push_back(surface().points()[vertex]);
     double euclidean = 0.0;
-    for (std::size_t i = 1; i < points.size(); ++i) euclidean += (points[i] - points[i - 1]).norm();
-    found.push_back({std::move(chain.vertices), std::move(points), {}, chain.length, euclidean * surface().scale()});
+    for (std::size_t i = 1; i < points.size(); ++i)
+      euclidean += (surface().scale() * (points[i] - points[i - 1])).norm();
+    found.push_back({std::move(chain.vertices), std::move(points), {}, chain.length, euclidean});
   }
   return found;
 }

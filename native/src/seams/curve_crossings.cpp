@@ -23,12 +23,15 @@ struct Segment {
 bool cross(const Surface& surface, const Segment& one, const Segment& two) {
   const Triangle& corners = surface.triangles()[one.face];
   const Vector& origin = surface.points()[corners[0]];
-  const Vector normal = (surface.points()[corners[1]] - origin).cross(surface.points()[corners[2]] - origin);
+  // Scaled first: the squares of a very large or small model's areas are no numbers, or 0.
+  const auto scaled = [&](const Vector& from, const Vector& to) { return Vector(surface.scale() * (to - from)); };
+  const Vector normal =
+      scaled(origin, surface.points()[corners[1]]).cross(scaled(origin, surface.points()[corners[2]]));
   const double twice_area = normal.norm();
   if (!(twice_area > 0.0)) return false;
   // Twice the area of a triangle of three points, by which side the third one lies on.
   const auto side = [&](const Vector& a, const Vector& b, const Vector& c) {
-    return normal.dot((b - a).cross(c - a)) / twice_area;
+    return normal.dot(scaled(a, b).cross(scaled(a, c))) / twice_area;
   };
   const auto are_apart = [&](const Segment& line, const Segment& ends) {
     const double from = side(*line.from, *line.to, *ends.from), to = side(*line.from, *line.to, *ends.to);

@@ -15,12 +15,16 @@ namespace seamwire {
 
 /// A piece of a surface: what it takes to tell whether it is a disc, and a flat one.
 struct Piece {
-  std::int64_t euler = 0;          ///< Euler characteristic; 1: it is a disc
-  double area = 0.0;               ///< in the caller's units squared
-  Vector normal = Vector::Zero();  ///< sum of the triangles' area normals
+  std::int64_t euler = 0;          ///< Euler characteristic
+  std::int64_t border = 0;         ///< how many sides of triangles lie on its border
+  double area = 0.0;               ///< of the model scaled to the unit cube
+  Vector normal = Vector::Zero();  ///< sum of the triangles' area normals, all turned to the same side if it has two
   double max_spread = 0.0;         ///< the least that is allowed to one of its triangles
 
-  bool is_disc() const { return euler == 1; }
+  /// How many cuts make it a disc: 0 for a disc, 1 for a tube or a Moebius strip, 3 for a torus. Each cut leads from
+  /// border to border. A piece without a border, like a ball, needs another cut first to get one.
+  std::int64_t missing_cuts() const { return border > 0 ? 1 - euler : 3 - euler; }
+  bool is_disc() const { return missing_cuts() == 0; }
   /// How far its normals spread, see SeamLimits.
   double spread() const { return area > 0.0 ? 1.0 - normal.norm() / area : 0.0; }
 };
@@ -29,6 +33,9 @@ struct Piece {
 ///
 /// Cut open, the surface has a vertex for each set of corners that hang together. Gluing two sides of an edge takes one
 /// edge away, and the vertices that it unites; so the Euler characteristic follows without walking over the piece.
+///
+/// A one-sided surface is whole here, although the half-edge mesh is cut open where its faces do not agree on a side.
+/// Edges with three or more triangles stay open, as they do in any UV map.
 class CutPieces {
  public:
   /// `chains`: vertices, none twice in a row; edges that are not of two triangles of the half-edge mesh cut nothing.
@@ -57,6 +64,8 @@ class CutPieces {
   /// All pieces.
   std::vector<Piece> pieces() const;
   std::size_t piece_count() const { return piece_count_; }
+  /// The piece of each triangle of the half-edge mesh, by its place in pieces().
+  std::vector<std::int32_t> piece_of_faces() const;
   /// For each vertex of the surface whether it lies in the piece of most area that is no disc, of those with a triangle
   /// whose vertices are all `among` some; empty: all these are.
   std::vector<std::uint8_t> vertices_of_worst(const Surface& surface, std::span<const std::uint8_t> among) const;
@@ -66,17 +75,27 @@ class CutPieces {
   struct CutEdge {
     std::array<std::int32_t, 2> pieces;
     std::array<std::int32_t, 2> tails, tips;
+    bool is_turned;        ///< whether the triangles on both sides face opposite ways
     std::int32_t covered;  ///< how many chains cut it
   };
+  CutEdge edge_between(std::int32_t half_edge, std::int32_t twin, bool is_turned,
+                       std::span<const std::int32_t> set_of_corner) const;
   /// What is glued where a chain goes: cut edges that no other chain covers.
   std::vector<std::int32_t> glued_without(std::int32_t chain) const;
+  /// The pieces that arise when edges are glued.
+  std::vector<Joined> joined_by(std::span<const std::int32_t> glued) const;
+  /// Glues edges. `joined`: what joined_by() returns for them.
+  void glue(std::span<const std::int32_t> glued, std::span<const Joined> joined);
+  /// The name of the set of pieces that has one of the first pieces.
+  std::int32_t set_of(std::int32_t piece) const { return piece_sets_.find(2 * piece) / 2; }
 
   std::vector<CutEdge> edges_;
   Csr<std::int32_t> edges_of_chain_;         ///< each once, ascending
   std::vector<std::int32_t> piece_of_face_;  ///< of the half-edge mesh, as cut at first
   std::vector<Piece> pieces_;                ///< valid for the names of sets
   std::size_t piece_count_ = 0;
-  // Looking a name up shortens the way to it, which changes nothing that can be seen.
+  // Looking a name up shortens the way to it, which changes nothing that can be seen. Pieces are there twice: 2 p is
+  // piece p as its triangles face, 2 p + 1 is p turned over. So a set also tells which of its pieces face which way.
   mutable DisjointSets piece_sets_, corner_sets_;
 };
 

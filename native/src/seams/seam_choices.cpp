@@ -19,9 +19,10 @@ constexpr double kDeep = 8.0;
 double length(const Surface& surface, const std::vector<std::int32_t>& chain) {
   double sum = 0.0;
   for (std::size_t i = 1; i < chain.size(); ++i) {
-    sum += (surface.points()[chain[i]] - surface.points()[chain[i - 1]]).norm();
+    // Scaled first: the square of a very small length is 0.
+    sum += (surface.scale() * (surface.points()[chain[i]] - surface.points()[chain[i - 1]])).norm();
   }
-  return sum;
+  return sum / surface.scale();
 }
 
 /// How many vertices two chains have in common from an end on that both have.

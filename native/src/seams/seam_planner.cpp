@@ -2,6 +2,7 @@
 #include "seamwire/seams/seam_planner.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -19,7 +20,9 @@
 #include "seams/seeding.hpp"
 #include "seams/straightening.hpp"
 #include "seams/thinning.hpp"
+#include "seamwire/seams/missing_cuts.hpp"
 #include "seamwire/surface/segments.hpp"
+#include "wires/curve_check.hpp"
 
 namespace seamwire {
 namespace {
@@ -66,6 +69,12 @@ void check_options(const Surface& surface, const SeamPlannerOptions& options) {
   for (const std::int32_t v : options.images) {
     if (v != -1) check_index(v, count, "images: vertex");
   }
+  for (std::int32_t v = 0; index(v) < options.images.size(); ++v) {
+    const std::int32_t image = options.images[v];
+    if (image == -1 || options.images[image] == v) continue;
+    throw InvalidInput("images: the image of vertex " + std::to_string(v) + " is " + std::to_string(image) +
+                       ", but the image of that is " + std::to_string(options.images[image]));
+  }
   for (const Edge& edge : options.seams) {
     for (const std::int32_t v : edge) check_index(v, count, "seams: vertex");
   }
@@ -91,12 +100,42 @@ std::vector<double> checked_spreads(const Surface& surface, const SeamLimits& li
   return max_spreads;
 }
 
-/// Wires of a plan as wires to choose from. Throws InvalidInput where they are none of the surface.
+/// Throws InvalidInput where a wire is not one of the surface.
+void check_wire(const Surface& surface, const PlannedWire& wire, const std::string& name) {
+  const std::vector<std::int32_t>& chain = wire.vertices;
+  for (const std::int32_t v : chain) check_index(v, surface.vertex_count(), name + ": vertex");
+  if (chain.size() < 2 || chain.front() != wire.from || chain.back() != wire.to) {
+    throw InvalidInput(name + ": the edges of a wire do not lead from " + std::to_string(wire.from) + " to " +
+                       std::to_string(wire.to));
+  }
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    const auto [a, b] = std::minmax(chain[i - 1], chain[i]);
+    if (std::ranges::binary_search(surface.edges(), Edge{a, b})) continue;
+    throw InvalidInput(name + ": the surface has no edge between the vertices " + std::to_string(a) + " and " +
+                       std::to_string(b));
+  }
+  const auto check_place = [&](std::int32_t v, const Vector& point) {
+    if (is_same_place(surface, surface.points()[v], point)) return;
+    throw InvalidInput(name + ": a wire is of another surface: it does not pass vertex " + std::to_string(v));
+  };
+  if (wire.faces.empty() && wire.points.size() == chain.size()) {
+    for (std::size_t i = 0; i < chain.size(); ++i) check_place(chain[i], wire.points[i]);
+  } else {
+    check_curve(surface, wire.points, wire.faces, name + ": a wire is of another surface: ");
+    check_place(wire.from, wire.points.front());
+    check_place(wire.to, wire.points.back());
+  }
+  if (!(wire.worth > 0.0 && std::isfinite(wire.worth))) {
+    throw InvalidInput(name + ": the worth of a wire is " + text(wire.worth) + ", not a finite number above 0");
+  }
+}
+
+/// Wires of a plan as wires to choose from. Throws InvalidInput where they are not wires of the surface.
 std::vector<Choice> choices_of(const Surface& surface, std::span<const PlannedWire> wires, const std::string& name) {
   std::vector<Choice> choices;
   choices.reserve(wires.size());
   for (const PlannedWire& wire : wires) {
-    for (const std::int32_t v : wire.vertices) check_index(v, surface.vertex_count(), name + ": vertex");
+    check_wire(surface, wire, name);
     choices.push_back({.wire = wire, .strength = wire.worth});
   }
   return choices;
@@ -119,7 +158,7 @@ struct SeamPlanner::Impl {
                                    const Task& task) const {
     return seamwire::straightened(std::move(of), fixed, wires->direct, surface(), options, limits, max_spreads, task);
   }
-  SeamPlan plan_of(std::vector<Choice> taken, const SeamLimits& limits, std::span<const double> max_spreads) const;
+  SeamPlan plan_of(std::vector<Choice> taken) const;
   std::vector<Choice> swept(std::vector<Choice> best, const SeamLimits& limits, std::span<const double> max_spreads,
                             const Task& task) const;
   std::vector<std::vector<Choice>> shortened(const Choice& wire, const std::vector<Choice>& others,
@@ -219,10 +258,8 @@ std::vector<std::vector<Choice>> SeamPlanner::Impl::shortened(const Choice& wire
   return ways;
 }
 
-SeamPlan SeamPlanner::Impl::plan_of(std::vector<Choice> taken, const SeamLimits& limits,
-                                    std::span<const double> max_spreads) const {
+SeamPlan SeamPlanner::Impl::plan_of(std::vector<Choice> taken) const {
   SeamPlan plan;
-  plan.not_discs = Quality(pieces(taken, max_spreads), limits).not_discs;
   std::vector<Edge> cuts = options.seams;
   for (Choice& choice : taken) {
     const std::vector<std::int32_t>& chain = choice.wire.vertices;
@@ -232,7 +269,9 @@ SeamPlan SeamPlanner::Impl::plan_of(std::vector<Choice> taken, const SeamLimits&
     plan.wires.push_back(std::move(choice.wire));
   }
   plan.islands = face_segments(surface(), cuts);
-  for (const std::int32_t island : plan.islands) plan.island_count = std::max(plan.island_count, index(island) + 1);
+  const std::vector<std::int32_t> missing = missing_cuts(surface(), cuts, plan.islands);
+  plan.island_count = missing.size();
+  plan.not_discs = static_cast<std::size_t>(std::ranges::count_if(missing, [](std::int32_t more) { return more > 0; }));
   return plan;
 }
 
@@ -271,7 +310,7 @@ SeamPlan SeamPlanner::plan(const SeamLimits& limits, std::span<const PlannedWire
   std::vector<Choice> taken = thinned(surface, impl_->options.images, among, std::move(all), limits, task);
   if (limits.may_start_on_others) taken = impl_->swept(std::move(taken), limits, max_spreads, task);
   if (limits.are_straightened) taken = impl_->straightened(std::move(taken), fixed, limits, max_spreads, task);
-  return impl_->plan_of(std::move(taken), limits, max_spreads);
+  return impl_->plan_of(std::move(taken));
 }
 
 SeamPlan SeamPlanner::straightened(std::span<const PlannedWire> wires, const SeamLimits& limits,
@@ -279,8 +318,7 @@ SeamPlan SeamPlanner::straightened(std::span<const PlannedWire> wires, const Sea
   const Surface& surface = impl_->surface();
   const std::vector<double> max_spreads = checked_spreads(surface, limits);
   for (const std::int32_t v : fixed) check_index(v, surface.vertex_count(), "fixed: vertex");
-  return impl_->plan_of(impl_->straightened(choices_of(surface, wires, "wires"), fixed, limits, max_spreads, task),
-                        limits, max_spreads);
+  return impl_->plan_of(impl_->straightened(choices_of(surface, wires, "wires"), fixed, limits, max_spreads, task));
 }
 
 }  // namespace seamwire

@@ -14,6 +14,7 @@
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
 #include "geodesics/placed_point.hpp"
+#include "wires/curve_check.hpp"
 #include "wires/path_position.hpp"
 #include "wires/vertex_tree.hpp"
 
@@ -109,7 +110,9 @@ class Sides {
     for (std::int32_t v = 0; v < mesh_.vertex_count; ++v) {
       if (seen[v] == 3) sources.push_back(SurfacePoint::at_vertex(v));
     }
-    return geodesics.solve(sources, {}, task).distances();
+    const DistanceField field = geodesics.solve(sources, {}, task);
+    if (!field.fits(mesh_)) throw InvalidInput("the geodesics are of another embedding");
+    return field.distances();
   }
   /// A face or a hole is as deep as what is nearest of it.
   std::int32_t deepest(const std::vector<double>& depths, std::uint8_t side) const {
@@ -219,13 +222,24 @@ IntrinsicPath DoubleCover::projected(IntrinsicPath path) const {
   return path;
 }
 
-Crossed line_across(const Embedding& embedding, const ExactGeodesics& geodesics, const DistanceField& field,
-                    const ClosedWire& cut, const Task& task, std::vector<std::int32_t>& half_edges) {
+Vector position(const Embedding& embedding, const SurfacePoint& point) {
+  return position(embedding, PathPoint{.vertex = point.vertex, .face = point.face, .barycentric = point.barycentric});
+}
+
+Crossed line_across(const Surface& surface, const Embedding& embedding, const ExactGeodesics& geodesics,
+                    const DistanceField& field, const ClosedWire& cut, const Task& task,
+                    std::vector<std::int32_t>& half_edges) {
+  check_embedding(surface, embedding);
   check_field(embedding, field);
   if (field.sources().size() != 1) {
     throw InvalidInput("a cut leads through one seed: the field has " + std::to_string(field.sources().size()));
   }
   Sides sides(embedding.mesh, field, cut.half_edge, task);
+  const std::vector<Vector>& points = cut.wire.points;
+  const Vector seed = position(embedding, field.sources().front());
+  if (points.empty() || !is_same_place(surface, points.front(), seed) || !is_same_place(surface, points.back(), seed)) {
+    throw InvalidInput("the cut does not lead through the seed of the field");
+  }
   half_edges = sides.half_edges();
   return sides.line(geodesics, task);
 }
@@ -242,7 +256,7 @@ struct BentWires::Impl {
 BentWires::BentWires(const Surface& surface, const Embedding& embedding, const ExactGeodesics& geodesics,
                      const DistanceField& field, const ClosedWire& cut, const Task& task) {
   std::vector<std::int32_t> half_edges;
-  const Crossed line = line_across(embedding, geodesics, field, cut, task, half_edges);
+  const Crossed line = line_across(surface, embedding, geodesics, field, cut, task, half_edges);
   Impl made{.surface = &surface,
             .embedding = &embedding,
             .cover = DoubleCover(embedding.mesh, half_edges, line),

@@ -474,6 +474,7 @@ std::vector<ClosedWire> CutLocus::best(std::size_t count) {
 
 std::vector<ClosedWire> closed_wires(const Surface& surface, const Embedding& embedding, const DistanceField& field,
                                      std::size_t count, const Task& task) {
+  check_embedding(surface, embedding);
   check_field(embedding, field);
   if (field.sources().size() != 1) {
     throw InvalidInput("closed wires lead through one seed: the field has " + std::to_string(field.sources().size()));

@@ -16,6 +16,7 @@
 #include "detail/index.hpp"
 #include "detail/insertion_map.hpp"
 #include "detail/poll.hpp"
+#include "wires/curve_check.hpp"
 #include "wires/polyline.hpp"
 
 namespace seamwire {
@@ -343,16 +344,17 @@ void check_wire(const Surface& surface, const Wire& wire) {
   const auto check_vertex = [&](std::int32_t v) { check_index(v, surface.vertex_count(), not_on_it + "vertex"); };
   check_vertex(wire.from);
   check_vertex(wire.to);
-  if (wire.vertices.size() != wire.points.size() || wire.faces.size() + 1 != wire.points.size()) {
+  if (wire.vertices.size() != wire.points.size()) {
     throw InvalidInput("the wire has " + std::to_string(wire.points.size()) + " points, but " +
-                       std::to_string(wire.vertices.size()) + " vertex numbers and " +
-                       std::to_string(wire.faces.size()) + " faces");
+                       std::to_string(wire.vertices.size()) + " vertex numbers");
   }
-  for (const std::int32_t v : wire.vertices) {
-    if (v != -1) check_vertex(v);
-  }
-  for (const std::int32_t f : wire.faces) {
-    if (f != -1) check_index(f, surface.face_count(), not_on_it + "face", "faces");
+  check_curve(surface, wire.points, wire.faces, not_on_it);
+  for (std::size_t i = 0; i < wire.vertices.size(); ++i) {
+    const std::int32_t v = wire.vertices[i];
+    if (v == -1) continue;
+    check_vertex(v);
+    if (is_same_place(surface, surface.points()[v], wire.points[i])) continue;
+    throw InvalidInput(not_on_it + "point " + std::to_string(i) + " is not at vertex " + std::to_string(v));
   }
 }
 

@@ -22,15 +22,6 @@ bool straight(const Vector& a, const Vector& b, const Vector& c) {
   return u.dot(v) > 0 && u.cross(v).norm() <= kCollinear * u.norm() * v.norm();
 }
 
-void check_embedding(const Surface& surface, const Embedding& embedding) {
-  const std::size_t vertices = surface.vertex_count();
-  if (embedding.points.size() < vertices ||
-      (vertices > 0 && (embedding.points.front() != surface.points().front() ||
-                        embedding.points[vertices - 1] != surface.points().back()))) {
-    throw InvalidInput("the embedding is of another surface");
-  }
-}
-
 void check_path(const Surface& surface, const Embedding& embedding, const IntrinsicPath& path) {
   const auto check = [](bool is_there) {
     if (!is_there) throw InvalidInput("the path is of another embedding");
@@ -53,6 +44,15 @@ void check_path(const Surface& surface, const Embedding& embedding, const Intrin
 
 }  // namespace
 
+void check_embedding(const Surface& surface, const Embedding& embedding) {
+  const std::size_t vertices = surface.vertex_count();
+  if (embedding.points.size() < vertices ||
+      (vertices > 0 && (embedding.points.front() != surface.points().front() ||
+                        embedding.points[vertices - 1] != surface.points().back()))) {
+    throw InvalidInput("the embedding is of another surface");
+  }
+}
+
 Vector position(const Embedding& embedding, const PathPoint& point) {
   if (point.vertex >= 0) return embedding.points[point.vertex];
   if (point.face >= 0) {
@@ -67,10 +67,10 @@ Vector position(const Embedding& embedding, const PathPoint& point) {
 }
 
 void check_field(const Embedding& embedding, const DistanceField& field) {
-  if (field.distances().size() != embedding.points.size()) {
-    throw InvalidInput("the field is of another embedding: it has " + std::to_string(field.distances().size()) +
-                       " vertices, the embedding " + std::to_string(embedding.points.size()));
-  }
+  if (field.fits(embedding.mesh)) return;
+  throw InvalidInput("the field is of another embedding: it has " + std::to_string(field.distances().size()) +
+                     " vertices, the embedding " + std::to_string(embedding.points.size()) + " vertices and " +
+                     std::to_string(embedding.mesh.face_count()) + " triangles");
 }
 
 Wire map_wire(const Surface& surface, const Embedding& embedding, const IntrinsicPath& path) {

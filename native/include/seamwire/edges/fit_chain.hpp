@@ -40,7 +40,8 @@ struct FittedChain {
 /// fits none, and one within a face fits its border, or nothing.
 ///
 /// Takes time in proportion to the line, not to the surface. Throws InvalidInput where points and faces differ in
-/// number, a coordinate is not finite, or a face or a vertex is not part of the surface.
+/// number, the adjacency is of another surface, a coordinate is not finite, or a face or a vertex is not part of the
+/// surface.
 FittedChain fit_chain(const Surface& surface, const EdgeAdjacency& adjacency, const DrawnLine& line,
                       std::optional<std::int32_t> begin = std::nullopt, std::optional<std::int32_t> end = std::nullopt);
 

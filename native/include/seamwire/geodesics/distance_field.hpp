@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "seamwire/surface/intrinsic_mesh.hpp"
 #include "seamwire/surface/surface_point.hpp"
 #include "seamwire/task.hpp"
 
@@ -40,6 +41,8 @@ class DistanceField {
   bool is_exact() const;  ///< or from a bounded number of windows
   /// Distances beyond it are given as infinite: that at which the solve stopped, or infinity.
   double radius() const;
+  /// Whether the field may be one over a mesh, as far as the numbers of vertices and triangles tell.
+  bool fits(const IntrinsicMesh& mesh) const;
   /// One a vertex; infinite where no path leads. Where the field is not exact they may be too long or too short.
   const std::vector<double>& distances() const;
 

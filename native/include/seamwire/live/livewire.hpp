@@ -27,7 +27,7 @@ enum class Along { kSurface, kEdges };
 
 /// Which of the metrics of metric.hpp wires are short in: a wire in M_min and one in M_max of that name. kFeature,
 /// across the surface: a third one in concave_metric(), on curvatures smoothed over 0.01. kConcave: the first wire in
-/// that metric, the second one in the Euclidean metric.
+/// that metric, the second one in the Euclidean metric. kEuclidean: one wire, in that metric.
 enum class MetricFamily { kFeature, kCampen, kPottmannKovacs, kConcave, kEuclidean };
 /// What concave_metric() takes a max_anisotropy A for, a strength of (A - 1) / (kConcaveUnit - 1), and, beside
 /// kFeature, a gamma: gamma / kConcaveGamma; so that one setting serves all wires.
@@ -114,7 +114,7 @@ struct LiveEmbedding {
 /// be built, each member throws what the constructor of Surface threw.
 class LiveWire {
  public:
-  /// Throws InvalidInput for options that are not as said above and in metric.hpp.
+  /// Throws InvalidInput for options that are not as said above and in metric.hpp, and where there is no surface.
   explicit LiveWire(std::shared_ptr<const Surface> surface, const LiveWireOptions& options = {});
   /// Builds the surface on its own threads, from the arguments of Surface's constructor, and returns at once.
   LiveWire(std::vector<Vector> points, std::vector<Triangle> triangles,

@@ -24,8 +24,8 @@ struct SeamPlannerOptions {
   /// How many times denser seeds are at each vertex than elsewhere; empty: as dense everywhere. Where it is 0 there are
   /// those of `seeds_at` alone, and no wire comes there.
   std::vector<double> density = {};
-  /// The mirror image of each vertex, itself or -1 where it has none: seeds come and wires go in pairs. Empty: the
-  /// surface is not symmetric.
+  /// The mirror image of each vertex, itself or -1 where it has none: seeds come and wires go in pairs. The image of a
+  /// vertex' image is the vertex. Empty: the surface is not symmetric.
   std::vector<std::int32_t> images = {};
   /// Seams that are there already, and stay: vertex pairs; those that are no edges of two triangles cut nothing.
   std::vector<Edge> seams = {};
@@ -70,7 +70,8 @@ struct SeamPlan {
   std::vector<PlannedWire> wires;     ///< without the seams that were there
   std::vector<std::int32_t> islands;  ///< of each of the caller's triangles, as face_segments() numbers them
   std::size_t island_count = 0;       ///< how many
-  std::size_t not_discs = 0;          ///< how many of the islands are no discs, where there were not seeds enough
+  /// How many islands are not discs, see missing_cuts(): there were too few seeds to cut them.
+  std::size_t not_discs = 0;
   /// The lengths of the wires in the caller's units, each over its worth: what is the less of two plans for the same.
   double cost = 0.0;
 };
@@ -95,7 +96,8 @@ class SeamPlanner {
   SeamPlanner with(const SeamPlannerOptions& options, const Task& task = {}) const;
   /// The wires that are needed for islands within limits; no wires where the surface is a disc within them. Throws
   /// InvalidInput for limits that are not as said above; Cancelled.
-  /// `kept`: wires of another plan of the same surface that this one has as well, whatever the limits.
+  /// `kept`: wires of another plan of the same surface that this one has as well, whatever the limits. Throws
+  /// InvalidInput for a wire whose edges or points are not those of the surface.
   SeamPlan plan(const SeamLimits& limits = {}, std::span<const PlannedWire> kept = {}, const Task& task = {}) const;
   /// The wires of a plan of the same surface and seams, straightened as the end of plan() does it: islands stay as many
   /// and as good within the limits. `fixed`: vertices; a seed there stays, and what meets there. Throws as plan() does.

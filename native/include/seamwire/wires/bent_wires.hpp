@@ -28,8 +28,9 @@ struct BentWire {
 class BentWires {
  public:
   /// From a cut that closed_wires() found with the same arguments; `geodesics` is of the embedding's mesh. Surface and
-  /// embedding have to outlive it. Throws InvalidInput where the field has several sources, or is of another embedding,
-  /// and where the cut is of another one, as far as sizes tell; Cancelled.
+  /// embedding have to outlive it. Throws InvalidInput where the field has several sources, and where the cut does not
+  /// lead through its seed. Throws it, too, where sizes show that embedding, geodesics or field do not belong together;
+  /// Cancelled.
   BentWires(const Surface& surface, const Embedding& embedding, const ExactGeodesics& geodesics,
             const DistanceField& field, const ClosedWire& cut, const Task& task = {});
   ~BentWires();

@@ -32,8 +32,8 @@ class SnapGraph {
 /// those, the one with the least sum of its integral of the distance to the wire and of 1/2 (|u| |v| - u v) for every
 /// two edges u, v that follow each other. Where these do not connect the ends, of the polygons around them, ring by
 /// ring. Connected, without a repeated vertex. Empty where the wire is, or where no path of edges leads.
-/// Takes time proportional to the faces crossed. Throws InvalidInput for a wire that is not on the surface, and a graph
-/// of a surface with other numbers of vertices, faces or edges; Cancelled.
+/// Takes time proportional to the faces crossed. Throws InvalidInput for a wire whose points do not lie in its faces of
+/// the surface, and a graph of a surface with other numbers of vertices, faces or edges; Cancelled.
 std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire,
                                         const Task& task = {});
 

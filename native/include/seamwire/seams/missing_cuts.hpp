@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "seamwire/surface/surface.hpp"
+
+namespace seamwire {
+
+/// How many more cuts each segment needs to become a disc: 0 for a disc, 1 for a tube, a Moebius strip or a closed
+/// ball, 2 for a disc with a handle, 3 for a torus. Each cut leads from border to border; a segment without a border
+/// needs another cut first to get one.
+///
+/// Triangles that share only a vertex are not joined. An edge with three or more triangles is a border of each of them,
+/// as it is in a UV map. So a segment may fall into several parts that meet in such edges, and the cuts of all of them
+/// count.
+///
+/// `cut_edges`: as in face_segments(). `segments`: what that returns for them. Throws InvalidInput for a vertex out of
+/// range, and for segments of another surface or of other cuts.
+std::vector<std::int32_t> missing_cuts(const Surface& surface, std::span<const Edge> cut_edges,
+                                       std::span<const std::int32_t> segments);
+
+}  // namespace seamwire
