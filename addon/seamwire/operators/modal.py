@@ -117,6 +117,11 @@ class Chain:
         return self in running
 
     @property
+    def previews(self) -> bool:
+        """Whether it only shows what a click would take."""
+        return bool(self._peek)
+
+    @property
     def idle(self) -> bool:
         """Whether it has begun and nothing is live any more, nothing dragged and nothing waited for: then it ends."""
         return (
