@@ -166,6 +166,33 @@ def test_a_preview_that_raises_tells_nobody_and_the_next_key_is_blenders(
     assert desk.obj.mode == "OBJECT"
 
 
+@pytest.mark.every_blender
+def test_what_was_hidden_just_now_is_not_picked_and_alt_h_shows_it(desk: Desk) -> None:
+    """The keys come so fast that Blender tells of the hidden faces only after the last one."""
+    desk.choose()
+    bm = bmesh.from_edit_mesh(desk.obj.data)
+    bm.verts.ensure_lookup_table()
+    with desk.ui.override():
+        bpy.ops.mesh.select_all(action="DESELECT")
+    for vertex in (0, 1, 9, 10):
+        bm.verts[vertex].select = True
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(desk.obj.data)
+    ui, place = desk.ui, desk.at(40)
+    ui.move(place)
+    ui.wait(20)
+    assert desk.session.target.pick == 40
+    ui.event("H", "PRESS", shift=True, ticks=0)
+    ui.event("H", "RELEASE", shift=True, ticks=0)
+    ui.event("LEFT_ALT", "PRESS", alt=True)
+    assert sum(hidden(desk.obj)) == 63
+    assert desk.session.target is None, "nothing is seen there"
+    assert len(edited.front.mesh.arrays.edges) == 4
+    ui.key("H", alt=True)
+    ui.event("LEFT_ALT", "RELEASE")
+    assert not any(hidden(desk.obj))
+
+
 def test_x_is_blenders_where_there_is_no_wire(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     asked = []
     menu = bpy.types.VIEW3D_MT_edit_mesh_delete

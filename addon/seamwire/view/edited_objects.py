@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..mesh import settings as chosen
-from .object_view import ObjectView, in_bounds
+from .object_view import ObjectView, in_bounds, let_blender_tell
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -104,6 +104,7 @@ class EditedObjects:
     def take_stock(self) -> None:
         """Read anew what has changed, and let one of the objects that are edited be in front."""
         self._error = None  # what could not be drawn before says nothing of now
+        let_blender_tell()
         self.refresh()
         if self.front is None or not self.front.mesh.alive():
             self.front = self.of(bpy.context.active_object)
