@@ -10,7 +10,8 @@ import bpy
 
 from ..core.native import NativeError
 from ..mesh.settings import ALONG_ITEMS, settings
-from .bindings import Action
+from .bindings import Action, Key
+from .navigation import takes
 from .report import in_edit_mode, running
 
 if TYPE_CHECKING:
@@ -64,6 +65,8 @@ class MESH_OT_seamwire_draw(bpy.types.Operator):
         from ..mesh.edit_mesh import NothingVisibleError
         from .modal import Chain
 
+        if self.first != "NONE" and takes(Key.of(event), context):
+            return {"PASS_THROUGH"}
         if not any(area.type == "VIEW_3D" for area in context.window.screen.areas):
             self.report({"ERROR"}, "Seams are drawn in a 3D view, and this window shows none")
             return {"CANCELLED"}
