@@ -113,7 +113,9 @@ def edit() -> None:
 def seams(obj: bpy.types.Object) -> list[Edge]:
     """Return the seams of an object in either mode, smaller vertex first, sorted."""
     if obj.mode == "EDIT":
-        pairs = [tuple(v.index for v in edge.verts) for edge in bmesh.from_edit_mesh(obj.data).edges if edge.seam]
+        bm = bmesh.from_edit_mesh(obj.data)
+        bm.verts.index_update()
+        pairs = [tuple(v.index for v in edge.verts) for edge in bm.edges if edge.seam]
     else:
         pairs = [tuple(edge.vertices) for edge in obj.data.edges if edge.use_seam]
     return sorted((min(pair), max(pair)) for pair in pairs)
@@ -141,6 +143,8 @@ def snapshot(obj: bpy.types.Object, with_seams: bool = True) -> dict[str, object
         Whether seams count as well.
     """
     bm = bmesh.from_edit_mesh(obj.data)
+    for sequence in (bm.verts, bm.edges, bm.faces):
+        sequence.index_update()  # Blender's own operators leave others behind
     history = range(len(bm.select_history))
     found: dict[str, object] = {
         "vertices": [(*v.co, *v.normal, v.select, v.hide) for v in bm.verts],

@@ -56,6 +56,11 @@ def test_a_module_imports_from_its_own_package_and_those_below(path: Path) -> No
         assert not others & BLENDERS
 
 
+def test_edit_meshes_are_had_from_one_place_which_numbers_their_items() -> None:
+    readers = {path.name for path in modules() if "from_edit_mesh" in path.read_text(encoding="utf-8")}
+    assert readers == {"edit_mesh.py"}
+
+
 def reached(graph: dict[str, set[str]], start: str) -> set[str]:
     """Return the modules that one needs, itself only if one of them needs it."""
     found: set[str] = set()

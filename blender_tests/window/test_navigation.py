@@ -8,8 +8,9 @@ from types import SimpleNamespace
 import bpy
 import pytest
 import ui as driver
-from desk import Desk
+from desk import Desk, choose
 from scene import chain, seams
+from seamwire.operators import bindings
 
 
 def begin(desk: Desk) -> None:
@@ -140,39 +141,133 @@ def test_the_navigation_gizmo_works(desk: Desk) -> None:
     finish(desk)
 
 
+KEYMAPS = {
+    "Blender": ("Blender", "LEFT"),
+    "Industry Compatible": ("Industry_Compatible", ""),
+    "Blender 2.7x": ("Blender_27x", ""),
+    "right-click select": ("Blender", "RIGHT"),
+}
+"""The files of Blender's preset keymaps, and the button that selects where there is a choice."""
+
+
+HANDS = [
+    *(pytest.param(name, True, marks=pytest.mark.every_blender, id=f"buttons-{name}") for name in KEYMAPS),
+    *(pytest.param(name, False, id=f"keys-{name}") for name, (_, button) in KEYMAPS.items() if button != "RIGHT"),
+]
+"""Each keymap with its buttons, and with its keys."""
+
+
 @pytest.fixture
-def industry() -> Iterator[None]:
-    """Blender's preset keymap Industry Compatible."""
+def keymap(request: pytest.FixtureRequest) -> Iterator[str]:
+    """One of `KEYMAPS`."""
+    file, button = KEYMAPS[request.param]
     manager = bpy.context.window_manager
     before = manager.keyconfigs.active.name
-    path = next(
-        Path(folder) / "Industry_Compatible.py"
-        for folder in bpy.utils.preset_paths("keyconfig")
-        if (Path(folder) / "Industry_Compatible.py").exists()
-    )
+    folders = [Path(folder) for folder in bpy.utils.preset_paths("keyconfig")]
+    path = next(folder / f"{file}.py" for folder in folders if (folder / f"{file}.py").exists())
     bpy.utils.keyconfig_set(str(path))
-    yield
+    if button:
+        manager.keyconfigs.active.preferences.select_mouse = button
+    yield request.param
+    if button:
+        manager.keyconfigs.active.preferences.select_mouse = "LEFT"
     manager.keyconfigs.active = manager.keyconfigs[before]
 
 
-def test_with_the_industry_compatible_keymap_alt_and_the_mouse_move_the_view(industry: None, desk: Desk) -> None:
+MOVES = ("rotate", "move", "zoom", "dolly", "view_axis", "view_orbit", "view_pan", "view_roll", "view_all", "view_selected")
+"""Blender's operators that move the view at once; the rest begins walking, or needs a camera."""
+ALONG = {"NORTH": (0, 1), "SOUTH": (0, -1), "EAST": (1, 0), "WEST": (-1, 0)}
+
+
+def gestures(buttons: bool) -> list[tuple[str, str, str, dict[str, bool]]]:
+    """Return the buttons, or the keys, that move the view in the user's keymap: type, value, direction and modifiers."""
+    found = []
+    for item in bpy.context.window_manager.keyconfigs.user.keymaps["3D View"].keymap_items:
+        simulated = not item.type.startswith("NDOF") and item.type not in {"MOUSEROTATE", "TRACKPADZOOM"}
+        of_hand = item.type.endswith("MOUSE") or item.type == "TRACKPADPAN"
+        if item.active and item.idname in {f"view3d.{name}" for name in MOVES} and simulated and of_hand == buttons:
+            held = {name: True for name in ("shift", "ctrl", "alt") if getattr(item, name) == 1}
+            found.append((item.type, item.value, getattr(item, "direction", "ANY"), {} if item.any else held))
+    assert len(found) > 7
+    return found
+
+
+def seen(ui: driver.Ui) -> tuple[object, ...]:
+    """Return all that tells how the view looks at the scene."""
+    view = ui.view
+    numbers = (*view.view_rotation, *view.view_location, view.view_distance)
+    return (*(round(number, 5) for number in numbers), view.view_perspective)
+
+
+def do(desk: Desk, kind: str, value: str, direction: str, held: dict[str, bool]) -> bool:
+    """Do what a hand does for a gesture; return whether the view was moved by it. Then it is as it was."""
+    ui, start = desk.ui, desk.at(50)
+    view = ui.view
+    place = view.view_rotation.copy(), view.view_location.copy(), view.view_distance, view.view_perspective
+    before = seen(ui)
+    ui.event("MOUSEMOVE", "NOTHING", start, ticks=0)
+    for i, name in enumerate(held):
+        ui.event(f"LEFT_{name.upper()}", "PRESS", ticks=0, **dict.fromkeys(list(held)[: i + 1], True))
+    if kind == "TRACKPADPAN":
+        ui.event(kind, "NOTHING", (start[0] + 60.0, start[1] + 20.0), ticks=0, **held)
+    elif kind.startswith("WHEEL"):
+        turned = {"WHEELINMOUSE": "WHEELUPMOUSE", "WHEELOUTMOUSE": "WHEELDOWNMOUSE"}.get(kind, kind)
+        ui.event(turned, "PRESS", ticks=0, **held)
+    else:
+        ui.event(kind, "PRESS", ticks=0, **held)
+        if kind.endswith("MOUSE") and value != "CLICK":
+            x, y = ALONG.get(direction, (0.6, 0.8))
+            for far in (15.0, 30.0, 45.0):
+                ui.event("MOUSEMOVE", "NOTHING", (start[0] + far * x, start[1] + far * y), ticks=0, **held)
+        ui.event(kind, "RELEASE", ticks=0, **held)
+    for name in held:
+        ui.event(f"LEFT_{name.upper()}", "RELEASE", ticks=0)
+    ui.wait(2)
+    moved = seen(ui) != before
+    view.view_rotation, view.view_location, view.view_distance, view.view_perspective = place
+    view.update()
+    return moved
+
+
+def moved_by_other_tools(desk: Desk, tried: list[tuple[str, str, str, dict[str, bool]]]) -> list[object]:
+    """Return the gestures that move the view without the tool: some need what is not there."""
+    choose(desk.ui, "builtin.select_box")
+    return [gesture for gesture in tried if do(desk, *gesture)]
+
+
+@pytest.mark.parametrize(("keymap", "buttons"), HANDS, indirect=["keymap"])
+def test_every_gesture_of_a_keymap_moves_the_view_before_the_first_click(
+    keymap: str, desk: Desk, buttons: bool
+) -> None:
     desk.ui.wait(4)
+    desk.choose()
+    still = []
+    for gesture in gestures(buttons):
+        if not do(desk, *gesture):
+            still.append(gesture)
+        assert not desk.running, gesture
+    assert seams(desk.obj) == []
+    assert moved_by_other_tools(desk, still) == []
+
+
+@pytest.mark.parametrize(("keymap", "buttons"), HANDS, indirect=["keymap"])
+def test_every_gesture_of_a_keymap_moves_the_view_within_a_chain(keymap: str, desk: Desk, buttons: bool) -> None:
+    desk.ui.wait(4)
+    desk.choose()
     begin(desk)
-    ui = desk.ui
-    turned, distance = ui.view.view_rotation.copy(), ui.view.view_distance
-    start = desk.at(40)
-    for button in ("LEFTMOUSE", "RIGHTMOUSE"):
-        ui.move(start, alt=True)
-        ui.event(button, "PRESS", start, alt=True)
-        for step in range(1, 4):
-            ui.move((start[0] + 10.0 * step, start[1] + 6.0 * step), alt=True)
-        ui.event(button, "RELEASE", (start[0] + 30.0, start[1] + 18.0), alt=True)
-        ui.wait(2)
-    assert ui.view.view_rotation.rotation_difference(turned).angle > 0.02
-    assert ui.view.view_distance != distance
-    assert desk.running
-    assert desk.session.wires == ()
+    # A chain's keys come before those of the keymap, not so its buttons.
+    ours = {(key.type, key.modifiers) for _, key in bindings.KEYS if not key.type.endswith("MOUSE")}
+    still = []
+    for gesture in gestures(buttons):
+        kind, _, _, held = gesture
+        if (kind, bindings.Key(kind, **dict.fromkeys(held, 1)).modifiers) in ours:
+            continue
+        if not do(desk, *gesture):
+            still.append(gesture)
+        assert desk.running, gesture
+        assert desk.session.wires == (), gesture
     finish(desk)
+    assert moved_by_other_tools(desk, still) == []
 
 
 def test_what_a_key_means_is_read_from_the_users_keymap(desk: Desk) -> None:

@@ -5,6 +5,7 @@ import bpy
 import numpy as np
 import pytest
 import ui as driver
+from desk import choose
 from scene import add_grid, chain, edit, seams, snapshot
 from seamwire.operators.report import running
 
@@ -43,6 +44,45 @@ def test_a_double_click_takes_a_loop_and_single_clicks_draw(
     assert seams(obj) == sorted(loop.edges())
     after = snapshot(obj, with_seams=False)
     assert after == before
+
+
+def test_a_left_button_that_plays_the_middle_one_turns_the_view_between_chains_and_within_one(
+    real_ui: driver.RealUi, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Blender makes another button of it before an operator hears of it: simulated events stay what they are."""
+    ui = real_ui
+    monkeypatch.setattr(bpy.context.preferences.inputs, "use_mouse_emulate_3_button", True)
+    obj = add_grid(9)
+    ui.wait()
+    with ui.override():
+        edit()
+    ui.look_from_top(distance=4.0)
+    choose(ui)
+
+    def turn() -> float:
+        """Drag with Alt and the left button; return the angle that the view was turned by."""
+        before, start = ui.view.view_rotation.copy(), ui.on_screen((0.03, 0.4, 0.0))
+        ui.move(start)
+        ui.event("LEFT_ALT", "PRESS")
+        assert not (running and running[0].previews), "a click would not take a loop"
+        ui.event("LEFTMOUSE", "PRESS", alt=True)
+        for step in range(1, 4):
+            ui.move((start[0] + 15.0 * step, start[1]))
+        ui.event("LEFTMOUSE", "RELEASE")
+        ui.event("LEFT_ALT", "RELEASE")
+        angle = ui.view.view_rotation.rotation_difference(before).angle
+        ui.look_from_top(distance=4.0)
+        return angle
+
+    assert turn() > 0.02
+    assert not running
+    ui.click(ui.on_screen(tuple(obj.data.vertices[36].co)))
+    assert running[0].session.seed == 36
+    assert turn() > 0.02
+    assert running[0].session.wires == ()
+    running[0].drop()
+    assert seams(obj) == []
+    choose(ui, "builtin.select_box")
 
 
 @pytest.mark.smoke

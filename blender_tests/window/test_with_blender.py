@@ -14,6 +14,7 @@ from desk import ORANGE, Desk, choose, dismiss, draw, shows, undo_steps
 from scene import chain, edit, seams
 from seamwire.core.session import Session
 from seamwire.mesh import edit_mesh
+from seamwire.mesh.settings import TOOL
 from seamwire.operators.report import running
 from seamwire.view.edited_objects import edited
 
@@ -85,6 +86,111 @@ def test_between_chains_blender_has_its_keys(desk: Desk) -> None:
 def ensured(obj: bpy.types.Object) -> bool:
     bmesh.from_edit_mesh(obj.data).verts.ensure_lookup_table()
     return True
+
+
+def hidden(obj: bpy.types.Object) -> list[bool]:
+    """Return which faces are hidden."""
+    return [face.hide for face in bmesh.from_edit_mesh(obj.data).faces]
+
+
+def hide_all(desk: Desk) -> None:
+    with desk.ui.override():
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.mesh.hide()
+    desk.ui.wait()
+    assert all(hidden(desk.obj))
+
+
+@pytest.mark.every_blender
+def test_alt_h_shows_again_what_is_hidden_altogether(desk: Desk) -> None:
+    desk.choose()
+    hide_all(desk)
+    ui, place = desk.ui, desk.at(40)
+    ui.move(place)
+    ui.event("LEFT_ALT", "PRESS", place, alt=True)
+    assert not desk.running
+    ui.key("H", alt=True)
+    ui.event("LEFT_ALT", "RELEASE", place)
+    assert not any(hidden(desk.obj))
+    ui.move(desk.at(41))
+    assert desk.session.target.pick == 41
+
+
+def test_where_nothing_is_visible_keys_of_the_tool_are_blenders_and_a_click_opens_no_popup(desk: Desk) -> None:
+    desk.choose()
+    hide_all(desk)
+    ui, place = desk.ui, desk.at(40)
+    ui.click(place)
+    ui.key("W")  # Blender goes to its next selection tool
+    assert bpy.context.workspace.tools.from_space_view3d_mode("EDIT_MESH").idname != TOOL
+    choose(ui)
+    ui.click(place, alt=True)
+    ui.key("H", alt=True)
+    assert not any(hidden(desk.obj))
+
+
+def test_on_an_empty_mesh_neither_alt_nor_a_click_takes_the_next_key(desk: Desk) -> None:
+    desk.choose()
+    with desk.ui.override():
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.mesh.delete(type="VERT")
+    ui, place = desk.ui, (300.0, 300.0)
+    ui.move(place)
+    ui.event("LEFT_ALT", "PRESS", place, alt=True)
+    ui.event("LEFT_ALT", "RELEASE", place)
+    ui.key("TAB")
+    assert desk.obj.mode == "OBJECT"
+    ui.key("TAB")
+    assert desk.obj.mode == "EDIT"
+    ui.click(place)
+    ui.key("TAB")
+    assert desk.obj.mode == "OBJECT"
+
+
+def test_a_preview_that_raises_tells_nobody_and_the_next_key_is_blenders(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    session = desk.choose()
+
+    def fail(*_: object, **__: object) -> None:
+        raise RuntimeError("as the test wants it")
+
+    ui, place = desk.ui, desk.at(40)
+    ui.move(place)
+    monkeypatch.setattr(session, "hover", fail)
+    ui.event("LEFT_ALT", "PRESS", place, alt=True)
+    monkeypatch.undo()
+    assert not desk.running
+    ui.event("LEFT_ALT", "RELEASE", place)
+    ui.key("TAB")
+    assert desk.obj.mode == "OBJECT"
+
+
+@pytest.mark.every_blender
+def test_what_was_hidden_just_now_is_not_picked_and_alt_h_shows_it(desk: Desk) -> None:
+    """The keys come so fast that Blender tells of the hidden faces only after the last one."""
+    desk.choose()
+    bm = bmesh.from_edit_mesh(desk.obj.data)
+    bm.verts.ensure_lookup_table()
+    with desk.ui.override():
+        bpy.ops.mesh.select_all(action="DESELECT")
+    for vertex in (0, 1, 9, 10):
+        bm.verts[vertex].select = True
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(desk.obj.data)
+    ui, place = desk.ui, desk.at(40)
+    ui.move(place)
+    ui.wait(20)
+    assert desk.session.target.pick == 40
+    ui.event("H", "PRESS", shift=True, ticks=0)
+    ui.event("H", "RELEASE", shift=True, ticks=0)
+    ui.event("LEFT_ALT", "PRESS", alt=True)
+    assert sum(hidden(desk.obj)) == 63
+    assert desk.session.target is None, "nothing is seen there"
+    assert len(edited.front.mesh.arrays.edges) == 4
+    ui.key("H", alt=True)
+    ui.event("LEFT_ALT", "RELEASE")
+    assert not any(hidden(desk.obj))
 
 
 def test_x_is_blenders_where_there_is_no_wire(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:

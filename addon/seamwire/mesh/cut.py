@@ -64,7 +64,6 @@ class CageFaces:
     def __init__(self, cage: Cage, arrays: Arrays) -> None:
         self.points, self.triangles = arrays.points, arrays.triangles
         self._polygons = arrays.polygons
-        cage.number_items()
         self._bm = cage.bm
 
     def polygons_at(self, vertex: int) -> Sequence[int]:
@@ -170,6 +169,7 @@ def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = (), 
         if crumb > 0.0:
             _join(bm, _crumb_borders(bm, new, crumb * sum(face.calc_area() for face in bm.faces)))
             seams = [edge for edge in seams if edge.is_valid and edge.seam]
+    bm = cage.bm
     pairs = {(min(pair), max(pair)) for pair in ((edge.verts[0].index, edge.verts[1].index) for edge in seams)}
     # Those inside a face that could not be cut went.
     numbers = {seed: vert.index for seed, vert in seed_verts.items() if vert.is_valid}
@@ -178,12 +178,10 @@ def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = (), 
 
 @contextmanager
 def _changing(cage: Cage) -> Iterator[None]:
-    """Tell Blender of changes, and number what there is anew, even where they end on an error."""
+    """Tell Blender of changes, even where they end on an error."""
     try:
         yield
     finally:
-        for items in (cage.bm.verts, cage.bm.edges, cage.bm.faces):
-            items.index_update()
         bmesh.update_edit_mesh(cage.mesh, loop_triangles=True, destructive=True)
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import bmesh
 import bpy
 
-from .edit_mesh import Selection
+from .edit_mesh import Selection, edit_bmesh
 
 _ATTRIBUTES = {"CREASE": ("crease", "float"), "BEVEL": ("bevel_weight", "float"), "FREESTYLE": ("freestyle", "bool")}
 """The layer of each mark, and of which type the attribute of that name with _edge is, in Blenders that have one."""
@@ -30,7 +30,7 @@ def copy_seams(objects: list[bpy.types.Object], kind: str) -> int:
     marked = 0
     by_operator = []
     for obj in objects:
-        bm = bmesh.from_edit_mesh(obj.data)
+        bm = edit_bmesh(obj.data)
         # A new layer makes other items of the edges, so it comes first.
         layer = None if kind == "SHARP" else _layer(bm, kind)
         seams = _seams(bm)
@@ -68,7 +68,7 @@ def _mark_freestyle(objects: list[bpy.types.Object]) -> None:
     try:
         bpy.ops.mesh.select_all(action="DESELECT")
         for obj in objects:
-            for edge in _seams(bmesh.from_edit_mesh(obj.data)):
+            for edge in _seams(edit_bmesh(obj.data)):
                 edge.select_set(True)
         bpy.ops.mesh.mark_freestyle_edge()
     finally:

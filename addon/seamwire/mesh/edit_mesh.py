@@ -36,6 +36,22 @@ class NothingVisibleError(ValueError):
     """There is nothing of the mesh to work on: it has none, or all of it is hidden."""
 
 
+def edit_bmesh(mesh: bpy.types.Mesh) -> bmesh.types.BMesh:
+    """Return the edit mesh of a mesh, each vertex, edge and face with its number.
+
+    Some of Blender's operators, such as View Selected, leave other numbers behind. So all of the add-on comes to edit meshes here.
+    """
+    return _numbered(bmesh.from_edit_mesh(mesh))
+
+
+def _numbered(bm: bmesh.types.BMesh) -> bmesh.types.BMesh:
+    """Number what has a wrong number, and let items be found by their numbers. It takes no time where all are right."""
+    for sequence in (bm.verts, bm.edges, bm.faces):
+        sequence.ensure_lookup_table()
+        sequence.index_update()
+    return bm
+
+
 class Cage:
     """The edit mesh of one object, as long as its topology stays what it is.
 
@@ -47,25 +63,20 @@ class Cage:
 
     def __init__(self, obj: bpy.types.Object) -> None:
         self.mesh = obj.data
-        self.bm = bmesh.from_edit_mesh(obj.data)
-        self.number_items()
+        self._bm = edit_bmesh(obj.data)
         self._counts = self._count()
 
-    def number_items(self) -> None:
-        """Let each vertex, edge and face know its number. Some of Blender's operators, such as View Selected, leave other numbers behind.
-
-        This takes no time where the numbers are right.
-        """
-        for sequence in (self.bm.verts, self.bm.edges, self.bm.faces):
-            sequence.ensure_lookup_table()
-            sequence.index_update()
+    @property
+    def bm(self) -> bmesh.types.BMesh:
+        """The edit mesh, each item with its number, see `edit_bmesh`. To be asked for anew after each of Blender's operators."""
+        return _numbered(self._bm)
 
     def _count(self) -> tuple[int, int, int]:
-        return len(self.bm.verts), len(self.bm.edges), len(self.bm.faces)
+        return len(self._bm.verts), len(self._bm.edges), len(self._bm.faces)
 
     def intact(self) -> bool:
         """Whether the edit mesh is still there, with as many vertices, edges and faces as before."""
-        return self.bm.is_valid and self._count() == self._counts
+        return self._bm.is_valid and self._count() == self._counts
 
     @property
     def vertex_count(self) -> int:
@@ -74,44 +85,40 @@ class Cage:
 
     def problem_with(self, picks: Iterable[Pick]) -> str:
         """Say in words what keeps picks from being seeds; an empty string where nothing does."""
-        count = self._counts[0]
+        count, bm = self._counts[0], self.bm
         for pick in picks:
             for vertex in vertices_of(pick):
                 if vertex >= count:
                     return f"There is no vertex {vertex}: the mesh has {count}, numbered from 0"
-                if self.bm.verts[vertex].hide:
+                if bm.verts[vertex].hide:
                     return f"Vertex {vertex} is hidden"
             if isinstance(pick, tuple):
-                edge = self._edge(pick)
+                edge = _edge(bm, pick)
                 if edge is None:
                     return f"There is no edge {pick[0]}-{pick[1]}"
                 if edge.hide:
                     return f"Edge {pick[0]}-{pick[1]} is hidden"
         return ""
 
-    def _edge(self, pair: tuple[int, int]) -> bmesh.types.BMEdge | None:
-        return self.bm.edges.get((self.bm.verts[pair[0]], self.bm.verts[pair[1]]))
-
     def active_vertex(self) -> int | None:
         """Return the vertex that was selected last; None where it was none, or is hidden."""
         active = self.bm.select_history.active
         if not isinstance(active, bmesh.types.BMVert) or active.hide:
             return None
-        self.number_items()
         return active.index
 
     def is_seam(self, pair: tuple[int, int]) -> bool:
         """Whether there is such an edge, and it is a seam."""
-        edge = self._edge(pair)
+        edge = _edge(self.bm, pair)
         return edge is not None and edge.seam
 
     def labels(self) -> EdgeLabels:
         """Return the edges that have a label."""
-        layer = self.bm.edges.layers.int.get(LABELS)
+        bm = self.bm
+        layer = bm.edges.layers.int.get(LABELS)
         if layer is None:
             return EdgeLabels.none()
-        self.number_items()
-        found = [(label, edge) for edge in self.bm.edges if (label := edge[layer])]
+        found = [(label, edge) for edge in bm.edges if (label := edge[layer])]
         return EdgeLabels(
             np.array([[v.index for v in edge.verts] for _, edge in found], dtype=np.int64).reshape(-1, 2),
             np.array([label for label, _ in found], dtype=np.int64),
@@ -137,7 +144,6 @@ class Cage:
         ValueError
             Where two vertices have no edge between them; then nothing is changed.
         """
-        self.number_items()
         # Looked up twice: a new layer makes what was found before invalid.
         for pairs in (mark := list(mark), clear := list(clear), labels):
             self._found(pairs)
@@ -153,27 +159,27 @@ class Cage:
                 edge[layer] = label
             if labels and not any(edge[layer] for edge in self.bm.edges):
                 self.bm.edges.layers.int.remove(layer)
-                self.number_items()
         if new or old or labels:
+            _numbered(self._bm)  # a layer that comes or goes takes the numbers away
             bmesh.update_edit_mesh(self.mesh, loop_triangles=False, destructive=False)
         return len(new), len(old)
 
     def _label_layer(self) -> bmesh.types.BMLayerItem:
         layers = self.bm.edges.layers.int
-        layer = layers.get(LABELS)
-        if layer is None:
-            layer = layers.new(LABELS)
-            self.number_items()
-        return layer
+        return layers.get(LABELS) or layers.new(LABELS)
 
     def _found(self, pairs: Iterable[tuple[int, int]]) -> list[bmesh.types.BMEdge]:
-        found = []
+        found, bm = [], self.bm
         for pair in pairs:
-            edge = self._edge(pair)
+            edge = _edge(bm, pair)
             if edge is None:
                 raise ValueError(f"There is no edge {pair[0]}-{pair[1]} to mark")
             found.append(edge)
         return found
+
+
+def _edge(bm: bmesh.types.BMesh, pair: tuple[int, int]) -> bmesh.types.BMEdge | None:
+    return bm.edges.get((bm.verts[pair[0]], bm.verts[pair[1]]))
 
 
 class StoredMesh:
@@ -435,8 +441,7 @@ def live_unwrap(context: bpy.types.Context) -> None:
 
 def select_faces(obj: bpy.types.Object, faces: NDArray[np.integer]) -> None:
     """Select faces of an edit mesh by their numbers, beside what is selected."""
-    bm = bmesh.from_edit_mesh(obj.data)
-    bm.faces.ensure_lookup_table()
+    bm = edit_bmesh(obj.data)
     for face in faces.tolist():
         bm.faces[face].select = True
     bm.select_flush_mode()
@@ -455,7 +460,7 @@ class Selection:
     def __init__(self, obj: bpy.types.Object) -> None:
         self._mesh = obj.data
         # Held, for items end with the last that holds it.
-        self._bm = bm = bmesh.from_edit_mesh(obj.data)
+        self._bm = bm = edit_bmesh(obj.data)
         self._items = [item for items in (bm.verts, bm.edges, bm.faces) for item in items if item.select]
         # Not iterated: Blender 4.3 cannot, on the Python 3.13 of Debian 13.
         self._history = [bm.select_history[i] for i in range(len(bm.select_history))]
@@ -463,7 +468,7 @@ class Selection:
 
     def restore(self) -> None:
         """Select it again, where nothing is selected."""
-        bm = bmesh.from_edit_mesh(self._mesh)
+        bm = edit_bmesh(self._mesh)
         for item in self._items:
             item.select = True
         bm.select_history.clear()

@@ -97,18 +97,17 @@ def store(obj: bpy.types.Object, kind: str) -> int:
     polygons, first = np.unique(arrays.polygons, return_index=True)
     if kind == "MATERIALS":
         hues = choose_hues(np.full(count, -1), neighbours(arrays.triangles, labels, arrays.seams), len(_HUES))
-        if not obj.data.materials and len(polygons) < len(bmesh.from_edit_mesh(obj.data).faces):
+        if not obj.data.materials and len(polygons) < len(edit_mesh.edit_bmesh(obj.data).faces):
             obj.data.materials.append(None)
         numbers = np.array(_material_slots(obj, sorted(set(hues.tolist()))))[hues[labels]]
     else:
         numbers = labels + (kind == "FACE_SETS")
-    bm = bmesh.from_edit_mesh(obj.data)
+    bm = edit_mesh.edit_bmesh(obj.data)
     layer = None
     if kind == "ATTRIBUTE":
         layer = _face_layer(obj, bm, ATTRIBUTE, hidden=-1)
     elif kind == "FACE_SETS":
         layer = _face_layer(obj, bm, ".sculpt_face_set", hidden=count + 1)
-    bm.faces.ensure_lookup_table()
     for face, number in zip(polygons.tolist(), numbers[first].tolist(), strict=True):
         if layer is None:
             bm.faces[face].material_index = number

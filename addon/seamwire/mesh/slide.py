@@ -32,7 +32,6 @@ _SAME = 6
 
 def stiff_vertices(cage: Cage, vertices: Iterable[int], seams: Collection[Edge]) -> set[int]:
     """Return those of some vertices that must stay: on sharp and creased edges, between materials, on seams other than those given."""
-    cage.number_items()
     bm = cage.bm
     layers = bm.edges.layers
     crease = layers.crease.active if hasattr(layers, "crease") else layers.float.get("crease_edge")
@@ -51,7 +50,6 @@ def stiff_vertices(cage: Cage, vertices: Iterable[int], seams: Collection[Edge])
 
 def carry_out(obj: bpy.types.Object, cage: Cage, moves: Mapping[int, Move]) -> None:
     """Move vertices. What corners of faces hold follows as with Blender's own sliding: UVs, colors and other numbers."""
-    cage.number_items()
     bm = cage.bm
     spans = {vertex: ([bm.verts[corner] for corner in move.corners], move.weights) for vertex, move in moves.items()}
     # All is read before anything is written: neighbors move as well.

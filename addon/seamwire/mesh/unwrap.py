@@ -68,10 +68,7 @@ class _Map:
     @property
     def bm(self) -> bmesh.types.BMesh:
         """The edit mesh, by its numbers."""
-        bm = bmesh.from_edit_mesh(self.obj.data)
-        for sequence in (bm.edges, bm.faces):
-            sequence.ensure_lookup_table()
-        return bm
+        return edit_mesh.edit_bmesh(self.obj.data)
 
     def _find_changed(self) -> NDArray[np.bool_]:
         self._families = np.arange(self.count)
@@ -231,7 +228,7 @@ class SavedUvs:
     def __init__(self, obj: bpy.types.Object) -> None:
         self._obj, self._mesh = obj, obj.data
         self._uvs = uv_map.read_uvs(obj)
-        bm = bmesh.from_edit_mesh(obj.data)
+        bm = edit_mesh.edit_bmesh(obj.data)
         layer = bm.edges.layers.int.get(UNWRAPPED)
         self.remembered = None if layer is None else [edge[layer] for edge in bm.edges]
 
@@ -251,7 +248,7 @@ class SavedUvs:
             uv_map.write(self._obj, self._uvs)
         if self._obj.mode != "EDIT":
             return
-        bm = bmesh.from_edit_mesh(mesh)
+        bm = edit_mesh.edit_bmesh(mesh)
         layer = bm.edges.layers.int.get(UNWRAPPED)
         if layer is not None and self.remembered is None:
             bm.edges.layers.int.remove(layer)

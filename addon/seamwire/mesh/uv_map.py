@@ -7,9 +7,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import bmesh
 import bpy
 import numpy as np
+
+from . import edit_mesh
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -92,7 +93,7 @@ def write(obj: bpy.types.Object, uvs: NDArray[np.float32]) -> None:
         column.foreach_set(name, uvs.ravel())
         return
     moved = np.flatnonzero((read_uvs(obj) != uvs).any(axis=1))
-    bm = bmesh.from_edit_mesh(mesh)
+    bm = edit_mesh.edit_bmesh(mesh)
     corners = [loop for face in bm.faces for loop in face.loops]
     places = bm.loops.layers.uv.active
     for corner, uv in zip(moved.tolist(), uvs[moved].tolist(), strict=True):

@@ -77,7 +77,7 @@ def selected_vertex(obj: bpy.types.Object) -> int | None:
         active = edit_mesh.Cage(obj).active_vertex()
         if active is not None:
             return active
-        bm = bmesh.from_edit_mesh(obj.data)
+        bm = edit_mesh.edit_bmesh(obj.data)
         selected = np.fromiter((v.select for v in bm.verts), dtype=bool, count=len(bm.verts))
     else:
         selected = np.empty(len(obj.data.vertices), dtype=bool)
@@ -99,7 +99,7 @@ def _is_taken(bm: bmesh.types.BMesh, name: str) -> bool:
 def _write(obj: bpy.types.Object, name: str, values: NDArray[np.float64]) -> None:
     mesh = obj.data
     if obj.mode == "EDIT":
-        bm = bmesh.from_edit_mesh(mesh)
+        bm = edit_mesh.edit_bmesh(mesh)
         layer = bm.verts.layers.float.get(name)
         if layer is None and _is_taken(bm, name):
             raise ValueError(_TAKEN.format(name))

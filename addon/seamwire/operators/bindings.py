@@ -83,6 +83,11 @@ class Key:
     alt: int = 0
     oskey: int = 0
 
+    @classmethod
+    def of(cls, event: bpy.types.Event) -> Key:
+        """Return what an event presses."""
+        return cls(event.type, event.value, *(int(getattr(event, name)) for name in ("ctrl", "shift", "alt", "oskey")))
+
     def matches(self, event: bpy.types.Event, value: str) -> bool:
         """Whether an event is this key, taken for one of another value."""
         pressed = "PRESS" if self.value in {"ANY", "CLICK"} else self.value

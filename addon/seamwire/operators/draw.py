@@ -10,7 +10,8 @@ import bpy
 
 from ..core.native import NativeError
 from ..mesh.settings import ALONG_ITEMS, settings
-from .bindings import Action
+from .bindings import Action, Key
+from .navigation import takes
 from .report import in_edit_mode, running
 
 if TYPE_CHECKING:
@@ -61,8 +62,11 @@ class MESH_OT_seamwire_draw(bpy.types.Operator):
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Begin."""
+        from ..mesh.edit_mesh import NothingVisibleError
         from .modal import Chain
 
+        if self.first != "NONE" and takes(Key.of(event), context):
+            return {"PASS_THROUGH"}
         if not any(area.type == "VIEW_3D" for area in context.window.screen.areas):
             self.report({"ERROR"}, "Seams are drawn in a 3D view, and this window shows none")
             return {"CANCELLED"}
@@ -71,11 +75,16 @@ class MESH_OT_seamwire_draw(bpy.types.Operator):
                 settings(context).along = self.along
             self._chain = Chain(context)
         except (ValueError, NativeError) as error:
-            self.report({"ERROR"}, str(error))
+            if self.first in _FOR_BLENDER:
+                return {"PASS_THROUGH"}
+            # Blender opens a popup for an error, and the popup takes the next key.
+            nothing = isinstance(error, NothingVisibleError) and self.first != "NONE"
+            self.report({"WARNING"} if nothing else {"ERROR"}, str(error))
             return {"CANCELLED"}
         # Blender frees an operator whose invoke raised, and would call its modal method all the same.
         try:
-            self._tell_problem(self._chain)
+            if self.first != "PEEK":
+                self._tell_problem(self._chain)
             done = self._begin(event)
             if not done and self.first in _FOR_BLENDER:
                 self._chain.drop()
@@ -136,11 +145,14 @@ class MESH_OT_seamwire_draw(bpy.types.Operator):
 
     def _failed(self, error: Exception) -> set[str]:
         traceback.print_exc()
+        previews = self._chain.previews
         try:
             self._chain.drop()
         except Exception:
             traceback.print_exc()
             self._chain.close()
+        if previews:
+            return {"CANCELLED", "PASS_THROUGH"}
         self.report({"ERROR"}, f"Drawing seams ended on an error, the mesh is as it was before this chain: {error}")
         return {"CANCELLED"}
 

@@ -15,7 +15,7 @@ from ..mesh import settings as chosen
 from ..view.edited_objects import edited
 from ..view.viewport import Place, place_of
 from . import bindings, navigation, undo_steps
-from .bindings import Action
+from .bindings import Action, Key
 from .cut import gaps, left_out
 from .drag_handlers import Hold, LineHold, SeedHold, StrokeHold
 from .navigation import Meaning
@@ -76,7 +76,7 @@ class Chain:
         self.done: list[str] = []
         self.told: list[str] = []
         self.errors: list[str] = []
-        self.keys = bindings.of_user(self._manager).without(lambda key: navigation.takes(key, self._manager))
+        self.keys = bindings.of_user(self._manager).without(lambda key: navigation.takes(key, context))
         self._cleanup = ExitStack()
         try:
             edited.take_stock()
@@ -115,6 +115,11 @@ class Chain:
     def open(self) -> bool:
         """Whether it goes on."""
         return self in running
+
+    @property
+    def previews(self) -> bool:
+        """Whether it only shows what a click would take."""
+        return bool(self._peek)
 
     @property
     def idle(self) -> bool:
@@ -336,8 +341,6 @@ class Chain:
         if event.type == "MOUSEMOVE" or event.type.endswith(("_ALT", "_CTRL", "_SHIFT")):
             self._hover(place, event)
             return True
-        if navigation.emulates_middle_button(event, context.preferences.inputs):
-            return True
         return self._key(context, place, event, double)
 
     def _turns_wheel(self, context: bpy.types.Context, event: bpy.types.Event) -> bool:
@@ -352,6 +355,8 @@ class Chain:
                 navigation.zoom(context, place, event)
                 return False
             return self.act(Action.NEXT, place, event)
+        if navigation.takes(Key.of(event), context):
+            return True
         action = self.keys.decode(event, double)
         if action is None:
             meaning = navigation.meaning(event, self._manager)

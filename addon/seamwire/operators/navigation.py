@@ -46,6 +46,7 @@ _HARMLESS = (
 )
 """Operators that change neither the mesh nor the mode."""
 _HARMLESS_PIES = frozenset({"VIEW3D_MT_view_pie", "VIEW3D_MT_shading_pie", "VIEW3D_MT_shading_ex_pie"})
+_MODIFIERS = ("ctrl", "shift", "alt", "oskey")
 _GIZMO_MARGIN = 10.0
 _GIZMO_BUTTON = 28.0
 _GIZMO_BUTTONS = 5
@@ -92,20 +93,34 @@ def _meaning_of(item: bpy.types.KeyMapItem) -> Meaning:
     return Meaning.NOTHING if item.idname.startswith(_HARMLESS) else Meaning.OTHER
 
 
-def takes(key: Key, manager: bpy.types.WindowManager) -> bool:
-    """Whether the user's keymap moves the view with a key of the mouse: that comes before the same key of ours."""
+def takes(key: Key, context: bpy.types.Context) -> bool:
+    """Whether the user's keymap moves the view with a button of the mouse: that comes before the same button of ours.
+
+    A left button that plays the middle one moves the view too, see `Emulate 3 Button Mouse` in Blender's preferences.
+    """
     if not key.type.endswith("MOUSE"):
         return False
-    configuration = manager.keyconfigs.user
+    inputs = context.preferences.inputs
+    if key.type == "LEFTMOUSE" and inputs.use_mouse_emulate_3_button:
+        by_command = getattr(inputs, "mouse_emulate_3_button_modifier", "ALT") == "OSKEY"
+        if (key.oskey if by_command else key.alt) == 1:
+            return True
+    configuration = context.window_manager.keyconfigs.user
     keymap = configuration.keymaps.get("3D View") if configuration is not None else None
-    held = (key.ctrl, key.shift, key.alt, key.oskey)
     return keymap is not None and any(
         item.active
         and item.idname.startswith(_NAVIGATION)
-        and item.type == key.type
-        and (item.any or tuple(int(getattr(item, name)) for name in ("ctrl", "shift", "alt", "oskey")) == held)
+        and _button(item, inputs) == key.type
+        and item.key_modifier == "NONE"
+        and (item.any or all(int(getattr(item, name)) in {-1, getattr(key, name)} for name in _MODIFIERS))
         for item in keymap.keymap_items
     )
+
+
+def _button(item: bpy.types.KeyMapItem, inputs: bpy.types.PreferencesInput) -> str:
+    """Return the button of a keymap item, for the wheel which way it is turned."""
+    inwards, outwards = ("DOWN", "UP") if inputs.invert_zoom_wheel else ("UP", "DOWN")
+    return {"WHEELINMOUSE": f"WHEEL{inwards}MOUSE", "WHEELOUTMOUSE": f"WHEEL{outwards}MOUSE"}.get(item.type, item.type)
 
 
 def on_gizmo(place: Place, preferences: bpy.types.Preferences) -> bool:
@@ -135,10 +150,3 @@ def zoom(context: bpy.types.Context, place: Place, event: bpy.types.Event) -> No
     x, y = (round(value) for value in place.cursor)
     with context.temp_override(area=place.area, region=place.region):
         bpy.ops.view3d.zoom(delta=1 if inwards else -1, mx=x, my=y, use_cursor_init=True)
-
-
-def emulates_middle_button(event: bpy.types.Event, inputs: bpy.types.PreferencesInput) -> bool:
-    """Whether an event is one of the middle button that the left one plays."""
-    if not inputs.use_mouse_emulate_3_button or event.type != "LEFTMOUSE":
-        return False
-    return event.oskey if getattr(inputs, "mouse_emulate_3_button_modifier", "ALT") == "OSKEY" else event.alt

@@ -46,8 +46,8 @@ class MESH_OT_seamwire_take_over(bpy.types.Operator):
         for mesh in meshes:
             seams = mesh.plain_seams
             if self.selected:
-                edges = mesh.cage.bm.edges
-                seams = seams[[edges.get([mesh.cage.bm.verts[v] for v in pair]).select for pair in seams.tolist()]]
+                bm = mesh.cage.bm
+                seams = seams[[bm.edges.get([bm.verts[v] for v in pair]).select for pair in seams.tolist()]]
             if len(seams):
                 found[mesh] = self._wires(context, mesh, seams)
         if not found:

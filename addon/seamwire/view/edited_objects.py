@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..mesh import settings as chosen
-from .object_view import ObjectView, in_bounds
+from .object_view import ObjectView, in_bounds, let_blender_tell
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -104,6 +104,7 @@ class EditedObjects:
     def take_stock(self) -> None:
         """Read anew what has changed, and let one of the objects that are edited be in front."""
         self._error = None  # what could not be drawn before says nothing of now
+        let_blender_tell()
         self.refresh()
         if self.front is None or not self.front.mesh.alive():
             self.front = self.of(bpy.context.active_object)
@@ -119,8 +120,8 @@ class EditedObjects:
             self._remove(name)
         while self._handles:
             bpy.types.SpaceView3D.draw_handler_remove(self._handles.pop(), "WINDOW")
-        if bpy.app.timers.is_registered(self._tick):
-            bpy.app.timers.unregister(self._tick)
+        if bpy.app.timers.is_registered(_tick):
+            bpy.app.timers.unregister(_tick)
         self.chain = False
         self.problem = ""
         self._error = None
@@ -228,24 +229,30 @@ class EditedObjects:
 
     def watch(self) -> None:
         """Look after running work until it is done."""
-        if not bpy.app.timers.is_registered(self._tick):
-            bpy.app.timers.register(self._tick, first_interval=_RHYTHM)
+        if not bpy.app.timers.is_registered(_tick):
+            bpy.app.timers.register(_tick, first_interval=_RHYTHM)
 
     def poll(self) -> None:
         """Take in what was computed, and show it."""
         if any([view.poll() for view in self.views()]):
             self.redraw()
 
-    def _tick(self) -> float | None:
+    def tick(self) -> float | None:
+        """Do what `watch` has asked for; return the seconds until the next time, None if there is nothing left to do.
+
+        While a chain is drawn, it looks after the objects, and it calls `watch` when it ends.
+        """
         if self.chain:
-            return _RHYTHM  # the chain looks after them
-        stale = any(view.stale for view in self.views()) and _tool_is_shown()
-        if stale and time.monotonic() - self._changed > _PAUSE:
+            return None
+        if self._waits_to_be_read and time.monotonic() - self._changed > _PAUSE:
             self.refresh()
             self.redraw()
-            stale = False
         self.poll()
-        return _RHYTHM if stale or any(view.busy for view in self.views()) else None
+        return _RHYTHM if self._waits_to_be_read or any(view.busy for view in self.views()) else None
+
+    @property
+    def _waits_to_be_read(self) -> bool:
+        return any(view.stale for view in self.views()) and _tool_is_shown()
 
     _changed = _stale_since = 0.0
 
@@ -335,6 +342,11 @@ def _in_edit_mode() -> list[bpy.types.Object]:
 
 edited = EditedObjects()
 """Those of this Blender."""
+
+
+def _tick() -> float | None:
+    """Blender finds a timer by the identity of its function, and a bound method is another object at each access."""
+    return edited.tick()
 
 
 def _on_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:

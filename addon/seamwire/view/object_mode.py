@@ -77,7 +77,7 @@ class ObjectModeViews:
         ]
         for name in _EVENTS:
             getattr(bpy.app.handlers, name).append(_on_change)
-        bpy.app.timers.register(self._tick, first_interval=0.0, persistent=True)
+        bpy.app.timers.register(_tick, first_interval=0.0, persistent=True)
 
     def stop(self) -> None:
         """End, and forget what was read."""
@@ -86,8 +86,9 @@ class ObjectModeViews:
         for name in _EVENTS:
             if _on_change in getattr(bpy.app.handlers, name):
                 getattr(bpy.app.handlers, name).remove(_on_change)
-        if bpy.app.timers.is_registered(self._tick):
-            bpy.app.timers.unregister(self._tick)
+        for timer in (_tick, _stop):
+            if bpy.app.timers.is_registered(timer):
+                bpy.app.timers.unregister(timer)
         self._forget()
 
     @property
@@ -110,7 +111,8 @@ class ObjectModeViews:
             self._shown.close()
         self._shown, self._stale = None, False
 
-    def _tick(self) -> float | None:
+    def tick(self) -> float | None:
+        """Follow what is active; return the seconds until the next time, None if nothing is to be shown any more."""
         if not chosen.settings().views_in_object_mode:
             self.stop()
             _redraw()
@@ -146,7 +148,7 @@ class ObjectModeViews:
             # Printed once: it would come with every redraw.
             self._shown = None
             sys.excepthook(*sys.exc_info())
-            bpy.app.timers.register(self.stop, first_interval=0.0)
+            bpy.app.timers.register(_stop, first_interval=0.0)
 
     def _draw_in_scene(self, obj: bpy.types.Object) -> None:
         if self._shown.views is None:
@@ -182,6 +184,15 @@ def _redraw() -> None:
 
 object_mode = ObjectModeViews()
 """Those of this Blender."""
+
+
+def _tick() -> float | None:
+    """Blender finds a timer by the identity of its function, and a bound method is another object at each access."""
+    return object_mode.tick()
+
+
+def _stop() -> None:
+    object_mode.stop()
 
 
 @bpy.app.handlers.persistent

@@ -43,6 +43,12 @@ def in_bounds(obj: bpy.types.Object, view: View, cursor: tuple[float, float]) ->
     return bool((low <= cursor).all() and (cursor <= high).all())
 
 
+def let_blender_tell() -> None:
+    """Let Blender tell at once of changes that it tells of only when it has handled all events that wait."""
+    for layer in {window.view_layer for window in bpy.context.window_manager.windows} or {bpy.context.view_layer}:
+        layer.update()
+
+
 class ObjectView:
     """One object that is drawn on, with its picker and its overlay.
 
@@ -117,9 +123,8 @@ class ObjectView:
 
     def was_read(self) -> None:
         """Take note that the mesh is known as it is now, after it was read or written."""
-        # Blender tells of both as of any change, with the next update: that is had now, and what is told later is news.
-        for layer in {window.view_layer for window in bpy.context.window_manager.windows} or {bpy.context.view_layer}:
-            layer.update()
+        # Blender tells of both as of any change. After this, whatever it tells is another change.
+        let_blender_tell()
         self.stale = False
 
     def renew(self) -> None:
