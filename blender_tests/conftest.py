@@ -19,7 +19,8 @@ def pytest_configure(config: pytest.Config) -> None:
 
 @pytest.fixture(autouse=True)
 def empty_scene() -> None:
-    """Start every test in object mode in a scene without objects."""
+    """Start every test in object mode, in a scene without objects, with vertices to be selected."""
     if bpy.context.view_layer.objects.active is not None and bpy.context.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
     bpy.data.batch_remove([*bpy.data.objects, *bpy.data.meshes])
+    bpy.context.tool_settings.mesh_select_mode = (True, False, False)

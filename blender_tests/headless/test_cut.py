@@ -172,6 +172,25 @@ def by_place(obj: bpy.types.Object) -> dict[str, object]:
     return found
 
 
+def test_a_seed_between_two_corners_of_a_face_has_what_lies_between_theirs() -> None:
+    obj = add_grid(3)
+    add_layers(obj)
+    edit()
+    # On a diagonal of the first face, whose corners are the vertices 0, 1, 4 and 3. A bend keeps it a vertex.
+    place = Vector((-0.5, -0.5, 0.0))
+    assert cut("3 (-0.5 -0.5 0) 2") == {"FINISHED"}
+    bm = bmesh.from_edit_mesh(obj.data)
+    seed = min(bm.verts, key=lambda v: (v.co - place).length)
+    assert (seed.co - place).length < 1e-4
+    assert seed[bm.verts.layers.float["kept"]] == pytest.approx(2.0 / 7.0), "vertex i has i / 7"
+    raised = bm.verts.layers.shape["Raised"]
+    corners = [v for v in bm.verts if max(abs(v.co.x + 0.5), abs(v.co.y + 0.5)) == pytest.approx(0.5) and v.index < 9]
+    heights = {v.index: v[raised].z for v in corners}
+    assert seed[raised].z == pytest.approx(0.5 * (heights[0] + heights[4])) or seed[raised].z == pytest.approx(
+        0.5 * (heights[1] + heights[3])
+    )
+
+
 @pytest.mark.every_blender
 def test_layers_come_out_as_blenders_own_bisect_leaves_them() -> None:
     found = []

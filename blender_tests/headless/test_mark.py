@@ -210,6 +210,14 @@ def test_what_is_wrong_with_one_of_several_objects_is_said_with_its_name_and_non
     assert seams(one) == seams(two) == []
 
 
+def test_a_place_that_is_too_far_away_to_be_compared_is_refused() -> None:
+    obj = add_grid(5)
+    edit()
+    with pytest.raises(RuntimeError, match=r"The place \(1e\+20 0 0\) is too far from the mesh"):
+        bpy.ops.mesh.seamwire_mark(chains="3 (1e20 0 0)", along="SURFACE")
+    assert seams(obj) == []
+
+
 def test_an_object_of_which_nothing_is_visible_keeps_no_other_from_being_marked() -> None:
     empty = bpy.data.objects.new("Empty", bpy.data.meshes.new("Empty"))
     bpy.context.collection.objects.link(empty)

@@ -45,7 +45,7 @@ def edit_bmesh(mesh: bpy.types.Mesh) -> bmesh.types.BMesh:
 
 
 def _numbered(bm: bmesh.types.BMesh) -> bmesh.types.BMesh:
-    """Number what has a wrong number, and let items be found by their numbers. It takes no time where all are right."""
+    """Renumber vertices, edges and faces if any number is wrong, and return the edit mesh with its lookup tables."""
     for sequence in (bm.verts, bm.edges, bm.faces):
         sequence.ensure_lookup_table()
         sequence.index_update()

@@ -417,7 +417,7 @@ class ObjectSession:
     def finder(self, faces: Collection[int] = ()) -> Callable[[Sequence[float]], FacePoint]:
         """Return what finds the point of the visible surface, or of some faces, that is nearest to a place in object coordinates.
 
-        The function raises ValueError if no face is visible.
+        The function raises ValueError if no face is visible, or the place is too far away to be compared with them.
         """
         triangles, in_object = self.arrays.triangles, self.arrays.in_object
         rows = np.arange(len(triangles))
@@ -434,6 +434,8 @@ class ObjectSession:
             if not len(rows):
                 raise ValueError("No face is visible: give vertices or edges instead of places")
             found, _, row, _ = tree().find_nearest(place)
+            if found is None:
+                raise ValueError(f"The place ({' '.join(f'{x:g}' for x in place)}) is too far from the mesh")
             return FacePoint.at(np.array(found), rows[row], triangles, in_object)
 
         return find

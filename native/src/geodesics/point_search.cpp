@@ -27,7 +27,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Beams between two looks at the task: a fraction of a millisecond.
 constexpr std::size_t kWorkBetweenChecks = 2048;
 /// Paths this much shorter, in parts of the whole, are not looked for.
-constexpr double kRounding = 1e-12;
+constexpr double kRounding = 1e-14;
 
 Point2 from_left(const HalfEdge& h, const Point2& p) {
   const double c = h.apex_x / h.left_length, s = h.apex_y / h.left_length;
