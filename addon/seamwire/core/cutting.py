@@ -36,7 +36,10 @@ BEND = 0.1
 ON = 1e-4
 """Which vertex or edge a curve's point is on: stored curves are rounded."""
 FLAT = 1e-3
-"""A polygon of less area than that, as part of the square of its longest side, counts as a polygon without area."""
+"""Which sides have no length, as part of the longest one, which lie on each other, as the sine of the angle between them, and which
+triangles have no area, as part of the square of their longest side."""
+SIDE = 0.05
+"""The least cosine between the normal of a triangle and the direction along which its polygon is seen."""
 _HOP = 1e-3
 """The cost of a step over a triangle in a single point; the curve passes triangles without area so."""
 _STRAIGHT = 1e-2
@@ -134,6 +137,8 @@ class CutPlan:
         Cuts between two neighboring vertices or nodes of one edge.
     across
         For each polygon, the cuts inside it. Their nodes are its corners, on its edges or inside it.
+    folded
+        Those of these polygons whose cuts were planned on a regular one, see `regular_corners`.
     left_out
         The numbers of the curves that do not run over the mesh.
     """
@@ -141,6 +146,7 @@ class CutPlan:
     splits: dict[Edge, list[Node]] = field(default_factory=dict)
     along: list[Segment] = field(default_factory=list)
     across: dict[int, list[Segment]] = field(default_factory=dict)
+    folded: set[int] = field(default_factory=set)
     left_out: list[int] = field(default_factory=list)
 
     def segments(self) -> list[Segment]:
@@ -657,7 +663,10 @@ def _sorted_out(faces: Faces, pieces: list[Piece]) -> CutPlan:
         else:
             across[polygon].append((one, two))
     for polygon, segments in across.items():
-        result.across[polygon] = _straightened(faces, polygon, segments)
+        shape = _Shape(faces, polygon)
+        result.across[polygon] = _straightened(shape, segments)
+        if shape.is_folded:
+            result.folded.add(polygon)
     used = set(result.nodes())
     for (pair, polygon), nodes in _on_pairs(pieces).items():
         if polygon < 0 and not used.isdisjoint(nodes):
@@ -665,13 +674,12 @@ def _sorted_out(faces: Faces, pieces: list[Piece]) -> CutPlan:
     return result
 
 
-def _straightened(faces: Faces, polygon: int, segments: list[Segment]) -> list[Segment]:
+def _straightened(shape: _Shape, segments: list[Segment]) -> list[Segment]:
     """Lead cuts straight over a polygon, without vertices inside, where they hardly bend and nothing is in the way."""
     beside: dict[Node, list[Node]] = defaultdict(list)
     for one, two in segments:
         beside[one].append(two)
         beside[two].append(one)
-    shape = _Shape(faces, polygon)
     inner = {node for node, ends in beside.items() if len(ends) == 2 and not shape.on_rim(node)}
     kept = {frozenset(segment) for segment in segments if inner.isdisjoint(segment)}
     chains = {chain for node in beside if node not in inner for chain in _chains(node, beside, inner)}
@@ -706,37 +714,53 @@ def _chains(start: Node, beside: dict[Node, list[Node]], inner: set[Node]) -> It
         yield min(tuple(chain), tuple(reversed(chain)), key=lambda nodes: [(n.vertices, n.weights) for n in nodes])
 
 
-def layout(rim: NDArray[np.float64]) -> NDArray[np.float64] | None:
-    """Return where the corners of a polygon without area, (n, 3), are drawn for cuts across it, (n, 2); None if it has an area.
-
-    Such a polygon is drawn as a regular one, where the same cuts meet as on the polygon.
-    """
-    normal = np.cross(rim, np.roll(rim, -1, axis=0)).sum(axis=0)
-    longest = np.linalg.norm(rim - np.roll(rim, 1, axis=0), axis=1).max()
-    if np.linalg.norm(normal) > FLAT * longest**2:
-        return None
-    return regular(len(rim))
-
-
-def regular(count: int) -> NDArray[np.float64]:
+def regular_corners(count: int) -> NDArray[np.float64]:
     """Return the corners of a regular polygon, (count, 2)."""
     angles = 2.0 * np.pi * np.arange(count) / count
     return np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
 
+def _has_spike(rim: NDArray[np.float64]) -> bool:
+    """Whether a polygon with these corners, (n, 3), has a side without length, or two sides that lie on each other."""
+    back, on = np.roll(rim, 1, axis=0) - rim, np.roll(rim, -1, axis=0) - rim
+    lengths = np.linalg.norm(on, axis=1)
+    if lengths.min() <= FLAT * lengths.max():
+        return True
+    products = np.linalg.norm(back, axis=1) * lengths
+    straight = np.linalg.norm(np.cross(back, on), axis=1) <= FLAT * products
+    return bool((straight & (np.einsum("ij,ij->i", back, on) > 0.0)).any())
+
+
+def _is_folded(corners: NDArray[np.float64], axis: int, sign: float) -> bool:
+    """Whether triangles, (k, 3, 3), that have an area are seen from behind or from the side along an axis."""
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    seen = sign * normals[:, axis]
+    return bool((seen < SIDE * np.linalg.norm(normals, axis=1)).any()) or not seen.any()
+
+
 class _Shape:
-    """A polygon, seen along its normal; one without area as `layout` draws it."""
+    """A polygon, seen along its normal.
+
+    A polygon that is folded or has no area is seen as a regular one, where its triangles lie beside each other as well.
+
+    Attributes
+    ----------
+    is_folded
+        Whether it is seen so.
+    """
 
     def __init__(self, faces: Faces, polygon: int) -> None:
         self._faces, self._polygon = faces, polygon
         corners = faces.corners(polygon)
         rim = faces.points[list(corners)]
-        normal = np.cross(rim, np.roll(rim, -1, axis=0)).sum(axis=0)
-        drawn = layout(rim)
-        self._points = np.delete(rim, int(np.argmax(np.abs(normal))), axis=1) if drawn is None else drawn
-        self._place_of = dict(zip(corners, self._points, strict=True))
         self._sides = [{a, b} for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
         self._triangles = faces.triangles[list(faces.rows_of(polygon))]
+        normal = np.cross(rim, np.roll(rim, -1, axis=0)).sum(axis=0)
+        axis = int(np.argmax(np.abs(normal)))
+        sign = float(np.sign(normal[axis]))
+        self.is_folded = _has_spike(rim) or _is_folded(faces.points[self._triangles], axis, sign)
+        self._points = regular_corners(len(rim)) if self.is_folded else np.delete(rim, axis, axis=1)
+        self._place_of = dict(zip(corners, self._points, strict=True))
 
     def on_rim(self, node: Node) -> bool:
         """Whether a node is a corner or on a side."""
