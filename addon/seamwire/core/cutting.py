@@ -28,9 +28,9 @@ NEAR = 0.05
 WIDE = 0.25
 """Of two cuts that part and meet again only one is left where they are nowhere farther apart, as part of the heights of the
 triangles that they cross: curves that run side by side touch here and there, and would enclose islands of next to no area."""
-OFF = 0.1
-"""How far from the mesh a curve's points may be, as part of the longest edge of the triangle beside. Mirror images of curves are off
-where the halves of a mesh are cut into other triangles; what is new lies on the mesh all the same."""
+OFF = 0.25
+"""How far from the mesh a curve's points may be, as part of the longest side of the triangle beside. Mirror images of curves are off
+if the halves of a mesh are cut into other triangles, and so are the curves of slid wires. The cuts lie on the mesh all the same."""
 BEND = 0.1
 """By how much of its length a cut may leave the straight line within a polygon and be straight."""
 ON = 1e-4

@@ -414,7 +414,7 @@ def _split(
     for place_of in drawings:
         with _moved(face, place_of), suppress(ValueError):
             parts = bmesh.utils.face_split_edgenet(face, edges)
-        if parts:
+        if len(parts) > 1:
             break
     if selected:
         for part in parts:
