@@ -42,6 +42,8 @@ SIDE = 0.05
 """The least cosine between the normal of a triangle and the direction along which its polygon is seen."""
 _HOP = 1e-3
 """The cost of a step over a triangle in a single point; the curve passes triangles without area so."""
+_LEAP = 0.25
+"""The cost of a step from one triangle of a polygon to another: between them, the polygon may not be there."""
 _STRAIGHT = 1e-2
 """The cost of a step over a triangle in which the curve has no point; curves found on other triangles need such steps."""
 
@@ -306,13 +308,21 @@ def _forward(faces: Faces, points: NDArray[np.float64], step: _Step) -> Iterator
     """Yield the steps to the curve's next point in a polygon beside, and what each costs."""
     if step.number < len(points):
         place = points[step.number]
-        for off, polygon, on in _nodes_at(faces, _polygons_beside(faces, step.on), place):
-            yield off, _step_to(faces, step, step.number + 1, polygon, on, place)
+        for off, polygon, row, on in _nodes_at(faces, _polygons_beside(faces, step.on), place):
+            leaves = step.here is not None and not _is_in(faces, polygon, row, step)
+            yield off + leaves * _LEAP, _step_to(faces, step, step.number + 1, polygon, on, place)
+
+
+def _is_in(faces: Faces, polygon: int, row: int, step: _Step) -> bool:
+    """Whether a step is in a triangle of a polygon."""
+    if {*step.on.vertices} <= {*faces.triangles[row].tolist()}:
+        return True
+    return any(off == 0.0 for off, *_ in _nodes_at(faces, [polygon], step.place, row))
 
 
 def _in_place(faces: Faces, _points: NDArray[np.float64], step: _Step) -> Iterator[tuple[float, _Step]]:
     """Yield the steps to other vertices and edges of the polygons beside that lie in the same place."""
-    for off, polygon, on in _nodes_at(faces, _polygons_beside(faces, step.on), step.place):
+    for off, polygon, _, on in _nodes_at(faces, _polygons_beside(faces, step.on), step.place):
         if on.polygon < 0 and on.vertices != step.on.vertices:
             yield off, _step_to(faces, step, step.number, polygon, on, step.place)
 
@@ -332,7 +342,7 @@ def _straight_on(faces: Faces, points: NDArray[np.float64], step: _Step) -> Iter
             longest = float(np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1).max())
             if gap > OFF * longest:
                 continue
-            for off, _, on in _nodes_at(faces, [polygon], exit_place, row):
+            for off, *_, on in _nodes_at(faces, [polygon], exit_place, row):
                 yield off + float(gap) / longest, _step_to(faces, step, step.number, polygon, on, exit_place)
 
 
@@ -366,15 +376,15 @@ def _exit(
 
 def _nodes_at(
     faces: Faces, polygons: Iterable[int], place: NDArray[np.float64], only: int = -1
-) -> Iterator[tuple[float, int, Node]]:
+) -> Iterator[tuple[float, int, int, Node]]:
     """Yield the vertices and edges that a place in some polygons, or in one row of their triangles, lies on.
 
     Yields
     ------
     off
         How far the triangle is from the place, as part of its longest side, as far as rounding does not explain it.
-    polygon
-        Its number.
+    polygon, row
+        The polygon, and the triangle.
     node
         A vertex that the place is on, an edge between whose ends it lies, or otherwise the place inside.
     """
@@ -392,7 +402,7 @@ def _nodes_at(
     to_corners = np.linalg.norm(corners - place, axis=2)
     for k in np.flatnonzero(away <= OFF * longest).tolist():
         reach = away[k] + ON * longest[k]
-        polygon, triangle = rows[k][1], triangles[k].tolist()
+        (row, polygon), triangle = rows[k], triangles[k].tolist()
         at = to_corners[k] <= reach
         nodes = [Node((triangle[i],)) for i in range(3) if at[i]]
         for i, j in ((0, 1), (1, 2), (2, 0)):
@@ -401,7 +411,7 @@ def _nodes_at(
                 nodes.append(Node.between((triangle[i], triangle[j]), (1.0 - share, share)))
         for node in nodes or [Node.between(triangle, weights[k])]:
             cost = max(0.0, float(away[k] / longest[k]) - ON) if longest[k] > 0.0 else 0.0
-            yield cost, polygon, _in_polygon(faces, polygon, node, ON)
+            yield cost, polygon, row, _in_polygon(faces, polygon, node, ON)
 
 
 def _step_to(faces: Faces, step: _Step, number: int, polygon: int, on: Node, place: NDArray[np.float64]) -> _Step:
