@@ -36,12 +36,13 @@ BEND = 0.1
 ON = 1e-4
 """Which vertex or edge a curve's point is on: stored curves are rounded."""
 FLAT = 1e-3
-"""Which sides have no length, as part of the longest one, which lie on each other, as the sine of the angle between them, and which
-triangles have no area, as part of the square of their longest side."""
+"""A polygon's side has no length below this part of its longest one. Two sides lie on each other below this sine of the angle
+between them. A triangle has no area below this part of the square of its longest side."""
 SIDE = 0.05
 """The least cosine between the normal of a triangle and the direction along which its polygon is seen."""
 _HOP = 1e-3
-"""The cost of a step over a triangle in a single point; the curve passes triangles without area so."""
+"""The cost of a step over a triangle in a single point, which is how a curve passes triangles without area. Costs are added to how far
+points are from triangles, as part of their longest sides."""
 _LEAP = 0.25
 """The cost of a step from one triangle of a polygon to another: between them, the polygon may not be there."""
 _STRAIGHT = 1e-2
@@ -140,7 +141,7 @@ class CutPlan:
     across
         For each polygon, the cuts inside it. Their nodes are its corners, on its edges or inside it.
     folded
-        Those of these polygons whose cuts were planned on a regular one, see `regular_corners`.
+        Polygons whose cuts were planned on a regular one, see `regular_corners`: they are folded or have no area.
     left_out
         The numbers of the curves that do not run over the mesh.
     """
