@@ -96,6 +96,22 @@ def test_all_chains_over_faces_without_area_are_cut_and_join(seed: int, capfd: p
     assert is_sound(obj)
 
 
+@pytest.mark.parametrize("seed", [0, 1, 3, 5, 8])
+def test_places_on_faces_without_area_join_the_wires_that_meet_there(seed: int) -> None:
+    obj = add_flat_faces(2, 0.4, seed)
+    dice = random.Random(seed)
+    edit()
+    for _ in range(4):
+        bm = bmesh.from_edit_mesh(obj.data)
+        face = dice.choice([face for face in bm.faces if face.calc_area() < 1e-6])
+        one, two = dice.sample(list(face.verts), 2)
+        start, end = dice.sample(range(42), 2)
+        x, y, z = one.co.lerp(two.co, dice.choice((0.2, 0.5, 0.9)))
+        assert cut(f"{start} ({x} {y} {z}) {end}") == {"FINISHED"}
+        assert end in joined(obj, start)
+    assert is_sound(obj)
+
+
 def test_suggested_wires_are_cut_where_faces_have_no_area() -> None:
     obj = add_flat_faces(3, 0.5, 3)
     edit()

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 import numpy as np
 
 from .geometry import barycentric, nearest_on_segments
+from .network import FacePoint, vertices_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -45,6 +46,8 @@ _HOP = 1e-3
 points are from triangles, as part of their longest sides."""
 _LEAP = 0.25
 """The cost of a step from one triangle of a polygon to another: between them, the polygon may not be there."""
+_REACH = 1e-2
+"""How much more a walk may cost that ends on the very edge that the next curve begins on, not only in the same place."""
 _STRAIGHT = 1e-2
 """The cost of a step over a triangle in which the curve has no point; curves found on other triangles need such steps."""
 
@@ -124,6 +127,9 @@ Segment = tuple[Node, Node]
 Piece = tuple[Node, Node, int]
 """One in a polygon, by that polygon's number."""
 
+Spot = int | FacePoint
+"""A vertex, or a point in a triangle."""
+
 _Trail = tuple[Piece, "_Trail"] | None
 """The pieces up to one, the last first."""
 
@@ -171,8 +177,8 @@ class CutPlan:
         return [node for node in self.nodes() if node.polygon >= 0]
 
 
-Curve = tuple[int, "NDArray[np.float64]"] | tuple[int, "NDArray[np.float64]", int]
-"""A vertex to begin at, points, and perhaps the vertex to end at; see `plan`."""
+Curve = tuple[Spot, "NDArray[np.float64]"] | tuple[Spot, "NDArray[np.float64]", Spot]
+"""Where to begin, points, and perhaps where to end; see `plan`."""
 
 
 def plan(faces: Faces, curves: Iterable[Curve]) -> CutPlan:
@@ -183,9 +189,10 @@ def plan(faces: Faces, curves: Iterable[Curve]) -> CutPlan:
     faces
         The mesh.
     curves
-        For each, the vertex that it begins at, or a corner of the triangle that it begins in, and its points, (k, 3). An
-        end inside a polygon that no other curve leads on from goes back to the last edge. A third item is the vertex
-        that a curve ends at, if its last point lies there: other vertices may lie in the same place.
+        For each, the vertex that it begins at, or a corner of the triangle that it begins in, or the point in a triangle;
+        and its points, (k, 3). An end inside a polygon that no other curve leads on from goes back to the last edge. A third
+        item is the vertex that a curve ends at, if its last point lies there, or the point in a triangle: other vertices
+        and edges may lie in the same place.
 
     Raises
     ------
@@ -257,36 +264,55 @@ class _Step(NamedTuple):
     trail: _Trail
 
 
-def _walk(faces: Faces, start: int, points: NDArray[np.float64], end: int = -1) -> list[Piece]:
+def _walk(faces: Faces, start: Spot, points: NDArray[np.float64], end: Spot | None = None) -> list[Piece]:
     """Return what a curve passes: from node to node, and the polygon between them.
 
     The walk is the cheapest one (Dijkstra's algorithm). A step costs nothing if the curve's next point lies in a polygon beside.
     Where faces lie on each other, the curve therefore runs over those that its next points are on as well.
     """
     near = ON * float(np.ptp(points, axis=0).max())
-    begins_there = bool(np.linalg.norm(points[0] - faces.points[start]) <= near)
-    ends_there = end >= 0 and bool(np.linalg.norm(points[-1] - faces.points[end]) <= near)
-    first = Node((start,))
+    first, goal = _node_of(faces, start, points[0], near), _node_of(faces, end, points[-1], near)
     order = itertools.count()
     done: set[tuple[int, tuple[int, ...], int]] = set()
-    farthest = _Step(int(begins_there), first, points[0], first if begins_there else None, None)
+    here = None if first is None else _moved(faces, first)
+    farthest = _Step(int(here is not None), first or Node(vertices_of(start)), points[0], here, None)
     waiting = [(0.0, 0, next(order), 0, farthest)]
+    arrived: tuple[float, _Step] | None = None
     while waiting:
         cost, _, _, stage, step = heapq.heappop(waiting)
+        if arrived is not None and cost > arrived[0] + _REACH:
+            break
         if stage == 0:
             key = (step.number, step.on.vertices, step.on.polygon)
             if key in done:
                 continue
             done.add(key)
             farthest = max(farthest, step, key=lambda one: one.number)
-            if step.number == len(points) and (not ends_there or step.on.vertices == (end,)):
-                return _pieces_of(step.trail)
+            if step.number == len(points):
+                if goal is None or step.on.vertices == goal.vertices:
+                    return _pieces_of(step.trail)
+                if arrived is None and isinstance(end, FacePoint):
+                    arrived = cost, step
         following = (_forward, _in_place, _straight_on)[stage](faces, points, step)
         for more, new in following:
             heapq.heappush(waiting, (cost + more, -new.number, next(order), 0, new))
         if stage < 2 and step.here is not None:
             heapq.heappush(waiting, (cost + (_HOP, _STRAIGHT)[stage], -step.number, next(order), stage + 1, step))
+    if arrived is not None:
+        return _pieces_of(arrived[1].trail)
     raise CuttingError(f"A wire does not run over the mesh near vertex {farthest.on.vertices[0]}")
+
+
+def _node_of(faces: Faces, spot: Spot | None, place: NDArray[np.float64], near: float) -> Node | None:
+    """Return the node of a curve's end; None if only a vertex beside is known."""
+    if isinstance(spot, FacePoint):
+        around = (polygon for vertex in spot.corners for polygon in faces.polygons_at(vertex))
+        polygon = next((one for one in around if spot.triangle in faces.rows_of(one)), None)
+        if polygon is None:
+            return None
+        return _in_polygon(faces, polygon, Node.between(spot.corners, spot.weights, ON), ON)
+    is_there = spot is not None and np.linalg.norm(place - faces.points[spot]) <= near
+    return Node((spot,)) if is_there else None
 
 
 def _pieces_of(trail: _Trail) -> list[Piece]:
@@ -417,9 +443,15 @@ def _nodes_at(
 
 def _step_to(faces: Faces, step: _Step, number: int, polygon: int, on: Node, place: NDArray[np.float64]) -> _Step:
     """Return the step from another one to a node in a polygon beside it."""
-    there = _in_polygon(faces, polygon, Node.between(on.vertices, on.weights, NEAR), NEAR)
+    there = _moved(faces, on)
     leads_on = step.here is not None and there != step.here
     return _Step(number, on, place, there, ((step.here, there, polygon), step.trail) if leads_on else step.trail)
+
+
+def _moved(faces: Faces, on: Node) -> Node:
+    """Return a node as the vertex, or on the edge, that it is near to."""
+    moved = Node.between(on.vertices, on.weights, NEAR)
+    return moved if on.polygon < 0 else _in_polygon(faces, on.polygon, moved, NEAR)
 
 
 def _in_polygon(faces: Faces, polygon: int, node: Node, near: float) -> Node:

@@ -441,7 +441,10 @@ class ObjectSession:
 
         def planned() -> CutPlan:
             every = (*wires, *(image for wire in wires for image in images[wire]))
-            return cut.plan(self.cage, self.arrays, [(own.vertices[0], own.points, own.vertices[-1]) for own in every])
+            curves = [
+                (_spot(own.start, own.vertices[0]), own.points, _spot(own.end, own.vertices[-1])) for own in every
+            ]
+            return cut.plan(self.cage, self.arrays, curves)
 
         plan = planned()
         alone = [wires[number] for number in plan.left_out if number < len(wires)]
@@ -636,3 +639,8 @@ class ObjectSession:
     def drop_changes(self, network: Network) -> None:
         """Go back to a network that the session had, whatever was drawn since."""
         self.session.adopt(replace(network, seed=None), self.plain_seams)
+
+
+def _spot(pick: Pick, vertex: int) -> int | FacePoint:
+    """Return where a curve begins or ends: a point in a triangle, or else the vertex that its edges begin or end at."""
+    return pick if isinstance(pick, FacePoint) else vertex
