@@ -513,6 +513,20 @@ def test_a_wire_that_left_the_mesh_keeps_no_other_from_being_cut() -> None:
     assert {16, 79} <= joined(obj, 0) | joined(obj, 64)
 
 
+def test_the_tool_tells_of_a_wire_that_is_not_cut() -> None:
+    obj = add_grid(9)
+    edit()
+    bpy.ops.mesh.seamwire_mark(chains="0 16; 64 79", along="SURFACE")
+    mesh = session_on(obj)
+    before = mesh.session.network
+    wires = [replace(wire, finish="CUT", stored=0) for wire in before.wires]
+    wires[0] = replace(wires[0], points=wires[0].points * 3.0)
+    mesh.session.adopt(replace(before, wires=tuple(wires)), mesh.plain_seams)
+    done = mesh.finish_wires(before, {wire.id for wire in wires})
+    assert (done.cut, done.left_out, done.problem) == (1, 1, "")
+    assert 79 in joined(obj, 64) and 16 in joined(obj, 0), "the other stays snapped"
+
+
 @pytest.mark.every_blender
 def test_kept_wires_are_cut_and_their_snapped_seams_are_gone() -> None:
     obj = add_scan()

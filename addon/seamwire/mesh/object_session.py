@@ -509,7 +509,8 @@ class ObjectSession:
                 again = after.plan_cut(placed)
             except CuttingError as error:
                 raise CuttingError(f"{error}; what was cut before is taken back, undo brings it again") from error
-            return replace(after.cut(again, placed, taken=taken), wires=len(wires))
+            missing = sum(number < len(wires) for number in again.left_out)
+            return replace(after.cut(again, placed, taken=taken), wires=len(wires) - missing)
         seeds = {end for wire in wires for end in (wire.start, wire.end)}
         done = cut.carry_out(self.cage, plan, seeds, crumb)
         after = ObjectSession(self.obj)
