@@ -73,9 +73,6 @@ class Faces(Protocol):
     def corners(self, polygon: int) -> Sequence[int]:
         """Return the vertices around a polygon."""
 
-    def is_edge(self, a: int, b: int) -> bool:
-        """Whether a polygon has an edge between two vertices: no diagonal."""
-
 
 @dataclass(frozen=True)
 class Node:
@@ -328,7 +325,13 @@ def _polygons_beside(faces: Faces, on: Node) -> Sequence[int]:
     if on.polygon >= 0:
         return [on.polygon]
     around = faces.polygons_at(on.vertices[0])
-    return [polygon for polygon in around if {*on.vertices} <= {*faces.corners(polygon)}]
+    return around if len(on.vertices) == 1 else [one for one in around if _is_side(faces, one, on.vertices)]
+
+
+def _is_side(faces: Faces, polygon: int, pair: Sequence[int]) -> bool:
+    """Whether two vertices are the ends of a side of a polygon; an edge between them may also be a side of others only."""
+    corners = list(faces.corners(polygon))
+    return any({*pair} == {*side} for side in zip(corners, [*corners[1:], corners[0]], strict=True))
 
 
 def _forward(faces: Faces, points: NDArray[np.float64], step: _Step) -> Iterator[tuple[float, _Step]]:
@@ -457,7 +460,7 @@ def _moved(faces: Faces, on: Node) -> Node:
 def _in_polygon(faces: Faces, polygon: int, node: Node, near: float) -> Node:
     """Return a node of a polygon's triangles as one on the polygon's side, or else as one inside it."""
     node = _on_side(faces, polygon, node, near)
-    is_inside = len(node.vertices) == 3 or (len(node.vertices) == 2 and not faces.is_edge(*node.vertices))
+    is_inside = len(node.vertices) == 3 or (len(node.vertices) == 2 and not _is_side(faces, polygon, node.vertices))
     return replace(node, polygon=polygon) if is_inside else node
 
 
@@ -467,7 +470,9 @@ def _on_side(faces: Faces, polygon: int, node: Node, near: float) -> Node:
     One that is `near` one of these ends, as part of the side, is that vertex.
     """
     corners = faces.corners(polygon)
-    if len(corners) < 4 or len(node.vertices) == 1 or (len(node.vertices) == 2 and faces.is_edge(*node.vertices)):
+    if len(corners) < 4 or len(node.vertices) == 1:
+        return node
+    if len(node.vertices) == 2 and _is_side(faces, polygon, node.vertices):
         return node
     starts = faces.points[list(corners)]
     ends = np.roll(starts, -1, axis=0)
@@ -686,7 +691,7 @@ def _parted(faces: Faces, pieces: list[Piece]) -> list[Piece]:
         passed = [one, two]
         pair = tuple(sorted({*one.vertices, *two.vertices}))
         if len(pair) == 2:
-            passing = on_pairs.get((pair, -1 if faces.is_edge(*pair) else polygon), ())
+            passing = on_pairs.get((pair, -1 if _is_side(faces, polygon, pair) else polygon), ())
             part = {node: node.weight(pair[1]) for node in (one, two, *passing)}
             low, high = sorted((part[one], part[two]))
             passed = sorted((node for node in part if low <= part[node] <= high), key=part.__getitem__)
@@ -700,8 +705,7 @@ def _sorted_out(faces: Faces, pieces: list[Piece]) -> CutPlan:
     result = CutPlan()
     across: dict[int, list[Segment]] = defaultdict(list)
     for one, two, polygon in pieces:
-        pair = {*one.vertices, *two.vertices}
-        if len(pair) == 2 and faces.is_edge(*pair):
+        if _is_side(faces, polygon, (*one.vertices, *two.vertices)):
             result.along.append((one, two))
         else:
             across[polygon].append((one, two))

@@ -82,10 +82,6 @@ class CageFaces:
         """Return the vertices around a face."""
         return [vert.index for vert in self._bm.faces[polygon].verts]
 
-    def is_edge(self, a: int, b: int) -> bool:
-        """Whether two vertices have an edge between them."""
-        return self._bm.edges.get((self._bm.verts[a], self._bm.verts[b])) is not None
-
 
 class PickedPlaces:
     """Where picks are, whatever cuts are taken back meanwhile; other parts of the mesh may lie at the same places.
