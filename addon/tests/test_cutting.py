@@ -279,6 +279,25 @@ def test_a_curve_of_other_triangles_is_led_straight_on() -> None:
     assert places[1] == [pytest.approx(place) for place in places[0]]
 
 
+def test_a_curve_of_other_triangles_stays_within_a_concave_polygon() -> None:
+    points = np.array([(0, 0), (2, 1), (4, 0), (4, 3), (0, 3), (0, -2), (4, -2)], dtype=float)
+    faces = Polygons(points, [[1, 2, 3, 4, 0], [0, 5, 1], [5, 6, 1], [6, 2, 1]])
+    cuts = plan(faces, [(0, np.array([(0, 0, 0), (1.0, 0.5, 0), (3.0, 0.5, 0), (4, 0, 0)]))])
+    assert Node((2,)) in reached(cuts, 0)
+    for one, two in cuts.across.get(0, ()):
+        assert min(one.place(faces.points)[1], two.place(faces.points)[1]) >= 0.9
+
+
+def test_a_diagonal_that_is_an_edge_of_other_polygons_is_inside() -> None:
+    # A quad, and two triangles below that have an edge where its diagonal is.
+    points = np.array([(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0.5, 1.5, -1), (1.5, 0.5, -1)], dtype=float)
+    faces = Polygons(points, [[0, 1, 2, 3], [0, 2, 4], [0, 5, 2]])
+    cuts = plan(faces, [(1, np.array([(2, 0, 0), (0.5, 0.5, 0), (0, 2, 0)]))])
+    assert cuts.splits == {} and cuts.along == []
+    (bend,) = cuts.inside()
+    assert {*itertools.chain(*cuts.across[0])} == {Node((1,)), bend, Node((3,))}
+
+
 def test_what_does_not_run_over_the_mesh_is_left_out() -> None:
     faces = grid(4)
     off = (0, np.array([(0, 0, 0), (0.5, 0.5, 9.0), (4, 4, 0)]))

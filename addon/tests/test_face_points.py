@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
-from seamwire.core.network import FacePoint, Snap
+from seamwire.core.network import FacePoint, Snap, place_of
 from seamwire.core.serialization import wire_record
 from seamwire.core.session import Session
 
@@ -155,3 +155,11 @@ def test_what_is_stored_of_a_point_is_its_vertex() -> None:
     click(on, at(0.3, 0.2), at(1.7, 0.9))
     record = wire_record(on.wires[0], POINTS, np.eye(3))
     assert (record["start"], record["end"]) == (0, 5)
+
+
+@pytest.mark.parametrize("corner", [(0.5, 0.0, 0.0), (0.0, 0.0, 0.0), (1.5, 0.0, 0.0)])
+def test_a_triangle_without_area_has_points_too(corner: tuple[float, float, float]) -> None:
+    points = np.array([(0, 0, 0), (1, 0, 0), corner], dtype=float)
+    point = FacePoint.at(np.array([0.7, 0.1, 0.0]), 0, np.array([(0, 1, 2)], dtype=np.int32), points)
+    assert sum(point.weights) == pytest.approx(1.0)
+    assert place_of(point, points) == pytest.approx([0.7, 0.0, 0.0])

@@ -156,6 +156,20 @@ def test_where_the_mesh_lacks_edges_the_image_has_a_gap() -> None:
     assert [image.vertices for image in images] == [(3, 9)]
 
 
+def test_of_a_wire_that_is_cut_the_curve_is_mirrored_where_the_mesh_lacks_edges() -> None:
+    points = centred()
+    edges = grid_edges(SIZE)
+    kept = edges[~(edges == 4).any(axis=1)]  # without those of the image's second vertex
+    symmetry = Symmetry(points, kept)
+    across = replace(wire(0, 1, 7, 6), points=points[[0, 7, 6]], along="SURFACE", finish="CUT")
+    (image,) = symmetry.images(across, (0,), curves=True)
+    assert image.vertices == (5, 11)
+    assert image.points == pytest.approx(points[[5, 10, 11]])
+    assert all(len(part.vertices) < 4 for part in symmetry.images(across, (0,)))
+    assert not symmetry.one_sided(across, (0,))
+    assert symmetry.one_sided(replace(across, finish="SNAP"), (0,))
+
+
 def test_an_object_is_mirrored_in_its_own_coordinates() -> None:
     turn = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
     points = centred() * [3.0, 1.0, 1.0]

@@ -316,7 +316,7 @@ def test_a_face_that_cannot_be_cut_stays_whole_and_is_told_of(
     split = bmesh.utils.face_split_edgenet
 
     def refuse_one(face: bmesh.types.BMFace, edges: list[bmesh.types.BMEdge]) -> object:
-        if (face.calc_center_bounds() - Vector((-0.375, -0.625, 0.0))).length < 0.01:
+        if face.index == 10:
             raise ValueError("refused on purpose")
         return split(face, edges)
 
@@ -530,6 +530,20 @@ def test_a_wire_that_left_the_mesh_keeps_no_other_from_being_cut() -> None:
     assert sorted((wire.along, wire.start) for wire in kept) == [("EDGES", 64), ("SURFACE", 0)]
     assert agree(obj)
     assert {16, 79} <= joined(obj, 0) | joined(obj, 64)
+
+
+def test_the_tool_tells_of_a_wire_that_is_not_cut() -> None:
+    obj = add_grid(9)
+    edit()
+    bpy.ops.mesh.seamwire_mark(chains="0 16; 64 79", along="SURFACE")
+    mesh = session_on(obj)
+    before = mesh.session.network
+    wires = [replace(wire, finish="CUT", stored=0) for wire in before.wires]
+    wires[0] = replace(wires[0], points=wires[0].points * 3.0)
+    mesh.session.adopt(replace(before, wires=tuple(wires)), mesh.plain_seams)
+    done = mesh.finish_wires(before, {wire.id for wire in wires})
+    assert (done.cut, done.left_out, done.problem) == (1, 1, "")
+    assert 79 in joined(obj, 64) and 16 in joined(obj, 0), "the other stays snapped"
 
 
 @pytest.mark.every_blender

@@ -6,7 +6,7 @@ import random
 import bmesh
 import bpy
 import pytest
-from scene import add_object, edit, seams
+from scene import add_object, add_suzanne, edit, seams
 from test_cut import cut, is_sound, joined
 
 
@@ -33,6 +33,23 @@ def add_flat_faces(subdivisions: int, share: float, seed: int) -> bpy.types.Obje
     return obj
 
 
+def add_folded_faces(share: float, seed: int) -> bpy.types.Object:
+    """Add Suzanne with a share of her quads folded, by corners moved to a side, to a diagonal or to another corner."""
+    obj = add_suzanne()
+    dice = random.Random(seed)
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    bm.faces.ensure_lookup_table()
+    for _ in range(int(share * len(bm.faces))):
+        corners = list(dice.choice(bm.faces).verts)
+        corner = dice.choice(corners)
+        one, two = dice.sample(corners, 2)
+        corner.co = one.co.lerp(two.co, dice.choice((0.0, 0.0, 0.5, 0.3)))
+    bm.to_mesh(obj.data)
+    bm.free()
+    return obj
+
+
 DOUBLE = ([(0, 0, 0), (1, -1, 0), (1, -1, 0), (1, 1, 0), (2, 0.2, 0)], [(0, 1, 3), (1, 2, 3), (2, 4, 3)], 0, 4)
 CAP = ([(0, 0, 0), (1, -1, 0), (1, 0, 0), (1, 1, 0), (2, 0.2, 0)], [(0, 1, 3), (1, 2, 3), (1, 4, 2), (2, 4, 3)], 0, 2)
 
@@ -50,6 +67,22 @@ def test_a_face_without_area_on_the_way_is_cut(shape: tuple, back: bool) -> None
 
 
 @pytest.mark.every_blender
+@pytest.mark.parametrize(
+    ("share", "seed", "chains"),
+    [(0.1, 3, "174 130"), (0.3, 4, "505 147; 364 137"), (0.3, 4, "364 137")],
+)
+def test_folded_faces_are_cut(share: float, seed: int, chains: str, capfd: pytest.CaptureFixture[str]) -> None:
+    obj = add_folded_faces(share, seed)
+    edit()
+    assert cut(chains) == {"FINISHED"}
+    assert "could not be cut" not in capfd.readouterr().out
+    for chain in chains.split(";"):
+        start, end = map(int, chain.split())
+        assert end in joined(obj, start)
+    assert is_sound(obj)
+
+
+@pytest.mark.every_blender
 @pytest.mark.parametrize("seed", range(6))
 def test_all_chains_over_faces_without_area_are_cut_and_join(seed: int, capfd: pytest.CaptureFixture[str]) -> None:
     obj = add_flat_faces(2, 0.1 + 0.1 * seed, seed)
@@ -60,6 +93,22 @@ def test_all_chains_over_faces_without_area_are_cut_and_join(seed: int, capfd: p
         assert cut(f"{start} {end}") == {"FINISHED"}
         assert end in joined(obj, start)
     assert "could not be cut" not in capfd.readouterr().out
+    assert is_sound(obj)
+
+
+@pytest.mark.parametrize("seed", [0, 1, 3, 5, 8])
+def test_places_on_faces_without_area_join_the_wires_that_meet_there(seed: int) -> None:
+    obj = add_flat_faces(2, 0.4, seed)
+    dice = random.Random(seed)
+    edit()
+    for _ in range(4):
+        bm = bmesh.from_edit_mesh(obj.data)
+        face = dice.choice([face for face in bm.faces if face.calc_area() < 1e-6])
+        one, two = dice.sample(list(face.verts), 2)
+        start, end = dice.sample(range(42), 2)
+        x, y, z = one.co.lerp(two.co, dice.choice((0.2, 0.5, 0.9)))
+        assert cut(f"{start} ({x} {y} {z}) {end}") == {"FINISHED"}
+        assert end in joined(obj, start)
     assert is_sound(obj)
 
 

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 import numpy as np
 
 from .geometry import barycentric, nearest_on_segments
+from .network import FacePoint, vertices_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -28,17 +29,25 @@ NEAR = 0.05
 WIDE = 0.25
 """Of two cuts that part and meet again only one is left where they are nowhere farther apart, as part of the heights of the
 triangles that they cross: curves that run side by side touch here and there, and would enclose islands of next to no area."""
-OFF = 0.1
-"""How far from the mesh a curve's points may be, as part of the longest edge of the triangle beside. Mirror images of curves are off
-where the halves of a mesh are cut into other triangles; what is new lies on the mesh all the same."""
+OFF = 0.25
+"""How far from the mesh a curve's points may be, as part of the longest side of the triangle beside. Mirror images of curves are off
+if the halves of a mesh are cut into other triangles, and so are the curves of slid wires. The cuts lie on the mesh all the same."""
 BEND = 0.1
 """By how much of its length a cut may leave the straight line within a polygon and be straight."""
 ON = 1e-4
 """Which vertex or edge a curve's point is on: stored curves are rounded."""
 FLAT = 1e-3
-"""A polygon of less area than that, as part of the square of its longest side, counts as a polygon without area."""
+"""A polygon's side has no length below this part of its longest one. Two sides lie on each other below this sine of the angle
+between them. A triangle has no area below this part of the square of its longest side."""
+SIDE = 0.05
+"""The least cosine between the normal of a triangle and the direction along which its polygon is seen."""
 _HOP = 1e-3
-"""The cost of a step over a triangle in a single point; the curve passes triangles without area so."""
+"""The cost of a step over a triangle in a single point, which is how a curve passes triangles without area. Costs are added to how far
+points are from triangles, as part of their longest sides."""
+_LEAP = 0.25
+"""The cost of a step from one triangle of a polygon to another: between them, the polygon may not be there."""
+_REACH = 1e-2
+"""How much more a walk may cost that ends on the very edge that the next curve begins on, not only in the same place."""
 _STRAIGHT = 1e-2
 """The cost of a step over a triangle in which the curve has no point; curves found on other triangles need such steps."""
 
@@ -63,9 +72,6 @@ class Faces(Protocol):
 
     def corners(self, polygon: int) -> Sequence[int]:
         """Return the vertices around a polygon."""
-
-    def is_edge(self, a: int, b: int) -> bool:
-        """Whether a polygon has an edge between two vertices: no diagonal."""
 
 
 @dataclass(frozen=True)
@@ -118,6 +124,9 @@ Segment = tuple[Node, Node]
 Piece = tuple[Node, Node, int]
 """One in a polygon, by that polygon's number."""
 
+Spot = int | FacePoint
+"""A vertex, or a point in a triangle."""
+
 _Trail = tuple[Piece, "_Trail"] | None
 """The pieces up to one, the last first."""
 
@@ -134,6 +143,8 @@ class CutPlan:
         Cuts between two neighboring vertices or nodes of one edge.
     across
         For each polygon, the cuts inside it. Their nodes are its corners, on its edges or inside it.
+    folded
+        Polygons whose cuts were planned on a regular one, see `regular_corners`: they are folded or have no area.
     left_out
         The numbers of the curves that do not run over the mesh.
     """
@@ -141,6 +152,7 @@ class CutPlan:
     splits: dict[Edge, list[Node]] = field(default_factory=dict)
     along: list[Segment] = field(default_factory=list)
     across: dict[int, list[Segment]] = field(default_factory=dict)
+    folded: set[int] = field(default_factory=set)
     left_out: list[int] = field(default_factory=list)
 
     def segments(self) -> list[Segment]:
@@ -162,8 +174,8 @@ class CutPlan:
         return [node for node in self.nodes() if node.polygon >= 0]
 
 
-Curve = tuple[int, "NDArray[np.float64]"] | tuple[int, "NDArray[np.float64]", int]
-"""A vertex to begin at, points, and perhaps the vertex to end at; see `plan`."""
+Curve = tuple[Spot, "NDArray[np.float64]"] | tuple[Spot, "NDArray[np.float64]", Spot]
+"""Where to begin, points, and perhaps where to end; see `plan`."""
 
 
 def plan(faces: Faces, curves: Iterable[Curve]) -> CutPlan:
@@ -174,9 +186,10 @@ def plan(faces: Faces, curves: Iterable[Curve]) -> CutPlan:
     faces
         The mesh.
     curves
-        For each, the vertex that it begins at, or a corner of the triangle that it begins in, and its points, (k, 3). An
-        end inside a polygon that no other curve leads on from goes back to the last edge. A third item is the vertex
-        that a curve ends at, if its last point lies there: other vertices may lie in the same place.
+        For each, the vertex that it begins at, or a corner of the triangle that it begins in, or the point in a triangle;
+        and its points, (k, 3). An end inside a polygon that no other curve leads on from goes back to the last edge. A third
+        item is the vertex that a curve ends at, if its last point lies there, or the point in a triangle: other vertices
+        and edges may lie in the same place.
 
     Raises
     ------
@@ -248,36 +261,55 @@ class _Step(NamedTuple):
     trail: _Trail
 
 
-def _walk(faces: Faces, start: int, points: NDArray[np.float64], end: int = -1) -> list[Piece]:
+def _walk(faces: Faces, start: Spot, points: NDArray[np.float64], end: Spot | None = None) -> list[Piece]:
     """Return what a curve passes: from node to node, and the polygon between them.
 
     The walk is the cheapest one (Dijkstra's algorithm). A step costs nothing if the curve's next point lies in a polygon beside.
     Where faces lie on each other, the curve therefore runs over those that its next points are on as well.
     """
     near = ON * float(np.ptp(points, axis=0).max())
-    begins_there = bool(np.linalg.norm(points[0] - faces.points[start]) <= near)
-    ends_there = end >= 0 and bool(np.linalg.norm(points[-1] - faces.points[end]) <= near)
-    first = Node((start,))
+    first, goal = _node_of(faces, start, points[0], near), _node_of(faces, end, points[-1], near)
     order = itertools.count()
     done: set[tuple[int, tuple[int, ...], int]] = set()
-    farthest = _Step(int(begins_there), first, points[0], first if begins_there else None, None)
+    here = None if first is None else _moved(faces, first)
+    farthest = _Step(int(here is not None), first or Node(vertices_of(start)), points[0], here, None)
     waiting = [(0.0, 0, next(order), 0, farthest)]
+    arrived: tuple[float, _Step] | None = None
     while waiting:
         cost, _, _, stage, step = heapq.heappop(waiting)
+        if arrived is not None and cost > arrived[0] + _REACH:
+            break
         if stage == 0:
             key = (step.number, step.on.vertices, step.on.polygon)
             if key in done:
                 continue
             done.add(key)
             farthest = max(farthest, step, key=lambda one: one.number)
-            if step.number == len(points) and (not ends_there or step.on.vertices == (end,)):
-                return _pieces_of(step.trail)
+            if step.number == len(points):
+                if goal is None or step.on.vertices == goal.vertices:
+                    return _pieces_of(step.trail)
+                if arrived is None and isinstance(end, FacePoint):
+                    arrived = cost, step
         following = (_forward, _in_place, _straight_on)[stage](faces, points, step)
         for more, new in following:
             heapq.heappush(waiting, (cost + more, -new.number, next(order), 0, new))
         if stage < 2 and step.here is not None:
             heapq.heappush(waiting, (cost + (_HOP, _STRAIGHT)[stage], -step.number, next(order), stage + 1, step))
+    if arrived is not None:
+        return _pieces_of(arrived[1].trail)
     raise CuttingError(f"A wire does not run over the mesh near vertex {farthest.on.vertices[0]}")
+
+
+def _node_of(faces: Faces, spot: Spot | None, place: NDArray[np.float64], near: float) -> Node | None:
+    """Return the node of a curve's end; None if only a vertex beside is known."""
+    if isinstance(spot, FacePoint):
+        around = (polygon for vertex in spot.corners for polygon in faces.polygons_at(vertex))
+        polygon = next((one for one in around if spot.triangle in faces.rows_of(one)), None)
+        if polygon is None:
+            return None
+        return _in_polygon(faces, polygon, Node.between(spot.corners, spot.weights, ON), ON)
+    is_there = spot is not None and np.linalg.norm(place - faces.points[spot]) <= near
+    return Node((spot,)) if is_there else None
 
 
 def _pieces_of(trail: _Trail) -> list[Piece]:
@@ -293,20 +325,34 @@ def _polygons_beside(faces: Faces, on: Node) -> Sequence[int]:
     if on.polygon >= 0:
         return [on.polygon]
     around = faces.polygons_at(on.vertices[0])
-    return [polygon for polygon in around if {*on.vertices} <= {*faces.corners(polygon)}]
+    return around if len(on.vertices) == 1 else [one for one in around if _is_side(faces, one, on.vertices)]
+
+
+def _is_side(faces: Faces, polygon: int, pair: Sequence[int]) -> bool:
+    """Whether two vertices are the ends of a side of a polygon; an edge between them may also be a side of others only."""
+    corners = list(faces.corners(polygon))
+    return any({*pair} == {*side} for side in zip(corners, [*corners[1:], corners[0]], strict=True))
 
 
 def _forward(faces: Faces, points: NDArray[np.float64], step: _Step) -> Iterator[tuple[float, _Step]]:
     """Yield the steps to the curve's next point in a polygon beside, and what each costs."""
     if step.number < len(points):
         place = points[step.number]
-        for off, polygon, on in _nodes_at(faces, _polygons_beside(faces, step.on), place):
-            yield off, _step_to(faces, step, step.number + 1, polygon, on, place)
+        for off, polygon, row, on in _nodes_at(faces, _polygons_beside(faces, step.on), place):
+            leaves = step.here is not None and not _is_in(faces, polygon, row, step)
+            yield off + leaves * _LEAP, _step_to(faces, step, step.number + 1, polygon, on, place)
+
+
+def _is_in(faces: Faces, polygon: int, row: int, step: _Step) -> bool:
+    """Whether a step is in a triangle of a polygon."""
+    if {*step.on.vertices} <= {*faces.triangles[row].tolist()}:
+        return True
+    return any(off == 0.0 for off, *_ in _nodes_at(faces, [polygon], step.place, row))
 
 
 def _in_place(faces: Faces, _points: NDArray[np.float64], step: _Step) -> Iterator[tuple[float, _Step]]:
     """Yield the steps to other vertices and edges of the polygons beside that lie in the same place."""
-    for off, polygon, on in _nodes_at(faces, _polygons_beside(faces, step.on), step.place):
+    for off, polygon, _, on in _nodes_at(faces, _polygons_beside(faces, step.on), step.place):
         if on.polygon < 0 and on.vertices != step.on.vertices:
             yield off, _step_to(faces, step, step.number, polygon, on, step.place)
 
@@ -326,7 +372,7 @@ def _straight_on(faces: Faces, points: NDArray[np.float64], step: _Step) -> Iter
             longest = float(np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1).max())
             if gap > OFF * longest:
                 continue
-            for off, _, on in _nodes_at(faces, [polygon], exit_place, row):
+            for off, *_, on in _nodes_at(faces, [polygon], exit_place, row):
                 yield off + float(gap) / longest, _step_to(faces, step, step.number, polygon, on, exit_place)
 
 
@@ -360,15 +406,15 @@ def _exit(
 
 def _nodes_at(
     faces: Faces, polygons: Iterable[int], place: NDArray[np.float64], only: int = -1
-) -> Iterator[tuple[float, int, Node]]:
+) -> Iterator[tuple[float, int, int, Node]]:
     """Yield the vertices and edges that a place in some polygons, or in one row of their triangles, lies on.
 
     Yields
     ------
     off
         How far the triangle is from the place, as part of its longest side, as far as rounding does not explain it.
-    polygon
-        Its number.
+    polygon, row
+        The polygon, and the triangle.
     node
         A vertex that the place is on, an edge between whose ends it lies, or otherwise the place inside.
     """
@@ -386,7 +432,7 @@ def _nodes_at(
     to_corners = np.linalg.norm(corners - place, axis=2)
     for k in np.flatnonzero(away <= OFF * longest).tolist():
         reach = away[k] + ON * longest[k]
-        polygon, triangle = rows[k][1], triangles[k].tolist()
+        (row, polygon), triangle = rows[k], triangles[k].tolist()
         at = to_corners[k] <= reach
         nodes = [Node((triangle[i],)) for i in range(3) if at[i]]
         for i, j in ((0, 1), (1, 2), (2, 0)):
@@ -395,20 +441,26 @@ def _nodes_at(
                 nodes.append(Node.between((triangle[i], triangle[j]), (1.0 - share, share)))
         for node in nodes or [Node.between(triangle, weights[k])]:
             cost = max(0.0, float(away[k] / longest[k]) - ON) if longest[k] > 0.0 else 0.0
-            yield cost, polygon, _in_polygon(faces, polygon, node, ON)
+            yield cost, polygon, row, _in_polygon(faces, polygon, node, ON)
 
 
 def _step_to(faces: Faces, step: _Step, number: int, polygon: int, on: Node, place: NDArray[np.float64]) -> _Step:
     """Return the step from another one to a node in a polygon beside it."""
-    there = _in_polygon(faces, polygon, Node.between(on.vertices, on.weights, NEAR), NEAR)
+    there = _moved(faces, on)
     leads_on = step.here is not None and there != step.here
     return _Step(number, on, place, there, ((step.here, there, polygon), step.trail) if leads_on else step.trail)
+
+
+def _moved(faces: Faces, on: Node) -> Node:
+    """Return a node as the vertex, or on the edge, that it is near to."""
+    moved = Node.between(on.vertices, on.weights, NEAR)
+    return moved if on.polygon < 0 else _in_polygon(faces, on.polygon, moved, NEAR)
 
 
 def _in_polygon(faces: Faces, polygon: int, node: Node, near: float) -> Node:
     """Return a node of a polygon's triangles as one on the polygon's side, or else as one inside it."""
     node = _on_side(faces, polygon, node, near)
-    is_inside = len(node.vertices) == 3 or (len(node.vertices) == 2 and not faces.is_edge(*node.vertices))
+    is_inside = len(node.vertices) == 3 or (len(node.vertices) == 2 and not _is_side(faces, polygon, node.vertices))
     return replace(node, polygon=polygon) if is_inside else node
 
 
@@ -418,7 +470,9 @@ def _on_side(faces: Faces, polygon: int, node: Node, near: float) -> Node:
     One that is `near` one of these ends, as part of the side, is that vertex.
     """
     corners = faces.corners(polygon)
-    if len(corners) < 4 or len(node.vertices) == 1 or (len(node.vertices) == 2 and faces.is_edge(*node.vertices)):
+    if len(corners) < 4 or len(node.vertices) == 1:
+        return node
+    if len(node.vertices) == 2 and _is_side(faces, polygon, node.vertices):
         return node
     starts = faces.points[list(corners)]
     ends = np.roll(starts, -1, axis=0)
@@ -637,7 +691,7 @@ def _parted(faces: Faces, pieces: list[Piece]) -> list[Piece]:
         passed = [one, two]
         pair = tuple(sorted({*one.vertices, *two.vertices}))
         if len(pair) == 2:
-            passing = on_pairs.get((pair, -1 if faces.is_edge(*pair) else polygon), ())
+            passing = on_pairs.get((pair, -1 if _is_side(faces, polygon, pair) else polygon), ())
             part = {node: node.weight(pair[1]) for node in (one, two, *passing)}
             low, high = sorted((part[one], part[two]))
             passed = sorted((node for node in part if low <= part[node] <= high), key=part.__getitem__)
@@ -651,13 +705,15 @@ def _sorted_out(faces: Faces, pieces: list[Piece]) -> CutPlan:
     result = CutPlan()
     across: dict[int, list[Segment]] = defaultdict(list)
     for one, two, polygon in pieces:
-        pair = {*one.vertices, *two.vertices}
-        if len(pair) == 2 and faces.is_edge(*pair):
+        if _is_side(faces, polygon, (*one.vertices, *two.vertices)):
             result.along.append((one, two))
         else:
             across[polygon].append((one, two))
     for polygon, segments in across.items():
-        result.across[polygon] = _straightened(faces, polygon, segments)
+        shape = _Shape(faces, polygon)
+        result.across[polygon] = _straightened(shape, segments)
+        if shape.is_folded:
+            result.folded.add(polygon)
     used = set(result.nodes())
     for (pair, polygon), nodes in _on_pairs(pieces).items():
         if polygon < 0 and not used.isdisjoint(nodes):
@@ -665,13 +721,12 @@ def _sorted_out(faces: Faces, pieces: list[Piece]) -> CutPlan:
     return result
 
 
-def _straightened(faces: Faces, polygon: int, segments: list[Segment]) -> list[Segment]:
+def _straightened(shape: _Shape, segments: list[Segment]) -> list[Segment]:
     """Lead cuts straight over a polygon, without vertices inside, where they hardly bend and nothing is in the way."""
     beside: dict[Node, list[Node]] = defaultdict(list)
     for one, two in segments:
         beside[one].append(two)
         beside[two].append(one)
-    shape = _Shape(faces, polygon)
     inner = {node for node, ends in beside.items() if len(ends) == 2 and not shape.on_rim(node)}
     kept = {frozenset(segment) for segment in segments if inner.isdisjoint(segment)}
     chains = {chain for node in beside if node not in inner for chain in _chains(node, beside, inner)}
@@ -706,37 +761,53 @@ def _chains(start: Node, beside: dict[Node, list[Node]], inner: set[Node]) -> It
         yield min(tuple(chain), tuple(reversed(chain)), key=lambda nodes: [(n.vertices, n.weights) for n in nodes])
 
 
-def layout(rim: NDArray[np.float64]) -> NDArray[np.float64] | None:
-    """Return where the corners of a polygon without area, (n, 3), are drawn for cuts across it, (n, 2); None if it has an area.
-
-    Such a polygon is drawn as a regular one, where the same cuts meet as on the polygon.
-    """
-    normal = np.cross(rim, np.roll(rim, -1, axis=0)).sum(axis=0)
-    longest = np.linalg.norm(rim - np.roll(rim, 1, axis=0), axis=1).max()
-    if np.linalg.norm(normal) > FLAT * longest**2:
-        return None
-    return regular(len(rim))
-
-
-def regular(count: int) -> NDArray[np.float64]:
+def regular_corners(count: int) -> NDArray[np.float64]:
     """Return the corners of a regular polygon, (count, 2)."""
     angles = 2.0 * np.pi * np.arange(count) / count
     return np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
 
+def _has_spike(rim: NDArray[np.float64]) -> bool:
+    """Whether a polygon with these corners, (n, 3), has a side without length, or two sides that lie on each other."""
+    back, on = np.roll(rim, 1, axis=0) - rim, np.roll(rim, -1, axis=0) - rim
+    lengths = np.linalg.norm(on, axis=1)
+    if lengths.min() <= FLAT * lengths.max():
+        return True
+    products = np.linalg.norm(back, axis=1) * lengths
+    straight = np.linalg.norm(np.cross(back, on), axis=1) <= FLAT * products
+    return bool((straight & (np.einsum("ij,ij->i", back, on) > 0.0)).any())
+
+
+def _is_folded(corners: NDArray[np.float64], axis: int, sign: float) -> bool:
+    """Whether triangles, (k, 3, 3), that have an area are seen from behind or from the side along an axis."""
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    seen = sign * normals[:, axis]
+    return bool((seen < SIDE * np.linalg.norm(normals, axis=1)).any()) or not seen.any()
+
+
 class _Shape:
-    """A polygon, seen along its normal; one without area as `layout` draws it."""
+    """A polygon, seen along its normal.
+
+    A polygon that is folded or has no area is seen as a regular one, where its triangles lie beside each other as well.
+
+    Attributes
+    ----------
+    is_folded
+        Whether it is seen so.
+    """
 
     def __init__(self, faces: Faces, polygon: int) -> None:
         self._faces, self._polygon = faces, polygon
         corners = faces.corners(polygon)
         rim = faces.points[list(corners)]
-        normal = np.cross(rim, np.roll(rim, -1, axis=0)).sum(axis=0)
-        drawn = layout(rim)
-        self._points = np.delete(rim, int(np.argmax(np.abs(normal))), axis=1) if drawn is None else drawn
-        self._place_of = dict(zip(corners, self._points, strict=True))
         self._sides = [{a, b} for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
         self._triangles = faces.triangles[list(faces.rows_of(polygon))]
+        normal = np.cross(rim, np.roll(rim, -1, axis=0)).sum(axis=0)
+        axis = int(np.argmax(np.abs(normal)))
+        sign = float(np.sign(normal[axis]))
+        self.is_folded = _has_spike(rim) or _is_folded(faces.points[self._triangles], axis, sign)
+        self._points = regular_corners(len(rim)) if self.is_folded else np.delete(rim, axis, axis=1)
+        self._place_of = dict(zip(corners, self._points, strict=True))
 
     def on_rim(self, node: Node) -> bool:
         """Whether a node is a corner or on a side."""

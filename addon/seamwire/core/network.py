@@ -52,8 +52,14 @@ class FacePoint:
     ) -> FacePoint:
         """Return the point of a triangle that a place is, (3,), or is near to; `points` are the vertices, (n, 3)."""
         corners = triangles[triangle]
-        weights, _ = barycentric(points[corners][None], place)
-        return cls(int(triangle), tuple(corners.tolist()), tuple(weights[0].tolist()))
+        places = points[corners]
+        (weights,), (off,) = barycentric(places[None], place)
+        if not np.isfinite(off):  # the triangle has no area: the point is on one of its sides
+            part, gap = nearest_on_segments(place, places, np.roll(places, -1, axis=0))
+            side = int(np.argmin(gap))
+            weights = np.zeros(3)
+            weights[[side, (side + 1) % 3]] = 1.0 - part[side, 0], part[side, 0]
+        return cls(int(triangle), tuple(corners.tolist()), tuple(weights.tolist()))
 
     @property
     def vertex(self) -> int:

@@ -6,8 +6,9 @@ Blender's own operations on the edit mesh do it, those that its knife is made of
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -79,10 +80,6 @@ class CageFaces:
     def corners(self, polygon: int) -> Sequence[int]:
         """Return the vertices around a face."""
         return [vert.index for vert in self._bm.faces[polygon].verts]
-
-    def is_edge(self, a: int, b: int) -> bool:
-        """Whether two vertices have an edge between them."""
-        return self._bm.edges.get((self._bm.verts[a], self._bm.verts[b])) is not None
 
 
 class PickedPlaces:
@@ -219,8 +216,12 @@ def _carry_out(
     uncut, left = 0, set()
     for polygon, segments in what.across.items():
         face, rim = faces[polygon]
-        with _drawn(face, rim, corners, node_of, {vert_of[node] for segment in segments for node in segment}):
-            edges = _split(bm, face, [(vert_of[one], vert_of[two]) for one, two in segments], of_edges)
+        ends = [(vert_of[one], vert_of[two]) for one, two in segments]
+        place_of = {vert: Vector((*at, 0.0)) for vert, at in zip(rim, cutting.regular_corners(len(rim)), strict=True)}
+        for vert in {*face.verts, *itertools.chain(*ends)} - place_of.keys():
+            parts = zip(node_of[vert].vertices, node_of[vert].weights, strict=True)
+            place_of[vert] = sum((weight * place_of[corners[vertex]] for vertex, weight in parts), Vector())
+        edges = _split(bm, face, ends, of_edges, [place_of] if polygon in what.folded else [{}, place_of])
         loose = {edge for edge in edges if not edge.link_faces}
         uncut += bool(loose)
         left |= loose
@@ -228,49 +229,6 @@ def _carry_out(
     _remove_loose(bm, [edge for edge in left if edge[of_edges]])
     _spread_selection(bm, [vert for node, vert in vert_of.items() if len(node.vertices) > 1 and vert.is_valid])
     return seams, seed_verts, uncut
-
-
-@contextmanager
-def _drawn(
-    face: bmesh.types.BMFace,
-    rim: Sequence[bmesh.types.BMVert],
-    corners: Mapping[int, bmesh.types.BMVert],
-    node_of: Mapping[bmesh.types.BMVert, Node],
-    inside: Iterable[bmesh.types.BMVert],
-) -> Iterator[None]:
-    """Move the vertices of a face without area to where its cuts were planned; Blender splits no face without a normal.
-
-    Parameters
-    ----------
-    face
-        With the vertices on its edges.
-    rim
-        Its corners before.
-    corners
-        Vertices by their number before.
-    node_of
-        What new vertices are between.
-    inside
-        The other vertices of its cuts.
-    """
-    drawn = cutting.layout(np.array([vert.co for vert in rim]))
-    if drawn is None:
-        yield
-        return
-    place_of = {vert: Vector((*place, 0.0)) for vert, place in zip(rim, drawn.tolist(), strict=True)}
-    for vert in {*face.verts, *inside} - place_of.keys():
-        node = node_of[vert]
-        weights = zip(node.vertices, node.weights, strict=True)
-        place_of[vert] = sum((weight * place_of[corners[vertex]] for vertex, weight in weights), Vector())
-    before = {vert: vert.co.copy() for vert in place_of}
-    for vert, place in place_of.items():
-        vert.co = place
-    face.normal_update()
-    try:
-        yield
-    finally:
-        for vert, place in before.items():
-            vert.co = place
 
 
 def _remove_loose(bm: bmesh.types.BMesh, edges: Iterable[bmesh.types.BMEdge]) -> None:
@@ -431,10 +389,12 @@ def _split(
     face: bmesh.types.BMFace,
     segments: Sequence[tuple[bmesh.types.BMVert, bmesh.types.BMVert]],
     of_edges: bmesh.types.BMLayerItem,
+    drawings: Iterable[Mapping[bmesh.types.BMVert, Vector]],
 ) -> list[bmesh.types.BMEdge]:
     """Split a face along edges between its corners and vertices inside it, and return those edges.
 
-    Where that cannot be done, the edges have no faces.
+    Blender splits no face that is folded or has no area. The vertices are therefore moved meanwhile, to the places of each
+    drawing, until a split succeeds. If none does, the edges have no faces.
     """
     selected = face.select
     edges = []
@@ -444,11 +404,28 @@ def _split(
             edge = bm.edges.new(segment)
             edge[of_edges] = 1
         edges.append(edge)
-    try:
-        parts = bmesh.utils.face_split_edgenet(face, edges)
-    except ValueError:
-        parts = ()
+    parts: Sequence[bmesh.types.BMFace] = ()
+    for place_of in drawings:
+        with _moved(face, place_of), suppress(ValueError):
+            parts = bmesh.utils.face_split_edgenet(face, edges)
+        if len(parts) > 1:
+            break
     if selected:
         for part in parts:
             part.select = True
     return edges
+
+
+@contextmanager
+def _moved(face: bmesh.types.BMFace, place_of: Mapping[bmesh.types.BMVert, Vector]) -> Iterator[None]:
+    """Move vertices of a face meanwhile."""
+    before = {vert: vert.co.copy() for vert in place_of}
+    for vert, place in place_of.items():
+        vert.co = place
+    if before:
+        face.normal_update()
+    try:
+        yield
+    finally:
+        for vert, place in before.items():
+            vert.co = place

@@ -455,7 +455,10 @@ class ObjectSession:
 
         def planned() -> CutPlan:
             every = (*wires, *(image for wire in wires for image in images[wire]))
-            return cut.plan(self.cage, self.arrays, [(own.vertices[0], own.points, own.vertices[-1]) for own in every])
+            curves = [
+                (_spot(own.start, own.vertices[0]), own.points, _spot(own.end, own.vertices[-1])) for own in every
+            ]
+            return cut.plan(self.cage, self.arrays, curves)
 
         plan = planned()
         alone = [wires[number] for number in plan.left_out if number < len(wires)]
@@ -520,7 +523,8 @@ class ObjectSession:
                 again = after.plan_cut(placed)
             except CuttingError as error:
                 raise CuttingError(f"{error}; what was cut before is taken back, undo brings it again") from error
-            return replace(after.cut(again, placed, taken=taken), wires=len(wires))
+            missing = sum(number < len(wires) for number in again.left_out)
+            return replace(after.cut(again, placed, taken=taken), wires=len(wires) - missing)
         seeds = {end for wire in wires for end in (wire.start, wire.end)}
         done = cut.carry_out(self.cage, plan, seeds, crumb)
         after = ObjectSession(self.obj)
@@ -650,3 +654,8 @@ class ObjectSession:
     def drop_changes(self, network: Network) -> None:
         """Go back to a network that the session had, whatever was drawn since."""
         self.session.adopt(replace(network, seed=None), self.plain_seams)
+
+
+def _spot(pick: Pick, vertex: int) -> int | FacePoint:
+    """Return where a curve begins or ends: a point in a triangle, or else the vertex that its edges begin or end at."""
+    return pick if isinstance(pick, FacePoint) else vertex
