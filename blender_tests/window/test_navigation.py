@@ -174,7 +174,18 @@ def keymap(request: pytest.FixtureRequest) -> Iterator[str]:
     manager.keyconfigs.active = manager.keyconfigs[before]
 
 
-MOVES = ("rotate", "move", "zoom", "dolly", "view_axis", "view_orbit", "view_pan", "view_roll", "view_all", "view_selected")
+MOVES = (
+    "rotate",
+    "move",
+    "zoom",
+    "dolly",
+    "view_axis",
+    "view_orbit",
+    "view_pan",
+    "view_roll",
+    "view_all",
+    "view_selected",
+)
 """Blender's operators that move the view at once; the rest begins walking, or needs a camera."""
 ALONG = {"NORTH": (0, 1), "SOUTH": (0, -1), "EAST": (1, 0), "WEST": (-1, 0)}
 
