@@ -123,7 +123,7 @@ class ObjectView:
 
     def was_read(self) -> None:
         """Take note that the mesh is known as it is now, after it was read or written."""
-        # Blender tells of both as of any change. After this, whatever it tells is another change.
+        # Blender tells of both as of any change. From now on it tells only of other changes.
         let_blender_tell()
         self.stale = False
 
