@@ -395,6 +395,19 @@ def test_the_strongest_feature_within_reach_is_taken_and_none_where_all_is_plain
     assert find.snap(view, HERE, at, vertices_only=False, strength=strength).pick == ridge, "that one is too far"
 
 
+def test_the_nearest_of_preferred_vertices_within_reach_is_taken_before_features() -> None:
+    find, view = Picker(grid(81)), from_above()
+    column = frozenset(range(40, 81 * 81, 81))
+    strength = np.zeros(81 * 81)
+    strength[40 * 81 + 41] = 5.0
+    at = beside(view, (0.0, 0.0, 0.0), 7.0, 1.0)
+    plain = find.snap(view, HERE, at, vertices_only=True)
+    assert plain.pick == 40 * 81 + 42
+    assert find.snap(view, HERE, at, vertices_only=True, preferred=column, strength=strength) == Snap(40 * 81 + 40)
+    away = beside(view, (0.0, 0.0, 0.0), 11.0, 1.0)
+    assert find.snap(view, HERE, away, vertices_only=True, preferred=column).pick not in column
+
+
 def test_a_feature_on_the_far_side_is_not_taken() -> None:
     places = grid_places(81)
     under_half = places[:, 0] > 0.01

@@ -10,6 +10,7 @@ from desk import ORANGE, Desk, leave, shows
 from scene import add_grid, add_object, chain, seams
 from seamwire.operators.report import running
 from seamwire.ui import status_bar
+from seamwire.view.edited_objects import edited
 
 
 def said() -> str:
@@ -110,6 +111,29 @@ def test_mirrored_wires_are_drawn_live(desk: Desk) -> None:
     ui.wait_until(lambda: len(session.wires) == 1)
     ui.key("RET")
     assert seams(desk.obj) == sorted(chain(9, 10, 11, 12) + chain(14, 15, 16, 17))
+
+
+@pytest.mark.every_blender
+def test_with_the_mirror_on_its_plane_is_hit_from_the_side(cone: Desk) -> None:
+    """The plane lies on the silhouette there, and the next vertices are seen but a few pixels from it."""
+    ui, mesh = cone.ui, cone.obj.data
+    ui.look((0.5, 0.5, 0.5, 0.5), (0.0, 0.0, 0.5), 9.0)  # from the right: y to the right, z up
+    session = cone.choose()
+    x, y = beside = cone.at(41)
+    assert 2.0 < cone.at(40)[1] - y < 9.0
+    ui.move(beside)
+    assert session.target.pick == 41
+    mesh.use_mirror_x = True
+    ui.wait_until(lambda: edited.front.mesh.symmetric is not None)
+    for there in ((x + 1.0, y), beside):
+        ui.move(there)
+    assert session.target.pick == 40
+    ui.click(beside)
+    assert session.seed == 40
+    ui.click(cone.at(59))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.key("RET")
+    assert seams(cone.obj) == chain(40, 49, 58), "along the plane, with no gap"
 
 
 def test_escape_ends_work_that_takes_long(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:

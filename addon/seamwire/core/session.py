@@ -1062,6 +1062,10 @@ class Session:
         """The axes over which the mesh is symmetric."""
         return self._symmetry.symmetric_axes
 
+    def on_mirror(self) -> frozenset[int]:
+        """Return the vertices on the planes over which wires are mirrored."""
+        return self._symmetry.on_plane(self.mirror_axes)
+
     def partners(self, axes: tuple[int, ...]) -> NDArray[np.int64]:
         """Return the vertex that each is mirrored to over all of the axes at once, (n,); -1: none."""
         return self._symmetry.partners(axes)

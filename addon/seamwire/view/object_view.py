@@ -185,6 +185,7 @@ class ObjectView:
         """
         settings = chosen.settings()
         across = self.session.along == "SURFACE"
+        mirrored = not plain and self.session.mirror_axes and self.mesh.symmetric is not None
         if settings.snap and self._strength is None:
             self._strength = self.session.feature_strength()
         snap = self._picker.snap(
@@ -196,6 +197,7 @@ class ObjectView:
             anywhere=across and self.session.marking and self.session.finish == "CUT",
             session=None if plain else self.session,
             xray=settings.xray,
+            preferred=self.session.on_mirror() if mirrored else frozenset(),
             strength=self._strength if settings.snap and not plain else None,
             # A loop leads through what is seen: a ridge that is shown is as good as under the cursor.
             crests=self.views.crests if (settings.show_crests and across if plain else settings.snap) else None,

@@ -47,6 +47,8 @@ FEATURE_QUANTILE = 0.75
 """A vertex counts as a feature from this share of all vertices' strengths on: on a plain nothing is stronger than noise."""
 _MAX_NEAR = 400
 """Vertices that are looked at for a feature: what a far view has within a few pixels more than this, nobody can tell apart."""
+_MOST_TRIED = 4
+"""So many of the vertices near the cursor are tried for one that is not hidden."""
 _MAX_PIECES = 24
 """Pieces of wires under one cursor that are tried for one that is not hidden."""
 _FEW_EDGES = 50_000
@@ -233,6 +235,7 @@ class Picker:
         anywhere: bool = False,
         session: Session | None = None,
         xray: bool = False,
+        preferred: frozenset[int] = frozenset(),
         strength: NDArray[np.float64] | None = None,
         crests: Crests | None = None,
         scale: float = 1.0,
@@ -255,6 +258,8 @@ class Picker:
             Whose seeds and wires can be found; without it neither they nor seams are.
         xray
             Find what lies behind faces too; the nearest on the screen.
+        preferred
+            Vertices that are taken before all else of the plain mesh if they are as near as features may be.
         strength
             (n,) how strong the feature is at each vertex; then the strongest one nearby is taken.
         crests
@@ -277,6 +282,11 @@ class Picker:
                 pick = self._pick(view, placement, cursor, vertices_only, scale, edges_only)
         if pick is None:
             return None
+        if preferred:
+            near = self._vertices_near(view, placement, cursor, pick, scale)
+            for vertex in sorted(near.keys() & preferred, key=near.__getitem__)[:_MOST_TRIED]:
+                if xray or self._sees(view, placement, self._to_object @ self._points[vertex]):
+                    return Snap(vertex)
         crest = None if crests is None else self._crest_at(view, placement, cursor, crests, anywhere, xray, scale)
         if crest is not None:
             return Snap(crest, "FEATURE")
@@ -426,23 +436,29 @@ class Picker:
         """Return the vertex of the strongest feature within reach, going from what is under the cursor over the mesh."""
         if self._strength[0] is not strength:
             self._strength = (strength, float(np.quantile(strength, FEATURE_QUANTILE)) if len(strength) else 0.0)
-        radius = FEATURE_REACH * scale
-        frontier = sorted(set(pick.corners if isinstance(pick, FacePoint) else vertices_of(pick)))
-        seen = set(frontier)
-        near: list[int] = []
-        while frontier and len(seen) < _MAX_NEAR:
-            gaps = np.linalg.norm(self._pixels(view, placement, frontier) - np.asarray(cursor), axis=1)
-            inside = [vertex for vertex, gap in zip(frontier, gaps.tolist(), strict=True) if gap <= radius]
-            near += inside
-            reached = self._all_edges[self._edges_at.rows(inside)]
-            frontier = sorted(set(reached.reshape(-1).tolist()) - seen)
-            seen.update(frontier)
-        for vertex in sorted(near, key=lambda v: -strength[v])[:4]:
+        near = self._vertices_near(view, placement, cursor, pick, scale)
+        for vertex in sorted(near, key=lambda v: -strength[v])[:_MOST_TRIED]:
             if strength[vertex] <= self._strength[1]:
                 return None
             if xray or self._sees(view, placement, self._to_object @ self._points[vertex]):
                 return vertex
         return None
+
+    def _vertices_near(
+        self, view: View, placement: _Placement, cursor: tuple[float, float], pick: Pick, scale: float
+    ) -> dict[int, float]:
+        """Return the vertices as near to the cursor as features may be, and how near, going from what is under it over the mesh."""
+        frontier = sorted(set(pick.corners if isinstance(pick, FacePoint) else vertices_of(pick)))
+        seen = set(frontier)
+        near: dict[int, float] = {}
+        while frontier and len(seen) < _MAX_NEAR:
+            gaps = np.linalg.norm(self._pixels(view, placement, frontier) - np.asarray(cursor), axis=1)
+            inside = {v: gap for v, gap in zip(frontier, gaps.tolist(), strict=True) if gap <= FEATURE_REACH * scale}
+            near |= inside
+            reached = self._all_edges[self._edges_at.rows(list(inside))]
+            frontier = sorted(set(reached.reshape(-1).tolist()) - seen)
+            seen.update(frontier)
+        return near
 
     # The mesh
 
