@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fake_live import FakeCuts, FakeLive
-from seamwire.core.closed_cuts import CutMemory
+from seamwire.core.closed_cuts import CutMemory, is_same
 from seamwire.core.network import Network, Wire
 from seamwire.core.session import Session
 from seamwire.core.surface_loops import CUT_IS_GONE, NOTHING_TO_BEND
@@ -79,6 +79,25 @@ def test_it_is_the_one_that_runs_there_whatever_the_library_calls_it(monkeypatch
     it = after_cutting(session, as_cut(session))
     assert it.session.bend(28)
     assert it.lives["SURFACE"].bent[-1] == (8, 28, 3)
+
+
+def circle(radius: float, x: float, towards: int) -> np.ndarray:
+    """Return a circle around a place on the x axis, in the xy plane or the xz plane."""
+    turns = np.linspace(0.0, 2.0 * np.pi, 65)
+    points = np.zeros((65, 3))
+    points[:, 0], points[:, towards] = x + radius * np.cos(turns), radius * np.sin(turns)
+    return points
+
+
+def test_cuts_through_a_point_around_other_limbs_are_others_and_one_that_strays_is_the_same() -> None:
+    limb, neighbor = circle(1.0, 1.0, 1), circle(1.0, -1.0, 1)
+    assert is_same(limb, neighbor) is None, "limbs that touch"
+    tube = circle(1.0, 1.0, 2)
+    around = circle(3.0, -1.0, 1)
+    assert is_same(tube, around) is None, "a torus, from outside"
+    assert is_same(around, tube) is None
+    strays = limb + (1.0 - np.cos(np.linspace(0.0, 2.0 * np.pi, 65)))[:, None] * (0.0, 0.0, 0.4)
+    assert is_same(limb, strays) is not None
 
 
 def test_where_none_runs_there_it_says_so() -> None:

@@ -218,6 +218,41 @@ def test_what_was_cut_into_the_faces_or_slid_is_bent_as_on_the_mesh_before(desk:
     assert seams(desk.obj) not in [[], marked[0]], "what undo brought back is bent elsewhere"
 
 
+def test_after_undo_and_redo_of_three_cuts_the_last_one_is_bent(desk: Desk) -> None:
+    """The cuts beside the waist lie where the shape suggests little: on a mesh that was cut others are found there."""
+    settings().finish = "CUT"
+    ui = desk.ui
+    marked = []
+
+    def others() -> list[tuple[float, ...]]:
+        """Return where the seams of the first two cuts are."""
+        obj = desk.obj
+        obj.update_from_editmode()
+        places = {tuple(round(x, 5) for x in obj.data.vertices[v].co) for edge in seams(obj) for v in edge}
+        return sorted(place for place in places if place[1] < 0.1)
+
+    for row in (20, 10, 30):
+        place = offer(desk, row * AROUND)
+        ui.click(place, alt=True)
+        ui.event("LEFT_ALT", "RELEASE", place)
+        assert desk.left_clean()
+        marked.append(seams(desk.obj))
+    for _ in range(3):
+        ui.key("Z", ctrl=True)
+    assert seams(desk.obj) == []
+    for expected in marked:
+        ui.key("Z", ctrl=True, shift=True)
+        assert seams(desk.obj) == expected
+    before, second = others(), 33 * AROUND + 3
+    place = np.array(desk.obj.data.vertices[second].co)
+    bend(desk, second)
+    bent = seams(desk.obj)
+    assert is_closed(bent)
+    assert others() == before
+    ends = np.array([desk.obj.data.vertices[v].co for edge in bent for v in edge])
+    assert np.linalg.norm(ends - place, axis=1).min() < 0.03
+
+
 def test_where_nothing_suggests_one_the_status_bar_says_so(desk: Desk) -> None:
     ui = desk.ui
     ui.look((0.0, 0.0, 0.7071, 0.7071), (0.0, 0.0, 0.0), 4.0)  # from behind
