@@ -5,11 +5,12 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from desk import Desk, drag, draw
+from desk import Desk, drag, draw, shows
 from scene import chain, seams, snapshot
 from seamwire.mesh import cut
 from seamwire.mesh.settings import settings
 from seamwire.operators.report import running
+from seamwire.view.edited_objects import edited
 from stored import agree, chains, session_on
 
 
@@ -55,6 +56,29 @@ def test_a_chain_is_cut_when_it_ends_in_one_step_of_undo(cutting: Desk) -> None:
     obj.update_from_editmode()
     assert len(obj.data.vertices) == count
     assert seams(obj) == []
+
+
+@pytest.mark.oldest_and_newest
+def test_what_is_drawn_stays_seen_after_a_cut_and_its_undo_though_the_mouse_rests(cutting: Desk) -> None:
+    ui = cutting.ui
+    with ui.override():
+        bpy.ops.mesh.select_all(action="DESELECT")  # Blender's orange is not to be taken for ours
+    cutting.choose()
+    wire, end = cutting.ui.on_screen((-0.5, -0.75, 0.0)), cutting.at(44)
+    ui.click(cutting.at(0))
+    ui.click(end)
+    ui.wait_until(lambda: len(cutting.session.wires) == 1)
+    ui.key("RET")
+    assert not cutting.running
+    assert len(cutting.obj.data.vertices) > 81
+    ui.wait_until(lambda: bool(edited.views()), seconds=3.0)
+    assert len(edited.front.session.wires) == 1
+    kept = edited.front.overlay._looks.kept.color[:3]
+    assert shows(ui.pixels(), wire, kept)
+    ui.key("Z", ctrl=True)
+    assert edited.views(), "at once"
+    assert edited.front.session.wires == ()
+    assert not shows(ui.pixels(), wire, kept)
 
 
 def test_drawing_goes_on_after_a_cut_on_the_mesh_as_it_is(cutting: Desk) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import sys
 import time
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import bpy
@@ -46,6 +47,7 @@ class EditedObjects:
         self._views: dict[str, ObjectView] = {}
         self._handles: list[object] = []
         self._error: Exception | None = None
+        self._forgotten: set[str] = set()
         self.front: ObjectView | None = None
         self.chain = False
         self.problem = ""
@@ -98,8 +100,9 @@ class EditedObjects:
             self._remove(name)
 
     def forget(self, view: ObjectView) -> None:
-        """Let an object be read anew: its mesh has other vertices now."""
+        """Let an object be read anew, at the latest with the next `refresh`: its mesh has other vertices now."""
         self._remove(view.name)
+        self._forgotten.add(view.name)
 
     def take_stock(self) -> None:
         """Read anew what has changed, and let one of the objects that are edited be in front."""
@@ -118,6 +121,7 @@ class EditedObjects:
             chosen.listeners.remove(self._on_settings)
         for name in tuple(self._views):
             self._remove(name)
+        self._forgotten.clear()
         while self._handles:
             bpy.types.SpaceView3D.draw_handler_remove(self._handles.pop(), "WINDOW")
         if bpy.app.timers.is_registered(_tick):
@@ -195,7 +199,7 @@ class EditedObjects:
         self.watch()
 
     def refresh(self) -> None:
-        """Read those anew whose meshes have changed; those that are other meshes now, when they are pointed at.
+        """Read those anew whose meshes have changed; with another tool, those that are other meshes now when they are pointed at.
 
         A chain looks after its objects itself.
         """
@@ -203,9 +207,16 @@ class EditedObjects:
             return
         for name, view in tuple(self._views.items()):
             obj = bpy.data.objects.get(name)
-            gone = obj is None or obj.type != "MESH"
-            if gone or (obj.mode == "EDIT" and not self._is_current(view, obj)):
+            if obj is None or obj.type != "MESH":
                 self._remove(name)
+            elif obj.mode == "EDIT" and not self._is_current(view, obj):
+                self.forget(view)
+        names, self._forgotten = self._forgotten, set()
+        for name in names if _tool_is_shown() else ():
+            obj = bpy.data.objects.get(name)
+            if obj is not None and obj.type == "MESH" and obj.mode == "EDIT":
+                with suppress(ValueError):  # nothing of it is visible any more
+                    self.front = self.of(obj)
 
     def on_update(self, depsgraph: bpy.types.Depsgraph) -> None:
         """Take note of meshes that Blender says were changed."""
@@ -252,7 +263,8 @@ class EditedObjects:
 
     @property
     def _waits_to_be_read(self) -> bool:
-        return any(view.stale for view in self.views()) and _tool_is_shown()
+        changed = bool(self._forgotten) or any(view.stale for view in self.views())
+        return changed and _tool_is_shown()
 
     _changed = _stale_since = 0.0
 
