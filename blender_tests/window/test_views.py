@@ -5,10 +5,12 @@ from collections.abc import Iterator
 
 import bmesh
 import bpy
+import numpy as np
 import pytest
 import ui as driver
 from desk import ORANGE, WHITE, Desk, choose, draw, leave, shows
 from scene import add_grid, chain, edit, seams
+from seamwire.mesh.settings import settings
 from seamwire.operators.report import running
 from seamwire.ui import status_bar
 from seamwire.view.edited_objects import edited
@@ -87,6 +89,33 @@ def test_what_the_clipping_border_hides_is_neither_picked_nor_drawn(desk: Desk) 
         pixels = ui.pixels()
         assert not shows(pixels, desk.at(36), WHITE)
         assert shows(pixels, desk.at(44), WHITE)
+    finally:
+        ui.view.use_clip_planes = False
+
+
+@pytest.mark.oldest_and_newest
+@pytest.mark.parametrize("shown", ["tint", "ANGLE", "DISTANCE", "bands and paths"])
+def test_beyond_the_clipping_border_nothing_is_colored(desk: Desk, shown: str) -> None:
+    ui = desk.ui
+    desk.choose()
+    draw(desk, 36, 44)
+    if shown == "bands and paths":
+        settings().show_bands = settings().show_paths = True
+    elif shown != "tint":
+        settings().heat = shown
+    (x, y), (right, top) = desk.at(4), desk.at(80)
+    with ui.override():
+        bpy.ops.view3d.clip_border(
+            xmin=round(x), xmax=ui.region.width - 5, ymin=5, ymax=ui.region.height - 5, wait_for_input=False
+        )
+    try:
+        ui.move((right + 30.0, top))
+        ui.wait_until(lambda: not any(view.busy for view in edited.views()))
+        seen = ui.pixels()
+        choose(ui, "builtin.select_box")
+        colored = np.abs(seen - ui.pixels())[round(y) : round(top), :, :3].max(axis=-1) > 0.02
+        assert not colored[:, round(desk.at(0)[0]) : round(x) - 4].any()
+        assert colored[:, round(x) + 4 : round(right)].mean() > (0.02 if shown == "bands and paths" else 0.5)
     finally:
         ui.view.use_clip_planes = False
 

@@ -25,6 +25,8 @@ _SOFT = ((1.0, 0.3), (0.75, 0.35), (0.5, 0.45))
 """Widths and opacities that together make a band fade towards its sides."""
 _DISC = np.linspace(0.0, 2.0 * np.pi, 25)
 _FONT = 0
+_BORDERS = 4
+"""Drawings are kept for so many clipping borders. Each view has its own border, or no border."""
 _OVER = 1.5
 """Pixels by which what is drawn over faces is nearer than they are."""
 
@@ -87,6 +89,11 @@ class Eye:
         self._pixel = 2.0 / (region_3d.window_matrix[1][1] * self.size[1])
         self._to_clip = np.array(region_3d.window_matrix @ region_3d.view_matrix @ model, dtype=np.float64)
         self._planes = clipping_planes(region_3d) @ np.array(model, dtype=np.float64)
+
+    @property
+    def border(self) -> bytes:
+        """The view's clipping border, as bytes, in the coordinates of what is drawn. Empty without a border."""
+        return self._planes.tobytes()
 
     def shows(self, points: NDArray[np.float64]) -> NDArray[np.bool_] | None:
         """Return which of (n, 3) points lie inside the view's clipping border; None: it has none."""
@@ -157,13 +164,12 @@ class Lines:
             return None  # Blender makes none of nothing
         return batch_for_shader(self._shader, "LINES", {"pos": ends.reshape(-1, 3).astype(np.float32)})
 
-    def within(self, eye: Eye) -> Lines:
-        """Return those that the view's clipping border leaves, or themselves where it has none."""
-        inside = eye.shows(self._ends.mean(axis=1))
-        return self if inside is None else Lines(self.style, self._ends[inside])
-
     def draw(self, eye: Eye, opacity: float = 1.0, rim: bool = True) -> None:
-        """Draw them under the depth test that is set."""
+        """Draw those that the view's clipping border leaves, under the depth test that is set."""
+        inside = eye.shows(self._ends.mean(axis=1))
+        if inside is not None and not inside.all():
+            Lines(self.style, self._ends[inside]).draw(eye, opacity, rim)
+            return
         if not len(self._ends):
             return
         style = self.style
@@ -261,6 +267,37 @@ def discs(centres: NDArray[np.float64], radii: NDArray[np.float64]) -> NDArray[n
     return fans.reshape(-1, 3).astype(np.float32)
 
 
+class _Within:
+    """Keeps the part of a drawing within a view's clipping border, for the last few borders.
+
+    Parameters
+    ----------
+    make
+        Makes it for an eye.
+    """
+
+    def __init__(self, make: Callable[[Eye], object]) -> None:
+        self._make = make
+        self._made: dict[bytes, object] = {}
+
+    def clear(self) -> None:
+        """Let all be made anew."""
+        self._made.clear()
+
+    def of(self, eye: Eye) -> object:
+        """Return the part that an eye sees."""
+        if eye.border not in self._made:
+            if len(self._made) == _BORDERS:
+                self._made.clear()
+            self._made[eye.border] = self._make(eye)
+        return self._made[eye.border]
+
+
+def _whole(triangles: NDArray[np.integer], inside: NDArray[np.bool_] | None) -> NDArray[np.integer]:
+    """Return the triangles whose corners are all inside. `inside` is None if everything is."""
+    return triangles if inside is None else triangles[inside[triangles].all(axis=1)]
+
+
 class Faces:
     """Triangles of one mesh, drawn in a few colors; the vertices are handed to the GPU once.
 
@@ -272,27 +309,39 @@ class Faces:
 
     def __init__(self, points: NDArray[np.float64]) -> None:
         self._shader = gpu.shader.from_builtin("UNIFORM_COLOR")
+        self._places = points
         form = gpu.types.GPUVertFormat()
         form.attr_add(id="pos", comp_type="F32", len=3, fetch_mode="FLOAT")
         self._points = gpu.types.GPUVertBuf(form, len(points))
         self._points.attr_fill("pos", np.ascontiguousarray(points, dtype=np.float32))
-        self._batches: list[tuple[int, gpu.types.GPUBatch]] = []
+        self._pieces: list[tuple[int, NDArray[np.integer]]] = []
+        self._within = _Within(self._make)
 
     def clear(self) -> None:
         """Forget the triangles, not the vertices."""
-        self._batches = []
+        self._pieces = []
+        self._within.clear()
 
-    def add(self, color: int, triangles: NDArray[np.int32]) -> None:
+    def add(self, color: int, triangles: NDArray[np.integer]) -> None:
         """Add triangles, (k, 3), in the color of a number."""
+        self._pieces.append((color, triangles))
+        self._within.clear()
+
+    def _make(self, eye: Eye) -> list[tuple[int, gpu.types.GPUBatch]]:
+        inside = eye.shows(self._places)
+        seen = ((color, _whole(triangles, inside)) for color, triangles in self._pieces)
+        return [(color, self._batch(triangles)) for color, triangles in seen if len(triangles)]
+
+    def _batch(self, triangles: NDArray[np.integer]) -> gpu.types.GPUBatch:
         indices = gpu.types.GPUIndexBuf(type="TRIS", seq=np.ascontiguousarray(triangles, dtype=np.uint32))
-        self._batches.append((color, gpu.types.GPUBatch(type="TRIS", buf=self._points, elem=indices)))
+        return gpu.types.GPUBatch(type="TRIS", buf=self._points, elem=indices)
 
     def draw(self, eye: Eye, colors: Sequence[Color], lift: float) -> None:
-        """Draw them under the depth test that is set."""
+        """Draw those that the view's clipping border leaves whole, under the depth test that is set."""
         with gpu.matrix.push_pop():
             gpu.matrix.load_matrix(eye.lifted(lift))
             self._shader.bind()
-            for number, batch in self._batches:
+            for number, batch in self._within.of(eye):
                 self._shader.uniform_float("color", colors[number])
                 batch.draw(self._shader)
 
@@ -318,19 +367,29 @@ class ShadedFaces:
         self, points: NDArray[np.float64], triangles: NDArray[np.integer], colors: NDArray[np.float64]
     ) -> None:
         self._shader = gpu.shader.from_builtin("SMOOTH_COLOR")
-        self._batch = batch_for_shader(
-            self._shader,
-            "TRIS",
-            {"pos": np.ascontiguousarray(points, np.float32), "color": np.ascontiguousarray(colors, np.float32)},
-            indices=np.ascontiguousarray(triangles, dtype=np.uint32),
-        )
+
+        def make(eye: Eye) -> gpu.types.GPUBatch | None:
+            seen = _whole(triangles, eye.shows(points))
+            if not len(seen):
+                return None
+            return batch_for_shader(
+                self._shader,
+                "TRIS",
+                {"pos": np.ascontiguousarray(points, np.float32), "color": np.ascontiguousarray(colors, np.float32)},
+                indices=np.ascontiguousarray(seen, dtype=np.uint32),
+            )
+
+        self._within = _Within(make)
 
     def draw(self, eye: Eye, lift: float) -> None:
-        """Draw them under the depth test that is set."""
+        """Draw those that the view's clipping border leaves whole, under the depth test that is set."""
+        batch = self._within.of(eye)
+        if batch is None:
+            return
         with gpu.matrix.push_pop():
             gpu.matrix.load_matrix(eye.lifted(lift))
             self._shader.bind()
-            self._batch.draw(self._shader)
+            batch.draw(self._shader)
 
     def draw_over(self, eye: Eye) -> None:
         """Draw what is seen of them over the mesh, as `Faces.draw_over`."""
@@ -364,23 +423,34 @@ class ColoredLines:
     def __init__(self, ends: NDArray[np.float64], colors: NDArray[np.float64], width: float, lift: float = 3.0) -> None:
         self._shader = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
         self._width, self._lift = width, lift
-        self._batch = batch_for_shader(
-            self._shader,
-            "LINES",
-            {
-                "pos": np.ascontiguousarray(ends.reshape(-1, 3), np.float32),
-                "color": np.ascontiguousarray(np.repeat(colors, 2, axis=0), np.float32),
-            },
-        )
+
+        def make(eye: Eye) -> gpu.types.GPUBatch | None:
+            inside = eye.shows(ends.mean(axis=1))
+            rows = np.arange(len(ends)) if inside is None else np.flatnonzero(inside)
+            if not len(rows):
+                return None
+            return batch_for_shader(
+                self._shader,
+                "LINES",
+                {
+                    "pos": np.ascontiguousarray(ends[rows].reshape(-1, 3), np.float32),
+                    "color": np.ascontiguousarray(np.repeat(colors[rows], 2, axis=0), np.float32),
+                },
+            )
+
+        self._within = _Within(make)
 
     def draw(self, eye: Eye) -> None:
-        """Draw them under the depth test that is set."""
+        """Draw those that the view's clipping border leaves, under the depth test that is set."""
+        batch = self._within.of(eye)
+        if batch is None:
+            return
         with gpu.matrix.push_pop():
             gpu.matrix.load_matrix(eye.lifted(self._lift))
             self._shader.bind()
             self._shader.uniform_float("viewportSize", eye.size)
             self._shader.uniform_float("lineWidth", self._width * eye.scale)
-            self._batch.draw(self._shader)
+            batch.draw(self._shader)
 
 
 # On the screen: pixels of the region from its bottom left

@@ -207,7 +207,7 @@ class Overlay:
             with blended(test):
                 for sheet in sheets:
                     for lines in sheet.lines:
-                        lines.within(eye).draw(eye, lines.style.hidden if hidden else 1.0, rim=not hidden)
+                        lines.draw(eye, lines.style.hidden if hidden else 1.0, rim=not hidden)
                 for sheet in sheets:
                     for style, places in sheet.dots:
                         inside = eye.shows(places)

@@ -172,7 +172,7 @@ class StretchHeat:
         lines = self._outline_of(self.summary())
         if lines is not None:
             with gpu_draw.blended("LESS_EQUAL"):
-                lines.within(eye).draw(eye)
+                lines.draw(eye)
 
     def _fill(self, faces: gpu_draw.Faces) -> None:
         steps = np.minimum(self.values * (_STEPS / HOT), _STEPS - 1).astype(np.uint8)
