@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import ui as driver
 from desk import Desk, draw, grid, leave, near, undo_steps
+from mathutils import Vector
 from seamwire.core.stretch import Stretch
 from seamwire.mesh.settings import settings
 from seamwire.view.edited_objects import edited
@@ -183,6 +184,33 @@ def test_the_worst_island_is_one_key_away(desk: Desk) -> None:
     assert desk.ui.view.view_distance < distance
     assert desk.ui.view.view_location.x == pytest.approx(0.5, abs=1e-3)
     bpy.ops.mesh.select_mode(type="VERT")
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("scale", [1.0, -1.0])
+def test_the_worst_island_is_turned_to_the_viewer(desk: Desk, scale: float) -> None:
+    bm = bmesh.from_edit_mesh(desk.obj.data)
+    for edge in bm.edges:
+        edge.seam = all(abs(v.co.x) < 1e-6 for v in edge.verts)
+    for vertex in bm.verts:  # a roof: its right half falls to the right
+        vertex.co.z = -max(vertex.co.x, 0.0)
+    bmesh.update_edit_mesh(desk.obj.data)
+    lay_out(desk, right=2.0)
+    desk.obj.scale.z = scale
+    desk.choose()
+    view = desk.ui.view
+    normal = Vector((0.7071, 0.0, 0.7071 * scale))
+
+    def towards_viewer() -> Vector:
+        return view.view_rotation @ Vector((0.0, 0.0, 1.0))
+
+    view.view_rotation = Vector((-1.0, 0.0, 0.0)).to_track_quat("Z", "Y")
+    desk.ui.key("W", shift=True, ctrl=True)
+    assert towards_viewer().angle(normal) < 0.01
+    desk.ui.look_from_top()
+    desk.ui.key("W", shift=True, ctrl=True)
+    expected = Vector((0.0, 0.0, 1.0)) if scale > 0.0 else normal
+    assert towards_viewer().angle(expected) < 0.01, "what is seen well is not turned"
 
 
 def uvs(desk: Desk) -> np.ndarray:

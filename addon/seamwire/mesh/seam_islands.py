@@ -160,11 +160,14 @@ class Worst:
         (k,) its faces.
     count
         How many islands its mesh has.
+    facing
+        (3,) which way it faces in the mean, in object coordinates; as long as the part of its area that is seen from there.
     """
 
     value: float
     faces: NDArray[np.int32]
     count: int
+    facing: NDArray[np.float64]
 
 
 def worst_island(obj: bpy.types.Object, kind: str) -> Worst | None:
@@ -189,7 +192,11 @@ def worst_island(obj: bpy.types.Object, kind: str) -> Worst | None:
         return None
     values = islands.angle if kind == "ANGLE" else islands.area
     number = int(values.argmax())
-    return Worst(float(values[number]), np.unique(arrays.polygons[labels == number]), len(values))
+    rows = labels == number
+    a, b, c = (arrays.in_object[arrays.triangles[rows, corner]] for corner in range(3))
+    normals = np.cross(b - a, c - a)
+    facing = normals.sum(axis=0) / max(float(np.linalg.norm(normals, axis=1).sum()), 1e-300)
+    return Worst(float(values[number]), np.unique(arrays.polygons[rows]), len(values), facing)
 
 
 def stretched_count(obj: bpy.types.Object, most: float) -> int:
