@@ -2,13 +2,13 @@
 """While a chain is drawn the view is moved in every way that the user's keymap knows."""
 
 from collections.abc import Iterator
-from pathlib import Path
 from types import SimpleNamespace
 
 import bpy
 import pytest
 import ui as driver
 from desk import Desk, choose
+from keymaps import KEYMAPS, Gesture, as_event, gestures, using
 from scene import chain, seams
 from seamwire.operators import bindings
 
@@ -141,15 +141,6 @@ def test_the_navigation_gizmo_works(desk: Desk) -> None:
     finish(desk)
 
 
-KEYMAPS = {
-    "Blender": ("Blender", "LEFT"),
-    "Industry Compatible": ("Industry_Compatible", ""),
-    "Blender 2.7x": ("Blender_27x", ""),
-    "right-click select": ("Blender", "RIGHT"),
-}
-"""The files of Blender's preset keymaps, and the button that selects where there is a choice."""
-
-
 HANDS = [
     *(pytest.param(name, True, marks=pytest.mark.every_blender, id=f"buttons-{name}") for name in KEYMAPS),
     *(pytest.param(name, False, id=f"keys-{name}") for name, (_, button) in KEYMAPS.items() if button != "RIGHT"),
@@ -160,47 +151,11 @@ HANDS = [
 @pytest.fixture
 def keymap(request: pytest.FixtureRequest) -> Iterator[str]:
     """One of `KEYMAPS`."""
-    file, button = KEYMAPS[request.param]
-    manager = bpy.context.window_manager
-    before = manager.keyconfigs.active.name
-    folders = [Path(folder) for folder in bpy.utils.preset_paths("keyconfig")]
-    path = next(folder / f"{file}.py" for folder in folders if (folder / f"{file}.py").exists())
-    bpy.utils.keyconfig_set(str(path))
-    if button:
-        manager.keyconfigs.active.preferences.select_mouse = button
-    yield request.param
-    if button:
-        manager.keyconfigs.active.preferences.select_mouse = "LEFT"
-    manager.keyconfigs.active = manager.keyconfigs[before]
+    with using(request.param):
+        yield request.param
 
 
-MOVES = (
-    "rotate",
-    "move",
-    "zoom",
-    "dolly",
-    "view_axis",
-    "view_orbit",
-    "view_pan",
-    "view_roll",
-    "view_all",
-    "view_selected",
-)
-"""Blender's operators that move the view at once; the rest begins walking, or needs a camera."""
 ALONG = {"NORTH": (0, 1), "SOUTH": (0, -1), "EAST": (1, 0), "WEST": (-1, 0)}
-
-
-def gestures(buttons: bool) -> list[tuple[str, str, str, dict[str, bool]]]:
-    """Return the buttons, or the keys, that move the view in the user's keymap: type, value, direction and modifiers."""
-    found = []
-    for item in bpy.context.window_manager.keyconfigs.user.keymaps["3D View"].keymap_items:
-        simulated = not item.type.startswith("NDOF") and item.type not in {"MOUSEROTATE", "TRACKPADZOOM"}
-        of_hand = item.type.endswith("MOUSE") or item.type == "TRACKPADPAN"
-        if item.active and item.idname in {f"view3d.{name}" for name in MOVES} and simulated and of_hand == buttons:
-            held = {name: True for name in ("shift", "ctrl", "alt") if getattr(item, name) == 1}
-            found.append((item.type, item.value, getattr(item, "direction", "ANY"), {} if item.any else held))
-    assert len(found) > 7
-    return found
 
 
 def seen(ui: driver.Ui) -> tuple[object, ...]:
@@ -211,7 +166,7 @@ def seen(ui: driver.Ui) -> tuple[object, ...]:
 
 
 def do(desk: Desk, kind: str, value: str, direction: str, held: dict[str, bool]) -> bool:
-    """Do what a hand does for a gesture; return whether the view was moved by it. Then it is as it was."""
+    """Do what a hand does for a gesture; return whether it moved the view, which is then put back."""
     ui, start = desk.ui, desk.at(50)
     view = ui.view
     place = view.view_rotation.copy(), view.view_location.copy(), view.view_distance, view.view_perspective
@@ -222,8 +177,7 @@ def do(desk: Desk, kind: str, value: str, direction: str, held: dict[str, bool])
     if kind == "TRACKPADPAN":
         ui.event(kind, "NOTHING", (start[0] + 60.0, start[1] + 20.0), ticks=0, **held)
     elif kind.startswith("WHEEL"):
-        turned = {"WHEELINMOUSE": "WHEELUPMOUSE", "WHEELOUTMOUSE": "WHEELDOWNMOUSE"}.get(kind, kind)
-        ui.event(turned, "PRESS", ticks=0, **held)
+        ui.event(as_event(kind), "PRESS", ticks=0, **held)
     else:
         ui.event(kind, "PRESS", ticks=0, **held)
         if kind.endswith("MOUSE") and value != "CLICK":
@@ -240,7 +194,7 @@ def do(desk: Desk, kind: str, value: str, direction: str, held: dict[str, bool])
     return moved
 
 
-def moved_by_other_tools(desk: Desk, tried: list[tuple[str, str, str, dict[str, bool]]]) -> list[object]:
+def moved_by_other_tools(desk: Desk, tried: list[Gesture]) -> list[object]:
     """Return the gestures that move the view without the tool: some need what is not there."""
     choose(desk.ui, "builtin.select_box")
     return [gesture for gesture in tried if do(desk, *gesture)]

@@ -360,6 +360,16 @@ def test_saved_and_reopened_the_network_is_there(desk: Desk, tmp_path: Path) -> 
     assert {49} <= {v for edge in seams(desk.obj) for v in edge}
 
 
+def test_a_click_right_after_a_mode_switch_and_back_begins_a_chain(desk: Desk) -> None:
+    desk.choose()
+    ui, place = desk.ui, desk.at(36)
+    for key in ("TAB", "TAB", "LEFTMOUSE"):
+        ui.event(key, "PRESS", place, ticks=0)
+        ui.event(key, "RELEASE", place, ticks=0)
+    ui.wait_until(lambda: desk.running)
+    assert desk.session.seed == 36
+
+
 # Within a chain
 
 
