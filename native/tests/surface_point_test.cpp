@@ -257,6 +257,32 @@ TEST(SurfacePoints, OnASpikeTheyTakeNoLongerThanElsewhere) {
   }
 }
 
+TEST(SurfacePoints, FromPointToPointOnASpikeTakesNoLongerThanElsewhere) {
+  for (const double width : {1e-3, 1e-5, 1e-7}) {
+    shapes::Mesh mesh;
+    for (int k = 0; k < 6; ++k) {
+      const double angle = k * std::numbers::pi / 3;
+      mesh.points.emplace_back(width * std::cos(angle), width * std::sin(angle), 0);
+    }
+    mesh.points.emplace_back(0.3, 0.2, 1.0);
+    for (std::int32_t k = 0; k < 6; ++k) mesh.triangles.push_back({k, (k + 1) % 6, 6});
+    const ExactGeodesics geodesics(shapes::intrinsic(mesh));
+    for (const double low : {0.5, 0.55, 0.6}) {
+      for (const double high : {0.1, 0.3, 0.45}) {
+        // In faces opposite to each other. Ways around the tip are nearly as short, however often they go around.
+        const SurfacePoint from = at(5, 0.2 * low, 0.8 * low, 1 - low), to = at(2, 0.3 * high, 0.7 * high, 1 - high);
+        const DistanceField field = geodesics.solve(std::array{from});
+        std::size_t looks = 0;
+        const Task task{.stop = {}, .progress = [&](double) { return ++looks < 2; }};  // each after 2048 beams
+        double distance = 0.0;
+        ASSERT_NO_THROW(distance = field.distance(to, task)) << width;
+        ASSERT_NO_THROW(field.trace(to, task)) << width;
+        EXPECT_NEAR(distance, (low - high) * mesh.points[6].norm(), 6 * width);
+      }
+    }
+  }
+}
+
 TEST(SurfacePoints, CoordinatesThatAreAVertexAreThatVertexToTheBit) {
   for (const auto& [name, mesh] : meshes()) {
     const ExactGeodesics geodesics(mesh);
