@@ -484,6 +484,11 @@ std::vector<ClosedWire> closed_wires(const Surface& surface, const Embedding& em
 }
 
 std::vector<ClosedWireChoice> choose_closed_wires(std::span<const std::vector<ClosedWire>> metrics, std::size_t count) {
+  for (const std::vector<ClosedWire>& cuts : metrics) {
+    if (std::ranges::any_of(cuts, [](const ClosedWire& cut) { return cut.wire.points.empty(); })) {
+      throw InvalidInput("a closed cut has no points");
+    }
+  }
   std::vector<ClosedWireChoice> order;
   for (std::size_t metric = 0; metric < metrics.size(); ++metric) {
     if (!metrics[metric].empty()) order.push_back({.metric = metric, .number = 0});
