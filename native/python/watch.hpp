@@ -19,7 +19,9 @@ class Watch {
  public:
   /// `progress`: a callable that takes the fraction done, or None.
   explicit Watch(py::object progress) : progress_(std::move(progress)) {
-    if (!progress_.is_none() && PyCallable_Check(progress_.ptr()) == 0) {
+    if (progress_.is_none()) {
+      next_ = Clock::now() + kPeriod;  // only signals are to be looked for
+    } else if (PyCallable_Check(progress_.ptr()) == 0) {
       throw InvalidInput("progress: expected a function of one number, or None");
     }
   }

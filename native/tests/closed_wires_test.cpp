@@ -228,6 +228,7 @@ TEST(ClosedWires, OfSeveralMetricsTheBestOfEachComeFirst) {
   EXPECT_EQ(choose_closed_wires(metrics, 9), (Choices{{0, 0}, {1, 0}, {3, 0}, {0, 1}, {0, 2}, {1, 1}}));
   EXPECT_EQ(choose_closed_wires(metrics, 0), Choices{});
   EXPECT_EQ(choose_closed_wires({}), Choices{});
+  EXPECT_THROW(choose_closed_wires(std::vector<std::vector<ClosedWire>>{{ClosedWire{}}}), InvalidInput);
 
   const std::vector<std::vector<ClosedWire>> alike = {{ring(1, 0), ring(1, 3), ring(1, 6)},
                                                       {ring(1, 0.9 * apart), ring(1, 3 + 0.9 * apart), ring(1, 9)}};

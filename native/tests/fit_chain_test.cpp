@@ -265,6 +265,8 @@ TEST(LinesAlongEdges, ThatAreDamagedAreRefused) {
   EXPECT_THROW(fit(broken, faces, {}), InvalidInput);
   EXPECT_THROW(fit(points, faces, 25), InvalidInput);
   EXPECT_NO_THROW(fit(points, faces, 24));
+  const Paper others(shapes::quad_grid(3));
+  EXPECT_THROW(fit_chain(quads.surface(), others.adjacency(), {points, faces}), InvalidInput);
 }
 
 }  // namespace

@@ -521,6 +521,17 @@ TEST(Geodesics, TracesOfABoundedFieldCanBeCancelled) {
   EXPECT_NO_THROW(exact.trace(100, task));
 }
 
+TEST(Geodesics, LongTracesOfAnExactFieldCanBeCancelled) {
+  // Along a narrow strip, over 6000 triangles.
+  const shapes::Mesh strip =
+      shapes::parametric(3000, 1, false, false, [](double u, double v) { return Vector(30.0 * u, v, 0.0); });
+  const DistanceField field = ExactGeodesics(intrinsic(strip)).solve(0);
+  const auto far = static_cast<std::int32_t>(strip.points.size()) - 1;
+  EXPECT_GT(field.trace(far).faces.size(), 5000U);
+  const Task never{.stop = {}, .progress = [](double) { return false; }};
+  EXPECT_THROW(field.trace(far, never), Cancelled);
+}
+
 void expect_invalid(const IntrinsicMesh& mesh, const std::string& part_of_message) {
   try {
     const ExactGeodesics geodesics(mesh);

@@ -116,7 +116,7 @@ TEST(MissingCuts, AreThoseFoundByCuttingOnRandomComplexes) {
   std::size_t one_sided = 0, nonmanifold = 0;
   for (int round = 0; round < 4000; ++round) {
     std::ranges::shuffle(all, random);
-    // In every second round no edge gets a third triangle, so that larger surfaces come about, closed ones too.
+    // In every second round no edge gets a third triangle, so that larger and closed surfaces arise.
     const std::size_t most_at_edge = round % 2 == 0 ? 2 : 7, most = 1 + random() % 16;
     std::map<Edge, std::size_t> at_edge;
     std::vector<Triangle> triangles;

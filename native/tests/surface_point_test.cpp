@@ -257,6 +257,32 @@ TEST(SurfacePoints, OnASpikeTheyTakeNoLongerThanElsewhere) {
   }
 }
 
+TEST(SurfacePoints, FromPointToPointOnASpikeTakesNoLongerThanElsewhere) {
+  for (const double width : {1e-3, 1e-5, 1e-7}) {
+    shapes::Mesh mesh;
+    for (int k = 0; k < 6; ++k) {
+      const double angle = k * std::numbers::pi / 3;
+      mesh.points.emplace_back(width * std::cos(angle), width * std::sin(angle), 0);
+    }
+    mesh.points.emplace_back(0.3, 0.2, 1.0);
+    for (std::int32_t k = 0; k < 6; ++k) mesh.triangles.push_back({k, (k + 1) % 6, 6});
+    const ExactGeodesics geodesics(shapes::intrinsic(mesh));
+    for (const double one : {0.1, 0.3, 0.44, 0.6}) {
+      for (const double other : {0.2, 0.4, 0.7, 0.87}) {  // parts of the way from the tip
+        // In faces opposite to each other. Ways around the tip are nearly as short, however often they go around.
+        const SurfacePoint from = at(5, 0.3 * one, 0.7 * one, 1 - one), to = at(2, 0.6 * other, 0.4 * other, 1 - other);
+        const DistanceField field = geodesics.solve(std::array{from});
+        std::size_t looks = 0;
+        const Task task{.stop = {}, .progress = [&](double) { return ++looks < 2; }};  // each after 2048 beams
+        double distance = 0.0;
+        ASSERT_NO_THROW(distance = field.distance(to, task)) << width << ", " << one << ", " << other;
+        ASSERT_NO_THROW(field.trace(to, task)) << width << ", " << one << ", " << other;
+        EXPECT_NEAR(distance, std::abs(one - other) * mesh.points[6].norm(), 6 * width);
+      }
+    }
+  }
+}
+
 TEST(SurfacePoints, CoordinatesThatAreAVertexAreThatVertexToTheBit) {
   for (const auto& [name, mesh] : meshes()) {
     const ExactGeodesics geodesics(mesh);

@@ -29,6 +29,52 @@ def sides(triangles: np.ndarray) -> np.ndarray:
     return np.sort(np.stack([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]], 1), 2)
 
 
+def everything_found(size: float) -> dict[str, np.ndarray]:
+    """Return what the library finds on a rough torus of some size, in parts of that size."""
+    points, triangles = meshes.torus(24, 16)
+    points = size * (points + np.random.default_rng(1).normal(0.0, 0.004, points.shape))
+    surface = sw.Surface(points, triangles)
+    curvature = sw.smoothed_curvatures(surface, sw.principal_curvatures(surface), 0.05)
+    metric = sw.concave_metric(surface, curvature)
+    embedding = sw.embed(surface, metric)
+    field = sw.distance_field(embedding, 0)
+    wire, inner = field.trace(100), (55, (0.2, 0.3, 0.5))
+    cut = field.closed_wires()[0]
+    there, back = field.bend(cut).through(inner)
+    stroke = {"points": wire.points[:-1], "faces": wire.faces}
+    hit = sw.RayTree(points, triangles).first_hit(size * np.array((0.35, 0.01, 3.0)), (0.0, 0.0, -1.0))
+    live = sw.LiveWire(surface)
+    live.closed_wires(inner)
+    assert live.wait()
+    joints = [joint for cut in live.closed_wires(inner).cuts for joint in cut.joints]
+    return {
+        "curvature": curvature.k1,
+        "distances": field.distances,
+        "distance": np.array(field.distance(*inner)),
+        "wire": wire.points / size,
+        "length": np.array(wire.euclidean_length),
+        "to a point": field.trace_to(*inner).points / size,
+        "edges": sw.snap_to_edges(surface, wire),
+        "closed": cut.points / size,
+        "bent": np.concatenate([there.points, back.points]) / size,
+        "joints": np.array([(joint[0], *joint[1]) for joint in joints]),
+        "crests": sw.crest_lines(surface, curvature).points / size,
+        "fitted": sw.fit_chain(surface, **stroke).vertices,
+        "stroke": sw.apply_scribbles(surface, metric, [sw.Scribble(**stroke)]).tensors,
+        "wide stroke": sw.apply_scribbles(surface, metric, [sw.Scribble(**stroke, radius=0.1 * size)]).tensors,
+        "hit": np.array((hit[0], hit[1] / size)),
+        "islands": sw.SeamPlanner(surface, seeds=8, most_seeds=8).plan(may_start_on_others=False).islands,
+    }
+
+
+def test_models_of_any_size_are_alike() -> None:
+    expected = everything_found(1.0)
+    for exponent in (-480, 480):  # about 1e-144 and 1e144
+        found = everything_found(2.0**exponent)
+        for name, value in expected.items():
+            np.testing.assert_allclose(found[name], value, rtol=1e-9, atol=1e-12, err_msg=f"{name}, 2^{exponent}")
+
+
 def test_a_wire_of_another_surface_is_not_snapped() -> None:
     points, triangles = meshes.torus(16, 12)
     surface, larger = sw.Surface(points, triangles), sw.Surface(2 * points, triangles)

@@ -10,6 +10,7 @@
 #include "detail/text.hpp"
 #include "edges/stroke_chain.hpp"
 #include "metric/metric_check.hpp"
+#include "metric/scribble_points.hpp"
 
 namespace seamwire {
 namespace {
@@ -60,6 +61,7 @@ void EdgeGraph::follow(const Surface& surface, const Metric& metric, const Scrib
 std::shared_ptr<const EdgeGraph> make_edge_graph(const Surface& surface, const Metric& metric,
                                                  std::shared_ptr<const EdgeAdjacency> adjacency, const Task& task,
                                                  std::span<const Scribble> scribbles, std::optional<Follow> follow) {
+  for (std::size_t i = 0; i < scribbles.size(); ++i) check_scribble(surface, scribbles[i], i);
   auto graph = std::make_shared<EdgeGraph>(surface, metric, std::move(adjacency), task);
   for (const Scribble& scribble : scribbles) {
     task.check(1.0);

@@ -59,7 +59,7 @@ IntrinsicPath DistanceField::trace(const SurfacePoint& point, const Task& task) 
   } else {
     const std::int32_t vertex = nearest_vertex(solved, target);
     if (std::isinf(solved.at(vertex))) return {};
-    path = trace_records(solved, data_->records, PlacedPoint::at_vertex(vertex));
+    path = trace_records(solved, data_->records, PlacedPoint::at_vertex(vertex), task);
     SubmeshCutter cutter(mesh);
     path = shorten(mesh, cutter, path, data_->sources[0], target, task);
   }

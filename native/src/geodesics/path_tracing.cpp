@@ -30,6 +30,9 @@ constexpr double kSnapDistance = 1e-11;
 constexpr double kSameVertex = 1e-6;  /// A vertex is as near to a source as another one up to this factor.
 constexpr double kAsNear = 1.0 + 1e-6;
 
+/// Triangles that a path crosses between two looks at the task: a fraction of a millisecond. Most paths are shorter.
+constexpr std::size_t kCrossingsBetweenChecks = 4096;
+
 Point2 to_twin(const HalfEdge& h, const Point2& p) { return {h.length - p.x, -p.y}; }
 
 /// Where the segment from p (below) to q (above) meets the base.
@@ -40,13 +43,14 @@ double crossing(const HalfEdge& h, const Point2& p, const Point2& q) {
 /// Walks from a vertex back to a source, and lists what it passes.
 class Tracer {
  public:
-  Tracer(const SolvedDistances& solved, const std::vector<TraceRecord>& records)
-      : mesh_(solved.mesh), distances_(solved.distances), sources_(solved.sources), records_(records) {}
+  Tracer(const SolvedDistances& solved, const std::vector<TraceRecord>& records, const Task& task)
+      : mesh_(solved.mesh), distances_(solved.distances), sources_(solved.sources), records_(records), task_(task) {}
 
   /// On from a path that ends at the vertex.
   IntrinsicPath run(std::int32_t vertex, IntrinsicPath path) {
     path_ = std::move(path);
     while (!is_point(vertex)) {
+      look_at_task();
       const TraceRecord& record = records_[static_cast<std::size_t>(vertex)];
       if (record.half_edge == TraceRecord::kNone) break;
       if (record.half_edge >= 0 && record.y >= 0) {
@@ -102,6 +106,10 @@ class Tracer {
       return in.face == h / 3 &&
              distance(position(mesh_, h, in.weights), place) <= kSameVertex * std::max(edge.length, edge.left_length);
     });
+  }
+
+  void look_at_task() {
+    if (++work_ % kCrossingsBetweenChecks == 0) task_.check(0.0);
   }
 
   double at(std::int32_t vertex) const { return distances_[static_cast<std::size_t>(mesh_.external_vertex(vertex))]; }
@@ -165,6 +173,7 @@ class Tracer {
     // A straight line crosses no triangle twice unless it winds around a cone; this many crossings are a mistake.
     std::size_t crossings_left = 16 * mesh_.half_edge_count();
     while (h >= 0 && (source.y > 0 || is_in_face(record.source, h, source)) && crossings_left-- > 0) {
+      look_at_task();
       const HalfEdge& edge = mesh_.half_edge(h);
       if (edge.left >= 0) prefetch(&mesh_.half_edge(edge.left));
       if (edge.right >= 0) prefetch(&mesh_.half_edge(edge.right));
@@ -265,6 +274,8 @@ class Tracer {
   const std::vector<double>& distances_;
   const SourcePoints& sources_;
   const std::vector<TraceRecord>& records_;
+  const Task& task_;
+  std::size_t work_ = 0;  ///< triangles crossed and vertices passed
   IntrinsicPath path_;
   Passed best_;
   std::unordered_set<std::int32_t> tried_;  ///< vertices that detours began or ended at
@@ -275,7 +286,7 @@ class Tracer {
 IntrinsicPath trace_records(const SolvedDistances& solved, const std::vector<TraceRecord>& records,
                             const PlacedPoint& target, const Task& task) {
   if (target.vertex >= 0) {
-    return Tracer(solved, records)
+    return Tracer(solved, records, task)
         .run(target.vertex, {.points = {{.vertex = target.vertex}}, .faces = {}, .length = 0});
   }
   StraightStart start = find_straight_start(solved, target, task);
@@ -284,7 +295,7 @@ IntrinsicPath trace_records(const SolvedDistances& solved, const std::vector<Tra
     std::reverse(start.path.faces.begin(), start.path.faces.end());
     return std::move(start.path);
   }
-  return Tracer(solved, records).run(start.vertex, std::move(start.path));
+  return Tracer(solved, records, task).run(start.vertex, std::move(start.path));
 }
 
 IntrinsicPath shorten(const GeodesicMesh& mesh, SubmeshCutter& cutter, const IntrinsicPath& path,

@@ -122,11 +122,15 @@ class PointSearch {
   /// No path through the beam to a source is shorter.
   double lower_bound(const Beam& beam) const {
     const HalfEdge& edge = mesh_.half_edge(beam.half_edge);
+    // Where the path meets the base, x from its tail, |px| is behind it, and no less than d(tail) - x and
+    // d(tip) - (length - x) ahead of it. The sum with the larger of the two falls up to where they are equal, and then
+    // rises.
+    const double tail = lower_bound(edge.tail), tip = lower_bound(edge.tip);
+    const double x = std::clamp((tail - tip + edge.length) / 2, beam.begin, beam.end);
+    double bound = distance(beam.point, {x, 0.0}) + std::max(tail - x, tip - (edge.length - x));
     const Point2 begin{beam.begin, 0.0}, end{beam.end, 0.0};
     const double to_begin = distance(beam.point, begin), to_end = distance(beam.point, end);
-    double bound = -beam.point.y;
-    for (const Bounding& vertex : {beam.left, beam.right, Bounding{{0.0, 0.0}, lower_bound(edge.tail)},
-                                   Bounding{{edge.length, 0.0}, lower_bound(edge.tip)}}) {
+    for (const Bounding& vertex : {beam.left, beam.right}) {
       // On a line |px| - |xv| has one stationary point at most, where the line meets that through p and v. If p lies
       // between v and that point, it is the least value, -|pv|. Otherwise the least value on a segment is at an end.
       double detour = std::min(to_begin - distance(vertex.at, begin), to_end - distance(vertex.at, end));
@@ -136,7 +140,7 @@ class PointSearch {
       }
       bound = std::max(bound, vertex.distance + detour);
     }
-    return bound;
+    return std::max(bound, -beam.point.y);
   }
 
   void add(const Beam& beam) {

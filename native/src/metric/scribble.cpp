@@ -19,6 +19,7 @@
 #include "detail/text.hpp"
 #include "metric/scribble_points.hpp"
 #include "metric/tangent_frame.hpp"
+#include "surface/exact_unit.hpp"
 #include "surface/half_edge_mesh.hpp"
 #include "surface/point_segment.hpp"
 
@@ -200,75 +201,29 @@ class Scribbler {
   Scribbler(const Surface& surface, Metric& metric, const Task& task)
       : surface_(surface),
         metric_(metric),
+        unit_(exact_unit(surface)),
         neighbors_(surface),
         marks_(surface.vertex_count()),
         poll_(task, 1.0, 1.0, 1, Poll::kFewSteps) {}
 
-  void check(const Scribble& scribble, std::size_t number) const;
-  void apply(const Scribble& scribble);
+  void apply(const Scribble& given);
 
  private:
-  const Vector& point(std::int32_t v) const { return surface_.points()[v]; }
+  /// In the unit of exact_unit(), as all lengths here.
+  Vector point(std::int32_t v) const { return unit_ * surface_.points()[v]; }
   std::vector<std::int32_t> join(std::int32_t from, std::int32_t to, const DrawnLine& line, std::size_t segment);
-  std::vector<Reached> along(const Scribble& scribble, const DrawnLine& line);
+  std::vector<Reached> along(const Scribble& given, const std::vector<Vector>& points, const DrawnLine& line);
   bool direct(const DrawnLine& line, Reached& reached) const;
   void set(const Scribble& scribble, const Reached& reached, double weight);
   std::vector<Reached> next_ring(const std::vector<Reached>& ring, const DrawnLine& line, std::size_t known);
 
   const Surface& surface_;
   Metric& metric_;
+  const double unit_;
   Neighbors neighbors_;
   EpochMap marks_;  // of vertices: their positions in a list
   Poll poll_;       // of vertices looked at
 };
-
-void Scribbler::check(const Scribble& scribble, std::size_t number_of_scribble) const {
-  const std::size_t count = scribble.points.size();
-  for (const auto* list : {&scribble.faces, &scribble.vertices}) {
-    if (!list->empty() && list->size() != count) {
-      throw InvalidInput(name(number_of_scribble) + " has " + std::to_string(count) + " points and " +
-                         std::to_string(list->size()) + " faces or vertices for them");
-    }
-  }
-  if (!(std::isfinite(scribble.eta) && scribble.eta >= 1)) {
-    throw InvalidInput("eta of " + name(number_of_scribble) + " is " + text(scribble.eta) +
-                       ", not a finite number of at least 1");
-  }
-  if (scribble.rings < 1) {
-    throw InvalidInput("rings of " + name(number_of_scribble) + " is " + std::to_string(scribble.rings) +
-                       ", not at least 1");
-  }
-  if (scribble.radius && !(std::isfinite(*scribble.radius) && *scribble.radius > 0)) {
-    throw InvalidInput("radius of " + name(number_of_scribble) + " is " + text(*scribble.radius) +
-                       ", not a finite number above 0");
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto fail = [&](const std::string& what) {
-      throw InvalidInput("point " + std::to_string(i) + " of " + name(number_of_scribble) + " " + what);
-    };
-    const Vector& p = scribble.points[i];
-    const std::int32_t vertex = scribble.vertices.empty() ? -1 : scribble.vertices[i];
-    const std::int32_t face = scribble.faces.empty() ? -1 : scribble.faces[i];
-    if (!p.allFinite()) fail("is not finite");
-    const auto where = [&](const char* kind) {
-      return "point " + std::to_string(i) + " of " + name(number_of_scribble) + ": " + kind;
-    };
-    if (vertex != -1) check_index(vertex, surface_.vertex_count(), where("vertex"));
-    if (face != -1) check_index(face, surface_.face_count(), where("face"), "faces");
-    if (vertex < 0 && face < 0) fail("has neither a face nor a vertex");
-    double off = 0;
-    if (vertex >= 0) {
-      off = (p - point(vertex)).norm();
-    } else {
-      const auto& [a, b, c] = surface_.triangles()[face];
-      off = distance_to_triangle(p, point(a), point(b), point(c));
-    }
-    if (!(off * surface_.scale() <= kOffMesh)) {
-      fail("is off the mesh: " + text(off) + " away from " + (vertex >= 0 ? "vertex " : "face ") +
-           std::to_string(vertex >= 0 ? vertex : face));
-    }
-  }
-}
 
 // The chain of vertices from one to another that stays nearest to a segment of the line, by A*; empty where none leads
 // there within the corridor.
@@ -290,7 +245,7 @@ std::vector<std::int32_t> Scribbler::join(std::int32_t from, std::int32_t to, co
   std::vector<Node> nodes;
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
   marks_.clear();
-  const Vector& target = point(to);
+  const Vector target = point(to);
   const double span = (target - point(from)).norm();
   const auto reach = [&](std::int32_t v, std::int32_t before, double cost) {
     if (!marks_.has(v)) {
@@ -332,14 +287,14 @@ std::vector<std::int32_t> Scribbler::join(std::int32_t from, std::int32_t to, co
 // The corners of the triangles that the stroke crosses, and the vertices it runs along, each once. All corners, not the
 // nearest ones alone: tensors that differ at the corners of one triangle make up a metric there that is neither's, and
 // the wire would leave the stroke by most of an edge.
-std::vector<Reached> Scribbler::along(const Scribble& scribble, const DrawnLine& line) {
+std::vector<Reached> Scribbler::along(const Scribble& given, const std::vector<Vector>& points, const DrawnLine& line) {
   std::vector<Reached> reached;
   std::vector<std::pair<std::int32_t, std::size_t>> found;  // a vertex and the segment it was found for
   for (std::size_t i = 0; i < line.segment_count(); ++i) {
-    const std::int32_t from = nearest_vertex(surface_, scribble, i), to = nearest_vertex(surface_, scribble, i + 1);
+    const std::int32_t from = nearest_vertex(surface_, given, i), to = nearest_vertex(surface_, given, i + 1);
     std::vector<std::int32_t> chain = join(from, to, line, i);
     if (chain.empty()) chain = {from, to};
-    const std::array segment{scribble.points[i], scribble.points[i + 1]};
+    const std::array segment{points[i], points[i + 1]};
     for (const std::int32_t v : chain) {
       poll_.next();
       found.emplace_back(v, i);
@@ -430,10 +385,13 @@ void Scribbler::set(const Scribble& scribble, const Reached& reached, double wei
   tensor = weight < 1 ? Eigen::Matrix3d(weight * drawn + (1 - weight) * tensor) : drawn;
 }
 
-void Scribbler::apply(const Scribble& scribble) {
+void Scribbler::apply(const Scribble& given) {
+  Scribble scribble = given;
+  for (Vector& p : scribble.points) p *= unit_;
+  if (scribble.radius) *scribble.radius *= unit_;
   const DrawnLine line(scribble.points);
   if (!(line.length() > 0)) return;
-  std::vector<Reached> ring = along(scribble, line);
+  std::vector<Reached> ring = along(given, scribble.points, line);
   marks_.clear();
   std::size_t known = 0;
   for (const Reached& reached : ring) {
@@ -453,6 +411,56 @@ void Scribbler::apply(const Scribble& scribble) {
 
 }  // namespace
 
+void check_scribble(const Surface& surface, const Scribble& scribble, std::size_t number_of_scribble) {
+  const double unit = exact_unit(surface);
+  const auto point = [&](std::int32_t v) { return Vector(unit * surface.points()[v]); };
+  const std::size_t count = scribble.points.size();
+  for (const auto* list : {&scribble.faces, &scribble.vertices}) {
+    if (!list->empty() && list->size() != count) {
+      throw InvalidInput(name(number_of_scribble) + " has " + std::to_string(count) + " points and " +
+                         std::to_string(list->size()) + " faces or vertices for them");
+    }
+  }
+  if (!(std::isfinite(scribble.eta) && scribble.eta >= 1)) {
+    throw InvalidInput("eta of " + name(number_of_scribble) + " is " + text(scribble.eta) +
+                       ", not a finite number of at least 1");
+  }
+  if (scribble.rings < 1) {
+    throw InvalidInput("rings of " + name(number_of_scribble) + " is " + std::to_string(scribble.rings) +
+                       ", not at least 1");
+  }
+  if (scribble.radius && !(std::isfinite(*scribble.radius) && *scribble.radius > 0)) {
+    throw InvalidInput("radius of " + name(number_of_scribble) + " is " + text(*scribble.radius) +
+                       ", not a finite number above 0");
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto fail = [&](const std::string& what) {
+      throw InvalidInput("point " + std::to_string(i) + " of " + name(number_of_scribble) + " " + what);
+    };
+    const Vector p = unit * scribble.points[i];
+    const std::int32_t vertex = scribble.vertices.empty() ? -1 : scribble.vertices[i];
+    const std::int32_t face = scribble.faces.empty() ? -1 : scribble.faces[i];
+    if (!scribble.points[i].allFinite()) fail("is not finite");
+    const auto where = [&](const char* kind) {
+      return "point " + std::to_string(i) + " of " + name(number_of_scribble) + ": " + kind;
+    };
+    if (vertex != -1) check_index(vertex, surface.vertex_count(), where("vertex"));
+    if (face != -1) check_index(face, surface.face_count(), where("face"), "faces");
+    if (vertex < 0 && face < 0) fail("has neither a face nor a vertex");
+    double off = 0;
+    if (vertex >= 0) {
+      off = (p - point(vertex)).norm();
+    } else {
+      const auto& [a, b, c] = surface.triangles()[face];
+      off = distance_to_triangle(p, point(a), point(b), point(c));
+    }
+    if (!(off / unit * surface.scale() <= kOffMesh)) {
+      fail("is off the mesh: " + text(off / unit) + " away from " + (vertex >= 0 ? "vertex " : "face ") +
+           std::to_string(vertex >= 0 ? vertex : face));
+    }
+  }
+}
+
 Metric apply_scribbles(const Surface& surface, const Metric& metric, std::span<const Scribble> scribbles,
                        std::optional<Follow> follow, const Task& task) {
   if (metric.normals.size() != surface.vertex_count() || metric.tensors.size() != surface.vertex_count()) {
@@ -462,7 +470,7 @@ Metric apply_scribbles(const Surface& surface, const Metric& metric, std::span<c
   Metric result{.normals = copied(metric.normals, task, 0.0), .tensors = copied(metric.tensors, task, 0.5)};
   if (scribbles.empty()) return result;
   Scribbler scribbler(surface, result, task);
-  for (std::size_t i = 0; i < scribbles.size(); ++i) scribbler.check(scribbles[i], i);
+  for (std::size_t i = 0; i < scribbles.size(); ++i) check_scribble(surface, scribbles[i], i);
   for (const Scribble& scribble : scribbles) {
     task.check(1.0);
     if (!follow || scribble.acts_on(*follow)) scribbler.apply(scribble);

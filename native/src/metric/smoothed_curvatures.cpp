@@ -10,6 +10,7 @@
 #include "metric/tangent_frame.hpp"
 #include "seamwire/errors.hpp"
 #include "seamwire/metric/curvature.hpp"
+#include "surface/exact_unit.hpp"
 
 namespace seamwire {
 namespace {
@@ -52,16 +53,16 @@ Neighborhood neighborhood(const Surface& surface, const std::vector<Vector>& nor
     Triangle corners;
     for (std::size_t i = 0; i < 3; ++i) corners[i] = surface.vertex_of_fan()[faces[f][i]];
     const auto point = [&](std::size_t i) -> const Vector& { return surface.points()[corners[i]]; };
-    const double scale = surface.scale();
-    // Scaled first: the square of a very large or small model's area is no number, or 0.
-    const double area = (scale * (point(1) - point(0))).cross(scale * (point(2) - point(0))).norm() / 6.0;
+    const double scale = surface.scale(), unit = exact_unit(surface), units = scale / unit;
+    const Vector one = unit * (point(1) - point(0)), two = unit * (point(2) - point(0));
+    const double area = units * units * one.cross(two).norm() / 6.0;
     for (const std::int32_t v : corners) out.areas[v] += area;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto half_edge = static_cast<std::int32_t>(3 * f + i);
       if (twins[half_edge] != -1 && twins[half_edge] < half_edge) continue;
       const std::size_t j = (i + 1) % 3;
       const std::int32_t a = corners[i], b = corners[j];
-      lengths.push_back((scale * (point(j) - point(i))).norm());
+      lengths.push_back(units * (unit * (point(j) - point(i))).norm());
       const Vector &from = normals[a], &to = normals[b];
       if (from.isZero(0.0) || to.isZero(0.0) || 1.0 + from.dot(to) < kOppositeNormals) continue;
       const Vector u = turned_by_least_rotation(out.frames[a].u, from, to);

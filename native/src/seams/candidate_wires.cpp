@@ -18,6 +18,7 @@
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/wires/snap.hpp"
 #include "seamwire/wires/wire.hpp"
+#include "surface/exact_unit.hpp"
 
 namespace seamwire {
 namespace {
@@ -209,6 +210,7 @@ std::vector<CandidateWires::Found> CandidateWires::find_along_edges(const Prepar
   } catch (const Cancelled&) {
     if (!is_enough) throw;
   }
+  const double unit = exact_unit(surface());
   std::vector<Found> found;
   for (const std::int32_t v : fan.to) {
     EdgeChain chain = wires.trace({.a = v});
@@ -216,8 +218,8 @@ std::vector<CandidateWires::Found> CandidateWires::find_along_edges(const Prepar
     points.reserve(chain.vertices.size());
     for (const std::int32_t vertex : chain.vertices) points.push_back(surface().points()[vertex]);
     double euclidean = 0.0;
-    for (std::size_t i = 1; i < points.size(); ++i)
-      euclidean += (surface().scale() * (points[i] - points[i - 1])).norm();
+    for (std::size_t i = 1; i < points.size(); ++i) euclidean += (unit * (points[i] - points[i - 1])).norm();
+    euclidean *= surface().scale() / unit;
     found.push_back({std::move(chain.vertices), std::move(points), {}, chain.length, euclidean});
   }
   return found;

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "surface/exact_unit.hpp"
+
 namespace seamwire {
 namespace {
 
@@ -23,8 +25,8 @@ struct Segment {
 bool cross(const Surface& surface, const Segment& one, const Segment& two) {
   const Triangle& corners = surface.triangles()[one.face];
   const Vector& origin = surface.points()[corners[0]];
-  // Scaled first: the squares of a very large or small model's areas are no numbers, or 0.
-  const auto scaled = [&](const Vector& from, const Vector& to) { return Vector(surface.scale() * (to - from)); };
+  const double unit = exact_unit(surface);
+  const auto scaled = [&](const Vector& from, const Vector& to) { return Vector(unit * (to - from)); };
   const Vector normal =
       scaled(origin, surface.points()[corners[1]]).cross(scaled(origin, surface.points()[corners[2]]));
   const double twice_area = normal.norm();

@@ -10,6 +10,7 @@
 
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
+#include "surface/exact_unit.hpp"
 
 namespace seamwire {
 namespace {
@@ -135,15 +136,14 @@ CutPieces::CutPieces(const Surface& surface, std::span<const std::vector<std::in
   corner_sets_ = DisjointSets(corner_count);
 
   pieces_.assign(piece_count_, Piece{.max_spread = std::numeric_limits<double>::infinity()});
+  const double unit = exact_unit(surface);
   std::vector<std::uint8_t> is_counted(corner_count, 0);
   for (std::size_t f = 0; f < fans.size(); ++f) {
     Piece& piece = pieces_[piece_of_face_[f]];
     const std::int32_t face = surface.face_of_half_edge_face()[f];
     const Triangle& t = fans[f];
     const auto point = [&](std::size_t i) -> const Vector& { return surface.points()[surface.vertex_of_fan()[t[i]]]; };
-    // Scaled first: squares of a very large or small model's areas are no numbers, or 0.
-    const double scale = surface.scale();
-    const Vector normal = 0.5 * (scale * (point(1) - point(0))).cross(scale * (point(2) - point(0)));
+    const Vector normal = 0.5 * (unit * (point(1) - point(0))).cross(unit * (point(2) - point(0)));
     piece.area += normal.norm();
     piece.normal += normal;
     piece.max_spread = std::min(piece.max_spread, max_spreads[face]);

@@ -17,7 +17,7 @@ namespace seamwire {
 struct Piece {
   std::int64_t euler = 0;          ///< Euler characteristic
   std::int64_t border = 0;         ///< how many sides of triangles lie on its border
-  double area = 0.0;               ///< of the model scaled to the unit cube
+  double area = 0.0;               ///< in the unit of exact_unit(), squared
   Vector normal = Vector::Zero();  ///< sum of the triangles' area normals, all turned to the same side if it has two
   double max_spread = 0.0;         ///< the least that is allowed to one of its triangles
 

@@ -7,6 +7,8 @@
 #include <map>
 #include <numbers>
 
+#include "surface/exact_unit.hpp"
+
 namespace seamwire {
 namespace {
 
@@ -17,12 +19,12 @@ constexpr double kDeep = 8.0;
 
 /// In the caller's units.
 double length(const Surface& surface, const std::vector<std::int32_t>& chain) {
+  const double unit = exact_unit(surface);
   double sum = 0.0;
   for (std::size_t i = 1; i < chain.size(); ++i) {
-    // Scaled first: the square of a very small length is 0.
-    sum += (surface.scale() * (surface.points()[chain[i]] - surface.points()[chain[i - 1]])).norm();
+    sum += (unit * (surface.points()[chain[i]] - surface.points()[chain[i - 1]])).norm();
   }
-  return sum / surface.scale();
+  return sum / unit;
 }
 
 /// How many vertices two chains have in common from an end on that both have.

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <stop_token>
 #include <thread>
 #include <utility>
@@ -27,6 +28,26 @@ constexpr double kSlack = 1e-9;
 constexpr double kRounding = 1e-12;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Coordinates beyond 2 to this, and below its inverse, are brought near 1: the volumes that the test compares are
+/// products of three lengths, and would overflow or vanish.
+constexpr int kMostExponent = 100;
+
+/// The exponent of the largest coordinate of some points that is finite, where it is beyond kMostExponent; otherwise 0.
+int extreme_exponent(std::span<const Vector> points) {
+  double largest = 0.0;
+  for (const Vector& p : points) {
+    for (const double x : p) {
+      if (std::abs(x) > largest && std::isfinite(x)) largest = std::abs(x);
+    }
+  }
+  const int exponent = largest > 0.0 ? std::ilogb(largest) : 0;
+  return std::abs(exponent) > kMostExponent ? exponent : 0;
+}
+
+Vector scaled(const Vector& v, int exponent) {
+  return {std::ldexp(v.x(), exponent), std::ldexp(v.y(), exponent), std::ldexp(v.z(), exponent)};
+}
 
 /// A box that a ray comes into wherever it meets the triangle: as far outside as it may pass the triangle, and as the
 /// divisions in FirstHit::inside() may be off.
@@ -51,6 +72,7 @@ struct RayTree::Parts {
     std::int32_t count = 0;
   };
 
+  int exponent = 0;  ///< of what points were divided by, a power of two
   std::vector<Vector> points;
   std::vector<Triangle> triangles;
   std::vector<std::int32_t> order;  ///< the triangles, node by node; those that are not finite are left out
@@ -187,16 +209,27 @@ RayTree::RayTree(std::vector<Vector> points, std::vector<Triangle> triangles) : 
       check_index(v, points.size(), "triangles: vertex");
     }
   }
+  parts_->exponent = extreme_exponent(points);
+  if (parts_->exponent != 0) {
+    for (Vector& p : points) p = scaled(p, -parts_->exponent);
+  }
   parts_->points = std::move(points);
   parts_->triangles = std::move(triangles);
   parts_->thread = std::jthread([parts = parts_.get()](const std::stop_token& stop) { parts->build(stop); });
 }
 
-RayHit RayTree::first_hit(const Vector& origin, const Vector& direction) const {
+RayHit RayTree::first_hit(const Vector& given_origin, const Vector& given_direction) const {
+  const int exponent = parts_->exponent, of_direction = extreme_exponent({&given_direction, 1});
+  const Vector origin = exponent == 0 ? given_origin : scaled(given_origin, -exponent);
+  const Vector direction = of_direction == 0 ? given_direction : scaled(given_direction, -of_direction);
   FirstHit search{parts_->points, parts_->triangles, origin, direction};
+  const auto found = [&]() -> RayHit {
+    if (search.best.triangle < 0) return {};
+    return {search.best.triangle, std::ldexp(search.best.distance, exponent - of_direction)};
+  };
   if (!ready()) {
     for (std::size_t t = 0; t < parts_->triangles.size(); ++t) search.look_at(static_cast<std::int32_t>(t));
-    return search.best.triangle < 0 ? RayHit{} : search.best;
+    return found();
   }
   const auto comes_in_at = [&](std::int32_t node) {
     const auto [in, out] = search.inside(parts_->nodes[node].box, search.best.distance);
@@ -216,7 +249,7 @@ RayHit RayTree::first_hit(const Vector& origin, const Vector& direction) const {
     waiting[count++] = node.first + (second_is_nearer ? 0 : 1);
     waiting[count++] = node.first + (second_is_nearer ? 1 : 0);
   }
-  return search.best.triangle < 0 ? RayHit{} : search.best;
+  return found();
 }
 
 bool RayTree::ready() const { return parts_->state.load(std::memory_order_acquire) == Parts::State::kBuilt; }

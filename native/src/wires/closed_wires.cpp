@@ -22,6 +22,7 @@
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
+#include "surface/exact_unit.hpp"
 #include "wires/path_position.hpp"
 #include "wires/polyline.hpp"
 #include "wires/vertex_tree.hpp"
@@ -77,6 +78,7 @@ class CutLocus {
         mesh_(embedding.mesh),
         field_(field),
         task_(task),
+        unit_(exact_unit(surface)),
         normal_(normal_at(field.sources().front())) {}
 
   std::vector<ClosedWire> best(std::size_t count);
@@ -106,6 +108,7 @@ class CutLocus {
   const IntrinsicMesh& mesh_;
   const DistanceField& field_;
   const Task& task_;
+  const double unit_;    // of lengths and areas here, see exact_unit()
   const Vector normal_;  // at the seed: unit, or 0
   std::unordered_map<std::int32_t, Vector> directions_;
 };
@@ -126,11 +129,11 @@ double length_of(const std::vector<Vector>& line) {
   return length;
 }
 
-/// Twice the area, along the normal.
+/// Twice the area, along the normal, in the unit of exact_unit().
 Vector CutLocus::span(std::int32_t face) const {
   const auto& [a, b, c] = mesh_.triangles[face];
   const Vector& p = embedding_.points[a];
-  return (embedding_.points[b] - p).cross(embedding_.points[c] - p);
+  return (unit_ * (embedding_.points[b] - p)).cross(unit_ * (embedding_.points[c] - p));
 }
 
 /// Of the triangles around a vertex, or of the one that a point is in.
@@ -147,7 +150,7 @@ Vector CutLocus::normal_at(const SurfacePoint& seed) const {
 std::vector<Vector> CutLocus::line(const IntrinsicPath& path) const {
   std::vector<Vector> points;
   points.reserve(path.points.size());
-  for (const PathPoint& at : path.points) points.push_back(position(embedding_, at));
+  for (const PathPoint& at : path.points) points.push_back(unit_ * position(embedding_, at));
   return points;
 }
 
@@ -255,7 +258,7 @@ std::vector<CutEdge> CutLocus::find() const {
 /// Of the beginning of a wire, in the tangent plane: unit, 0 where it has no length there.
 Vector CutLocus::direction(const IntrinsicPath& path) const {
   const std::vector<Vector> points = line(path);
-  const double most = std::min(kBeginning / surface_.scale(), kMostOfWire * length_of(points));
+  const double most = std::min(kBeginning * unit_ / surface_.scale(), kMostOfWire * length_of(points));
   Vector along = point_at(points, most) - points.front();
   along -= along.dot(normal_) * normal_;
   const double length = along.norm();
@@ -321,7 +324,7 @@ std::vector<CutLocus::Rated> CutLocus::minima(std::vector<Rated> rated) const {
 /// the sphere crosses edges, between these places in each triangle, and towards what is beyond it of the triangles at
 /// the edge.
 std::vector<SurfacePoint> CutLocus::around(std::int32_t half_edge, double radius) const {
-  const auto point = [this](std::int32_t v) -> const Vector& { return embedding_.points[v]; };
+  const auto point = [this](std::int32_t v) { return Vector(unit_ * embedding_.points[v]); };
   const std::int32_t a = mesh_.tail(half_edge), b = mesh_.tip(half_edge);
   const double along = std::clamp(0.5 + (distance(b) - distance(a)) / (2.0 * mesh_.lengths[half_edge]), 0.0, 1.0);
   const Vector center = (1.0 - along) * point(a) + along * point(b);
@@ -414,7 +417,7 @@ std::optional<ClosedWire> CutLocus::loop(const Rated& rated) const {
   const Vector middle = point_at(there, length_there / 2), other_middle = point_at(other, length_other / 2);
   if (!((middle - other_middle).norm() >= kLeastWidth * whole)) return std::nullopt;
   const auto angle_to = [&](const Vector& along, const std::vector<Vector>& wire, double length) {
-    const double most = std::min(kBeginning / surface_.scale(), kMostOfWire * length);
+    const double most = std::min(kBeginning * unit_ / surface_.scale(), kMostOfWire * length);
     const Vector back_along = point_at(wire, length - most) - wire.back();
     return std::atan2(along.cross(back_along).norm(), along.dot(back_along));
   };
@@ -484,6 +487,11 @@ std::vector<ClosedWire> closed_wires(const Surface& surface, const Embedding& em
 }
 
 std::vector<ClosedWireChoice> choose_closed_wires(std::span<const std::vector<ClosedWire>> metrics, std::size_t count) {
+  for (const std::vector<ClosedWire>& cuts : metrics) {
+    if (std::ranges::any_of(cuts, [](const ClosedWire& cut) { return cut.wire.points.empty(); })) {
+      throw InvalidInput("a closed cut has no points");
+    }
+  }
   std::vector<ClosedWireChoice> order;
   for (std::size_t metric = 0; metric < metrics.size(); ++metric) {
     if (!metrics[metric].empty()) order.push_back({.metric = metric, .number = 0});

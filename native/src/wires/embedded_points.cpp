@@ -13,6 +13,7 @@
 #include "detail/csr.hpp"
 #include "detail/index.hpp"
 #include "geodesics/placed_point.hpp"
+#include "surface/exact_unit.hpp"
 
 namespace seamwire {
 namespace {
@@ -53,8 +54,9 @@ Weights EmbeddedPoints::Impl::weights_in(std::int32_t face, std::int32_t vertex)
     weights[i] = 1.0;
     return weights;
   }
-  const Vector &a = surface->points()[corners[0]], &b = surface->points()[corners[1]],
-               &c = surface->points()[corners[2]], &p = embedding->points[vertex];
+  const double unit = exact_unit(*surface);
+  const Vector a = unit * surface->points()[corners[0]], b = unit * surface->points()[corners[1]],
+               c = unit * surface->points()[corners[2]], p = unit * embedding->points[vertex];
   const Vector ab = b - a, ac = c - a, ap = p - a, normal = ab.cross(ac);
   const double area = normal.norm(), longest = std::max({ab.norm(), ac.norm(), (c - b).norm()});
   const Vector up = normal / area;

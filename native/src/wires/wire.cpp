@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "detail/index.hpp"
+#include "surface/exact_unit.hpp"
 #include "wires/path_position.hpp"
 
 namespace seamwire {
@@ -17,8 +18,9 @@ namespace {
 /// nothing in double precision.
 constexpr double kCollinear = 1e-11;
 
-bool straight(const Vector& a, const Vector& b, const Vector& c) {
-  const Vector u = b - a, v = c - b;
+/// `unit`: see exact_unit().
+bool straight(double unit, const Vector& a, const Vector& b, const Vector& c) {
+  const Vector u = unit * (b - a), v = unit * (c - b);
   return u.dot(v) > 0 && u.cross(v).norm() <= kCollinear * u.norm() * v.norm();
 }
 
@@ -94,7 +96,7 @@ Wire map_wire(const Surface& surface, const Embedding& embedding, const Intrinsi
       }
       const std::size_t n = wire.points.size();
       if (n > 1 && free_end && face >= 0 && wire.faces.back() == face &&
-          straight(wire.points[n - 2], wire.points[n - 1], point)) {
+          straight(exact_unit(surface), wire.points[n - 2], wire.points[n - 1], point)) {
         wire.points.back() = point;
         wire.vertices.back() = vertex;
         continue;
@@ -106,9 +108,10 @@ Wire map_wire(const Surface& surface, const Embedding& embedding, const Intrinsi
   }
   wire.from = wire.vertices.front();
   wire.to = wire.vertices.back();
+  const double unit = exact_unit(surface);
   wire.euclidean_length = 0.0;
   for (std::size_t i = 1; i < wire.points.size(); ++i) {
-    wire.euclidean_length += (wire.points[i] - wire.points[i - 1]).norm() * surface.scale();
+    wire.euclidean_length += (unit * (wire.points[i] - wire.points[i - 1])).norm() * (surface.scale() / unit);
   }
   return wire;
 }

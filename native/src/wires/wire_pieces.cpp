@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "surface/exact_unit.hpp"
+
 namespace seamwire {
 namespace {
 
@@ -17,7 +19,8 @@ namespace {
 std::optional<SurfacePoint> point_in_face(const Surface& surface, std::int32_t face, const Vector& place) {
   const auto& [a, b, c] = surface.triangles()[face];
   const std::vector<Vector>& points = surface.points();
-  const Vector u = points[b] - points[a], v = points[c] - points[a], w = place - points[a], normal = u.cross(v);
+  const auto from_a = [&](const Vector& p) { return Vector(exact_unit(surface) * (p - points[a])); };
+  const Vector u = from_a(points[b]), v = from_a(points[c]), w = from_a(place), normal = u.cross(v);
   const double area2 = normal.squaredNorm();
   if (!(area2 > 0)) return std::nullopt;
   const double at_b = w.cross(v).dot(normal) / area2, at_c = u.cross(w).dot(normal) / area2;

@@ -29,7 +29,7 @@ struct EdgeChain {
 class EdgeGraph;
 
 /// `adjacency`: that of the surface if it has been made already. Throws InvalidInput where metric or adjacency are of
-/// another surface; Cancelled.
+/// another surface, and what apply_scribbles() throws for scribbles; Cancelled.
 ///
 /// `scribbles`: those that `metric` has been through; `follow` as in apply_scribbles(). Tensors alone lead no chain
 /// along a stroke that runs askew to the edges, since each edge is then partly across the stroke, which is long in the

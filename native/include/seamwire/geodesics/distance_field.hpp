@@ -51,8 +51,7 @@ class DistanceField {
   /// its true length: the shortest one within the triangles around the path that the field tells; it may be longer than
   /// the geodesic, but not shorter.
   ///
-  /// Throws InvalidInput for a vertex out of range. Where the field is not exact, the work takes long enough for `task`
-  /// to be looked at, and Cancelled may be thrown.
+  /// Throws InvalidInput for a vertex out of range; Cancelled, where the path takes long.
   IntrinsicPath trace(std::int32_t vertex, const Task& task = {}) const;
 
   /// The distance of any point: exact too, not interpolated from the vertices; in time about proportional to the

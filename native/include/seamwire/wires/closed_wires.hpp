@@ -45,7 +45,7 @@ struct ClosedWireChoice {
 
 /// What to offer, at most `count`, of the closed cuts that closed_wires() found through one point in several metrics:
 /// the best in each metric, in their order, then the others, first those of the first metric. One that is like an
-/// earlier one, on average within 3 % of its length of it, is left out.
+/// earlier one, on average within 3 % of its length of it, is left out. Throws InvalidInput for a cut without points.
 std::vector<ClosedWireChoice> choose_closed_wires(std::span<const std::vector<ClosedWire>> metrics,
                                                   std::size_t count = 3);
 
