@@ -226,8 +226,13 @@ def test_an_object_of_which_nothing_is_visible_keeps_no_other_from_being_marked(
     assert empty.mode == "EDIT"
     assert bpy.ops.mesh.seamwire_mark(chains="10 14", objects="*") == {"FINISHED"}
     assert seams(one) == seams(two) == chain(10, 11, 12, 13, 14)
-    with pytest.raises(RuntimeError, match="Empty: No edge of the mesh is visible"):
-        bpy.ops.mesh.seamwire_mark(chains="10 14", objects="One; Empty")
+    for names in ("One; Empty", "Empty; *"):
+        with pytest.raises(RuntimeError, match="Empty: No edge of the mesh is visible"):
+            bpy.ops.mesh.seamwire_mark(chains="20 24", objects=names)
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.hide()
+    with pytest.raises(RuntimeError, match="Nothing is visible of any of the objects"):
+        bpy.ops.mesh.seamwire_mark(chains="20 24", objects="*")
 
 
 def test_what_is_there_already_is_said_and_nothing_is_done_again() -> None:

@@ -589,7 +589,7 @@ float
 Raises
 ------
 ValueError
-    Where the face is out of range or has no area, the coordinates are none, or the embedding has a hole there.
+    Where the face is out of range or has no area, the coordinates are invalid, or the embedding has a hole there.
 Cancelled
 )")
       .def(

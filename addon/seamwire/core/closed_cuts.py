@@ -20,9 +20,8 @@ if TYPE_CHECKING:
     from .wire_labels import Places
 
 _SAME = 0.125
-"""How far apart the same cut is on a mesh before and after it was cut or slid, in the mean, as part of its length. It runs over other
-triangles then, and its metric is measured on these: where the shape suggests little, it runs elsewhere around the same limb. Circles
-around two limbs that touch are 0.18 of their length apart, those around a torus and its tube 0.2."""
+"""Two closed cuts count as the same if their mean distance is below this fraction of their length. Cutting or sliding changes the
+triangles, so where the shape suggests little, the cut that is computed again may lie elsewhere around the same limb. Circles around two limbs that touch are 0.18 of their length apart, those around a torus and its tube 0.2."""
 
 _ON = 0.02
 """How far from a closed cut, as part of its length, the wires are in the mean that it was cut along: cuts are straight over faces."""

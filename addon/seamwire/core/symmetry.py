@@ -75,6 +75,7 @@ class Symmetry:
         self._triangles = triangles if topology and edges is not None else None
         self._partners: dict[tuple[int, ...], NDArray[np.int64]] = {}
         self._on_plane: dict[int, frozenset[int]] = {}
+        self._on_planes: dict[tuple[int, ...], frozenset[int]] = {}
         # What one thread prepares the others wait for, rather than prepare it too.
         self._lock = threading.RLock()
 
@@ -191,7 +192,9 @@ class Symmetry:
     def on_plane(self, axes: tuple[int, ...]) -> frozenset[int]:
         """Return the vertices that are their own images over one of the axes."""
         with self._lock, np.errstate(invalid="ignore"):
-            return frozenset().union(*(self._on_plane_of(axis) for axis in axes))
+            if axes not in self._on_planes:
+                self._on_planes[axes] = frozenset().union(*(self._on_plane_of(axis) for axis in axes))
+            return self._on_planes[axes]
 
     def _on_plane_of(self, axis: int) -> frozenset[int]:
         if axis not in self._on_plane:

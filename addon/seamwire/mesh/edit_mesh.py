@@ -39,7 +39,7 @@ class NothingVisibleError(ValueError):
 def edit_bmesh(mesh: bpy.types.Mesh) -> bmesh.types.BMesh:
     """Return the edit mesh of a mesh, each vertex, edge and face with its number.
 
-    Some of Blender's operators, such as View Selected, leave other numbers behind. So all of the add-on comes to edit meshes here.
+    Some of Blender's operators, such as View Selected, leave other numbers behind. The rest of the add-on must get edit meshes from this function.
     """
     return _numbered(bmesh.from_edit_mesh(mesh))
 
@@ -68,7 +68,7 @@ class Cage:
 
     @property
     def bm(self) -> bmesh.types.BMesh:
-        """The edit mesh, each item with its number, see `edit_bmesh`. To be asked for anew after each of Blender's operators."""
+        """The edit mesh, each item with its number, see `edit_bmesh`. Read this property again after each of Blender's operators."""
         return _numbered(self._bm)
 
     def _count(self) -> tuple[int, int, int]:

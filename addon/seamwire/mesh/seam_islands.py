@@ -161,7 +161,7 @@ class Worst:
     count
         How many islands its mesh has.
     facing
-        (3,) which way it faces in the mean, in object coordinates; as long as the part of its area that is seen from there.
+        (3,) which way it faces in the mean, in object coordinates; its length is the projected area divided by the total area.
     """
 
     value: float

@@ -199,8 +199,8 @@ class SeamwireSettings(bpy.types.PropertyGroup):
 def preferences(context: bpy.types.Context | None = None) -> bpy.types.AddonPreferences | bpy.types.PropertyGroup:
     """Return the add-on's preferences.
 
-    If the add-on is enabled but not listed in Blender's preferences, as after ``blender --addons seamwire``, these are defaults that
-    last until Blender quits.
+    If the add-on is enabled but not listed in Blender's preferences, as after ``blender --addons seamwire``, these are defaults.
+    Changes to them are not stored.
     """
     context = context or bpy.context
     addon = context.preferences.addons.get(ADDON)

@@ -102,6 +102,8 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
             chosen = self._chosen(context)
             # Nothing is written before all is drawn: where one object fails, none is changed.
             drawn = list(filter(None, (self._draw(obj, "" if len(chosen) == 1 else f"{obj.name}: ") for obj in chosen)))
+            if not drawn:
+                raise ValueError("Nothing is visible of any of the objects")
         except (ValueError, NativeError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -132,7 +134,7 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
     def _chosen(self, context: bpy.types.Context) -> list[bpy.types.Object]:
         """Return the objects to draw on, each mesh once; raises ValueError where there is none of a name."""
         edited = [obj for obj in context.objects_in_mode if obj.type == "MESH"]
-        names = [name.strip() for name in self.objects.split(";") if name.strip()]
+        self._names = names = [name.strip() for name in self.objects.split(";") if name.strip()]
         if not names:
             return [context.active_object]
         missing = sorted(set(names) - {"*"} - {obj.name for obj in edited})
@@ -161,7 +163,7 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
             mesh.make_live.wait()
             seeds, loops, strokes = self._read(mesh)
         except NothingVisibleError as error:
-            if prefix and "*" in self.objects:
+            if prefix and obj.name not in self._names:
                 return None
             raise ValueError(f"{prefix}{error}") from error
         except ValueError as error:

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from typing import TYPE_CHECKING, TypeVar
 
 if TYPE_CHECKING:
@@ -72,14 +71,8 @@ def open_mesh(operator: bpy.types.Operator, obj: bpy.types.Object, along: Along 
 
 
 def open_meshes(operator: bpy.types.Operator, context: bpy.types.Context) -> list[ObjectSession]:
-    """Read each object in edit mode of which something is visible, as `open_mesh` does."""
-    from ..mesh.edit_mesh import NothingVisibleError
-
-    found = []
-    for obj in context.objects_in_mode_unique_data:
-        with suppress(NothingVisibleError):
-            found.append(open_mesh(operator, obj))
-    return found
+    """Read the objects in edit mode as `open_mesh` does, see `for_each_object`."""
+    return list(for_each_object(operator, context, lambda obj: open_mesh(operator, obj)).values())
 
 
 def count(number: int, what: str, several: str = "") -> str:

@@ -43,19 +43,13 @@ class MESH_OT_seamwire_slide(bpy.types.Operator):
 
 def wires_across(operator: bpy.types.Operator, context: bpy.types.Context) -> dict[ObjectSession, list[Wire]]:
     """Return the kept wires across the surface of all objects in edit mode; where there is none, say so and return nothing."""
-    from ..core.native import NativeError
-
     wires: dict[ObjectSession, list[Wire]] = {}
-    try:
-        meshes = open_meshes(operator, context)
-    except (ValueError, NativeError) as error:
-        operator.report({"ERROR"}, str(error))
-        return {}
+    meshes = open_meshes(operator, context)
     for mesh in meshes:
         own = [wire for wire in mesh.session.wires if wire.along == "SURFACE" and wire.marks]
         if own:
             wires[mesh] = own
-    if not wires:
+    if meshes and not wires:
         operator.report({"ERROR"}, "No kept wire runs across the surface")
     return wires
 

@@ -35,13 +35,9 @@ class MESH_OT_seamwire_take_over(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Find the wires of all objects in edit mode, then write them: the seams stay as they are."""
-        from ..core.native import NativeError
-
         found: dict[ObjectSession, list[Wire]] = {}
-        try:
-            meshes = open_meshes(self, context)
-        except (ValueError, NativeError) as error:
-            self.report({"ERROR"}, str(error))
+        meshes = open_meshes(self, context)
+        if not meshes:
             return {"CANCELLED"}
         for mesh in meshes:
             seams = mesh.plain_seams

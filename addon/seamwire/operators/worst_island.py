@@ -19,7 +19,7 @@ OPERATOR = "mesh.seamwire_worst_island"
 _SEEN = math.radians(60.0)
 """An island that is turned less from the viewer is seen well enough."""
 _FACES = 0.2
-"""The least length of the mean normal of an island that faces a way: of what is closed it is 0."""
+"""Below this length of the mean normal, an island has no clear front. A closed island has length 0."""
 
 
 class MESH_OT_seamwire_worst_island(bpy.types.Operator):

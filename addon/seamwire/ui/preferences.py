@@ -130,7 +130,7 @@ def _draw_key(box: bpy.types.UILayout, keys: bpy.types.KeyMap, item: bpy.types.K
 
 
 class SeamwireSessionPreferences(_Properties, bpy.types.PropertyGroup):
-    """The same until Blender quits, for an add-on that is enabled without being listed in Blender's preferences."""
+    """The same for an add-on that is enabled without being listed in Blender's preferences; Blender does not store them."""
 
 
 def register() -> None:

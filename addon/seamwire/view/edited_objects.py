@@ -47,7 +47,7 @@ class EditedObjects:
         self._views: dict[str, ObjectView] = {}
         self._handles: list[object] = []
         self._error: Exception | None = None
-        self._forgotten: set[str] = set()
+        self._forgotten: dict[str, bool] = {}  # names, and whether that object was in front
         self.front: ObjectView | None = None
         self.chain = False
         self.problem = ""
@@ -100,9 +100,10 @@ class EditedObjects:
             self._remove(name)
 
     def forget(self, view: ObjectView) -> None:
-        """Let an object be read anew, at the latest with the next `refresh`: its mesh has other vertices now."""
+        """Let an object be read anew, at the latest when the mesh has stayed as it is for a moment: it has other vertices now."""
+        self._forgotten[view.name] = view is self.front
+        self._changed = time.monotonic()
         self._remove(view.name)
-        self._forgotten.add(view.name)
 
     def take_stock(self) -> None:
         """Read anew what has changed, and let one of the objects that are edited be in front."""
@@ -199,7 +200,7 @@ class EditedObjects:
         self.watch()
 
     def refresh(self) -> None:
-        """Read those anew whose meshes have changed; with another tool, those that are other meshes now when they are pointed at.
+        """Read changed meshes again, and forget meshes with a new topology.
 
         A chain looks after its objects itself.
         """
@@ -211,12 +212,18 @@ class EditedObjects:
                 self._remove(name)
             elif obj.mode == "EDIT" and not self._is_current(view, obj):
                 self.forget(view)
-        names, self._forgotten = self._forgotten, set()
-        for name in names if _tool_is_shown() else ():
+
+    def _read_forgotten(self) -> None:
+        """Read the objects that were forgotten, so that their wires are seen again before the mouse moves."""
+        names, self._forgotten = self._forgotten, {}
+        for name, was_front in names.items():
             obj = bpy.data.objects.get(name)
-            if obj is not None and obj.type == "MESH" and obj.mode == "EDIT":
-                with suppress(ValueError):  # nothing of it is visible any more
-                    self.front = self.of(obj)
+            if obj is None or obj.type != "MESH" or obj.mode != "EDIT":
+                continue
+            with suppress(ValueError):  # nothing of it is visible any more
+                view = self.of(obj)
+                if was_front and self.front is None:
+                    self.front = view
 
     def on_update(self, depsgraph: bpy.types.Depsgraph) -> None:
         """Take note of meshes that Blender says were changed."""
@@ -237,6 +244,7 @@ class EditedObjects:
             view.stale = True
         self.refresh()
         self.redraw()
+        self.watch()
 
     def watch(self) -> None:
         """Look after running work until it is done."""
@@ -249,14 +257,15 @@ class EditedObjects:
             self.redraw()
 
     def tick(self) -> float | None:
-        """Do what `watch` has asked for; return the seconds until the next time, None if there is nothing left to do.
+        """Poll running work and read changed meshes again.
 
-        While a chain is drawn, it looks after the objects, and it calls `watch` when it ends.
+        Return the seconds until the next call, or None if nothing is left to do. While a chain is drawn, it looks after the objects, and it calls `watch` when it ends.
         """
         if self.chain:
             return None
         if self._waits_to_be_read and time.monotonic() - self._changed > _PAUSE:
             self.refresh()
+            self._read_forgotten()
             self.redraw()
         self.poll()
         return _RHYTHM if self._waits_to_be_read or any(view.busy for view in self.views()) else None

@@ -25,8 +25,8 @@ _SOFT = ((1.0, 0.3), (0.75, 0.35), (0.5, 0.45))
 """Widths and opacities that together make a band fade towards its sides."""
 _DISC = np.linspace(0.0, 2.0 * np.pi, 25)
 _FONT = 0
-_BORDERS = 4
-"""Drawings are kept for so many clipping borders. Each view has its own border, or no border."""
+_BORDERS = 8
+"""The number of clipping borders to cache drawings for. Each view has its own border, or no border."""
 _OVER = 1.5
 """Pixels by which what is drawn over faces is nearer than they are."""
 
@@ -158,6 +158,12 @@ class Lines:
         # Light dashes are seen on a light surface by the dark gaps between them.
         self._ground = self._make(ends) if style.dash and style.halo else None
         self._batch = None if style.dash else self._make(ends)
+        self._within = _Within(self._inside)
+
+    def _inside(self, eye: Eye) -> Lines:
+        """Return those that the view's clipping border leaves; this object if it leaves all."""
+        inside = eye.shows(self._ends.mean(axis=1))
+        return self if inside is None or inside.all() else Lines(self.style, self._ends[inside])
 
     def _make(self, ends: NDArray[np.float64]) -> gpu.types.GPUBatch | None:
         if not len(ends):
@@ -166,9 +172,9 @@ class Lines:
 
     def draw(self, eye: Eye, opacity: float = 1.0, rim: bool = True) -> None:
         """Draw those that the view's clipping border leaves, under the depth test that is set."""
-        inside = eye.shows(self._ends.mean(axis=1))
-        if inside is not None and not inside.all():
-            Lines(self.style, self._ends[inside]).draw(eye, opacity, rim)
+        lines = self._within.of(eye)
+        if lines is not self:
+            lines.draw(eye, opacity, rim)
             return
         if not len(self._ends):
             return
@@ -288,7 +294,7 @@ class _Within:
         """Return the part that an eye sees."""
         if eye.border not in self._made:
             if len(self._made) == _BORDERS:
-                self._made.clear()
+                del self._made[next(iter(self._made))]
             self._made[eye.border] = self._make(eye)
         return self._made[eye.border]
 

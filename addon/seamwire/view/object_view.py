@@ -44,7 +44,7 @@ def in_bounds(obj: bpy.types.Object, view: View, cursor: tuple[float, float]) ->
 
 
 def let_blender_tell() -> None:
-    """Let Blender tell at once of changes that it tells of only when it has handled all events that wait."""
+    """Make Blender report pending changes of meshes now, instead of after all waiting events."""
     for layer in {window.view_layer for window in bpy.context.window_manager.windows} or {bpy.context.view_layer}:
         layer.update()
 

@@ -284,7 +284,7 @@ class Picker:
             return None
         if preferred:
             near = self._vertices_near(view, placement, cursor, pick, scale)
-            for vertex in sorted(near.keys() & preferred, key=near.__getitem__)[:_MOST_TRIED]:
+            for vertex in sorted((v for v in near if v in preferred), key=near.__getitem__)[:_MOST_TRIED]:
                 if xray or self._sees(view, placement, self._to_object @ self._points[vertex]):
                     return Snap(vertex)
         crest = None if crests is None else self._crest_at(view, placement, cursor, crests, anywhere, xray, scale)

@@ -26,7 +26,7 @@ using HalfEdge = GeodesicMesh::HalfEdge;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Beams between two looks at the task: a fraction of a millisecond.
 constexpr std::size_t kWorkBetweenChecks = 2048;
-/// Paths this much shorter, in parts of the whole, are not looked for.
+/// Improvements below this fraction of the path's length are ignored.
 constexpr double kRounding = 1e-14;
 
 Point2 from_left(const HalfEdge& h, const Point2& p) {

@@ -94,8 +94,8 @@ class CutPieces {
   std::vector<std::int32_t> piece_of_face_;  ///< of the half-edge mesh, as cut at first
   std::vector<Piece> pieces_;                ///< valid for the names of sets
   std::size_t piece_count_ = 0;
-  // Looking a name up shortens the way to it, which changes nothing that can be seen. Pieces are there twice: 2 p is
-  // piece p as its triangles face, 2 p + 1 is p turned over. So a set also tells which of its pieces face which way.
+  // Looking a name up shortens the way to it, which changes nothing that can be seen. Each piece p has two
+  // entries: 2 p with its own orientation, 2 p + 1 with the opposite one. So a set also tells how its pieces are oriented.
   mutable DisjointSets piece_sets_, corner_sets_;
 };
 
