@@ -65,7 +65,9 @@ def test_blender_finds_the_package_valid(blender: Blender, package: Path) -> Non
     else:
         output = without_traceback(blender.start("--command", "extension", "validate", str(package)))
     assert "Success" in output
-    assert "warning" not in output.lower()
+    # Blender itself warns of a system without a list of disks, as in a chroot.
+    own = [line for line in output.splitlines() if "mounted file-systems" not in line]
+    assert "warning" not in "\n".join(own).lower()
 
 
 def test_installed_it_is_there_after_a_restart_and_marks_seams(installed: Blender) -> None:
