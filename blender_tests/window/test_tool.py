@@ -130,16 +130,19 @@ def test_the_object_under_the_cursor_is_drawn_on_each_in_a_chain_of_its_own(two:
     assert [seams(bpy.data.objects[name]) for name in names] == [[], []]
 
 
-def test_the_object_in_front_stays_there_if_the_mesh_of_another_one_changes(two: Two) -> None:
+def test_undo_that_changes_another_objects_mesh_leaves_the_object_in_front_there(two: Two) -> None:
     ui = two.ui
-    for side in (two.right, two.left):
-        ui.move(two.at(side, 12))
-    assert edited.front.name == "Left"
-    before = [view for view in edited.views() if view.name == "Right"]
+    bpy.ops.ed.undo_push(message="Before")
     bm = bmesh.from_edit_mesh(two.right.data)
     bmesh.ops.poke(bm, faces=list(bm.faces))
     bmesh.update_edit_mesh(two.right.data)
-    ui.wait_until(lambda: [view for view in edited.views() if view.name == "Right"] not in ([], before))
+    bpy.ops.ed.undo_push(message="Poke")
+    for side in (two.right, two.left):
+        ui.move(two.at(side, 12))
+    assert edited.front.name == "Left"
+    poked = next(view for view in edited.views() if view.name == "Right")
+    ui.key("Z", ctrl=True)
+    ui.wait_until(lambda: any(view.name == "Right" and view is not poked for view in edited.views()))
     assert edited.front.name == "Left"
 
 

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 
 _SAME = 0.125
 """Two closed cuts count as the same if their mean distance is below this fraction of their length. Cutting or sliding changes the
-triangles, so where the shape suggests little, the cut that is computed again may lie elsewhere around the same limb. Circles around two limbs that touch are 0.18 of their length apart, those around a torus and its tube 0.2."""
+triangles, so where the shape suggests little, the cut that is computed again may lie elsewhere around the same limb. Circles around
+two limbs that touch are 0.18 of their length apart, those around a torus and its tube 0.2."""
 
 _ON = 0.02
 """How far from a closed cut, as part of its length, the wires are in the mean that it was cut along: cuts are straight over faces."""

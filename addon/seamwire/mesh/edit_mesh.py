@@ -39,7 +39,8 @@ class NothingVisibleError(ValueError):
 def edit_bmesh(mesh: bpy.types.Mesh) -> bmesh.types.BMesh:
     """Return the edit mesh of a mesh, each vertex, edge and face with its number.
 
-    Some of Blender's operators, such as View Selected, leave other numbers behind. The rest of the add-on must get edit meshes from this function.
+    Some of Blender's operators, such as View Selected, leave other numbers behind. The rest of the
+    add-on must get edit meshes from this function.
     """
     return _numbered(bmesh.from_edit_mesh(mesh))
 

@@ -259,7 +259,8 @@ class EditedObjects:
     def tick(self) -> float | None:
         """Poll running work and read changed meshes again.
 
-        Return the seconds until the next call, or None if nothing is left to do. While a chain is drawn, it looks after the objects, and it calls `watch` when it ends.
+        Return the seconds until the next call, or None if nothing is left to do. While a chain is drawn, it looks after the
+        objects, and it calls `watch` when it ends.
         """
         if self.chain:
             return None

@@ -40,8 +40,9 @@ inline void copy(const Windows& from, std::size_t count, const Windows& to) {
 }
 
 /// A contiguous piece of memory for windows: five arrays of doubles, then one of integers. The memory is an array of
-/// `std::byte`, because C++20 implicitly creates the arrays of doubles and integers in it. Capacities are powers of two; blocks in use are few,
-/// as only lists on the front have one, so those given back are warm in the cache when they are taken again.
+/// `std::byte`, because C++20 implicitly creates the arrays of doubles and integers in it. Capacities are powers of
+/// two; blocks in use are few, as only lists on the front have one, so those given back are warm in the cache when they
+/// are taken again.
 struct WindowBlock {
   std::byte* memory = nullptr;
   std::uint32_t capacity = 0;

@@ -95,7 +95,8 @@ class CutPieces {
   std::vector<Piece> pieces_;                ///< valid for the names of sets
   std::size_t piece_count_ = 0;
   // Looking a name up shortens the way to it, which changes nothing that can be seen. Each piece p has two
-  // entries: 2 p with its own orientation, 2 p + 1 with the opposite one. So a set also tells how its pieces are oriented.
+  // entries: 2 p with its own orientation, 2 p + 1 with the opposite one. So a set also tells how its pieces are
+  // oriented.
   mutable DisjointSets piece_sets_, corner_sets_;
 };
 
