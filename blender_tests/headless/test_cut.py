@@ -487,6 +487,20 @@ def test_an_image_is_cut_across_other_triangles(chains: str, capfd: pytest.Captu
     assert is_sound(obj)
 
 
+def test_all_images_of_a_wire_from_pole_to_pole_are_cut() -> None:
+    obj = add_unlike_halves(3)
+    bm = bmesh.from_edit_mesh(obj.data)
+    for v in bm.verts:
+        if abs(v.co.z) < 0.9 and min(abs(v.co.x), abs(v.co.y)) < 0.3:
+            v.co *= 2.0  # the way down leads along a corner of the cube
+    bmesh.update_edit_mesh(obj.data)
+    top, bottom = (vertex_near(obj, (0.0, 0.0, z)) for z in (1.0, -1.0))
+    assert cut(f"{top} {bottom}", mirror={"X", "Y"}, strength=1.0) == {"FINISHED"}
+    assert islands(obj) == 4
+    assert agree(obj)
+    assert is_sound(obj)
+
+
 def test_an_image_that_leaves_the_mesh_is_left_out(capfd: pytest.CaptureFixture[str]) -> None:
     obj = add_grid(9)
     for v in obj.data.vertices:
