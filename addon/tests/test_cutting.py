@@ -308,6 +308,26 @@ def test_what_does_not_run_over_the_mesh_is_left_out() -> None:
     assert cuts.across == plan(faces, [good]).across
 
 
+@pytest.mark.parametrize("short", [0.0, 1e-3, 0.015, 0.04])
+def test_a_long_curve_may_end_a_little_before_its_vertex(short: float) -> None:
+    count = 200
+    points = np.array([(x, y) for y in range(2) for x in range(count)], dtype=float)
+    faces = Polygons(points, [[x, x + 1, x + count + 1, x + count] for x in range(count - 1)])
+    places = np.array([(x, x / (count - 1), 0.0) for x in range(count)])
+    places[-1, 0] -= short
+    start, end = 0, 2 * count - 1
+    for curve in ((start, places, end), (end, places[::-1], start)):
+        assert Node((end,)) in reached(plan(faces, [curve]), start)
+
+
+def test_a_curve_may_end_before_a_vertex_that_only_a_larger_face_calls_near() -> None:
+    # A long triangle on the left, and two small ones on the right that the curve runs over.
+    points = np.array([(0, 0), (-10, 0), (-10, -5), (0.1, -0.05), (0.1, 0.05), (0.2, 0.0)])
+    faces = Polygons(points, [[0, 1, 2], [0, 3, 4], [3, 5, 4]])
+    curve = np.array([(0.2, 0.0, 0.0), (0.1, 0.0, 0.0), (5e-4, 0.0, 0.0)])
+    assert Node((0,)) in reached(plan(faces, [(5, curve, 0)]), 5)
+
+
 def test_of_faces_on_each_other_a_curve_cuts_those_that_it_runs_over() -> None:
     # Two rows of quads on each other that have the first vertex in common; the second one is longer.
     points = np.array([(x, y) for y in (0, 1) for x in range(4)], dtype=float)
