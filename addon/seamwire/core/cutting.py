@@ -390,7 +390,10 @@ def _straight_on(faces: Faces, points: NDArray[np.float64], step: _Step) -> Iter
 def _exit(
     corners: NDArray[np.float64], place: NDArray[np.float64], goal: NDArray[np.float64]
 ) -> NDArray[np.float64] | None:
-    """Return where the way from a place in a triangle, (3, 3), toward another place leaves it; None if it does not run over it."""
+    """Return where the way from a place in a triangle, (3, 3), toward another place leaves it.
+
+    None if the segment does not cross the triangle.
+    """
     u, v = corners[1] - corners[0], corners[2] - corners[0]
     normal = np.cross(u, v)
     square = float(normal @ normal)
@@ -423,7 +426,7 @@ def _nodes_at(
     Yields
     ------
     off
-        How far the triangle is from the place, as part of its longest side, as far as rounding does not explain it.
+        How far the triangle is from the place, as part of its longest side, minus the rounding tolerance.
     polygon, row
         The polygon, and the triangle.
     node
@@ -804,7 +807,7 @@ class _Shape:
     Attributes
     ----------
     is_folded
-        Whether it is seen so.
+        Whether the polygon is replaced by a regular one.
     """
 
     def __init__(self, faces: Faces, polygon: int) -> None:
