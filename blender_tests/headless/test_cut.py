@@ -25,6 +25,7 @@ from scene import (
     snapshot,
 )
 from seamwire.core.network import Network
+from seamwire.mesh import cut as cutting
 from seamwire.mesh.cut import CUTS
 from seamwire.mesh.edit_mesh import LABELS
 from seamwire.mesh.object_session import ObjectSession
@@ -295,6 +296,17 @@ def test_several_objects_are_cut_at_once() -> None:
     assert seams(first) == seams(second) != []
 
 
+def test_a_face_that_is_not_folded_is_cut_where_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse_drawing(_count: int) -> object:
+        raise AssertionError("no drawing is needed")
+
+    monkeypatch.setattr(cutting.cutting, "regular_corners", refuse_drawing)
+    obj = add_grid(9)
+    edit()
+    assert cut("0 44") == {"FINISHED"}
+    assert 44 in joined(obj, 0)
+
+
 @pytest.mark.every_blender
 def test_a_cut_is_one_step_of_undo_and_brings_every_layer_back() -> None:
     obj = add_grid(9)
@@ -324,8 +336,6 @@ def test_a_face_that_cannot_be_cut_stays_whole_and_is_told_of(
         edge_split = staticmethod(bmesh.utils.edge_split)
         face_split_edgenet = staticmethod(refuse_one)
 
-    from seamwire.mesh import cut as cutting
-
     monkeypatch.setattr(cutting.bmesh, "utils", Utils)
     obj = add_grid(9)
     edit()
@@ -338,8 +348,6 @@ def test_a_face_that_cannot_be_cut_stays_whole_and_is_told_of(
 
 def refuse(monkeypatch: pytest.MonkeyPatch, call: int) -> None:
     """Let a cut end on an error, at one of its faces."""
-    from seamwire.mesh import cut as cutting
-
     split, calls = bmesh.utils.face_split_edgenet, []
 
     def split_some(face: bmesh.types.BMFace, edges: list[bmesh.types.BMEdge]) -> object:
