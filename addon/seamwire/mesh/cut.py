@@ -179,6 +179,8 @@ def _changing(cage: Cage) -> Iterator[None]:
     try:
         yield
     finally:
+        # Blender's update keeps the normals, and a face that was split while it was drawn as a regular polygon has the wrong one.
+        cage.bm.normal_update()
         bmesh.update_edit_mesh(cage.mesh, loop_triangles=True, destructive=True)
 
 
