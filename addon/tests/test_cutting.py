@@ -308,6 +308,16 @@ def test_what_does_not_run_over_the_mesh_is_left_out() -> None:
     assert cuts.across == plan(faces, [good]).across
 
 
+def test_the_image_of_a_curve_that_is_left_out_is_not_cut() -> None:
+    faces = grid(4)
+    off = (0, np.array([(0, 0, 0), (0.5, 0.5, 9.0), (4, 4, 0)]))
+    good, image = faces.straight(0, 14), faces.straight(20, 14)
+    cuts = plan(faces, [off, good, image, off], {2: 0, 3: 1})
+    assert cuts.left_out == [0, 3]
+    assert cuts.across == plan(faces, [good]).across
+    assert plan(faces, [off, good, image], {2: 1}).across == plan(faces, [good, image]).across
+
+
 @pytest.mark.parametrize("short", [0.0, 1e-3, 0.015, 0.04])
 def test_a_long_curve_may_end_a_little_before_its_vertex(short: float) -> None:
     count = 200

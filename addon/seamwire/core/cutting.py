@@ -178,7 +178,7 @@ Curve = tuple[Spot, "NDArray[np.float64]"] | tuple[Spot, "NDArray[np.float64]", 
 """Where to begin, points, and perhaps where to end; see `plan`."""
 
 
-def plan(faces: Faces, curves: Iterable[Curve]) -> CutPlan:
+def plan(faces: Faces, curves: Iterable[Curve], images: Mapping[int, int] | None = None) -> CutPlan:
     """Find what curves cut.
 
     Parameters
@@ -190,6 +190,9 @@ def plan(faces: Faces, curves: Iterable[Curve]) -> CutPlan:
         and its points, (k, 3). An end inside a polygon that no other curve leads on from goes back to the last edge. A third
         item is the vertex that a curve ends at, if its last point lies there, or the point in a triangle: other vertices
         and edges may lie in the same place.
+    images
+        For each curve that is a mirror image, by its number, the number of the curve before it that it is an image of.
+        The image of a curve that is left out is not cut either, and not named.
 
     Raises
     ------
@@ -201,6 +204,8 @@ def plan(faces: Faces, curves: Iterable[Curve]) -> CutPlan:
     left_out: list[int] = []
     problem: CuttingError | None = None
     for number, (start, points, *end) in enumerate(curves):
+        if images and images.get(number) in left_out:
+            continue
         try:
             own = _without_detours(_walk(faces, start, points, *end))
         except CuttingError as error:

@@ -451,21 +451,15 @@ class ObjectSession:
             If no wire runs over the mesh, or nothing is cut.
         """
         wires = list(wires)
-        images = {wire: self.session.mirrored(wire, curves=True) for wire in wires}
-
-        def planned() -> CutPlan:
-            every = (*wires, *(image for wire in wires for image in images[wire]))
-            curves = [
-                (_spot(own.start, own.vertices[0]), own.points, _spot(own.end, own.vertices[-1])) for own in every
-            ]
-            return cut.plan(self.cage, self.arrays, curves)
-
-        plan = planned()
-        alone = [wires[number] for number in plan.left_out if number < len(wires)]
-        if any(images[wire] for wire in alone):
-            # The image of a wire that is not cut is not cut either.
-            images.update((wire, []) for wire in alone)
-            plan = planned()
+        images = [
+            (number, image) for number, wire in enumerate(wires) for image in self.session.mirrored(wire, curves=True)
+        ]
+        curves = [
+            (_spot(own.start, own.vertices[0]), own.points, _spot(own.end, own.vertices[-1]))
+            for own in (*wires, *(image for _, image in images))
+        ]
+        originals = {len(wires) + row: number for row, (number, _) in enumerate(images)}
+        plan = cut.plan(self.cage, self.arrays, curves, originals)
         if not plan.segments():
             raise CuttingError("No wire leaves the face that it begins in")
         cut.rehearse(self.cage, plan)
