@@ -568,6 +568,82 @@ def test_the_tool_tells_of_a_wire_that_is_not_cut() -> None:
     assert 79 in joined(obj, 64) and 16 in joined(obj, 0), "the other stays snapped"
 
 
+def test_a_wire_that_leaves_the_mesh_where_a_cut_was_taken_back_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    obj = add_grid(9)
+    edit()
+    mesh, before, changed = with_a_cut_to_take_back()
+    plan, calls = cutting.plan, []
+
+    def astray(cage: object, arrays: object, curves: list[tuple], *more: object) -> object:
+        calls.append(1)
+        if len(calls) > 1:
+            curves = [(start, points * (3.0 if start == 64 else 1.0), *end) for start, points, *end in curves]
+        return plan(cage, arrays, curves, *more)
+
+    monkeypatch.setattr(cutting, "plan", astray)
+    done = mesh.finish_wires(before, changed)
+    assert len(calls) == 2
+    assert (done.cut, done.left_out, done.problem) == (1, 1, "")
+    kept = session_on(obj).session.wires
+    assert sorted((wire.along, wire.start, wire.end) for wire in kept) == [("EDGES", 8, 36), ("SURFACE", 64, 79)]
+    assert 79 in joined(obj, 64), "it is snapped to edges"
+    assert agree(obj)
+    assert is_sound(obj)
+
+
+@pytest.mark.parametrize("failing", ["finder", "plan_cut"])
+def test_a_cut_that_ends_after_another_was_taken_back_says_so(failing: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    obj = add_grid(9)
+    edit()
+    mesh, before, changed = with_a_cut_to_take_back()
+    plan = mesh.plan_cut
+
+    def refuse_place(*_: object) -> object:
+        raise ValueError("too far away")
+
+    def refuse_plan(self: ObjectSession, wires: list) -> object:
+        if self is mesh:
+            return plan(wires)
+        raise ValueError("too far away")
+
+    monkeypatch.setattr(ObjectSession, "plan_cut", refuse_plan)
+    if failing == "finder":
+        monkeypatch.setattr(ObjectSession, "_placed", refuse_place)
+    done = mesh.finish_wires(before, changed)
+    assert (done.cut, done.problem) == (0, "too far away; what was cut before is taken back, undo brings it again")
+    kept = sorted((wire.along, wire.start, wire.end) for wire in session_on(obj).session.wires)
+    assert kept == ([] if failing == "finder" else [("SURFACE", 8, 36), ("SURFACE", 64, 79)])
+    assert agree(obj)
+    assert is_sound(obj)
+
+
+def with_a_cut_to_take_back() -> tuple[ObjectSession, Network, set[int]]:
+    """Cut a wire into the active grid of 9 x 9 vertices, drop it, and draw two others that are to be cut.
+
+    Returns
+    -------
+    ObjectSession
+        What has the two wires; so has the mesh.
+    Network
+        The network with the cut wire.
+    set of int
+        The numbers of the two wires.
+    """
+    obj = bpy.context.active_object
+    cut("0 44")
+    bpy.ops.mesh.seamwire_mark(chains="8 36; 64 79", along="SURFACE")
+    mesh = session_on(obj)
+    before = mesh.session.network
+    for wire in before.wires:
+        if wire.is_cut:
+            mesh.session.drop(wire)
+    drawn = mesh.session.network
+    wires = [replace(wire, finish="CUT", stored=0) for wire in drawn.wires]
+    mesh.session.adopt(replace(drawn, wires=tuple(wires)), mesh.plain_seams)
+    write(mesh)
+    return mesh, before, {wire.id for wire in mesh.session.wires}
+
+
 @pytest.mark.every_blender
 def test_kept_wires_are_cut_and_their_snapped_seams_are_gone() -> None:
     obj = add_scan()

@@ -50,6 +50,8 @@ class Cut:
         How many faces could not be cut.
     wires
         How many wires were cut.
+    left_out
+        How many wires and mirror images were not cut, because they do not run over the mesh.
     """
 
     edges: tuple[Edge, ...]
@@ -57,6 +59,7 @@ class Cut:
     vertices: int
     uncut: int
     wires: int = 0
+    left_out: int = 0
 
 
 class CageFaces:

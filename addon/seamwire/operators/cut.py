@@ -78,7 +78,7 @@ def cut_wires(
     uncut = sum(cut.uncut for cut in cuts)
     if uncut:
         operator.report({"WARNING"}, gaps(uncut))
-    missing = sum(len(plan.left_out) for plan in plans.values())
+    missing = sum(cut.left_out for cut in cuts)
     if missing:
         operator.report({"WARNING"}, left_out(missing))
     done = (
