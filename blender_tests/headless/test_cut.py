@@ -296,6 +296,18 @@ def test_several_objects_are_cut_at_once() -> None:
     assert seams(first) == seams(second) != []
 
 
+def test_an_object_that_cannot_be_cut_is_named_and_the_others_are_cut(capfd: pytest.CaptureFixture[str]) -> None:
+    first, second = add_grid(2, name="First"), add_grid(5, name="Second")
+    first.select_set(True)
+    edit()
+    assert cut("(-0.4 -0.3 0) (0.3 -0.4 0) (0.9 0.9 0)", objects="*") == {"FINISHED"}
+    said = capfd.readouterr().out
+    assert "First: No wire leaves the face that it begins in; no wire was added" in said
+    assert "Second: " not in said
+    assert seams(first) == [] and session_on(first).session.wires == ()
+    assert seams(second) and agree(second)
+
+
 def test_a_face_that_is_not_folded_is_cut_where_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse_drawing(_count: int) -> object:
         raise AssertionError("no drawing is needed")
