@@ -25,8 +25,6 @@ class Polygons:
         for polygon, corners in enumerate(polygons):
             for corner in corners:
                 self._around[corner].append(polygon)
-        sides = (pair for corners in polygons for pair in itertools.pairwise([*corners, corners[0]]))
-        self._edges = {frozenset(side) for side in sides}
 
     def polygons_at(self, vertex: int) -> list[int]:
         return self._around[vertex]
@@ -36,9 +34,6 @@ class Polygons:
 
     def corners(self, polygon: int) -> list[int]:
         return self._polygons[polygon]
-
-    def is_edge(self, a: int, b: int) -> bool:
-        return frozenset((a, b)) in self._edges
 
     def straight(self, start: int, end: int) -> tuple[int, NDArray[np.float64]]:
         """Return the straight curve between two vertices, with a point wherever it passes a side of a triangle."""

@@ -123,7 +123,8 @@ def test_random_lines_join_their_ends_and_cross_in_nodes_only(number: int) -> No
     for pair, nodes in cuts.splits.items():
         parts = [0.0, *(node.weights[1] for node in nodes), 1.0]
         assert min(np.diff(parts)) > 0.9 * NEAR, pair
-        assert faces.is_edge(*pair)
+        rims = map(faces.corners, faces.polygons_at(pair[0]))
+        assert any({*pair} == {*side} for rim in rims for side in itertools.pairwise([*rim, rim[0]]))
     for polygon, own in cuts.across.items():
         corners = {*faces.corners(polygon)}
         assert all({*node.vertices} <= corners for segment in own for node in segment)
@@ -305,6 +306,36 @@ def test_what_does_not_run_over_the_mesh_is_left_out() -> None:
     cuts = plan(faces, [off, good, off])
     assert cuts.left_out == [0, 2]
     assert cuts.across == plan(faces, [good]).across
+
+
+def test_the_image_of_a_curve_that_is_left_out_is_not_cut() -> None:
+    faces = grid(4)
+    off = (0, np.array([(0, 0, 0), (0.5, 0.5, 9.0), (4, 4, 0)]))
+    good, image = faces.straight(0, 14), faces.straight(20, 14)
+    cuts = plan(faces, [off, good, image, off], {2: 0, 3: 1})
+    assert cuts.left_out == [0, 3]
+    assert cuts.across == plan(faces, [good]).across
+    assert plan(faces, [off, good, image], {2: 1}).across == plan(faces, [good, image]).across
+
+
+@pytest.mark.parametrize("short", [0.0, 1e-3, 0.015, 0.04])
+def test_a_long_curve_may_end_a_little_before_its_vertex(short: float) -> None:
+    count = 200
+    points = np.array([(x, y) for y in range(2) for x in range(count)], dtype=float)
+    faces = Polygons(points, [[x, x + 1, x + count + 1, x + count] for x in range(count - 1)])
+    places = np.array([(x, x / (count - 1), 0.0) for x in range(count)])
+    places[-1, 0] -= short
+    start, end = 0, 2 * count - 1
+    for curve in ((start, places, end), (end, places[::-1], start)):
+        assert Node((end,)) in reached(plan(faces, [curve]), start)
+
+
+def test_a_curve_may_end_before_a_vertex_that_only_a_larger_face_calls_near() -> None:
+    # A long triangle on the left, and two small ones on the right that the curve runs over.
+    points = np.array([(0, 0), (-10, 0), (-10, -5), (0.1, -0.05), (0.1, 0.05), (0.2, 0.0)])
+    faces = Polygons(points, [[0, 1, 2], [0, 3, 4], [3, 5, 4]])
+    curve = np.array([(0.2, 0.0, 0.0), (0.1, 0.0, 0.0), (5e-4, 0.0, 0.0)])
+    assert Node((0,)) in reached(plan(faces, [(5, curve, 0)]), 5)
 
 
 def test_of_faces_on_each_other_a_curve_cuts_those_that_it_runs_over() -> None:

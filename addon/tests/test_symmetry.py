@@ -170,6 +170,29 @@ def test_of_a_wire_that_is_cut_the_curve_is_mirrored_where_the_mesh_lacks_edges(
     assert symmetry.one_sided(replace(across, finish="SNAP"), (0,))
 
 
+@pytest.mark.parametrize("middle", [[1.5, 0.0], [0.0, 1.5], [1.5, 1.0], [0.0, 0.0]])
+def test_each_mirror_image_of_a_wire_from_pole_to_pole_is_cut_once(middle: list[float]) -> None:
+    # The poles are their own images, and the vertex between them has none.
+    places = np.array([[0.0, 0.0, 1.0], [*middle, 0.0], [0.0, 0.0, -1.0]])
+    points = places.copy()
+    points[1] += (0.3, 0.4, 0.0)
+    symmetry = Symmetry(points, np.array([[0, 1], [1, 2]]))
+    across = Wire("SURFACE", (0, 1, 2), places, 0, 2, finish="CUT")
+    images = symmetry.images(across, (0, 1), curves=True)
+    assert all(image.vertices == (0, 2) for image in images)
+    found = sorted(image.points[1].tolist() for image in images)
+    mirrored = {(a * middle[0] + 0.0, b * middle[1] + 0.0, 0.0) for a in (1, -1) for b in (1, -1)}
+    assert found == sorted(map(list, mirrored - {(*middle, 0.0)}))
+
+
+def test_the_image_of_a_wire_within_a_face_is_another_wire_though_it_has_the_same_vertex() -> None:
+    points = centred(3)
+    curve = np.array([[0.2, 0.3, 0.0], [0.4, 0.3, 0.0]])  # nearest to the vertex in the middle
+    across = Wire("SURFACE", (4,), curve, 4, 4, finish="CUT")
+    (image,) = Symmetry(points, grid_edges(3)).images(across, (0,), curves=True)
+    assert image.points == pytest.approx(curve * [-1.0, 1.0, 1.0])
+
+
 def test_an_object_is_mirrored_in_its_own_coordinates() -> None:
     turn = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
     points = centred() * [3.0, 1.0, 1.0]

@@ -25,6 +25,7 @@ from scene import (
     snapshot,
 )
 from seamwire.core.network import Network
+from seamwire.mesh import cut as cutting
 from seamwire.mesh.cut import CUTS
 from seamwire.mesh.edit_mesh import LABELS
 from seamwire.mesh.object_session import ObjectSession
@@ -295,6 +296,29 @@ def test_several_objects_are_cut_at_once() -> None:
     assert seams(first) == seams(second) != []
 
 
+def test_an_object_that_cannot_be_cut_is_named_and_the_others_are_cut(capfd: pytest.CaptureFixture[str]) -> None:
+    first, second = add_grid(2, name="First"), add_grid(5, name="Second")
+    first.select_set(True)
+    edit()
+    assert cut("(-0.4 -0.3 0) (0.3 -0.4 0) (0.9 0.9 0)", objects="*") == {"FINISHED"}
+    said = capfd.readouterr().out
+    assert "First: No wire leaves the face that it begins in; no wire was added" in said
+    assert "Second: " not in said
+    assert seams(first) == [] and session_on(first).session.wires == ()
+    assert seams(second) and agree(second)
+
+
+def test_a_face_that_is_not_folded_is_cut_where_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse_drawing(_count: int) -> object:
+        raise AssertionError("no drawing is needed")
+
+    monkeypatch.setattr(cutting.cutting, "regular_corners", refuse_drawing)
+    obj = add_grid(9)
+    edit()
+    assert cut("0 44") == {"FINISHED"}
+    assert 44 in joined(obj, 0)
+
+
 @pytest.mark.every_blender
 def test_a_cut_is_one_step_of_undo_and_brings_every_layer_back() -> None:
     obj = add_grid(9)
@@ -324,8 +348,6 @@ def test_a_face_that_cannot_be_cut_stays_whole_and_is_told_of(
         edge_split = staticmethod(bmesh.utils.edge_split)
         face_split_edgenet = staticmethod(refuse_one)
 
-    from seamwire.mesh import cut as cutting
-
     monkeypatch.setattr(cutting.bmesh, "utils", Utils)
     obj = add_grid(9)
     edit()
@@ -338,8 +360,6 @@ def test_a_face_that_cannot_be_cut_stays_whole_and_is_told_of(
 
 def refuse(monkeypatch: pytest.MonkeyPatch, call: int) -> None:
     """Let a cut end on an error, at one of its faces."""
-    from seamwire.mesh import cut as cutting
-
     split, calls = bmesh.utils.face_split_edgenet, []
 
     def split_some(face: bmesh.types.BMFace, edges: list[bmesh.types.BMEdge]) -> object:
@@ -487,6 +507,20 @@ def test_an_image_is_cut_across_other_triangles(chains: str, capfd: pytest.Captu
     assert is_sound(obj)
 
 
+def test_all_images_of_a_wire_from_pole_to_pole_are_cut() -> None:
+    obj = add_unlike_halves(3)
+    bm = bmesh.from_edit_mesh(obj.data)
+    for v in bm.verts:
+        if abs(v.co.z) < 0.9 and min(abs(v.co.x), abs(v.co.y)) < 0.3:
+            v.co *= 2.0  # the way down leads along a corner of the cube
+    bmesh.update_edit_mesh(obj.data)
+    top, bottom = (vertex_near(obj, (0.0, 0.0, z)) for z in (1.0, -1.0))
+    assert cut(f"{top} {bottom}", mirror={"X", "Y"}, strength=1.0) == {"FINISHED"}
+    assert islands(obj) == 4
+    assert agree(obj)
+    assert is_sound(obj)
+
+
 def test_an_image_that_leaves_the_mesh_is_left_out(capfd: pytest.CaptureFixture[str]) -> None:
     obj = add_grid(9)
     for v in obj.data.vertices:
@@ -544,6 +578,82 @@ def test_the_tool_tells_of_a_wire_that_is_not_cut() -> None:
     done = mesh.finish_wires(before, {wire.id for wire in wires})
     assert (done.cut, done.left_out, done.problem) == (1, 1, "")
     assert 79 in joined(obj, 64) and 16 in joined(obj, 0), "the other stays snapped"
+
+
+def test_a_wire_that_leaves_the_mesh_where_a_cut_was_taken_back_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    obj = add_grid(9)
+    edit()
+    mesh, before, changed = with_a_cut_to_take_back()
+    plan, calls = cutting.plan, []
+
+    def astray(cage: object, arrays: object, curves: list[tuple], *more: object) -> object:
+        calls.append(1)
+        if len(calls) > 1:
+            curves = [(start, points * (3.0 if start == 64 else 1.0), *end) for start, points, *end in curves]
+        return plan(cage, arrays, curves, *more)
+
+    monkeypatch.setattr(cutting, "plan", astray)
+    done = mesh.finish_wires(before, changed)
+    assert len(calls) == 2
+    assert (done.cut, done.left_out, done.problem) == (1, 1, "")
+    kept = session_on(obj).session.wires
+    assert sorted((wire.along, wire.start, wire.end) for wire in kept) == [("EDGES", 8, 36), ("SURFACE", 64, 79)]
+    assert 79 in joined(obj, 64), "it is snapped to edges"
+    assert agree(obj)
+    assert is_sound(obj)
+
+
+@pytest.mark.parametrize("failing", ["finder", "plan_cut"])
+def test_a_cut_that_ends_after_another_was_taken_back_says_so(failing: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    obj = add_grid(9)
+    edit()
+    mesh, before, changed = with_a_cut_to_take_back()
+    plan = mesh.plan_cut
+
+    def refuse_place(*_: object) -> object:
+        raise ValueError("too far away")
+
+    def refuse_plan(self: ObjectSession, wires: list) -> object:
+        if self is mesh:
+            return plan(wires)
+        raise ValueError("too far away")
+
+    monkeypatch.setattr(ObjectSession, "plan_cut", refuse_plan)
+    if failing == "finder":
+        monkeypatch.setattr(ObjectSession, "_placed", refuse_place)
+    done = mesh.finish_wires(before, changed)
+    assert (done.cut, done.problem) == (0, "too far away; what was cut before is taken back, undo brings it again")
+    kept = sorted((wire.along, wire.start, wire.end) for wire in session_on(obj).session.wires)
+    assert kept == ([] if failing == "finder" else [("SURFACE", 8, 36), ("SURFACE", 64, 79)])
+    assert agree(obj)
+    assert is_sound(obj)
+
+
+def with_a_cut_to_take_back() -> tuple[ObjectSession, Network, set[int]]:
+    """Cut a wire into the active grid of 9 x 9 vertices, drop it, and draw two others that are to be cut.
+
+    Returns
+    -------
+    ObjectSession
+        What has the two wires; so has the mesh.
+    Network
+        The network with the cut wire.
+    set of int
+        The numbers of the two wires.
+    """
+    obj = bpy.context.active_object
+    cut("0 44")
+    bpy.ops.mesh.seamwire_mark(chains="8 36; 64 79", along="SURFACE")
+    mesh = session_on(obj)
+    before = mesh.session.network
+    for wire in before.wires:
+        if wire.is_cut:
+            mesh.session.drop(wire)
+    drawn = mesh.session.network
+    wires = [replace(wire, finish="CUT", stored=0) for wire in drawn.wires]
+    mesh.session.adopt(replace(drawn, wires=tuple(wires)), mesh.plain_seams)
+    write(mesh)
+    return mesh, before, {wire.id for wire in mesh.session.wires}
 
 
 @pytest.mark.every_blender

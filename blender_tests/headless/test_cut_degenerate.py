@@ -5,8 +5,10 @@ import random
 
 import bmesh
 import bpy
+import numpy as np
 import pytest
 from scene import add_object, add_suzanne, edit, seams
+from seamwire.mesh import cut as cutting
 from test_cut import cut, is_sound, joined
 
 
@@ -94,6 +96,34 @@ def test_all_chains_over_faces_without_area_are_cut_and_join(seed: int, capfd: p
         assert end in joined(obj, start)
     assert "could not be cut" not in capfd.readouterr().out
     assert is_sound(obj)
+
+
+SPIKE = ([(0, 0, 0), (2, 0, 0), (2, 0, 3), (2, 0, 2), (0, 0, 2)], [(0, 1, 2, 3, 4)])
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("split", [True, False], ids=["", "not split"])
+def test_a_face_cut_on_a_drawing_has_its_own_normal(split: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    obj = add_object(*SPIKE)
+    edit()
+    if not split:
+        monkeypatch.setattr(cutting, "_split", lambda _face, _edges: False)
+    assert cut("0 3") == {"FINISHED"}
+    bm = bmesh.from_edit_mesh(obj.data)
+    assert len(bm.faces) == (2 if split else 1)
+    for face in bm.faces:
+        assert abs(face.normal.y) == pytest.approx(1.0)
+
+
+@pytest.mark.every_blender
+def test_normals_are_right_after_a_cut() -> None:
+    obj = add_folded_faces(0.3, 4)
+    edit()
+    assert cut("505 147; 364 137") == {"FINISHED"}
+    bm = bmesh.from_edit_mesh(obj.data)
+    found = np.array([item.normal for item in (*bm.faces, *bm.verts)])
+    bm.normal_update()
+    assert found == pytest.approx(np.array([item.normal for item in (*bm.faces, *bm.verts)]), abs=1e-6)
 
 
 @pytest.mark.parametrize("seed", [0, 1, 3, 5, 8])

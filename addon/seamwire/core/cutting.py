@@ -10,7 +10,7 @@ from __future__ import annotations
 import heapq
 import itertools
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
@@ -46,8 +46,8 @@ _HOP = 1e-3
 points are from triangles, as part of their longest sides."""
 _LEAP = 0.25
 """The cost of a step from one triangle of a polygon to another: between them, the polygon may not be there."""
-_REACH = 1e-2
-"""How much more a walk may cost that ends on the very edge that the next curve begins on, not only in the same place."""
+_REACH = 0.1
+"""The extra cost allowed for a walk that ends at the requested vertex instead of another point in the same place."""
 _STRAIGHT = 1e-2
 """The cost of a step over a triangle in which the curve has no point; curves found on other triangles need such steps."""
 
@@ -178,7 +178,7 @@ Curve = tuple[Spot, "NDArray[np.float64]"] | tuple[Spot, "NDArray[np.float64]", 
 """Where to begin, points, and perhaps where to end; see `plan`."""
 
 
-def plan(faces: Faces, curves: Iterable[Curve]) -> CutPlan:
+def plan(faces: Faces, curves: Iterable[Curve], images: Mapping[int, int] | None = None) -> CutPlan:
     """Find what curves cut.
 
     Parameters
@@ -190,6 +190,9 @@ def plan(faces: Faces, curves: Iterable[Curve]) -> CutPlan:
         and its points, (k, 3). An end inside a polygon that no other curve leads on from goes back to the last edge. A third
         item is the vertex that a curve ends at, if its last point lies there, or the point in a triangle: other vertices
         and edges may lie in the same place.
+    images
+        For each curve that is a mirror image, by its number, the number of the curve before it that it is an image of.
+        The image of a curve that is left out is not cut either, and not named.
 
     Raises
     ------
@@ -201,6 +204,8 @@ def plan(faces: Faces, curves: Iterable[Curve]) -> CutPlan:
     left_out: list[int] = []
     problem: CuttingError | None = None
     for number, (start, points, *end) in enumerate(curves):
+        if images and images.get(number) in left_out:
+            continue
         try:
             own = _without_detours(_walk(faces, start, points, *end))
         except CuttingError as error:
@@ -267,19 +272,26 @@ def _walk(faces: Faces, start: Spot, points: NDArray[np.float64], end: Spot | No
     The walk is the cheapest one (Dijkstra's algorithm). A step costs nothing if the curve's next point lies in a polygon beside.
     Where faces lie on each other, the curve therefore runs over those that its next points are on as well.
     """
-    near = ON * float(np.ptp(points, axis=0).max())
-    first, goal = _node_of(faces, start, points[0], near), _node_of(faces, end, points[-1], near)
-    order = itertools.count()
-    done: set[tuple[int, tuple[int, ...], int]] = set()
+    # The ways on from a step, each with the cost that it adds to the way before it. Most walks need only the first way, so a way is
+    # tried only when the walk has come to its cost.
+    ways: list[tuple[float, Callable[[_Step], Iterator[tuple[float, _Step]]]]] = [
+        (0.0, lambda step: _forward(faces, points, step)),
+        (_HOP, lambda step: _in_place(faces, step)),
+        (_STRAIGHT, lambda step: _straight_on(faces, points, step)),
+    ]
+    first, goal = _node_of(faces, start, points[0]), _node_of(faces, end, points[-1])
     here = None if first is None else _moved(faces, first)
     farthest = _Step(int(here is not None), first or Node(vertices_of(start)), points[0], here, None)
-    waiting = [(0.0, 0, next(order), 0, farthest)]
-    arrived: tuple[float, _Step] | None = None
+    order = itertools.count()  # of steps that cost the same the older one is first
+    waiting = [(0.0, -farthest.number, next(order), farthest, ways)]
+    done: set[tuple[int, tuple[int, ...], int]] = set()
+    arrived: _Step | None = None
+    most = np.inf
     while waiting:
-        cost, _, _, stage, step = heapq.heappop(waiting)
-        if arrived is not None and cost > arrived[0] + _REACH:
+        cost, _, _, step, ways_left = heapq.heappop(waiting)
+        if cost > most:
             break
-        if stage == 0:
+        if ways_left is ways:
             key = (step.number, step.on.vertices, step.on.polygon)
             if key in done:
                 continue
@@ -288,28 +300,32 @@ def _walk(faces: Faces, start: Spot, points: NDArray[np.float64], end: Spot | No
             if step.number == len(points):
                 if goal is None or step.on.vertices == goal.vertices:
                     return _pieces_of(step.trail)
-                if arrived is None and isinstance(end, FacePoint):
-                    arrived = cost, step
-        following = (_forward, _in_place, _straight_on)[stage](faces, points, step)
-        for more, new in following:
-            heapq.heappush(waiting, (cost + more, -new.number, next(order), 0, new))
-        if stage < 2 and step.here is not None:
-            heapq.heappush(waiting, (cost + (_HOP, _STRAIGHT)[stage], -step.number, next(order), stage + 1, step))
-    if arrived is not None:
-        return _pieces_of(arrived[1].trail)
-    raise CuttingError(f"A wire does not run over the mesh near vertex {farthest.on.vertices[0]}")
+                # Several vertices and edges may lie in one place: the requested one may be found a little later, or never.
+                if arrived is None:
+                    arrived, most = step, cost + _REACH
+        (_, way), *more_ways = ways_left
+        for more, following in way(step):
+            heapq.heappush(waiting, (cost + more, -following.number, next(order), following, ways))
+        if more_ways and step.here is not None:
+            heapq.heappush(waiting, (cost + more_ways[0][0], -step.number, next(order), step, more_ways))
+    if arrived is None:
+        raise CuttingError(f"A wire does not run over the mesh near vertex {farthest.on.vertices[0]}")
+    return _pieces_of(arrived.trail)
 
 
-def _node_of(faces: Faces, spot: Spot | None, place: NDArray[np.float64], near: float) -> Node | None:
+def _node_of(faces: Faces, spot: Spot | None, place: NDArray[np.float64]) -> Node | None:
     """Return the node of a curve's end; None if only a vertex beside is known."""
+    if spot is None:
+        return None
     if isinstance(spot, FacePoint):
         around = (polygon for vertex in spot.corners for polygon in faces.polygons_at(vertex))
         polygon = next((one for one in around if spot.triangle in faces.rows_of(one)), None)
         if polygon is None:
             return None
         return _in_polygon(faces, polygon, Node.between(spot.corners, spot.weights, ON), ON)
-    is_there = spot is not None and np.linalg.norm(place - faces.points[spot]) <= near
-    return Node((spot,)) if is_there else None
+    own = Node((spot,))
+    is_there = any(off == 0.0 and on == own for off, _, _, on in _nodes_at(faces, faces.polygons_at(spot), place))
+    return own if is_there else None
 
 
 def _pieces_of(trail: _Trail) -> list[Piece]:
@@ -350,7 +366,7 @@ def _is_in(faces: Faces, polygon: int, row: int, step: _Step) -> bool:
     return any(off == 0.0 for off, *_ in _nodes_at(faces, [polygon], step.place, row))
 
 
-def _in_place(faces: Faces, _points: NDArray[np.float64], step: _Step) -> Iterator[tuple[float, _Step]]:
+def _in_place(faces: Faces, step: _Step) -> Iterator[tuple[float, _Step]]:
     """Yield the steps to other vertices and edges of the polygons beside that lie in the same place."""
     for off, polygon, _, on in _nodes_at(faces, _polygons_beside(faces, step.on), step.place):
         if on.polygon < 0 and on.vertices != step.on.vertices:
@@ -379,7 +395,10 @@ def _straight_on(faces: Faces, points: NDArray[np.float64], step: _Step) -> Iter
 def _exit(
     corners: NDArray[np.float64], place: NDArray[np.float64], goal: NDArray[np.float64]
 ) -> NDArray[np.float64] | None:
-    """Return where the way from a place in a triangle, (3, 3), toward another place leaves it; None if it does not run over it."""
+    """Return where the way from a place in a triangle, (3, 3), toward another place leaves it.
+
+    None if the segment does not cross the triangle.
+    """
     u, v = corners[1] - corners[0], corners[2] - corners[0]
     normal = np.cross(u, v)
     square = float(normal @ normal)
@@ -412,7 +431,7 @@ def _nodes_at(
     Yields
     ------
     off
-        How far the triangle is from the place, as part of its longest side, as far as rounding does not explain it.
+        How far the triangle is from the place, as part of its longest side, minus the rounding tolerance.
     polygon, row
         The polygon, and the triangle.
     node
@@ -793,7 +812,7 @@ class _Shape:
     Attributes
     ----------
     is_folded
-        Whether it is seen so.
+        Whether the polygon is replaced by a regular one.
     """
 
     def __init__(self, faces: Faces, polygon: int) -> None:

@@ -220,14 +220,18 @@ class Symmetry:
             Whether only the curves matter, because they are cut into the faces: across the surface an image stays whole
             if its ends have partners. If the mesh lacks edges of it, it has only these two vertices.
         """
-        images = []
+        by_curve = curves and self._is_across(wire)
+        images: list[Wire] = []
         taken = {frozenset(wire.edges()) or wire.vertices}
         for combination in _combinations(axes):
             for image in self._image(wire, combination, curves):
                 edges = frozenset(image.edges()) or image.vertices
-                if edges not in taken:
-                    taken.add(edges)
-                    images.append(image)
+                # An image may have only its two ends, which do not tell where its curve runs.
+                is_known = edges in taken and not (by_curve and len(image.vertices) <= 2)
+                if is_known or (by_curve and any(_is_same_curve(image, other) for other in (wire, *images))):
+                    continue
+                taken.add(edges)
+                images.append(image)
         return images
 
     def one_sided(self, wire: Wire, axes: tuple[int, ...]) -> bool:
@@ -238,8 +242,11 @@ class Symmetry:
     def _is_whole(self, wire: Wire, axes: tuple[int, ...], curves: bool) -> bool:
         """Whether an image does not fall into several; see `images`."""
         mapped, there = self._mapped(wire, axes)
-        across = curves and wire.along == "SURFACE" and self._triangles is None
-        return bool(there.all()) or (across and min(mapped[0], mapped[-1]) >= 0)
+        return bool(there.all()) or (curves and self._is_across(wire) and min(mapped[0], mapped[-1]) >= 0)
+
+    def _is_across(self, wire: Wire) -> bool:
+        """Whether the points of a wire are mirrored, and not only its vertices."""
+        return wire.along == "SURFACE" and self._triangles is None
 
     def _mapped(self, wire: Wire, axes: tuple[int, ...]) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
         """Return the partners of a wire's vertices, of a loop the first one's again at the end, and which edges are there."""
@@ -256,10 +263,9 @@ class Symmetry:
 
     def _image(self, wire: Wire, axes: tuple[int, ...], curves: bool) -> list[Wire]:
         mapped, there = self._mapped(wire, axes)
-        across = wire.along == "SURFACE" and self._triangles is None
         if there.all():
             vertices = tuple(mapped[:-1].tolist() if wire.closed else mapped.tolist())
-            points = self._mirrored_points(wire.points, axes) if across else self._points[mapped]
+            points = self._mirrored_points(wire.points, axes) if self._is_across(wire) else self._points[mapped]
             return [self._as_image(wire, vertices, points, wire.closed)]
         if self._is_whole(wire, axes, curves):
             ends = (int(mapped[0]), int(mapped[-1]))
@@ -286,6 +292,14 @@ class Symmetry:
             heading=None,
             alternatives=(),
         )
+
+
+def _is_same_curve(one: Wire, other: Wire) -> bool:
+    """Whether two images of a wire, or the wire and its image, have the same points, in either order."""
+    if one.points.shape != other.points.shape:
+        return False
+    tolerance = ROUNDING * float(np.abs(one.points).max())
+    return any(np.allclose(one.points, way, 0.0, tolerance) for way in (other.points, other.points[::-1]))
 
 
 def _combinations(axes: tuple[int, ...]) -> list[tuple[int, ...]]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -50,6 +50,8 @@ class Cut:
         How many faces could not be cut.
     wires
         How many wires were cut.
+    left_out
+        How many wires and mirror images were not cut, because they do not run over the mesh.
     """
 
     edges: tuple[Edge, ...]
@@ -57,6 +59,7 @@ class Cut:
     vertices: int
     uncut: int
     wires: int = 0
+    left_out: int = 0
 
 
 class CageFaces:
@@ -130,13 +133,16 @@ def _verts_that_stay(
     return [vert for vert in found if not vert[of_verts]]
 
 
-def plan(cage: Cage, arrays: Arrays, curves: Iterable[Curve]) -> CutPlan:
+def plan(cage: Cage, arrays: Arrays, curves: Iterable[Curve], images: Mapping[int, int]) -> CutPlan:
     """Find what curves cut, see `cutting.plan`; raises `CuttingError`, before anything is changed."""
-    return cutting.plan(CageFaces(cage, arrays), curves)
+    return cutting.plan(CageFaces(cage, arrays), curves, images)
 
 
 def rehearse(cage: Cage, what: CutPlan) -> None:
-    """Cut a copy of an edit mesh, so that whatever may go wrong does so before anything is changed."""
+    """Cut a copy of an edit mesh, so that an error in splitting edges and faces comes before anything is changed.
+
+    Taking cuts back, joining small islands and storing wires are not tried. The copy takes about 1 s for a million triangles.
+    """
     bm = cage.bm.copy()
     try:
         _carry_out(bm, what, [])
@@ -179,6 +185,8 @@ def _changing(cage: Cage) -> Iterator[None]:
     try:
         yield
     finally:
+        # Blender's update keeps the normals, and a face that was split while it was drawn as a regular polygon has the wrong one.
+        cage.bm.normal_update()
         bmesh.update_edit_mesh(cage.mesh, loop_triangles=True, destructive=True)
 
 
@@ -217,11 +225,11 @@ def _carry_out(
     for polygon, segments in what.across.items():
         face, rim = faces[polygon]
         ends = [(vert_of[one], vert_of[two]) for one, two in segments]
-        place_of = {vert: Vector((*at, 0.0)) for vert, at in zip(rim, cutting.regular_corners(len(rim)), strict=True)}
-        for vert in {*face.verts, *itertools.chain(*ends)} - place_of.keys():
-            parts = zip(node_of[vert].vertices, node_of[vert].weights, strict=True)
-            place_of[vert] = sum((weight * place_of[corners[vertex]] for vertex, weight in parts), Vector())
-        edges = _split(bm, face, ends, of_edges, [place_of] if polygon in what.folded else [{}, place_of])
+        edges = _edges_between(bm, ends, of_edges)
+        if polygon in what.folded or not _split(face, edges):
+            between = {vert: node_of[vert] for vert in {*face.verts, *itertools.chain(*ends)} - {*rim}}
+            with _drawn(face, rim, between, corners):
+                _split(face, edges)
         loose = {edge for edge in edges if not edge.link_faces}
         uncut += bool(loose)
         left |= loose
@@ -384,19 +392,12 @@ def _vert_inside(
     return vert
 
 
-def _split(
+def _edges_between(
     bm: bmesh.types.BMesh,
-    face: bmesh.types.BMFace,
-    segments: Sequence[tuple[bmesh.types.BMVert, bmesh.types.BMVert]],
+    segments: Iterable[tuple[bmesh.types.BMVert, bmesh.types.BMVert]],
     of_edges: bmesh.types.BMLayerItem,
-    drawings: Iterable[Mapping[bmesh.types.BMVert, Vector]],
 ) -> list[bmesh.types.BMEdge]:
-    """Split a face along edges between its corners and vertices inside it, and return those edges.
-
-    Blender splits no face that is folded or has no area. The vertices are therefore moved meanwhile, to the places of each
-    drawing, until a split succeeds. If none does, the edges have no faces.
-    """
-    selected = face.select
+    """Return the edges between pairs of vertices; new ones belong to no face."""
     edges = []
     for segment in segments:
         edge = bm.edges.get(segment)
@@ -404,26 +405,49 @@ def _split(
             edge = bm.edges.new(segment)
             edge[of_edges] = 1
         edges.append(edge)
-    parts: Sequence[bmesh.types.BMFace] = ()
-    for place_of in drawings:
-        with _moved(face, place_of), suppress(ValueError):
-            parts = bmesh.utils.face_split_edgenet(face, edges)
-        if len(parts) > 1:
-            break
-    if selected:
-        for part in parts:
-            part.select = True
     return edges
 
 
+def _split(face: bmesh.types.BMFace, edges: Sequence[bmesh.types.BMEdge]) -> bool:
+    """Split a face along edges between its corners and vertices inside it; return whether Blender could do it."""
+    selected = face.select
+    try:
+        parts = bmesh.utils.face_split_edgenet(face, edges)
+    except ValueError:
+        return False
+    if selected:
+        for part in parts:
+            part.select = True
+    return len(parts) > 1
+
+
 @contextmanager
-def _moved(face: bmesh.types.BMFace, place_of: Mapping[bmesh.types.BMVert, Vector]) -> Iterator[None]:
-    """Move vertices of a face meanwhile."""
-    before = {vert: vert.co.copy() for vert in place_of}
-    for vert, place in place_of.items():
-        vert.co = place
-    if before:
-        face.normal_update()
+def _drawn(
+    face: bmesh.types.BMFace,
+    rim: Sequence[bmesh.types.BMVert],
+    between: Mapping[bmesh.types.BMVert, Node],
+    corners: Mapping[int, bmesh.types.BMVert],
+) -> Iterator[None]:
+    """Move a face's vertices to a regular polygon in the meantime, because Blender splits no face that is folded or has no area.
+
+    Parameters
+    ----------
+    face
+        The face.
+    rim
+        Its corners before its edges were split; they become the corners of the polygon.
+    between
+        The nodes of the other vertices, between some of these corners.
+    corners
+        The vertices that nodes name.
+    """
+    before = {vert: vert.co.copy() for vert in (*rim, *between)}
+    for vert, (x, y) in zip(rim, cutting.regular_corners(len(rim)), strict=True):
+        vert.co = (x, y, 0.0)
+    for vert, node in between.items():
+        parts = zip(node.vertices, node.weights, strict=True)
+        vert.co = sum((weight * corners[vertex].co for vertex, weight in parts), Vector())
+    face.normal_update()
     try:
         yield
     finally:

@@ -451,21 +451,15 @@ class ObjectSession:
             If no wire runs over the mesh, or nothing is cut.
         """
         wires = list(wires)
-        images = {wire: self.session.mirrored(wire, curves=True) for wire in wires}
-
-        def planned() -> CutPlan:
-            every = (*wires, *(image for wire in wires for image in images[wire]))
-            curves = [
-                (_spot(own.start, own.vertices[0]), own.points, _spot(own.end, own.vertices[-1])) for own in every
-            ]
-            return cut.plan(self.cage, self.arrays, curves)
-
-        plan = planned()
-        alone = [wires[number] for number in plan.left_out if number < len(wires)]
-        if any(images[wire] for wire in alone):
-            # The image of a wire that is not cut is not cut either.
-            images.update((wire, []) for wire in alone)
-            plan = planned()
+        images = [
+            (number, image) for number, wire in enumerate(wires) for image in self.session.mirrored(wire, curves=True)
+        ]
+        curves = [
+            (_spot(own.start, own.vertices[0]), own.points, _spot(own.end, own.vertices[-1]))
+            for own in (*wires, *(image for _, image in images))
+        ]
+        originals = {len(wires) + row: number for row, (number, _) in enumerate(images)}
+        plan = cut.plan(self.cage, self.arrays, curves, originals)
         if not plan.segments():
             raise CuttingError("No wire leaves the face that it begins in")
         cut.rehearse(self.cage, plan)
@@ -489,7 +483,7 @@ class ObjectSession:
         plan
             From `plan_cut`.
         wires
-            The same as for `plan_cut`. Wires that the plan leaves out stay what they are.
+            The same as for `plan_cut`. Wires that are not cut stay wires across the surface.
         kept
             Whether the mesh has these wires already: their snapped edges cease to be seams.
         before
@@ -502,9 +496,10 @@ class ObjectSession:
         Raises
         ------
         CuttingError
-            Where no wire can be cut into the mesh without the cuts taken back; these, and the wires, are gone then.
+            If no wire can be cut once former cuts were taken back. These cuts are gone then, and the wires are snapped to edges.
         """
         taken = self.session.taken_cuts if taken is None else taken
+        skipped = sum(number < len(wires) for number in plan.left_out)
         wires = [wire for number, wire in enumerate(wires) if number not in plan.left_out]
         images = [replace(image, mirror=()) for wire in wires for image in self.session.mirrored(wire, curves=True)]
         if kept:
@@ -518,13 +513,17 @@ class ObjectSession:
             places = cut.PickedPlaces(self.cage, {end for wire in both for end in (wire.start, wire.end)})
             cut.take_back(self.cage, left)
             after = ObjectSession(self.obj)
-            placed = after._placed(both, places)
+            placed: list[Wire] = []
             try:
+                placed = after._placed(both, places)
                 again = after.plan_cut(placed)
-            except CuttingError as error:
+            except ValueError as error:
+                after._draw_again(placed[: len(wires)])
                 raise CuttingError(f"{error}; what was cut before is taken back, undo brings it again") from error
-            missing = sum(number < len(wires) for number in again.left_out)
-            return replace(after.cut(again, placed, taken=taken), wires=len(wires) - missing)
+            missing = [placed[number] for number in again.left_out if number < len(wires)]
+            after._draw_again(missing)
+            done = after.cut(again, placed, taken=taken)
+            return replace(done, wires=len(wires) - len(missing), left_out=skipped + done.left_out)
         seeds = {end for wire in wires for end in (wire.start, wire.end)}
         done = cut.carry_out(self.cage, plan, seeds, crumb)
         after = ObjectSession(self.obj)
@@ -532,7 +531,7 @@ class ObjectSession:
         after.take_over(after._cut_wires({edge for edge in done.edges if edge not in claimed}, wires, done.seeds))
         after._go_on_with(taken)
         after.write(after.plan())
-        return replace(done, wires=len(wires))
+        return replace(done, wires=len(wires), left_out=len(plan.left_out))
 
     def _go_on_with(self, taken: Iterable[TakenCut]) -> None:
         """Let closed cuts that were taken before the mesh was changed be bent on it."""
@@ -568,6 +567,23 @@ class ObjectSession:
             vertices = (*vertices_of(start), *vertices_of(end))
             placed.append(wire.changed(vertices=vertices, start=start, end=end, images=()))
         return placed
+
+    def _draw_again(self, wires: Collection[Wire]) -> None:
+        """Draw wires across the surface once more between their seeds, snapped to edges, because their former edges may be gone."""
+        if not wires:
+            return
+        session = self.session
+        session.switch("SURFACE")
+        for wire in wires:
+            session.finish = wire.finish
+            session.set_mirror(wire.mirror)
+            if wire.strength:
+                session.set_strength("SURFACE", wire.strength)
+            for seed in (wire.start, wire.end):
+                session.click(seed)
+                session.wait()
+            session.end_chain()
+        self.write(self.plan())
 
     def _cut_wires(
         self, edges: set[Edge], wires: Collection[Wire], seeds: Mapping[int | FacePoint, int]
@@ -617,13 +633,10 @@ class ObjectSession:
         finished = Finished(len(slid), moved)
         if to_cut:
             try:
-                plan = mesh.plan_cut(to_cut)
-                done = mesh.cut(plan, to_cut, kept=True, before=before)
+                done = mesh.cut(mesh.plan_cut(to_cut), to_cut, kept=True, before=before)
             except CuttingError as error:
                 return replace(finished, problem=str(error))
-            return replace(
-                finished, cut=done.wires, edges=len(done.edges), uncut=done.uncut, left_out=len(plan.left_out)
-            )
+            return replace(finished, cut=done.wires, edges=len(done.edges), uncut=done.uncut, left_out=done.left_out)
         return replace(finished, taken_back=mesh.take_back_cuts(before))
 
     def slide(self, wires: Collection[Wire]) -> int:

@@ -46,7 +46,8 @@ def cut_wires(
 ) -> set[str]:
     """Cut wires across the surface into meshes and say what was done.
 
-    Wires that do not run over their mesh are left out. If a mesh cannot be cut, none is changed.
+    Wires that do not run over their mesh are left out. If none of a mesh's wires can be cut, a warning says so, and the other
+    meshes are cut. Every mesh is tried on a copy before the first one is changed.
 
     Parameters
     ----------
@@ -68,17 +69,18 @@ def cut_wires(
             if own:
                 plans[mesh] = mesh.plan_cut(own)
         except CuttingError as error:
-            problems.append(str(error))
-    for problem in problems if plans else problems[:1]:
-        operator.report({"WARNING"} if plans else {"ERROR"}, problem)
+            problems.append(f"{mesh.obj.name}: {error}" if len(wires) > 1 else str(error))
     if not plans:
+        operator.report({"ERROR"}, problems[0])
         return {"CANCELLED"}
+    for problem in problems:
+        operator.report({"WARNING"}, problem if kept else f"{problem}; no wire was added")
     cuts = [mesh.cut(plan, wires[mesh], kept, crumb=crumb) for mesh, plan in plans.items()]
     edit_mesh.live_unwrap(context)
     uncut = sum(cut.uncut for cut in cuts)
     if uncut:
         operator.report({"WARNING"}, gaps(uncut))
-    missing = sum(len(plan.left_out) for plan in plans.values())
+    missing = sum(cut.left_out for cut in cuts)
     if missing:
         operator.report({"WARNING"}, left_out(missing))
     done = (
