@@ -113,9 +113,12 @@ def unwrapped(desk: Desk) -> Desk:
     return desk
 
 
-@pytest.mark.every_blender
 @pytest.mark.parametrize(
-    "title", [pytest.param(title, marks=[pytest.mark.smoke] if title == "Add Loop" else []) for title in GESTURES]
+    "title",
+    [
+        pytest.param(title, marks=[pytest.mark.smoke, pytest.mark.every_blender] if title == "Add Loop" else [])
+        for title in GESTURES
+    ],
 )
 def test_after_a_gesture_no_operator_from_before_it_is_adjusted(
     unwrapped: Desk, title: str, capfd: pytest.CaptureFixture[str]

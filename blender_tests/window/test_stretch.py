@@ -186,8 +186,7 @@ def test_the_worst_island_is_one_key_away(desk: Desk) -> None:
     bpy.ops.mesh.select_mode(type="VERT")
 
 
-@pytest.mark.every_blender
-@pytest.mark.parametrize("scale", [1.0, -1.0])
+@pytest.mark.parametrize("scale", [pytest.param(1.0, marks=pytest.mark.every_blender), -1.0])
 def test_the_worst_island_is_turned_to_the_viewer(desk: Desk, scale: float) -> None:
     bm = bmesh.from_edit_mesh(desk.obj.data)
     for edge in bm.edges:

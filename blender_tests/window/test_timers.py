@@ -13,8 +13,6 @@ from seamwire.view import edited_objects
 from seamwire.view.edited_objects import edited
 from seamwire.view.viewport import place_in
 
-pytestmark = pytest.mark.every_blender
-
 Taker = Callable[[], int]
 
 
@@ -48,6 +46,7 @@ def hover(desk: Desk, times: int) -> None:
         edited.hover(place_in(desk.ui.area, desk.ui.region, (x + i % 9, y)))
 
 
+@pytest.mark.every_blender
 def test_a_thousand_motions_of_the_mouse_leave_one_timer(desk: Desk, take_timers: Taker) -> None:
     desk.choose()
     hover(desk, 1000)
@@ -81,7 +80,7 @@ def test_what_is_computed_after_a_chain_is_still_taken_in(desk: Desk) -> None:
     assert edited.front.overlay._islands.newest.count == 2
 
 
-@pytest.mark.parametrize("in_chain", [False, True])
+@pytest.mark.parametrize("in_chain", [pytest.param(False, marks=pytest.mark.every_blender), True])
 def test_disabled_the_add_on_has_no_timer(desk: Desk, take_timers: Taker, in_chain: bool) -> None:
     desk.choose()
     settings().views_in_object_mode = True

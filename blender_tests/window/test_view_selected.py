@@ -11,7 +11,6 @@ from seamwire.core.session import Session
 from seamwire.mesh.settings import settings
 from stored import agree
 
-pytestmark = pytest.mark.every_blender
 
 ROW = chain(*range(36, 45))
 
@@ -40,6 +39,7 @@ def choose(desk: Desk) -> Session:
     return desk.session
 
 
+@pytest.mark.every_blender
 def test_edges_and_vertices_are_hovered_and_drawn_along(desk: Desk) -> None:
     session = choose(desk)
     desk.ui.move(desk.at(40))
@@ -103,6 +103,7 @@ def test_wires_across_the_surface_are_snapped_cut_and_slid(desk: Desk, finish: s
     assert seams(obj) == sorted({*before, *chain(*range(72, 81))})
 
 
+@pytest.mark.every_blender
 def test_islands_are_selected_and_stored(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     bm = bmesh.from_edit_mesh(desk.obj.data)
     # The faces below the middle row, with a hole of one vertex's faces: a ring, no disc.
