@@ -11,7 +11,6 @@ from seamwire.core.session import Session
 from seamwire.mesh.settings import settings
 from stored import agree
 
-
 ROW = chain(*range(36, 45))
 
 
