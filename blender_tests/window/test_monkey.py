@@ -250,7 +250,7 @@ def test_whatever_is_pressed_seams_and_network_agree_and_nothing_else_changes(
         if monkey.dice.random() < 0.12:
             monkey.rest()
     monkey.rest()
-    assert most > 1, "it drew"
+    assert most > 0, "it drew; with Clear Seams on, it may have drawn little"
     after = unselected(monkey.obj)
     different = [(key, one, two) for key in before for one, two in parts(before[key], after.get(key)) if one != two]
     assert not different, f"{different[:4]} {monkey.log[-60:]}"
