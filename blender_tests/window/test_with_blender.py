@@ -193,6 +193,44 @@ def test_what_was_hidden_just_now_is_not_picked_and_alt_h_shows_it(desk: Desk) -
     assert not any(hidden(desk.obj))
 
 
+def test_what_redo_brings_back_in_a_chain_that_drew_nothing_becomes_seams(desk: Desk) -> None:
+    session, ui = live(desk), desk.ui
+    while desk.running:
+        ui.key("Z", ctrl=True)
+    assert session.wires == ()
+    ui.move(desk.at(58, 59))
+    ui.event("LEFT_ALT", "PRESS", alt=True)  # shows a loop
+    assert desk.running
+    for _ in range(4):
+        ui.key("Z", ctrl=True, shift=True)
+    wires = len(session.wires)
+    ui.event("LEFT_ALT", "RELEASE")
+    if desk.running:
+        ui.key("RET")
+    ui.wait_until(lambda: not desk.running)
+    assert wires == 1
+    assert seams(desk.obj) == ROW
+
+
+def test_a_line_is_kept_though_edit_mode_is_left_before_its_wires_are_computed(desk: Desk) -> None:
+    desk.choose()
+    ui = desk.ui
+    ui.move(desk.at(37))
+    ui.event("LEFTMOUSE", "PRESS", desk.at(37))
+    for vertex in (38, 40, 42, 43):
+        ui.event("MOUSEMOVE", "NOTHING", desk.at(vertex), ticks=0)
+    ui.event("LEFTMOUSE", "RELEASE", desk.at(43), ticks=0)
+    ui.event("TAB", "PRESS", ticks=0)
+    ui.event("TAB", "RELEASE")
+    ui.wait_until(lambda: not desk.running)
+    assert desk.obj.mode == "OBJECT"
+    assert seams(desk.obj) == chain(*range(37, 44))
+    ui.key("TAB")
+    ui.move(desk.at(20))
+    ui.wait(10)
+    assert [wire.vertices for wire in desk.session.wires] == [tuple(range(37, 44))]
+
+
 def test_x_is_blenders_where_there_is_no_wire(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     asked = []
     menu = bpy.types.VIEW3D_MT_edit_mesh_delete

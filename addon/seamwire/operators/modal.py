@@ -33,6 +33,8 @@ _OFFERED = (Action.LOOP, Action.BEND)
 """What is shown while the modifiers of its click are held."""
 _CLICKS = frozenset({Action.CLICK, Action.NEW_CHAIN, *_OFFERED})
 _STROKES = frozenset({Action.GUIDE, Action.AVOID})
+_CHANGES = frozenset({Action.NEXT, Action.CLOSE, Action.EXTEND, Action.UNDO, Action.REDO})
+"""Keys that may change the wires of the object that was pointed at last."""
 _AXES = "XYZ"
 
 
@@ -184,6 +186,11 @@ class Chain:
         self.close()
 
     def _keep(self, context: bpy.types.Context, undo_step: bool = True) -> None:
+        # The object that is drawn on comes first: out of edit mode it is none of the views.
+        if self._drawn is not None:
+            if self._ending:
+                self._drawn.session.wait()  # a key that ended the chain also left edit mode before the last wire was there
+            self._drawn.session.end_chain()
         for view in edited.views():
             view.session.end_chain()
         view, before = self._drawn, self._before
@@ -517,6 +524,8 @@ class Chain:
         return any([view.session.drag_cancel() for view in edited.views()]) or dragged or hold is not None
 
     def _do(self, action: Action, place: Place) -> None:
+        if action in _CHANGES:
+            self._draw_on(self.view)
         session, settings = self.session, chosen.settings()
         if action is Action.NEXT:
             if session.seed is None and session.hovered_wire is not None:
