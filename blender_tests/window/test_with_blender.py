@@ -231,6 +231,24 @@ def test_a_line_is_kept_though_edit_mode_is_left_before_its_wires_are_computed(d
     assert [wire.vertices for wire in desk.session.wires] == [tuple(range(37, 44))]
 
 
+def test_escape_while_a_chain_waits_for_its_end_waits_for_nothing(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    waited = []
+    monkeypatch.setattr(Session, "wait", lambda _: waited.append(1))
+    desk.choose()
+    ui = desk.ui
+    ui.move(desk.at(37))
+    ui.event("LEFTMOUSE", "PRESS", desk.at(37))
+    for vertex in (38, 40, 42, 43):
+        ui.event("MOUSEMOVE", "NOTHING", desk.at(vertex), ticks=0)
+    ui.event("LEFTMOUSE", "RELEASE", desk.at(43), ticks=0)
+    for key in ("RET", "ESC"):
+        ui.event(key, "PRESS", ticks=0)
+        ui.event(key, "RELEASE", ticks=0)
+    ui.wait_until(lambda: not desk.running)
+    assert waited == []
+    assert seams(desk.obj) == []
+
+
 def test_x_is_blenders_where_there_is_no_wire(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     asked = []
     menu = bpy.types.VIEW3D_MT_edit_mesh_delete

@@ -74,8 +74,7 @@ class Symmetry:
         self._to_object = np.eye(3) if to_object is None else np.asarray(to_object, dtype=np.float64)
         self._triangles = triangles if topology and edges is not None else None
         self._partners: dict[tuple[int, ...], NDArray[np.int64]] = {}
-        self._on_plane: dict[int, frozenset[int]] = {}
-        self._on_planes: dict[tuple[int, ...], frozenset[int]] = {}
+        self._on_plane: dict[tuple[int, ...], frozenset[int]] = {}
         # What one thread prepares the others wait for, rather than prepare it too.
         self._lock = threading.RLock()
 
@@ -192,19 +191,19 @@ class Symmetry:
     def on_plane(self, axes: tuple[int, ...]) -> frozenset[int]:
         """Return the vertices that are their own images over one of the axes."""
         with self._lock, np.errstate(invalid="ignore"):
-            if axes not in self._on_planes:
-                self._on_planes[axes] = frozenset().union(*(self._on_plane_of(axis) for axis in axes))
-            return self._on_planes[axes]
+            if axes not in self._on_plane:
+                self._on_plane[axes] = frozenset().union(*(self._on_plane_of(axis) for axis in axes))
+            return self._on_plane[axes]
 
     def _on_plane_of(self, axis: int) -> frozenset[int]:
-        if axis not in self._on_plane:
+        if (axis,) not in self._on_plane:
             if self._triangles is None:
                 near = np.flatnonzero(np.abs(self._places[:, axis]) <= 0.5 * self._reach)
             else:
                 near = np.arange(len(self._points))
             own = self._partners_of(near, (axis,)) == near
-            self._on_plane[axis] = frozenset(near[own].tolist())
-        return self._on_plane[axis]
+            self._on_plane[(axis,)] = frozenset(near[own].tolist())
+        return self._on_plane[(axis,)]
 
     def images(self, wire: Wire, axes: tuple[int, ...], curves: bool = False) -> list[Wire]:
         """Return the images of a wire over each of the axes and their combinations.

@@ -10,6 +10,8 @@ import bpy
 from .report import count, in_edit_mode, open_meshes
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from ..core.gaps import Gap
     from ..mesh.object_session import ObjectSession
 
@@ -39,8 +41,11 @@ class MESH_OT_seamwire_close_gaps(bpy.types.Operator):
         from ..core.native import NativeError
         from ..mesh import edit_mesh
 
+        meshes = open_meshes(self, context)
+        if not meshes:
+            return {"CANCELLED"}
         try:
-            found = self._find(context)
+            found = self._find(meshes)
             if not found:
                 self.report({"INFO"}, "No seam ends just before another one, or before the border")
                 return {"CANCELLED"}
@@ -56,12 +61,12 @@ class MESH_OT_seamwire_close_gaps(bpy.types.Operator):
         self.report({"INFO"}, f"{count(closed, 'gap')} closed, {count(marked, 'edge')} marked")
         return {"FINISHED"}
 
-    def _find(self, context: bpy.types.Context) -> dict[ObjectSession, list[Gap]]:
+    def _find(self, meshes: Iterable[ObjectSession]) -> dict[ObjectSession, list[Gap]]:
         """Return the gaps of each object that has some."""
         from ..core.gaps import GapFinder
 
         found = {}
-        for mesh in open_meshes(self, context):
+        for mesh in meshes:
             arrays = mesh.arrays
             finder = GapFinder(arrays.points, arrays.triangles, arrays.edges, arrays.partly_hidden)
             gaps = finder.find(arrays.seams, self.longest)

@@ -406,6 +406,7 @@ class Chain:
             self._ending = True
             self.message = "Ending as soon as the last wire is computed"
             return
+        self._ending = False
         for view in edited.views():
             view.session.stop_preview()
             view.session.end_chain()
