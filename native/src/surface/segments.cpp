@@ -5,45 +5,21 @@
 #include <cstddef>
 #include <map>
 #include <numeric>
-#include <utility>
+
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
+#include "surface/cuts.hpp"
 
 namespace seamwire {
 
 namespace {
-
-Edge sorted(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
-
-/// Answers quickly for edges between vertices that no cut touches, which are nearly all.
-class Cuts {
- public:
-  Cuts(const Surface& surface, std::span<const Edge> edges) : touched_(surface.vertex_count(), 0) {
-    for (const auto& [a, b] : edges) {
-      for (const std::int32_t v : {a, b}) {
-        check_index(v, surface.vertex_count(), "cut_edges: vertex");
-      }
-      if (!std::binary_search(surface.edges().begin(), surface.edges().end(), sorted(a, b))) continue;
-      edges_.push_back(sorted(a, b));
-      touched_[a] = touched_[b] = 1;
-    }
-    std::sort(edges_.begin(), edges_.end());
-  }
-  bool contains(std::int32_t a, std::int32_t b) const {
-    return touched_[a] != 0 && touched_[b] != 0 && std::binary_search(edges_.begin(), edges_.end(), sorted(a, b));
-  }
-
- private:
-  std::vector<std::uint8_t> touched_;
-  std::vector<Edge> edges_;
-};
 
 /// Across edges where the half-edge mesh is cut open, and to the triangles that it left out.
 void join_across_odd_edges(const Surface& surface, const Cuts& cuts, DisjointSets& sets) {
   std::map<Edge, std::int32_t> odd;  // with the first triangle seen there
   const SurfaceReport& report = surface.report();
   for (const std::vector<Edge>* edges : {&report.nonmanifold_edges, &report.unorientable_edges}) {
-    for (const auto& [a, b] : *edges) odd.emplace(sorted(a, b), -1);
+    for (const auto& [a, b] : *edges) odd.emplace(ascending(a, b), -1);
   }
   const auto for_each_side = [&](std::int32_t f, const auto& visit) {
     const Triangle& t = surface.triangles()[f];
@@ -51,7 +27,7 @@ void join_across_odd_edges(const Surface& surface, const Cuts& cuts, DisjointSet
   };
   for (const std::vector<std::int32_t>* faces : {&report.degenerate_faces, &report.duplicate_faces}) {
     for (const std::int32_t f : *faces) {
-      for_each_side(f, [&](std::int32_t a, std::int32_t b) { odd.emplace(sorted(a, b), -1); });
+      for_each_side(f, [&](std::int32_t a, std::int32_t b) { odd.emplace(ascending(a, b), -1); });
     }
   }
   if (odd.empty()) return;
@@ -60,7 +36,7 @@ void join_across_odd_edges(const Surface& surface, const Cuts& cuts, DisjointSet
   for (std::int32_t f = 0; index(f) < surface.face_count(); ++f) {
     for_each_side(f, [&](std::int32_t a, std::int32_t b) {
       if (touched[a] == 0 || touched[b] == 0 || a == b || cuts.contains(a, b)) return;
-      const auto found = odd.find(sorted(a, b));
+      const auto found = odd.find(ascending(a, b));
       if (found == odd.end()) return;
       if (found->second >= 0) sets.join(found->second, f);
       found->second = f;
@@ -71,7 +47,7 @@ void join_across_odd_edges(const Surface& surface, const Cuts& cuts, DisjointSet
 }  // namespace
 
 std::vector<std::int32_t> face_segments(const Surface& surface, std::span<const Edge> cut_edges) {
-  const Cuts cuts(surface, cut_edges);
+  const Cuts cuts(surface, cut_edges, "cut_edges");
   DisjointSets sets(surface.face_count());
   const std::vector<std::int32_t>& source = surface.face_of_half_edge_face();
   const std::vector<std::int32_t>& vertex_of_fan = surface.vertex_of_fan();

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "seamwire/flatten/measure_map.hpp"
+#include "seamwire/surface/surface.hpp"
+#include "seamwire/task.hpp"
+
+namespace seamwire {
+
+/// How flatten() maps islands.
+struct FlattenOptions {
+  /// A former map: UVs of the caller's corners. An island starts from it if none of its triangles is flipped there, and
+  /// if it is continuous across the island's inner edges, except where the island has to be opened. If that map is not
+  /// finished after `max_steps`, or still overlaps although `keep_apart` is set, the island is solved from Tutte's
+  /// embedding as well, and the better map is kept. Other islands start from Tutte's embedding.
+  CornerUvs start;
+  /// Whether islands whose outline crosses itself are solved again with a barrier that keeps the outline apart.
+  bool keep_apart = true;
+  std::size_t max_steps = 100;  ///< Newton steps for each island at most
+  double tolerance = 1e-6;      ///< the predicted decrease of the mean energy below which an island is finished
+};
+
+/// One island of a Flattening.
+struct FlatIsland {
+  double area = 0.0;        ///< on the surface, in the caller's unit squared
+  double energy = 0.0;      ///< symmetric Dirichlet energy E_d at scale 1, mean over the area; 4 for an isometry
+  std::size_t steps = 0;    ///< Newton steps that the map took
+  bool overlaps = false;    ///< whether it covers a part of the plane twice
+  std::size_t opened = 0;   ///< edges along which the map was opened in addition to the cuts
+  std::int32_t worst = -1;  ///< the caller's triangle with the highest energy; -1 if the island has no proper triangle
+};
+
+/// A UV map of a surface.
+struct Flattening {
+  CornerUvs uvs;                      ///< in the caller's unit of length; each island lies around the origin
+  std::vector<std::int32_t> islands;  ///< the island of each of the caller's triangles
+  std::vector<FlatIsland> by_island;  ///< by island number
+  double energy = 0.0;                ///< as MapReport::energy
+};
+
+/// Maps each island of a surface to the plane: without flips, with as little stretch as possible, and without overlaps
+/// where possible. The symmetric Dirichlet energy (Smith and Schaefer 2015) is minimized from Tutte's embedding
+/// (1963) by projected Newton steps. Islands are solved on several threads; the result does not depend on the number of
+/// threads.
+///
+/// `cuts`: vertex pairs of either order; pairs that are no real edges of the surface cut nothing. Islands are the
+/// segments of face_segments(), except that the surface is cut open along non-manifold and unorientable edges, too: a
+/// segment that only such edges hold together becomes several islands. A segment's first part keeps its number, and
+/// the further parts are numbered after all segments.
+///
+/// An island without a boundary or with handles is opened along short additional paths of edges, which FlatIsland
+/// counts. So is an island that double precision cannot map otherwise, such as a long tube with one end closed. A
+/// triangle that the surface left out (degenerate or duplicate) gets the UVs that its vertices have in its island, or
+/// the island's center for a vertex that the island does not have.
+///
+/// Throws InvalidInput for a vertex out of range, a start of the wrong size or with numbers that are not finite, and an
+/// island that no opening makes possible to map. Throws Cancelled within about 20 ms at 100,000 triangles, and within
+/// 50 ms at the beginning.
+Flattening flatten(const Surface& surface, std::span<const Edge> cuts, const FlattenOptions& options = {},
+                   const Task& task = {});
+
+}  // namespace seamwire

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "seamwire/flatten/flatten.hpp"
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arrays.hpp"
+#include "gil.hpp"
+#include "objects.hpp"
+#include "seamwire/flatten/measure_map.hpp"
+#include "watch.hpp"
+
+namespace seamwire::python {
+namespace {
+
+/// What Python holds: the result by columns.
+struct FlatteningObject {
+  Flattening map;
+  std::vector<double> energies, areas;
+  std::vector<std::int32_t> overlapping, opened, steps;
+};
+
+static_assert(sizeof(CornerUvs::value_type) == 6 * sizeof(double), "corners are read as rows of numbers");
+
+CornerUvs corner_uvs_from(const py::object& value, const std::string& name) {
+  const PythonCall calling;
+  const auto refuse = [&] { throw InvalidInput(name + ": expected real numbers of shape (m, 3, 2)"); };
+  py::array array;
+  try {
+    array = py::array(py::module_::import("numpy").attr("asarray")(value));
+  } catch (py::error_already_set& error) {
+    // Ragged lists and the like; a MemoryError or KeyboardInterrupt is none of ours.
+    if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
+    refuse();
+  }
+  if (array.ndim() != 3 || array.shape(1) != 3 || array.shape(2) != 2) refuse();
+  const std::vector<double> numbers = values_from(array.attr("reshape")(-1), name);
+  CornerUvs uvs(numbers.size() / 6);
+  if (!uvs.empty()) std::ranges::copy(numbers, uvs.front().front().data());
+  return uvs;
+}
+
+py::array view_of(const CornerUvs& uvs, py::handle owner) {
+  const double* data = uvs.empty() ? nullptr : uvs.front().front().data();
+  constexpr auto kSize = static_cast<py::ssize_t>(sizeof(double));
+  return view(data, {static_cast<py::ssize_t>(uvs.size()), 3, 2}, {6 * kSize, 2 * kSize, kSize}, owner);
+}
+
+/// The part of the whole work from `begin` on.
+Task part_of(const Task& task, double begin, double length) {
+  return {.stop = task.stop, .progress = [&task, begin, length](double fraction) {
+            return !task.progress || task.progress(begin + length * fraction);
+          }};
+}
+
+Held<FlatteningObject> flattened(std::vector<Vector> points, std::vector<Triangle> triangles,
+                                 const std::vector<Edge>& cuts, const FlattenOptions& options, const Task& task) {
+  const Surface surface(std::move(points), std::move(triangles), std::nullopt, part_of(task, 0.0, 0.1));
+  auto object = make_held<FlatteningObject>();
+  object->map = flatten(surface, cuts, options, part_of(task, 0.1, 0.9));
+  for (std::size_t i = 0; i < object->map.by_island.size(); ++i) {
+    const FlatIsland& island = object->map.by_island[i];
+    object->energies.push_back(island.energy);
+    object->areas.push_back(island.area);
+    object->opened.push_back(static_cast<std::int32_t>(island.opened));
+    object->steps.push_back(static_cast<std::int32_t>(island.steps));
+    if (island.overlaps) object->overlapping.push_back(static_cast<std::int32_t>(i));
+  }
+  return object;
+}
+
+template <class Get>
+py::cpp_function column_of(const Get& get) {
+  return [get](py::object self) { return view(get(self.cast<const FlatteningObject&>()), self); };
+}
+
+void bind_flattening(py::module_& module) {
+  py::class_<FlatteningObject, Held<FlatteningObject>>(module, "Flattening", "A UV map of a surface.")
+      .def_property_readonly(
+          "uvs", [](const py::object& self) { return view_of(self.cast<const FlatteningObject&>().map.uvs, self); },
+          "(m, 3, 2) float64: the UVs of each triangle's corners, in the points' unit of length. Each island lies "
+          "around the origin.")
+      .def_property_readonly("islands", column_of([](const auto& f) -> auto& { return f.map.islands; }),
+                             "(m,) int32: the island of each triangle.")
+      .def_property_readonly(
+          "energy", [](const FlatteningObject& f) { return f.map.energy; }, "float: as `MapReport.energy`.")
+      .def_property_readonly("island_energies", column_of([](const auto& f) -> auto& { return f.energies; }),
+                             "(k,) float64: the symmetric Dirichlet energy of each island, averaged over its area; 4 "
+                             "for an isometry.")
+      .def_property_readonly("island_areas", column_of([](const auto& f) -> auto& { return f.areas; }),
+                             "(k,) float64: areas on the surface, in the points' unit squared.")
+      .def_property_readonly("overlapping", column_of([](const auto& f) -> auto& { return f.overlapping; }),
+                             "(j,) int32: the islands that cover a part of the plane twice.")
+      .def_property_readonly("opened", column_of([](const auto& f) -> auto& { return f.opened; }),
+                             "(k,) int32: how many edges of each island the map is opened along in addition to the "
+                             "cuts.")
+      .def_property_readonly("steps", column_of([](const auto& f) -> auto& { return f.steps; }),
+                             "(k,) int32: how many Newton steps each island took.")
+      .def("__repr__", [](const FlatteningObject& f) {
+        return "<Flattening: " + std::to_string(f.map.uvs.size()) + " triangles, " + std::to_string(f.energies.size()) +
+               " islands>";
+      });
+}
+
+void bind_map_report(py::module_& module) {
+  py::class_<MapReport, Held<MapReport>>(module, "MapReport", "What a UV map does to a surface.")
+      .def_readonly("energy", &MapReport::energy,
+                    "float: the symmetric Dirichlet energy, averaged over the area at the best uniform scale. The "
+                    "worst .1 % of the area and flipped triangles are left out. 4 for an isometry.")
+      .def_property_readonly(
+          "energies", [](const py::object& self) { return view(self.cast<const MapReport&>().energies, self); },
+          "(m,) float64: the energy of each triangle at that scale; infinite if it is flipped, 0 if it is left out.")
+      .def_property_readonly(
+          "flipped", [](const py::object& self) { return view(self.cast<const MapReport&>().flipped, self); },
+          "(j,) int32: triangles that are turned over against their island, or have no area in the map.")
+      .def_property_readonly(
+          "overlapping", [](const py::object& self) { return view(self.cast<const MapReport&>().overlapping, self); },
+          "(k,) int32: islands that cover a part of the plane twice, or have a flipped triangle.")
+      .def("__repr__", [](const MapReport& report) {
+        return "<MapReport: " + std::to_string(report.flipped.size()) + " flipped triangles, " +
+               std::to_string(report.overlapping.size()) + " overlapping islands>";
+      });
+}
+
+void bind_flatten_function(py::module_& module) {
+  module.def(
+      "flatten",
+      [](const py::object& points, const py::object& triangles, const py::object& cuts, const py::object& start,
+         bool keep_apart, const py::object& progress) {
+        auto own_points = points_from(points, "points");
+        auto own_triangles = triangles_from(triangles, "triangles");
+        const std::vector<Edge> own_cuts = edges_from(cuts, "cuts");
+        FlattenOptions options{.start = {}, .keep_apart = keep_apart};
+        if (!start.is_none()) options.start = corner_uvs_from(start, "start");
+        return Watch(progress).run([&](const Task& task) {
+          return flattened(std::move(own_points), std::move(own_triangles), own_cuts, options, task);
+        });
+      },
+      py::arg("points"), py::arg("triangles"), py::arg("cuts") = py::tuple(), py::kw_only(),
+      py::arg("start") = py::none(), py::arg("keep_apart") = true, py::arg("progress") = py::none(),
+      R"(Map each island of a surface to the plane.
+
+No triangle is flipped, and the symmetric Dirichlet energy is minimized (Smith and Schaefer, "Bijective Parameterization
+with Free Boundaries", 2015). Islands are the segments of `face_segments`, but the surface is cut open along edges with
+three or more triangles, too. Parts that only such edges join are islands of their own, numbered after all segments. An
+island without a boundary or with handles is opened along short paths of edges.
+
+Parameters
+----------
+points : (n, 3) array_like of float
+    Finite coordinates.
+triangles : (m, 3) array_like of int
+    Vertex numbers.
+cuts : (k, 2) array_like of int
+    Vertex pairs: the edges that are seams. Pairs that are no edges cut nothing.
+start : (m, 3, 2) array_like of float, optional
+    A former map. Islands start from it if it is continuous there and flips no triangle.
+keep_apart : bool
+    Whether an island that overlaps itself is solved again with a barrier along its outline.
+progress : callable, optional
+    Called now and then with the fraction done; returning False cancels.
+
+Returns
+-------
+Flattening
+
+Raises
+------
+ValueError
+    If an array has the wrong shape or type, a number is not finite, a vertex is out of range, or there is no edge; and
+    for an island that cannot be mapped however it is opened.
+Cancelled
+)");
+}
+
+void bind_measure_map(py::module_& module) {
+  module.def(
+      "measure_map",
+      [](const py::object& points, const py::object& triangles, const py::object& uvs, const py::object& islands) {
+        auto own_points = points_from(points, "points");
+        auto own_triangles = triangles_from(triangles, "triangles");
+        const CornerUvs own_uvs = corner_uvs_from(uvs, "uvs");
+        const auto numbers = islands.is_none() ? std::vector<std::int32_t>{} : numbers_from(islands, "islands");
+        return Watch(py::none()).run([&](const Task& task) {
+          const Surface surface(std::move(own_points), std::move(own_triangles), std::nullopt, task);
+          return make_held<MapReport>(measure_map(surface, own_uvs, numbers, task));
+        });
+      },
+      py::arg("points"), py::arg("triangles"), py::arg("uvs"), py::arg("islands") = py::none(),
+      R"(Measure any UV map of a surface.
+
+Parameters
+----------
+points : (n, 3) array_like of float
+    Finite coordinates.
+triangles : (m, 3) array_like of int
+    Vertex numbers.
+uvs : (m, 3, 2) array_like of float
+    The UVs of each triangle's corners.
+islands : (m,) array_like of int, optional
+    The island of each triangle, numbered from 0. By default, triangles that agree on the UVs of an edge are in one
+    island.
+
+Returns
+-------
+MapReport
+
+Raises
+------
+ValueError
+    If an array has the wrong shape or type, a number is not finite, or a vertex or an island is out of range.
+)");
+}
+
+}  // namespace
+
+void bind_flatten(py::module_& module) {
+  bind_flattening(module);
+  bind_map_report(module);
+  bind_flatten_function(module);
+  bind_measure_map(module);
+}
+
+}  // namespace seamwire::python

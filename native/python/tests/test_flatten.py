@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""UV maps from `flatten`, and what `measure_map` says of any map."""
+
+from __future__ import annotations
+
+import meshes
+import numpy as np
+import pytest
+import seamwire_core as sw
+
+
+def test_a_square_stays_itself() -> None:
+    points, triangles = meshes.grid(6)
+    flat = sw.flatten(points, triangles)
+    assert flat.uvs.shape == (72, 3, 2)
+    assert flat.uvs.dtype == np.float64
+    assert not flat.uvs.flags.writeable
+    assert flat.energy == pytest.approx(4, abs=1e-6)
+    assert flat.island_energies == pytest.approx([4], abs=1e-6)
+    assert flat.island_areas == pytest.approx([1])
+    assert (len(flat.overlapping), flat.opened.tolist()) == (0, [0])
+    sides = np.linalg.norm(flat.uvs - np.roll(flat.uvs, 1, axis=1), axis=2)
+    corners = points[triangles]
+    np.testing.assert_allclose(sides, np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2), rtol=1e-3)
+
+
+def test_islands_are_those_of_face_segments() -> None:
+    points, triangles = meshes.torus(16, 8)
+    cuts = [(16 * v + u, 16 * ((v + 1) % 8) + u) for u in (0, 3) for v in range(8)]
+    flat = sw.flatten(points, triangles, cuts)
+    np.testing.assert_array_equal(flat.islands, sw.face_segments(sw.Surface(points, triangles), cuts))
+    assert flat.islands.dtype == np.int32
+    assert len(flat.island_areas) == len(flat.island_energies) == len(flat.opened) == 2
+    report = sw.measure_map(points, triangles, flat.uvs, flat.islands)
+    assert report.energy == pytest.approx(flat.energy)
+    assert len(report.flipped) == len(report.overlapping) == 0
+    assert report.energies.shape == (256,)
+    assert repr(flat) == "<Flattening: 256 triangles, 2 islands>"
+    assert repr(report) == "<MapReport: 0 flipped triangles, 0 overlapping islands>"
+
+
+def test_handles_are_opened() -> None:
+    flat = sw.flatten(*meshes.torus(16, 8))
+    assert flat.opened[0] > 20
+
+
+def test_a_barrier_can_be_left_out() -> None:
+    angle = np.linspace(0, 3 * np.pi, 60)
+    rows = [np.stack([r * np.cos(angle), r * np.sin(angle), 0.1 * angle], 1) for r in (0.5, 1.0)]
+    points = np.concatenate(rows)
+    i = np.arange(59)
+    triangles = np.concatenate([np.stack([i, i + 60, i + 61], 1), np.stack([i, i + 61, i + 1], 1)])
+    assert sw.flatten(points, triangles, keep_apart=False).overlapping.tolist() == [0]
+    assert sw.flatten(points, triangles).overlapping.tolist() == []
+
+
+def test_a_start_is_continued() -> None:
+    points, triangles = meshes.torus(16, 8)
+    first = sw.flatten(points, triangles)
+    second = sw.flatten(points, triangles, start=first.uvs)
+    np.testing.assert_allclose(second.uvs, first.uvs, atol=1e-3)
+    np.testing.assert_array_equal(second.opened, first.opened)
+
+
+def test_measures_maps_that_others_made() -> None:
+    points, triangles = meshes.grid(4)
+    uvs = points[triangles][:, :, :2].copy()
+    uvs[3] = uvs[3, ::-1]
+    report = sw.measure_map(points, triangles, uvs, np.zeros(len(triangles), np.int64))
+    assert report.flipped.tolist() == [3]
+    assert report.overlapping.tolist() == [0]
+    assert report.energies[3] == np.inf
+    assert np.delete(report.energies, 3) == pytest.approx(4)
+    assert sw.measure_map(points, triangles, 5 * points[triangles][:, :, :2]).energy == pytest.approx(4)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"start": np.zeros((3, 3))}, "start: expected real numbers of shape"),
+        ({"start": np.zeros((3, 3, 2))}, "start has 3 items: there are 8 triangles"),
+        ({"start": np.full((8, 3, 2), np.nan)}, "not finite"),
+        ({"start": "no"}, "start: expected real numbers"),
+        ({"cuts": [(0, 99)]}, "cuts: vertex 99 is out of range"),
+        ({"cuts": [0, 1]}, "cuts: expected"),
+        ({"points": [(0, 0)]}, "points: expected"),
+        ({"triangles": [(0, 1, 99)]}, "triangle 0: vertex 99"),
+        ({"progress": 3}, "progress: expected a function"),
+    ],
+)
+def test_wrong_input_of_flatten(change: dict, message: str) -> None:
+    points, triangles = meshes.grid(2)
+    with pytest.raises(ValueError, match=message):
+        sw.flatten(**{"points": points, "triangles": triangles, **change})
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"uvs": np.zeros((8, 3))}, "uvs: expected real numbers of shape"),
+        ({"uvs": np.zeros((7, 3, 2))}, "uvs has 7 items"),
+        ({"uvs": np.full((8, 3, 2), np.inf)}, "triangle 0 has a UV that is not finite"),
+        ({"islands": [0]}, "islands has 1 items"),
+        ({"islands": [-1] * 8}, "islands: number -1 is out of range"),
+    ],
+)
+def test_wrong_input_of_measure_map(change: dict, message: str) -> None:
+    points, triangles = meshes.grid(2)
+    with pytest.raises(ValueError, match=message):
+        sw.measure_map(**{"points": points, "triangles": triangles, "uvs": points[triangles][:, :, :2], **change})

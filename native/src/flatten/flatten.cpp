@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "seamwire/flatten/flatten.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "detail/half_edge.hpp"
+#include "detail/index.hpp"
+#include "detail/run_on_threads.hpp"
+#include "flatten/cut_open.hpp"
+#include "flatten/island_map.hpp"
+#include "flatten/open_island.hpp"
+#include "seamwire/surface/segments.hpp"
+#include "surface/cuts.hpp"
+
+namespace seamwire {
+namespace {
+
+/// How often an island is opened further because double precision cannot hold its embedding.
+constexpr int kMostOpenings = 32;
+
+/// An island of the half-edge mesh, its map, and which of the caller's corners its own corners are.
+struct MappedIsland {
+  OpenedIsland opened;  ///< its faces are those of the half-edge mesh
+  IslandMap map;
+};
+
+/// The caller's corner of each corner of the half-edge mesh: a triangle that was turned over has two of them swapped.
+std::size_t caller_corner(const Surface& surface, std::int32_t face, std::size_t i) {
+  const Triangle& given = surface.triangles()[index(surface.face_of_half_edge_face()[face])];
+  const bool is_turned = surface.vertex_of_fan()[surface.face_fans()[face][1]] != given[1];
+  return is_turned && i > 0 ? 3 - i : i;
+}
+
+class Flattener {
+ public:
+  Flattener(const Surface& surface, const FlattenOptions& options) : surface_(surface), options_(options) {
+    if (options.start.empty()) return;
+    if (options.start.size() != surface.face_count()) {
+      throw InvalidInput("start has " + std::to_string(options.start.size()) + " items: there are " +
+                         std::to_string(surface.face_count()) + " triangles");
+    }
+    for (std::size_t f = 0; f < options.start.size(); ++f) {
+      if (std::ranges::all_of(options.start[f], [](const auto& uv) { return uv.allFinite(); })) continue;
+      throw InvalidInput("start: triangle " + std::to_string(f) + " has a UV that is not finite");
+    }
+  }
+
+  MappedIsland map(const Island& island, const Task& task) const {
+    const MapOptions options{
+        .max_steps = options_.max_steps, .tolerance = options_.tolerance, .keep_apart = options_.keep_apart};
+    std::optional<MappedIsland> started = continued(island, options, task);
+    const auto is_finished = [&](const IslandMap& map) {
+      return map.steps < options.max_steps && !(map.overlaps && options.keep_apart);
+    };
+    if (started && is_finished(started->map)) return std::move(*started);
+    MappedIsland result = from_tutte(island, options, task);
+    const auto rank = [](const IslandMap& map) { return std::pair(map.overlaps, map.energy); };
+    return started && rank(started->map) < rank(result.map) ? std::move(*started) : std::move(result);
+  }
+
+  std::int32_t caller_face(const Island& island, std::size_t f) const {
+    return surface_.face_of_half_edge_face()[island.faces[f]];
+  }
+
+ private:
+  const Eigen::Vector2d& start_of(const Island& island, std::int32_t h) const {
+    const std::int32_t face = island.faces[h / 3];
+    return options_.start[index(caller_face(island, index(h / 3)))][caller_corner(surface_, face, index(h % 3))];
+  }
+
+  /// The island is opened further until double precision can hold the embedding.
+  MappedIsland from_tutte(const Island& island, const MapOptions& options, const Task& task) const {
+    MappedIsland result{.opened = open_to_plane(island, surface_.points(), task), .map = {}};
+    for (int opening = 0;; ++opening) {
+      result.map = map_island(result.opened.island, surface_.points(), options, task);
+      if (!result.map.uvs.empty()) return result;
+      if (opening == kMostOpenings) {
+        throw InvalidInput("the island with triangle " + std::to_string(caller_face(island, 0)) +
+                           " cannot be flattened in double precision; cut it further");
+      }
+      OpenedIsland further = open_to_farthest(result.opened.island, surface_.points(), task);
+      further.opened += result.opened.opened;
+      result.opened = std::move(further);
+    }
+  }
+
+  /// The island's map from the start; nullopt if it cannot start there.
+  std::optional<MappedIsland> continued(const Island& island, const MapOptions& options, const Task& task) const {
+    if (options_.start.empty()) return std::nullopt;
+    std::vector<std::uint8_t> is_cut(island.twins.size(), 0);
+    for (std::int32_t h = 0; index(h) < island.twins.size(); ++h) {
+      const std::int32_t twin = island.twins[h];
+      if (twin < h) continue;
+      const bool agrees = start_of(island, h) == start_of(island, next_in_face(twin)) &&
+                          start_of(island, next_in_face(h)) == start_of(island, twin);
+      if (!agrees) is_cut[h] = is_cut[twin] = 1;
+    }
+    MappedIsland result{.opened = open_along(island, is_cut), .map = {}};
+    const Island& own = result.opened.island;
+    if (own.triangles.empty() || (result.opened.opened > 0 && is_planar(island)) || !is_planar(own))
+      return std::nullopt;
+    std::vector<Point2> uvs(own.vertices.size());
+    for (std::int32_t h = 0; index(h) < own.twins.size(); ++h) uvs[own.triangles[h / 3][h % 3]] = start_of(own, h);
+    for (const auto& [a, b, c] : own.triangles) {
+      const Point2 ab = uvs[b] - uvs[a], ac = uvs[c] - uvs[a];
+      if (!(ab.x() * ac.y() - ab.y() * ac.x() > 0.0)) return std::nullopt;
+    }
+    result.map = continue_map(own, surface_.points(), uvs, options, task);
+    return result;
+  }
+
+  const Surface& surface_;
+  const FlattenOptions& options_;
+};
+
+/// The islands of the half-edge mesh, with vertices of the caller's.
+std::vector<Island> islands_of(const Surface& surface, std::span<const Edge> cut_edges) {
+  const Cuts cuts(surface, cut_edges, "cuts");
+  std::vector<std::uint8_t> is_cut(surface.twins().size(), 0);
+  for (std::int32_t h = 0; index(h) < is_cut.size(); ++h) {
+    const Triangle& fans = surface.face_fans()[h / 3];
+    is_cut[h] = cuts.contains(surface.vertex_of_fan()[fans[h % 3]], surface.vertex_of_fan()[fans[(h + 1) % 3]]) ? 1 : 0;
+  }
+  std::vector<Island> islands = cut_open(surface.face_fans(), surface.twins(), is_cut);
+  for (Island& island : islands) {
+    for (std::int32_t& v : island.vertices) v = surface.vertex_of_fan()[v];
+  }
+  return islands;
+}
+
+/// Numbers islands as face_segments() does: the first part of a segment has its number, further parts come after all.
+std::vector<std::int32_t> number_islands(const Surface& surface, const std::vector<Island>& islands,
+                                         std::vector<std::int32_t>& labels) {
+  std::int32_t count = labels.empty() ? 0 : std::ranges::max(labels) + 1;
+  std::vector<std::uint8_t> is_taken(index(count), 0);
+  std::vector<std::int32_t> numbers;
+  for (const Island& island : islands) {
+    const std::int32_t label = labels[surface.face_of_half_edge_face()[island.faces.front()]];
+    const bool is_first = std::exchange(is_taken[label], std::uint8_t{1}) == 0;
+    numbers.push_back(is_first ? label : count++);
+  }
+  for (std::size_t i = 0; i < islands.size(); ++i) {
+    for (const std::int32_t f : islands[i].faces) labels[surface.face_of_half_edge_face()[f]] = numbers[i];
+  }
+  return numbers;
+}
+
+/// Maps all islands, those with the most triangles first.
+std::vector<MappedIsland> map_all(const Surface& surface, const std::vector<Island>& islands,
+                                  const FlattenOptions& options, const Task& task) {
+  const Flattener flattener(surface, options);
+  std::vector<MappedIsland> mapped(islands.size());
+  std::vector<std::atomic<double>> progress(islands.size());
+  std::vector<std::size_t> order(islands.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t i) { return islands[i].faces.size(); });
+  const auto fraction = [&](std::size_t) {
+    double done = 0.0, all = 0.0;
+    for (std::size_t i = 0; i < islands.size(); ++i) {
+      const auto size = static_cast<double>(islands[i].faces.size());
+      done += size * progress[i];
+      all += size;
+    }
+    return all > 0.0 ? 0.9 * done / all : 0.0;
+  };
+  run_on_threads(islands.size(), task, fraction, [&](std::size_t k, const Task& own) {
+    const std::size_t i = order[k];
+    const auto report = [&](double done) {
+      if (done > progress[i]) progress[i] = done;
+      return true;
+    };
+    mapped[i] = flattener.map(islands[i], {.stop = own.stop, .progress = report});
+    progress[i] = 1.0;
+  });
+  return mapped;
+}
+
+FlatIsland describe(const Surface& surface, const MappedIsland& mapped) {
+  const Island& island = mapped.opened.island;
+  FlatIsland flat{.energy = mapped.map.energy,
+                  .steps = mapped.map.steps,
+                  .overlaps = mapped.map.overlaps,
+                  .opened = mapped.opened.opened};
+  const std::vector<double> energies = triangle_energies(island, surface.points(), mapped.map.uvs);
+  const auto worst = static_cast<std::size_t>(std::ranges::max_element(energies) - energies.begin());
+  flat.worst = surface.face_of_half_edge_face()[island.faces[worst]];
+  for (const Triangle& t : island.triangles) {
+    const auto corner = [&](std::size_t i) -> const Vector& { return surface.points()[index(island.vertices[t[i]])]; };
+    flat.area += 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).stableNorm();
+  }
+  return flat;
+}
+
+/// UVs for the corners of triangles that the surface left out.
+void fill_left_out(const Surface& surface, Flattening& result) {
+  std::vector<std::int32_t> left_out = surface.report().degenerate_faces;
+  left_out.insert(left_out.end(), surface.report().duplicate_faces.begin(), surface.report().duplicate_faces.end());
+  if (left_out.empty()) return;
+  std::map<std::pair<std::int32_t, std::int32_t>, Eigen::Vector2d> wanted;  // by island and vertex
+  for (const std::int32_t f : left_out) {
+    for (const std::int32_t v : surface.triangles()[f]) wanted.emplace(std::pair(result.islands[f], v), Point2::Zero());
+  }
+  std::vector<Eigen::Vector2d> center(result.by_island.size(), Point2::Zero());
+  std::vector<double> corners(result.by_island.size(), 0.0);
+  for (const std::int32_t f : surface.face_of_half_edge_face()) {
+    const std::int32_t island = result.islands[f];
+    for (const Eigen::Vector2d& uv : result.uvs[f]) {
+      corners[island] += 1.0;
+      center[island] += (uv - center[island]) / corners[island];
+    }
+  }
+  for (auto& [key, uv] : wanted) uv = center[key.first];
+  for (const std::int32_t f : surface.face_of_half_edge_face()) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto found = wanted.find({result.islands[f], surface.triangles()[f][i]});
+      if (found != wanted.end()) found->second = result.uvs[f][i];
+    }
+  }
+  for (const std::int32_t f : left_out) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      result.uvs[f][i] = wanted.at({result.islands[f], surface.triangles()[f][i]});
+    }
+  }
+}
+
+}  // namespace
+
+Flattening flatten(const Surface& surface, std::span<const Edge> cuts, const FlattenOptions& options,
+                   const Task& task) {
+  task.check(0.0);
+  const std::vector<Island> islands = islands_of(surface, cuts);
+  Flattening result;
+  result.islands = face_segments(surface, cuts);
+  const std::vector<std::int32_t> numbers = number_islands(surface, islands, result.islands);
+  const std::vector<MappedIsland> mapped = map_all(surface, islands, options, task);
+  result.uvs.assign(surface.face_count(), {Point2::Zero(), Point2::Zero(), Point2::Zero()});
+  result.by_island.resize(result.islands.empty() ? 0 : index(std::ranges::max(result.islands) + 1));
+  for (std::size_t i = 0; i < islands.size(); ++i) {
+    const Island& island = mapped[i].opened.island;
+    for (std::size_t f = 0; f < island.faces.size(); ++f) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        result
+            .uvs[index(surface.face_of_half_edge_face()[island.faces[f]])][caller_corner(surface, island.faces[f], k)] =
+            mapped[i].map.uvs[island.triangles[f][k]];
+      }
+    }
+    result.by_island[numbers[i]] = describe(surface, mapped[i]);
+  }
+  fill_left_out(surface, result);
+  task.check(0.95);
+  result.energy = measure_map(surface, result.uvs, result.islands, {.stop = task.stop, .progress = {}}).energy;
+  return result;
+}
+
+}  // namespace seamwire

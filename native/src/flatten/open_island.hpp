@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "flatten/cut_open.hpp"
+#include "seamwire/surface/vector.hpp"
+#include "seamwire/task.hpp"
+
+namespace seamwire {
+
+/// Whether an island can be mapped to the plane: a disc, or a disc with holes, with a boundary loop of three or more
+/// edges. Without such a loop no map without flips exists.
+bool is_planar(const Island& island);
+
+/// An island that was cut further but is still in one piece.
+struct OpenedIsland {
+  Island island;           ///< with the mesh vertices and faces of the island it was made from
+  std::size_t opened = 0;  ///< edges of it that were cut
+};
+
+/// Opens an island until is_planar() holds. A closed ball is cut along a shortest path between two vertices far from
+/// each other. Handles are cut along a greedy system of paths (Erickson and Whittlesey 2005) from one vertex, or from
+/// the boundary if there is one. `points`: of mesh vertices. Throws InvalidInput if nothing can be cut; Cancelled.
+OpenedIsland open_to_plane(const Island& island, std::span<const Vector> points, const Task& task);
+
+/// Cuts a planar island along a shortest path from its boundary to the vertex farthest from it. Throws InvalidInput if
+/// all vertices are on the boundary; Cancelled.
+OpenedIsland open_to_farthest(const Island& island, std::span<const Vector> points, const Task& task);
+
+/// Cuts an island along some of its half-edges. Returns no triangles if it falls apart.
+OpenedIsland open_along(const Island& island, const std::vector<std::uint8_t>& is_cut);
+
+}  // namespace seamwire

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "seamwire/surface/types.hpp"
+
+namespace seamwire {
+
+/// The boundary loops of an island in a map: where they cross each other or themselves, and a barrier that keeps them
+/// apart (Smith and Schaefer 2015). Maps are arrays of two numbers for each own vertex.
+class Outline {
+ public:
+  /// `reach`: the distance at which the barrier begins, in the unit of maps.
+  Outline(const std::vector<std::vector<std::int32_t>>& boundaries, double reach);
+  /// Of edges between any vertices, without a barrier.
+  explicit Outline(std::vector<Edge> edges) : edges_(std::move(edges)), reach_(0.0) {}
+
+  /// Whether two edges of the outline cross. Edges that only touch, in points or along their length, do not cross; nor
+  /// do edges of which an end is closer than `tolerance` to the line through the other one. A disc without flips whose
+  /// outline does not cross overlaps nowhere.
+  bool crosses_itself(std::span<const double> map, double tolerance = 0.0) const;
+
+  /// A vertex of the outline that is close to one of its edges: three own vertices.
+  struct Pair {
+    std::int32_t vertex, a, b;
+  };
+  /// The pairs that are closer than `factor` times the reach.
+  std::vector<Pair> close_pairs(std::span<const double> map, double factor) const;
+
+  /// The barrier: the sum of (reach / distance - 1)^2 over all close pairs, times .001; infinite if a pair touches.
+  double energy(std::span<const double> map) const;
+  /// The barrier's gradient for the three vertices of a pair, and the factor c of its Hessian, approximated by
+  /// c g g^T with the gradient g of the distance.
+  struct Slope {
+    std::array<double, 6> of_distance;  // of the vertex, a, b
+    double first, second;               // derivatives of the energy with respect to the distance; second >= 0
+  };
+  Slope slope(const Pair& pair, std::span<const double> map) const;
+
+  /// The least step in (0, most] along a direction at which a vertex meets an edge; `most` if there is none.
+  double first_contact(std::span<const double> map, std::span<const double> direction, double most) const;
+
+ private:
+  std::vector<Edge> edges_;  // own vertices, in the direction of the loops
+  double reach_;
+};
+
+}  // namespace seamwire

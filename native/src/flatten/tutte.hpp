@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "flatten/block_cholesky.hpp"
+#include "flatten/cut_open.hpp"
+#include "seamwire/surface/vector.hpp"
+#include "seamwire/task.hpp"
+
+namespace seamwire {
+
+/// The edges of an island between different own vertices, each once.
+std::vector<Edge> island_edges(const Island& island);
+
+/// The circle that an island is put on.
+struct TutteCircle {
+  std::size_t outer = 0;  ///< the boundary loop that becomes the circle
+  double area = 1.0;
+};
+
+/// Tutte's embedding (1963, "How to draw a graph"). A boundary loop lies on a circle around the origin, with its
+/// vertices spaced as its edges are long. Every other vertex is at the weighted mean of its neighbors. Other loops are
+/// filled with a virtual vertex each. Weights are cotangents (Pinkall and Polthier 1993) clamped to [.1, 10]. If
+/// rounding spoils the result, all weights are equal instead. Returns two numbers for each own vertex. Returns nothing
+/// if a triangle is not counter-clockwise, because double precision cannot hold the embedding.
+///
+/// `points`: of own vertices. `boundaries`: Island::boundaries(). `solver`: of the graph of island_edges(); its values
+/// are overwritten. Throws Cancelled.
+std::vector<double> tutte_embedding(const Island& island, std::span<const Vector> points,
+                                    const std::vector<std::vector<std::int32_t>>& boundaries, const TutteCircle& circle,
+                                    BlockCholesky& solver, const Task& task);
+
+}  // namespace seamwire

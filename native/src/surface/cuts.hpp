@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "detail/index.hpp"
+#include "seamwire/surface/surface.hpp"
+
+namespace seamwire {
+
+inline Edge ascending(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// The real edges along which a surface is cut. Answers quickly for edges between vertices that no cut touches, which
+/// are nearly all.
+class Cuts {
+ public:
+  /// Throws InvalidInput for a vertex out of range, under the name of `what`.
+  Cuts(const Surface& surface, std::span<const Edge> edges, const std::string& what)
+      : touched_(surface.vertex_count(), 0) {
+    for (const auto& [a, b] : edges) {
+      for (const std::int32_t v : {a, b}) {
+        check_index(v, surface.vertex_count(), what + ": vertex");
+      }
+      if (!std::binary_search(surface.edges().begin(), surface.edges().end(), ascending(a, b))) continue;
+      edges_.push_back(ascending(a, b));
+      touched_[a] = touched_[b] = 1;
+    }
+    std::sort(edges_.begin(), edges_.end());
+  }
+  bool contains(std::int32_t a, std::int32_t b) const {
+    return touched_[a] != 0 && touched_[b] != 0 && std::binary_search(edges_.begin(), edges_.end(), ascending(a, b));
+  }
+
+ private:
+  std::vector<std::uint8_t> touched_;
+  std::vector<Edge> edges_;
+};
+
+}  // namespace seamwire
