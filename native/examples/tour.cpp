@@ -16,12 +16,15 @@
 #include "seamwire/edges/edge_wires.hpp"
 #include "seamwire/edges/shortest_cycle.hpp"
 #include "seamwire/embedding/embedding.hpp"
+#include "seamwire/flatten/flatten.hpp"
+#include "seamwire/flatten/measure_map.hpp"
 #include "seamwire/geodesics/corridor_paths.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/live/livewire.hpp"
 #include "seamwire/metric/curvature.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/metric/scribble.hpp"
+#include "seamwire/seams/seam_planner.hpp"
 #include "seamwire/surface/ray_tree.hpp"
 #include "seamwire/surface/segments.hpp"
 #include "seamwire/surface/surface.hpp"
@@ -148,6 +151,25 @@ int main() {
   const std::vector<std::int32_t> segments = face_segments(*surface, surface->edges());
   say("segments, were every edge a seam", static_cast<double>(1 + *std::ranges::max_element(segments)));
   //! [islands]
+
+  //! [flatten]
+  std::vector<Edge> cuts;
+  for (std::int32_t j = 0; j < kTube; ++j) cuts.push_back({j, (j + 1) % kTube});  // around the tube
+  for (std::int32_t i = 0; i < kAround; ++i) cuts.push_back({kTube * i, kTube * ((i + 1) % kAround)});  // and the axis
+  const Flattening flat = flatten(*surface, cuts);
+  say("energy of a UV map, 4 for an isometry", flat.energy);
+  const MapReport report = measure_map(*surface, flat.uvs, flat.islands);
+  say("flipped triangles", static_cast<double>(report.flipped.size()));
+  //! [flatten]
+
+  //! [seams]
+  SeamPlannerOptions hidden{.along = Along::kEdges};
+  hidden.front = Vector(0.0, 0.0, 1.0);  // towards the viewer
+  const SeamPlanner planner(surface, hidden);
+  const SeamPlan plan = planner.plan({.distortion = 4.2});  // the bound on the symmetric Dirichlet energy
+  say("wires of a plan", static_cast<double>(plan.wires.size()));
+  say("energy of its UV map", plan.energy);
+  //! [seams]
 
   //! [rays]
   const RayTree rays(points, triangles);

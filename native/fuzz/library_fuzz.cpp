@@ -23,6 +23,8 @@
 #include "seamwire/edges/shortest_cycle.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/errors.hpp"
+#include "seamwire/flatten/flatten.hpp"
+#include "seamwire/flatten/measure_map.hpp"
 #include "seamwire/geodesics/corridor_paths.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/metric/crest_lines.hpp"
@@ -334,28 +336,57 @@ void check_edge_wires(Bytes& from, const Patience& patience, const Surface& surf
 void check_plan(Bytes& from, const Patience& patience, const Surface& surface) {
   SeamPlannerOptions options{.along = from.coin() ? Along::kSurface : Along::kEdges};
   options.strength = {.max_anisotropy = 1.0 + static_cast<double>(from.byte()) / 8.0};
-  options.seeds = 1 + static_cast<std::size_t>(from.below(6));
-  options.most_seeds = options.seeds + static_cast<std::size_t>(from.below(12));
+  options.mirror = from.below(4) - 1;
+  if (from.coin()) options.front = Vector(1.0 + std::abs(from.number()), 0.5, 0.25);
   if (from.coin()) {
     for (std::size_t v = 0; v < surface.vertex_count(); ++v) {
-      options.images.push_back(from.below(surface.vertex_count() + 1) - 1);
+      options.weights.push_back(from.below(6) == 0 ? std::numeric_limits<double>::infinity() : 1.0);
     }
   }
   for (std::int32_t left = from.below(4); left > 0; --left) {
     options.seams.push_back({from.below(surface.vertex_count()), from.below(surface.vertex_count())});
   }
   const SeamPlanner planner(std::make_shared<const Surface>(surface), options, patience.task());
-  SeamLimits limits;
-  limits.max_spread = std::abs(from.number());
-  limits.islands = static_cast<std::size_t>(from.below(6));
-  limits.may_start_on_others = from.coin();
-  limits.are_straightened = from.coin();
-  const SeamPlan plan = planner.plan(limits, {}, patience.task());
+  SeamGoal goal;
+  const double bound = 4.0 + 0.01 * (1.0 + static_cast<double>(from.byte()));
+  goal.distortion = from.coin() ? bound : std::numeric_limits<double>::infinity();
+  goal.islands = static_cast<std::size_t>(from.below(6));
+  goal.parts = from.coin();
+  goal.steps = 1 + static_cast<std::size_t>(from.below(60));
+  const SeamPlan plan = planner.plan(goal, {}, patience.task());
+  require(plan.uvs.size() == surface.face_count(), "each face has UVs");
+  for (const auto& corners : plan.uvs) {
+    require(std::ranges::all_of(corners, [](const Eigen::Vector2d& uv) { return uv.allFinite(); }), "UVs are finite");
+  }
+  require(plan.cost >= 0.0 && plan.energy >= 4.0 - 1e-6, "a plan has a cost and an energy");
   require(plan.islands.size() == surface.face_count(), "each face is in an island");
   for (const PlannedWire& wire : plan.wires) {
     check_chain(surface, wire.vertices);
     require(wire.vertices.front() == wire.from && wire.vertices.back() == wire.to, "a wire runs from seed to seed");
   }
+}
+
+void check_map(Bytes& from, const Patience& patience, const Surface& surface) {
+  std::vector<Edge> cuts;
+  for (const Edge& edge : surface.edges()) {
+    if (from.below(4) == 0) cuts.push_back(edge);
+  }
+  FlattenOptions options;
+  options.keep_apart = from.coin();
+  options.max_steps = static_cast<std::size_t>(from.below(40));
+  Flattening flat = flatten(surface, cuts, options, patience.task());
+  const auto check_sound = [&] {
+    require(flat.uvs.size() == surface.face_count(), "each face has UVs");
+    for (const auto& corners : flat.uvs) {
+      for (const Eigen::Vector2d& uv : corners) require(uv.allFinite(), "UVs are finite");
+    }
+    const MapReport report = measure_map(surface, flat.uvs, flat.islands);
+    require(report.flipped.empty(), "no triangle is flipped");
+  };
+  check_sound();
+  options.start = flat.uvs;
+  flat = flatten(surface, cuts, options, patience.task());
+  check_sound();
 }
 
 void check_rays(Bytes& from, const Mesh& mesh) {
@@ -393,6 +424,7 @@ void check(Bytes& from) {
   metric = apply_scribbles(surface, metric, scribbles);
   check_edge_wires(from, patience, surface, metric, scribbles);
   check_wires(from, patience, surface, metric);
+  if (from.coin()) check_map(from, patience, surface);
   if (from.coin()) check_plan(from, patience, surface);
 }
 

@@ -1019,6 +1019,7 @@ stop and raise SystemExit. Arrays that a result hands out are read-only views of
   bind_live_wire(module);
   bind_rays(module);
   bind_faces(module);
+  bind_flatten(module);
   bind_seams(module);
   bind_views(module);
 }

@@ -171,6 +171,8 @@ void bind_scribble(py::module_& module);
 void bind_live_wire(py::module_& module);
 /// Adds face_segments, missing_cuts and cut_polygons.
 void bind_faces(py::module_& module);
+/// Adds flatten, measure_map and their results.
+void bind_flatten(py::module_& module);
 /// Adds RayTree.
 void bind_rays(py::module_& module);
 /// Adds SeamPlanner and its plans.

@@ -436,6 +436,40 @@ def face_segments(surface: Surface, cut_edges: ArrayLike) -> NDArray[np.int32]:
 def missing_cuts(surface: Surface, cut_edges: ArrayLike, segments: ArrayLike) -> NDArray[np.int32]:
     """Return how many more cuts each segment needs to become a disc."""
 
+class Flattening:
+    """A UV map of a surface: `uvs`, (m, 3, 2), in the points' unit, and the island of each triangle, (m,)."""
+
+    uvs: NDArray[np.float64]
+    islands: NDArray[np.int32]
+    energy: float  # as in MapReport
+    island_energies: NDArray[np.float64]  # symmetric Dirichlet energy of each island, 4 for an isometry
+    island_areas: NDArray[np.float64]
+    overlapping: NDArray[np.int32]  # islands
+    opened: NDArray[np.int32]  # edges opened in addition to the cuts, for each island
+    steps: NDArray[np.int32]  # Newton steps, for each island
+
+class MapReport:
+    """What a UV map does to a surface."""
+
+    energy: float  # symmetric Dirichlet energy at the best uniform scale, 4 for an isometry
+    energies: NDArray[np.float64]  # of each triangle
+    flipped: NDArray[np.int32]  # triangles
+    overlapping: NDArray[np.int32]  # islands
+
+def flatten(
+    points: ArrayLike,
+    triangles: ArrayLike,
+    cuts: ArrayLike = (),
+    *,
+    start: ArrayLike | None = None,
+    keep_apart: bool = True,
+    progress: Progress | None = None,
+) -> Flattening:
+    """Map each island of a surface to the plane, without flips and with as little stretch as possible."""
+
+def measure_map(points: ArrayLike, triangles: ArrayLike, uvs: ArrayLike, islands: ArrayLike | None = None) -> MapReport:
+    """Measure the stretch of any UV map, its flipped triangles and its overlapping islands."""
+
 class PlannedWire:
     """One wire of a plan: the vertices between which it runs, its metric, the edges that it marks, and its curve, (p, 3)."""
 
@@ -452,9 +486,13 @@ class SeamPlan:
     island_count: int
     not_discs: int
     cost: float
+    energy: float
+    is_reached: bool
+    steps: float
+    uvs: NDArray[np.float64] | None
 
 class SeamPlanner:
-    """Plans a network of wires that cuts a surface into discs."""
+    """Plans few, short, and hidden seams whose map stays within a bound on distortion."""
 
     def __init__(
         self,
@@ -463,50 +501,21 @@ class SeamPlanner:
         along: Literal["surface", "edges"] = "surface",
         max_anisotropy: float = 20.0,
         clamp_percentile: float = 99.0,
-        seeds_at: ArrayLike | None = None,
-        seeds: int = 24,
-        most_seeds: int = 120,
-        density: ArrayLike | None = None,
-        images: ArrayLike | None = None,
+        front: ArrayLike | None = None,
+        mirror: Literal[0, 1, 2] | None = None,
+        weights: ArrayLike | None = None,
         seams: ArrayLike | None = None,
         progress: Progress | None = None,
     ) -> None: ...
-    def with_seeds(
-        self,
-        *,
-        seeds_at: ArrayLike | None = None,
-        seeds: int = 24,
-        most_seeds: int = 120,
-        density: ArrayLike | None = None,
-        images: ArrayLike | None = None,
-        seams: ArrayLike | None = None,
-        progress: Progress | None = None,
-    ) -> SeamPlanner:
-        """Return one with other seeds on the same surface, in less time, for the metrics are there."""
-
     def plan(
         self,
         *,
-        max_spread: float | ArrayLike = 0.42,
+        distortion: float = 4.2,
         islands: int = 0,
-        crumb: float = 0.004,
-        crumb_of_island: float = 1.0,
-        kept: Sequence[PlannedWire] = [],
-        may_start_on_others: bool = True,
-        straightened: bool = True,
+        parts: bool = False,
+        steps: int = 0,
         progress: Progress | None = None,
     ) -> SeamPlan:
-        """Return the wires that are needed for islands within limits."""
+        """Plan seams."""
 
-    def straightened(
-        self,
-        wires: Sequence[PlannedWire],
-        *,
-        max_spread: float | ArrayLike = 0.42,
-        crumb: float = 0.004,
-        crumb_of_island: float = 1.0,
-        may_start_on_others: bool = True,
-        fixed: ArrayLike | None = None,
-        progress: Progress | None = None,
-    ) -> SeamPlan:
-        """Return the wires of a plan, straightened as the end of `plan` does it: islands stay as many and as good."""
+    best_so_far: SeamPlan | None

@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -239,6 +240,94 @@ inline QuadMesh quad_cube(int n) {
       for (int j = 0; j < n; ++j) {
         for (int i = 0; i < n; ++i) {
           mesh.quads.push_back({corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)});
+        }
+      }
+    }
+  }
+  return mesh;
+}
+
+/// A surface of revolution about the x axis: a pole at each end of `profile`, and a ring of n vertices at each other
+/// point (x, radius) of it. Mirrored in y or z, triangles become triangles if n is a multiple of four; in x, if the
+/// profile becomes itself.
+inline Mesh lathe(int n, const std::vector<std::array<double, 2>>& profile) {
+  Mesh mesh;
+  const int rings = static_cast<int>(profile.size()) - 2;
+  mesh.points.emplace_back(profile.front()[0], 0.0, 0.0);
+  for (int j = 0; j < rings; ++j) {
+    const auto [x, radius] = profile[static_cast<std::size_t>(j) + 1];
+    for (int i = 0; i < n; ++i) {
+      const double a = 2 * std::numbers::pi * i / n;
+      mesh.points.emplace_back(x, radius * std::cos(a), radius * std::sin(a));
+    }
+  }
+  mesh.points.emplace_back(profile.back()[0], 0.0, 0.0);
+  const auto at = [&](int i, int j) { return 1 + j * n + i % n; };
+  const int last = 1 + rings * n;
+  for (int i = 0; i < n; ++i) mesh.triangles.push_back({0, at(i + 1, 0), at(i, 0)});
+  for (int j = 0; j + 1 < rings; ++j) {
+    for (int i = 0; i < n; ++i) {
+      const int a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
+      const bool is_first_half = 2 * (j + 1) <= rings - 1, has_y = std::cos(2 * std::numbers::pi * (i + 0.5) / n) > 0.0;
+      const bool has_z = 2 * i < n;
+      if ((is_first_half != has_y) != has_z) {
+        mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {a, c, d}});
+      } else {
+        mesh.triangles.insert(mesh.triangles.end(), {{a, b, d}, {b, c, d}});
+      }
+    }
+  }
+  for (int i = 0; i < n; ++i) mesh.triangles.push_back({at(i, rings - 1), at(i + 1, rings - 1), last});
+  return mesh;
+}
+
+/// A large ball and two smaller ones at its sides, joined by necks; its own mirror image in x.
+inline Mesh dumbbell(int n, int rings) {
+  const auto ball = [](double x, double radius) { return std::sqrt(std::max(radius * radius - x * x, 0.0)); };
+  std::vector<std::array<double, 2>> profile;
+  for (int j = 0; j <= rings; ++j) {
+    const double x = -std::cos(std::numbers::pi * j / rings);
+    const double away = std::abs(x);
+    const double neck = away < 0.8 ? 0.08 : 0.0;
+    profile.push_back({x, std::max({ball(away, 0.45), ball(away - 0.78, 0.22), neck})});
+  }
+  return lathe(n, profile);
+}
+
+/// The surface of unit cubes in a plane, each side n x n quads. `rows`: which cubes of a plane are
+/// there, such as {"###", "#.#", "###"} for a torus.
+inline QuadMesh plate(const std::vector<std::string>& rows, int n) {
+  QuadMesh mesh;
+  std::map<std::array<int, 3>, std::int32_t> numbers;
+  const auto vertex = [&](const std::array<int, 3>& p) {
+    const auto [it, is_new] = numbers.try_emplace(p, static_cast<std::int32_t>(mesh.points.size()));
+    if (is_new) mesh.points.emplace_back(double(p[0]) / n, double(p[1]) / n, double(p[2]) / n);
+    return it->second;
+  };
+  const auto is_full = [&](int x, int y, int z) {
+    const int height = static_cast<int>(rows.size());
+    return z == 0 && y >= 0 && y < height && x >= 0 && x < static_cast<int>(rows[static_cast<std::size_t>(y)].size()) &&
+           rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] == '#';
+  };
+  for (int y = 0; y < static_cast<int>(rows.size()); ++y) {
+    for (int x = 0; x < static_cast<int>(rows[static_cast<std::size_t>(y)].size()); ++x) {
+      for (std::size_t axis = 0; is_full(x, y, 0) && axis < 3; ++axis) {
+        for (const int side : {0, 1}) {
+          std::array<int, 3> cube = {x, y, 0}, neighbor = cube;
+          neighbor[axis] += side == 1 ? 1 : -1;
+          if (is_full(neighbor[0], neighbor[1], neighbor[2])) continue;
+          const auto corner = [&](int i, int j) {
+            std::array<int, 3> p = {n * cube[0], n * cube[1], n * cube[2]};
+            p[axis] += side * n;
+            p[(axis + 1) % 3] += side == 0 ? j : i;
+            p[(axis + 2) % 3] += side == 0 ? i : j;
+            return vertex(p);
+          };
+          for (int j = 0; j < n; ++j) {
+            for (int i = 0; i < n; ++i) {
+              mesh.quads.push_back({corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)});
+            }
+          }
         }
       }
     }

@@ -57,6 +57,14 @@ def test_polygons_and_cuts(points: object, corners: object, sizes: object, cut: 
     taken_or_refused(lambda: sw.face_segments(SURFACE, cut))
 
 
+@given(points=anything, triangles=anything, cuts=anything, uvs=anything, islands=anything)
+def test_maps(points: object, triangles: object, cuts: object, uvs: object, islands: object) -> None:
+    taken_or_refused(lambda: sw.flatten(points, triangles, cuts))
+    taken_or_refused(lambda: sw.flatten(POINTS, TRIANGLES, cuts, start=uvs))
+    taken_or_refused(lambda: sw.measure_map(POINTS, TRIANGLES, uvs, islands))
+    taken_or_refused(lambda: sw.measure_map(POINTS, TRIANGLES, POINTS[TRIANGLES][:, :, :2], islands))
+
+
 @given(pick=anything, stops=anything, number=numbers)
 def test_picks(pick: object, stops: object, number: float) -> None:
     taken_or_refused(lambda: sw.distance_field(EMBEDDING, pick))

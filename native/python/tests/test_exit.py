@@ -56,6 +56,7 @@ WORK = {
     "waiting": ("s = grid(60); w = sw.LiveWire(s)", "w.seed(0); w.wait()"),
     "building a surface": ("p, t = meshes.grid(300)", "sw.LiveWire(p, t).wait_for_surface()"),
     "giving up live wires": ("p, t = meshes.grid(300)", "sw.LiveWire(p, t).seed(0)"),
+    "flattening": ("p, t = meshes.torus(60, 40)", "sw.flatten(p, t)"),
     "rays": ("p, t = meshes.grid(60)", "sw.RayTree(p, t).wait()"),
 }
 

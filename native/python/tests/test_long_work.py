@@ -63,7 +63,7 @@ def embedding_of_large(large: sw.Surface, large_metric: sw.Metric) -> sw.Embeddi
 
 CALLS = (
     "Surface", "principal_curvatures", "feature_metric", "repr of a metric", "embed", "distance_field", "edge_wires",
-    "snap", "first_hit", "live wire across", "live wire along", "live wire that builds its surface", "change of a live wire",
+    "snap", "first_hit", "flatten", "live wire across", "live wire along", "live wire that builds its surface", "change of a live wire",
 )  # fmt: skip
 
 
@@ -101,6 +101,7 @@ def test_other_threads_run_meanwhile(
         "edge_wires": lambda: sw.edge_wires(large, large_metric, 0),
         "snap": lambda: sw.snap_to_edges(sw.Surface(points, triangles), across),
         "first_hit": lambda: sw.RayTree(points, triangles).first_hit((0.0, 0.0, 9.0), (0.0, 0.0, -1.0)),
+        "flatten": lambda: sw.flatten(*meshes.torus(60, 40)),
         "live wire across": lambda: live("surface"),
         "live wire along": lambda: live("edges"),
         "live wire that builds its surface": lambda: sw.LiveWire(points, triangles).wait_for_surface(),
@@ -118,7 +119,7 @@ def test_other_threads_run_meanwhile(
 
 LONG = (
     "Surface", "principal_curvatures", "smoothed_curvatures", "feature_metric", "campen_metric", "pottmann_kovacs_metric",
-    "concave_metric", "euclidean_metric", "apply_scribbles", "embed", "distance_field", "edge_wires", "shortest_cycle",
+    "concave_metric", "euclidean_metric", "apply_scribbles", "embed", "distance_field", "edge_wires", "shortest_cycle", "flatten",
 )  # fmt: skip
 
 
@@ -144,6 +145,7 @@ def work(
         "embed": lambda progress: sw.embed(large, large_metric, progress=progress),
         "distance_field": lambda progress: sw.distance_field(embedding_of_large, 0, progress=progress),
         "edge_wires": lambda progress: sw.edge_wires(large, large_metric, 0, progress=progress),
+        "flatten": lambda progress: sw.flatten(*meshes.torus(60, 40), progress=progress),
         "shortest_cycle": lambda progress: sw.shortest_cycle(large, large_metric, large.edges[0], progress=progress),
     }[request.param]
 

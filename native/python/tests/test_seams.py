@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+import gc
+import threading
+
 import meshes
 import numpy as np
 import pytest
@@ -11,80 +14,172 @@ import seamwire_core as sw
 
 @pytest.fixture(scope="module")
 def torus() -> sw.Surface:
-    return sw.Surface(*meshes.torus(40, 24))
+    return sw.Surface(*meshes.torus(20, 12))
 
 
 @pytest.fixture(scope="module")
 def planner(torus: sw.Surface) -> sw.SeamPlanner:
-    return sw.SeamPlanner(torus)
+    return sw.SeamPlanner(torus, along="edges")
 
 
-def test_islands_are_those_that_the_wires_enclose(torus: sw.Surface, planner: sw.SeamPlanner) -> None:
-    plan = planner.plan()
-    edges = np.concatenate([np.column_stack([wire.vertices[:-1], wire.vertices[1:]]) for wire in plan.wires])
-    np.testing.assert_array_equal(plan.islands, sw.face_segments(torus, edges))
-    assert plan.island_count == plan.islands.max() + 1 > 1
+def edges_of(plan: sw.SeamPlan) -> np.ndarray:
+    pairs = [np.column_stack([wire.vertices[:-1], wire.vertices[1:]]) for wire in plan.wires]
+    return np.concatenate([np.empty((0, 2), dtype=np.int32), *pairs])
+
+
+def test_a_plan_describes_islands_wires_and_a_map(torus: sw.Surface, planner: sw.SeamPlanner) -> None:
+    plan = planner.plan(distortion=4.5, steps=200)
+    np.testing.assert_array_equal(plan.islands, sw.face_segments(torus, edges_of(plan)))
+    assert plan.island_count == plan.islands.max() + 1 == 1
     assert plan.not_discs == 0
+    assert plan.is_reached == (plan.energy <= 4.5)
     assert plan.cost > 0.0
+    assert plan.steps > 0.0
     for wire in plan.wires:
         assert wire.seeds == (wire.vertices[0], wire.vertices[-1])
         assert wire.follow in {"min", "max"}
+        np.testing.assert_array_equal(wire.points, torus.points[wire.vertices])
+    assert plan.uvs is not None
+    assert plan.uvs.shape == (len(torus.triangles), 3, 2)
+    report = sw.measure_map(torus.points, torus.triangles, plan.uvs, plan.islands)
+    assert not len(report.flipped)
+    assert not len(report.overlapping)
+    assert report.energy == pytest.approx(plan.energy, rel=0.02)
 
 
-def test_limits(torus: sw.Surface, planner: sw.SeamPlanner) -> None:
-    assert planner.plan(islands=3).island_count == 3
-    few, many = (planner.plan(max_spread=spread).island_count for spread in (0.6, 0.15))
-    assert few < many
-    assert planner.plan(max_spread=np.full(len(torus.triangles), 0.15)).island_count == many
+def test_a_lower_bound_needs_more_seams(planner: sw.SeamPlanner) -> None:
+    discs, low, high = (planner.plan(distortion=bound, steps=200) for bound in (np.inf, 4.01, 5.0))
+    assert low.cost > high.cost >= discs.cost > 0.0
+    assert low.energy < high.energy <= discs.energy
 
 
-def test_kept_wires_and_what_is_found_within_an_island(torus: sw.Surface, planner: sw.SeamPlanner) -> None:
-    first = planner.plan(islands=3)
-    within = first.islands == 0
-    density = np.zeros(len(torus.points))
-    density[torus.triangles[within]] = 1.0
-    edges = np.concatenate([np.column_stack([wire.vertices[:-1], wire.vertices[1:]]) for wire in first.wires])
-    seeds = np.unique([wire.seeds for wire in first.wires])
-    more = planner.with_seeds(seeds_at=seeds, seeds=len(seeds) + 20, density=density, seams=edges)
-    second = more.plan(max_spread=np.where(within, 0.1, 2.0), kept=first.wires, crumb_of_island=0.1)
-    kept = {tuple(wire.vertices.tolist()) for wire in first.wires}
-    assert kept < {tuple(wire.vertices.tolist()) for wire in second.wires}
-    assert second.island_count > 3
-    assert len(np.unique(second.islands[~within])) == 2
-    with pytest.raises(ValueError, match="density"):
-        sw.SeamPlanner(torus, density=[[1.0]])
-    with pytest.raises(ValueError, match="crumb is 2"):
-        planner.plan(crumb=2.0)
+def test_wires_across_the_surface_have_curves_of_their_own(torus: sw.Surface) -> None:
+    plan = sw.SeamPlanner(torus).plan(distortion=np.inf)
+    assert plan.wires
+    for wire in plan.wires:
+        assert wire.points.shape[1] == 3
+        np.testing.assert_array_equal(wire.points[[0, -1]], torus.points[wire.vertices[[0, -1]]])
 
 
-def test_a_plan_is_straightened_where_nothing_is_fixed(planner: sw.SeamPlanner) -> None:
-    plan = planner.plan(max_spread=0.3, straightened=False)
-    straight = planner.straightened(plan.wires, max_spread=0.3)
-    assert straight.cost < plan.cost and straight.island_count == plan.island_count
-    seeds = [seed for wire in plan.wires for seed in wire.seeds]
-    same = planner.straightened(plan.wires, max_spread=0.3, fixed=seeds)
-    np.testing.assert_array_equal(same.islands, plan.islands)
-    with pytest.raises(ValueError, match="fixed"):
-        planner.straightened(plan.wires, fixed=[-5])
+def test_given_seams_stay_and_weights_keep_seams_away(torus: sw.Surface) -> None:
+    ring = closed_ring(20, 6)
+    with_ring = sw.SeamPlanner(torus, along="edges", seams=ring).plan(distortion=np.inf)
+    assert with_ring.not_discs == 0
+    given = {tuple(sorted(edge)) for edge in ring}
+    assert not given & {tuple(sorted(edge)) for edge in edges_of(with_ring).tolist()}
+    part, around_tube = np.ones((2, len(torus.points)))
+    part[[0, 1, 2, 20, 21, 22]] = np.inf
+    around_tube[5::20] = np.inf
+    for weights, not_discs in ((part, 0), (around_tube, 1)):
+        away = sw.SeamPlanner(torus, along="edges", weights=weights).plan(distortion=4.5, steps=100)
+        assert np.isfinite(weights[edges_of(away)]).all()
+        assert away.not_discs == not_discs
+        assert np.isfinite(away.energy)  # the tube that stays can be mapped, too
+        assert away.is_reached == (not_discs == 0)
 
 
-def test_arrays_outlive_what_they_came_from(planner: sw.SeamPlanner) -> None:
-    islands = planner.plan().islands
-    vertices = planner.plan().wires[0].vertices
-    again = planner.plan()
-    np.testing.assert_array_equal(islands, again.islands)
-    np.testing.assert_array_equal(vertices, again.wires[0].vertices)
+def test_seams_are_mirrored(torus: sw.Surface) -> None:
+    plan = sw.SeamPlanner(torus, along="edges", mirror=2, front=(0.0, -1.0, 0.0)).plan(distortion=4.5, steps=200)
+    assert plan.not_discs == 0
+    assert np.isfinite(plan.energy)
 
 
-def test_progress_and_cancel(torus: sw.Surface, planner: sw.SeamPlanner) -> None:
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"mirror": 3}, "mirror is 3"),
+        ({"front": (0.0, 0.0, 0.0)}, "front is not a direction"),
+        ({"front": (1.0, 0.0)}, "front: expected three numbers"),
+        ({"weights": [1.0, 2.0]}, "weights has 2 items"),
+        ({"weights": [[1.0]]}, "weights"),
+        ({"weights": np.full(240, -1.0)}, "weights: item 0 is not 0 or more"),
+        ({"weights": np.full(240, np.nan)}, "weights: item 0"),
+        ({"seams": [(0, 1000)]}, "out of range"),
+        ({"along": "nowhere"}, "along"),
+        ({"max_anisotropy": 0.5}, "anisotropy"),
+    ],
+)
+def test_wrong_options_are_refused(torus: sw.Surface, arguments: dict[str, object], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        sw.SeamPlanner(torus, **arguments)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("distortion", [4.0, 0.0, -np.inf, np.nan])
+def test_a_bound_that_no_map_reaches_is_refused(planner: sw.SeamPlanner, distortion: float) -> None:
+    with pytest.raises(ValueError, match="distortion is"):
+        planner.plan(distortion=distortion)
+
+
+def test_arrays_outlive_what_they_came_from(torus: sw.Surface) -> None:
+    planner = sw.SeamPlanner(torus, along="edges")
+    plan = planner.plan(distortion=5.0, steps=100)
+    islands, vertices, points, uvs = plan.islands, plan.wires[0].vertices, plan.wires[0].points, plan.uvs
+    copies = [array.copy() for array in (islands, vertices, points, uvs)]
+    del plan, planner
+    gc.collect()
+    sw.SeamPlanner(torus, along="edges").plan(distortion=5.0, steps=100)
+    for array, copy in zip((islands, vertices, points, uvs), copies, strict=True):
+        np.testing.assert_array_equal(array, copy)
+
+
+def test_another_thread_sees_the_best_plan_so_far(torus: sw.Surface) -> None:
+    planner = sw.SeamPlanner(torus, along="edges")
+    assert planner.best_so_far is None
+    seen: list[sw.SeamPlan] = []
+
+    def look(_: float) -> bool:
+        best = planner.best_so_far
+        if best is not None:
+            seen.append(best)
+        return not seen
+
+    failed: list[BaseException] = []
+
+    def work() -> None:
+        try:
+            planner.plan(distortion=4.01, progress=look)
+        except sw.Cancelled as error:
+            failed.append(error)
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join()
+    assert failed, "the search is cancelled with the first plan that is found"
+    best = planner.best_so_far
+    assert best is not None
+    assert best.not_discs == 0
+    assert best.uvs is None
+    finished = planner.plan(distortion=np.inf)
+    np.testing.assert_array_equal(planner.best_so_far.islands, finished.islands)
+
+
+def test_progress_and_cancel(planner: sw.SeamPlanner) -> None:
     told: list[float] = []
-    sw.SeamPlanner(torus, progress=told.append)
+    large = sw.Surface(*meshes.torus(160, 96))
+    sw.SeamPlanner(large, progress=told.append)
     assert told
     assert all(0.0 <= fraction <= 1.0 for fraction in told)
     with pytest.raises(sw.Cancelled):
-        sw.SeamPlanner(torus, progress=lambda _: False)
+        sw.SeamPlanner(large, progress=lambda _: False)
     with pytest.raises(sw.Cancelled):
         planner.plan(progress=lambda _: False)
+
+
+def test_the_stub_names_what_there_is(planner: sw.SeamPlanner) -> None:
+    plan = planner.plan(distortion=np.inf)
+    assert {name for name in dir(plan) if not name.startswith("_")} == {
+        *("wires", "islands", "island_count", "not_discs", "cost", "energy", "is_reached", "steps", "uvs"),
+    }
+    assert {name for name in dir(plan.wires[0]) if not name.startswith("_")} == {
+        "seeds",
+        "follow",
+        "vertices",
+        "points",
+    }
+    assert {name for name in dir(planner) if not name.startswith("_")} == {"plan", "best_so_far"}
+    assert "SeamPlanner" in repr(planner)
+    assert "islands" in repr(plan)
+    assert "vertices" in repr(plan.wires[0])
 
 
 def closed_ring(columns: int, row: int) -> list[tuple[int, int]]:
@@ -119,44 +214,6 @@ def test_segments_of_something_else_are_refused(torus: sw.Surface) -> None:
         sw.missing_cuts(torus, [(0, 10**6)], whole)
 
 
-def test_one_sided_surfaces_are_cut() -> None:
-    plan = sw.SeamPlanner(sw.Surface(*meshes.moebius(40))).plan(max_spread=2.0)
-    assert plan.wires and plan.not_discs == 0
-
-
-@pytest.mark.parametrize("along", ["edges", "surface"])
-def test_wires_of_another_surface_are_refused(along: str) -> None:
-    points, triangles = meshes.torus(20, 12)
-    own = sw.SeamPlanner(sw.Surface(points, triangles), along=along)
-    plan = own.plan(max_spread=0.3)
-    assert plan.wires
-    others = [sw.Surface(2 * points, triangles), sw.Surface(*meshes.torus(21, 12)), sw.Surface(*meshes.torus(6, 5))]
-    for surface in others:
-        planner = sw.SeamPlanner(surface, along=along)
-        with pytest.raises(ValueError, match="wires: "):
-            planner.straightened(plan.wires, may_start_on_others=False)
-        with pytest.raises(ValueError, match="kept: "):
-            planner.plan(kept=plan.wires)
-    assert len(own.plan(kept=plan.wires).wires) >= len(plan.wires)
-
-
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        ({"images": np.roll(np.arange(960), 1)}, "images: the image of vertex 0 is 959, but the image of that is 958"),
-        ({"along": "air"}, "along"),
-        ({"max_anisotropy": 0.0}, "anisotropy"),
-        ({"seeds": 0}, "seeds is 0"),
-        ({"most_seeds": 3}, "most_seeds is 3"),
-        ({"images": [0, 1]}, "images has 2"),
-    ],
-)
-def test_refused_options(torus: sw.Surface, options: dict[str, object], message: str) -> None:
-    with pytest.raises(ValueError, match=message):
-        sw.SeamPlanner(torus, **options)
-
-
-@pytest.mark.parametrize("spread", [-1.0, float("nan"), [0.1, 0.2], "far", [[0.1]]])
-def test_refused_limits(planner: sw.SeamPlanner, spread: object) -> None:
-    with pytest.raises(ValueError, match="max_spread"):
-        planner.plan(max_spread=spread)
+def test_one_sided_surfaces_are_mapped() -> None:
+    plan = sw.SeamPlanner(sw.Surface(*meshes.moebius(40)), along="edges").plan()
+    assert np.isfinite(plan.energy)

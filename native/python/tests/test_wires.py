@@ -63,7 +63,7 @@ def everything_found(size: float) -> dict[str, np.ndarray]:
         "stroke": sw.apply_scribbles(surface, metric, [sw.Scribble(**stroke)]).tensors,
         "wide stroke": sw.apply_scribbles(surface, metric, [sw.Scribble(**stroke, radius=0.1 * size)]).tensors,
         "hit": np.array((hit[0], hit[1] / size)),
-        "islands": sw.SeamPlanner(surface, seeds=8, most_seeds=8).plan(may_start_on_others=False).islands,
+        "islands": sw.SeamPlanner(surface, along="edges").plan(distortion=float("inf"), steps=50).islands,
     }
 
 

@@ -2,13 +2,99 @@
 #include "seamwire/seams/missing_cuts.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <string>
+#include <utility>
 
+#include "detail/disjoint_sets.hpp"
+#include "detail/half_edge.hpp"
 #include "detail/index.hpp"
-#include "seams/cut_pieces.hpp"
 
 namespace seamwire {
+namespace {
+
+/// A connected part of a cut surface.
+struct Part {
+  std::int64_t euler = 0;     ///< its Euler characteristic
+  std::int64_t border = 0;    ///< how many sides of triangles lie on its border
+  std::int32_t segment = -1;  ///< its number, -1 if that is not known yet
+
+  std::int64_t missing_cuts() const { return border > 0 ? 1 - euler : 3 - euler; }
+};
+
+/// The vertices of a half-edge, the smaller one first.
+Edge edge_of(const Surface& surface, std::int32_t half_edge) {
+  const Triangle& fans = surface.face_fans()[half_edge / 3];
+  const std::int32_t a = surface.vertex_of_fan()[fans[half_edge % 3]];
+  const std::int32_t b = surface.vertex_of_fan()[fans[(half_edge + 1) % 3]];
+  return {std::min(a, b), std::max(a, b)};
+}
+
+/// The real edges among `cut_edges`, sorted.
+std::vector<Edge> real_cuts(const Surface& surface, std::span<const Edge> cut_edges) {
+  std::vector<Edge> cuts;
+  for (const auto& [a, b] : cut_edges) {
+    for (const std::int32_t v : {a, b}) check_index(v, surface.vertex_count(), "cut_edges: vertex");
+    const Edge edge{std::min(a, b), std::max(a, b)};
+    if (std::ranges::binary_search(surface.edges(), edge)) cuts.push_back(edge);
+  }
+  std::ranges::sort(cuts);
+  return cuts;
+}
+
+/// Both half-edges of each edge at which triangles meet in pairs. Where the triangles on both sides face opposite ways,
+/// the half-edge mesh is open, and the half-edges run in the same direction.
+struct Meeting {
+  std::int32_t one, other;
+  bool is_turned;
+};
+std::vector<Meeting> meetings(const Surface& surface) {
+  std::vector<Meeting> found;
+  const std::vector<Edge>& turned = surface.report().unorientable_edges;
+  std::vector<std::int32_t> first(turned.size(), -1);  // half-edge of each of these edges
+  for (std::int32_t h = 0; index(h) < surface.twins().size(); ++h) {
+    const std::int32_t twin = surface.twins()[h];
+    if (twin > h) found.push_back({h, twin, false});
+    if (twin >= 0 || turned.empty()) continue;
+    const auto place = std::ranges::lower_bound(turned, edge_of(surface, h));
+    if (place == turned.end() || *place != edge_of(surface, h)) continue;
+    std::int32_t& other = first[static_cast<std::size_t>(place - turned.begin())];
+    if (other >= 0) found.push_back({other, h, true});
+    other = h;
+  }
+  return found;
+}
+
+/// The parts of a cut surface. Each is listed at its first face in the half-edge mesh. `faces`: joins the faces of a
+/// part. Cut open, the surface has a vertex for each set of corners that are joined.
+std::vector<Part> find_parts(const Surface& surface, std::span<const Edge> cuts, DisjointSets& faces) {
+  const std::size_t count = surface.face_fans().size();
+  DisjointSets corners(3 * count);
+  std::vector<std::int32_t> joined;  // one half-edge of each edge inside a part
+  for (const Meeting& meeting : meetings(surface)) {
+    if (std::ranges::binary_search(cuts, edge_of(surface, meeting.one))) continue;
+    joined.push_back(meeting.one);
+    faces.join(meeting.one / 3, meeting.other / 3);
+    const std::int32_t start = meeting.other, end = next_in_face(meeting.other);
+    corners.join(meeting.one, meeting.is_turned ? start : end);
+    corners.join(next_in_face(meeting.one), meeting.is_turned ? end : start);
+  }
+  std::vector<Part> parts(count);
+  for (std::int32_t c = 0; index(c) < 3 * count; ++c) {
+    Part& part = parts[faces.find(c / 3)];
+    ++part.border;
+    --part.euler;  // its own side of an edge
+    if (c % 3 == 0) ++part.euler;
+    if (corners.find(c) == c) ++part.euler;
+  }
+  for (const std::int32_t h : joined) {
+    Part& part = parts[faces.find(h / 3)];
+    ++part.euler;
+    part.border -= 2;
+  }
+  return parts;
+}
+
+}  // namespace
 
 std::vector<std::int32_t> missing_cuts(const Surface& surface, std::span<const Edge> cut_edges,
                                        std::span<const std::int32_t> segments) {
@@ -21,24 +107,16 @@ std::vector<std::int32_t> missing_cuts(const Surface& surface, std::span<const E
     check_index(segment, segments.size(), "segments: number", "triangles");
     count = std::max(count, segment + 1);
   }
-  std::vector<std::vector<std::int32_t>> chains;
-  chains.reserve(cut_edges.size());
-  for (const auto& [a, b] : cut_edges) {
-    for (const std::int32_t v : {a, b}) check_index(v, surface.vertex_count(), "cut_edges: vertex");
-    if (std::ranges::binary_search(surface.edges(), Edge{std::min(a, b), std::max(a, b)})) chains.push_back({a, b});
-  }
-  const std::vector<double> no_limits(surface.face_count(), std::numeric_limits<double>::infinity());
-  const CutPieces cut(surface, chains, no_limits);
-  const std::vector<Piece> pieces = cut.pieces();
-  const std::vector<std::int32_t> piece_of_faces = cut.piece_of_faces();
-  std::vector<std::int32_t> missing(index(count), 0), segment_of(pieces.size(), -1);
-  for (std::size_t f = 0; f < piece_of_faces.size(); ++f) {
-    const std::int32_t segment = segments[index(surface.face_of_half_edge_face()[f])];
-    std::int32_t& known = segment_of[piece_of_faces[f]];
-    if (known < 0) {
-      known = segment;
-      missing[segment] += static_cast<std::int32_t>(pieces[piece_of_faces[f]].missing_cuts());
-    } else if (known != segment) {
+  DisjointSets faces(surface.face_fans().size());
+  std::vector<Part> parts = find_parts(surface, real_cuts(surface, cut_edges), faces);
+  std::vector<std::int32_t> missing(index(count), 0);
+  for (std::int32_t f = 0; index(f) < parts.size(); ++f) {
+    const std::int32_t segment = segments[surface.face_of_half_edge_face()[f]];
+    Part& part = parts[faces.find(f)];
+    if (part.segment < 0) {
+      part.segment = segment;
+      missing[segment] += static_cast<std::int32_t>(part.missing_cuts());
+    } else if (part.segment != segment) {
       throw InvalidInput("segments: they are those of other cuts");
     }
   }

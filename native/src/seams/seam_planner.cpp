@@ -3,322 +3,341 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <limits>
+#include <map>
+#include <numeric>
 #include <optional>
-#include <set>
-#include <span>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "detail/index.hpp"
-#include "detail/text.hpp"
-#include "seams/candidate_wires.hpp"
-#include "seams/cut_pieces.hpp"
-#include "seams/quality.hpp"
-#include "seams/seam_choices.hpp"
-#include "seams/seeding.hpp"
-#include "seams/straightening.hpp"
-#include "seams/thinning.hpp"
+#include "seams/carried_slits.hpp"
+#include "seams/neck_rings.hpp"
+#include "seams/planned_wires.hpp"
+#include "seams/simplified_mesh.hpp"
+#include "seams/slit_search.hpp"
+#include "seams/slit_solver.hpp"
+#include "seams/visibility.hpp"
 #include "seamwire/seams/missing_cuts.hpp"
 #include "seamwire/surface/segments.hpp"
-#include "wires/curve_check.hpp"
 
 namespace seamwire {
 namespace {
 
-/// How much more the worst piece may be bent for fewer crumbs.
-constexpr double kBentForCrumbs = 0.02;
+/// A mesh with more triangles is planned on a simplified one with about so many.
+constexpr std::size_t kMostTriangles = 9000, kSimplified = 7000;
+/// Faces may be cut for a bound on the energy below this.
+constexpr double kLowStretch = 4.15;
+constexpr double kBudget = 4000.0;
+/// How often planning is repeated because the original mesh distorts more than the simplified one.
+constexpr int kRounds = 2;
+constexpr double kNearBound = 0.02;  // a map whose energy is this far below the bound may have too many seams
+constexpr double kMargin = 3e-3;
+constexpr double kLaterBudget = 0.5;  // of a repetition, as a share of the one before
 
-/// What does not depend on seeds.
-struct Wires {
-  Wires(std::shared_ptr<const Surface> on, const SeamPlannerOptions& options, const Task& task)
-      : found(std::move(on), options.along, options.strength, task),
-        seclusion(found.surface(), found.curvature()),
-        direct(found, seclusion) {}
-
-  const CandidateWires found;
-  const Seclusion seclusion;
-  const DirectWires direct;
-};
-
-/// Throws what the constructor throws for options.
 void check_options(const Surface& surface, const SeamPlannerOptions& options) {
   check_strength(options.strength);
-  if (options.seeds < 1) throw InvalidInput("seeds is 0, not 1 or more");
-  if (options.most_seeds < options.seeds) {
-    throw InvalidInput("most_seeds is " + std::to_string(options.most_seeds) + ", less than seeds, " +
-                       std::to_string(options.seeds));
+  if (options.mirror < -1 || options.mirror > 2) {
+    throw InvalidInput("mirror is " + std::to_string(options.mirror) + ", not an axis from 0 to 2, or -1");
+  }
+  if (options.front && !(options.front->allFinite() && options.front->norm() > 0.0)) {
+    throw InvalidInput("front is not a direction: it has no length, or is not finite");
   }
   const std::size_t count = surface.vertex_count();
-  if (!options.images.empty() && options.images.size() != count) {
-    throw InvalidInput("images has " + std::to_string(options.images.size()) + " items: there are " +
+  if (!options.weights.empty() && options.weights.size() != count) {
+    throw InvalidInput("weights has " + std::to_string(options.weights.size()) + " items: there are " +
                        std::to_string(count) + " vertices");
   }
-  if (!options.density.empty() && options.density.size() != count) {
-    throw InvalidInput("density has " + std::to_string(options.density.size()) + " items: there are " +
-                       std::to_string(count) + " vertices");
+  for (std::size_t v = 0; v < options.weights.size(); ++v) {
+    if (!(options.weights[v] >= 0.0)) throw InvalidInput("weights: item " + std::to_string(v) + " is not 0 or more");
   }
-  for (std::size_t v = 0; v < options.density.size(); ++v) {
-    if (!(options.density[v] >= 0.0)) {
-      throw InvalidInput("density[" + std::to_string(v) + "] is " + text(options.density[v]) +
-                         ", not a number of at least 0");
+  for (const auto& [a, b] : options.seams) {
+    for (const std::int32_t v : {a, b}) check_index(v, count, "seams: vertex");
+  }
+}
+
+/// Marks the edges of a mesh that are seams.
+std::vector<std::uint8_t> marked_edges(const PlanMesh& mesh, const std::vector<Edge>& seams) {
+  std::vector<Edge> sorted;
+  sorted.reserve(seams.size());
+  for (const auto& [a, b] : seams) sorted.push_back({std::min(a, b), std::max(a, b)});
+  std::ranges::sort(sorted);
+  std::vector<std::uint8_t> is_seam;
+  for (const std::int32_t h : mesh.half_edge_of) {
+    const std::int32_t a = mesh.sources[mesh.start(h)], b = mesh.sources[mesh.end(h)];
+    const bool is_inner = mesh.twins[h] >= 0;
+    is_seam.push_back(is_inner && std::ranges::binary_search(sorted, Edge{std::min(a, b), std::max(a, b)}) ? 1 : 0);
+  }
+  return is_seam;
+}
+
+/// For each vertex the nearest of some vertices, along edges: its place among them; -1 if none can be reached.
+std::vector<std::int32_t> nearest_of(const PlanMesh& mesh, std::span<const std::int32_t> vertices) {
+  std::vector<std::int32_t> nearest(mesh.vertex_count(), -1);
+  std::vector<std::int32_t> open;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    nearest[vertices[i]] = static_cast<std::int32_t>(i);
+    open.push_back(vertices[i]);
+  }
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    for (const PlanNeighbor& next : mesh.all_neighbors[open[i]]) {
+      if (nearest[next.vertex] >= 0) continue;
+      nearest[next.vertex] = nearest[open[i]];
+      open.push_back(next.vertex);
     }
   }
-  for (const std::int32_t v : options.seeds_at) check_index(v, count, "seeds_at: vertex");
-  for (const std::int32_t v : options.images) {
-    if (v != -1) check_index(v, count, "images: vertex");
-  }
-  for (std::int32_t v = 0; index(v) < options.images.size(); ++v) {
-    const std::int32_t image = options.images[v];
-    if (image == -1 || options.images[image] == v) continue;
-    throw InvalidInput("images: the image of vertex " + std::to_string(v) + " is " + std::to_string(image) +
-                       ", but the image of that is " + std::to_string(options.images[image]));
-  }
-  for (const Edge& edge : options.seams) {
-    for (const std::int32_t v : edge) check_index(v, count, "seams: vertex");
-  }
-}
-
-/// Throws what plan() throws for limits; returns those of triangles.
-std::vector<double> checked_spreads(const Surface& surface, const SeamLimits& limits) {
-  const auto check = [](double spread, const std::string& name) {
-    if (!(spread >= 0.0)) throw InvalidInput(name + " is " + text(spread) + ", not a number of at least 0");
-  };
-  check(limits.max_spread, "max_spread");
-  for (const auto& [crumb, name] : {std::pair(limits.crumb, "crumb"), {limits.crumb_of_island, "crumb_of_island"}}) {
-    if (crumb >= 0.0 && crumb <= 1.0) continue;
-    throw InvalidInput(std::string(name) + " is " + text(crumb) + ", not between 0 and 1");
-  }
-  std::vector<double> max_spreads = limits.max_spreads;
-  if (max_spreads.empty()) max_spreads.assign(surface.face_count(), limits.max_spread);
-  if (max_spreads.size() != surface.face_count()) {
-    throw InvalidInput("max_spreads has " + std::to_string(max_spreads.size()) + " items: there are " +
-                       std::to_string(surface.face_count()) + " triangles");
-  }
-  for (std::size_t f = 0; f < max_spreads.size(); ++f) check(max_spreads[f], "max_spreads[" + std::to_string(f) + "]");
-  return max_spreads;
-}
-
-/// Throws InvalidInput where a wire is not one of the surface.
-void check_wire(const Surface& surface, const PlannedWire& wire, const std::string& name) {
-  const std::vector<std::int32_t>& chain = wire.vertices;
-  for (const std::int32_t v : chain) check_index(v, surface.vertex_count(), name + ": vertex");
-  if (chain.size() < 2 || chain.front() != wire.from || chain.back() != wire.to) {
-    throw InvalidInput(name + ": the edges of a wire do not lead from " + std::to_string(wire.from) + " to " +
-                       std::to_string(wire.to));
-  }
-  for (std::size_t i = 1; i < chain.size(); ++i) {
-    const auto [a, b] = std::minmax(chain[i - 1], chain[i]);
-    if (std::ranges::binary_search(surface.edges(), Edge{a, b})) continue;
-    throw InvalidInput(name + ": the surface has no edge between the vertices " + std::to_string(a) + " and " +
-                       std::to_string(b));
-  }
-  const auto check_place = [&](std::int32_t v, const Vector& point) {
-    if (is_same_place(surface, surface.points()[v], point)) return;
-    throw InvalidInput(name + ": a wire is of another surface: it does not pass vertex " + std::to_string(v));
-  };
-  if (wire.faces.empty() && wire.points.size() == chain.size()) {
-    for (std::size_t i = 0; i < chain.size(); ++i) check_place(chain[i], wire.points[i]);
-  } else {
-    check_curve(surface, wire.points, wire.faces, name + ": a wire is of another surface: ");
-    check_place(wire.from, wire.points.front());
-    check_place(wire.to, wire.points.back());
-  }
-  if (!(wire.worth > 0.0 && std::isfinite(wire.worth))) {
-    throw InvalidInput(name + ": the worth of a wire is " + text(wire.worth) + ", not a finite number above 0");
-  }
-}
-
-/// Wires of a plan as wires to choose from. Throws InvalidInput where they are not wires of the surface.
-std::vector<Choice> choices_of(const Surface& surface, std::span<const PlannedWire> wires, const std::string& name) {
-  std::vector<Choice> choices;
-  choices.reserve(wires.size());
-  for (const PlannedWire& wire : wires) {
-    check_wire(surface, wire, name);
-    choices.push_back({.wire = wire, .strength = wire.worth});
-  }
-  return choices;
+  return nearest;
 }
 
 }  // namespace
 
 struct SeamPlanner::Impl {
-  Impl(std::shared_ptr<const Wires> among, SeamPlannerOptions with, const Task& task)
-      : options(std::move(with)),
-        wires(std::move(among)),
-        choices(wires_between_seeds(wires->found, wires->seclusion, options, task)) {}
+  Impl(std::shared_ptr<const Surface> on, SeamPlannerOptions with) : surface(std::move(on)), options(std::move(with)) {}
 
-  const Surface& surface() const { return wires->found.surface(); }
-  CutPieces pieces(const std::vector<Choice>& of, std::span<const double> max_spreads) const {
-    return CutPieces(surface(), chains_of(of, options.seams), max_spreads);
-  }
-  std::vector<Choice> straightened(std::vector<Choice> of, std::span<const std::int32_t> fixed,
-                                   const SeamLimits& limits, std::span<const double> max_spreads,
-                                   const Task& task) const {
-    return seamwire::straightened(std::move(of), fixed, wires->direct, surface(), options, limits, max_spreads, task);
-  }
-  SeamPlan plan_of(std::vector<Choice> taken) const;
-  std::vector<Choice> swept(std::vector<Choice> best, const SeamLimits& limits, std::span<const double> max_spreads,
-                            const Task& task) const;
-  std::vector<std::vector<Choice>> shortened(const Choice& wire, const std::vector<Choice>& others,
-                                             const Task& task) const;
+  std::shared_ptr<const Surface> surface;
+  SeamPlannerOptions options;
+  SlitProblem original;
+  std::optional<SimplifiedMesh> simplified_mesh;  // of the original, if that is large
+  SlitProblem simple;                             // on that
+  std::unique_ptr<const PlannedWires> wires;
 
-  const SeamPlannerOptions options;
-  const std::shared_ptr<const Wires> wires;
-  const std::vector<Choice> choices;
+  bool is_simplified() const { return simplified_mesh.has_value(); }
+  const SlitProblem& searched() const { return is_simplified() ? simple : original; }
+
+  void prepare(const Task& task);
+  std::vector<double> weights_of(const PlanMesh& mesh) const;
+  SeamPlan seam_plan(std::span<const Slit> slits, const SlitPlan& planned, const SeamGoal& goal,
+                     const Task& task) const;
+  void add_map(SeamPlan& plan, const SlitPlan& solved, const SeamGoal& goal) const;
 };
 
-/// Lets wires start on others where they ran beside them, as long as that leaves fewer crumbs and pieces as good.
-std::vector<Choice> SeamPlanner::Impl::swept(std::vector<Choice> best, const SeamLimits& limits,
-                                             std::span<const double> max_spreads, const Task& task) const {
-  CutPieces cut = pieces(best, max_spreads);
-  Quality quality(cut, limits);
-  std::vector<Choice> order = best;
-  std::stable_sort(order.begin(), order.end(),
-                   [](const Choice& a, const Choice& b) { return a.strength < b.strength; });
-  for (const Choice& wire : order) {
-    if (quality.crumbs == 0) break;
-    if (wire.is_kept) continue;
-    const auto place = std::ranges::find(best, wire.wire.vertices, [](const Choice& c) { return c.wire.vertices; });
-    if (place == best.end() || !cut.has_beside(static_cast<std::int32_t>(place - best.begin()), quality.crumb))
-      continue;
-    std::vector<Choice> others = best;
-    others.erase(others.begin() + (place - best.begin()));
-    // An image that runs as the wire does is shortened with it.
-    const std::optional<Choice> image = mirrored(wire, surface(), options);
-    const auto has_course = [](const Choice& choice, const std::vector<std::int32_t>& course) {
-      const std::vector<std::int32_t>& own = choice.wire.vertices;
-      return own == course || std::equal(own.begin(), own.end(), course.rbegin(), course.rend());
-    };
-    const bool has_image =
-        image && !has_course(wire, image->wire.vertices) &&
-        std::erase_if(others, [&](const Choice& other) { return has_course(other, image->wire.vertices); }) > 0;
-    for (const std::vector<Choice>& parts : shortened(wire, others, task)) {
-      std::vector<Choice> trial = others;
-      trial.insert(trial.end(), parts.begin(), parts.end());
-      for (const Choice& part : parts) {
-        if (!has_image) break;
-        if (const std::optional<Choice> other = mirrored(part, surface(), options)) trial.push_back(*other);
-      }
-      CutPieces trial_cut = pieces(trial, max_spreads);
-      const Quality now(trial_cut, limits);
-      if (trial_cut.piece_count() >= limits.islands && now.crumbs < quality.crumbs &&
-          now.not_discs <= quality.not_discs && now.bent <= quality.bent + kBentForCrumbs) {
-        quality = now;
-        cut = std::move(trial_cut);
-        best = std::move(trial);
-        break;
-      }
-    }
-  }
-  return best;
+std::vector<double> SeamPlanner::Impl::weights_of(const PlanMesh& mesh) const {
+  std::vector<double> weights;
+  if (options.weights.empty()) return weights;
+  for (const std::int32_t v : mesh.sources) weights.push_back(options.weights[v]);
+  return weights;
 }
 
-/// A wire between the vertices where it meets others, each time without one of these stretches.
-std::vector<std::vector<Choice>> SeamPlanner::Impl::shortened(const Choice& wire, const std::vector<Choice>& others,
-                                                              const Task& task) const {
-  std::set<std::int32_t> drawn;
-  std::set<Ends> shared;
-  for (const auto& [a, b] : options.seams) {
-    drawn.insert({a, b});
-    shared.insert(ends_of(a, b));
+void SeamPlanner::Impl::prepare(const Task& task) {
+  original.mesh = plan_mesh(*surface);
+  original.is_seam = marked_edges(original.mesh, options.seams);
+  if (options.mirror >= 0) original.reflection = find_reflection(original.mesh, options.mirror);
+  if (original.mesh.face_count() > kMostTriangles) {
+    simplified_mesh = simplified(original.mesh, original.is_seam, original.mirror(), kSimplified, task);
+    simple.mesh = simplified_mesh->mesh;
+    simple.is_seam = simplified_mesh->is_seam;
+    if (original.reflection) simple.reflection = find_reflection(simple.mesh, options.mirror);
   }
-  for (const Choice& other : others) {
-    const std::vector<std::int32_t>& chain = other.wire.vertices;
-    drawn.insert(chain.begin(), chain.end());
-    for (std::size_t i = 1; i < chain.size(); ++i) shared.insert(ends_of(chain[i - 1], chain[i]));
-  }
-  const std::vector<std::int32_t>& chain = wire.wire.vertices;
-  std::vector<std::size_t> contacts;
-  for (std::size_t i = 0; i < chain.size(); ++i) {
-    if (i == 0 || i + 1 == chain.size() || drawn.contains(chain[i])) contacts.push_back(i);
-  }
-  if (contacts.size() < 3) return {};
-  std::vector<CandidateWires::Fan> fans;
-  for (std::size_t i = 1; i < contacts.size(); ++i) {
-    const std::size_t a = contacts[i - 1], b = contacts[i];
-    if (b - a == 1 && shared.contains(ends_of(chain[a], chain[b]))) continue;
-    fans.push_back({chain[a], {chain[b]}});
-  }
-  std::vector<Choice> stretches;
-  std::vector<std::vector<CandidateWire>> found = wires->found.find(fans, task);
-  stretches.reserve(fans.size());
-  for (std::size_t i = 0; i < fans.size(); ++i) {
-    stretches.push_back(make_choice(fans[i].from, fans[i].to.front(), std::move(found[i].front()), wires->seclusion));
-  }
-  std::vector<std::vector<Choice>> ways;
-  for (std::size_t left_out = 0; left_out < stretches.size(); ++left_out) {
-    std::vector<Choice> parts;
-    for (std::size_t i = 0; i < stretches.size(); ++i) {
-      if (i != left_out && stretches[i].wire.vertices.size() > 1) parts.push_back(stretches[i]);
+  const PlanMesh& mesh = searched().mesh;
+  Visibility visibility = find_visibility(mesh, options.front, task);
+  if (is_simplified()) {
+    simple.prices = find_prices(mesh, visibility, simple.reflection, weights_of(mesh));
+    const std::vector<std::int32_t> nearest = nearest_of(original.mesh, simplified_mesh->vertices);
+    Visibility all;
+    for (const std::int32_t v : nearest) {
+      all.ambient.push_back(v < 0 ? 0.0 : visibility.ambient[v]);
+      if (options.front) all.front.push_back(v < 0 ? 0.0 : visibility.front[v]);
     }
-    ways.push_back(std::move(parts));
+    visibility = std::move(all);
   }
-  return ways;
+  original.prices = find_prices(original.mesh, visibility, original.reflection, weights_of(original.mesh));
+  find_pieces_of(original);
+  if (is_simplified()) find_pieces_of(simple);
+  wires = std::make_unique<const PlannedWires>(surface, options.along, options.strength, task);
 }
 
-SeamPlan SeamPlanner::Impl::plan_of(std::vector<Choice> taken) const {
+/// Chains of edges across which triangles cannot be oriented alike. A one-sided surface is cut open there.
+std::vector<std::vector<std::int32_t>> one_sided_chains(const Surface& surface, std::vector<Edge> without) {
+  std::map<std::int32_t, std::vector<std::int32_t>> next;
+  for (Edge& edge : without) edge = {std::min(edge[0], edge[1]), std::max(edge[0], edge[1])};
+  std::ranges::sort(without);
+  for (const auto& [a, b] : surface.report().unorientable_edges) {
+    const Edge edge{std::min(a, b), std::max(a, b)};
+    if (std::ranges::binary_search(without, edge)) continue;
+    if (!std::ranges::binary_search(surface.edges(), edge)) continue;
+    next[a].push_back(b);
+    next[b].push_back(a);
+  }
+  std::vector<std::vector<std::int32_t>> chains;
+  const auto follow = [&](std::int32_t v) {
+    std::vector<std::int32_t> chain{v};
+    while (!next[v].empty()) {
+      const std::int32_t other = next[v].back();
+      next[v].pop_back();
+      std::erase(next[other], v);
+      chain.push_back(v = other);
+      if (next[v].size() > 1) break;  // chains meet here
+    }
+    chains.push_back(std::move(chain));
+  };
+  for (const bool is_end : {true, false}) {
+    for (auto& [v, others] : next) {
+      while (is_end ? others.size() == 1 : !others.empty()) follow(v);
+    }
+  }
+  return chains;
+}
+
+SeamPlan SeamPlanner::Impl::seam_plan(std::span<const Slit> slits, const SlitPlan& planned, const SeamGoal& goal,
+                                      const Task& task) const {
   SeamPlan plan;
-  std::vector<Edge> cuts = options.seams;
-  for (Choice& choice : taken) {
-    const std::vector<std::int32_t>& chain = choice.wire.vertices;
-    for (std::size_t i = 1; i < chain.size(); ++i) cuts.push_back({chain[i - 1], chain[i]});
-    plan.cost += price(surface(), choice);
-    choice.wire.worth = choice.worth();
-    plan.wires.push_back(std::move(choice.wire));
+  plan.wires = wires->along(original, slits, task);
+  for (const std::vector<std::int32_t>& chain : one_sided_chains(*surface, options.seams)) {
+    PlannedWire wire;
+    wire.vertices = chain;
+    wire.from = chain.front();
+    wire.to = chain.back();
+    for (const std::int32_t v : chain) wire.points.push_back(surface->points()[v]);
+    plan.wires.push_back(std::move(wire));
   }
-  plan.islands = face_segments(surface(), cuts);
-  const std::vector<std::int32_t> missing = missing_cuts(surface(), cuts, plan.islands);
-  plan.island_count = missing.size();
-  plan.not_discs = static_cast<std::size_t>(std::ranges::count_if(missing, [](std::int32_t more) { return more > 0; }));
+  plan.cost = planned.price;
+  plan.energy = planned.energy;
+  plan.is_reached = std::isfinite(planned.energy) && planned.energy <= goal.distortion && !planned.overlaps;
+  std::vector<Edge> cuts = options.seams;
+  for (const PlannedWire& wire : plan.wires) {
+    for (std::size_t i = 1; i < wire.vertices.size(); ++i) cuts.push_back({wire.vertices[i - 1], wire.vertices[i]});
+  }
+  plan.islands = face_segments(*surface, cuts);
+  for (const std::int32_t missing : missing_cuts(*surface, cuts, plan.islands)) {
+    ++plan.island_count;
+    plan.not_discs += missing > 0 ? 1 : 0;
+  }
   return plan;
 }
 
+/// Adds the map and the energy that measure_map() reports. measure_map() scales the map first; the search does not.
+void SeamPlanner::Impl::add_map(SeamPlan& plan, const SlitPlan& solved, const SeamGoal& goal) const {
+  const Point2 none = Point2::Zero();
+  plan.uvs.assign(surface->face_count(), {none, none, none});
+  for (const auto& map : solved.maps) {
+    if (!map) continue;
+    for (std::size_t k = 0; k < map->island.triangles.size(); ++k) {
+      const std::int32_t face = original.mesh.faces[map->island.faces[k]];
+      for (const std::int32_t own : map->island.triangles[k]) {
+        // The triangle may be turned over.
+        const std::int32_t vertex = original.mesh.sources[map->island.vertices[own]];
+        const auto corner = std::ranges::find(surface->triangles()[face], vertex) - surface->triangles()[face].begin();
+        plan.uvs[face][static_cast<std::size_t>(corner)] = map->map.uvs[own] / original.mesh.scale;
+      }
+    }
+  }
+  const bool is_whole =
+      std::ranges::all_of(original.by_piece, [](const SlitProblem::Piece& piece) { return piece.may_be_cut; });
+  if (!std::isfinite(plan.energy) || !is_whole) return;
+  plan.energy = measure_map(*surface, plan.uvs, plan.islands).energy;
+  plan.is_reached = plan.energy <= goal.distortion && !solved.overlaps;
+}
+
 SeamPlanner::SeamPlanner(std::shared_ptr<const Surface> surface, const SeamPlannerOptions& options, const Task& task) {
-  if (!surface) throw InvalidInput("surface: there is none");
   check_options(*surface, options);
-  impl_ = std::make_shared<const Impl>(std::make_shared<const Wires>(std::move(surface), options, task), options, task);
+  auto impl = std::make_shared<Impl>(std::move(surface), options);
+  impl->prepare(task);
+  impl_ = std::move(impl);
 }
 
-SeamPlanner SeamPlanner::with(const SeamPlannerOptions& options, const Task& task) const {
-  const SeamPlannerOptions& own = impl_->options;
-  const auto strength_of = [](const SeamPlannerOptions& of) {
-    return std::tie(of.strength.parameter, of.strength.max_anisotropy, of.strength.clamp_percentile);
-  };
-  if (options.along != own.along || strength_of(options) != strength_of(own)) {
-    throw InvalidInput("along, strength: others than those of the planner");
+/// One call of SeamPlanner::plan().
+class Planning {
+ public:
+  Planning(const SeamPlanner::Impl& planner, const SeamGoal& goal, const std::function<void(const SeamPlan&)>& found,
+           const Task& task)
+      : planner_(planner), goal_(goal), found_(found), task_(task), problem_(planner.searched()) {
+    part_limbs();
   }
-  check_options(impl_->surface(), options);
-  SeamPlanner other(*this);
-  other.impl_ = std::make_shared<const Impl>(impl_->wires, options, task);
-  return other;
-}
 
-SeamPlan SeamPlanner::plan(const SeamLimits& limits, std::span<const PlannedWire> kept, const Task& task) const {
-  const Surface& surface = impl_->surface();
-  const std::vector<double> max_spreads = checked_spreads(surface, limits);
-  std::vector<Choice> among = choices_of(surface, kept, "kept");
-  std::vector<std::int32_t> fixed;
-  for (Choice& choice : among) {
-    choice.is_kept = true;
-    fixed.insert(fixed.end(), choice.wire.vertices.begin(), choice.wire.vertices.end());
+  SeamPlan run() {
+    const bool is_bounded = std::isfinite(goal_.distortion);
+    SlitTree tree = grow_tree(problem_, is_bounded, task_);
+    const std::vector<std::int32_t> roots = tree.roots;
+    SlitGoal aim;
+    aim.energy = goal_.distortion;
+    aim.may_cross_faces = (goal_.distortion < kLowStretch);
+    aim.budget = (goal_.steps > 0) ? static_cast<double>(goal_.steps) : kBudget;
+    std::vector<Slit> best_slits;
+    SlitPlan best;
+    double steps = 0.0;
+    for (int round = 0;; ++round) {
+      const auto tell = [&](const SlitPlan& plan) {
+        if (found_ && round == 0) found_(planner_.seam_plan(on_original(plan.slits), plan, goal_, task_));
+      };
+      const SlitPlan plan = search_slits(problem_, {std::move(tree.slits), roots}, aim, tell, task_);
+      steps += plan.work;
+      std::vector<Slit> slits = on_original(plan.slits);
+      SlitPlan solved = solved_on_original(slits);
+      // The simplified mesh distorts less or more than the original one. The bound is moved by as much.
+      const double excess = solved.energy - goal_.distortion;
+      const bool is_near = excess <= 0.0 && (excess > -kNearBound || plan.slits.empty());
+      if (round == 0 || rank(solved) < rank(best)) {
+        best = std::move(solved);
+        best_slits = std::move(slits);
+      }
+      const double energy = plan.energy - excess - kMargin;
+      const bool is_last = !planner_.is_simplified() || !is_bounded || round == kRounds || is_near ||
+                           plan.energy > aim.energy || !(energy > 4.0);
+      if (is_last) break;
+      aim.energy = energy;
+      aim.budget *= kLaterBudget;
+      tree.slits = plan.slits;
+    }
+    SeamPlan result = planner_.seam_plan(best_slits, best, goal_, task_);
+    result.steps = steps;
+    planner_.add_map(result, best, goal_);
+    return result;
   }
-  among.insert(among.end(), impl_->choices.begin(), impl_->choices.end());
-  if (!limits.may_start_on_others) among = meeting_at_seeds(std::move(among));
-  CutPieces all = impl_->pieces(among, max_spreads);
-  std::vector<Choice> taken = thinned(surface, impl_->options.images, among, std::move(all), limits, task);
-  if (limits.may_start_on_others) taken = impl_->swept(std::move(taken), limits, max_spreads, task);
-  if (limits.are_straightened) taken = impl_->straightened(std::move(taken), fixed, limits, max_spreads, task);
-  return impl_->plan_of(std::move(taken));
-}
 
-SeamPlan SeamPlanner::straightened(std::span<const PlannedWire> wires, const SeamLimits& limits,
-                                   std::span<const std::int32_t> fixed, const Task& task) const {
-  const Surface& surface = impl_->surface();
-  const std::vector<double> max_spreads = checked_spreads(surface, limits);
-  for (const std::int32_t v : fixed) check_index(v, surface.vertex_count(), "fixed: vertex");
-  return impl_->plan_of(impl_->straightened(choices_of(surface, wires, "wires"), fixed, limits, max_spreads, task));
+ private:
+  /// Which of two plans on the original mesh is better: the cheaper one within the bound, or else the one with less
+  /// energy.
+  std::pair<double, double> rank(const SlitPlan& solved) const {
+    const bool is_within = solved.energy <= goal_.distortion && !solved.overlaps;
+    return is_within ? std::pair(0.0, solved.price) : std::pair(1.0, solved.energy);
+  }
+
+  /// Cuts around limbs at their necks, as many as the goal asks for.
+  void part_limbs() {
+    auto islands = index(problem_.pieces.count);
+    if (!goal_.parts && goal_.islands <= islands) return;
+    for (const NeckRing& ring : find_necks(problem_, task_)) {
+      if (!goal_.parts && islands >= goal_.islands) break;
+      islands += ring.image.empty() ? 1 : 2;
+      for (Slit& slit : slits_of(ring)) rings_.push_back(std::move(slit));
+    }
+    problem_.is_seam = cut_of(problem_, rings_, {}).is_cut;
+    find_pieces_of(problem_);
+  }
+
+  /// Rings and slits on the original mesh, rings first.
+  std::vector<Slit> on_original(std::span<const Slit> slits) const {
+    std::vector<Slit> all = rings_;
+    all.insert(all.end(), slits.begin(), slits.end());
+    if (!planner_.is_simplified()) return all;
+    return carried_slits(problem_, *planner_.simplified_mesh, planner_.original, all);
+  }
+
+  /// The map of the original mesh with rings and slits.
+  SlitPlan solved_on_original(const std::vector<Slit>& slits) const {
+    SlitProblem original = planner_.original;
+    original.is_seam = cut_of(original, slits, {}).is_cut;
+    find_pieces_of(original);
+    const Task own{.stop = task_.stop, .progress = [this](double) { return !task_.progress || task_.progress(1.0); }};
+    SlitPlan solved = SlitSolver(original, {}).solve({}, own);
+    for (const Slit& slit : slits) solved.price += original.price(slit);
+    return solved;
+  }
+
+  const SeamPlanner::Impl& planner_;
+  const SeamGoal& goal_;
+  const std::function<void(const SeamPlan&)>& found_;
+  const Task& task_;
+  SlitProblem problem_;
+  std::vector<Slit> rings_;
+};
+
+SeamPlan SeamPlanner::plan(const SeamGoal& goal, const std::function<void(const SeamPlan&)>& found,
+                           const Task& task) const {
+  if (!(goal.distortion > 4.0)) {
+    throw InvalidInput("distortion is " + std::to_string(goal.distortion) + ", not above 4, that of an isometry");
+  }
+  return Planning(*impl_, goal, found, task).run();
 }
 
 }  // namespace seamwire

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "detail/csr.hpp"
+#include "seamwire/surface/surface.hpp"
+#include "seamwire/surface/types.hpp"
+#include "seamwire/surface/vector.hpp"
+
+namespace seamwire {
+
+/// The price of an edge that no seam may use, and the length of a path that does not exist.
+inline constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// A neighbor of a vertex in a PlanMesh.
+struct PlanNeighbor {
+  std::int32_t vertex = -1;
+  std::int32_t edge = -1;
+};
+
+/// The mesh on which seams are planned: flat arrays, scaled so that the whole surface has area 1.
+struct PlanMesh {
+  std::vector<Vector> points;
+  std::vector<Triangle> triangles;         ///< two triangles that share an edge run along it in opposite directions
+  std::vector<std::int32_t> twins;         ///< of half-edge 3 f + i, from corner i to the next; -1 on the boundary
+  std::vector<std::int32_t> edge_of;       ///< the edge of each half-edge
+  std::vector<std::int32_t> half_edge_of;  ///< one half-edge of each edge
+  std::vector<double> lengths;             ///< of each edge
+  /// Whether seams may run along an edge. They may not where triangulating a polygon has created it.
+  std::vector<std::uint8_t> is_real;
+  std::vector<std::int32_t> sources;  ///< the surface's vertex of each vertex
+  std::vector<std::int32_t> faces;    ///< the surface's triangle of each triangle; empty for a simplified mesh
+  double scale = 1.0;                 ///< multiply the caller's coordinates by this
+  Csr<PlanNeighbor> neighbors;        ///< over real edges
+  Csr<PlanNeighbor> all_neighbors;    ///< over all edges
+
+  std::size_t vertex_count() const { return points.size(); }
+  std::size_t face_count() const { return triangles.size(); }
+  std::size_t edge_count() const { return half_edge_of.size(); }
+  std::int32_t start(std::int32_t half_edge) const { return triangles[half_edge / 3][half_edge % 3]; }
+  std::int32_t end(std::int32_t half_edge) const { return triangles[half_edge / 3][(half_edge + 1) % 3]; }
+  bool is_boundary(std::int32_t edge) const { return twins[half_edge_of[edge]] < 0; }
+  /// The real edge between two vertices, the one with the smaller number if there are two; -1 if there is none.
+  std::int32_t edge_between(std::int32_t a, std::int32_t b) const;
+};
+
+/// The triangles of a surface without degenerate and duplicate ones. Vertices are the corner fans, so pieces that meet
+/// only in a vertex are apart.
+PlanMesh plan_mesh(const Surface& surface);
+
+/// Fills in edges, lengths and neighbors of a mesh whose points, triangles and twins are known. `real_edges`: between
+/// vertices of the mesh, sorted, the smaller vertex first; empty: all are real.
+void connect(PlanMesh& mesh, std::span<const Edge> real_edges);
+
+/// Area and unit normal of each triangle; the normal of a triangle without area is zero.
+struct FaceFrame {
+  Vector normal = Vector::Zero();
+  double area = 0.0;
+};
+std::vector<FaceFrame> face_frames(const PlanMesh& mesh);
+
+/// Unit normals at vertices, weighted by the angles at corners.
+std::vector<Vector> vertex_normals(const PlanMesh& mesh, std::span<const FaceFrame> frames);
+
+/// A third of the area of the triangles around each vertex.
+std::vector<double> vertex_areas(const PlanMesh& mesh, std::span<const FaceFrame> frames);
+
+/// The median length of the edges; 0 if there are none.
+double median_length(const PlanMesh& mesh);
+
+/// The connected pieces of a mesh that is cut along some edges: the piece of each face, numbered by first faces.
+struct Pieces {
+  std::vector<std::int32_t> of_face;
+  std::int32_t count = 0;
+};
+Pieces find_pieces(const PlanMesh& mesh, std::span<const std::uint8_t> is_cut);
+
+}  // namespace seamwire

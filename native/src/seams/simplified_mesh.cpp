@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "seams/simplified_mesh.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <queue>
+#include <utility>
+
+#include "detail/index.hpp"
+#include "detail/poll.hpp"
+
+namespace seamwire {
+namespace {
+
+/// A quadratic function of a point: the sum of squared distances to planes, weighted.
+struct Quadric {
+  Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
+  Vector b = Vector::Zero();
+  double c = 0.0;
+
+  void add_plane(const Vector& normal, const Vector& through, double weight) {
+    const double d = -normal.dot(through);
+    a += weight * normal * normal.transpose();
+    b += weight * d * normal;
+    c += weight * d * d;
+  }
+  Quadric& operator+=(const Quadric& other) {
+    a += other.a;
+    b += other.b;
+    c += other.c;
+    return *this;
+  }
+  double at(const Vector& point) const { return point.dot(a * point) + 2.0 * b.dot(point) + c; }
+};
+
+/// A mesh whose edges are being collapsed.
+class Collapsing {
+ public:
+  Collapsing(const PlanMesh& mesh, std::span<const std::uint8_t> is_seam, const Reflection* reflection)
+      : mesh_(mesh),
+        reflection_(reflection != nullptr && reflection->is_exact ? reflection : nullptr),
+        triangles_(mesh.triangles),
+        is_gone_(mesh.face_count(), 0),
+        faces_(mesh.vertex_count()),
+        quadrics_(mesh.vertex_count()),
+        version_(mesh.vertex_count(), 0),
+        features_(mesh.vertex_count()),
+        left_(mesh.face_count()) {
+    for (std::int32_t f = 0; index(f) < mesh.face_count(); ++f) {
+      for (const std::int32_t v : triangles_[f]) faces_[v].push_back(f);
+    }
+    add_quadrics(is_seam);
+  }
+
+  void run(std::size_t goal, const Task& task) {
+    for (std::int32_t v = 0; index(v) < mesh_.vertex_count(); ++v) push_all(v);
+    const Poll poll(task, 0.0, 1.0, mesh_.vertex_count(), Poll::kFewSteps);
+    for (std::size_t step = 0; left_ > goal && !queue_.empty(); ++step) {
+      poll.at(step);
+      const Entry entry = queue_.top();
+      queue_.pop();
+      if (entry.version != version_[entry.from] + version_[entry.to]) continue;
+      collapse_with_image(entry.from, entry.to);
+    }
+  }
+
+  SimplifiedMesh result() const;
+
+ private:
+  struct Entry {
+    double error = 0.0;
+    std::int32_t from = -1, to = -1;
+    std::int64_t version = 0;
+    bool operator<(const Entry& other) const {  // least error on top, then lesser numbers
+      return std::tie(other.error, other.from, other.to) < std::tie(error, from, to);
+    }
+  };
+
+  void add_quadrics(std::span<const std::uint8_t> is_seam);
+  std::vector<std::int32_t> neighbors(std::int32_t v) const {
+    std::vector<std::int32_t> found;
+    for (const std::int32_t f : faces_[v]) {
+      for (const std::int32_t other : triangles_[f]) {
+        if (other != v) found.push_back(other);
+      }
+    }
+    std::ranges::sort(found);
+    found.erase(std::ranges::unique(found).begin(), found.end());
+    return found;
+  }
+  bool is_feature(std::int32_t a, std::int32_t b) const {
+    return std::ranges::find(features_[a], b) != features_[a].end();
+  }
+  bool may_collapse(std::int32_t from, std::int32_t to) const;
+  bool folds(std::int32_t from, std::int32_t to) const;
+  void collapse(std::int32_t from, std::int32_t to);
+  void collapse_with_image(std::int32_t from, std::int32_t to);
+  void push_all(std::int32_t v) {
+    for (const std::int32_t other : neighbors(v)) {
+      push(v, other);
+      push(other, v);
+    }
+  }
+  void push(std::int32_t from, std::int32_t to) {
+    Quadric sum = quadrics_[from];
+    sum += quadrics_[to];
+    const double error = std::max(sum.at(mesh_.points[to]), 0.0);
+    queue_.push({error, from, to, version_[from] + version_[to]});
+  }
+  std::int32_t image(std::int32_t v) const { return reflection_ != nullptr ? reflection_->images[v] : v; }
+  bool is_on_plane(std::int32_t v) const { return reflection_ != nullptr && reflection_->sides[v] == 0; }
+
+  const PlanMesh& mesh_;
+  const Reflection* reflection_;
+  std::vector<Triangle> triangles_;
+  std::vector<std::uint8_t> is_gone_;
+  std::vector<std::vector<std::int32_t>> faces_;
+  std::vector<Quadric> quadrics_;
+  std::vector<std::int64_t> version_;
+  std::vector<std::vector<std::int32_t>> features_;  // neighbors over boundary edges and seams
+  std::priority_queue<Entry> queue_;
+  std::size_t left_;
+};
+
+void Collapsing::add_quadrics(std::span<const std::uint8_t> is_seam) {
+  constexpr double kFeatureWeight = 10.0;  // of planes through boundaries and seams
+  const std::vector<FaceFrame> frames = face_frames(mesh_);
+  for (std::size_t f = 0; f < mesh_.face_count(); ++f) {
+    for (const std::int32_t v : triangles_[f]) {
+      quadrics_[v].add_plane(frames[f].normal, mesh_.points[triangles_[f][0]], frames[f].area);
+    }
+  }
+  for (std::int32_t e = 0; index(e) < mesh_.edge_count(); ++e) {
+    if (is_seam[e] == 0 && !mesh_.is_boundary(e)) continue;
+    const std::int32_t h = mesh_.half_edge_of[e], a = mesh_.start(h), b = mesh_.end(h);
+    features_[a].push_back(b);
+    features_[b].push_back(a);
+    const Vector along = mesh_.points[b] - mesh_.points[a];
+    const Vector across = along.cross(frames[h / 3].normal);
+    const double size = across.norm();
+    if (!(size > 0.0)) continue;
+    for (const std::int32_t v : {a, b}) {
+      quadrics_[v].add_plane(across / size, mesh_.points[a], kFeatureWeight * along.squaredNorm());
+    }
+  }
+}
+
+/// Whether the topology allows it, and features and the mirror plane stay.
+bool Collapsing::may_collapse(std::int32_t from, std::int32_t to) const {
+  if (is_on_plane(from) && !is_on_plane(to)) return false;
+  if (!features_[from].empty() && (features_[from].size() != 2 || !is_feature(from, to))) return false;
+  const std::vector<std::int32_t> one = neighbors(from), other = neighbors(to);
+  if (!std::ranges::binary_search(one, to)) return false;
+  std::vector<std::int32_t> common;
+  std::ranges::set_intersection(one, other, std::back_inserter(common));
+  const auto shared = std::ranges::count_if(
+      faces_[from], [&](std::int32_t f) { return std::ranges::find(triangles_[f], to) != triangles_[f].end(); });
+  // Link condition: the ends have only the corners of the edge's triangles in common.
+  if (common.size() != static_cast<std::size_t>(shared)) return false;
+  // A feature may not be folded onto another one.
+  if (std::ranges::any_of(common, [&](std::int32_t v) { return is_feature(from, v) && is_feature(to, v); }))
+    return false;
+  if (features_[from].empty() &&
+      std::ranges::any_of(common, [&](std::int32_t v) { return neighbors(v).size() <= 3; })) {
+    return false;
+  }
+  return !folds(from, to);
+}
+
+/// Whether a triangle would turn over, or become needle-thin.
+bool Collapsing::folds(std::int32_t from, std::int32_t to) const {
+  constexpr double kLeastCosine = 0.2, kLeastShape = 0.02;
+  for (const std::int32_t f : faces_[from]) {
+    const Triangle& t = triangles_[f];
+    if (std::ranges::find(t, to) != t.end()) continue;
+    std::array<Vector, 3> before, after;
+    for (std::size_t i = 0; i < 3; ++i) {
+      before[i] = mesh_.points[t[i]];
+      after[i] = t[i] == from ? mesh_.points[to] : before[i];
+    }
+    const Vector was = (before[1] - before[0]).cross(before[2] - before[0]);
+    const Vector is = (after[1] - after[0]).cross(after[2] - after[0]);
+    const double longest = std::max({(after[1] - after[0]).squaredNorm(), (after[2] - after[0]).squaredNorm(),
+                                     (after[2] - after[1]).squaredNorm()});
+    if (is.norm() <= kLeastShape * longest || was.dot(is) < kLeastCosine * was.norm() * is.norm()) return true;
+  }
+  return false;
+}
+
+void Collapsing::collapse(std::int32_t from, std::int32_t to) {
+  for (const std::int32_t f : faces_[from]) {
+    Triangle& t = triangles_[f];
+    if (std::ranges::find(t, to) != t.end()) {
+      is_gone_[f] = 1;
+      --left_;
+      for (const std::int32_t v : t) {
+        if (v != from) std::erase(faces_[v], f);
+      }
+      continue;
+    }
+    std::ranges::replace(t, from, to);
+    faces_[to].push_back(f);
+  }
+  faces_[from].clear();
+  for (const std::int32_t other : features_[from]) {
+    std::erase(features_[other], from);
+    if (other == to) continue;
+    features_[other].push_back(to);
+    features_[to].push_back(other);
+  }
+  features_[from].clear();
+  quadrics_[to] += quadrics_[from];
+  ++version_[to];
+  ++version_[from];
+}
+
+/// Collapses an edge and its mirror image, or neither.
+void Collapsing::collapse_with_image(std::int32_t from, std::int32_t to) {
+  if (faces_[from].empty() || faces_[to].empty() || !may_collapse(from, to)) return;
+  const std::int32_t from_image = image(from), to_image = image(to);
+  if (reflection_ == nullptr || from_image == from) {
+    collapse(from, to);
+    push_all(to);
+    return;
+  }
+  if (from_image < 0 || to_image < 0 || faces_[from_image].empty() || faces_[to_image].empty()) return;
+  // The neighborhoods have to be apart: else one collapse changes what the other was checked for.
+  const std::vector<std::int32_t> one = neighbors(from), other = neighbors(from_image);
+  if (std::ranges::binary_search(one, from_image) || (to == to_image && (one.size() < 5 || other.size() < 5))) return;
+  if (!may_collapse(from_image, to_image)) return;
+  collapse(from, to);
+  if (may_collapse(from_image, to_image)) collapse(from_image, to_image);
+  push_all(to);
+  push_all(to_image);
+}
+
+SimplifiedMesh Collapsing::result() const {
+  SimplifiedMesh out;
+  std::vector<std::int32_t> number(mesh_.vertex_count(), -1);
+  for (std::int32_t v = 0; index(v) < mesh_.vertex_count(); ++v) {
+    if (faces_[v].empty()) continue;
+    number[v] = static_cast<std::int32_t>(out.vertices.size());
+    out.vertices.push_back(v);
+    out.mesh.points.push_back(mesh_.points[v]);
+    out.mesh.sources.push_back(mesh_.sources[v]);
+  }
+  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> half_edges;
+  for (std::size_t f = 0; f < triangles_.size(); ++f) {
+    if (is_gone_[f] != 0) continue;
+    const auto at = static_cast<std::int32_t>(3 * out.mesh.triangles.size());
+    const Triangle& t = triangles_[f];
+    out.mesh.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+    for (std::int32_t i = 0; i < 3; ++i) half_edges[{number[t[i]], number[t[(i + 1) % 3]]}] = at + i;
+  }
+  out.mesh.twins.assign(3 * out.mesh.triangles.size(), -1);
+  for (const auto& [ends, h] : half_edges) {
+    const auto twin = half_edges.find({ends.second, ends.first});
+    if (twin != half_edges.end()) out.mesh.twins[h] = twin->second;
+  }
+  out.mesh.scale = mesh_.scale;
+  connect(out.mesh, {});
+  for (const std::int32_t h : out.mesh.half_edge_of) {
+    const bool is_inner = out.mesh.twins[h] >= 0;
+    const std::int32_t a = out.vertices[out.mesh.start(h)], b = out.vertices[out.mesh.end(h)];
+    out.is_seam.push_back(is_inner && is_feature(a, b) ? 1 : 0);
+  }
+  return out;
+}
+
+}  // namespace
+
+SimplifiedMesh simplified(const PlanMesh& mesh, std::span<const std::uint8_t> is_seam, const Reflection* reflection,
+                          std::size_t triangles, const Task& task) {
+  Collapsing collapsing(mesh, is_seam, reflection);
+  collapsing.run(triangles, task);
+  return collapsing.result();
+}
+
+}  // namespace seamwire

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "seams/slit_plan.hpp"
+#include "seamwire/task.hpp"
+
+namespace seamwire {
+
+/// Maps pieces with given slits to the plane. May be called from several threads.
+///
+/// A piece that slits do not make a disc has no map, and the plan's energy is infinite.
+class SlitSolver {
+ public:
+  /// `roots`: as cut_of().
+  SlitSolver(const SlitProblem& problem, std::vector<std::int32_t> roots);
+
+  /// A plan with these slits. All maps start from Tutte's embedding.
+  SlitPlan solve(std::vector<Slit> slits, const Task& task) const;
+  /// A plan with these slits, which differ from those of another plan in some pieces only; these maps start from
+  /// Tutte's embedding. Stops early, with an energy above `most`, once it is certain to end above that.
+  SlitPlan solve_changed(std::vector<Slit> slits, const SlitPlan& before, std::span<const std::int32_t> pieces,
+                         double most, const Task& task) const;
+  /// A plan with a slit more. The maps continue from those before.
+  SlitPlan extend(const SlitPlan& before, const Slit& slit, const Task& task) const;
+  /// The plan with maps that may overlap themselves: the energy that trials are compared with.
+  SlitPlan relaxed(const SlitPlan& plan, const Task& task) const;
+  /// A relaxed plan with a slit more, after a few steps: what the slit is about worth.
+  SlitPlan try_out(const SlitPlan& relaxed, const Slit& slit, const Task& task) const;
+
+  Cut cut(std::span<const Slit> slits) const { return cut_of(problem_, slits, roots_); }
+
+ private:
+  SlitPlan continued(const SlitPlan& before, const Slit& slit, const MapOptions& options, const Task& task) const;
+
+  const SlitProblem& problem_;
+  std::vector<std::int32_t> roots_;
+};
+
+}  // namespace seamwire

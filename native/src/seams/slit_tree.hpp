@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "seams/slit_plan.hpp"
+#include "seamwire/task.hpp"
+
+namespace seamwire {
+
+/// The first slits of a plan.
+struct SlitTree {
+  std::vector<Slit> slits;
+  std::vector<std::int32_t> roots;  ///< where slits start in pieces without a boundary
+};
+
+/// Slits that make every piece a disc, and, with `has_tips`, lead to the tips of its limbs.
+///
+/// Tips are local maxima of the mean geodesic distance (Hilaga et al. 2001). Handles are cut along the shortest loops
+/// (Erickson and Whittlesey 2005). From the boundary, or from a hidden vertex in the middle of a closed piece, slits
+/// lead to further boundary loops and tips, each time to the one that is cheapest to reach. On several threads. Throws
+/// Cancelled.
+SlitTree grow_tree(const SlitProblem& problem, bool has_tips, const Task& task);
+
+}  // namespace seamwire

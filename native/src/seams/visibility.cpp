@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "seams/visibility.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "detail/run_on_threads.hpp"
+#include "seamwire/surface/ray_tree.hpp"
+
+namespace seamwire {
+namespace {
+
+constexpr int kViews = 20;  // from the front hemisphere
+constexpr int kSky = 24;    // directions above a vertex
+constexpr std::size_t kBlock = 256;
+
+/// Point i of `count` on a hemisphere around `axis`, spread evenly (Fibonacci spiral).
+Vector on_hemisphere(int i, int count, const Vector& axis) {
+  const double height = 1.0 - (i + 0.5) / count, turn = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
+  const Vector x = axis.unitOrthogonal(), y = axis.cross(x);
+  return std::sqrt(1.0 - height * height) * (std::cos(turn) * x + std::sin(turn) * y) + height * axis;
+}
+
+/// The same with a density that is proportional to the cosine of the angle to the axis.
+Vector by_cosine(int i, int count, const Vector& axis) {
+  const double radius = std::sqrt((i + 0.5) / count), turn = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
+  const Vector x = axis.unitOrthogonal(), y = axis.cross(x);
+  return radius * (std::cos(turn) * x + std::sin(turn) * y) + std::sqrt(std::max(1.0 - radius * radius, 0.0)) * axis;
+}
+
+}  // namespace
+
+Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& front, const Task& task) {
+  constexpr double kAbove = 2e-3;  // start this far above the surface, to miss the faces around the vertex
+  const RayTree rays(mesh.points, mesh.triangles);
+  rays.wait();
+  const std::vector<Vector> normals = vertex_normals(mesh, face_frames(mesh));
+  std::vector<Vector> views;
+  for (int i = 0; front && i < kViews; ++i) views.push_back(on_hemisphere(i, kViews, front->normalized()));
+  Visibility found;
+  found.ambient.assign(mesh.vertex_count(), 1.0);
+  if (front) found.front.assign(mesh.vertex_count(), 1.0);
+  const auto look = [&](std::size_t v) {
+    const Vector& normal = normals[v];
+    if (normal.isZero()) return;
+    const Vector origin = mesh.points[v] + kAbove * normal;
+    const auto is_free = [&](const Vector& direction) {
+      return direction.dot(normal) > 0.0 && rays.first_hit(origin, direction).triangle < 0;
+    };
+    int seen = 0;
+    for (int i = 0; i < kSky; ++i) seen += is_free(by_cosine(i, kSky, normal)) ? 1 : 0;
+    found.ambient[v] = static_cast<double>(seen) / kSky;
+    if (!front) return;
+    const auto views_that_see = std::ranges::count_if(views, is_free);
+    found.front[v] = static_cast<double>(views_that_see) / kViews;
+  };
+  const std::size_t blocks = (mesh.vertex_count() + kBlock - 1) / kBlock;
+  run_on_threads(
+      blocks, task, [&](std::size_t done) { return static_cast<double>(done) / static_cast<double>(blocks); },
+      [&](std::size_t block, const Task& own) {
+        own.check(0.0);
+        const std::size_t end = std::min(mesh.vertex_count(), (block + 1) * kBlock);
+        for (std::size_t v = block * kBlock; v < end; ++v) look(v);
+      });
+  return found;
+}
+
+}  // namespace seamwire

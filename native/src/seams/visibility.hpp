@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "seams/plan_mesh.hpp"
+#include "seamwire/surface/vector.hpp"
+#include "seamwire/task.hpp"
+
+namespace seamwire {
+
+/// How much of the surface around it sees each vertex of a mesh.
+struct Visibility {
+  std::vector<double> front;    ///< the share of the views from the front that see the vertex; empty without a front
+  std::vector<double> ambient;  ///< the share of the sky above the vertex that the mesh does not cover, cosine-weighted
+};
+
+/// `front`: the direction towards the viewer; nullopt if no side is the front. On several threads. Throws Cancelled.
+Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& front, const Task& task);
+
+}  // namespace seamwire
