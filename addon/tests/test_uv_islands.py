@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from seamwire.core.uv_islands import NewIsland, boxes_of, families, place, split_edges
+from seamwire.core.uv_islands import NewIsland, boxes_of, families, in_rows, place, split_edges
 
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 TRIANGLES = np.array([[0, 1, 2], [0, 2, 3]])
@@ -93,3 +93,30 @@ def test_an_island_in_another_tile_stays_in_it() -> None:
     before = 0.25 * SQUARE + (2.5, -0.75)
     found = place([island(before, SQUARE)], taken((0.0, 0.0), (1.0, 1.0)))[0]
     assert found == pytest.approx(before, abs=1.0 / 512)
+
+
+def test_an_island_is_turned_as_it_is_seen_on_a_wide_image() -> None:
+    on_image = np.array([4.0, 1.0])
+    before = 0.25 * SQUARE / on_image
+    angle = 0.6
+    turned = SQUARE @ np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]]) / on_image
+    new = NewIsland(before, turned, TRIANGLES, np.array([0.5, 0.5]), 0.25 / 2.0, 4.0)
+    (found,) = place([new], taken((0.9, 0.9), (0.1, 0.1)))
+    assert found - found[0] == pytest.approx(before - before[0])
+
+
+def test_islands_lie_in_rows_without_touching_at_one_scale() -> None:
+    dice = np.random.default_rng(3)
+    sizes = dice.uniform(0.05, 3.0, (40, 2))
+    sizes[7] = 0.0
+    uvs = np.concatenate([SQUARE * size - dice.uniform(-9.0, 9.0, 2) for size in sizes])
+    labels = np.repeat(np.arange(40), 4)
+    found = in_rows(uvs, labels).reshape(40, 4, 2)
+    assert found.min() >= 0.0
+    assert found.max() == pytest.approx(1.0)
+    low, high = found.min(axis=1), found.max(axis=1)
+    scale = (high - low)[0, 0] / sizes[0, 0]
+    assert high - low == pytest.approx(scale * sizes)
+    apart = ((low[:, None] > high[None]) | (high[:, None] < low[None])).any(axis=2)
+    assert (apart | np.eye(40, dtype=bool)).all()
+    assert in_rows(np.empty((0, 2)), np.empty(0, dtype=np.int64)).shape == (0, 2)

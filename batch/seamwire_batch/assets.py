@@ -146,12 +146,11 @@ def mesh_objects() -> list[bpy.types.Object]:
 
 
 def unwrap() -> None:
-    """Unwrap all of what is in edit mode along its seams, islands of one scale, packed."""
-    bpy.ops.mesh.select_all(action="SELECT")
-    bpy.ops.uv.unwrap(method="ANGLE_BASED", margin=0.01)
-    bpy.ops.uv.select_all(action="SELECT")
-    bpy.ops.uv.average_islands_scale()
-    bpy.ops.uv.pack_islands(margin=0.01)
+    """Unwrap all of what is in edit mode along its seams, islands of one scale, packed; raises AssetError."""
+    try:
+        bpy.ops.mesh.seamwire_unwrap(changed_only=False)
+    except RuntimeError as error:
+        raise AssetError(f"It cannot be unwrapped: {_first_line(error)}") from error
 
 
 def _first_line(error: Exception) -> str:

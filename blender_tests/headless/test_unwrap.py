@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What ``mesh.seamwire_unwrap`` unwraps, and that all else stays."""
 
+import math
 from itertools import pairwise
 
 import bmesh
 import bpy
 import numpy as np
 import pytest
+from maps import areas, covered_twice, energy, flipped, in_square, signed_areas, triangles
 from scene import add_grid, add_layers, add_object, add_suzanne, edit, snapshot
-from seamwire.mesh import uv_map
+from seamwire.core import native
 from seamwire.mesh.seam_islands import island_count, worst_island
-from seamwire.mesh.unwrap import UNWRAPPED, SavedUvs, unwrap_changed
+from seamwire.mesh.unwrap import UNWRAPPED
 from stored import session_on, write
 
 ROWS = 9
@@ -82,7 +84,8 @@ def density(obj: bpy.types.Object, faces: slice) -> float:
 
 
 @pytest.mark.every_blender
-def test_a_mesh_without_uvs_is_unwrapped_and_packed_as_blender_does() -> None:
+@pytest.mark.parametrize("method", ["ANGLE_BASED", "CONFORMAL"])
+def test_with_blenders_methods_a_mesh_without_uvs_is_unwrapped_and_packed_as_blender_does(method: str) -> None:
     found = []
     for name in ("ours", "blenders"):
         obj = add_hill()
@@ -90,15 +93,105 @@ def test_a_mesh_without_uvs_is_unwrapped_and_packed_as_blender_does() -> None:
         edit()
         mark(obj, row(3))
         if name == "ours":
-            assert unwrap() == {"FINISHED"}
+            assert bpy.ops.mesh.seamwire_unwrap(method=method) == {"FINISHED"}
         else:
             bpy.ops.mesh.select_all(action="SELECT")
-            bpy.ops.uv.unwrap()
+            bpy.ops.uv.unwrap(method=method)
         found.append(uvs(obj))
         bpy.ops.object.mode_set(mode="OBJECT")
         obj.select_set(False)
     assert np.array_equal(*found)
     assert np.ptp(found[0]) > 0.5
+
+
+def cut_at(obj: bpy.types.Object, axis: str) -> None:
+    """Make the edges seams whose faces lie on both sides of the plane through the origin across an axis."""
+    bm = bmesh.from_edit_mesh(obj.data)
+    number = "xyz".index(axis)
+    for edge in bm.edges:
+        edge.seam = len({face.calc_center_median()[number] > 0.0 for face in edge.link_faces}) == 2
+    bmesh.update_edit_mesh(obj.data)
+
+
+@pytest.mark.every_blender
+def test_a_mesh_without_uvs_is_flattened_and_packed() -> None:
+    obj = add_suzanne(1)
+    obj.data.uv_layers.remove(obj.data.uv_layers[0])
+    edit()
+    cut_at(obj, "x")
+    assert unwrap() == {"FINISHED"}
+    assert not flipped(obj)
+    assert not covered_twice(obj)
+    assert in_square(obj)
+    low, high = boxes(triangles(obj)[0])
+    assert (high - low).max() > 0.9, "it fills the square one way"
+    assert np.abs(signed_areas(triangles(obj)[0])).sum() > 0.4, "Blender packs it: in rows a third is covered"
+
+
+def test_the_flattening_stretches_less_than_blenders_unwrap() -> None:
+    obj = add_suzanne(1)
+    edit()
+    cut_at(obj, "x")
+    found = {}
+    for method in ("ANGLE_BASED", "SEAMWIRE"):
+        assert bpy.ops.mesh.seamwire_unwrap(method=method, changed_only=False) == {"FINISHED"}
+        found[method] = energy(obj)
+    assert found["SEAMWIRE"] < found["ANGLE_BASED"] - 0.1
+
+
+def test_islands_have_one_scale_where_all_are_new() -> None:
+    obj = add_hill()
+    edit()
+    mark(obj, row(2), row(7))
+    assert unwrap() == {"FINISHED"}
+    found = [density(obj, faces) for faces in (slice(0, 16), slice(16, 56), slice(56, 64))]
+    assert max(found) < 1.1 * min(found)
+
+
+def test_polygons_and_faces_without_area_get_uvs() -> None:
+    corners = [(math.cos(angle), math.sin(angle), 0.0) for angle in np.linspace(0.0, 2.0 * math.pi, 7)[:-1]]
+    # A hexagon, a square beside it, and a face on the line between the two.
+    points = [*corners, (3.0, corners[0][1], 0.0), (3.0, corners[1][1], 0.0), (2.0, corners[0][1], 0.0)]
+    obj = add_object(points, [(0, 1, 2, 3, 4, 5), (0, 6, 7, 1), (0, 8, 6)])
+    edit()
+    assert unwrap() == {"FINISHED"}
+    assert in_square(obj)
+    found, places = triangles(obj)
+    is_solid = areas(places) > 1e-9
+    assert is_solid.sum() == len(found) - 1
+    ratios = signed_areas(found)[is_solid] / areas(places)[is_solid]
+    assert ratios == pytest.approx(ratios[0], rel=1e-3), "what is flat is only scaled"
+
+
+def test_uvs_are_squeezed_as_the_image_is_wide() -> None:
+    image = bpy.data.images.new("Wide", 300, 100)
+    material = bpy.data.materials.new("Wide")
+    material.use_nodes = True
+    node = material.node_tree.nodes.new("ShaderNodeTexImage")
+    node.image = image
+    material.node_tree.nodes.active = node
+    obj = add_hill()
+    obj.data.materials.append(material)
+    edit()
+    for method in ("SEAMWIRE", "ANGLE_BASED"):
+        assert bpy.ops.mesh.seamwire_unwrap(method=method, changed_only=False) == {"FINISHED"}
+        assert energy(obj, aspect=3.0) < 4.3
+    mark(obj, row(4))
+    assert unwrap() == {"FINISHED"}
+    assert energy(obj, aspect=3.0) < 4.3, "in a place of its own too"
+
+
+def test_all_islands_are_unwrapped_if_asked_for() -> None:
+    obj = add_hill()
+    edit()
+    mark(obj, row(3))
+    unwrap()
+    move(obj, slice(0, 24), (0.1, 0.1), 0.3)
+    before = uvs(obj)
+    assert unwrap() == {"CANCELLED"}
+    assert bpy.ops.mesh.seamwire_unwrap(changed_only=False) == {"FINISHED"}
+    assert density(obj, slice(0, 24)) == pytest.approx(density(obj, slice(24, 64)), rel=0.1)
+    assert not np.array_equal(before, uvs(obj))
 
 
 @pytest.mark.every_blender
@@ -128,8 +221,40 @@ def test_only_the_islands_whose_seams_changed_are_unwrapped_and_the_others_keep_
     assert (high <= 1.0).all()
 
 
-@pytest.mark.parametrize("even", [False, True])
-def test_new_islands_are_as_dense_as_what_they_were_part_of_or_as_the_others(even: bool) -> None:
+@pytest.fixture
+def flattenings(monkeypatch: pytest.MonkeyPatch) -> list[tuple[tuple[object, ...], dict[str, object]]]:
+    """The arguments that the library's flattening was called with."""
+    asked = []
+    flatten = native.load().flatten
+
+    def noted(*arguments: object, **options: object) -> object:
+        asked.append((arguments, options))
+        return flatten(*arguments, **options)
+
+    monkeypatch.setattr(native.load(), "flatten", noted)
+    return asked
+
+
+def test_only_changed_islands_are_flattened_from_the_map_that_is_there(
+    flattenings: list[tuple[tuple[object, ...], dict[str, object]]],
+) -> None:
+    obj = add_hill()
+    edit()
+    mark(obj, row(3))
+    assert unwrap() == {"FINISHED"}
+    assert flattenings[0][1]["start"] is None
+    mark(obj, row(6))
+    assert unwrap() == {"FINISHED"}
+    assert len(flattenings) == 2
+    (points, triangles, cuts), options = flattenings[1]
+    assert len(points) == 6 * ROWS
+    assert len(triangles) == 2 * 8 * 5
+    assert len(cuts) == 2 * 8, "the rows at the border and in the middle"
+    start = options["start"]
+    assert signed_areas(start).sum() == pytest.approx(areas(points[triangles]).sum(), rel=1e-4)
+
+
+def test_new_islands_are_as_dense_as_what_they_were_part_of() -> None:
     obj = add_hill()
     edit()
     mark(obj, row(4))
@@ -139,49 +264,9 @@ def test_new_islands_are_as_dense_as_what_they_were_part_of_or_as_the_others(eve
     dense, thin = density(obj, upper), density(obj, lower)
     assert dense == pytest.approx(2.0 * thin, rel=0.1)
     mark(obj, tuple(range(4, ROWS * 4 + 5, ROWS)))
-    unwrap_changed(bpy.context, [obj], even)
+    assert unwrap() == {"FINISHED"}
     assert density(obj, upper) == dense
-    assert density(obj, lower) == pytest.approx(dense if even else thin, rel=1e-3)
-
-
-@pytest.mark.every_blender
-@pytest.mark.parametrize("has_map", [False, True])
-def test_uvs_come_back_out_of_edit_mode_too_but_not_where_faces_are_others(has_map: bool) -> None:
-    obj = add_hill()
-    edit()
-    if has_map:
-        mark(obj, row(4))
-        assert unwrap() == {"FINISHED"}
-    before = uv_map.read_uvs(obj)
-    mark(obj, row(6))
-    saved = SavedUvs(obj)
-    unwrap_changed(bpy.context, [obj])
-    bpy.ops.object.mode_set(mode="OBJECT")
-    saved.restore()
-    after = uv_map.read_uvs(obj)
-    assert np.array_equal(after, before) if has_map else after is None
-    edit()
-    bpy.ops.mesh.select_all(action="SELECT")
-    bpy.ops.mesh.subdivide()
-    then = uv_map.read_uvs(obj)
-    saved.restore()
-    assert not has_map or np.array_equal(uv_map.read_uvs(obj), then)
-
-
-@pytest.mark.parametrize("has_map", [False, True])
-def test_uvs_come_back_after_unwrapping_on_trial(has_map: bool) -> None:
-    obj = add_hill()
-    edit()
-    if has_map:
-        mark(obj, row(4))
-        assert unwrap() == {"FINISHED"}
-    mark(obj, row(6))
-    before = snapshot(obj)
-    saved = SavedUvs(obj)
-    unwrap_changed(bpy.context, [obj])
-    assert snapshot(obj) != before
-    saved.restore()
-    assert snapshot(obj) == before
+    assert density(obj, lower) == pytest.approx(thin, rel=1e-3)
 
 
 def test_without_room_in_the_square_new_islands_lie_beside_it() -> None:
@@ -346,6 +431,25 @@ def test_pinned_corners_stay() -> None:
     assert np.array_equal(after[32:], before[32:])
 
 
+def test_where_all_islands_are_new_they_keep_clear_of_one_with_pins() -> None:
+    obj = add_hill()
+    edit()
+    mark(obj, row(4))
+    unwrap()
+    bm = bmesh.from_edit_mesh(obj.data)
+    layer = bm.loops.layers.uv.active
+    bm.faces.ensure_lookup_table()
+    for face in (bm.faces[0], bm.faces[7]):
+        for loop in face.loops:
+            loop[layer].pin_uv = True
+            loop[layer].uv = (0.5 + 0.2 * loop.vert.co.x, 0.7 + 0.2 * loop.vert.co.y)
+    mark(obj, (4, 13, 22), (58, 67, 76))
+    assert unwrap() == {"FINISHED"}
+    found = uvs(obj)
+    assert found[[0, 7]].min() > 0.2, "the pinned faces stay"
+    assert apart(found[:32], found[32:])
+
+
 @pytest.mark.every_blender
 def test_another_uv_map_is_unwrapped_for_itself() -> None:
     obj = add_hill()
@@ -372,8 +476,7 @@ def test_all_objects_in_edit_mode_are_unwrapped_among_each_other() -> None:
     assert unwrap() == {"FINISHED"}
     assert np.array_equal(uvs(objects[0]), first)
     assert not np.array_equal(uvs(objects[1]), second)
-    assert apart(uvs(objects[1])[:32], first)
-    assert apart(uvs(objects[1])[32:], first)
+    assert not covered_twice(*objects)
     assert OWN.rpartition(" ")[2] in bmesh.from_edit_mesh(objects[0].data).edges.layers.int
 
 

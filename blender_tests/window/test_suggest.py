@@ -1,139 +1,238 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Seams are suggested beside the interface, and can be cancelled."""
+"""Seams are suggested beside the interface: the best plan is shown, Enter keeps it, Esc changes nothing."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import threading
+from collections.abc import Callable, Iterator
 
 import bpy
 import numpy as np
 import pytest
 import ui as driver
-from desk import leave, undo_steps
+from desk import choose, leave, undo_steps
 from scene import add_suzanne, edit, seams, snapshot
-from seamwire.mesh import seam_islands, unwrap, uv_map
+from seamwire.core import native
+from seamwire.mesh.suggestion import Suggestion
+from seamwire.operators import suggest
+from seamwire.view.edited_objects import edited
 
 
 @pytest.fixture
 def suzanne(ui: driver.Ui) -> Iterator[bpy.types.Object]:
-    """Large enough for the planning to take a while."""
+    """Suzanne seen from her left, from above and the front."""
     with ui.override():
-        obj = add_suzanne(3)
+        obj = add_suzanne(1)
         edit()
+        bpy.ops.mesh.select_all(action="DESELECT")
         bpy.ops.ed.undo_push(message="Made")
+    ui.look((0.82, 0.42, 0.18, 0.34), (0.0, 0.0, 0.0), 4.0)
     yield obj
     leave(ui)
 
 
-def invoke(ui: driver.Ui) -> None:
+def invoke(ui: driver.Ui, **options: object) -> None:
     with ui.override():
-        assert bpy.ops.mesh.seamwire_suggest("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+        assert bpy.ops.mesh.seamwire_suggest("INVOKE_DEFAULT", **options) == {"RUNNING_MODAL"}
+
+
+class Waiting:
+    """Keeps planners from going on after their first plan."""
+
+    def __init__(self) -> None:
+        self.found: list[object] = []
+        self._go_on = threading.Event()
+
+    def plan(
+        self, suggestion: Suggestion, request: object, progress: Callable[[float], bool], **options: object
+    ) -> None:
+        """Plan as a suggestion does, and wait in between."""
+
+        def wait(fraction: float) -> bool:
+            best = suggestion.best_so_far
+            if best is not None and not self.found:
+                self.found.append(best)
+                while not self._go_on.wait(0.02) and progress(fraction) and not options["is_enough"]():
+                    pass
+            return progress(fraction)
+
+        PLAN(suggestion, request, wait, **options)
+
+    def end(self) -> None:
+        """Let it go on."""
+        self._go_on.set()
+
+
+PLAN = Suggestion.plan
+
+
+@pytest.fixture
+def waiting(monkeypatch: pytest.MonkeyPatch) -> Iterator[Waiting]:
+    """Planners that find one plan, and wait."""
+    made = Waiting()
+
+    def plan(suggestion: Suggestion, request: object, progress: Callable[[float], bool], **options: object) -> None:
+        made.plan(suggestion, request, progress, **options)
+
+    monkeypatch.setattr(Suggestion, "plan", plan)
+    yield made
+    made.end()
+
+
+@pytest.fixture
+def status(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The texts on plans in the status bar."""
+    said: list[str] = []
+    look = suggest._Look.__call__
+
+    def noted(self: object) -> str:
+        said.append(look(self))
+        return said[-1]
+
+    monkeypatch.setattr(suggest._Look, "__call__", noted)
+    return said
 
 
 @pytest.mark.smoke
 @pytest.mark.every_blender
-def test_seams_come_when_the_planning_has_ended(
+def test_seams_and_uvs_come_when_the_planning_has_ended(
     ui: driver.Ui, suzanne: bpy.types.Object, capfd: pytest.CaptureFixture[str]
 ) -> None:
+    while suzanne.data.uv_layers:
+        suzanne.data.uv_layers.remove(suzanne.data.uv_layers[0])
+    bpy.ops.ed.undo_push(message="No UVs")
     invoke(ui)
     assert seams(suzanne) == []
-    ui.wait_until(lambda: bool(seams(suzanne)))
+    ui.wait_until(lambda: bool(seams(suzanne)), 60.0)
     ui.wait()
+    assert suzanne.data.uv_layers
     assert undo_steps(capfd)[-1] == "Suggest Seamwires"
     with ui.override():
         bpy.ops.ed.undo()
     assert seams(bpy.context.active_object) == []
+    assert not bpy.context.active_object.data.uv_layers
 
 
 @pytest.mark.smoke
-@pytest.mark.every_blender
-def test_escape_leaves_all_as_it_was(
-    ui: driver.Ui, suzanne: bpy.types.Object, capfd: pytest.CaptureFixture[str]
+@pytest.mark.oldest_and_newest
+@pytest.mark.parametrize("tool", [False, True])
+def test_what_is_found_is_shown_until_escape_leaves_all_as_it_was(
+    ui: driver.Ui,
+    suzanne: bpy.types.Object,
+    waiting: Waiting,
+    status: list[str],
+    tool: bool,
+    capfd: pytest.CaptureFixture[str],
 ) -> None:
-    before = undo_steps(capfd)
+    if tool:
+        choose(ui, "seamwire.draw")
+        ui.move((0.5 * ui.region.width, 0.5 * ui.region.height))
+        ui.wait_until(lambda: edited.front is not None)
+        ui.move((5.0, 5.0))
+        ui.wait(3, redraw=True)
+    before, steps, plain = snapshot(suzanne), undo_steps(capfd), ui.screen()
     invoke(ui)
+    ui.wait_until(lambda: bool(waiting.found) and bool(status) and bool(status[-1]))
+    shown = ui.screen()
+    tinted = (np.ptp(shown, axis=2) > 0.05) & (np.ptp(plain, axis=2) < 0.03)
+    assert tinted.mean() > 0.03, "the islands are"
+    assert status[-1].startswith("stretch ") and ", seams " in status[-1]
+    assert edited.covered
     ui.key("ESC")
+    ui.wait_until(lambda: not edited.covered)
     ui.wait(20)
-    assert seams(suzanne) == []
-    assert undo_steps(capfd) == before
+    assert snapshot(suzanne) == before
+    assert undo_steps(capfd) == steps
+    assert np.abs(ui.screen() - plain).max(axis=2).mean() < 0.002
 
 
-def test_meanwhile_the_view_can_be_moved_and_nothing_else_done(ui: driver.Ui, suzanne: bpy.types.Object) -> None:
-    distance, vertices, selected = ui.view.view_distance, len(suzanne.data.vertices), suzanne.data.total_vert_sel
+@pytest.mark.smoke
+@pytest.mark.parametrize("key", ["RET", "NUMPAD_ENTER"])
+def test_enter_keeps_the_best_plan_so_far(
+    ui: driver.Ui, suzanne: bpy.types.Object, waiting: Waiting, status: list[str], key: str
+) -> None:
     invoke(ui)
+    ui.wait_until(lambda: bool(status) and bool(status[-1]))
+    ui.key(key)
+    ui.wait_until(lambda: bool(seams(suzanne)))
+    ui.wait()
+    assert len(waiting.found) == 1
+    edges = {frozenset(pair) for wire in waiting.found[0].wires for pair in zip(wire.vertices, wire.vertices[1:])}  # noqa: B905
+    assert {frozenset(edge) for edge in seams(suzanne)} == edges
+    assert suzanne.data.uv_layers
+
+
+def test_enter_before_anything_is_found_does_nothing(
+    ui: driver.Ui, suzanne: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    prepare, may_end = Suggestion.prepare, threading.Event()
+
+    def slow(self: Suggestion, progress: Callable[[float], bool]) -> None:
+        may_end.wait(20.0)
+        prepare(self, progress)
+
+    monkeypatch.setattr(Suggestion, "prepare", slow)
+    invoke(ui, distortion=40.0)
+    ui.key("RET")
+    ui.wait(5)
+    assert seams(suzanne) == []
+    may_end.set()
+    ui.wait_until(lambda: bool(seams(suzanne)), 60.0)
+
+
+def test_meanwhile_the_view_can_be_moved_and_nothing_else_done(
+    ui: driver.Ui, suzanne: bpy.types.Object, waiting: Waiting
+) -> None:
+    distance, vertices, selected = ui.view.view_distance, len(suzanne.data.vertices), suzanne.data.total_vert_sel
+    invoke(ui, unwrap=False)
     ui.wheel(True, (0.5 * ui.region.width, 0.5 * ui.region.height))
     ui.key("A")
     ui.key("X")
-    ui.wait_until(lambda: bool(seams(suzanne)))
+    ui.wait_until(lambda: bool(waiting.found))
+    waiting.end()
+    ui.wait_until(lambda: bool(seams(suzanne)), 60.0)
     assert ui.view.view_distance != distance
     suzanne.update_from_editmode()
     assert len(suzanne.data.vertices) == vertices
     assert suzanne.data.total_vert_sel == selected
 
 
-def test_a_mesh_that_is_changed_meanwhile_keeps_what_it_has(ui: driver.Ui, suzanne: bpy.types.Object) -> None:
+def test_a_mesh_that_is_changed_meanwhile_keeps_what_it_has(
+    ui: driver.Ui, suzanne: bpy.types.Object, waiting: Waiting
+) -> None:
     invoke(ui)
+    ui.wait_until(lambda: bool(waiting.found))
     with ui.override():
         bpy.ops.mesh.select_all(action="SELECT")
         bpy.ops.mesh.subdivide()
-    ui.wait(60)
+    waiting.end()
+    ui.wait_until(lambda: not edited.covered, 60.0)
+    ui.wait(10)
     assert seams(suzanne) == []
 
 
-def test_a_file_may_be_loaded_meanwhile(ui: driver.Ui, suzanne: bpy.types.Object) -> None:
+def test_a_file_may_be_loaded_meanwhile(ui: driver.Ui, suzanne: bpy.types.Object, waiting: Waiting) -> None:
     invoke(ui)
+    ui.wait_until(lambda: bool(waiting.found))
     with ui.override():
         bpy.ops.wm.read_homefile(app_template="", load_ui=False)
     ui.wait(10)
     assert bpy.context.active_object.name == "Cube"
+    assert not edited.covered
 
 
-@pytest.fixture
-def unwrappings(monkeypatch: pytest.MonkeyPatch) -> list[int]:
-    """How many islands were unwrapped each time."""
-    done: list[int] = []
-
-    def counted(*args: object, **options: bool) -> unwrap.Unwrapped:
-        result = unwrap_changed(*args, **options)
-        done.append(result.islands)
-        return result
-
-    unwrap_changed = unwrap.unwrap_changed
-    monkeypatch.setattr(unwrap, "unwrap_changed", counted)
-    return done
-
-
-@pytest.mark.parametrize(("limit", "is_unwrapped"), [("STRETCH", False), ("STRETCH", True), ("WORST", True)])
-def test_escape_while_islands_are_unwrapped_on_trial_leaves_all_as_it_was(
-    ui: driver.Ui, suzanne: bpy.types.Object, unwrappings: list[int], limit: str, is_unwrapped: bool
+def test_seams_are_hidden_from_the_side_that_the_view_shows(
+    ui: driver.Ui, suzanne: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    if is_unwrapped:
-        with ui.override():
-            bpy.ops.mesh.seamwire_suggest(limit="ISLANDS", islands=8, unwrap=True)
-    before, uvs = snapshot(suzanne), uv_map.read_uvs(suzanne)
-    done = len(unwrappings)
-    with ui.override():
-        options = {"limit": limit, "stretch": 1.03}
-        assert bpy.ops.mesh.seamwire_suggest("INVOKE_DEFAULT", **options) == {"RUNNING_MODAL"}
-    ui.wait_until(lambda: len(unwrappings) > done)
-    ui.key("ESC")
-    ui.wait(20)
-    done = len(unwrappings)
-    ui.wait(20)
-    assert len(unwrappings) == done, "it has ended"
-    assert snapshot(suzanne) == before
-    after = uv_map.read_uvs(suzanne)
-    assert (after is None) if uvs is None else np.array_equal(after, uvs)
+    core, asked = native.load(), []
+    plain = core.SeamPlanner
 
+    def noted(*arguments: object, **options: object) -> object:
+        asked.append(options["front"])
+        return plain(*arguments, **options)
 
-def test_islands_are_unwrapped_until_none_is_stretched_more(
-    ui: driver.Ui, suzanne: bpy.types.Object, unwrappings: list[int]
-) -> None:
-    with ui.override():
-        options = {"limit": "STRETCH", "stretch": 1.3}
-        assert bpy.ops.mesh.seamwire_suggest("INVOKE_DEFAULT", **options) == {"RUNNING_MODAL"}
-    ui.wait_until(lambda: bool(unwrappings) and unwrappings[-1] == 0, 120.0)
-    ui.wait()
-    assert len(unwrappings) > 2, "more than one round, and none left at last"
-    worst = max(seam_islands.worst_island(suzanne, kind).value for kind in ("ANGLE", "AREA"))
-    assert 2.0**worst <= 1.3
+    monkeypatch.setattr(core, "SeamPlanner", noted)
+    ui.look_from_top()
+    invoke(ui, distortion=40.0)
+    ui.wait_until(lambda: bool(seams(suzanne)), 60.0)
+    assert asked[0] == pytest.approx((0.0, 0.0, 1.0), abs=1e-6)

@@ -69,6 +69,8 @@ class NewIsland:
         (t,) of those triangles on the model.
     density
         What it is to have, length in UVs over length on the model; zero: as it is.
+    aspect
+        The width over the height of the image that the UVs lie on: islands are turned as they are seen there.
     """
 
     before: NDArray[np.float64]
@@ -76,6 +78,40 @@ class NewIsland:
     triangles: NDArray[np.int64]
     areas: NDArray[np.float64]
     density: float
+    aspect: float = 1.0
+
+
+def in_rows(uvs: NDArray[np.float64], labels: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Lay islands out in rows in the UV square, the tallest first, none of them touching another, all at one scale.
+
+    Parameters
+    ----------
+    uvs
+        (c, 2) corners of the islands.
+    labels
+        (c,) the island of each, numbered from 0.
+
+    Returns
+    -------
+    (c, 2) array
+        The corners, between 0 and 1.
+    """
+    count = int(labels.max(initial=-1)) + 1
+    low, high = np.full((count, 2), np.inf), np.full((count, 2), -np.inf)
+    np.minimum.at(low, labels, uvs)
+    np.maximum.at(high, labels, uvs)
+    sizes = np.maximum(high - low, 0.0)  # a number without corners has no size
+    gap = 0.02 * float(sizes.max(initial=0.0))
+    width = max(float(sizes[:, 0].max(initial=0.0)), float(np.sqrt(np.prod(sizes + gap, axis=1).sum()))) + gap
+    spots = np.zeros((count, 2))
+    x = y = tall = 0.0
+    for island in np.argsort(-sizes[:, 1], kind="stable").tolist():
+        if x > 0.0 and x + sizes[island, 0] > width:
+            x, y, tall = 0.0, y + tall + gap, 0.0
+        spots[island] = x, y
+        x, tall = x + sizes[island, 0] + gap, max(tall, sizes[island, 1])
+    placed = uvs - low[labels] + spots[labels]
+    return placed / max(float(placed.max(initial=0.0)), 1e-300)
 
 
 def families(count: int, pairs: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -157,8 +193,9 @@ def _fitted(island: NewIsland) -> NDArray[np.float64]:
     """Return the corners of an island in the size they are to have, and turned as they were before."""
     area, now = float(island.areas.sum()), float(uv_areas(island.after[island.triangles]).sum())
     wanted = island.density**2 * area
-    corners = island.after - island.after.mean(axis=0)
-    old = island.before - island.before.mean(axis=0)
+    on_image = (island.aspect, 1.0)
+    corners = (island.after - island.after.mean(axis=0)) * on_image
+    old = (island.before - island.before.mean(axis=0)) * on_image
     if now > 0.0 and wanted > 0.0:
         corners = corners * np.sqrt(wanted / now)
     # The turn that leaves least between the two: Kabsch in the plane.
@@ -167,7 +204,7 @@ def _fitted(island: NewIsland) -> NDArray[np.float64]:
     if length > 0.0:
         cos, sin = along / length, across / length
         corners = corners @ np.array([[cos, sin], [-sin, cos]])
-    return corners
+    return corners / on_image
 
 
 class _Square:

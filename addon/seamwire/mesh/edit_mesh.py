@@ -449,6 +449,11 @@ def select_faces(obj: bpy.types.Object, faces: NDArray[np.integer]) -> None:
     bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
 
 
+def selected_faces(obj: bpy.types.Object) -> NDArray[np.int64]:
+    """Return the numbers of the selected faces of an edit mesh."""
+    return np.array([face.index for face in edit_bmesh(obj.data).faces if face.select], dtype=np.int64)
+
+
 class Selection:
     """What is selected of an edit mesh.
 

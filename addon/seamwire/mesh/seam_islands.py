@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import colorsys
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -17,6 +18,8 @@ from ..core.stretch import IslandStretch, Stretch
 from . import edit_mesh, uv_map
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from numpy.typing import NDArray
 
     from ..core.mesh_arrays import Arrays
@@ -199,11 +202,55 @@ def worst_island(obj: bpy.types.Object, kind: str) -> Worst | None:
     return Worst(float(values[number]), np.unique(arrays.polygons[rows]), len(values), facing)
 
 
-def stretched_count(obj: bpy.types.Object, most: float) -> int:
-    """Return how many islands of an edit mesh the UV map stretches more than so many octaves, by angle or by area."""
+def worst_of(objects: Iterable[bpy.types.Object]) -> tuple[bpy.types.Object, NDArray[np.int32]]:
+    """Return which of some edit meshes has the island that is stretched most, by angle or by area, and its faces.
+
+    Raises
+    ------
+    ValueError
+        If no visible face has UVs.
+    """
+    found: list[tuple[bpy.types.Object, Worst]] = []
+    for obj in objects:
+        with suppress(edit_mesh.NothingVisibleError):
+            found += [(obj, worst) for kind in ("ANGLE", "AREA") if (worst := worst_island(obj, kind)) is not None]
+    if not found:
+        raise ValueError("No visible face has UVs: unwrap first")
+    obj, worst = max(found, key=lambda one: one[1].value)
+    return obj, worst.faces
+
+
+@dataclass(frozen=True)
+class MapQuality:
+    """How good the active UV map of a mesh is.
+
+    Parameters
+    ----------
+    energy
+        Its symmetric Dirichlet energy E_d: 4 if nothing is stretched, infinite if there is nothing to measure.
+    area
+        The area of the visible faces, in the object's units squared.
+    overlapping
+        How many islands cover a part of the map twice, or turn a face over.
+    """
+
+    energy: float
+    area: float
+    overlapping: int
+
+
+def map_quality(obj: bpy.types.Object) -> MapQuality | None:
+    """Measure the active UV map of an edit mesh, without the object's scale; None if there are no UVs or no visible faces."""
     arrays = edit_mesh.read(obj)
-    islands = stretch_of(obj, arrays, labels_of(arrays))
-    return 0 if islands is None else int((np.maximum(islands.angle, islands.area) > most).sum())
+    corners, uvs = uv_map.read(obj)
+    if uvs is None or not len(arrays.triangles):
+        return None
+    points, triangles = arrays.in_object, arrays.triangles
+    on_image = uvs[corners.of_triangles(arrays)].astype(np.float64) * (uv_map.aspect(obj), 1.0)
+    report = native.load().measure_map(points, triangles, on_image, islands=labels_of(arrays))
+    one, two = (points[triangles[:, corner]] - points[triangles[:, 0]] for corner in (1, 2))
+    area = 0.5 * float(np.linalg.norm(np.cross(one, two), axis=1).sum())
+    return MapQuality(float(report.energy), area, len(report.overlapping))
 
 
 def stretch_of(obj: bpy.types.Object, arrays: Arrays, labels: NDArray[np.int32]) -> IslandStretch | None:

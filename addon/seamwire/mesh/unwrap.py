@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender's unwrap, for the islands alone whose seams have changed; all other UVs keep every bit.
+"""Unwrapping, for the islands alone whose seams have changed; all other UVs keep every bit.
 
 An island has changed where its UVs are torn over an edge that is no seam, or hang together over one that is, or have no area.
 Both can be meant, and unwrapping a flat island leaves a slit closed: a hidden layer of the edges holds what was a seam when
@@ -12,18 +12,20 @@ from __future__ import annotations
 import zlib
 from contextlib import contextmanager
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import bmesh
 import bpy
 import numpy as np
 
-from ..core.uv_islands import NewIsland, families, place, split_edges, uv_areas
+from ..core import native
+from ..core.uv_islands import NewIsland, boxes_of, families, in_rows, place, split_edges, uv_areas
 from . import edit_mesh, uv_map
 from .seam_islands import labels_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -31,6 +33,10 @@ UNWRAPPED = ".seamwire_unwrapped"
 """The layer of the edges: twice a number that stands for the UV map, plus one where the edge was a seam; 0: not known, or `JOINED`."""
 JOINED = 1
 """What it holds of edges around faces that were joined since: their corners may be of several islands in the map."""
+
+
+_MARGIN = 0.01
+"""Between packed islands, as a share of the UV square; Blender counts it in parts of the islands' size."""
 
 
 @dataclass(frozen=True)
@@ -52,9 +58,10 @@ class Unwrapped:
 class _Map:
     """The UV map of one edit mesh, by the islands that the seams make."""
 
-    def __init__(self, obj: bpy.types.Object) -> None:
+    def __init__(self, obj: bpy.types.Object, every: bool = False) -> None:
         self.obj = obj
         self._arrays = arrays = edit_mesh.read(obj)
+        self._aspect = uv_map.aspect(obj)
         self.corners, self._uvs = uv_map.read(obj)
         self._triangles = self.corners.of_triangles(arrays)
         self._labels = labels_of(arrays)
@@ -63,7 +70,10 @@ class _Map:
         self._areas = 0.5 * np.linalg.norm(np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1)
         self._of_face = np.full(int(self.corners.faces.max(initial=-1)) + 1, -1, dtype=np.int64)
         self._of_face[arrays.polygons] = self._labels
-        self.changed = np.flatnonzero(self._find_changed())
+        changed = self._find_changed()
+        self.changed = np.arange(self.count) if every else np.flatnonzero(changed)
+        pinned = self._pinned()[self._triangles].any(axis=1)
+        self._with_pins = np.intersect1d(self.changed, self._labels[pinned])
 
     @property
     def bm(self) -> bmesh.types.BMesh:
@@ -97,9 +107,66 @@ class _Map:
         name = self.obj.data.uv_layers.active.name
         return 2 * (1 + zlib.crc32(name.encode()) % (1 << 29)) + seams.astype(np.int64)
 
-    def faces(self) -> NDArray[np.int64]:
-        """Return the faces of the islands that have changed."""
-        return np.flatnonzero(np.isin(self._of_face, self.changed))
+    def faces(self, islands: NDArray[np.integer] | None = None) -> NDArray[np.int64]:
+        """Return the faces of some islands, or else of those that have changed."""
+        return np.flatnonzero(np.isin(self._of_face, self.changed if islands is None else islands))
+
+    def flat_islands(self, method: str) -> NDArray[np.integer]:
+        """Return the changed islands that are flattened here; Blender unwraps the others: all by its own methods, else those with pins."""
+        return np.setdiff1d(self.changed, self._with_pins) if method == "SEAMWIRE" else self.changed[:0]
+
+    def flattened(
+        self, islands: NDArray[np.integer], start: NDArray[np.float64] | None
+    ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]:
+        """Flatten islands: without flips, and without overlaps where that can be reached.
+
+        Parameters
+        ----------
+        islands
+            Which.
+        start
+            (m, 3, 2) a map to start from, in lengths on the model, where it is continuous; None: the present one.
+
+        Returns
+        -------
+        (c,) array
+            The corners of the islands, ascending.
+        (c, 2) array
+            Their UVs, in lengths on the model.
+        (c,) array
+            The island of each of them, numbered from 0; a new one where the seams do not part what is no surface.
+
+        Raises
+        ------
+        ValueError
+            If a coordinate is not a number.
+        """
+        rows = np.flatnonzero(np.isin(self._labels, islands))
+        vertices, triangles = np.unique(self._arrays.triangles[rows], return_inverse=True)
+        number = np.full(len(self._arrays.points), -1, dtype=np.int32)
+        number[vertices] = np.arange(len(vertices))
+        cuts = number[self._arrays.seams]
+        if start is None:
+            start = self._present()
+        flat = native.load().flatten(
+            self._arrays.in_object[vertices],
+            triangles.reshape(-1, 3).astype(np.int32),
+            cuts[(cuts >= 0).all(axis=1)],
+            start=None if start is None else start[rows],
+        )
+        corners, first = np.unique(self._triangles[rows], return_index=True)
+        uvs = np.asarray(flat.uvs).reshape(-1, 2)[first]
+        return corners, uvs, np.repeat(np.asarray(flat.islands), 3)[first]
+
+    def _present(self) -> NDArray[np.float64] | None:
+        """Return the present map in lengths on the model, (m, 3, 2), each island as large as its surface. None: the mesh has no UV map."""
+        if self._uvs is None:
+            return None
+        uvs = self._uvs[self._triangles].astype(np.float64) * (self._aspect, 1.0)
+        in_map, on_model = (np.bincount(self._labels, areas, self.count) for areas in (uv_areas(uvs), self._areas))
+        scale = np.sqrt(np.divide(on_model, in_map, out=np.ones(self.count), where=(in_map > 0.0) & (on_model > 0.0)))
+        uvs *= scale[self._labels][:, None, None]
+        return uvs if np.isfinite(uvs).all() else None
 
     def staying(self) -> NDArray[np.float64]:
         """Return the bounds of the triangles that stay in the map, (b, 4); of hidden faces their own."""
@@ -111,6 +178,11 @@ class _Map:
         if not len(starts):
             return np.empty((0, 4))
         return np.concatenate([np.minimum.reduceat(uvs, starts), np.maximum.reduceat(uvs, starts)], axis=1)
+
+    def pinned_down(self) -> NDArray[np.float64]:
+        """Return the bounds of the triangles of changed islands with pins, (b, 4), as Blender has unwrapped them."""
+        rows = np.isin(self._labels, self._with_pins)
+        return boxes_of(uv_map.read_uvs(self.obj)[self._triangles[rows]].astype(np.float64))
 
     def areas(self) -> NDArray[np.float64]:
         """Return the areas of the islands in the map as it was, and on the model, (2, count)."""
@@ -125,36 +197,44 @@ class _Map:
         known = (sums > 0.0).all(axis=0)
         return np.sqrt(np.divide(sums[0], sums[1], out=np.full(self.count, fallback**2), where=known))
 
-    def new_islands(self, density: float, even: bool) -> list[tuple[NDArray[np.int64], NewIsland]]:
+    def new_islands(self, density: float) -> list[tuple[NDArray[np.int64], NewIsland]]:
         """Return the corners of each island that was unwrapped and may be moved, and what it has become.
 
-        `density` is for those that had no place; `even`: for all.
+        `density` is for those that had no place.
         """
-        densities = np.full(self.count, density) if even else self.densities(density)
+        densities = self.densities(density)
         after = uv_map.read_uvs(self.obj)
         before = np.zeros_like(after) if self._uvs is None else self._uvs
         islands = []
-        pinned = self._pinned()
         order = np.argsort(self._labels, kind="stable")
         starts = np.searchsorted(self._labels[order], np.arange(self.count + 1))
-        for label in self.changed.tolist():
+        for label in np.setdiff1d(self.changed, self._with_pins).tolist():
             rows = order[starts[label] : starts[label + 1]]
             corners, triangles = np.unique(self._triangles[rows], return_inverse=True)
-            if not pinned[corners].any():
-                one, other = (uvs[corners].astype(np.float64) for uvs in (before, after))
-                triangles = triangles.reshape(-1, 3)
-                islands.append((corners, NewIsland(one, other, triangles, self._areas[rows], float(densities[label]))))
+            one, other = (uvs[corners].astype(np.float64) for uvs in (before, after))
+            triangles = triangles.reshape(-1, 3)
+            new = NewIsland(one, other, triangles, self._areas[rows], float(densities[label]), self._aspect)
+            islands.append((corners, new))
         return islands
 
     def _pinned(self) -> NDArray[np.bool_]:
+        """Return which corners of changed islands are pinned, (c,)."""
         bm = self.bm
         layer = bm.loops.layers.uv.active
         pinned = np.zeros(len(self.corners.vertices), dtype=bool)
+        if layer is None:
+            return pinned
         starts = np.flatnonzero(np.diff(self.corners.faces, prepend=-1))
         for face in self.faces().tolist():
             for i, loop in enumerate(bm.faces[face].loops, start=starts[face]):
                 pinned[i] = loop[layer].pin_uv
         return pinned
+
+    def restore(self) -> None:
+        """Give all corners the UVs that they had."""
+        if self._uvs is not None:
+            self.write(np.arange(len(self._uvs)), self._uvs.astype(np.float64))
+            bmesh.update_edit_mesh(self.obj.data, loop_triangles=False, destructive=False)
 
     def write(self, corners: NDArray[np.int64], uvs: NDArray[np.float64]) -> None:
         """Give corners their places in the map."""
@@ -164,6 +244,10 @@ class _Map:
         faces = self.corners.faces[corners]
         for face, within, uv in zip(faces.tolist(), (corners - starts[faces]).tolist(), uvs.tolist(), strict=True):
             bm.faces[face].loops[within][layer].uv = uv
+
+    def on_image(self, uvs: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return UVs, (c, 2), squeezed as the image is wide, so that they are not stretched on it."""
+        return uvs / (self._aspect, 1.0)
 
     def remember(self) -> None:
         """Let visible edges hold whether they were seams when they were unwrapped last."""
@@ -177,23 +261,41 @@ class _Map:
 
 
 def unwrap_changed(
-    context: bpy.types.Context, objects: Sequence[bpy.types.Object] | None = None, even: bool = False
+    context: bpy.types.Context,
+    objects: Sequence[bpy.types.Object] | None = None,
+    *,
+    method: str = "SEAMWIRE",
+    every: bool = False,
+    starts: Mapping[bpy.types.Object, NDArray[np.float64]] = MappingProxyType({}),
 ) -> Unwrapped:
     """Unwrap the islands whose seams have changed, of some objects in edit mode, else of all; selections stay.
 
-    Where nothing stays, Blender's own packing is kept. Else each new island gets the texel density it had, and a place
-    near its old one, see `core.uv_islands.place`; islands with pinned corners stay where Blender puts them. `even`: it gets the
-    mean texel density of those that stay instead.
+    Where nothing stays, all islands are packed by Blender. Else each new island gets the texel density it had, and a place
+    near its old one, see `core.uv_islands.place`; islands with pinned corners stay where Blender's unwrap puts them.
+
+    Parameters
+    ----------
+    context
+        In edit mode.
+    objects
+        The objects to unwrap; None: all that are in edit mode.
+    method
+        ``SEAMWIRE``: least symmetric Dirichlet energy, without flips and overlaps, see ``seamwire_core.flatten``; islands with pinned
+        corners are left to Blender. ``ANGLE_BASED`` or ``CONFORMAL``: Blender's unwrap of that name.
+    every
+        Whether all islands are unwrapped, changed or not.
+    starts
+        Of some objects a map to start from, (m, 3, 2), in lengths on the model, for all visible triangles.
 
     Raises
     ------
     ValueError, native.NativeError
-        Where there is nothing to unwrap, or Blender cannot; then nothing is changed.
+        If there is nothing to unwrap, or it cannot be unwrapped; then nothing is changed.
     """
     maps, problem = [], ""
     for obj in context.objects_in_mode_unique_data if objects is None else objects:
         try:
-            maps.append(_Map(obj))
+            maps.append(_Map(obj, every))
         except ValueError as error:
             problem = f"{obj.name}: {error}"
     if not any(found.count for found in maps):
@@ -202,88 +304,91 @@ def unwrap_changed(
     unwrapped = sum(len(found.changed) for found in maps)
     kept = sum(found.count for found in maps) - unwrapped
     if unwrapped:
-        with _only_selected(context, maps):
+        flat = {found: found.flat_islands(method) for found in maps}
+        solved = {
+            found: found.flattened(islands, starts.get(found.obj)) for found, islands in flat.items() if len(islands)
+        }
+        with _with_uv_maps(context, maps):
+            blenders = {found: np.setdiff1d(found.changed, islands) for found, islands in flat.items()}
             try:
-                # Not the UV editor's own selection, where it is called from there.
-                with context.temp_override(area=None, region=None):
-                    bpy.ops.uv.unwrap()
-            except RuntimeError as error:
-                raise ValueError(f"Blender could not unwrap: {str(error).strip()}") from error
-        _place(maps, even)
+                _unwrap_by_blender(context, blenders, "ANGLE_BASED" if method == "SEAMWIRE" else method)
+                _lay_out(solved)
+                _place(context, maps, flat)
+            except ValueError:
+                for found in maps:
+                    found.restore()
+                raise
     for found in maps:
         if len(found.changed):
             found.remember()
     return Unwrapped(unwrapped, kept)
 
 
-class SavedUvs:
-    """The UVs of an object in edit mode, or that it has none, to come back to after unwrapping on trial.
-
-    Attributes
-    ----------
-    remembered
-        What the hidden layer holds of each edge; None: there is no such layer.
-    """
-
-    def __init__(self, obj: bpy.types.Object) -> None:
-        self._obj, self._mesh = obj, obj.data
-        self._uvs = uv_map.read_uvs(obj)
-        bm = edit_mesh.edit_bmesh(obj.data)
-        layer = bm.edges.layers.int.get(UNWRAPPED)
-        self.remembered = None if layer is None else [edge[layer] for edge in bm.edges]
-
-    def restore(self) -> None:
-        """Give the object back what it had, out of edit mode its UVs; nothing where it, or its faces, are others now."""
-        mesh = self._mesh
-        try:
-            if self._obj.data != mesh:
-                return
-        except ReferenceError:
-            return
-        now = uv_map.read_uvs(self._obj)
-        if self._uvs is None:
-            for made in list(mesh.uv_layers):
-                mesh.uv_layers.remove(made)
-        elif now is not None and len(now) == len(self._uvs):
-            uv_map.write(self._obj, self._uvs)
-        if self._obj.mode != "EDIT":
-            return
-        bm = edit_mesh.edit_bmesh(mesh)
-        layer = bm.edges.layers.int.get(UNWRAPPED)
-        if layer is not None and self.remembered is None:
-            bm.edges.layers.int.remove(layer)
-        elif layer is not None and len(bm.edges) == len(self.remembered):
-            for edge, value in zip(bm.edges, self.remembered, strict=True):
-                edge[layer] = value
-        bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
-
-
-def _place(maps: Sequence[_Map], even: bool) -> None:
-    """Move new islands to where there is room among those that stay."""
-    taken = np.concatenate([found.staying() for found in maps])
-    if not len(taken):
+def _unwrap_by_blender(context: bpy.types.Context, islands: Mapping[_Map, NDArray[np.integer]], method: str) -> None:
+    """Unwrap islands with Blender's method, and let it pack them; raises ValueError if it cannot."""
+    faces = {found: found.faces(labels) for found, labels in islands.items() if len(labels)}
+    if not faces:
         return
+    with _only_selected(context, faces):
+        try:
+            bpy.ops.uv.unwrap(method=method)
+        except RuntimeError as error:
+            raise ValueError(f"Blender could not unwrap: {str(error).strip()}") from error
+
+
+def _lay_out(solved: Mapping[_Map, tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]]) -> None:
+    """Give flattened islands a place each in the UV square, all at one scale."""
+    if not solved:
+        return
+    offsets = np.cumsum([0, *(int(labels.max()) + 1 for _, _, labels in solved.values())])
+    uvs = np.concatenate([found.on_image(flat) for found, (_, flat, _) in solved.items()])
+    labels = np.concatenate([own + offset for (_, _, own), offset in zip(solved.values(), offsets[:-1], strict=True)])
+    placed = in_rows(uvs, labels)
+    ends = np.cumsum([len(corners) for corners, _, _ in solved.values()])
+    for (found, (corners, _, _)), own in zip(solved.items(), np.split(placed, ends[:-1]), strict=True):
+        found.write(corners, own)
+        bmesh.update_edit_mesh(found.obj.data, loop_triangles=False, destructive=False)
+
+
+def _place(context: bpy.types.Context, maps: Sequence[_Map], flat: Mapping[_Map, NDArray[np.integer]]) -> None:
+    """Move new islands to where there is room among those that stay, or have Blender pack those of `flat` where nothing stays."""
+    taken = np.concatenate([boxes for found in maps for boxes in (found.staying(), found.pinned_down())])
     in_map, on_model = sum(np.delete(found.areas(), found.changed, axis=1).sum(axis=1) for found in maps)
     density = float(np.sqrt(in_map / on_model)) if on_model > 0.0 else 0.0
-    new = [(found, *island) for found in maps if len(found.changed) for island in found.new_islands(density, even)]
+    if density == 0.0:
+        _pack(context, {found: found.faces(islands) for found, islands in flat.items() if len(islands)})
+    if not len(taken):
+        return
+    new = [(found, *island) for found in maps if len(found.changed) for island in found.new_islands(density)]
     for (found, corners, _), uvs in zip(new, place([island for _, _, island in new], taken), strict=True):
         found.write(corners, uvs)
 
 
+def _pack(context: bpy.types.Context, faces: Mapping[_Map, NDArray[np.integer]]) -> None:
+    """Have Blender pack the islands of some faces into the UV square; raises ValueError if it cannot."""
+    if not faces:
+        return
+    settings = context.tool_settings
+    sync = settings.use_uv_select_sync
+    with _only_selected(context, faces):
+        # Then the UVs of the selected faces count as selected.
+        settings.use_uv_select_sync = True
+        try:
+            bpy.ops.uv.pack_islands(rotate=True, margin=_MARGIN)
+        except RuntimeError as error:
+            raise ValueError(f"Blender could not pack the islands: {str(error).strip()}") from error
+        finally:
+            settings.use_uv_select_sync = sync
+
+
 @contextmanager
-def _only_selected(context: bpy.types.Context, maps: Sequence[_Map]) -> Iterator[None]:
-    """Have nothing selected but the faces of the islands that have changed."""
+def _with_uv_maps(context: bpy.types.Context, maps: Iterable[_Map]) -> Iterator[None]:
+    """Let objects that are unwrapped have a UV map, and other objects none that they had not; on an error all as before."""
     # Blender would make missing UV maps while it unwraps, and what is selected would be other items then.
     made = [(found.obj.data, found.obj.data.uv_layers.new()) for found in maps if not found.obj.data.uv_layers]
     # It would make some, too, for objects of which nothing is selected.
     bare = [obj.data for obj in context.objects_in_mode_unique_data if not obj.data.uv_layers]
-    selections = [edit_mesh.Selection(obj) for obj in context.objects_in_mode_unique_data]
     try:
-        bpy.ops.mesh.select_all(action="DESELECT")
-        for found in maps:
-            bm = found.bm
-            for face in found.faces().tolist():
-                bm.faces[face].select = True
         yield
     except ValueError:
         for mesh, layer in made:
@@ -293,6 +398,21 @@ def _only_selected(context: bpy.types.Context, maps: Sequence[_Map]) -> Iterator
         for mesh in bare:
             for layer in list(mesh.uv_layers):
                 mesh.uv_layers.remove(layer)
+
+
+@contextmanager
+def _only_selected(context: bpy.types.Context, faces: Mapping[_Map, NDArray[np.integer]]) -> Iterator[None]:
+    """Have nothing selected but some faces of maps; not in the UV editor, where its own selection counts."""
+    selections = [edit_mesh.Selection(obj) for obj in context.objects_in_mode_unique_data]
+    try:
+        bpy.ops.mesh.select_all(action="DESELECT")
+        for found, numbers in faces.items():
+            bm = found.bm
+            for face in numbers.tolist():
+                bm.faces[face].select = True
+        with context.temp_override(area=None, region=None):
+            yield
+    finally:
         bpy.ops.mesh.select_all(action="DESELECT")
         for selection in selections:
             selection.restore()

@@ -85,19 +85,24 @@ def _copied(obj: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
         bpy.data.meshes.remove(mesh)
 
 
-def write(obj: bpy.types.Object, uvs: NDArray[np.float32]) -> None:
-    """Give the corners of a mesh, in edit mode or not, their places in the active UV map, (c, 2)."""
-    mesh = obj.data
-    if obj.mode != "EDIT":
-        column, name = _column(mesh.uv_layers.active)
-        column.foreach_set(name, uvs.ravel())
-        return
-    moved = np.flatnonzero((read_uvs(obj) != uvs).any(axis=1))
-    bm = edit_mesh.edit_bmesh(mesh)
-    corners = [loop for face in bm.faces for loop in face.loops]
-    places = bm.loops.layers.uv.active
-    for corner, uv in zip(moved.tolist(), uvs[moved].tolist(), strict=True):
-        corners[corner][places].uv = uv
+def aspect(obj: bpy.types.Object) -> float:
+    """Return the width over the height of the image that an edit mesh's UVs lie on, as Blender's unwrap takes it into account.
+
+    It is the active image of the active face's material, or of the first face's; 1 without an image.
+    """
+    bm = edit_mesh.edit_bmesh(obj.data)
+    if not len(bm.faces):
+        return 1.0
+    number = (bm.faces.active or bm.faces[0]).material_index
+    material = obj.material_slots[number].material if number < len(obj.material_slots) else None
+    if material is None or material.node_tree is None:
+        return 1.0
+    shown = (node for node in material.node_tree.nodes if node.type == "TEX_IMAGE" and node.show_texture and node.image)
+    image = next(shown, None)
+    if image is None:
+        return 1.0
+    (width, height), (wide, tall) = image.image.size, image.image.display_aspect
+    return (width * wide) / (height * tall) if width and height else 1.0
 
 
 def _uvs(mesh: bpy.types.Mesh) -> NDArray[np.float32] | None:

@@ -43,6 +43,7 @@ def cut_wires(
     wires: Mapping[ObjectSession, Sequence[Wire]],
     kept: bool = False,
     crumb: float = 0.0,
+    live_unwrap: bool = True,
 ) -> set[str]:
     """Cut wires across the surface into meshes and say what was done.
 
@@ -59,6 +60,8 @@ def cut_wires(
         Whether meshes have these wires already: their snapped edges cease to be seams.
     crumb
         The part of a mesh's area below which an island beside the cuts becomes part of a larger one.
+    live_unwrap
+        Whether Blender unwraps where the scene asks for that.
     """
     from ..core.cutting import CuttingError
     from ..mesh import edit_mesh
@@ -76,7 +79,8 @@ def cut_wires(
     for problem in problems:
         operator.report({"WARNING"}, problem if kept else f"{problem}; no wire was added")
     cuts = [mesh.cut(plan, wires[mesh], kept, crumb=crumb) for mesh, plan in plans.items()]
-    edit_mesh.live_unwrap(context)
+    if live_unwrap:
+        edit_mesh.live_unwrap(context)
     uncut = sum(cut.uncut for cut in cuts)
     if uncut:
         operator.report({"WARNING"}, gaps(uncut))

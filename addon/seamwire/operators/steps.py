@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Long work of an operator in steps: beside the interface, which goes on drawing, or at once; Esc ends it with all as it was."""
+"""Long work of an operator in steps: beside the interface, which goes on drawing, or at once.
+
+Esc cancels the operator, which then changes nothing. Enter ends a step early if it has found something to go on with.
+"""
 
 from __future__ import annotations
 
@@ -35,14 +38,26 @@ class Step:
         What the status bar says meanwhile.
     work
         What any thread may do; None: the interface has its turn, and what comes next is done by Blender itself.
+    look
+        Shows the best result so far. The interface calls it now and then during the work. It returns a text for the status bar, empty as
+        long as there is no result to go on with. None: the step cannot end early.
     """
 
     text: str
     work: Callable[[Progress], None] | None = None
+    look: Callable[[], str] | None = None
 
 
 class Stepwise:
-    """Gives an operator `execute`, and `invoke` with a thread for the work of steps; the operator has `steps`."""
+    """Gives an operator `execute`, and `invoke` with a thread for the work of steps; the operator has `steps`.
+
+    Attributes
+    ----------
+    enough
+        Whether the artist pressed Enter: steps with a `look` should end with the best result so far.
+    """
+
+    enough = False
 
     def steps(self, context: bpy.types.Context) -> Generator[Step, None, set[str]]:
         """Yield the steps; return the operator's result.
@@ -90,7 +105,7 @@ class Stepwise:
         if bpy.app.background or context.window is None:
             return self.execute(context)
         self._steps = self.steps(context)
-        self._cancelled, self._fraction = False, 0.0
+        self._cancelled, self._fraction, self._seen = False, 0.0, ""
         self._workspace = context.workspace
         self._work: Future[None] | None = None
         self._thread = ThreadPoolExecutor(1, "seamwire steps")
@@ -106,9 +121,16 @@ class Stepwise:
             return {"PASS_THROUGH"}
         if event.type == "ESC":
             self._cancelled = True
+        if event.type in {"RET", "NUMPAD_ENTER"} and event.value == "PRESS" and self._seen:
+            self.enough = True
         is_at_work = self._work is not None and not self._work.done()
         if is_at_work:
-            self._show()
+            try:
+                self._show()
+            except BaseException:
+                self._cancelled = True
+                self._end(context)
+                raise
         if is_at_work or event.type not in {"TIMER", "ESC"}:
             return {"RUNNING_MODAL"}
         return self._advance(context)
@@ -125,7 +147,8 @@ class Stepwise:
             if not self._cancelled:
                 if self._work is not None:
                     self._work.result()
-                self._step, self._fraction = next(self._steps), 0.0
+                self._step, self._fraction, self._seen = next(self._steps), 0.0, ""
+                self.enough = False
                 self._work = self._thread.submit(self._step.work, self._progress) if self._step.work else None
                 self._show()
                 return {"RUNNING_MODAL"}
@@ -144,8 +167,11 @@ class Stepwise:
         return not self._cancelled
 
     def _show(self) -> None:
-        done = f": {100.0 * self._fraction:.0f} %" if self._work is not None else ""
-        self._workspace.status_text_set(f"{self._step.text}{done}    Esc: Cancel")
+        parts = [self._step.text if self._work is None else f"{self._step.text}: {100.0 * self._fraction:.0f} %"]
+        if self._step.look is not None and not self.enough:
+            self._seen = self._step.look()
+            parts += [self._seen, "Enter: Keep This"] if self._seen else []
+        self._workspace.status_text_set("    ".join([*parts, "Esc: Cancel"]))
 
     def _end(self, context: bpy.types.Context) -> None:
         self._thread.shutdown()

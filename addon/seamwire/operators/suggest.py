@@ -8,6 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 import bpy
+from mathutils import Vector
 
 from ..mesh.settings import ALONG_ITEMS, AUTO_FINISH_ITEMS
 from .cut import cut_wires
@@ -16,30 +17,26 @@ from .slide import slide_wires
 from .steps import Step, Stepwise
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator, Sequence
+    from collections.abc import Generator, Sequence
 
-    from seamwire_core import SeamPlan
+    import numpy as np
+    from numpy.typing import NDArray
 
-    from ..mesh.seam_islands import Worst
+    from ..core.suggestion import Request
     from ..mesh.suggestion import Suggestion
+    from ..view.plan_preview import PlanPreview
 
 _CUT_CRUMB = 0.25
 """What cuts enclose is no island either below this part of the area below which none is planned: where they run side by side, they
 cross here and there."""
-_ON_TRIAL = 0.9
-"""The part of the bound on stretch that is for trials along edges, where the wires are cut into the faces afterwards."""
-_ON_TRIAL_STRAIGHT = 0.8
-"""The same of straightened wires: they run farther from edges."""
-_ROUNDS = 12
-"""How often islands that are stretched too much are made smaller."""
-_FEW = 2
-"""How many islands more are few, in place of the worst one."""
-_STRAIGHTENINGS = 3
-"""How often seams are straightened, each time but for those around islands that got stretched too much by it."""
+_LIMITS = ("DISTORTION", "ISLANDS", "DISCS")
+"""The limits that the interface offers; the others are those of older scripts."""
+_BLENDERS_FRONT = (0.0, -1.0, 0.0)
+"""The direction towards the viewer in Blender's front view."""
 
 
 class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
-    """Mark seams that cut the mesh into islands which unwrap well: wires like those drawn, to be moved, dropped and added to. Seams that are there stay"""  # noqa: D400, E501 - a tooltip
+    """Mark a few hidden seams so that the mesh unwraps with little stretch. They are wires that you can move or drop. Existing seams stay"""  # noqa: D400, E501 - a tooltip
 
     bl_idname = "mesh.seamwire_suggest"
     bl_label = "Suggest Seamwires"
@@ -47,56 +44,60 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
 
     limit: bpy.props.EnumProperty(
         name="Limit",
-        description="What ends the joining of islands",
+        description="What decides how many seams there are",
         items=(
-            ("BEND", "Bend", "How far the faces of an island may turn away from their mean direction"),
-            ("ISLANDS", "Islands", "Their number"),
-            ("STRETCH", "Stretch", "How much Blender's unwrap stretches an island: unwraps as well, several times"),
-            (
-                "DISCS",
-                "Open Islands",
-                "Only what it takes for each island to be a disc: cuts along features and out of sight",
-            ),
-            (
-                "WORST",
-                "Worst Island",
-                "Only the island that the UV map stretches most is parted again, where that lowers it most, and what is no disc",
-            ),
+            ("DISTORTION", "Stretch", "As few seams as possible, with the stretch that is asked for", 0),
+            ("ISLANDS", "Islands", "At least so many islands, with the stretch that is asked for", 1),
+            ("DISCS", "Open Islands", "Only the seams that make each island a disc, with any stretch", 2),
+            ("BEND", "Bend", "An older limit: the same as Stretch", 3),
+            ("STRETCH", "Stretch Ratio", "An older limit: the setting 'stretch' as a stretch in percent", 4),
+            ("WORST", "Worst Island", "An older limit: only the island that the UV map stretches most", 5),
         ),
-        default="BEND",
+        default="DISTORTION",
     )
-    angle: bpy.props.FloatProperty(
-        name="Angle",
-        description="An island bends as a sphere's cap of this angle about its middle at most: 90 degrees is half a sphere",
-        subtype="ANGLE",
-        default=math.radians(80.0),
-        min=math.radians(10.0),
-        max=math.pi,
+    distortion: bpy.props.FloatProperty(
+        name="Stretch",
+        description="Average stretch of faces. At 17 %, a face is 1.17 times longer one way and 1.17 times shorter the other way."
+        " Low values need more seams",
+        subtype="PERCENTAGE",
+        default=17.0,
+        min=0.5,
+        max=1000.0,
+        soft_min=5.0,
+        soft_max=60.0,
+        precision=0,
     )
     islands: bpy.props.IntProperty(
         name="Islands",
-        description="How many islands of each object there are to be, each a disc",
+        description="Minimum number of islands per object",
         default=8,
         min=1,
         soft_max=64,
     )
-    stretch: bpy.props.FloatProperty(
-        name="Stretch",
-        description="How many times longer than wide, and how many times larger or smaller than the mean of the mesh, faces become"
-        " in the UV map, in the mean of an island",
-        default=1.2,
-        min=1.02,
-        soft_max=2.0,
+    parts: bpy.props.BoolProperty(
+        name="Parts",
+        description="Make limbs such as hands, feet and heads separate islands, with closed cuts where they are narrow",
+        default=False,
+    )
+    front: bpy.props.EnumProperty(
+        name="Hide From",
+        description="Side from which seams should be hard to see",
+        items=(
+            ("VIEW", "View", "From the side that the 3D view shows; without one, from Blender's front", 0),
+            ("FRONT", "Front", "From Blender's front, which is -Y", 1),
+            ("NONE", "All Sides", "Equally from all sides: in creases and hollows", 2),
+        ),
+        default="VIEW",
     )
     along: bpy.props.EnumProperty(
         name="Along",
         description="Where wires run",
-        items=(("AUTO", "As the Mesh Is", "Along edges where most faces are quads", 2), *ALONG_ITEMS),
+        items=(("AUTO", "Automatic", "Along edges if most faces are quads", 2), *ALONG_ITEMS),
         default="AUTO",
     )
     finish: bpy.props.EnumProperty(
         name="Finish",
-        description="What becomes the seam of a wire across the surface",
+        description="How a wire across the surface becomes a seam",
         items=AUTO_FINISH_ITEMS,
         default="AUTO",
     )
@@ -104,10 +105,29 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         name="Symmetric", description="Wires come in pairs where the mesh is symmetric", default=True
     )
     selected: bpy.props.BoolProperty(
-        name="Selected Only", description="Only islands that have selected faces are parted", default=False
+        name="Selected Only", description="Only islands that have selected faces are cut", default=False
     )
     unwrap: bpy.props.BoolProperty(
-        name="Unwrap", description="Unwrap the islands whose seams have changed", default=False
+        name="Unwrap", description="Unwrap the islands whose seams have changed", default=True
+    )
+    view_direction: bpy.props.FloatVectorProperty(
+        name="View Direction",
+        description="Towards the viewer, in the scene's coordinates, for Hide From View; zero: as the 3D view shows it",
+        subtype="XYZ",
+        options={"HIDDEN", "SKIP_SAVE"},
+    )
+    angle: bpy.props.FloatProperty(
+        name="Angle",
+        description="A setting of older scripts, without effect",
+        subtype="ANGLE",
+        options={"HIDDEN", "SKIP_SAVE"},
+    )
+    stretch: bpy.props.FloatProperty(
+        name="Stretch Ratio",
+        description="A setting of older scripts: how many times longer than wide faces may become",
+        default=1.2,
+        min=1.02,
+        options={"HIDDEN", "SKIP_SAVE"},
     )
 
     @classmethod
@@ -119,78 +139,108 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         """Show the settings that count."""
         layout = self.layout
         layout.use_property_split = True
-        layout.prop(self, "limit")
-        amount = {"BEND": "angle", "ISLANDS": "islands", "STRETCH": "stretch"}.get(self.limit)
-        if amount:
-            layout.prop(self, amount)
+        row = layout.row(align=True)
+        row.use_property_split = False
+        for limit in _LIMITS:
+            row.prop_enum(self, "limit", limit)
+        if self.limit == "ISLANDS":
+            layout.prop(self, "islands")
+        if self.limit != "DISCS":
+            layout.prop(self, "distortion", slider=True)
+            ends = layout.split(factor=0.4)  # under the slider, where the properties' values begin
+            ends.label()
+            ends = ends.row()
+            ends.label(text="Low Stretch")
+            ends = ends.row()
+            ends.alignment = "RIGHT"
+            ends.label(text="Few Seams")
+        layout.prop(self, "parts")
+        layout.prop(self, "front")
         layout.prop(self, "along")
         if self.along != "EDGES":
             layout.prop(self, "finish")
         layout.prop(self, "symmetric")
-        if self.limit != "WORST":
-            layout.prop(self, "selected")
-        if self.limit != "STRETCH":
-            layout.prop(self, "unwrap")
+        layout.prop(self, "selected")
+        layout.prop(self, "unwrap")
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Note which side the 3D view shows, and take the steps beside the interface."""
+        if not any(self.view_direction):
+            self.view_direction = _towards_viewer(context)
+        return super().invoke(context, event)
 
     def steps(self, context: bpy.types.Context) -> Generator[Step, None, set[str]]:
-        """Plan, unwrap on trial where that decides, and mark or cut."""
-        from ..mesh.unwrap import SavedUvs
+        """Plan, and mark or cut."""
+        from ..view.plan_preview import PlanPreview
 
+        self._follow_older_scripts()
         suggestions = self._begin(context)
         if not suggestions:
             return {"CANCELLED"}
-        for suggestion in suggestions:
-            yield from _planning(suggestions, suggestion.prepare)
-        parted = (yield from _part_worst(context, suggestions)) if self.limit == "WORST" else None
-        for suggestion in suggestions:
-            if suggestion is not parted:
-                # Against stretch, detours are of use.
-                choose = partial(
-                    suggestion.suggest,
-                    max_spread=self._spread,
-                    islands=self._islands,
-                    straightened=self.limit != "STRETCH",
-                )
-                yield from _planning(suggestions, choose)
-        if self.limit != "STRETCH":
-            return self._carry_out(context, suggestions)
-        saved = [SavedUvs(suggestion.mesh.obj) for suggestion in suggestions]
-        result = {"CANCELLED"}
+        preview = PlanPreview()
         try:
-            most = math.log2(self.stretch)
-            if (yield from _limit_stretch(context, suggestions, most)):
-                yield from _straighten(context, suggestions, most)
-            result = self._carry_out(context, suggestions)
+            for suggestion in suggestions:
+                yield from _step(suggestions, Step("Measuring the shape", suggestion.prepare))
+                work = partial(suggestion.plan, self._request(), is_enough=lambda: self.enough)
+                yield from _step(suggestions, Step("Planning seams", work, _Look(preview, suggestion)))
+            yield from _step(suggestions, Step("Marking seams"))
         finally:
-            if result == {"CANCELLED"}:
-                for uvs in saved:
-                    uvs.restore()
-        return result
+            preview.close()
+        return self._carry_out(context, suggestions)
 
-    @property
-    def _spread(self) -> float:
-        """How far the normals of an island may spread: as far as they like where something else has the last word."""
-        from ..core.suggestion import spread_of
+    def _follow_older_scripts(self) -> None:
+        """Let settings of older scripts be what is nearest to them now, and say so."""
+        from ..core.suggestion import stretch_of_ratio
 
-        return spread_of(self.angle if self.limit in {"BEND", "ISLANDS"} else math.pi)
+        is_set = self.properties.is_property_set
+        if self.limit == "BEND":
+            self.limit = "DISTORTION"
+            self._warn(f"There is no limit BEND any more: the limit is a stretch of {self.distortion:.0f} %")
+        elif self.limit == "STRETCH":
+            self.limit, self.distortion = "DISTORTION", 100.0 * stretch_of_ratio(self.stretch)
+            self._warn(
+                f"There is no limit STRETCH any more: the limit is a stretch of {self.distortion:.1f} %"
+                f" (distortion={self.distortion:.1f}) in place of stretch={self.stretch:.2f}"
+            )
+        elif self.limit == "WORST":
+            self._warn(
+                f"There is no limit WORST any more: only the worst island is cut, until its stretch is {self.distortion:.0f} %"
+            )
+        elif is_set("angle") or is_set("stretch"):
+            name = "angle" if is_set("angle") else "stretch"
+            self._warn(f"There is no setting {name} any more: the limit is a stretch of {self.distortion:.0f} %")
+            self.properties.property_unset("angle")
+            self.properties.property_unset("stretch")
 
-    @property
-    def _islands(self) -> int:
-        return self.islands if self.limit == "ISLANDS" else 0
+    def _warn(self, text: str) -> None:
+        self.report({"WARNING"}, text)
+
+    def _request(self) -> Request:
+        """Return what is asked of a plan."""
+        from ..core.suggestion import Request, energy_of
+
+        distortion = math.inf if self.limit == "DISCS" else energy_of(0.01 * self.distortion)
+        return Request(distortion, self.islands if self.limit == "ISLANDS" else 0, self.parts)
+
+    def _front(self, context: bpy.types.Context) -> tuple[float, float, float] | None:
+        """Return the direction towards the viewer whom seams hide from, in the scene's coordinates. None: they hide from all sides."""
+        if self.front == "NONE":
+            return None
+        if self.front == "FRONT":
+            return _BLENDERS_FRONT
+        return tuple(self.view_direction) if any(self.view_direction) else _towards_viewer(context)
 
     def _begin(self, context: bpy.types.Context) -> list[Suggestion]:
-        """Read the meshes in edit mode; report where that cannot be."""
+        """Read the meshes in edit mode; report where that cannot be. Raises as `_chosen`."""
         from ..core.native import NativeError
-        from ..core.suggestion import SEEDS_TO_OPEN, seeds_for
-        from ..mesh.suggestion import Suggestion
+        from ..mesh.suggestion import Options, Suggestion
 
-        seeds = SEEDS_TO_OPEN if self.limit == "DISCS" else (seeds_for(self._spread, self._islands),)
         along, finish = (None if chosen == "AUTO" else chosen for chosen in (self.along, self.finish))
-        selected = self.selected and self.limit != "WORST"
+        options = Options(along, finish, self.symmetric, self._front(context))
         found, problem = [], "No face is visible"
-        for obj in context.objects_in_mode_unique_data:
+        for obj, faces in self._chosen(context).items():
             try:
-                suggestion = Suggestion(obj, along, self.symmetric, seeds, finish, selected)
+                suggestion = Suggestion(obj, options, faces)
             except NativeError as error:
                 self.report({"ERROR"}, str(error))
                 return []
@@ -205,77 +255,166 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
             self.report({"ERROR"}, problem)
         return found
 
+    def _chosen(self, context: bpy.types.Context) -> dict[bpy.types.Object, NDArray[np.integer] | None]:
+        """Return the objects that are cut, and of each the faces whose islands are cut; None: all islands.
+
+        Raises
+        ------
+        ValueError
+            If the worst island is asked for, and there are no UVs.
+        """
+        from ..mesh import edit_mesh
+        from ..mesh.seam_islands import worst_of
+
+        objects = context.objects_in_mode_unique_data
+        if self.limit == "WORST":
+            obj, faces = worst_of(objects)
+            return {obj: faces}
+        if self.selected:
+            return {obj: edit_mesh.selected_faces(obj) for obj in objects}
+        return dict.fromkeys(objects)
+
     def _carry_out(self, context: bpy.types.Context, suggestions: Sequence[Suggestion]) -> set[str]:
         """Write or cut the wires, unwrap, and say what was done."""
-        from ..mesh.seam_islands import missing_cuts, stretched_count
-
         if not any(suggestion.wires for suggestion in suggestions):
-            if self.unwrap and self._unwrap_uncut(context):
-                return {"FINISHED"}
-            limit = "no cut lowers the worst stretch" if self.limit == "WORST" else "within the limit"
-            self.report({"INFO"}, f"The islands are discs already, and {limit}: nothing to add")
-            return {"CANCELLED"}
+            return self._unwrap_uncut(context, suggestions)
         across = [suggestion for suggestion in suggestions if suggestion.along == "SURFACE" and suggestion.wires]
         to_cut = {suggestion.mesh: suggestion.wires for suggestion in across if suggestion.finish == "CUT"}
         crumb = _CUT_CRUMB * min((suggestion.smallest() for suggestion in across), default=0.0)
-        if to_cut and cut_wires(self, context, to_cut, crumb=crumb) == {"CANCELLED"}:
+        if to_cut and cut_wires(self, context, to_cut, crumb=crumb, live_unwrap=False) == {"CANCELLED"}:
             return {"CANCELLED"}
         for suggestion in suggestions:
             if suggestion.mesh not in to_cut:
                 suggestion.write()
         slide_wires({suggestion.mesh: suggestion.wires for suggestion in across if suggestion.finish == "SLIDE"})
-        missing = [int(cuts) for suggestion in suggestions for cuts in missing_cuts(suggestion.mesh.obj)]
-        problem = self._unwrap(context)
-        if problem:
-            self.report({"WARNING"}, problem)
-        wires = sum(len(suggestion.wires) for suggestion in suggestions)
-        marked = sum(suggestion.marked for suggestion in suggestions if suggestion.mesh not in to_cut)
-        parts = [
-            count(wires, "wire"),
-            *([f"{count(marked, 'edge')} marked"] if marked else ()),
-            count(len(missing), "island"),
-        ]
-        open_ones = sum(cuts > 0 for cuts in missing)
-        if open_ones:
-            parts.append(f"{open_ones} of them no {'disc' if open_ones == 1 else 'discs'}")
-            parts.append(f"{count(sum(missing), 'more cut')} needed")
-        stretched = 0
-        if self.limit == "STRETCH":
-            most = math.log2(self.stretch)
-            stretched = sum(stretched_count(suggestion.mesh.obj, most) for suggestion in suggestions)
-        if stretched:
-            parts.append(f"{stretched} stretched more than {self.stretch:.2f} times still")
-        self.report({"WARNING"} if open_ones or stretched else {"INFO"}, ", ".join(parts))
+        self._unwrap(context, suggestions)
+        self._tell(suggestions)
         return {"FINISHED"}
 
-    def _unwrap_uncut(self, context: bpy.types.Context) -> bool:
-        """Unwrap where no seam is needed, and report it; return whether any island got other UVs."""
-        from ..core.native import NativeError
-        from ..mesh.unwrap import unwrap_changed
+    def _unwrap_uncut(self, context: bpy.types.Context, suggestions: Sequence[Suggestion]) -> set[str]:
+        """Unwrap if no seam is needed, and say so; return the operator's result."""
+        unwrapped = self._unwrap(context, suggestions) if self.unwrap else 0
+        if not self._is_reached(suggestions):
+            self.report({"WARNING"}, f"No useful seam found: the stretch is {self._stretch(suggestions):.0f} %")
+        elif unwrapped:
+            self.report({"INFO"}, f"No seam is needed: {count(unwrapped, 'island')} unwrapped")
+        else:
+            self.report({"INFO"}, "Nothing to add: all islands already unwrap within the limit")
+        return {"FINISHED"} if unwrapped else {"CANCELLED"}
 
-        try:
-            done = unwrap_changed(context)
-        except (ValueError, NativeError) as error:
-            self.report({"WARNING"}, str(error))
-            return False
-        if done.islands:
-            self.report({"INFO"}, f"No seam is needed: {count(done.islands, 'island')} unwrapped")
-        return done.islands > 0
+    def _unwrap(self, context: bpy.types.Context, suggestions: Sequence[Suggestion]) -> int:
+        """Unwrap as asked for, or as Blender is set; return how many islands were, and report what could not be done.
 
-    def _unwrap(self, context: bpy.types.Context) -> str:
-        """Unwrap as asked, or as Blender is set; return what could not be done."""
+        The UVs of a mesh without seams do not follow seams: all of them are replaced, so that the new islands have the UV square to
+        themselves.
+        """
         from ..core.native import NativeError
         from ..mesh import edit_mesh
         from ..mesh.unwrap import unwrap_changed
 
-        if not self.unwrap and self.limit != "STRETCH":
+        if not self.unwrap:
             edit_mesh.live_unwrap(context)
-            return ""
+            return 0
+        starts = {suggestion.mesh.obj: uvs for suggestion in suggestions if (uvs := suggestion.map()) is not None}
+        is_first = not any(suggestion.had_seams or suggestion.others for suggestion in suggestions)
+        is_whole = {suggestion.mesh.obj for suggestion in suggestions} >= set(context.objects_in_mode_unique_data)
+        every = is_first and is_whole and any(suggestion.wires for suggestion in suggestions)
         try:
-            unwrap_changed(context, even=self.limit == "STRETCH")
+            return unwrap_changed(context, every=every, starts=starts).islands
         except (ValueError, NativeError) as error:
-            return str(error)
-        return ""
+            self.report({"WARNING"}, str(error))
+            return 0
+
+    def _tell(self, suggestions: Sequence[Suggestion]) -> None:
+        """Report the wires, the islands, and how good the map is."""
+        from ..core.suggestion import mean_stretch
+        from ..mesh.seam_islands import map_quality, missing_cuts
+
+        missing = [int(cuts) for suggestion in suggestions for cuts in missing_cuts(suggestion.mesh.obj)]
+        marked = sum(suggestion.marked for suggestion in suggestions)
+        parts = [
+            count(sum(len(suggestion.wires) for suggestion in suggestions), "wire"),
+            *([f"{count(marked, 'edge')} marked"] if marked else ()),
+            count(len(missing), "island"),
+        ]
+        is_few = self.limit == "ISLANDS" and any(
+            suggestion.best.island_count - suggestion.others < self.islands for suggestion in suggestions
+        )
+        if is_few:
+            parts.append(f"fewer than {self.islands} because there are no more limbs to part")
+        open_ones = sum(cuts > 0 for cuts in missing)
+        if open_ones and self.limit == "DISCS":
+            parts.append(f"{open_ones} of them no {'disc' if open_ones == 1 else 'discs'}")
+            parts.append(f"{count(sum(missing), 'more cut')} needed")
+        elif open_ones:  # a slit to an eye would cross the face
+            parts.append(f"{open_ones} of them with holes")
+        stretch, overlapping = self._stretch(suggestions), 0
+        if self.unwrap:
+            maps = [found for suggestion in suggestions if (found := map_quality(suggestion.mesh.obj)) is not None]
+            stretch = 100.0 * mean_stretch([found.energy for found in maps], [found.area for found in maps])
+            overlapping = sum(found.overlapping for found in maps)
+        parts += [f"stretch {stretch:.0f} %", *(["no overlap"] if self.unwrap and not overlapping else ())]
+        if overlapping:
+            parts.append(f"{count(overlapping, 'island')} overlapping")
+        is_reached = self._is_reached(suggestions)
+        if not is_reached:
+            parts.append(f"{self.distortion:.0f} % was not reached")
+        is_open = open_ones > 0 and self.limit == "DISCS"
+        is_good = not (is_open or overlapping or is_few) and is_reached
+        self.report({"INFO"} if is_good else {"WARNING"}, ", ".join(parts))
+
+    def _is_reached(self, suggestions: Sequence[Suggestion]) -> bool:
+        """Whether all plans are within the limit on stretch, or none is set."""
+        return self.limit == "DISCS" or all(suggestion.best.is_reached for suggestion in suggestions)
+
+    @staticmethod
+    def _stretch(suggestions: Sequence[Suggestion]) -> float:
+        """Return the stretch of the planned maps together, in percent."""
+        from ..core.suggestion import mean_stretch
+
+        energies = [float(suggestion.best.energy) for suggestion in suggestions]
+        return 100.0 * mean_stretch(energies, [suggestion.area for suggestion in suggestions])
+
+
+class _Look:
+    """Shows the best plan of a suggestion so far, in the 3D views and in words.
+
+    Parameters
+    ----------
+    preview
+        Draws it.
+    suggestion
+        Plans on another thread.
+    """
+
+    def __init__(self, preview: PlanPreview, suggestion: Suggestion) -> None:
+        self._preview = preview
+        self._suggestion = suggestion
+        self._seen: object = None
+
+    def __call__(self) -> str:
+        """Show a plan that is new; return its stretch and length."""
+        from ..core.suggestion import stretch_of
+
+        suggestion = self._suggestion
+        plan = suggestion.best_so_far
+        if plan is None or not suggestion.mesh.alive():
+            return ""
+        if plan is not self._seen:
+            self._seen = plan
+            curves = [wire.points for wire in plan.wires]
+            self._preview.show(suggestion.mesh.obj, suggestion.mesh.arrays, curves, suggestion.edges_of(plan))
+        self._preview.poll()
+        stretch = f"stretch {100.0 * stretch_of(float(plan.energy)):.0f} %"
+        return f"{stretch}, seams {_in_units(suggestion.length_of(plan))}"
+
+
+def _in_units(length: float) -> str:
+    """Return a length as the scene's units have it."""
+    units = bpy.context.scene.unit_settings
+    if units.system == "NONE":
+        return f"{length:.3g}"
+    return bpy.utils.units.to_string(units.system, "LENGTH", length * units.scale_length, precision=3)
 
 
 def _step(suggestions: Sequence[Suggestion], step: Step) -> Generator[Step, None, None]:
@@ -284,172 +423,22 @@ def _step(suggestions: Sequence[Suggestion], step: Step) -> Generator[Step, None
     Raises
     ------
     ValueError
-        Where a mesh is another one afterwards.
+        If a mesh is another one afterwards.
     """
     yield step
     if not all(suggestion.mesh.alive() for suggestion in suggestions):
         raise ValueError("The mesh was changed meanwhile")
 
 
-def _planning(
-    suggestions: Sequence[Suggestion], work: Callable[..., None], text: str = "Planning seams"
-) -> Generator[Step, None, None]:
-    """Yield the step of planning: `work` is told `progress`."""
-    yield from _step(suggestions, Step(text, lambda progress: work(progress=progress)))
-
-
-def _stretched(
-    context: bpy.types.Context, suggestions: Sequence[Suggestion], most: float, on_trial: float = _ON_TRIAL
-) -> dict[Suggestion, list[int]]:
-    """Unwrap on trial, and return the islands that are stretched more than so many octaves; leave the UVs.
-
-    `on_trial` is the part of that where the wires are cut into the faces afterwards.
-
-    Raises
-    ------
-    ValueError
-        Where Blender cannot unwrap.
-    """
-    from ..mesh.unwrap import unwrap_changed
-
-    for suggestion in suggestions:
-        suggestion.write()
-    try:
-        unwrap_changed(context, [suggestion.mesh.obj for suggestion in suggestions], even=True)
-        return {
-            suggestion: suggestion.stretched(on_trial * most if suggestion.is_cut else most)
-            for suggestion in suggestions
-        }
-    finally:
-        for suggestion in suggestions:
-            suggestion.take_back()
-
-
-def _limit_stretch(
-    context: bpy.types.Context, suggestions: Sequence[Suggestion], most: float
-) -> Generator[Step, None, bool]:
-    """Plan islands smaller that are stretched more than so many octaves in a trial, until none is; return whether that was reached.
-
-    Raises
-    ------
-    ValueError
-        Where Blender cannot unwrap, or a mesh is changed meanwhile.
-    """
-    turn = 0
-    while True:
-        stretched = _stretched(context, suggestions, most)
-        left = sum(map(len, stretched.values()))
-        if turn == _ROUNDS or not left:
-            return not left
-        turn += 1
-        for suggestion, islands in stretched.items():
-            if islands:
-                text = f"{count(left, 'island')} stretched too much, planning again"
-                yield from _planning(suggestions, partial(suggestion.narrow, islands), text)
-
-
-def _straighten(
-    context: bpy.types.Context, suggestions: Sequence[Suggestion], most: float
-) -> Generator[Step, None, None]:
-    """Put direct wires in the place of detours, where no island is stretched more than so many octaves in a trial.
-
-    Raises
-    ------
-    ValueError
-        Where Blender cannot unwrap, or a mesh is changed meanwhile.
-    """
-    before = {suggestion: suggestion.plan for suggestion in suggestions if suggestion.wires}
-    fixed: dict[Suggestion, set[int]] = {suggestion: set() for suggestion in before}
-    for _ in range(_STRAIGHTENINGS if before else 0):
-        for suggestion, seeds in fixed.items():
-            straighten = partial(suggestion.straighten, before[suggestion], seeds)
-            yield from _planning(suggestions, straighten, "Straightening seams")
-        stretched = _stretched(context, list(fixed), most, _ON_TRIAL_STRAIGHT)
-        around = {
-            suggestion: suggestion.seeds_around(islands, before[suggestion])
-            for suggestion, islands in stretched.items()
-            if islands
-        }
-        # Where all seeds around were fixed, nothing has changed.
-        fixed = {
-            suggestion: fixed[suggestion] | seeds for suggestion, seeds in around.items() if seeds - fixed[suggestion]
-        }
-        if not fixed:
-            return
-    for suggestion in fixed:
-        suggestion.use(before[suggestion])
-
-
-def _part_worst(
-    context: bpy.types.Context, suggestions: Sequence[Suggestion]
-) -> Generator[Step, None, Suggestion | None]:
-    """Let a suggestion be the one that lowers the stretch of the island most that is stretched most; None: none lowers it.
-
-    Of those that lower it at all, only the ones with the fewest islands count, and those with one more, for wires come in pairs
-    where the mesh is symmetric. Where none does, or it takes many islands, there is more to choose from in the island. Blender unwraps
-    each of them; afterwards the UVs are as they were.
-
-    Raises
-    ------
-    ValueError
-        Where there are no UVs, Blender cannot unwrap, or a mesh is changed meanwhile.
-    """
-    from ..mesh.seam_islands import island_count
-    from ..mesh.suggestion import SEEDS_IN_ISLAND
-
-    stretched = {suggestion: worst for suggestion in suggestions if (worst := suggestion.worst()) is not None}
-    if not stretched:
-        raise ValueError("No visible face has UVs: unwrap first")
-    suggestion = max(stretched, key=lambda one: stretched[one].value)
-    worst = stretched[suggestion]
-    few = island_count(suggestion.mesh.obj) + _FEW
-    lower: list[tuple[float, SeamPlan]] = []
-    most_islands = math.inf
-    for seeds in (0, *SEEDS_IN_ISLAND):
-        yield from _planning(suggestions, partial(suggestion.part, worst, seeds))
-        for number, plan in enumerate(suggestion.partings, start=1):
-            if plan.island_count > most_islands:
-                break
-            yield from _step(suggestions, Step(f"Unwrapping on trial, {number} of {len(suggestion.partings)}"))
-            stretch = _stretch_within(context, suggestion, plan, worst)
-            if stretch < worst.value:
-                lower.append((stretch, plan))
-                most_islands = min(most_islands, plan.island_count + 1)
-        if most_islands <= few + 1:
-            break
-    if not lower:
-        return None
-    least, best = min((one for one in lower if one[1].island_count <= most_islands), key=lambda one: one[0])
-    # Detours are of use, but not all of them.
-    yield from _planning(suggestions, partial(suggestion.straighten, best, set()), "Straightening seams")
-    straight = suggestion.plan
-    if straight.cost < best.cost:
-        yield from _step(suggestions, Step("Unwrapping on trial"))
-        if _stretch_within(context, suggestion, straight, worst) <= least:
-            best = straight
-    suggestion.use(best)
-    return suggestion
-
-
-def _stretch_within(context: bpy.types.Context, suggestion: Suggestion, plan: SeamPlan, worst: Worst) -> float:
-    """Unwrap a plan on trial, and return how much the islands are stretched that come of one, at most; the UVs are as before then.
-
-    Raises
-    ------
-    ValueError
-        Where Blender cannot unwrap.
-    """
-    from ..mesh.unwrap import SavedUvs, unwrap_changed
-
-    suggestion.use(plan)
-    suggestion.write()
-    saved = SavedUvs(suggestion.mesh.obj)
-    try:
-        unwrap_changed(context, [suggestion.mesh.obj])
-        return suggestion.stretch_within(worst.faces)
-    finally:
-        saved.restore()
-        suggestion.take_back()
+def _towards_viewer(context: bpy.types.Context) -> tuple[float, float, float]:
+    """Return the direction towards the viewer, in the scene's coordinates: of the 3D view, or of Blender's front without one."""
+    view = context.region_data
+    if not isinstance(view, bpy.types.RegionView3D) and context.screen is not None:
+        spaces = (area.spaces.active for area in context.screen.areas if area.type == "VIEW_3D")
+        view = next((space.region_3d for space in spaces), None)
+    if bpy.app.background or not isinstance(view, bpy.types.RegionView3D):
+        return _BLENDERS_FRONT
+    return tuple(view.view_rotation @ Vector((0.0, 0.0, 1.0)))
 
 
 def register() -> None:

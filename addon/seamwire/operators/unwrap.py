@@ -16,6 +16,23 @@ class MESH_OT_seamwire_unwrap(bpy.types.Operator):
     bl_label = "Unwrap Changed Islands"
     bl_options = {"REGISTER", "UNDO"}
 
+    method: bpy.props.EnumProperty(
+        name="Method",
+        description="How islands are flattened",
+        items=(
+            (
+                "SEAMWIRE",
+                "Symmetric Dirichlet",
+                "Stretch as little as possible, in angles and areas: no flipped faces, no overlaps. Islands with pins: Angle Based",
+            ),
+            ("ANGLE_BASED", "Angle Based", "Blender's unwrap: keep angles, good for organic shapes"),
+            ("CONFORMAL", "Conformal", "Blender's unwrap: keep angles, faster"),
+        ),
+    )
+    changed_only: bpy.props.BoolProperty(
+        name="Changed Only", description="Keep the UVs of islands whose seams have not changed", default=True
+    )
+
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Whether a mesh is in edit mode."""
@@ -27,7 +44,7 @@ class MESH_OT_seamwire_unwrap(bpy.types.Operator):
         from ..mesh.unwrap import unwrap_changed
 
         try:
-            done = unwrap_changed(context)
+            done = unwrap_changed(context, method=self.method, every=not self.changed_only)
         except (ValueError, NativeError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

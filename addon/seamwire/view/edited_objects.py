@@ -41,6 +41,8 @@ class EditedObjects:
         Why nothing lights up under the mouse; an empty string: it does.
     chain
         Whether a chain is being drawn: it looks after the objects, and they are drawn whatever the tool.
+    covered
+        Whether something else is drawn in place of the objects.
     """
 
     def __init__(self) -> None:
@@ -50,6 +52,7 @@ class EditedObjects:
         self._forgotten: dict[str, bool] = {}  # names, and whether that object was in front
         self.front: ObjectView | None = None
         self.chain = False
+        self.covered = False
         self.problem = ""
 
     # What there is
@@ -337,7 +340,8 @@ class EditedObjects:
     def _drawn(self) -> Iterator[ObjectView]:
         """Yield the objects that are drawn in the view that Blender is drawing now."""
         context = bpy.context
-        if not (self.chain or chosen.tool_is_active(context)) or not context.space_data.overlay.show_overlays:
+        is_wanted = (self.chain or chosen.tool_is_active(context)) and not self.covered
+        if not is_wanted or not context.space_data.overlay.show_overlays:
             return
         shown = set(context.view_layer.objects.keys())
         for name, view in self._views.items():
