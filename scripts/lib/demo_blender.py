@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The demo inside Blender: ``blender --background --factory-startup --python scripts/lib/demo_blender.py -- FOLDER [MESH]``.
 
-Opens a mesh, has ``mesh.seamwire_suggest`` mark a network of wires, unwraps, and writes NAME.blend and pictures into FOLDER.
+Opens a mesh, has ``mesh.seamwire_suggest`` mark a network of wires and unwrap, and writes NAME.blend and pictures into FOLDER.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import addon_utils
 import bpy
 import numpy as np
 from seamwire_batch import pictures
-from seamwire_batch.assets import IMPORTERS, unwrap
+from seamwire_batch.assets import IMPORTERS
 
 MOST_TRIANGLES = 400_000
 
@@ -75,16 +75,16 @@ def column(items: bpy.types.bpy_prop_collection, name: str, kind: type, width: i
 
 
 def suggest(obj: bpy.types.Object) -> pictures.Network:
-    """Mark seams with the add-on's operator; return the wires that the mesh has then, and see that the seams are theirs."""
+    """Mark seams and unwrap with the add-on's operator; return the wires that the mesh has then, and see that the seams are theirs."""
     from seamwire.mesh.object_session import ObjectSession
     from seamwire.mesh.seam_islands import labels_of
 
     bpy.ops.object.mode_set(mode="EDIT")
     try:
-        result = bpy.ops.mesh.seamwire_suggest()
-        if result != {"FINISHED"}:
-            raise DemoError("nothing to cut: the whole mesh is flat enough to be unwrapped as it is")
+        bpy.ops.mesh.seamwire_suggest()
         drawn = ObjectSession(obj)
+        if not drawn.session.wires:
+            raise DemoError("nothing to cut: the mesh unwraps without seams")
         network = pictures.Network(list(drawn.session.wires), labels_of(drawn.arrays))
     except RuntimeError as error:
         raise DemoError(str(error).strip()) from error
@@ -120,7 +120,7 @@ def run(folder: Path, path: Path | None) -> None:
         raise DemoError(f"{len(mesh.loop_triangles)} triangles: the demo takes {MOST_TRIANGLES} at most")
     tell(f"{obj.name}: {len(mesh.vertices)} vertices, {len(mesh.polygons)} faces")
 
-    show(5, "planning seams")
+    show(5, "planning seams and unwrapping")
     started = time.monotonic()
     network = suggest(obj)
     if any(wire.is_cut for wire in network.wires):
@@ -132,17 +132,11 @@ def run(folder: Path, path: Path | None) -> None:
         f"{len(network.wires)} wires {where}, {network.islands.max() + 1} islands: "
         f"mesh.seamwire_suggest took {time.monotonic() - started:.1f} s"
     )
-    show(30, "unwrapping")
-    bpy.ops.object.mode_set(mode="EDIT")
-    unwrap()
-    bpy.ops.object.mode_set(mode="OBJECT")
     mesh.calc_loop_triangles()
     points = column(mesh.vertices, "co", np.float32, 3).astype(np.float64)
     triangles = column(mesh.loop_triangles, "vertices", np.int32, 3)
     ratio = stretch(obj, points, triangles)
-    tell(
-        f"unwrapped; stretch {np.median(ratio):.2f} in the median, {np.percentile(ratio, 95):.2f} for 95 % of the triangles"
-    )
+    tell(f"stretch {np.median(ratio):.2f} in the median, {np.percentile(ratio, 95):.2f} for 95 % of the triangles")
 
     started = time.monotonic()
     scene = pictures.Scene(
