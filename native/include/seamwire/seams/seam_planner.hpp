@@ -88,7 +88,8 @@ class SeamPlanner {
                        const Task& task = {});
 
   /// Plans seams. `found` is called on this thread with each better plan; the first one is the tree of slits. Throws
-  /// InvalidInput for a distortion that is not above 4; Cancelled within about 20 ms.
+  /// InvalidInput for a distortion that is not above 4; Cancelled, within some tenths
+  /// of a second on large surfaces.
   SeamPlan plan(const SeamGoal& goal = {}, const std::function<void(const SeamPlan&)>& found = {},
                 const Task& task = {}) const;
 
