@@ -28,7 +28,7 @@ enum class Phase {
 
 /// The threads inside the library.
 struct Calls {
-  Mutex mutex;
+  detail::Mutex mutex;
   std::condition_variable_any changed;
   std::atomic<Phase> phase = Phase::kRunning;  // changed with the mutex
   std::atomic<std::thread::id> ending_thread;  // set before the phase
@@ -48,12 +48,12 @@ Calls& calls() {
 bool take(PyThreadState* state, Phase last) {
   Calls& all = calls();
   {
-    const MutexLock lock(all.mutex);
+    const detail::MutexLock lock(all.mutex);
     if (is_cut_off() && all.phase >= last) return false;
     ++all.returning;
   }
   PyEval_RestoreThread(state);
-  const MutexLock lock(all.mutex);
+  const detail::MutexLock lock(all.mutex);
   --all.returning;
   all.changed.notify_all();
   return true;
@@ -61,13 +61,13 @@ bool take(PyThreadState* state, Phase last) {
 
 void enter() {
   Calls& all = calls();
-  const MutexLock lock(all.mutex);
+  const detail::MutexLock lock(all.mutex);
   ++all.inside;
 }
 
 void leave() {
   Calls& all = calls();
-  const MutexLock lock(all.mutex);
+  const detail::MutexLock lock(all.mutex);
   --all.inside;
   all.changed.notify_all();
 }
@@ -76,14 +76,14 @@ void leave() {
 void end_calls() {
   Calls& all = calls();
   {
-    const MutexLock lock(all.mutex);
+    const detail::MutexLock lock(all.mutex);
     if (all.phase != Phase::kRunning) return;
     all.ending_thread = std::this_thread::get_id();
     all.phase = Phase::kEnding;
   }
   PyThreadState* const state = PyEval_SaveThread();
   {
-    MutexLock lock(all.mutex);
+    detail::MutexLock lock(all.mutex);
     all.changed.wait_for(lock, kPatience, [&]() SEAMWIRE_REQUIRES(all.mutex) { return all.inside == 0; });
     all.phase = Phase::kEnded;
     // They have been let through, and the GIL is free for them.

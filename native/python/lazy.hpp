@@ -17,7 +17,7 @@ namespace seamwire::python {
 class SEAMWIRE_SCOPED_CAPABILITY BuildingLock {
  public:
   /// Waits for the thread that has it; throws Cancelled where the task is told to stop meanwhile.
-  BuildingLock(RecursiveTimedMutex& mutex, const Task& task) SEAMWIRE_ACQUIRE(mutex) : mutex_(mutex) {
+  BuildingLock(detail::RecursiveTimedMutex& mutex, const Task& task) SEAMWIRE_ACQUIRE(mutex) : mutex_(mutex) {
     while (!mutex_.try_lock_for(kPeriod)) task.check(0.0);
   }
   ~BuildingLock() SEAMWIRE_RELEASE() { mutex_.unlock(); }
@@ -27,7 +27,7 @@ class SEAMWIRE_SCOPED_CAPABILITY BuildingLock {
  private:
   static constexpr std::chrono::milliseconds kPeriod{5};
 
-  RecursiveTimedMutex& mutex_;
+  detail::RecursiveTimedMutex& mutex_;
 };
 
 /// A value that the first thread to ask for it builds, once. The other threads wait; if the first one is stopped, one
@@ -47,7 +47,7 @@ class Lazy {
   }
 
  private:
-  mutable RecursiveTimedMutex mutex_;
+  mutable detail::RecursiveTimedMutex mutex_;
   mutable std::unique_ptr<const T> value_ SEAMWIRE_GUARDED_BY(mutex_);
 };
 
@@ -67,7 +67,7 @@ class OfLastSurface {
   }
 
  private:
-  mutable RecursiveTimedMutex mutex_;
+  mutable detail::RecursiveTimedMutex mutex_;
   mutable std::weak_ptr<const Surface> surface_ SEAMWIRE_GUARDED_BY(mutex_);
   mutable std::shared_ptr<const T> value_ SEAMWIRE_GUARDED_BY(mutex_);
 };

@@ -32,18 +32,18 @@ struct SeamPlannerObject {
     return best;
   }
   SharedPlan best_so_far() {
-    const MutexLock lock(mutex_);
+    const detail::MutexLock lock(mutex_);
     return best_;
   }
 
  private:
   void keep(SharedPlan plan) {
-    const MutexLock lock(mutex_);
+    const detail::MutexLock lock(mutex_);
     best_ = std::move(plan);
   }
 
   SeamPlanner planner_;
-  Mutex mutex_;
+  detail::Mutex mutex_;
   SharedPlan best_ SEAMWIRE_GUARDED_BY(mutex_);
 };
 

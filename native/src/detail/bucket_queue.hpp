@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// A priority queue for searches in which no key is less than those already taken out: buckets of equal width, after
 /// Dial, "Algorithm 360: Shortest-path forest with topological ordering" (1969). A state whose every step in costs more
@@ -92,4 +92,4 @@ class BucketQueue {
   std::vector<Entry> beyond_;  // keys past the last bucket
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

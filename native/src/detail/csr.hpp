@@ -11,7 +11,7 @@
 
 #include "detail/index.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Rows of items, one row after the other in one array (compressed sparse rows).
 template <class T>
@@ -81,4 +81,4 @@ class Csr {
   std::vector<T> items_;
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

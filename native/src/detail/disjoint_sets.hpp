@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Sets of the numbers below `count`, at first of one number each (union-find). A set is named after its least number,
 /// so that names do not depend on the order in which sets are joined.
@@ -33,4 +33,4 @@ class DisjointSets {
   std::vector<std::int32_t> parent_;
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Values for some of the numbers below `size`, all of which can be forgotten at once, in constant time.
 class EpochMap {
@@ -24,4 +24,4 @@ class EpochMap {
   std::uint32_t epoch_ = 1;
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// The half-edges after and before another in its triangle; half-edge 3 f + i runs from corner i of triangle f to the
 /// next corner.
@@ -14,4 +14,4 @@ constexpr std::int32_t previous_in_face(std::int32_t half_edge) {
   return half_edge % 3 == 0 ? half_edge + 2 : half_edge - 1;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

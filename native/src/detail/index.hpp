@@ -7,7 +7,7 @@
 
 #include "seamwire/errors.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// An element's number as a size, to compare it with one. Subscripts take numbers as they are.
 constexpr std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
@@ -23,4 +23,4 @@ inline void check_index(std::int32_t i, std::size_t count, const std::string& wh
                      kind);
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

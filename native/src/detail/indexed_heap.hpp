@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// A priority queue of numbers, each in it once at most: least key first; of equal keys, the lesser number, so that the
 /// order is the same everywhere. A heap of four children a node that knows where each number is.
@@ -81,4 +81,4 @@ class IndexedHeap {
   std::vector<std::int32_t> place_;
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

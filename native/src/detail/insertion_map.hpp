@@ -9,7 +9,7 @@
 
 #include "detail/index.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Different numbers, each with its position in the order in which they were inserted. An open hash table: the nodes of
 /// std::unordered_map would take longer than all the rest of what it is used for here.
@@ -45,4 +45,4 @@ class InsertionMap {
   std::vector<std::int32_t> table_;  // positions, -1: free; the size is a power of two, and at least half is free
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// An array whose copies share what has not been changed since (copy on write), page by page: a copy that differs in a
 /// few places costs these, and a pointer a page. As with other containers, one array is for one thread; the pages that
@@ -55,4 +55,4 @@ class PagedArray {
   std::size_t size_ = 0;
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -7,7 +7,7 @@
 
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// A loop's looks at its task, one in some thousands of steps.
 class Poll {
@@ -66,4 +66,4 @@ std::vector<T> copied(const std::vector<T>& from, const Task& task, double progr
   return copy;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Asks for the memory around an address, which need not be valid.
 inline void prefetch(const void* address) {
@@ -12,4 +12,4 @@ inline void prefetch(const void* address) {
 #endif
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

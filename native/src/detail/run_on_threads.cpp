@@ -13,7 +13,7 @@
 
 #include "detail/thread_safety.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 /// A solve takes memory for a part of the surface, so threads are not begun without end.
@@ -111,4 +111,4 @@ void run_on_threads(std::size_t count, const Task& task, const std::function<dou
   if (const std::exception_ptr error = shared.error()) std::rethrow_exception(error);
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -6,7 +6,7 @@
 
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Calls work(i, task) for each i below `count` on as many threads as there are cores, eight at most. Meanwhile the
 /// calling thread reports fraction(number of finished calls) to `task`, and stops the work if the caller cancels. Once
@@ -14,4 +14,4 @@ namespace seamwire {
 void run_on_threads(std::size_t count, const Task& task, const std::function<double(std::size_t)>& fraction,
                     const std::function<void(std::size_t, const Task&)>& work);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// A number in a message, with as many digits as it takes to tell it from all others: std::to_string() would write
 /// -1e-9 as "-0.000000".
@@ -18,4 +18,4 @@ inline std::string text(double number) {
   return digits;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

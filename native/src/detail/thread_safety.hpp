@@ -20,7 +20,7 @@
 #define SEAMWIRE_TRY_ACQUIRE(...) SEAMWIRE_THREAD_ANNOTATION(try_acquire_capability(__VA_ARGS__))
 #define SEAMWIRE_RELEASE(...) SEAMWIRE_THREAD_ANNOTATION(release_capability(__VA_ARGS__))
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// std::mutex, whose own declaration in libstdc++ tells the analysis nothing.
 class SEAMWIRE_CAPABILITY("mutex") Mutex {
@@ -60,4 +60,4 @@ class SEAMWIRE_SCOPED_CAPABILITY MutexLock {
   Mutex& mutex_;
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -8,7 +8,7 @@
 #include <new>
 #include <type_traits>
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// An array of zeros. The system hands out its memory page by page when it is first touched, so an array that is used
 /// in few places costs neither time nor memory for the rest.
@@ -30,4 +30,4 @@ class ZeroedArray {
   std::unique_ptr<T, Free> values_;
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

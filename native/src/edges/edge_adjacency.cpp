@@ -14,6 +14,8 @@
 
 namespace seamwire {
 
+using namespace detail;
+
 namespace {
 
 // Steps between two looks at the task: well under a millisecond.

@@ -13,6 +13,9 @@
 #include "metric/scribble_points.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 // Edges between two looks at the task: well under a millisecond.

@@ -8,6 +8,9 @@
 #include "edges/edge_adjacency.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 std::int32_t find_edge(const EdgeAdjacency& adjacency, const Edge& edge) {

@@ -19,7 +19,7 @@
 #include "edges/edge_graph.hpp"
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -189,4 +189,4 @@ inline EdgeChain chain_to(const EdgeGraph& graph, const EdgeSearch& search, std:
   return chain;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

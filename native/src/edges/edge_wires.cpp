@@ -9,6 +9,9 @@
 #include "edges/edge_search.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 void check_pick(const EdgeGraph& graph, const Pick& pick, const std::string& what) {

@@ -16,6 +16,9 @@
 #include "surface/point_segment.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 // The cost, and how far a step goes along the line: measured on artists' seams (docs/method.md).

@@ -9,6 +9,9 @@
 #include "edges/edge_search.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 /// What the closed chain a -> b -> c (-> d) -> a costs at the least, over all c and d: where the search for a

@@ -13,7 +13,7 @@
 #include "metric/scribble_points.hpp"
 #include "surface/point_segment.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 // How much dearer it is for a chain to be off the line than to be long.
@@ -144,4 +144,4 @@ std::vector<std::vector<std::int32_t>> stroke_chains(const Surface& surface, con
   return StrokeChains(surface, adjacency, scribble).find();
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

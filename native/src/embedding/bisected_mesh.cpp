@@ -10,7 +10,7 @@
 #include "embedding/degenerate_faces.hpp"
 #include "surface/face_height.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 using OpenMesh::FaceHandle;
@@ -420,4 +420,4 @@ std::vector<std::int32_t> BisectedMesh::unreachable(const IntrinsicMesh& mesh) c
   return out;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

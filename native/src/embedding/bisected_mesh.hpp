@@ -16,7 +16,7 @@
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Whether vertices and faces have the same numbers in the half-edge mesh as in the surface.
 bool keeps_numbers(const Surface& surface);
@@ -159,4 +159,4 @@ inline double BisectedMesh::perimeter(std::int32_t f, Perimeter kind) const {
   return vector(3 * f).norm() + vector(3 * f + 1).norm() + vector(3 * f + 2).norm();
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -7,7 +7,7 @@
 #include "detail/poll.hpp"
 #include "embedding/length_repair.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 // Lengths that differ by less than this fraction are equal, so that rounding, which depends on the scale of the input,
@@ -223,4 +223,4 @@ Embedding Bisection::to_embedding() && {
   return out;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -10,7 +10,7 @@
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Which triangles are bisected, and at which edge (docs/method.md, Section 4).
 enum class Scheme {
@@ -119,4 +119,4 @@ class Bisection {
   std::size_t unrepaired_ = 0, least_unrepaired_ = 0, least_unrepaired_at_ = 0;
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -9,7 +9,7 @@
 
 #include "surface/face_height.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 namespace {
 
@@ -150,4 +150,4 @@ std::optional<CleanMesh> remove_degenerate_faces(const Surface& surface, const M
   return DegenerateFaces(surface, metric).remove(std::move(degenerate));
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -12,7 +12,7 @@
 #include "seamwire/task.hpp"
 #include "surface/half_edge_mesh.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// A surface's half-edge mesh without those degenerate faces that could be removed.
 struct CleanMesh {
@@ -28,4 +28,4 @@ struct CleanMesh {
 /// their longest edge. Faces of which neither is possible stay. Nothing where the surface has no degenerate face.
 std::optional<CleanMesh> remove_degenerate_faces(const Surface& surface, const Metric& metric);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -15,6 +15,9 @@
 #include "surface/face_height.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 // Longest-edge bisection, the paper's scheme, may add this many triangles for each of the surface's, and this many in

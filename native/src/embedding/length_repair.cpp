@@ -10,7 +10,7 @@
 #include "detail/poll.hpp"
 #include "embedding/bisection.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 // Of the interval that the triangle inequality leaves for the length of a new edge, the part kept free at either end.
@@ -109,4 +109,4 @@ LengthRepair repair_lengths(BisectedMesh& mesh, const EmbedOptions& options, con
   return repair;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -9,7 +9,7 @@
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// What length repair has done.
 struct LengthRepair {
@@ -28,4 +28,4 @@ std::size_t count_needing_repair(const BisectedMesh& mesh, const EmbedOptions& o
 /// its parts are valid: docs/method.md, Section 4, "Why it ends". Throws Cancelled.
 LengthRepair repair_lengths(BisectedMesh& mesh, const EmbedOptions& options, const Task& task, double progress);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

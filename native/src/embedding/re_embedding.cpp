@@ -12,7 +12,7 @@
 #include "embedding/bisection.hpp"
 #include "surface/half_edge_mesh.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 // The faces at the vertices where two metrics differ.
@@ -75,4 +75,4 @@ std::optional<Embedding> re_embed_locally(const Surface& surface, const Metric& 
   return out;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -7,7 +7,7 @@
 
 #include "seamwire/embedding/embedding.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// re_embed() for an embedding that is local; normals of the two metrics must be equal. At most `most` triangles are
 /// added to the surface's. Nothing where that is not enough, or longest-edge bisection does not end well. Throws
@@ -19,4 +19,4 @@ std::optional<Embedding> re_embed_locally(const Surface& surface, const Metric& 
 /// Whether a face of the surface's half-edge mesh is valid in a metric as it is.
 bool is_valid_as_given(const Surface& surface, const Metric& metric, std::int32_t face);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

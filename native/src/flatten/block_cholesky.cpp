@@ -12,7 +12,7 @@
 #include "flatten/front_kernels.hpp"
 #include "seamwire/errors.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 constexpr std::uint32_t round_up_to_4(std::uint32_t n) { return (n + 3) & ~3U; }
@@ -399,4 +399,4 @@ void BlockCholesky::solve(std::span<double> right_side) const {
   }
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -10,7 +10,7 @@
 #include "seamwire/surface/types.hpp"
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Where a block of 2 x 2 numbers is in an array: entry (r, c) is at offset + r * row + c * column.
 struct BlockEntry {
@@ -73,4 +73,4 @@ class BlockCholesky {
   std::vector<double> updates_;                 // a stack of updates that parents have not taken yet
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

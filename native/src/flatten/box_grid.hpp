@@ -12,7 +12,7 @@
 
 #include "detail/csr.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// An axis-aligned box in the plane.
 struct Box {
@@ -92,4 +92,4 @@ class BoxGrid {
   Csr<std::int32_t> cells_;
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -8,7 +8,7 @@
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 std::vector<std::vector<std::int32_t>> Island::boundaries() const {
   // Each own vertex has at most one boundary edge that leaves it.
@@ -78,4 +78,4 @@ std::vector<Island> cut_open(std::span<const Triangle> triangles, std::span<cons
   return islands;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

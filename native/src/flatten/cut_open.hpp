@@ -7,7 +7,7 @@
 
 #include "seamwire/surface/types.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// A connected piece of a surface that is cut open. It has its own vertices: a mesh vertex that a cut passes through
 /// has one for each side. Each own vertex lies inside the island, or on exactly one boundary loop.
@@ -32,4 +32,4 @@ struct Island {
 std::vector<Island> cut_open(std::span<const Triangle> triangles, std::span<const std::int32_t> twins,
                              std::span<const std::uint8_t> is_cut);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

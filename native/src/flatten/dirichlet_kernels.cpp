@@ -18,7 +18,7 @@
 #define SEAMWIRE_INLINE inline
 #endif
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -150,4 +150,4 @@ const DirichletKernels& dirichlet_kernels() {
   return plain::kKernels;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

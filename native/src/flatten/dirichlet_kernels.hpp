@@ -11,7 +11,7 @@
 
 #include <cstddef>
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// How many triangles a kernel is called for, at most.
 inline constexpr std::size_t kTrianglesAtOnce = 64;
@@ -50,4 +50,4 @@ const DirichletKernels& plain_dirichlet_kernels();
 /// The fastest that this processor can run.
 const DirichletKernels& dirichlet_kernels();
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

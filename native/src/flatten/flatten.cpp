@@ -21,6 +21,9 @@
 #include "surface/cuts.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 /// How often an island is opened further because double precision cannot hold its embedding.

@@ -11,7 +11,7 @@
 #define SEAMWIRE_INLINE inline
 #endif
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 // Four numbers that are computed with at once. Compilers split them where registers are shorter.
@@ -220,4 +220,4 @@ const FrontKernels& front_kernels() {
   return plain::kKernels;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

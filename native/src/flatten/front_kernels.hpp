@@ -7,7 +7,7 @@
 
 #include <cstddef>
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Matrices are stored by columns, `stride` numbers apart. Numbers of rows and strides are multiples of 4.
 struct FrontKernels {
@@ -32,4 +32,4 @@ const FrontKernels& plain_front_kernels();
 /// The fastest that this processor can run.
 const FrontKernels& front_kernels();
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -15,7 +15,7 @@
 #include "flatten/symmetric_dirichlet.hpp"
 #include "flatten/tutte.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 /// In the first phase no triangle's energy may exceed this. The phase ends once a step promises less than the second
@@ -413,4 +413,4 @@ std::vector<double> triangle_energies(const Island& island, std::span<const Vect
   return energy.energies(map);
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

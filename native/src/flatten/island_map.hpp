@@ -12,7 +12,7 @@
 #include "seamwire/surface/vector.hpp"
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// A point of a UV map.
 using Point2 = Eigen::Vector2d;
@@ -57,4 +57,4 @@ IslandMap continue_map(const Island& island, std::span<const Vector> points, std
 std::vector<double> triangle_energies(const Island& island, std::span<const Vector> points,
                                       std::span<const Point2> uvs);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -18,6 +18,9 @@
 #include "flatten/symmetric_dirichlet.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 using Corners = std::array<Eigen::Vector2d, 3>;

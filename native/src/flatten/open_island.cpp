@@ -14,7 +14,7 @@
 #include "detail/indexed_heap.hpp"
 #include "seamwire/errors.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -210,4 +210,4 @@ OpenedIsland open_to_farthest(const Island& island, std::span<const Vector> poin
   return opened;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

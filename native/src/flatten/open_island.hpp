@@ -10,7 +10,7 @@
 #include "seamwire/surface/vector.hpp"
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Whether an island can be mapped to the plane: a disc, or a disc with holes, with a boundary loop of three or more
 /// edges. Without such a loop no map without flips exists.
@@ -34,4 +34,4 @@ OpenedIsland open_to_farthest(const Island& island, std::span<const Vector> poin
 /// Cuts an island along some of its half-edges. Returns no triangles if it falls apart.
 OpenedIsland open_along(const Island& island, const std::vector<std::uint8_t>& is_cut);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -8,7 +8,7 @@
 #include "detail/index.hpp"
 #include "flatten/box_grid.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 constexpr double kBarrierWeight = 1e-3;
@@ -157,4 +157,4 @@ double Outline::first_contact(std::span<const double> map, std::span<const doubl
   return least;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -10,7 +10,7 @@
 
 #include "seamwire/surface/types.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// The boundary loops of an island in a map: where they cross each other or themselves, and a barrier that keeps them
 /// apart (Smith and Schaefer 2015). Maps are arrays of two numbers for each own vertex.
@@ -51,4 +51,4 @@ class Outline {
   double reach_;
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

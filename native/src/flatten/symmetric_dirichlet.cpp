@@ -10,7 +10,7 @@
 
 #include "detail/index.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 using Complex = std::complex<double>;
@@ -246,4 +246,4 @@ std::size_t SymmetricDirichlet::move_rest_shapes(std::span<const double> map, do
   return moved;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

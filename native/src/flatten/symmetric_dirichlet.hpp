@@ -12,7 +12,7 @@
 #include "seamwire/surface/types.hpp"
 #include "seamwire/surface/vector.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Where blocks (0, 0), (1, 1), (2, 2), (0, 1), (1, 2) and (2, 0) of a triangle's corners are.
 using TriangleBlocks = std::array<BlockEntry, 6>;
@@ -67,4 +67,4 @@ class SymmetricDirichlet {
   double unit_ = 1.0, area_ = 0.0;
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -9,7 +9,7 @@
 
 #include "detail/index.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 constexpr double kLeastWeight = 0.1, kGreatestWeight = 10.0;
@@ -161,4 +161,4 @@ std::vector<double> tutte_embedding(const Island& island, std::span<const Vector
   return {};
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

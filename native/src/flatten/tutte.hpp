@@ -11,7 +11,7 @@
 #include "seamwire/surface/vector.hpp"
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// The edges of an island between different own vertices, each once.
 std::vector<Edge> island_edges(const Island& island);
@@ -34,4 +34,4 @@ std::vector<double> tutte_embedding(const Island& island, std::span<const Vector
                                     const std::vector<std::vector<std::int32_t>>& boundaries, const TutteCircle& circle,
                                     BlockCholesky& solver, const Task& task);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

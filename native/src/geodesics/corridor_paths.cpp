@@ -27,6 +27,9 @@
 #include "geodesics/wavefront.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 /// A corridor holds no vertex over which the path is longer than the shortest one by this factor, however short that

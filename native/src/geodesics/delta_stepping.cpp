@@ -5,7 +5,7 @@
 
 #include "detail/prefetch.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 /// Of the ring; where the longest edge is longer than that many mean ones, buckets are wider.
@@ -67,4 +67,4 @@ IntrinsicPath DeltaStepping::chain(std::int32_t vertex) const {
   return path;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

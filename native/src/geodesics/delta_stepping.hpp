@@ -10,7 +10,7 @@
 #include "seamwire/geodesics/distance_field.hpp"
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Distances along hops (GeodesicMesh::hops) from a seed, computed outwards as far as they are asked for, by
 /// delta-stepping: buckets of distances instead of a heap, whose vertices are settled in any order and, if need be,
@@ -54,4 +54,4 @@ class DeltaStepping {
   std::size_t waiting_ = 0;  ///< entries not done
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

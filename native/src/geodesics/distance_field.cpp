@@ -10,6 +10,9 @@
 #include "geodesics/submesh.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 /// Of a point, or of the corners of its faces the one over which it is nearest.

@@ -13,11 +13,11 @@
 namespace seamwire {
 
 struct DistanceField::Data {
-  std::shared_ptr<const GeodesicMesh> mesh;
+  std::shared_ptr<const detail::GeodesicMesh> mesh;
   std::vector<SurfacePoint> given_sources;
-  SourcePoints sources;              ///< the same in internal numbers
-  std::vector<double> distances;     ///< in external numbers
-  std::vector<TraceRecord> records;  ///< in internal numbers
+  detail::SourcePoints sources;              ///< the same in internal numbers
+  std::vector<double> distances;             ///< in external numbers
+  std::vector<detail::TraceRecord> records;  ///< in internal numbers
   bool is_exact;
   double radius;  ///< distances beyond it are infinite
 };

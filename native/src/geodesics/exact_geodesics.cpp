@@ -15,6 +15,8 @@
 
 namespace seamwire {
 
+using namespace detail;
+
 ExactGeodesics::ExactGeodesics(const IntrinsicMesh& mesh, const Task& task)
     : mesh_(std::make_shared<const GeodesicMesh>(mesh, task)) {}
 

@@ -12,7 +12,7 @@
 #include "detail/poll.hpp"
 #include "detail/text.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 /// A vertex that is flat up to rounding must not be a pseudo-source: every one of them would emit windows that nothing
@@ -514,4 +514,4 @@ void GeodesicMesh::patch_rows(const GeodesicMesh& former, const std::vector<std:
   measure_hops();
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -14,7 +14,7 @@
 #include "seamwire/surface/intrinsic_mesh.hpp"
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// The mesh as the wavefront reads it: every triangle unfolded into the frame of each of its half-edges, in one cache
 /// line each. Vertices and faces are renumbered breadth first, so that a front touches memory that lies together: they
@@ -127,4 +127,4 @@ class GeodesicMesh {
   std::vector<std::int32_t> external_vertex_, internal_vertex_, external_face_, internal_face_;
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -17,7 +17,7 @@
 
 #include "geodesics/wavefront.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 using HalfEdge = GeodesicMesh::HalfEdge;
@@ -351,4 +351,4 @@ void to_external(const GeodesicMesh& mesh, IntrinsicPath& path) {
   }
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -12,7 +12,7 @@
 #include "seamwire/geodesics/distance_field.hpp"
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// The path to a target that the records tell, in internal numbers. Where one cannot be followed, which takes triangles
 /// thinner than rounding or stretched windows, the path goes along edges for a while. A target that is a vertex has a
@@ -34,4 +34,4 @@ void to_whole_mesh(const Submesh& part, IntrinsicPath& path);
 /// Renumbers a path from internal to external numbers.
 void to_external(const GeodesicMesh& mesh, IntrinsicPath& path);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -10,7 +10,7 @@
 #include "detail/index.hpp"
 #include "detail/text.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 /// The sum of barycentric coordinates may miss 1 by this much.
@@ -97,4 +97,4 @@ std::span<const SourcePoints::InFace> SourcePoints::in_face(std::int32_t face) c
   return {begin, std::ranges::upper_bound(begin, in_faces_.end(), face, {}, &InFace::face)};
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -12,7 +12,7 @@
 #include "seamwire/geodesics/distance_field.hpp"
 #include "seamwire/surface/surface_point.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// A position in the frame of a half-edge.
 struct Point2 {
@@ -112,4 +112,4 @@ class SourcePoints {
   std::vector<InFace> in_faces_;  ///< by their faces
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -18,7 +18,7 @@
 
 #include "geodesics/window_kernels.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 using HalfEdge = GeodesicMesh::HalfEdge;
@@ -246,4 +246,4 @@ StraightStart find_straight_start(const SolvedDistances& solved, const PlacedPoi
   return PointSearch(solved, point, task).run();
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -9,7 +9,7 @@
 #include "geodesics/placed_point.hpp"
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// What a solve has found, as far as points between the vertices need it.
 struct SolvedDistances {
@@ -32,4 +32,4 @@ struct StraightStart {
 /// Finds the distance of a point that is no vertex, and how its shortest path begins.
 StraightStart find_straight_start(const SolvedDistances& solved, const PlacedPoint& point, const Task& task);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace seamwire {
+namespace seamwire::detail {
 
 Submesh SubmeshCutter::cut(std::span<const std::int32_t> vertices) {
   for (const std::int32_t v : used_vertices_) part_vertex_[v] = 0;
@@ -78,4 +78,4 @@ Submesh SubmeshCutter::cut(std::span<const std::int32_t> vertices) {
   return {part, used_vertices_, used_faces_};
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -9,7 +9,7 @@
 #include "detail/zeroed_array.hpp"
 #include "geodesics/geodesic_mesh.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Triangles of a mesh as a mesh of their own, without hops. Its external numbers are its internal ones. Paths may bend
 /// at its border as at any other boundary; on the whole mesh they are paths all the same.
@@ -36,4 +36,4 @@ class SubmeshCutter {
   std::vector<std::int32_t> used_vertices_, used_faces_;
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

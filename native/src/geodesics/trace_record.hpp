@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// How the shortest path arrives at a vertex; in the numbers of the GeodesicMesh.
 struct TraceRecord {
@@ -19,4 +19,4 @@ struct TraceRecord {
   static constexpr std::int32_t kLooseEdge = kNone + 1;  ///< straight along an edge without faces
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -29,7 +29,7 @@
 #include "geodesics/window_kernels.hpp"
 #include "geodesics/window_lists.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 using HalfEdge = GeodesicMesh::HalfEdge;
@@ -650,4 +650,4 @@ WavefrontResult propagate_wavefront(const GeodesicMesh& mesh, std::int32_t seed,
   return propagate_wavefront(mesh, SourcePoints({PlacedPoint::at_vertex(seed)}), task, windows_kept);
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -10,7 +10,7 @@
 #include "geodesics/trace_record.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// What a solve finds, one entry for each vertex of the GeodesicMesh.
 struct WavefrontResult {
@@ -37,4 +37,4 @@ WavefrontResult propagate_wavefront(const GeodesicMesh& mesh, const SourcePoints
 WavefrontResult propagate_wavefront(const GeodesicMesh& mesh, std::int32_t seed, const Task& task,
                                     std::uint32_t windows_kept = 0);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

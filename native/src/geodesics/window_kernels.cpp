@@ -18,7 +18,7 @@
 #define SEAMWIRE_INLINE inline
 #endif
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 // Not those of the standard library, which treat their arguments as places in memory.
@@ -209,4 +209,4 @@ const WindowKernels& window_kernels() {
   return plain::kKernels;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -11,7 +11,7 @@
 
 #include "geodesics/window_lists.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// A window narrower than this part of its edge is dropped: what is missed next to it is of second order in the width.
 inline constexpr double kLeastWidth = 1e-12;
@@ -108,4 +108,4 @@ const WindowKernels& plain_window_kernels();
 /// The fastest that this processor can run.
 const WindowKernels& window_kernels();
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Windows side by side, an array a field: the interval [b0, b1] of a half-edge through which a source is seen, the
 /// source unfolded into the half-edge's frame (y < 0), its distance and its vertex. A view: somebody else's memory.
@@ -137,4 +137,4 @@ struct WindowList {
   }
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -11,7 +11,7 @@
 #include "live/deadline.hpp"
 #include "seamwire/errors.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// A value that several threads need and one of them computes, the first to ask. Where that one is stopped, another
 /// that waits for it takes its place; an error comes out of every call.
@@ -77,4 +77,4 @@ class ComputedOnce {
   std::exception_ptr error_ SEAMWIRE_GUARDED_BY(mutex_);
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

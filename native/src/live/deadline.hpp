@@ -6,7 +6,7 @@
 #include <condition_variable>
 #include <optional>
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Until when to wait; none: forever.
 using Deadline = std::optional<std::chrono::steady_clock::time_point>;
@@ -27,4 +27,4 @@ bool wait_once(std::condition_variable_any& changed, Lock& lock, const Deadline&
   return true;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -9,7 +9,7 @@
 #include "seamwire/edges/shortest_cycle.hpp"
 #include "wires/wire_pieces.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 /// How many closed wires there are to choose from, and of how many pieces each is: one that is shorter than half of it
@@ -543,4 +543,4 @@ LiveCandidate LiveWorker::candidate(const SeedSolution& solution, const WireEnd&
   return candidate;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

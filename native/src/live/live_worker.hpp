@@ -21,7 +21,7 @@
 #include "seamwire/wires/bent_wires.hpp"
 #include "seamwire/wires/closed_wires.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// In either direction.
 bool has_edge(const Surface& surface, const Edge& edge);
@@ -256,4 +256,4 @@ class LiveWorker {
   std::jthread thread_;  // last, so that all else is there when it begins
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -17,6 +17,9 @@
 #include "live/live_worker.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 /// Where there is no surface yet any edge may be one.

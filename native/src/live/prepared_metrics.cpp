@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 /// An artist waits for an embedding, and one that runs away is better cut short: at most so many times the surface's
@@ -133,4 +133,4 @@ Prepared prepare(SurfaceCache& surface_cache, Along along, MetricSet& metrics, s
   return prepared;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

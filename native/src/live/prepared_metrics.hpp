@@ -20,7 +20,7 @@
 #include "seamwire/wires/embedded_points.hpp"
 
 /// What a live wire computes before there is a seed, each part once, whoever asks for it first.
-namespace seamwire {
+namespace seamwire::detail {
 
 inline constexpr std::array kFollow = {Follow::kMin, Follow::kMax, Follow::kConcave};
 /// How many metrics a live wire may have at once.
@@ -163,4 +163,4 @@ Prepared prepare(
     SurfaceCache& surface_cache, Along along, MetricSet& metrics, std::size_t which, const std::stop_token& stop,
     const std::function<void()>& make_way = [] {});
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -20,6 +20,9 @@
 #include "surface/face_height.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 // How far at most a walk to the sides leads, in the unit cube: where the surface is almost flat, the radius of

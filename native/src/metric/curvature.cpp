@@ -19,6 +19,9 @@
 #include "surface/half_edge_mesh.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 // Faces whose corners memory is asked for in advance.

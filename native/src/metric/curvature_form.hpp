@@ -7,7 +7,7 @@
 #include "metric/tangent_frame.hpp"
 #include "seamwire/metric/curvature.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// The second fundamental form in a frame: (mean + difference) u^2 + 2 mixed u v + (mean - difference) v^2. Turning the
 /// frame by an angle leaves the mean, and turns (difference, mixed) back by twice that angle.
@@ -31,4 +31,4 @@ inline void decompose(const TangentFrame& frame, const Form& form, std::size_t v
   curvature.d2[vertex] = c * v - s * frame.u;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -12,6 +12,9 @@
 #include "metric/tangent_frame.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 // Differences of curvature up to this fraction of the largest curvature (and of 1, the curvature of a sphere as wide as
@@ -148,7 +151,7 @@ void check_strength(const Strength& strength, double smallest_parameter) {
   }
 }
 
-void check_finite(const Metric& metric) {
+void detail::check_finite(const Metric& metric) {
   for (std::size_t v = 0; v < metric.size(); ++v) {
     if (!metric.tensors[v].allFinite() || !metric.normals[v].allFinite()) {
       throw InvalidInput("the metric at vertex " + std::to_string(v) + " is not finite");

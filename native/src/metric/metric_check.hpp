@@ -3,9 +3,9 @@
 
 #include "seamwire/metric/metric.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Throws InvalidInput where a tensor or a normal is not finite, or an eigenvalue above kLargestEigenvalue.
 void check_finite(const Metric& metric);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -24,6 +24,9 @@
 #include "surface/point_segment.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 // A point may be this far from its face, as a fraction of the model's longest side: a smoothed stroke leaves the faces
@@ -411,7 +414,7 @@ void Scribbler::apply(const Scribble& given) {
 
 }  // namespace
 
-void check_scribble(const Surface& surface, const Scribble& scribble, std::size_t number_of_scribble) {
+void detail::check_scribble(const Surface& surface, const Scribble& scribble, std::size_t number_of_scribble) {
   const double unit = exact_unit(surface);
   const auto point = [&](std::int32_t v) { return Vector(unit * surface.points()[v]); };
   const std::size_t count = scribble.points.size();

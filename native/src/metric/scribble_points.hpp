@@ -9,7 +9,7 @@
 #include "seamwire/surface/surface.hpp"
 #include "surface/exact_unit.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Throws InvalidInput where a scribble is not one on the surface, see apply_scribbles(). `number`: names it.
 void check_scribble(const Surface& surface, const Scribble& scribble, std::size_t number);
@@ -22,4 +22,4 @@ inline std::int32_t nearest_vertex(const Surface& surface, const Scribble& scrib
   });
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

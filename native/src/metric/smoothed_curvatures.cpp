@@ -13,6 +13,9 @@
 #include "surface/exact_unit.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 constexpr double kMostRounds = 400;

@@ -6,7 +6,7 @@
 
 #include "seamwire/surface/vector.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// A tangent plane by its normal and an orthonormal basis (u, v): u, v and the normal are right-handed.
 struct TangentFrame {
@@ -64,4 +64,4 @@ inline Eigen::Matrix3d turned_by_least_rotation(const Eigen::Matrix3d& tensor, c
   return r * tensor * r.transpose();
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

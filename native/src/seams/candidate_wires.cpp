@@ -9,7 +9,7 @@
 #include "seamwire/wires/snap.hpp"
 #include "seamwire/wires/wire.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 CandidateWires::CandidateWires(std::shared_ptr<const Surface> surface, const Strength& strength, const Task& task)
     : surfaces_(std::make_unique<SurfaceCache>(std::move(surface))) {
@@ -48,4 +48,4 @@ CandidateWires::Found CandidateWires::find_in(std::size_t metric, const Ends& en
           wire.length};
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

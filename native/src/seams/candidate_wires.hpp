@@ -11,7 +11,7 @@
 #include "seamwire/live/livewire.hpp"
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// A wire across the surface between two seeds, the shorter one of the two metrics.
 struct CandidateWire {
@@ -46,4 +46,4 @@ class CandidateWires {
   std::array<Prepared, 2> metrics_;
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -9,7 +9,7 @@
 #include "seams/slit_finder.hpp"
 #include "seams/slit_paths.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 constexpr double kDetour = 1.6;  // a chain that is so many times longer than the slit leads around something
@@ -118,4 +118,4 @@ std::vector<Slit> carried_slits(const SlitProblem& simple, const SimplifiedMesh&
   return carried;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -7,7 +7,7 @@
 #include "seams/simplified_mesh.hpp"
 #include "seams/slit_plan.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Slits on a simplified mesh, as slits on the original one: chains of its real edges that run along them closely.
 /// Slits that start on others start at the same vertices. The image of a slit on an exactly symmetric mesh is exact. A
@@ -15,4 +15,4 @@ namespace seamwire {
 std::vector<Slit> carried_slits(const SlitProblem& simple, const SimplifiedMesh& mesh, const SlitProblem& original,
                                 std::span<const Slit> slits);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

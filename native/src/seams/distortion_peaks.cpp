@@ -8,7 +8,7 @@
 #include "detail/index.hpp"
 #include "seams/slit_paths.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 constexpr double kNearCut = 0.07;     // nearer than this to the cut, a further slit would be a crumb
@@ -141,4 +141,4 @@ std::vector<std::int32_t> spread_vertices(const SlitProblem& problem, std::span<
   return chosen;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -7,7 +7,7 @@
 
 #include "seams/slit_plan.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Vertices to which a further slit might lead. The map is distorted most there, close around them or farther around;
 /// or the cut is farthest away; or they are the most distorted ones ahead of a slit's end. None is near the cut.
@@ -20,4 +20,4 @@ std::vector<std::int32_t> distortion_peaks(const SlitProblem& problem, const Sli
 std::vector<std::int32_t> spread_vertices(const SlitProblem& problem, std::span<const std::uint8_t> is_on_cut,
                                           std::size_t count);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -9,7 +9,7 @@
 
 #include "detail/index.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 constexpr double kFrontShare = 0.7;       // of what counts as visible; the rest is ambient occlusion
@@ -154,4 +154,4 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
   return prices;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

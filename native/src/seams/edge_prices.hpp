@@ -11,7 +11,7 @@
 #include "seams/reflection.hpp"
 #include "seams/visibility.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// What a seam costs along each edge of a mesh.
 ///
@@ -32,4 +32,4 @@ struct EdgePrices {
 EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const std::optional<Reflection>& reflection,
                        std::span<const double> weights);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -13,7 +13,7 @@
 #include "detail/indexed_heap.hpp"
 #include "detail/run_on_threads.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 IslandGraph::IslandGraph(const Island& island, std::span<const Vector> points) : areas(island.vertices.size(), 0.0) {
   std::vector<std::pair<std::int32_t, Neighbor>> pairs;
@@ -107,4 +107,4 @@ std::vector<std::int32_t> IslandGraph::peaks(std::span<const double> heights, do
   return peaks;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -10,7 +10,7 @@
 #include "seamwire/surface/vector.hpp"
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// The vertices and edges of an island, for distances along edges within it.
 struct IslandGraph {
@@ -32,4 +32,4 @@ struct IslandGraph {
   std::vector<double> areas;  ///< a third of that of the triangles around each vertex
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

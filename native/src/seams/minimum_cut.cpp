@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 constexpr double kNothing = 1e-12;  // less than this counts as no flow
@@ -70,4 +70,4 @@ double MinimumCut::push(std::int32_t source, std::int32_t sink) {
   return amount;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// A network of nodes joined by links that can be cut for a price.
 class MinimumCut {
@@ -31,4 +31,4 @@ class MinimumCut {
   std::vector<std::int32_t> first_, level_, next_;
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

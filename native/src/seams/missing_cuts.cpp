@@ -10,6 +10,9 @@
 #include "detail/index.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 /// A connected part of a cut surface.

@@ -13,7 +13,7 @@
 #include "seams/minimum_cut.hpp"
 #include "seams/piece_body.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 constexpr std::size_t kLevels = 96;
@@ -201,4 +201,4 @@ std::vector<Slit> slits_of(const NeckRing& ring) {
   return slits;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -7,7 +7,7 @@
 #include "seams/slit_plan.hpp"
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// A closed cut around a limb, with its mirror image.
 struct NeckRing {
@@ -25,4 +25,4 @@ std::vector<NeckRing> find_necks(const SlitProblem& problem, const Task& task);
 /// A ring as slits that have to stay, in parts that can be carried to another mesh.
 std::vector<Slit> slits_of(const NeckRing& ring);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 constexpr double kProminence = 0.08;  // of a tip, in the root of its piece's area
@@ -90,4 +90,4 @@ std::vector<std::int32_t> find_tips(const SlitProblem& problem, const PieceBody&
   return tips;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

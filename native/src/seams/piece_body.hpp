@@ -8,7 +8,7 @@
 #include "seams/island_graph.hpp"
 #include "seams/slit_plan.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// One piece of a problem before slits cut it.
 struct PieceBody {
@@ -34,4 +34,4 @@ std::int32_t onto_plane(const SlitProblem& problem, const PieceBody& body, std::
 std::vector<std::int32_t> find_tips(const SlitProblem& problem, const PieceBody& body,
                                     std::span<const double> distances);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -8,7 +8,7 @@
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 std::int32_t PlanMesh::edge_between(std::int32_t a, std::int32_t b) const {
   std::int32_t found = -1;
@@ -128,4 +128,4 @@ Pieces find_pieces(const PlanMesh& mesh, std::span<const std::uint8_t> is_cut) {
   return pieces;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -12,7 +12,7 @@
 #include "seamwire/surface/types.hpp"
 #include "seamwire/surface/vector.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// The price of an edge that no seam may use, and the length of a path that does not exist.
 inline constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -80,4 +80,4 @@ struct Pieces {
 };
 Pieces find_pieces(const PlanMesh& mesh, std::span<const std::uint8_t> is_cut);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -9,7 +9,7 @@
 
 #include "detail/index.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 constexpr double kNearSlit = 0.04;  // wires across a surface of area 1 stay as near as this to their slits
@@ -145,4 +145,4 @@ std::vector<PlannedWire> PlannedWires::across_surface(const PlanMesh& mesh, std:
   return wires;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

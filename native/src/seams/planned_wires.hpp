@@ -10,7 +10,7 @@
 #include "seamwire/seams/seam_planner.hpp"
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Makes wires of slits: between seeds where slits meet, end, and bend.
 class PlannedWires {
@@ -32,4 +32,4 @@ class PlannedWires {
   std::unique_ptr<const CandidateWires> across_;  // null along edges
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -11,7 +11,7 @@
 
 #include "seamwire/surface/vector.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Finds the nearest of many points, within a radius.
 class PointGrid {
@@ -61,4 +61,4 @@ class PointGrid {
   std::unordered_map<std::uint64_t, std::vector<std::int32_t>> cells_;
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

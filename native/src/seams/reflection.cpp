@@ -8,7 +8,7 @@
 #include "detail/index.hpp"
 #include "seams/point_grid.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 constexpr double kNear = 0.012;    // of the diagonal: as near as this to the surface an image corresponds
@@ -69,4 +69,4 @@ std::optional<Reflection> find_reflection(const PlanMesh& mesh, int axis) {
   return found ? found : reflection_at(mesh, axis, box.center()[axis], diagonal);
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

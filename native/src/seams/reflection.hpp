@@ -7,7 +7,7 @@
 
 #include "seams/plan_mesh.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// How a mesh corresponds to its mirror image in a plane.
 struct Reflection {
@@ -32,4 +32,4 @@ struct Reflection {
 /// mesh; nullopt if the mesh has no such symmetry.
 std::optional<Reflection> find_reflection(const PlanMesh& mesh, int axis);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -22,6 +22,9 @@
 #include "seamwire/surface/segments.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 /// A mesh with more triangles is planned on a simplified one with about so many.

@@ -12,7 +12,7 @@
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 /// A quadratic function of a point: the sum of squared distances to planes, weighted.
@@ -279,4 +279,4 @@ SimplifiedMesh simplified(const PlanMesh& mesh, std::span<const std::uint8_t> is
   return collapsing.result();
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

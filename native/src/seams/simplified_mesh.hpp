@@ -11,7 +11,7 @@
 #include "seams/reflection.hpp"
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// A mesh with fewer triangles, and where its vertices come from.
 struct SimplifiedMesh {
@@ -27,4 +27,4 @@ struct SimplifiedMesh {
 SimplifiedMesh simplified(const PlanMesh& mesh, std::span<const std::uint8_t> is_seam, const Reflection* reflection,
                           std::size_t triangles, const Task& task);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 /// The place of a vertex on a chain; -1 if it is not there.
@@ -128,4 +128,4 @@ std::vector<Slit> without_slit(std::span<const Slit> slits, std::size_t which) {
   return left;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -9,7 +9,7 @@
 
 #include "seams/slit_plan.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// A slit that was cut shorter, and what was taken off.
 struct Shortened {
@@ -32,4 +32,4 @@ std::vector<Slit> with_slit(const PlanMesh& mesh, std::span<const Slit> slits, c
 /// Slits without one, and without those that start on it. All of them if one of these is needed.
 std::vector<Slit> without_slit(std::span<const Slit> slits, std::size_t which);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

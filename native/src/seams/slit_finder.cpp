@@ -8,7 +8,7 @@
 
 #include "detail/index.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 /// Where the part of a path begins that leaves the mirror plane.
@@ -120,4 +120,4 @@ std::optional<Slit> SlitFinder::slit_to(std::int32_t vertex) const {
   return slit;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

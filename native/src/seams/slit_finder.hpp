@@ -10,7 +10,7 @@
 #include "seams/slit_paths.hpp"
 #include "seams/slit_plan.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Finds slits that lead from a cut to places on the mesh, in mirrored pairs on a symmetric mesh.
 class SlitFinder {
@@ -41,4 +41,4 @@ class SlitFinder {
 std::vector<std::int32_t> mirrored_path(const SlitProblem& problem, std::span<const std::int32_t> path,
                                         std::span<const std::uint8_t> is_on_cut);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

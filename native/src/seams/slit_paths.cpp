@@ -8,7 +8,7 @@
 #include "detail/index.hpp"
 #include "detail/indexed_heap.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 /// Whether a path within a half may step from a vertex on one side to a vertex on another.
@@ -118,4 +118,4 @@ std::vector<double> edge_distances(const PlanMesh& mesh, std::span<const std::in
   return least;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -10,7 +10,7 @@
 #include "seams/plan_mesh.hpp"
 #include "seams/reflection.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Where the paths of a SlitPaths may go on a symmetric mesh.
 enum class Half : std::int8_t {
@@ -129,4 +129,4 @@ std::vector<std::int32_t> chain_along(const PlanMesh& mesh, std::span<const Vect
 /// Edge distances from a vertex over all triangles' edges, polygons' diagonals included; infinite if unreachable.
 std::vector<double> edge_distances(const PlanMesh& mesh, std::span<const std::int32_t> from);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -8,7 +8,7 @@
 
 #include "detail/index.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 /// The share of the area, where the map is worst, that an energy leaves out.
@@ -162,4 +162,4 @@ void sum_up(const SlitProblem& problem, SlitPlan& plan) {
   plan.energy = area > left_out ? sum / (area - left_out) : 4.0;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

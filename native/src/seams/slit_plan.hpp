@@ -14,7 +14,7 @@
 #include "seams/reflection.hpp"
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// A crack in the surface, with its mirror image.
 struct Slit {
@@ -96,4 +96,4 @@ std::vector<Point2> carried_over(const PieceMap& from, const Island& to);
 /// Sums up the maps.
 void sum_up(const SlitProblem& problem, SlitPlan& plan);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -16,7 +16,7 @@
 #include "seams/slit_finder.hpp"
 #include "seams/slit_solver.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 constexpr double kBelow = 0.03;        // grow this far below the bound, so that there is something to give away
@@ -363,4 +363,4 @@ SlitPlan search_slits(const SlitProblem& problem, SlitTree tree, const SlitGoal&
   return Search(problem, std::move(tree.roots), goal, found, task).run(std::move(tree.slits));
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

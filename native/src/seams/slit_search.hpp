@@ -7,7 +7,7 @@
 #include "seams/slit_tree.hpp"
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// What search_slits() aims at.
 struct SlitGoal {
@@ -29,4 +29,4 @@ struct SlitGoal {
 SlitPlan search_slits(const SlitProblem& problem, SlitTree tree, const SlitGoal& goal,
                       const std::function<void(const SlitPlan&)>& found, const Task& task);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

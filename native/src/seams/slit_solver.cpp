@@ -10,7 +10,7 @@
 #include "detail/index.hpp"
 #include "seams/slit_edits.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 constexpr double kTolerance = 3e-4;  // of a map's energy: far below what slits differ by
@@ -101,4 +101,4 @@ SlitPlan SlitSolver::continued(const SlitPlan& before, const Slit& slit, const M
   return plan;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

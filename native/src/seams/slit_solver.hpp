@@ -10,7 +10,7 @@
 #include "seams/slit_plan.hpp"
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Maps pieces with given slits to the plane. May be called from several threads.
 ///
@@ -42,4 +42,4 @@ class SlitSolver {
   std::vector<std::int32_t> roots_;
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

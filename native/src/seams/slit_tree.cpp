@@ -14,7 +14,7 @@
 #include "seams/slit_edits.hpp"
 #include "seams/slit_finder.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 constexpr double kLeastCut = 0.6;  // a piece with a shorter tree and boundary, in roots of its area, gets one slit more
@@ -427,4 +427,4 @@ SlitTree grow_tree(const SlitProblem& problem, bool has_tips, const Task& task) 
   return TreeGrowth(problem, has_tips, task).grow();
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

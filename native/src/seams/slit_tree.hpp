@@ -7,7 +7,7 @@
 #include "seams/slit_plan.hpp"
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// The first slits of a plan.
 struct SlitTree {
@@ -23,4 +23,4 @@ struct SlitTree {
 /// Cancelled.
 SlitTree grow_tree(const SlitProblem& problem, bool has_tips, const Task& task);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -10,7 +10,7 @@
 #include "detail/run_on_threads.hpp"
 #include "seamwire/surface/ray_tree.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 constexpr int kViews = 20;  // from the front hemisphere
@@ -68,4 +68,4 @@ Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& fr
   return found;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

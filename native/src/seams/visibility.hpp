@@ -8,7 +8,7 @@
 #include "seamwire/surface/vector.hpp"
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// How much of the surface around it sees each vertex of a mesh.
 struct Visibility {
@@ -19,4 +19,4 @@ struct Visibility {
 /// `front`: the direction towards the viewer; nullopt if no side is the front. On several threads. Throws Cancelled.
 Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& front, const Task& task);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -10,7 +10,7 @@
 #include "detail/index.hpp"
 #include "seamwire/surface/surface.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 inline Edge ascending(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
@@ -40,4 +40,4 @@ class Cuts {
   std::vector<Edge> edges_;
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -9,7 +9,7 @@
 
 #include "seamwire/surface/surface.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// A triangle lower than this fraction of its longest side has no area: so are all parts of it, so bisecting it never
 /// ends. SurfaceReport::zero_area_faces lists those of a surface.
@@ -40,4 +40,4 @@ inline std::vector<std::int32_t> half_edge_faces(const Surface& surface, const s
   return faces;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -16,7 +16,7 @@
 
 #include "seamwire/surface/vector.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// \cond
 struct HalfEdgeTraits : OpenMesh::DefaultTraits {
@@ -31,4 +31,4 @@ struct HalfEdgeTraits : OpenMesh::DefaultTraits {
 /// The half-edge mesh behind a Surface (Surface::half_edges()): manifold, consistently oriented, never changed.
 struct HalfEdgeMesh : OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {};
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -8,6 +8,9 @@
 #include "detail/text.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 void check(const Surface& surface, std::span<const double> values, std::span<const double> levels) {

@@ -5,7 +5,7 @@
 
 #include "seamwire/surface/vector.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Where on the segment from a to b the point nearest to p is: 0 at a, 1 at b; 0 where a and b are one point.
 inline double nearest_on_segment(const Vector& p, const Vector& a, const Vector& b) {
@@ -19,4 +19,4 @@ inline Vector to_segment(const Vector& p, const Vector& a, const Vector& b) {
   return a + nearest_on_segment(p, a, b) * (b - a) - p;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -18,6 +18,8 @@
 
 namespace seamwire {
 
+using namespace detail;
+
 namespace {
 
 using Box = Eigen::AlignedBox3d;

@@ -12,6 +12,8 @@
 
 namespace seamwire {
 
+using namespace detail;
+
 namespace {
 
 /// Across edges where the half-edge mesh is cut open, and to the triangles that it left out.

@@ -20,6 +20,9 @@
 #include "surface/half_edge_mesh.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 using Index = std::int32_t;

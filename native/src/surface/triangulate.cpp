@@ -10,6 +10,9 @@
 #include "seamwire/errors.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 /// How near to its longest side a triangle's corner is where the triangle has no area, as part of that side: vertices

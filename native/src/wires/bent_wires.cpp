@@ -19,6 +19,9 @@
 #include "wires/vertex_tree.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -223,7 +226,8 @@ IntrinsicPath DoubleCover::projected(IntrinsicPath path) const {
 }
 
 Vector position(const Embedding& embedding, const SurfacePoint& point) {
-  return position(embedding, PathPoint{.vertex = point.vertex, .face = point.face, .barycentric = point.barycentric});
+  return detail::position(embedding,
+                          PathPoint{.vertex = point.vertex, .face = point.face, .barycentric = point.barycentric});
 }
 
 Crossed line_across(const Surface& surface, const Embedding& embedding, const ExactGeodesics& geodesics,

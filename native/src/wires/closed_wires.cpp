@@ -28,6 +28,9 @@
 #include "wires/vertex_tree.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();

@@ -9,7 +9,7 @@
 #include "detail/index.hpp"
 #include "seamwire/surface/surface.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Whether two points are the same but for rounding. Where an embedding has collapsed a needle, points move by up to
 /// 2^-22 of the model's longest side; and far away from the origin, coordinates themselves are rounded.
@@ -45,4 +45,4 @@ inline void check_curve(const Surface& surface, std::span<const Vector> points, 
   }
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -16,6 +16,9 @@
 #include "surface/exact_unit.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 using Weights = std::array<double, 3>;  // barycentric coordinates in one of the caller's faces

@@ -4,7 +4,7 @@
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/distance_field.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// Where a point of a path over an embedding is, in the caller's coordinates.
 Vector position(const Embedding& embedding, const PathPoint& point);
@@ -15,4 +15,4 @@ void check_embedding(const Surface& surface, const Embedding& embedding);
 /// Throws InvalidInput where a field is of another embedding, as far as sizes tell.
 void check_field(const Embedding& embedding, const DistanceField& field);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -13,6 +13,9 @@
 #include "seamwire/errors.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 // The sine of the least angle between the direction and the line through the points.

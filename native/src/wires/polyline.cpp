@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 /// Points in which the distance along an edge is integrated. The distance has kinks, so many points serve better than a
@@ -118,4 +118,4 @@ std::int32_t Polyline::build(const std::vector<Vector>& points, std::size_t begi
   return number;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

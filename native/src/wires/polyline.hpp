@@ -8,7 +8,7 @@
 
 #include "seamwire/surface/vector.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// A line of straight segments, which tells how far points and edges are from it, by a tree of boxes over its segments.
 class Polyline {
@@ -43,4 +43,4 @@ class Polyline {
   std::vector<Node> nodes_;
 };
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

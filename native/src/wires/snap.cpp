@@ -21,7 +21,9 @@
 
 namespace seamwire {
 
-struct SnapData {
+using namespace detail;
+
+struct detail::SnapData {
   std::vector<std::int32_t> polygon_of_face;
   Csr<std::int32_t> edges_of_polygon;  // numbers of Surface::edges()
   Csr<std::int32_t> polygons_of_edge;

@@ -11,7 +11,7 @@
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -90,4 +90,4 @@ std::vector<std::uint8_t> vertex_tree(const IntrinsicMesh& mesh, const MeshEdges
   return is_in;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -8,7 +8,7 @@
 #include "seamwire/surface/intrinsic_mesh.hpp"
 #include "seamwire/task.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// The edges of a mesh's triangles, each as one of its half-edges; and what lies on their sides: triangles, and beyond
 /// a boundary the hole that it surrounds, as one more face, numbered after them.
@@ -28,4 +28,4 @@ struct MeshEdges {
 std::vector<std::uint8_t> vertex_tree(const IntrinsicMesh& mesh, const MeshEdges& edges,
                                       const std::vector<double>& distances, const Task& task);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

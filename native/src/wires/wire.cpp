@@ -12,6 +12,8 @@
 
 namespace seamwire {
 
+using namespace detail;
+
 namespace {
 
 /// Sine of the largest angle between pieces of one line. What is left out changes the length by its square, which is
@@ -46,7 +48,7 @@ void check_path(const Surface& surface, const Embedding& embedding, const Intrin
 
 }  // namespace
 
-void check_embedding(const Surface& surface, const Embedding& embedding) {
+void detail::check_embedding(const Surface& surface, const Embedding& embedding) {
   const std::size_t vertices = surface.vertex_count();
   if (embedding.points.size() < vertices ||
       (vertices > 0 && (embedding.points.front() != surface.points().front() ||
@@ -55,7 +57,7 @@ void check_embedding(const Surface& surface, const Embedding& embedding) {
   }
 }
 
-Vector position(const Embedding& embedding, const PathPoint& point) {
+Vector detail::position(const Embedding& embedding, const PathPoint& point) {
   if (point.vertex >= 0) return embedding.points[point.vertex];
   if (point.face >= 0) {
     const Triangle& corners = embedding.mesh.triangles[point.face];
@@ -68,7 +70,7 @@ Vector position(const Embedding& embedding, const PathPoint& point) {
   return (1.0 - point.t) * tail + point.t * tip;
 }
 
-void check_field(const Embedding& embedding, const DistanceField& field) {
+void detail::check_field(const Embedding& embedding, const DistanceField& field) {
   if (field.fits(embedding.mesh)) return;
   throw InvalidInput("the field is of another embedding: it has " + std::to_string(field.distances().size()) +
                      " vertices, the embedding " + std::to_string(embedding.points.size()) + " vertices and " +

@@ -12,7 +12,7 @@
 
 #include "surface/exact_unit.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 namespace {
 
 /// A place that lies in a face up to rounding; nothing where the face has no area.
@@ -81,4 +81,4 @@ std::vector<WirePiece> cut_in_pieces(const Surface& surface, const Wire& wire, s
   return pieces;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

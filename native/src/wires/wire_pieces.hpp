@@ -8,7 +8,7 @@
 #include "seamwire/surface/surface_point.hpp"
 #include "seamwire/wires/wire.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// A part of a wire, to the place where the next one begins.
 struct WirePiece {
@@ -20,4 +20,4 @@ struct WirePiece {
 /// along edges without a face, or there is nothing to it. Its ends are to be vertices.
 std::vector<WirePiece> cut_in_pieces(const Surface& surface, const Wire& wire, std::size_t count);
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -15,7 +15,9 @@
 
 namespace seamwire {
 
+namespace detail {
 class GeodesicMesh;  // the solver's own form of the mesh
+}
 
 /// What the work of a solve consisted of; the same for the same input on every machine.
 struct GeodesicCounters {
@@ -68,7 +70,7 @@ class ExactGeodesics {
   DistanceField run(std::span<const SurfacePoint> sources, const SolveOptions& options, std::uint32_t windows,
                     const Task& task, GeodesicCounters* counters) const;
 
-  std::shared_ptr<const GeodesicMesh> mesh_;
+  std::shared_ptr<const detail::GeodesicMesh> mesh_;
 };
 
 }  // namespace seamwire

@@ -14,7 +14,9 @@
 
 namespace seamwire {
 
+namespace detail {
 struct HalfEdgeMesh;  // in src/surface/half_edge_mesh.hpp
+}
 
 /// What was odd about the input. Nothing here is an error: the surface was built all the same.
 struct SurfaceReport {
@@ -67,7 +69,7 @@ class Surface {
   double scale() const { return scale_; }
 
   /// The manifold mesh inside, for the library itself: its type is no part of the interface.
-  const HalfEdgeMesh& half_edges() const { return *mesh_; }
+  const detail::HalfEdgeMesh& half_edges() const { return *mesh_; }
   /// Number of the caller's vertex for each vertex (corner fan) of half_edges(), ascending, and of the caller's face
   /// for each of its faces, ascending; both are the identity on a clean mesh. A face's vertices are listed from the
   /// caller's first corner on. A caller's vertex without a face has no fan. Two edges may join the same two fans (a
@@ -98,7 +100,7 @@ class Surface {
   std::vector<Triangle> face_fans_;
   std::vector<std::int32_t> twins_;
   double scale_ = 1.0;
-  std::shared_ptr<const HalfEdgeMesh> mesh_;  // immutable, so copies of a surface share it
+  std::shared_ptr<const detail::HalfEdgeMesh> mesh_;  // immutable, so copies of a surface share it
   SurfaceReport report_;
 };
 

@@ -11,7 +11,9 @@
 
 namespace seamwire {
 
+namespace detail {
 struct SnapData;  // snap.cpp
+}
 
 /// What snapping needs to know of a surface: its polygons (triangles joined across what is not a real edge) and the
 /// real edges around them. Immutable, so wires may be snapped on several threads.
@@ -24,7 +26,7 @@ class SnapGraph {
   friend std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire,
                                                  const Task& task);
 
-  std::shared_ptr<const SnapData> data_;
+  std::shared_ptr<const detail::SnapData> data_;
 };
 
 /// The path of real edges (Surface::edges()) from wire.from to wire.to that stays close to the wire and hardly zigzags:

@@ -10,9 +10,12 @@
 #include <stop_token>
 #include <vector>
 
-#include "seam_problems.hpp"
+#include "seams/seam_problems.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 SimplifiedMesh simplify(const SlitProblem& problem, std::size_t triangles) {

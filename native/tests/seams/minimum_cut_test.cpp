@@ -8,6 +8,9 @@
 #include <vector>
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 struct Link {

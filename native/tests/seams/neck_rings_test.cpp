@@ -9,10 +9,13 @@
 #include <numbers>
 #include <vector>
 
-#include "seam_problems.hpp"
 #include "seams/piece_body.hpp"
+#include "seams/seam_problems.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 double mean_x(const PlanMesh& mesh, const std::vector<std::int32_t>& loop) {

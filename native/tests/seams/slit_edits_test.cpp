@@ -8,6 +8,9 @@
 #include "shapes.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 using Chain = std::vector<std::int32_t>;

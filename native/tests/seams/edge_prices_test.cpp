@@ -7,9 +7,12 @@
 #include <limits>
 #include <vector>
 
-#include "seam_problems.hpp"
+#include "seams/seam_problems.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 double unit_price(const SlitProblem& problem, std::int32_t edge) {

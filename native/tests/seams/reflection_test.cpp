@@ -12,6 +12,9 @@
 #include "shapes.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 PlanMesh moved(shapes::Mesh mesh, const Vector& by) {

@@ -16,6 +16,9 @@
 #include "shapes.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();

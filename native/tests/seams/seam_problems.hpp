@@ -9,7 +9,7 @@
 #include "seams/visibility.hpp"
 #include "shapes.hpp"
 
-namespace seamwire {
+namespace seamwire::detail {
 
 /// What a test wants to know of a SlitProblem's surface.
 struct ProblemOptions {
@@ -52,4 +52,4 @@ inline std::vector<std::uint8_t> flags_at(const PlanMesh& mesh, const std::vecto
   return flags;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail

@@ -9,13 +9,16 @@
 #include <set>
 #include <vector>
 
-#include "seam_problems.hpp"
 #include "seams/distortion_peaks.hpp"
 #include "seams/piece_body.hpp"
+#include "seams/seam_problems.hpp"
 #include "seams/slit_edits.hpp"
 #include "seams/slit_solver.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 /// All pieces are discs, and chains are joined by real edges that are no seams yet.

@@ -18,6 +18,9 @@
 #include "shapes.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 std::vector<Edge> edges_of(const std::vector<Triangle>& triangles) {

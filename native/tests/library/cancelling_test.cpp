@@ -19,6 +19,9 @@
 #include "shapes.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 /// `steps`: of the work's loops that take long, together.
@@ -46,30 +49,30 @@ void expect_stops(std::size_t steps, const std::function<void(const Task&)>& wor
   }
 }
 
-class Stops : public testing::Test {
+class Cancelling : public testing::Test {
  protected:
   const shapes::Mesh mesh = shapes::torus(160, 120);
   const Surface surface{mesh.points, mesh.triangles};
   const std::size_t vertices = surface.vertex_count(), faces = surface.face_count(), edges = surface.edges().size();
 };
 
-TEST_F(Stops, BuildingASurface) {
+TEST_F(Cancelling, BuildingASurface) {
   const std::size_t half_edges = 3 * faces;
   expect_stops(6 * vertices + 4 * faces + 2 * edges + 7 * half_edges,
                [&](const Task& task) { const Surface again(mesh.points, mesh.triangles, std::nullopt, task); });
 }
 
-TEST_F(Stops, Curvatures) {
+TEST_F(Cancelling, Curvatures) {
   expect_stops(2 * faces + 4 * vertices, [&](const Task& task) { principal_curvatures(surface, task); });
 }
 
-TEST_F(Stops, SmoothingCurvatures) {
+TEST_F(Cancelling, SmoothingCurvatures) {
   const Curvature curvature = principal_curvatures(surface);
   expect_stops(faces + edges + vertices,
                [&](const Task& task) { smoothed_curvatures(surface, curvature, 1e-9, task); });
 }
 
-TEST_F(Stops, EachMetric) {
+TEST_F(Cancelling, EachMetric) {
   const Curvature curvature = principal_curvatures(surface);
   const Strength strength{.max_anisotropy = 5, .clamp_percentile = 99};
   for (const Follow follow : {Follow::kMin, Follow::kMax}) {
@@ -82,7 +85,7 @@ TEST_F(Stops, EachMetric) {
   expect_stops(2 * vertices, [&](const Task& task) { euclidean_metric(surface, curvature, task); });
 }
 
-TEST_F(Stops, Scribbles) {
+TEST_F(Cancelling, Scribbles) {
   const Metric metric = euclidean_metric(surface, principal_curvatures(surface));
   Scribble scribble;
   for (std::int32_t v = 0; v < 100; ++v) {
@@ -95,14 +98,14 @@ TEST_F(Stops, Scribbles) {
                [&](const Task& task) { apply_scribbles(surface, metric, std::vector{scribble}, std::nullopt, task); });
 }
 
-TEST_F(Stops, TheGraphToSnapTo) {
+TEST_F(Cancelling, TheGraphToSnapTo) {
   expect_stops(edges + 4 * edges + faces + 4 * 3 * faces, [&](const Task& task) { SnapGraph(surface, task); });
   const Surface quads = shapes::quad_torus(160, 120).surface();  // whose diagonals are sorted
   expect_stops(quads.edges().size() * (1 + 4 + 2 * 4) + 3 * quads.face_count() + 10 * quads.face_count(),
                [&](const Task& task) { SnapGraph(quads, task); });
 }
 
-TEST_F(Stops, Snapping) {
+TEST_F(Cancelling, Snapping) {
   const Embedding embedding = embed(surface, euclidean_metric(surface, principal_curvatures(surface)));
   const ExactGeodesics geodesics(embedding.mesh);
   const auto target = static_cast<std::int32_t>(vertices / 2);
@@ -114,19 +117,19 @@ TEST_F(Stops, Snapping) {
                [&](const Task& task) { snap_to_edges(surface, graph, wire, task); });
 }
 
-TEST_F(Stops, Embedding) {
+TEST_F(Cancelling, Embedding) {
   const Metric metric = euclidean_metric(surface, principal_curvatures(surface));
   // Looking for degenerate ones, lengths, and looking for invalid ones.
   expect_stops(faces + vertices + 3 * faces + faces, [&](const Task& task) { embed(surface, metric, {}, task); });
 }
 
-TEST_F(Stops, TheMeshOfTheGeodesics) {
+TEST_F(Cancelling, TheMeshOfTheGeodesics) {
   const Embedding embedding = embed(surface, euclidean_metric(surface, principal_curvatures(surface)));
   expect_stops(faces + 3 * faces + faces + 2 * faces + vertices + faces + 2 * faces + vertices + vertices,
                [&](const Task& task) { ExactGeodesics(embedding.mesh, task); });
 }
 
-TEST_F(Stops, APathAtOnce) {
+TEST_F(Cancelling, APathAtOnce) {
   const Embedding embedding = embed(surface, euclidean_metric(surface, principal_curvatures(surface)));
   const ExactGeodesics geodesics(embedding.mesh);
   // In a corridor as wide as the mesh, with all windows, the front looks at the task as often as in a field.
@@ -137,7 +140,7 @@ TEST_F(Stops, APathAtOnce) {
   expect_stops(counters.windows / 4, [&](const Task& task) { CorridorPaths(geodesics, 0, all).path(target, task); });
 }
 
-TEST_F(Stops, TheEdgesAroundEachVertexAndTheirLengths) {
+TEST_F(Cancelling, TheEdgesAroundEachVertexAndTheirLengths) {
   // It looks at each vertex, and each fan, four times as often.
   expect_stops(edges + 4 * 2 * vertices, [&](const Task& task) { make_edge_adjacency(surface, task); });
   const auto adjacency = make_edge_adjacency(surface);

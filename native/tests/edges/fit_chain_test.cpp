@@ -19,6 +19,9 @@
 #include "surface/point_segment.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 using Chain = std::vector<std::int32_t>;

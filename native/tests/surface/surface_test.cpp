@@ -16,6 +16,9 @@
 #include "shapes.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 using shapes::Mesh;

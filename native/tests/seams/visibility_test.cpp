@@ -8,9 +8,12 @@
 #include <stop_token>
 #include <vector>
 
-#include "seam_problems.hpp"
+#include "seams/seam_problems.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 TEST(Visibility, OfABallIsHalfOfTheViews) {

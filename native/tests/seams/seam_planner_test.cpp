@@ -16,12 +16,15 @@
 #include <utility>
 #include <vector>
 
-#include "seam_problems.hpp"
+#include "seams/seam_problems.hpp"
 #include "seamwire/seams/missing_cuts.hpp"
 #include "seamwire/surface/segments.hpp"
 #include "thread_sanitizer.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 constexpr double kAnything = std::numeric_limits<double>::infinity();

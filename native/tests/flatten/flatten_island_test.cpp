@@ -15,6 +15,9 @@
 #include "shapes.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 /// The islands of a mesh whose vertices and fans are the same.

@@ -7,12 +7,15 @@
 #include <cmath>
 #include <vector>
 
-#include "seam_problems.hpp"
 #include "seams/neck_rings.hpp"
+#include "seams/seam_problems.hpp"
 #include "seams/slit_edits.hpp"
 #include "seams/slit_tree.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 /// A surface, simplified.

@@ -26,6 +26,9 @@
 #include "thread_sanitizer.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 using Seconds = std::chrono::duration<double>;

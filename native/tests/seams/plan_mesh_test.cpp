@@ -10,6 +10,9 @@
 #include "shapes.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 double area_of(const PlanMesh& mesh) {

@@ -7,10 +7,13 @@
 #include <limits>
 #include <vector>
 
-#include "seam_problems.hpp"
+#include "seams/seam_problems.hpp"
 #include "seams/slit_finder.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 using Chain = std::vector<std::int32_t>;

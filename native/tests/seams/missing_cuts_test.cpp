@@ -17,6 +17,9 @@
 #include "shapes.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 using Numbers = std::vector<std::int32_t>;

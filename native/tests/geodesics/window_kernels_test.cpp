@@ -18,6 +18,9 @@
 #include <vector>
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 constexpr int kSamples = 400;
