@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "arrays.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <utility>
@@ -13,26 +14,31 @@ namespace {
 
 constexpr std::size_t kMaxCount = std::numeric_limits<std::int32_t>::max();
 
-std::string type_name(py::handle value) { return py::str(py::type::of(value).attr("__name__")); }
+/// NumPy's asarray().
+py::array array_from(py::handle value) { return py::array(py::module_::import("numpy").attr("asarray")(value)); }
+
+/// Whether NumPy refused a ragged list or the like. A MemoryError or KeyboardInterrupt is another matter.
+bool is_refusal(const py::error_already_set& error) {
+  return error.matches(PyExc_ValueError) || error.matches(PyExc_TypeError);
+}
 
 /// "(4, 2)"
 std::string shape_of(const py::array& array) { return py::str(array.attr("shape")); }
 
-/// The value as an array of rows of `columns` numbers of one of the given kinds ("f", "i", "u": dtype.kind).
+/// The value as an array of rows of `columns` numbers, whose dtype.kind is one of `kinds`.
 py::array rows_from(py::handle value, py::ssize_t columns, const char* kinds, const char* what,
                     const std::string& name) {
   const PythonCall calling;
   const std::string wanted = name + ": expected " + what + " of shape (n, " + std::to_string(columns) + ")";
   py::array array;
   try {
-    array = py::array(py::module_::import("numpy").attr("asarray")(value));
+    array = array_from(value);
   } catch (py::error_already_set& error) {
-    // Ragged lists and the like; a MemoryError or KeyboardInterrupt is none of ours.
-    if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
-    throw InvalidInput(wanted + ", got a " + type_name(value) + " that is none (" +
+    if (!is_refusal(error)) throw;
+    throw InvalidInput(wanted + ", got a " + type_name(value) + " that cannot be converted to an array (" +
                        std::string(py::str(error.value())) + ")");
   }
-  const bool empty_list = array.ndim() == 1 && array.shape(0) == 0;  // of no dtype in particular
+  const bool empty_list = array.ndim() == 1 && array.shape(0) == 0;  // NumPy makes it float64
   if (empty_list) return py::array(py::dtype::of<std::int32_t>(), std::vector<py::ssize_t>{0, columns});
   if (std::strchr(kinds, array.dtype().kind()) == nullptr) {
     throw InvalidInput(wanted + ", got dtype " + std::string(py::str(array.dtype())));
@@ -106,12 +112,6 @@ std::vector<std::array<std::int32_t, N>> indices_from(py::handle value, const st
   }
 }
 
-/// Arrays have __index__ too, whatever is in them.
-bool is_integer(py::handle value) {
-  if (py::isinstance<py::array>(value)) return py::reinterpret_borrow<py::array>(value).ndim() == 0;
-  return PyIndex_Check(value.ptr()) != 0 && !py::isinstance<py::bool_>(value);
-}
-
 }  // namespace
 
 std::vector<Vector> points_from(py::handle value, const std::string& name) {
@@ -137,10 +137,10 @@ std::vector<Edge> edges_from(py::handle value, const std::string& name) { return
 
 std::vector<std::int32_t> numbers_from(py::handle value, const std::string& name) {
   const PythonCall calling;
-  const py::array array = py::array(py::module_::import("numpy").attr("asarray")(value));
+  const py::array array = array_from(value);
   if (array.ndim() != 1) throw InvalidInput(name + ": expected integers of shape (n,), got shape " + shape_of(array));
   std::vector<std::int32_t> to;
-  if (array.shape(0) == 0) return to;  // of no dtype in particular
+  if (array.shape(0) == 0) return to;  // NumPy makes an empty list float64
   to.reserve(static_cast<std::size_t>(array.shape(0)));
   for (const auto& [number] : indices_from<1>(array.attr("reshape")(-1, 1), name)) to.push_back(number);
   return to;
@@ -148,10 +148,11 @@ std::vector<std::int32_t> numbers_from(py::handle value, const std::string& name
 
 std::vector<double> values_from(py::handle value, const std::string& name) {
   const PythonCall calling;
-  const py::array given = py::array(py::module_::import("numpy").attr("asarray")(value));
-  if (given.ndim() != 1)
+  const py::array given = array_from(value);
+  if (given.ndim() != 1) {
     throw InvalidInput(name + ": expected real numbers of shape (n,), got shape " + shape_of(given));
-  if (given.shape(0) == 0) return {};  // of no dtype in particular
+  }
+  if (given.shape(0) == 0) return {};  // NumPy makes an empty list float64
   const py::array column = rows_from(given.attr("reshape")(-1, 1), 1, "fiu", "real numbers", name);
   const py::array array = column.attr("astype")("float64");
   const Layout from(array);
@@ -160,113 +161,49 @@ std::vector<double> values_from(py::handle value, const std::string& name) {
   return to;
 }
 
-namespace {
+Vector vector_from(py::handle value, const std::string& name) {
+  const std::vector<double> values = values_from(value, name);
+  if (values.size() != 3) throw InvalidInput(name + ": expected 3 numbers, got " + std::to_string(values.size()));
+  return {values[0], values[1], values[2]};
+}
 
-/// The number of one of `count` elements of a kind, "vertex" or "face".
-std::int32_t element_from(py::handle value, std::size_t count, const std::string& name, const std::string& kind,
-                          const char* kinds) {
+CornerUvs corner_uvs_from(py::handle value, const std::string& name) {
+  static_assert(sizeof(CornerUvs::value_type) == 6 * sizeof(double), "corners are read as rows of numbers");
   const PythonCall calling;
-  const auto number = py::reinterpret_steal<py::object>(is_integer(value) ? PyNumber_Index(value.ptr()) : nullptr);
-  if (!number) {
-    PyErr_Clear();
-    throw InvalidInput(name + ": expected a " + kind + " number, got a " + type_name(value));
+  const auto refuse = [&] { throw InvalidInput(name + ": expected real numbers of shape (m, 3, 2)"); };
+  py::array array;
+  try {
+    array = array_from(value);
+  } catch (py::error_already_set& error) {
+    if (!is_refusal(error)) throw;
+    refuse();
   }
-  int overflow = 0;
-  const long long vertex = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
-  if (overflow != 0 || vertex < 0 || std::cmp_greater_equal(vertex, count)) {
-    throw InvalidInput(name + ": " + kind + " " + std::string(py::str(number)) + " is out of range: there are " +
-                       std::to_string(count) + " " + kinds);
-  }
-  return static_cast<std::int32_t>(vertex);
+  if (array.ndim() != 3 || array.shape(1) != 3 || array.shape(2) != 2) refuse();
+  const std::vector<double> numbers = values_from(array.attr("reshape")(-1), name);
+  CornerUvs uvs(numbers.size() / 6);
+  if (!uvs.empty()) std::ranges::copy(numbers, uvs.front().front().data());
+  return uvs;
 }
 
-/// -1 where it has no length: an array without dimensions is a sequence all the same.
-Py_ssize_t length_of(py::handle value) {
-  const Py_ssize_t length = PySequence_Check(value.ptr()) != 0 ? PySequence_Size(value.ptr()) : -1;
-  PyErr_Clear();
-  return length;
+std::size_t count_from(py::handle value, const std::string& name) {
+  const auto count = PyNumber_AsSsize_t(value.ptr(), nullptr);  // clamps what is too large
+  if (count == -1 && PyErr_Occurred() != nullptr) throw py::error_already_set();
+  if (count < 0) throw InvalidInput(name + ": expected a number that is not negative");
+  return static_cast<std::size_t>(count);
 }
 
-/// Whether it is meant as a face and coordinates in it, not as two points.
-bool is_face_point(py::handle value) {
-  if (length_of(value) != 2) return false;
-  const auto sequence = py::reinterpret_borrow<py::sequence>(value);
-  const py::object first = sequence[0], second = sequence[1];
-  return is_integer(first) && length_of(second) >= 0 && !is_face_point(second);
+py::array copied(const std::vector<Vector>& rows) {
+  static_assert(sizeof(Vector) == 3 * sizeof(double), "vectors are read as rows of numbers");
+  const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(rows.size()), 3};
+  return py::array_t<double>(shape, reinterpret_cast<const double*>(rows.data()));
 }
 
-}  // namespace
-
-std::int32_t vertex_from(py::handle value, std::size_t count, const std::string& name) {
-  return element_from(value, count, name, "vertex", "vertices");
+py::array copied(const std::vector<std::array<Vector, 2>>& rows) {
+  static_assert(sizeof(rows.front()) == 6 * sizeof(double), "pairs of vectors are read as rows of numbers");
+  const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(rows.size()), 2, 3};
+  return py::array_t<double>(shape, reinterpret_cast<const double*>(rows.data()));
 }
 
-SurfacePoint face_point_from(py::handle face, py::handle barycentric, std::size_t face_count, const std::string& name) {
-  const PythonCall calling;
-  SurfacePoint point{.face = element_from(face, face_count, name, "face", "faces")};
-  const std::vector<Vector> weights = points_from(py::make_tuple(barycentric), name + ": barycentric coordinates");
-  for (std::size_t i = 0; i < 3; ++i) point.barycentric[i] = weights.front()[static_cast<Eigen::Index>(i)];
-  return point;
-}
-
-SurfacePoint surface_point_from(py::handle value, const Surface& surface, const std::string& name) {
-  const PythonCall calling;
-  if (is_integer(value)) return SurfacePoint::at_vertex(vertex_from(value, surface.vertex_count(), name));
-  if (!is_face_point(value)) {
-    throw InvalidInput(name + ": expected a vertex number, or a face number with three coordinates, got a " +
-                       type_name(value));
-  }
-  const auto pair = py::reinterpret_borrow<py::sequence>(value);
-  return face_point_from(py::object(pair[0]), py::object(pair[1]), surface.face_count(), name);
-}
-
-std::vector<SurfacePoint> surface_points_from(py::handle value, const Surface& surface, const std::string& name) {
-  const PythonCall calling;
-  const Py_ssize_t count = is_integer(value) || is_face_point(value) ? -1 : length_of(value);
-  if (count < 0) return {surface_point_from(value, surface, name)};
-  std::vector<SurfacePoint> points;
-  for (Py_ssize_t i = 0; i < count; ++i) {
-    const auto item = py::reinterpret_steal<py::object>(PySequence_GetItem(value.ptr(), i));
-    if (!item) throw py::error_already_set();
-    points.push_back(surface_point_from(item, surface, name + " " + std::to_string(i)));
-  }
-  return points;
-}
-
-Edge edge_from(py::handle value, std::size_t count, const std::string& name) {
-  const Py_ssize_t count_given = PySequence_Check(value.ptr()) != 0 ? PySequence_Size(value.ptr()) : -1;
-  if (count_given != 2) {
-    PyErr_Clear();  // an array without dimensions is a sequence without a length
-    throw InvalidInput(name + ": expected an edge as two vertex numbers, got " + std::string(py::repr(value)));
-  }
-  const auto sequence = py::reinterpret_borrow<py::sequence>(value);
-  return {vertex_from(py::object(sequence[0]), count, name), vertex_from(py::object(sequence[1]), count, name)};
-}
-
-Pick pick_from(py::handle value, std::size_t count, const std::string& name) {
-  if (is_integer(value)) return {vertex_from(value, count, name), -1};
-  if (PySequence_Check(value.ptr()) == 0) {
-    throw InvalidInput(name + ": expected a vertex number or an edge as two of them, got a " + type_name(value));
-  }
-  const Edge edge = edge_from(value, count, name);
-  return {edge[0], edge[1]};
-}
-
-std::variant<Pick, SurfacePoint> wire_end_from(py::handle value, std::size_t vertex_count, std::size_t face_count,
-                                               const std::string& name) {
-  const PythonCall calling;
-  if (!is_face_point(value)) return pick_from(value, vertex_count, name);
-  const auto pair = py::reinterpret_borrow<py::sequence>(value);
-  return face_point_from(py::object(pair[0]), py::object(pair[1]), face_count, name);
-}
-
-SurfacePoint place_from(py::handle value, std::size_t vertex_count, std::size_t face_count, const char* name) {
-  const auto at = wire_end_from(value, vertex_count, face_count, name);
-  if (const auto* point = std::get_if<SurfacePoint>(&at)) return *point;
-  if (std::get<Pick>(at).is_edge()) {
-    throw InvalidInput(std::string(name) + ": closed wires lead through vertices and points of triangles, not edges");
-  }
-  return SurfacePoint::at_vertex(std::get<Pick>(at).a);
-}
+std::string type_name(py::handle value) { return py::str(py::type::of(value).attr("__name__")); }
 
 }  // namespace seamwire::python

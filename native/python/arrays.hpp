@@ -5,50 +5,43 @@
 #include <pybind11/pybind11.h>
 
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
-#include "seamwire/edges/edge_wires.hpp"
+#include "seamwire/flatten/flatten.hpp"
 #include "seamwire/surface/surface.hpp"
-#include "seamwire/surface/surface_point.hpp"
 
-/// Between NumPy's arrays and the library's vectors.
+/// Conversions between NumPy's arrays and the library's vectors.
 namespace seamwire::python {
 
 namespace py = pybind11;
 
-/// What the caller gave, copied. Any array-like of numbers, of any strides; anything else is an InvalidInput that
-/// begins with `name`. Copies run without the GIL.
+/// Copies an array-like of numbers, with any strides, without the GIL. Throws InvalidInput, which begins with `name`,
+/// for anything else.
 std::vector<Vector> points_from(py::handle value, const std::string& name);
 std::vector<Triangle> triangles_from(py::handle value, const std::string& name);
 std::vector<Edge> edges_from(py::handle value, const std::string& name);
-/// Numbers of vertices or faces, -1 for none, of shape (n,).
+/// Integers of shape (n,).
 std::vector<std::int32_t> numbers_from(py::handle value, const std::string& name);
 /// Real numbers of shape (n,).
 std::vector<double> values_from(py::handle value, const std::string& name);
+/// Three real numbers of shape (3,).
+Vector vector_from(py::handle value, const std::string& name);
+/// Real numbers of shape (m, 3, 2).
+CornerUvs corner_uvs_from(py::handle value, const std::string& name);
+/// An integer that is not negative. A number above the range becomes the largest one.
+std::size_t count_from(py::handle value, const std::string& name);
 
-/// A point of a surface as Python gives it: a vertex number; or a pair of a face number and three barycentric
-/// coordinates, or these two by themselves. Which coordinates are none is not looked at.
-SurfacePoint surface_point_from(py::handle value, const Surface& surface, const std::string& name);
-SurfacePoint face_point_from(py::handle face, py::handle barycentric, std::size_t face_count, const std::string& name);
-/// One such point, or a sequence of them.
-std::vector<SurfacePoint> surface_points_from(py::handle value, const Surface& surface, const std::string& name);
+/// The name of a value's type, for messages.
+std::string type_name(py::handle value);
 
-/// A vertex number of a surface with `count` vertices, an edge between two of them, or either.
-std::int32_t vertex_from(py::handle value, std::size_t count, const std::string& name);
-Edge edge_from(py::handle value, std::size_t count, const std::string& name);
-Pick pick_from(py::handle value, std::size_t count, const std::string& name);
-/// A vertex, an edge, or a pair of a face number and three barycentric coordinates.
-std::variant<Pick, SurfacePoint> wire_end_from(py::handle value, std::size_t vertex_count, std::size_t face_count,
-                                               const std::string& name);
-/// What a closed wire leads through: as wire_end_from(), but no edge.
-SurfacePoint place_from(py::handle value, std::size_t vertex_count, std::size_t face_count, const char* name);
-
-/// Read-only views of memory that `owner` keeps alive. The views keep the owner.
+/// Returns a read-only view of memory. The view keeps the owner of that memory alive.
 template <class T>
 py::array view(const T* data, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides, py::handle owner) {
   py::array_t<T> array(std::move(shape), std::move(strides), data, owner);
@@ -72,7 +65,19 @@ inline py::array view(const std::vector<Vector>& rows, py::handle owner) {
   return view(data, {static_cast<py::ssize_t>(rows.size()), 3}, {sizeof(Vector), sizeof(double)}, owner);
 }
 
-/// A read-only array that keeps the values itself.
+inline py::array view(const std::vector<Eigen::Matrix3d>& matrices, py::handle owner) {
+  const double* data = matrices.empty() ? nullptr : matrices.front().data();
+  return view(data, {static_cast<py::ssize_t>(matrices.size()), 3, 3},
+              {sizeof(Eigen::Matrix3d), sizeof(double), 3 * sizeof(double)}, owner);  // Eigen stores columns
+}
+
+inline py::array view(const CornerUvs& uvs, py::handle owner) {
+  const double* data = uvs.empty() ? nullptr : uvs.front().front().data();
+  return view(data, {static_cast<py::ssize_t>(uvs.size()), 3, 2},
+              {6 * sizeof(double), 2 * sizeof(double), sizeof(double)}, owner);
+}
+
+/// Returns a read-only array that owns the values.
 template <class T>
 py::array handed_over(std::vector<T> values) {
   auto held = std::make_unique<const std::vector<T>>(std::move(values));
@@ -81,10 +86,14 @@ py::array handed_over(std::vector<T> values) {
   return view(kept, owner);
 }
 
-inline py::array view(const std::vector<Eigen::Matrix3d>& matrices, py::handle owner) {
-  const double* data = matrices.empty() ? nullptr : matrices.front().data();
-  return view(data, {static_cast<py::ssize_t>(matrices.size()), 3, 3},
-              {sizeof(Eigen::Matrix3d), sizeof(double), 3 * sizeof(double)}, owner);  // Eigen stores columns
+/// Returns a copy as a writable array of shape (n, 3) or (n, 2, 3).
+py::array copied(const std::vector<Vector>& rows);
+py::array copied(const std::vector<std::array<Vector, 2>>& rows);
+
+/// Returns a getter of a T's vector, as a view. `get` is a function, or a pointer to a member.
+template <class T, class Get>
+py::cpp_function array_of(const Get& get) {
+  return [get](py::object self) { return view(std::invoke(get, self.cast<const T&>()), self); };
 }
 
 }  // namespace seamwire::python

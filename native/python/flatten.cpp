@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "seamwire/flatten/flatten.hpp"
-
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -12,46 +9,22 @@
 #include <vector>
 
 #include "arrays.hpp"
-#include "gil.hpp"
-#include "objects.hpp"
+#include "held.hpp"
+#include "rooms.hpp"
+#include "seamwire/flatten/flatten.hpp"
 #include "seamwire/flatten/measure_map.hpp"
+#include "seamwire/surface/surface.hpp"
 #include "watch.hpp"
 
 namespace seamwire::python {
 namespace {
 
-/// What Python holds: the result by columns.
+/// The result, with the numbers of its islands as arrays.
 struct FlatteningObject {
   Flattening map;
   std::vector<double> energies, areas;
   std::vector<std::int32_t> overlapping, opened, steps;
 };
-
-static_assert(sizeof(CornerUvs::value_type) == 6 * sizeof(double), "corners are read as rows of numbers");
-
-CornerUvs corner_uvs_from(const py::object& value, const std::string& name) {
-  const PythonCall calling;
-  const auto refuse = [&] { throw InvalidInput(name + ": expected real numbers of shape (m, 3, 2)"); };
-  py::array array;
-  try {
-    array = py::array(py::module_::import("numpy").attr("asarray")(value));
-  } catch (py::error_already_set& error) {
-    // Ragged lists and the like; a MemoryError or KeyboardInterrupt is none of ours.
-    if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
-    refuse();
-  }
-  if (array.ndim() != 3 || array.shape(1) != 3 || array.shape(2) != 2) refuse();
-  const std::vector<double> numbers = values_from(array.attr("reshape")(-1), name);
-  CornerUvs uvs(numbers.size() / 6);
-  if (!uvs.empty()) std::ranges::copy(numbers, uvs.front().front().data());
-  return uvs;
-}
-
-py::array view_of(const CornerUvs& uvs, py::handle owner) {
-  const double* data = uvs.empty() ? nullptr : uvs.front().front().data();
-  constexpr auto kSize = static_cast<py::ssize_t>(sizeof(double));
-  return view(data, {static_cast<py::ssize_t>(uvs.size()), 3, 2}, {6 * kSize, 2 * kSize, kSize}, owner);
-}
 
 /// The part of the whole work from `begin` on.
 Task part_of(const Task& task, double begin, double length) {
@@ -76,32 +49,28 @@ Held<FlatteningObject> flattened(std::vector<Vector> points, std::vector<Triangl
   return object;
 }
 
-template <class Get>
-py::cpp_function column_of(const Get& get) {
-  return [get](py::object self) { return view(get(self.cast<const FlatteningObject&>()), self); };
-}
-
 void bind_flattening(py::module_& module) {
   py::class_<FlatteningObject, Held<FlatteningObject>>(module, "Flattening", "A UV map of a surface.")
       .def_property_readonly(
-          "uvs", [](const py::object& self) { return view_of(self.cast<const FlatteningObject&>().map.uvs, self); },
+          "uvs", array_of<FlatteningObject>([](const FlatteningObject& f) -> auto& { return f.map.uvs; }),
           "(m, 3, 2) float64: the UVs of each triangle's corners, in the points' unit of length. Each island lies "
           "around the origin.")
-      .def_property_readonly("islands", column_of([](const auto& f) -> auto& { return f.map.islands; }),
-                             "(m,) int32: the island of each triangle.")
+      .def_property_readonly(
+          "islands", array_of<FlatteningObject>([](const FlatteningObject& f) -> auto& { return f.map.islands; }),
+          "(m,) int32: the island of each triangle.")
       .def_property_readonly(
           "energy", [](const FlatteningObject& f) { return f.map.energy; }, "float: as `MapReport.energy`.")
-      .def_property_readonly("island_energies", column_of([](const auto& f) -> auto& { return f.energies; }),
+      .def_property_readonly("island_energies", array_of<FlatteningObject>(&FlatteningObject::energies),
                              "(k,) float64: the symmetric Dirichlet energy of each island, averaged over its area; 4 "
                              "for an isometry.")
-      .def_property_readonly("island_areas", column_of([](const auto& f) -> auto& { return f.areas; }),
+      .def_property_readonly("island_areas", array_of<FlatteningObject>(&FlatteningObject::areas),
                              "(k,) float64: areas on the surface, in the points' unit squared.")
-      .def_property_readonly("overlapping", column_of([](const auto& f) -> auto& { return f.overlapping; }),
+      .def_property_readonly("overlapping", array_of<FlatteningObject>(&FlatteningObject::overlapping),
                              "(j,) int32: the islands that cover a part of the plane twice.")
-      .def_property_readonly("opened", column_of([](const auto& f) -> auto& { return f.opened; }),
+      .def_property_readonly("opened", array_of<FlatteningObject>(&FlatteningObject::opened),
                              "(k,) int32: how many edges of each island the map is opened along in addition to the "
                              "cuts.")
-      .def_property_readonly("steps", column_of([](const auto& f) -> auto& { return f.steps; }),
+      .def_property_readonly("steps", array_of<FlatteningObject>(&FlatteningObject::steps),
                              "(k,) int32: how many Newton steps each island took.")
       .def("__repr__", [](const FlatteningObject& f) {
         return "<Flattening: " + std::to_string(f.map.uvs.size()) + " triangles, " + std::to_string(f.energies.size()) +
@@ -110,19 +79,18 @@ void bind_flattening(py::module_& module) {
 }
 
 void bind_map_report(py::module_& module) {
-  py::class_<MapReport, Held<MapReport>>(module, "MapReport", "What a UV map does to a surface.")
+  py::class_<MapReport, Held<MapReport>>(module, "MapReport", "The distortion, flips and overlaps of a UV map.")
       .def_readonly("energy", &MapReport::energy,
                     "float: the symmetric Dirichlet energy, averaged over the area at the best uniform scale. The "
                     "worst .1 % of the area and flipped triangles are left out. 4 for an isometry.")
       .def_property_readonly(
-          "energies", [](const py::object& self) { return view(self.cast<const MapReport&>().energies, self); },
+          "energies", array_of<MapReport>(&MapReport::energies),
           "(m,) float64: the energy of each triangle at that scale; infinite if it is flipped, 0 if it is left out.")
       .def_property_readonly(
-          "flipped", [](const py::object& self) { return view(self.cast<const MapReport&>().flipped, self); },
+          "flipped", array_of<MapReport>(&MapReport::flipped),
           "(j,) int32: triangles that are turned over against their island, or have no area in the map.")
-      .def_property_readonly(
-          "overlapping", [](const py::object& self) { return view(self.cast<const MapReport&>().overlapping, self); },
-          "(k,) int32: islands that cover a part of the plane twice, or have a flipped triangle.")
+      .def_property_readonly("overlapping", array_of<MapReport>(&MapReport::overlapping),
+                             "(k,) int32: islands that cover a part of the plane twice, or have a flipped triangle.")
       .def("__repr__", [](const MapReport& report) {
         return "<MapReport: " + std::to_string(report.flipped.size()) + " flipped triangles, " +
                std::to_string(report.overlapping.size()) + " overlapping islands>";
@@ -165,7 +133,7 @@ start : (m, 3, 2) array_like of float, optional
 keep_apart : bool
     Whether an island that overlaps itself is solved again with a barrier along its outline.
 progress : callable, optional
-    Called now and then with the fraction done; returning False cancels.
+    Called repeatedly with the fraction done. Returning False cancels.
 
 Returns
 -------
@@ -174,8 +142,8 @@ Flattening
 Raises
 ------
 ValueError
-    If an array has the wrong shape or type, a number is not finite, a vertex is out of range, or there is no edge; and
-    for an island that cannot be mapped however it is opened.
+    If an array has the wrong shape or type, a number is not finite, a vertex is out of range, or there is no edge. Also
+    if an island cannot be mapped.
 Cancelled
 )");
 }

@@ -17,13 +17,13 @@ namespace {
 namespace py = pybind11;
 
 /// How long the end of the interpreter waits for threads inside the library. Work that can be stopped stops within
-/// milliseconds; what cannot, such as waiting for a tree of rays over millions of faces, is left behind.
+/// milliseconds. Other work is left behind, such as waiting for a tree of rays over millions of faces.
 constexpr std::chrono::seconds kPatience{1};
 
 enum class Phase {
   kRunning,
-  kEnding,  ///< work is to stop; threads still come back to Python
-  kEnded,   ///< nobody comes back any more
+  kEnding,  ///< work must stop; threads may still return to Python
+  kEnded,   ///< no thread may return to Python
 };
 
 /// The threads inside the library.
@@ -34,17 +34,17 @@ struct Calls {
   std::atomic<std::thread::id> ending_thread;  // set before the phase
   /// Threads without the GIL, in a callback, or in a PythonCall.
   std::size_t inside SEAMWIRE_GUARDED_BY(mutex) = 0;
-  /// Of these, the threads on the way to the GIL.
+  /// How many of these are about to take the GIL.
   std::size_t returning SEAMWIRE_GUARDED_BY(mutex) = 0;
 };
 
-/// Never freed: threads may outlive the module and main().
+/// Never freed, because threads may outlive the module and main().
 Calls& calls() {
   static Calls& kept = *new Calls;
   return kept;
 }
 
-/// Takes the GIL back unless `last` is reached; whether it did.
+/// Takes the GIL back unless the phase `last` is reached. Returns whether it did.
 bool take(PyThreadState* state, Phase last) {
   Calls& all = calls();
   {
@@ -86,7 +86,7 @@ void end_calls() {
     detail::MutexLock lock(all.mutex);
     all.changed.wait_for(lock, kPatience, [&]() SEAMWIRE_REQUIRES(all.mutex) { return all.inside == 0; });
     all.phase = Phase::kEnded;
-    // They have been let through, and the GIL is free for them.
+    // These threads may still take the GIL, which is free.
     all.changed.wait(lock, [&]() SEAMWIRE_REQUIRES(all.mutex) { return all.returning == 0; });
   }
   PyEval_RestoreThread(state);
@@ -145,6 +145,6 @@ void run_aside(const std::function<void()>& work) {
   }
 }
 
-void heed_interpreter_exit() { py::module_::import("atexit").attr("register")(py::cpp_function(end_calls)); }
+void stop_at_interpreter_exit() { py::module_::import("atexit").attr("register")(py::cpp_function(end_calls)); }
 
 }  // namespace seamwire::python

@@ -9,24 +9,25 @@
 
 namespace seamwire::python {
 
-/// Lets other Python threads run for as long as it lives, as pybind11's gil_scoped_release does, but survives the end
-/// of the interpreter.
+/// Lets other Python threads run while it exists, as pybind11's gil_scoped_release does. It also survives the end of
+/// the interpreter.
 ///
-/// Up to Python 3.13 a thread that wants the GIL while the interpreter is being finalized is ended by pthread_exit,
-/// which unwinds its stack through our frames, and the process aborts. So the threads that are inside the library are
-/// counted, and a Python `atexit` handler (heed_interpreter_exit) tells running work to stop, waits for these threads
-/// for a bounded time, and from then on lets none of them back: a thread that returns later sleeps until the process
-/// ends. The thread that ends the interpreter is never held up.
+/// Up to Python 3.13, pthread_exit ends a thread that takes the GIL while the interpreter is being finalized. That
+/// unwinds the stack through our frames, and the process aborts. Therefore this file counts the threads inside the
+/// library. A Python `atexit` handler (stop_at_interpreter_exit) tells running work to stop, and waits for these
+/// threads for a bounded time. Afterwards no thread gets back to Python: a thread that returns later sleeps until the
+/// process ends. The thread that ends the interpreter never waits here.
 class GilRelease {
  public:
-  /// With the GIL. Keeps it on other threads once the interpreter is ending: there is no way back then.
+  /// Call with the GIL. If the interpreter is ending, other threads keep the GIL, because they could not take it back.
   GilRelease();
   ~GilRelease();
   GilRelease(const GilRelease&) = delete;
   GilRelease& operator=(const GilRelease&) = delete;
 
-  /// Runs work() with the GIL; false where the interpreter is ending, and nothing was run. Python may end the thread in
-  /// the middle of work(), which must call C functions only, own nothing and not throw (run_to_thread_end()).
+  /// Runs work() with the GIL. Returns false, without running it, if the interpreter is ending. Python may end the
+  /// thread inside work(). Therefore work() must only call C functions, own nothing and not throw
+  /// (run_to_thread_end()).
   template <class Work>
   bool with_gil(Work work) const {
     if (state_ == nullptr) return false;
@@ -40,32 +41,32 @@ class GilRelease {
   bool take_for_callback() const;
   [[noreturn]] static void sleep_for_ever();
 
-  PyThreadState* state_ = nullptr;  ///< null: the GIL was kept
+  PyThreadState* state_ = nullptr;  ///< null if the GIL was kept
 };
 
-/// A stretch of C++ that calls Python or NumPy, which may let go of the GIL in the middle: for as long as it lives the
-/// end of the interpreter waits for this thread as for those inside the library, or the thread would be ended in there.
+/// Protects C++ code that calls Python or NumPy, which may release the GIL meanwhile. While this object exists, the end
+/// of the interpreter waits for the thread as for threads inside the library. Otherwise Python would end the thread.
 class PythonCall {
  public:
-  /// With the GIL. Raises SystemExit where is_cut_off().
+  /// Call with the GIL. Raises SystemExit if is_cut_off().
   PythonCall();
   ~PythonCall();
   PythonCall(const PythonCall&) = delete;
   PythonCall& operator=(const PythonCall&) = delete;
 };
 
-/// Whether the interpreter is ending and this is another thread than the one that ends it. Needs no GIL.
+/// Whether the interpreter is ending, and another thread ends it. Needs no GIL.
 bool is_cut_off();
 
-/// With the GIL: raises SystemExit where is_cut_off(), which ends a Python thread without a word.
+/// Raises SystemExit if is_cut_off(), which ends a Python thread without a message. Call with the GIL.
 void leave_if_cut_off();
 
-/// Runs work() on a thread of its own and returns at once; where the interpreter is ending, or no thread can be had, it
-/// runs here. The end of the interpreter waits for it as for threads inside the library. It must not touch Python, and
-/// not throw.
+/// Runs work() on a new thread and returns at once. If the interpreter is ending, or there are no more threads, work()
+/// runs here. The end of the interpreter waits for it as for threads inside the library. work() must not use Python or
+/// throw.
 void run_aside(const std::function<void()>& work);
 
-/// Registers with Python's `atexit`, when the module is imported.
-void heed_interpreter_exit();
+/// Registers a handler with Python's `atexit`. Call when the module is imported.
+void stop_at_interpreter_exit();
 
 }  // namespace seamwire::python

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Memory for large arrays, in large pages where Linux has them (madvise(2), MADV_HUGEPAGE). The system hands memory out
-// page by page as it is first touched, and by pages of 4 KiB that takes half of the time in which a mesh of a million
-// triangles is prepared (docs/benchmarks.md). Only the module replaces operator new like this, and only for itself
-// (module.map): a library does not do so to the programs it is linked into. What is allocated here may be freed by
-// anybody, and the other way round: it comes from malloc's family.
+// Memory for large arrays, in large pages where Linux has them (madvise(2), MADV_HUGEPAGE). The system provides memory
+// page by page, when a page is first used. With pages of 4 KiB this takes half of the time in which a mesh of a million
+// triangles is prepared (docs/benchmarks.md). Only the module replaces operator new, and only for itself (module.map).
+// A library must not do so to the programs it is linked into. malloc and free are used, so any code may free this
+// memory.
 #include <sys/mman.h>
 
 #include <cstddef>
@@ -21,7 +21,7 @@ void* allocate(std::size_t size, std::size_t alignment) {
   void* memory = nullptr;
   const bool is_large = size >= kLargePage && alignment <= kLargePage;
   if (posix_memalign(&memory, is_large ? kLargePage : alignment, size) != 0) return nullptr;
-  if (is_large) madvise(memory, size, MADV_HUGEPAGE);  // a wish: without large pages all goes on as before
+  if (is_large) madvise(memory, size, MADV_HUGEPAGE);  // a hint, which may fail
   return memory;
 }
 

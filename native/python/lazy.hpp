@@ -9,14 +9,14 @@
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/task.hpp"
 
-/// What Python objects build when it is first needed, for several threads.
+/// Values that Python objects build when they are first needed, on any thread.
 namespace seamwire::python {
 
-/// Of what is built once for several threads. The thread that has it may lock it again: a progress function may ask for
-/// what is being built.
+/// A lock on a value that is built once for several threads. The thread that holds it may lock it again, because a
+/// progress function may ask for the value that is being built.
 class SEAMWIRE_SCOPED_CAPABILITY BuildingLock {
  public:
-  /// Waits for the thread that has it; throws Cancelled where the task is told to stop meanwhile.
+  /// Waits for the thread that holds it. Throws Cancelled if the task is cancelled meanwhile.
   BuildingLock(detail::RecursiveTimedMutex& mutex, const Task& task) SEAMWIRE_ACQUIRE(mutex) : mutex_(mutex) {
     while (!mutex_.try_lock_for(kPeriod)) task.check(0.0);
   }
@@ -30,9 +30,9 @@ class SEAMWIRE_SCOPED_CAPABILITY BuildingLock {
   detail::RecursiveTimedMutex& mutex_;
 };
 
-/// A value that the first thread to ask for it builds, once. The other threads wait; if the first one is stopped, one
-/// of them builds it. A progress function may ask for the value during the build: it gets another copy, which is kept.
-/// Ask without the GIL.
+/// A value that the first thread to ask for it builds, once. Other threads wait, and one of them builds the value if
+/// the first thread is cancelled. A progress function may ask for the value during the build. It gets another copy,
+/// which is kept. Call without the GIL.
 template <class T>
 class Lazy {
  public:
@@ -51,7 +51,7 @@ class Lazy {
   mutable std::unique_ptr<const T> value_ SEAMWIRE_GUARDED_BY(mutex_);
 };
 
-/// The value for the last surface, kept until somebody asks for another surface. Ask without the GIL.
+/// A value for the last surface, kept until a caller asks for another surface. Call without the GIL.
 template <class T>
 class OfLastSurface {
  public:

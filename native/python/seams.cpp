@@ -11,8 +11,11 @@
 
 #include "arrays.hpp"
 #include "detail/thread_safety.hpp"
-#include "objects.hpp"
+#include "held.hpp"
+#include "names.hpp"
+#include "rooms.hpp"
 #include "seamwire/seams/seam_planner.hpp"
+#include "surface.hpp"
 #include "watch.hpp"
 
 namespace seamwire::python {
@@ -52,11 +55,7 @@ SeamPlannerOptions options_from(const std::string& along, double max_anisotropy,
                                 const py::object& seams) {
   SeamPlannerOptions options{.along = along_from(along)};
   options.strength = {.max_anisotropy = max_anisotropy, .clamp_percentile = clamp_percentile};
-  if (!front.is_none()) {
-    const std::vector<double> direction = values_from(front, "front");
-    if (direction.size() != 3) throw InvalidInput("front: expected three numbers");
-    options.front = Vector(direction[0], direction[1], direction[2]);
-  }
+  if (!front.is_none()) options.front = vector_from(front, "front");
   if (!mirror.is_none()) options.mirror = mirror.cast<int>();
   if (!weights.is_none()) options.weights = values_from(weights, "weights");
   if (!seams.is_none()) options.seams = edges_from(seams, "seams");
@@ -71,12 +70,10 @@ void bind_planned_wire(py::module_& module) {
       .def_property_readonly(
           "follow", [](const PlannedWire& wire) { return name_of(wire.follow); },
           "'min' or 'max': the metric in which a wire across the surface is short.")
-      .def_property_readonly(
-          "vertices", [](const py::object& self) { return view(self.cast<const PlannedWire&>().vertices, self); },
-          "(k,) int32: the chain of edges that it marks, from seed to seed.")
-      .def_property_readonly(
-          "points", [](const py::object& self) { return view(self.cast<const PlannedWire&>().points, self); },
-          "(p, 3) float64: its curve, in the caller's coordinates.")
+      .def_property_readonly("vertices", array_of<PlannedWire>(&PlannedWire::vertices),
+                             "(k,) int32: the chain of edges that it marks, from seed to seed.")
+      .def_property_readonly("points", array_of<PlannedWire>(&PlannedWire::points),
+                             "(p, 3) float64: its curve, in the caller's coordinates.")
       .def("__repr__", [](const PlannedWire& wire) {
         return "<PlannedWire: " + std::to_string(wire.from) + " to " + std::to_string(wire.to) + ", " +
                std::to_string(wire.vertices.size()) + " vertices>";
@@ -85,17 +82,14 @@ void bind_planned_wire(py::module_& module) {
 
 py::object uvs_of(const py::object& self) {
   const CornerUvs& uvs = self.cast<const SeamPlan&>().uvs;
-  if (uvs.empty()) return py::none();
-  return view(uvs.front().front().data(), {static_cast<py::ssize_t>(uvs.size()), 3, 2},
-              {6 * sizeof(double), 2 * sizeof(double), sizeof(double)}, self);
+  return uvs.empty() ? py::none() : py::object(view(uvs, self));
 }
 
 void bind_seam_plan(py::module_& module) {
   py::class_<SeamPlan, SharedPlan>(module, "SeamPlan", "Seams that cut a surface into islands.")
       .def_readonly("wires", &SeamPlan::wires, "list of PlannedWire, without the seams that were there.")
-      .def_property_readonly(
-          "islands", [](const py::object& self) { return view(self.cast<const SeamPlan&>().islands, self); },
-          "(m,) int32: the island of each triangle, numbered as by `face_segments`.")
+      .def_property_readonly("islands", array_of<SeamPlan>(&SeamPlan::islands),
+                             "(m,) int32: the island of each triangle, numbered as by `face_segments`.")
       .def_readonly("island_count", &SeamPlan::island_count, "How many islands there are.")
       .def_readonly("not_discs", &SeamPlan::not_discs, "How many islands are not discs.")
       .def_readonly("cost", &SeamPlan::cost,
@@ -115,13 +109,20 @@ void bind_seam_plan(py::module_& module) {
       });
 }
 
-void bind_planner(py::module_& module) {
-  py::class_<SeamPlannerObject, Held<SeamPlannerObject>>(module, "SeamPlanner",
-                                                         R"(Plan seams like an artist's: few, short, and hidden.
+Held<SeamPlannerObject> make_planner(const SurfaceObject& surface, const std::string& along, double max_anisotropy,
+                                     double clamp_percentile, const py::object& front, const py::object& mirror,
+                                     const py::object& weights, const py::object& seams, const py::object& progress) {
+  const SeamPlannerOptions options =
+      options_from(along, max_anisotropy, clamp_percentile, front, mirror, weights, seams);
+  return Watch(progress).run(
+      [&](const Task& task) { return make_held<SeamPlannerObject>(SeamPlanner(surface.surface, options, task)); });
+}
+
+constexpr const char* kPlannerDoc = R"(Plans seams like an artist's: few, short, and hidden.
 
 A seam costs its length times how visible it is, and pays by lowering the distortion of the map. The planner starts with
-a tree of slits to the tips of limbs, adds slits where the map is distorted, and shortens and exchanges them while the
-distortion stays within a bound.
+a tree of slits to the tips of limbs. It adds slits where the map is distorted. Then it shortens and exchanges slits
+while the distortion stays within a bound.
 
 Parameters
 ----------
@@ -129,60 +130,53 @@ surface : Surface
 along : {'surface', 'edges'}
     Where wires run.
 max_anisotropy, clamp_percentile : float
-    Of the feature metric in which wires across the surface are short, see `feature_metric`.
+    Of the feature metric in which wires across the surface are short, as for `feature_metric`.
 front : (3,) array_like of float, optional
     The direction from the surface towards a viewer. Seams hide from there. None: they hide from ambient light only.
 mirror : {0, 1, 2}, optional
     The axis whose plane through the origin mirrors the surface. Seams come in pairs if the surface is symmetric.
 weights : (n,) array_like of float, optional
-    What a seam costs at each vertex, as a factor. Infinity keeps seams away.
+    The cost of seams at each vertex, as a factor. Infinity keeps seams away.
 seams : (k, 2) array_like of int, optional
-    Edges that are seams already, and stay: vertex pairs.
+    Vertex pairs: the edges that are seams already. They stay.
 progress : callable, optional
-    Called now and then with the fraction done. Returning False cancels.
+    Called repeatedly with the fraction done. Returning False cancels.
 
 Raises
 ------
 ValueError
-    If a parameter is wrong.
+    If a parameter is out of range.
 Cancelled
-)")
-      .def(py::init([](const SurfaceObject& surface, const std::string& along, double max_anisotropy,
-                       double clamp_percentile, const py::object& front, const py::object& mirror,
-                       const py::object& weights, const py::object& seams, const py::object& progress) {
-             const SeamPlannerOptions options =
-                 options_from(along, max_anisotropy, clamp_percentile, front, mirror, weights, seams);
-             return Watch(progress).run([&](const Task& task) {
-               return make_held<SeamPlannerObject>(SeamPlanner(surface.surface, options, task));
-             });
-           }),
-           py::arg("surface"), py::kw_only(), py::arg("along") = "surface", py::arg("max_anisotropy") = 20.0,
-           py::arg("clamp_percentile") = 99.0, py::arg("front") = py::none(), py::arg("mirror") = py::none(),
-           py::arg("weights") = py::none(), py::arg("seams") = py::none(), py::arg("progress") = py::none())
-      .def(
-          "plan",
-          [](SeamPlannerObject& object, double distortion, std::size_t islands, bool parts, std::size_t steps,
-             const py::object& progress) {
-            const SeamGoal goal{.distortion = distortion, .islands = islands, .parts = parts, .steps = steps};
-            return Watch(progress).run([&](const Task& task) { return object.plan(goal, task); });
-          },
-          py::kw_only(), py::arg("distortion") = 4.2, py::arg("islands") = 0, py::arg("parts") = false,
-          py::arg("steps") = 0, py::arg("progress") = py::none(),
-          R"(Plan seams.
+)";
+
+SharedPlan make_plan(SeamPlannerObject& object, double distortion, std::size_t islands, bool parts, std::size_t steps,
+                     const py::object& progress) {
+  const SeamGoal goal{.distortion = distortion, .islands = islands, .parts = parts, .steps = steps};
+  return Watch(progress).run([&](const Task& task) { return object.plan(goal, task); });
+}
+
+void bind_planner(py::module_& module) {
+  py::class_<SeamPlannerObject, Held<SeamPlannerObject>>(module, "SeamPlanner", kPlannerDoc)
+      .def(py::init(&make_planner), py::arg("surface"), py::kw_only(), py::arg("along") = "surface",
+           py::arg("max_anisotropy") = 20.0, py::arg("clamp_percentile") = 99.0, py::arg("front") = py::none(),
+           py::arg("mirror") = py::none(), py::arg("weights") = py::none(), py::arg("seams") = py::none(),
+           py::arg("progress") = py::none())
+      .def("plan", &make_plan, py::kw_only(), py::arg("distortion") = 4.2, py::arg("islands") = 0,
+           py::arg("parts") = false, py::arg("steps") = 0, py::arg("progress") = py::none(), R"(Plan seams.
 
 Parameters
 ----------
 distortion : float
-    The bound on the symmetric Dirichlet energy of the map, mean over the area; above 4, the energy of an isometry.
+    The bound on the symmetric Dirichlet energy of the map, averaged over the area; above 4, the energy of an isometry.
     Infinity: islands only have to be discs.
 islands : int
-    At least so many islands, if the surface has limbs to part.
+    The smallest number of islands, if the surface has enough limbs to separate.
 parts : bool
-    Whether limbs are parted at their necks, as islands of their own.
+    Whether limbs are separated at their necks, as islands.
 steps : int
-    How many Newton steps on the whole surface the search may take. 0: 4000.
+    The largest number of Newton steps on the whole surface. 0: 4000.
 progress : callable, optional
-    As above. If it cancels, `best_so_far` keeps the best plan that was found.
+    Called repeatedly with the fraction done. Returning False cancels, and `best_so_far` keeps the best plan.
 
 Returns
 -------
@@ -191,12 +185,12 @@ SeamPlan
 Raises
 ------
 ValueError
-    If a parameter is wrong.
+    If a parameter is out of range.
 Cancelled
 )")
       .def_property_readonly("best_so_far", &SeamPlannerObject::best_so_far,
-                             "SeamPlan: the best plan that a running or cancelled `plan` has found; None before the\n"
-                             "first. May be read from any thread.")
+                             "SeamPlan: the best plan that a running or cancelled `plan` has found; None before the "
+                             "first. Any thread may read it.")
       .def("__repr__", [](const SeamPlannerObject&) { return std::string("<SeamPlanner>"); });
 }
 

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Anisotropic geodesics and live wires on triangle meshes.
 
-After Zhuang, Zou, Carr, Ju, "Anisotropic geodesics for live-wire mesh segmentation" (2014).
+The method is that of Zhuang, Zou, Carr, Ju, "Anisotropic geodesics for live-wire mesh segmentation" (2014).
 
-Lengths and curvatures are of the model scaled to the unit cube (Section 3 of the paper) unless the name says otherwise; points are in
-the caller's coordinates. Wrong input raises ValueError with the numbers of the elements; an index out of range too. Long functions release
-the GIL and take `progress`, called now and then with the fraction done; returning False cancels, and Cancelled is raised.
-When the interpreter exits, long functions that other threads are in are told to stop and raise SystemExit. Arrays that a
-result hands out are read-only views of its memory.
+Points are in the caller's coordinates. Lengths and curvatures are those of the model scaled to the unit cube (Section 3 of the paper),
+unless the name says otherwise. Arrays that a result hands out are read-only views of its memory.
+
+Wrong input raises ValueError, and the message names the element. Long functions release the GIL and take `progress`, a function of the
+fraction done. If it returns False, the function raises Cancelled. When the interpreter exits, long functions on other threads stop and
+raise SystemExit.
 """
 
 from __future__ import annotations
@@ -27,13 +28,13 @@ Progress = Callable[[float], bool | None]
 class Cancelled(RuntimeError): ...  # noqa: N818
 
 class SurfaceReport:
-    """What was odd about the input; nothing here is an error."""
+    """Unusual parts of a surface's input. The surface works in spite of them."""
 
     nonmanifold_edges: NDArray[np.int32]  # (k, 2)
     unorientable_edges: NDArray[np.int32]  # (k, 2)
     flipped_faces: NDArray[np.int32]
     zero_area_faces: NDArray[np.int32]  # lower than 1e-9 of their longest side
-    low_faces: NDArray[np.int32]  # lower than 2^-22 of the unit cube, those among them
+    low_faces: NDArray[np.int32]  # lower than 2^-22 of the unit cube, including zero-area faces
     degenerate_faces: NDArray[np.int32]
     duplicate_faces: NDArray[np.int32]
     isolated_vertices: NDArray[np.int32]
@@ -41,7 +42,7 @@ class SurfaceReport:
     components: int
 
 class Surface:
-    """A triangle mesh as people have it: points (n, 3), triangles (m, 3), real edges (e, 2) or None for every edge of a triangle."""
+    """A triangle mesh in any condition: points (n, 3), triangles (m, 3), real edges (e, 2) or None for every edge of a triangle."""
 
     def __init__(
         self,
@@ -69,10 +70,10 @@ class Metric:
     tensors: NDArray[np.float64]  # (n, 3, 3)
     max_anisotropy: float
     def ellipses(self, of: Literal["norm", "reach"] = "norm") -> NDArray[np.float64]:
-        """Return (n, 2, 3), the semi-axes at each vertex, the longer one first: as in Figures 3 and 6, or how far length 1 reaches."""
+        """Return the semi-axes at each vertex, (n, 2, 3), the longer one first: as in Figures 3 and 6, or how far length 1 reaches."""
 
 class Scribble:
-    """A stroke on a surface, its points each in the triangle of `faces` or at the vertex of `vertices` (-1: see the other)."""
+    """A stroke on a surface. Each point is in the triangle of `faces` or at the vertex of `vertices`; -1 in one refers to the other."""
 
     def __init__(
         self,
@@ -103,9 +104,9 @@ class Embedding:
     invalid_before: int
     faces_added: int
     invalid_left: int
-    hole_faces: NDArray[np.int32]  # the surface's triangles in which some stayed invalid
-    clamped_edges: int
-    repaired_faces: NDArray[np.int32]  # those with such an edge
+    hole_faces: NDArray[np.int32]  # the surface's triangles that have holes
+    clamped_edges: int  # edges with another length than the metric's
+    repaired_faces: NDArray[np.int32]  # the surface's triangles with such edges
     worst_clamp: float
     hit_cap: bool
     unreachable: NDArray[np.int32]
@@ -125,19 +126,19 @@ class ClosedWire:
     faces: NDArray[np.int32]
     length: float
     euclidean_length: float
-    separates: bool  # False: it runs around or through a handle
-    turn: float  # at the seed, radians: 0 where it runs smoothly through it
+    separates: bool  # False if it runs around or through a handle
+    turn: float  # at the seed, in radians; 0 if the cut is smooth there
 
 class BentWires:
     def through(
         self, second: int | tuple[int, ArrayLike], progress: Progress | None = None
     ) -> tuple[Wire, Wire] | None:
-        """Return the cut through a second point as well, from the seed there and back; None where none leads there."""
+        """Return the cut through a second point as well, from the seed there and back, or None if no cut leads there."""
 
 class DistanceField:
-    seed: int  # -1: several, or a point that is no vertex
+    seed: int  # -1 for several seeds, or a seed that is not a vertex
     is_exact: bool
-    radius: float  # distances beyond it are inf
+    radius: float  # larger distances are inf
     distances: NDArray[np.float64]  # (n,) at the caller's vertices
     def trace(self, vertex: int, progress: Progress | None = None) -> Wire: ...
     def trace_many(
@@ -145,13 +146,13 @@ class DistanceField:
     ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.float64]]:
         """Return the points of all paths, (p, 3), where each begins, (k + 1,), and their lengths, (k,)."""
     def distance(self, face: int, barycentric: ArrayLike, progress: Progress | None = None) -> float:
-        """Return the exact distance of a point of a face; barycentric is (3,), 0 or more, its sum 1."""
+        """Return the distance of a point of a face, as exact as the field. barycentric is (3,), 0 or more, with the sum 1."""
     def trace_to(self, face: int, barycentric: ArrayLike, progress: Progress | None = None) -> Wire:
         """Return the shortest path to such a point."""
     def closed_wires(self, count: int = 3, progress: Progress | None = None) -> list[ClosedWire]:
-        """Return the closed cuts through the seed that the surface suggests, at most `count`, best first; empty: none."""
+        """Return the closed cuts through the seed that the surface suggests, at most `count`, best first."""
     def bend(self, cut: ClosedWire, progress: Progress | None = None) -> BentWires:
-        """Return what bends one of them to a second point."""
+        """Prepare a closed cut, so that it can be bent to a second point."""
 
 class EdgeChain:
     vertices: NDArray[np.int32]
@@ -164,18 +165,18 @@ class LiveCandidate:
     follow: Literal["min", "max", "concave"]
     points: NDArray[np.float64]
     faces: NDArray[np.int32]
-    vertices: NDArray[np.int32]  # the edges that would be marked
+    vertices: NDArray[np.int32]  # the edges that the wire would mark
     length: float
-    final: bool  # False: still being computed; what is here, if anything, will be replaced
+    final: bool  # False while it is still being computed
 
 class LiveEmbedding:
-    invalid_left: int  # triangles that wires lead around
+    invalid_left: int  # triangles; wires lead around them
     hit_cap: bool
     clamped_edges: int
     worst_clamp: float
 
 class LiveLoop:
-    vertices: NDArray[np.int32]  # the first one not given twice; empty: none, or not yet
+    vertices: NDArray[np.int32]  # without repeating the first; empty if there is no chain, or not yet
     length: float
     final: bool
 
@@ -190,19 +191,19 @@ class LiveClosedWire:
     separates: bool
     turn: float
     length: float
-    which: int  # what bent_wire calls it
+    which: int  # the number of the cut for bent_wire
 
 class LiveClosedWires:
-    cuts: list[LiveClosedWire]  # best first; empty: nothing suggests one, or not yet
+    cuts: list[LiveClosedWire]  # best first; empty if the surface suggests no cut, or not yet
     final: bool
 
 class EdgeLoop:
-    vertices: NDArray[np.int32]  # in order; where it is closed, the first one is not given twice
+    vertices: NDArray[np.int32]  # in order; a closed loop does not repeat its first vertex
     closed: bool
 
 class FittedChain:
-    vertices: NDArray[np.int32]  # in the line's order; empty: no edge fits
-    places: NDArray[np.float64]  # where on the line each is: i + x, the part x of the way from point i to the next
+    vertices: NDArray[np.int32]  # in the line's order; empty if no edge fits
+    places: NDArray[np.float64]  # where on the line: i + x is the fraction x of the way from point i to the next
 
 class LiveWires:
     wires: tuple[LiveCandidate, ...]
@@ -223,7 +224,7 @@ class LiveWire:
         loop_turning: float | None = None,
         metric: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"] = "feature",
     ) -> None:
-        """Neither gamma nor max_anisotropy: gamma = 0.1 across the surface, max_anisotropy = 10 and clamp_percentile = 99 along edges."""
+        """Start preparing metrics. Defaults: gamma = 0.1 across the surface, max_anisotropy = 10 with clamp_percentile = 99 along edges."""
     @overload
     def __init__(
         self,
@@ -239,12 +240,12 @@ class LiveWire:
         loop_turning: float | None = None,
         metric: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"] = "feature",
     ) -> None:
-        """Copy the arrays, return at once and build the surface in the background; what that raises, the other methods raise."""
+        """Copy the arrays, return at once and build the surface in the background. If that fails, the other methods raise the error."""
     surface: Surface | None  # None until it is built
     def wait_for_surface(self, seconds: float | None = None) -> bool:
-        """Return whether it is built; any thread may wait."""
+        """Wait until the surface is built, and return whether it is. Any thread may wait."""
     def fork(self) -> LiveWire:
-        """Another with the same metrics, those still being computed too, and no seed; metrics set later are each one's own."""
+        """Return another live wire with the same metrics and no seed. `set_metric` of one does not change the other."""
     def sibling(
         self,
         *,
@@ -256,7 +257,7 @@ class LiveWire:
         loop_turning: float | None = None,
         metric: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"] = "feature",
     ) -> LiveWire:
-        """Another on the same surface, which is built once; metrics of its own, no strokes, no seed."""
+        """Return another live wire on the same surface, with its own metrics, no strokes and no seed."""
     def set_metric(
         self,
         metric: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"] = "feature",
@@ -264,35 +265,37 @@ class LiveWire:
         gamma: float | None = None,
         clamp_percentile: float | None = None,
     ) -> None:
-        """In the background, and seeds again; until then wires are the former ones, and not final."""
+        """Change the metric in the background, and start from the seed again. Until then, wires are the former ones and not final."""
     def set_scribbles(self, scribbles: Sequence[Scribble]) -> None:
-        """Instead of those before; as set_metric, which keeps them. One that is off the surface: ValueError at the next call."""
-    def seed(self, pick: Pick | SurfacePoint, forward: bool = False) -> None: ...
-    def wires(self, target: Pick | SurfacePoint) -> LiveWires: ...
+        """Replace the strokes, as `set_metric`, which keeps them. If a stroke is not on the surface, later calls raise ValueError."""
+    def seed(self, pick: Pick | SurfacePoint, forward: bool = False) -> None:
+        """Start wires from a pick and return at once."""
+    def wires(self, target: Pick | SurfacePoint) -> LiveWires:
+        """Return the wires to a target, as far as they are computed."""
     def loop(self, edge: tuple[int, int]) -> LiveLoop:
-        """In the background, the newest edge asked for; ask again until the answer is final. A seed goes first."""
+        """Return the closed chain through an edge. Found in the background: call again until the answer is final."""
     def closed_wires(self, through: int | tuple[int, ArrayLike]) -> LiveClosedWires:
-        """As `loop`, the closed cuts through a point of the surface, at most three."""
+        """Return at most three closed cuts through a point, found as `loop` is."""
     def bent_wire(
         self, through: int | tuple[int, ArrayLike], second: int | tuple[int, ArrayLike], which: int = 0
     ) -> LiveClosedWires:
-        """As `closed_wires`, one of these cuts bent to a second point."""
+        """Bend one of these cuts to a second point, as `closed_wires` finds them."""
     def extend_straight(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> EdgeChain:
-        """Return the straightest way on, from the edge's second vertex; its length is that in the unit cube. No vertices: not ready."""
+        """Continue an edge straight, from its second vertex on. Empty before the surface is built."""
     def edge_loop(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> EdgeLoop:
-        """Return the edge loop through an edge, as modellers select it, up to poles, boundaries and stops. No vertices: not ready."""
+        """Find the edge loop through an edge, as modelers select it. Empty before the surface is built."""
     def fit_chain(
         self, points: ArrayLike, faces: ArrayLike, begin: int | None = None, end: int | None = None
     ) -> FittedChain:
-        """As the function, along edges only. No vertices: none fit, or not ready."""
+        """Find the chain that fits a line, as the function `fit_chain`. Empty before the surface is built."""
     def embeddings(self) -> tuple[LiveEmbedding | None, ...]:
-        """Return what became of them across the surface; None where one is not prepared, and along edges."""
+        """Return summaries of the embeddings; None for one that is not prepared, and along edges."""
     def feature_strength(self) -> NDArray[np.float64] | None:
-        """Return s of eq. 5 per vertex, None while it is computed."""
+        """Return s of eq. 5 at each vertex, or None while it is being computed."""
     def progress(self) -> float:
-        """Of the preparation and the seed's work."""
+        """Return the fraction of the preparation and the seed's work that is done."""
     def wait(self, seconds: float | None = None) -> bool:
-        """For all running work, loops too."""
+        """Wait for all running work, including loops, and return whether it is done."""
 
 def principal_curvatures(surface: Surface, progress: Progress | None = None) -> Curvature: ...
 def feature_metric(
@@ -304,7 +307,7 @@ def feature_metric(
     clamp_percentile: float | None = None,
     progress: Progress | None = None,
 ) -> Metric:
-    """Eq. 5. Neither gamma nor max_anisotropy: gamma = 0.1."""
+    """Make the metric of the paper, eq. 5. Without gamma and max_anisotropy, gamma is 0.1."""
 
 def campen_metric(
     surface: Surface,
@@ -352,25 +355,25 @@ def distance_field(
     targets: SurfacePoint | Sequence[SurfacePoint] | None = None,
     max_distance: float | None = None,
 ) -> DistanceField:
-    """Of several seeds the nearest one counts. Stops when the targets' distances are known, or at max_distance."""
+    """Compute distances from the nearest of several seeds. Stop when the targets' distances are known, or at max_distance."""
 
 def invalid_faces(surface: Surface, metric: Metric) -> NDArray[np.int32]:
-    """Return the triangles that are invalid in a metric before any bisection."""
+    """Find the triangles that are invalid in a metric before any subdivision."""
 
 def metric_lengths(surface: Surface, metric: Metric) -> NDArray[np.float64]:
-    """Return the lengths of a surface's edges in a metric, (e,), before any bisection."""
+    """Compute the lengths of a surface's edges in a metric, (e,), before any subdivision."""
 
 def isolines(
     surface: Surface, values: ArrayLike, levels: ArrayLike
 ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
-    """Return segments (k, 2, 3) where values at the vertices, (n,), reach levels, with the triangle and the level of each."""
+    """Find the segments (k, 2, 3) where values at the vertices reach levels, with the triangle and the level of each."""
 
 class CrestLines:
-    """Ridges and valleys: line i has the points starts[i] to starts[i + 1]; a closed one ends with its first point."""
+    """Ridges and valleys. Line i has the points starts[i] to starts[i + 1]. A closed line repeats its first point."""
 
     points: NDArray[np.float64]  # (p, 3)
     edges: NDArray[np.int32]  # (p, 2), the edge that each point lies on
-    parts: NDArray[np.float64]  # (p,), where on it, 0 to 1
+    parts: NDArray[np.float64]  # (p,), position on it, 0 to 1
     curvatures: NDArray[np.float64]  # (p,), above 0 along ridges
     faces: NDArray[np.int32]  # (p,), the triangle to the next point, -1 for a line's last
     starts: NDArray[np.int32]  # (k + 1,)
@@ -383,12 +386,12 @@ def crest_lines(
     least_drop: float = 0.15,
     progress: Progress | None = None,
 ) -> CrestLines:
-    """Return the curves along which the surface bends most sharply across (Yoshizawa, Belyaev, Seidel 2005)."""
+    """Find the curves across which the surface bends most sharply (Yoshizawa, Belyaev, Seidel 2005)."""
 
 def plane_section(
     surface: Surface, from_point: SurfacePoint, to_point: SurfacePoint, direction: ArrayLike
 ) -> tuple[NDArray[np.float64], NDArray[np.int32], float]:
-    """Return the curve (p, 3) in the plane through two points and along a direction, the triangles it crosses, its length."""
+    """Find the curve (p, 3) between two points in the plane along a direction, with its triangles and its length."""
 
 def snap_to_edges(surface: Surface, wire: Wire, progress: Progress | None = None) -> NDArray[np.int32]: ...
 def edge_wires(
@@ -414,27 +417,27 @@ def fit_chain(
     end: int | None = None,
     progress: Progress | None = None,
 ) -> FittedChain:
-    """Return the chain of edges that fits a line drawn on a surface best, from its beginning to its end, or to where edges end."""
+    """Find the chain of edges that fits a line drawn on a surface best."""
 
 class RayTree:
-    """Finds the first triangle that a ray meets; the tree is built on a thread, with the same answers before it is there."""
+    """Finds the first triangle that a ray meets. A tree is built in the background; answers are the same without it."""
 
     def __init__(self, points: ArrayLike, triangles: ArrayLike) -> None: ...
     def first_hit(self, origin: ArrayLike, direction: ArrayLike) -> tuple[int, float] | None:
-        """Return the triangle's number and how far away it is, in lengths of `direction`; None: there is none."""
+        """Return the triangle's number, and its distance in lengths of `direction`. None if the ray meets no triangle."""
     ready: bool
     def wait(self) -> None: ...
 
 def cut_polygons(
     points: ArrayLike, corners: ArrayLike, sizes: ArrayLike
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Return the triangles of triangles and quads, cut as Blender cuts them, and the polygon of each."""
+    """Cut triangles and quads into triangles, as Blender does. Return the triangles, and the polygon of each."""
 
 def face_segments(surface: Surface, cut_edges: ArrayLike) -> NDArray[np.int32]:
-    """Return a segment number per triangle, 0 the one of the most triangles."""
+    """Find the segment of each triangle. Segment 0 has the most triangles."""
 
 def missing_cuts(surface: Surface, cut_edges: ArrayLike, segments: ArrayLike) -> NDArray[np.int32]:
-    """Return how many more cuts each segment needs to become a disc."""
+    """Count how many more cuts each segment needs to become a disc."""
 
 class Flattening:
     """A UV map of a surface: `uvs`, (m, 3, 2), in the points' unit, and the island of each triangle, (m,)."""
@@ -449,7 +452,7 @@ class Flattening:
     steps: NDArray[np.int32]  # Newton steps, for each island
 
 class MapReport:
-    """What a UV map does to a surface."""
+    """The distortion, flips and overlaps of a UV map."""
 
     energy: float  # symmetric Dirichlet energy at the best uniform scale, 4 for an isometry
     energies: NDArray[np.float64]  # of each triangle

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Compiled without exceptions: so what pthread.h offers to clean up is no destructor, which the unwinder would have to
-// find, but a place that pthread_exit jumps to.
+// This file is compiled without exceptions. Then pthread_cleanup_push creates a place that pthread_exit jumps to, and
+// not a destructor, which the unwinder would have to find.
 #include "thread_end.hpp"
 
 #if __has_include(<pthread.h>) && !defined(_WIN32)
@@ -15,7 +15,7 @@ void run_to_thread_end(void (*work)(void* data), void* data, void (*ended)(void*
   work(data);
   pthread_cleanup_pop(0);
 #else
-  // Windows ends a thread where it is, and touches no frame.
+  // Windows ends a thread where it is, without unwinding.
   static_cast<void>(ended);
   work(data);
 #endif

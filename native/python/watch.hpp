@@ -14,19 +14,19 @@ namespace seamwire::python {
 
 namespace py = pybind11;
 
-/// Runs long work without the GIL, as a Task that calls a Python function and heeds Ctrl-C.
+/// Runs long work without the GIL, as a Task that calls a Python function and reacts to Ctrl-C.
 class Watch {
  public:
-  /// `progress`: a callable that takes the fraction done, or None.
+  /// `progress` is a callable that takes the fraction done, or None.
   explicit Watch(py::object progress) : progress_(std::move(progress)) {
     if (progress_.is_none()) {
-      next_ = Clock::now() + kPeriod;  // only signals are to be looked for
+      next_ = Clock::now() + kPeriod;  // only checks for signals
     } else if (PyCallable_Check(progress_.ptr()) == 0) {
       throw InvalidInput("progress: expected a function of one number, or None");
     }
   }
 
-  /// work(task), run without the GIL. What the callback raises comes out of here.
+  /// Returns work(task), run without the GIL. Throws what the callback raises.
   template <class Work>
   auto run(const Work& work) {
     leave_if_cut_off();
@@ -44,10 +44,10 @@ class Watch {
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// Taking the GIL may mean waiting for another thread to let it go (5 ms by default), so it is not done at each call.
+  /// Taking the GIL may wait for another thread to release it (5 ms by default). Therefore not every call does so.
   static constexpr std::chrono::milliseconds kPeriod{25};
 
-  /// What Python raised where no C++ exception may be made.
+  /// A Python exception, kept where no C++ exception may be created.
   class Raised {
    public:
     Raised() = default;
@@ -56,9 +56,9 @@ class Watch {
     }
     Raised(const Raised&) = delete;
     Raised& operator=(const Raised&) = delete;
-    /// Takes what Python is raising.
+    /// Takes the exception that Python is raising.
     void fetch() { PyErr_Fetch(&type_, &value_, &trace_); }
-    /// Throws it, if there is any.
+    /// Throws the exception, if there is one.
     void raise() {
       if (type_ == nullptr) return;
       PyErr_Restore(std::exchange(type_, nullptr), std::exchange(value_, nullptr), std::exchange(trace_, nullptr));
@@ -80,7 +80,7 @@ class Watch {
     return released.with_gil([&] { goes_on = ask(fraction); }) && goes_on;
   }
 
-  /// With the GIL; C functions only, as GilRelease::with_gil() wants it.
+  /// Call with the GIL. Only calls C functions, as GilRelease::with_gil() requires.
   bool ask(double fraction) {
     int answer = PyErr_CheckSignals() == 0 ? 1 : -1;
     if (answer > 0 && !progress_.is_none()) {
@@ -97,12 +97,12 @@ class Watch {
   Raised raised_;
 };
 
-/// For what is built once before the work itself: it can be stopped as that, and counts as nothing of it.
+/// The task for preparations of the work itself. They can be cancelled, and their progress is 0.
 inline Task beginning(const Task& task) {
   return {.stop = task.stop, .progress = [progress = task.progress](double) { return !progress || progress(0.0); }};
 }
 
-/// work(), run without the GIL.
+/// Returns work(), run without the GIL.
 template <class Work>
 auto without_gil(const Work& work) {
   leave_if_cut_off();

@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#ifdef __has_feature
-#if __has_feature(thread_sanitizer)
-#define SEAMWIRE_THREAD_SANITIZER
-#endif
-#endif
-#ifdef __SANITIZE_THREAD__
-#define SEAMWIRE_THREAD_SANITIZER
-#endif
+#include "detail/thread_safety.hpp"
 
 namespace seamwire {
 

@@ -89,7 +89,7 @@ def test_seams_are_mirrored(torus: sw.Surface) -> None:
     [
         ({"mirror": 3}, "mirror is 3"),
         ({"front": (0.0, 0.0, 0.0)}, "front is not a direction"),
-        ({"front": (1.0, 0.0)}, "front: expected three numbers"),
+        ({"front": (1.0, 0.0)}, "front: expected 3 numbers, got 2"),
         ({"weights": [1.0, 2.0]}, "weights has 2 items"),
         ({"weights": [[1.0]]}, "weights"),
         ({"weights": np.full(240, -1.0)}, "weights: item 0 is not 0 or more"),

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <memory>
 #include <vector>
+
+#include "detail/thread_safety.hpp"
 
 namespace seamwire::detail {
 
@@ -19,12 +22,17 @@ class PagedArray {
   std::size_t size() const { return size_; }
   const T& operator[](std::size_t i) const { return pages_[i / kPage][i % kPage]; }
   /// To be written to: a page that is shared is copied first.
+  ///
+  /// A use count of 1 is reliable although other threads may drop their copies meanwhile. Only a copy of this array
+  /// could raise it, and the array is for one thread. If others drop theirs just now, the page is copied in vain.
   T& edit(std::size_t i) {
     std::shared_ptr<T[]>& page = pages_[i / kPage];
     if (page.use_count() > 1) {
       std::shared_ptr<T[]> own = make_page();
       std::copy_n(page.get(), kPage, own.get());
       page = std::move(own);
+    } else {
+      acquire(page);
     }
     return page[i % kPage];
   }
@@ -49,6 +57,15 @@ class PagedArray {
 
  private:
   static constexpr std::size_t kPage = 2048;
+  /// Orders what former owners on other threads read of a page before what its only owner writes. use_count() alone
+  /// orders nothing; the fence pairs with the owners' decrements of the count.
+  static void acquire([[maybe_unused]] const std::shared_ptr<T[]>& page) {
+#ifdef SEAMWIRE_THREAD_SANITIZER
+    const std::shared_ptr<T[]> copy = page;  // it knows no fences, but knows the decrement that ends the copy
+#else
+    std::atomic_thread_fence(std::memory_order_acquire);
+#endif
+  }
   static std::shared_ptr<T[]> make_page() { return std::shared_ptr<T[]>(new T[kPage]); }
 
   std::vector<std::shared_ptr<T[]>> pages_;

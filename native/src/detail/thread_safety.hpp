@@ -4,6 +4,16 @@
 #include <chrono>
 #include <mutex>
 
+/// Defined where ThreadSanitizer watches the code.
+#ifdef __has_feature
+#if __has_feature(thread_sanitizer)
+#define SEAMWIRE_THREAD_SANITIZER
+#endif
+#endif
+#ifdef __SANITIZE_THREAD__
+#define SEAMWIRE_THREAD_SANITIZER
+#endif
+
 /// Clang's thread-safety analysis (-Wthread-safety) checks at compile time that what is guarded by a mutex is touched
 /// with that mutex held alone. Other compilers see nothing of it.
 #if defined(__clang__)

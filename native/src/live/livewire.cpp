@@ -15,6 +15,7 @@
 #include "geodesics/placed_point.hpp"
 #include "live/deadline.hpp"
 #include "live/live_worker.hpp"
+#include "surface/real_edges.hpp"
 
 namespace seamwire {
 

@@ -8,6 +8,7 @@
 #include "detail/disjoint_sets.hpp"
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
+#include "surface/real_edges.hpp"
 
 namespace seamwire {
 
@@ -29,7 +30,7 @@ Edge edge_of(const Surface& surface, std::int32_t half_edge) {
   const Triangle& fans = surface.face_fans()[half_edge / 3];
   const std::int32_t a = surface.vertex_of_fan()[fans[half_edge % 3]];
   const std::int32_t b = surface.vertex_of_fan()[fans[(half_edge + 1) % 3]];
-  return {std::min(a, b), std::max(a, b)};
+  return ascending(a, b);
 }
 
 /// The real edges among `cut_edges`, sorted.
@@ -37,8 +38,7 @@ std::vector<Edge> real_cuts(const Surface& surface, std::span<const Edge> cut_ed
   std::vector<Edge> cuts;
   for (const auto& [a, b] : cut_edges) {
     for (const std::int32_t v : {a, b}) check_index(v, surface.vertex_count(), "cut_edges: vertex");
-    const Edge edge{std::min(a, b), std::max(a, b)};
-    if (std::ranges::binary_search(surface.edges(), edge)) cuts.push_back(edge);
+    if (has_edge(surface, {a, b})) cuts.push_back(ascending(a, b));
   }
   std::ranges::sort(cuts);
   return cuts;

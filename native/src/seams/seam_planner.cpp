@@ -20,6 +20,7 @@
 #include "seams/visibility.hpp"
 #include "seamwire/seams/missing_cuts.hpp"
 #include "seamwire/surface/segments.hpp"
+#include "surface/real_edges.hpp"
 
 namespace seamwire {
 
@@ -155,9 +156,9 @@ std::vector<std::vector<std::int32_t>> one_sided_chains(const Surface& surface, 
   for (Edge& edge : without) edge = {std::min(edge[0], edge[1]), std::max(edge[0], edge[1])};
   std::ranges::sort(without);
   for (const auto& [a, b] : surface.report().unorientable_edges) {
-    const Edge edge{std::min(a, b), std::max(a, b)};
+    const Edge edge = ascending(a, b);
     if (std::ranges::binary_search(without, edge)) continue;
-    if (!std::ranges::binary_search(surface.edges(), edge)) continue;
+    if (!has_edge(surface, edge)) continue;
     next[a].push_back(b);
     next[b].push_back(a);
   }

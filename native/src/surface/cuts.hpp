@@ -9,10 +9,9 @@
 
 #include "detail/index.hpp"
 #include "seamwire/surface/surface.hpp"
+#include "surface/real_edges.hpp"
 
 namespace seamwire::detail {
-
-inline Edge ascending(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
 /// The real edges along which a surface is cut. Answers quickly for edges between vertices that no cut touches, which
 /// are nearly all.
@@ -25,7 +24,7 @@ class Cuts {
       for (const std::int32_t v : {a, b}) {
         check_index(v, surface.vertex_count(), what + ": vertex");
       }
-      if (!std::binary_search(surface.edges().begin(), surface.edges().end(), ascending(a, b))) continue;
+      if (!has_edge(surface, {a, b})) continue;
       edges_.push_back(ascending(a, b));
       touched_[a] = touched_[b] = 1;
     }

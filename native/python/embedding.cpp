@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "embedding.hpp"
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+
+#include "arrays.hpp"
+#include "held.hpp"
+#include "metric.hpp"
+#include "names.hpp"
+#include "rooms.hpp"
+#include "surface.hpp"
+#include "watch.hpp"
+
+namespace seamwire::python {
+namespace {
+
+using EmbeddingClass = py::class_<EmbeddingObject, std::shared_ptr<EmbeddingObject>>;
+
+EmbeddingObject::Edges list_edges(const IntrinsicMesh& mesh) {
+  EmbeddingObject::Edges edges;
+  for (std::size_t h = 0; h < mesh.twins.size(); ++h) {
+    const auto half_edge = static_cast<std::int32_t>(h);
+    if (mesh.twins[h] >= 0 && mesh.twins[h] < half_edge) continue;
+    edges.vertices.push_back({mesh.tail(half_edge), mesh.tip(half_edge)});
+    edges.lengths.push_back(mesh.lengths[h]);
+  }
+  for (const LooseEdge& edge : mesh.loose_edges) {
+    edges.vertices.push_back({edge.a, edge.b});
+    edges.lengths.push_back(edge.length);
+  }
+  return edges;
+}
+
+/// An attribute that is an array in the Embedding.
+template <class T>
+py::cpp_function array_in(std::vector<T> Embedding::*member) {
+  return array_of<EmbeddingObject>([member](const EmbeddingObject& e) -> auto& { return e.embedding.*member; });
+}
+
+/// An attribute that is a number in the Embedding.
+template <class T>
+py::cpp_function number_in(T Embedding::*member) {
+  return [member](const EmbeddingObject& e) { return e.embedding.*member; };
+}
+
+/// An attribute that is an array of the list of edges.
+template <class T>
+py::cpp_function of_edges(std::vector<T> EmbeddingObject::Edges::*member) {
+  return array_of<EmbeddingObject>([member](const EmbeddingObject& e) -> auto& {
+    return without_gil([&] { return &e.edges(); })->*member;
+  });
+}
+
+std::shared_ptr<EmbeddingObject> with_lengths(const EmbeddingObject& object, const py::handle& lengths) {
+  return without_gil([&, values = values_from(lengths, "lengths")] { return object.with_lengths(values); });
+}
+
+std::string text_of_embedding(const EmbeddingObject& object) {
+  const Embedding& embedding = object.embedding;
+  std::string text = "<Embedding: " + std::to_string(embedding.points.size()) + " vertices, " +
+                     std::to_string(embedding.mesh.face_count()) + " triangles, " +
+                     std::to_string(embedding.faces_added) + " added, " + std::to_string(embedding.invalid_left) +
+                     " invalid left";
+  if (embedding.clamped_edges > 0) {
+    text += ", " + std::to_string(embedding.clamped_edges) + " lengths clamped, by up to " +
+            number(embedding.worst_clamp) + " times";
+  }
+  return text + ">";
+}
+
+void bind_mesh(EmbeddingClass& embedding) {
+  embedding
+      .def_property_readonly("points", array_in(&Embedding::points), "(p, 3) float64, in the caller's coordinates.")
+      .def_property_readonly("triangles", array_of<EmbeddingObject>([](const EmbeddingObject& e) -> auto& {
+                               return e.embedding.mesh.triangles;
+                             }),
+                             "(t, 3) int32: the valid triangles.")
+      .def_property_readonly("edges", of_edges(&EmbeddingObject::Edges::vertices),
+                             "(e, 2) int32: each edge once. Edges that paths follow without a triangle come last.")
+      .def_property_readonly("lengths", of_edges(&EmbeddingObject::Edges::lengths),
+                             "(e,) float64: lengths of `edges` in the metric.")
+      .def_property_readonly("source_face", array_in(&Embedding::source_face),
+                             "(t,) int32: the surface's triangle that each triangle lies in.")
+      .def("with_lengths", &with_lengths, py::arg("lengths"),
+           R"(Return the same triangles with other lengths.
+
+The lengths may come from another way of embedding, or from your own metric.
+
+Parameters
+----------
+lengths : (e,) array_like of float
+    Lengths of `edges`, in their order.
+
+Returns
+-------
+Embedding
+
+Raises
+------
+ValueError
+    If the number of lengths differs from the number of edges, a length is not positive or above 1e76, all lengths are
+    below 1e-76, or a triangle fails the triangle inequality.)")
+      .def("__repr__", &text_of_embedding);
+}
+
+void bind_embedding_report(EmbeddingClass& embedding) {
+  embedding
+      .def_property_readonly("unreachable", array_in(&Embedding::unreachable),
+                             "(k,) int32: vertices of faces that no path reaches, because they are in no valid "
+                             "triangle and on no edge that paths follow.")
+      .def_property_readonly("invalid_before", number_in(&Embedding::invalid_before),
+                             "int: how many triangles of the surface are invalid.")
+      .def_property_readonly("faces_added", number_in(&Embedding::faces_added), "int: how many triangles were added.")
+      .def_property_readonly("invalid_left", number_in(&Embedding::invalid_left),
+                             "int: how many triangles stayed invalid. They are holes.")
+      .def_property_readonly("hole_faces", array_in(&Embedding::hole_faces),
+                             "(k,) int32: the surface's triangles that have holes, ascending.")
+      .def_property_readonly("clamped_edges", number_in(&Embedding::clamped_edges),
+                             "int: how many edges have another length than the metric's. These lengths were changed "
+                             "to make triangles valid.")
+      .def_property_readonly("repaired_faces", array_in(&Embedding::repaired_faces),
+                             "(k,) int32: the surface's triangles that have such edges, ascending.")
+      .def_property_readonly("worst_clamp", number_in(&Embedding::worst_clamp),
+                             "float: the largest factor, up or down, between such a length and the metric's. 1 if "
+                             "there is no such edge.")
+      .def_property_readonly("hit_cap", number_in(&Embedding::hit_cap),
+                             "bool: whether max_faces_added ended the subdivision.");
+}
+
+Perimeter perimeter_from(const std::string& name) {
+  if (name == "metric") return Perimeter::kMetric;
+  if (name == "euclidean") return Perimeter::kEuclidean;
+  throw InvalidInput("perimeter: expected 'metric' or 'euclidean', got '" + name + "'");
+}
+
+std::shared_ptr<EmbeddingObject> embed_surface(const SurfaceObject& surface, const MetricObject& metric, double sigma,
+                                               const std::string& perimeter, const py::object& max_faces_added,
+                                               const py::object& progress) {
+  EmbedOptions options{.sigma = sigma, .perimeter = perimeter_from(perimeter)};
+  options.max_faces_added = count_from(max_faces_added, "max_faces_added");
+  if (!(sigma >= 0.0)) throw InvalidInput("sigma: expected a number that is not negative");
+  check_size("metric", metric.metric.size(), *surface.surface);
+  return Watch(progress).run([&](const Task& task) {
+    return std::shared_ptr<EmbeddingObject>(
+        make_held<EmbeddingObject>(surface.surface, embed(*surface.surface, metric.metric, options, task)));
+  });
+}
+
+void bind_embed(py::module_& module) {
+  module.def("embed", &embed_surface, py::arg("surface"), py::arg("metric"), py::arg("sigma") = 0.0,
+             py::arg("perimeter") = "metric", py::arg("max_faces_added") = 4'000'000, py::arg("progress") = py::none(),
+             R"(Subdivide a surface until its triangles can have the edge lengths that a metric gives them.
+
+Parameters
+----------
+surface : Surface
+metric : Metric
+    Of that surface.
+sigma : float
+    At least 0. Subdivision stops when all triangles that are still invalid have smaller perimeters.
+perimeter : {'metric', 'euclidean'}
+    How that perimeter is measured.
+max_faces_added : int
+    At least 0. Subdivision stops after adding this many triangles.
+progress : callable, optional
+    Called repeatedly with the fraction done. Returning False cancels.
+
+Returns
+-------
+Embedding
+
+Raises
+------
+ValueError
+    If a parameter is out of range, or the metric belongs to another surface.
+Cancelled
+
+References
+----------
+Section 4.1 of the paper.
+)");
+}
+
+std::vector<double> metric_lengths(const Surface& surface, const Metric& metric) {
+  if (metric.size() != surface.vertex_count()) throw InvalidInput("metric: it is of another surface");
+  std::vector<double> lengths;
+  lengths.reserve(surface.edges().size());
+  for (const auto& [a, b] : surface.edges()) lengths.push_back(edge_length(surface, metric, a, b));
+  return lengths;
+}
+
+void bind_before_embedding(py::module_& module) {
+  module.def(
+      "invalid_faces",
+      [](const SurfaceObject& surface, const MetricObject& metric) {
+        return handed_over(without_gil([&] { return invalid_faces(*surface.surface, metric.metric); }));
+      },
+      py::arg("surface"), py::arg("metric"),
+      R"(Find the triangles that are invalid in a metric before any subdivision (Section 4.1; Figures 7 and 9).
+
+Parameters
+----------
+surface : Surface
+metric : Metric
+    Of that surface.
+
+Returns
+-------
+(k,) int32
+    Triangles that `embed` has to subdivide, ascending. They include those without area.
+
+Raises
+------
+ValueError
+    If the metric belongs to another surface.
+)");
+  module.def(
+      "metric_lengths",
+      [](const SurfaceObject& surface, const MetricObject& metric) {
+        return handed_over(without_gil([&] { return metric_lengths(*surface.surface, metric.metric); }));
+      },
+      py::arg("surface"), py::arg("metric"),
+      R"(Compute the lengths of a surface's edges in a metric (eq. 2), before any subdivision.
+
+Parameters
+----------
+surface : Surface
+metric : Metric
+    Of that surface.
+
+Returns
+-------
+(e,) float64
+    Lengths of `Surface.edges`, of the model scaled to the unit cube.
+
+Raises
+------
+ValueError
+    If the metric belongs to another surface.
+)");
+}
+
+}  // namespace
+
+const ExactGeodesics& EmbeddingObject::geodesics(const Task& task) const {
+  return geodesics_.get(task, [&] { return ExactGeodesics(embedding.mesh, task); });
+}
+
+const EmbeddedPoints& EmbeddingObject::points() const {
+  return points_.get(Task{}, [this] { return EmbeddedPoints(*surface, embedding); });
+}
+
+const EmbeddingObject::Edges& EmbeddingObject::edges() const {
+  return edges_.get(Task{}, [this] { return list_edges(embedding.mesh); });
+}
+
+SurfacePoint EmbeddingObject::find(const SurfacePoint& point, const std::string& name) const {
+  if (point.vertex >= 0) return point;
+  if (const std::optional<SurfacePoint> found = points().find(point, name)) return *found;
+  const std::string face = name + ": face " + std::to_string(point.face);
+  if (std::ranges::binary_search(embedding.hole_faces, point.face)) {
+    throw InvalidInput(face + " is a hole of the embedding there");
+  }
+  throw InvalidInput(face + " has no area, so the embedding leaves it out: name a vertex or another face");
+}
+
+std::shared_ptr<EmbeddingObject> EmbeddingObject::with_lengths(const std::vector<double>& lengths) const {
+  Embedding changed = embedding;
+  IntrinsicMesh& mesh = changed.mesh;
+  const std::size_t count = edges().lengths.size();
+  if (lengths.size() != count) {
+    throw InvalidInput("lengths has " + std::to_string(lengths.size()) + " items: there are " + std::to_string(count) +
+                       " edges");
+  }
+  std::size_t next = 0;
+  for (std::size_t h = 0; h < mesh.twins.size(); ++h) {
+    const std::int32_t twin = mesh.twins[h];
+    if (twin >= 0 && static_cast<std::size_t>(twin) < h) continue;
+    mesh.lengths[h] = lengths[next++];
+    if (twin >= 0) mesh.lengths[static_cast<std::size_t>(twin)] = mesh.lengths[h];
+  }
+  for (LooseEdge& edge : mesh.loose_edges) edge.length = lengths[next++];
+  auto object = std::make_shared<EmbeddingObject>(surface, std::move(changed));
+  object->geodesics(Task{});  // checks the lengths
+  return object;
+}
+
+void bind_embedding(py::module_& module) {
+  EmbeddingClass embedding(module, "Embedding", R"(A surface in a metric: a refined mesh with edge lengths.
+
+The first vertices are those of the surface, with their numbers. New vertices are midpoints of edges. See Section 4.1 of
+the paper.)");
+  bind_mesh(embedding);
+  bind_embedding_report(embedding);
+  bind_embed(module);
+  bind_before_embedding(module);
+}
+
+}  // namespace seamwire::python

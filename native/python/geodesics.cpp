@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arrays.hpp"
+#include "embedding.hpp"
+#include "held.hpp"
+#include "picks.hpp"
+#include "rooms.hpp"
+#include "seamwire/geodesics/exact_geodesics.hpp"
+#include "seamwire/wires/closed_wires.hpp"
+#include "seamwire/wires/wire.hpp"
+#include "watch.hpp"
+#include "wires.hpp"
+
+namespace seamwire::python {
+namespace {
+
+/// A distance field, with the embedding it refers to.
+struct FieldObject {
+  std::shared_ptr<const EmbeddingObject> embedding;
+  DistanceField field;
+};
+
+using FieldClass = py::class_<FieldObject, Held<FieldObject>>;
+
+py::array distances_of(const py::object& self) {
+  const auto& object = self.cast<const FieldObject&>();
+  const auto count = static_cast<py::ssize_t>(object.embedding->surface->vertex_count());
+  return view(object.field.distances().data(), {count}, {sizeof(double)}, self);
+}
+
+Wire trace(const FieldObject& object, const py::object& vertex, const py::object& progress) {
+  const EmbeddingObject& on = *object.embedding;
+  const std::int32_t target = vertex_from(vertex, on.surface->vertex_count(), "vertex");
+  return Watch(progress).run(
+      [&](const Task& task) { return trace_wire(*on.surface, on.embedding, object.field, target, task); });
+}
+
+py::tuple trace_many(const FieldObject& object, const py::object& vertices, const py::object& progress) {
+  const EmbeddingObject& on = *object.embedding;
+  const std::vector<std::int32_t> targets = numbers_from(vertices, "vertices");
+  std::vector<Vector> points;
+  std::vector<std::int32_t> starts{0};
+  std::vector<double> lengths;
+  Watch(progress).run([&](const Task& task) {
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      task.check(static_cast<double>(i) / static_cast<double>(targets.size()));
+      const Wire wire = trace_wire(*on.surface, on.embedding, object.field, targets[i], task);
+      points.insert(points.end(), wire.points.begin(), wire.points.end());
+      starts.push_back(static_cast<std::int32_t>(points.size()));
+      lengths.push_back(wire.length);
+    }
+    return true;
+  });
+  return py::make_tuple(copied(points), handed_over(std::move(starts)), handed_over(std::move(lengths)));
+}
+
+void bind_distances(FieldClass& field) {
+  field
+      .def_property_readonly(
+          "seed", [](const FieldObject& f) { return f.field.seed(); },
+          "int: the vertex that distances start from; -1 for several seeds, or a seed that is not a vertex.")
+      .def_property_readonly(
+          "radius", [](const FieldObject& f) { return f.field.radius(); },
+          "float: the distance at which the solver stopped, or inf. Larger distances are inf.")
+      .def_property_readonly(
+          "is_exact", [](const FieldObject& f) { return f.field.is_exact(); },
+          "bool: whether distances are exact on the embedding. False if `windows` were limited.")
+      .def_property_readonly("distances", &distances_of,
+                             "(n,) float64: the distance of each of the surface's vertices, in the metric. inf if no "
+                             "path reaches the vertex.")
+      .def("__repr__", [](const FieldObject& f) {
+        return "<DistanceField: from " + std::to_string(f.field.seed()) + " to " +
+               std::to_string(f.embedding->surface->vertex_count()) + " vertices>";
+      });
+}
+
+void bind_traces(FieldClass& field) {
+  field.def("trace", &trace, py::arg("vertex"), py::arg("progress") = py::none(),
+            R"(Trace the shortest path from the seed to a vertex.
+
+Parameters
+----------
+vertex : int
+progress : callable, optional
+    Called repeatedly with 0. Returning False cancels.
+
+Returns
+-------
+Wire
+    Its length is the vertex's distance if the field is exact. It has no points if the vertex is unreachable.
+
+Raises
+------
+ValueError
+    If the vertex is out of range.
+Cancelled
+)");
+  field.def("trace_many", &trace_many, py::arg("vertices"), py::arg("progress") = py::none(),
+            R"(Trace the shortest paths from the seed to several vertices (Figure 1).
+
+Parameters
+----------
+vertices : (k,) array_like of int
+progress : callable, optional
+    Called repeatedly with the fraction done. Returning False cancels.
+
+Returns
+-------
+points : (p, 3) float64
+    The points of all paths, one path after the other, in the caller's coordinates.
+starts : (k + 1,) int32
+    Path i has the points starts[i] to starts[i + 1]. It has no points if its vertex is unreachable.
+lengths : (k,) float64
+    Lengths in the metric; inf if the vertex is unreachable.
+
+Raises
+------
+ValueError
+    If a vertex is out of range.
+Cancelled
+)");
+}
+
+double distance_to(const FieldObject& object, const py::object& face, const py::object& barycentric,
+                   const py::object& progress) {
+  const EmbeddingObject& on = *object.embedding;
+  const SurfacePoint point = face_point_from(face, barycentric, on.surface->face_count(), "point");
+  return Watch(progress).run([&](const Task& task) { return object.field.distance(on.find(point, "point"), task); });
+}
+
+Wire trace_to(const FieldObject& object, const py::object& face, const py::object& barycentric,
+              const py::object& progress) {
+  const EmbeddingObject& on = *object.embedding;
+  const SurfacePoint point = face_point_from(face, barycentric, on.surface->face_count(), "point");
+  return Watch(progress).run([&](const Task& task) {
+    return trace_wire(*on.surface, on.embedding, object.field, on.find(point, "point"), task);
+  });
+}
+
+void bind_points_of_faces(FieldClass& field) {
+  field.def("distance", &distance_to, py::arg("face"), py::arg("barycentric"), py::arg("progress") = py::none(),
+            R"(Compute the distance of any point of a face.
+
+The distance is as exact as the field. It is not interpolated from the vertices.
+
+Parameters
+----------
+face : int
+    A triangle of the surface.
+barycentric : (3,) array_like
+    One coordinate for each corner, 0 or more, with the sum 1. A coordinate of exactly 0 puts the point on the edge
+    opposite to that corner.
+progress : callable, optional
+    Called repeatedly with 0. Returning False cancels.
+
+Returns
+-------
+float
+    In the metric; inf if no path leads there, or beyond the field's radius.
+
+Raises
+------
+ValueError
+    If the face is out of range or has no area, the coordinates are invalid, or the embedding has a hole there.
+Cancelled
+)");
+  field.def("trace_to", &trace_to, py::arg("face"), py::arg("barycentric"), py::arg("progress") = py::none(),
+            R"(Trace the shortest path from the nearest seed to any point of a face.
+
+Parameters
+----------
+face, barycentric, progress
+    As for `distance`.
+
+Returns
+-------
+Wire
+    As from `trace`. The number of an end that is not a vertex is -1.
+
+Raises
+------
+ValueError
+    As `distance`.
+Cancelled
+)");
+}
+
+std::vector<ClosedWire> find_closed_wires(const FieldObject& object, const py::object& count,
+                                          const py::object& progress) {
+  const std::size_t most = count_from(count, "count");
+  const EmbeddingObject& on = *object.embedding;
+  return Watch(progress).run(
+      [&](const Task& task) { return closed_wires(*on.surface, on.embedding, object.field, most, task); });
+}
+
+Held<BentObject> bend(const FieldObject& object, const ClosedWire& cut, const py::object& progress) {
+  return Watch(progress).run([&](const Task& task) {
+    const EmbeddingObject& on = *object.embedding;
+    return make_held<BentObject>(
+        BentObject{.embedding = object.embedding,
+                   .bent = BentWires(*on.surface, on.embedding, on.geodesics(task), object.field, cut, task)});
+  });
+}
+
+void bind_closed_cuts(FieldClass& field) {
+  field.def("closed_wires", &find_closed_wires, py::arg("count") = 3, py::arg("progress") = py::none(),
+            R"(Find the closed cuts through the seed that the surface suggests, best first.
+
+Each cut consists of two shortest wires and the edge of the embedding at whose ends they meet on the far side. Good cuts
+are short and turn little at the seed. In a `concave_metric` they are nearest to the cuts that people draw.
+
+Parameters
+----------
+count : int
+    The largest number of cuts to return, at least 0.
+progress : callable, optional
+    Called repeatedly with the fraction done. Returning False cancels.
+
+Returns
+-------
+list of ClosedWire
+    Empty if the surface suggests no cut. Examples are planes, and spheres, where all wires meet in one place.
+
+Raises
+------
+ValueError
+    If the field has several seeds, or count is negative.
+Cancelled
+
+References
+----------
+docs/method.md, Section 6.
+)");
+  field.def("bend", &bend, py::arg("cut"), py::arg("progress") = py::none(),
+            R"(Prepare a closed wire of the field, so that it can be bent to a second point.
+
+Parameters
+----------
+cut : ClosedWire
+    A result of `closed_wires`.
+progress : callable, optional
+    Called repeatedly with the fraction done. Returning False cancels.
+
+Returns
+-------
+BentWires
+
+Raises
+------
+ValueError
+    If the cut does not lead through the seed of the field.
+Cancelled
+)");
+}
+
+/// The options of a solve, and its seeds, still as points of the surface.
+struct Solve {
+  std::vector<SurfacePoint> seeds;
+  SolveOptions options;
+};
+
+Solve solve_from(const Surface& surface, const py::object& seed, const std::optional<std::int32_t>& windows,
+                 const py::object& targets, const std::optional<double>& max_distance) {
+  Solve solve{.seeds = surface_points_from(seed, surface, "seed"), .options = {}};
+  if (!targets.is_none()) solve.options.targets = surface_points_from(targets, surface, "target");
+  if (max_distance) solve.options.max_distance = *max_distance;
+  if (solve.seeds.empty()) throw InvalidInput("seed: expected at least one");
+  if (windows && *windows < 1) throw InvalidInput("windows: expected at least 1, or None");
+  if (windows && (solve.seeds.size() > 1 || solve.seeds[0].vertex < 0 || !targets.is_none() || max_distance)) {
+    throw InvalidInput("windows: only for one seed that is a vertex, without targets and max_distance");
+  }
+  return solve;
+}
+
+Held<FieldObject> make_field(const std::shared_ptr<EmbeddingObject>& embedding, const py::object& seed,
+                             const py::object& progress, const std::optional<std::int32_t>& windows,
+                             const py::object& targets, const std::optional<double>& max_distance) {
+  Solve solve = solve_from(*embedding->surface, seed, windows, targets, max_distance);
+  return Watch(progress).run([&](const Task& task) {
+    const ExactGeodesics& geodesics = embedding->geodesics(beginning(task));
+    for (SurfacePoint& point : solve.seeds) point = embedding->find(point, "seed");
+    for (SurfacePoint& point : solve.options.targets) point = embedding->find(point, "target");
+    return make_held<FieldObject>(FieldObject{
+        embedding, windows ? geodesics.solve_bounded(solve.seeds[0].vertex, static_cast<std::uint32_t>(*windows), task)
+                           : geodesics.solve(solve.seeds, solve.options, task)});
+  });
+}
+
+void bind_distance_field(py::module_& module) {
+  module.def("distance_field", &make_field, py::arg("embedding"), py::arg("seed"), py::arg("progress") = py::none(),
+             py::arg("windows") = py::none(), py::arg("targets") = py::none(), py::arg("max_distance") = py::none(),
+             R"(Compute distances over an embedding from a point, or from the nearest of several points.
+
+Distances are exact on the embedding, unless `windows` is given.
+
+Parameters
+----------
+embedding : Embedding
+    The first call builds a solver, and the embedding keeps it.
+seed : int, (int, (3,) array_like), or a sequence of these
+    A vertex of the surface, or a triangle and barycentric coordinates, as for `DistanceField.distance`.
+progress : callable, optional
+    Called repeatedly with the fraction done. Returning False cancels.
+windows : int, optional
+    The largest number of windows that a list passes on, at least 1. It makes the solver faster and approximate. Traced
+    paths are real and have their true length, which is at least that of the shortest path. The seed must be one vertex.
+targets : as seed, optional
+    Stop when the distances and paths of these points are known. Other distances may be missing (inf).
+max_distance : float, optional
+    At least 0. Stop at this distance; larger distances are inf.
+
+Returns
+-------
+DistanceField
+
+Raises
+------
+ValueError
+    If a seed or a target is out of range, has wrong coordinates, or lies in a hole of the embedding, or if windows or
+    max_distance is out of range.
+Cancelled
+)");
+}
+
+}  // namespace
+
+void bind_geodesics(py::module_& module) {
+  FieldClass field(module, "DistanceField", "Distances from a seed to every vertex.");
+  bind_distances(field);
+  bind_traces(field);
+  bind_points_of_faces(field);
+  bind_closed_cuts(field);
+  bind_distance_field(module);
+}
+
+}  // namespace seamwire::python

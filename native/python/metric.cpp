@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "metric.hpp"
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "arrays.hpp"
+#include "held.hpp"
+#include "names.hpp"
+#include "rooms.hpp"
+#include "surface.hpp"
+#include "watch.hpp"
+
+namespace seamwire::python {
+namespace {
+
+using OptionalNumber = std::optional<double>;
+using MetricClass = py::class_<MetricObject, Held<MetricObject>>;
+
+std::string text_of_curvature(const CurvatureObject& object) {
+  const std::vector<double>& s = object.difference;
+  return "<Curvature: " + std::to_string(s.size()) + " vertices, largest difference " +
+         number(s.empty() ? 0.0 : *std::ranges::max_element(s)) + ">";
+}
+
+void bind_curvature(py::module_& module) {
+  const auto array = [](auto member) {
+    return array_of<CurvatureObject>([member](const CurvatureObject& c) -> auto& { return c.curvature.*member; });
+  };
+  py::class_<CurvatureObject, Held<CurvatureObject>>(module, "Curvature",
+                                                     R"(Principal curvatures at the vertices of a surface.
+
+They are those of the model scaled to the unit cube, in 1 / side of the cube. Vertices without a usable face have
+curvature 0.)")
+      .def_property_readonly("k1", array(&Curvature::k1), "(n,) float64: the curvature with the larger absolute value.")
+      .def_property_readonly("k2", array(&Curvature::k2),
+                             "(n,) float64: the curvature with the smaller absolute value.")
+      .def_property_readonly("d1", array(&Curvature::d1), "(n, 3) float64: the unit tangent direction of k1.")
+      .def_property_readonly("d2", array(&Curvature::d2), "(n, 3) float64: the unit tangent direction of k2.")
+      .def_property_readonly("normals", array(&Curvature::normals), "(n, 3) float64: unit normals.")
+      .def_property_readonly("difference", array_of<CurvatureObject>(&CurvatureObject::difference),
+                             "(n,) float64: s of eq. 5, |k1| - |k2|.")
+      .def("__repr__", &text_of_curvature);
+}
+
+Held<CurvatureObject> compute_curvatures(const SurfaceObject& surface, const py::object& progress) {
+  return Watch(progress).run(
+      [&](const Task& task) { return make_held<CurvatureObject>(principal_curvatures(*surface.surface, task)); });
+}
+
+Held<CurvatureObject> smooth_curvatures(const SurfaceObject& surface, const CurvatureObject& curvature, double radius,
+                                        const py::object& progress) {
+  return Watch(progress).run([&](const Task& task) {
+    return make_held<CurvatureObject>(smoothed_curvatures(*surface.surface, curvature.curvature, radius, task));
+  });
+}
+
+void bind_curvature_functions(py::module_& module) {
+  module.def("principal_curvatures", &compute_curvatures, py::arg("surface"), py::arg("progress") = py::none(),
+             R"(Compute the principal curvatures at the vertices of a surface.
+
+Parameters
+----------
+surface : Surface
+progress : callable, optional
+    Called repeatedly with the fraction done. Returning False cancels.
+
+Returns
+-------
+Curvature
+
+Raises
+------
+Cancelled
+
+References
+----------
+Rusinkiewicz, "Estimating Curvatures and Their Derivatives on Triangle Meshes" (2004). Normals are weighted as in Max,
+"Weights for Computing Vertex Normals from Facet Normals" (1999).
+)");
+  module.def("smoothed_curvatures", &smooth_curvatures, py::arg("surface"), py::arg("curvature"),
+             py::arg("radius") = 0.01, py::arg("progress") = py::none(),
+             R"(Average curvatures over a radius, by averaging their tensors over 1-rings repeatedly.
+
+Parameters
+----------
+surface : Surface
+curvature : Curvature
+    Of that surface.
+radius : float
+    Above 0, in sides of the unit cube. It is met approximately.
+progress : callable, optional
+    Called repeatedly with the fraction done. Returning False cancels.
+
+Returns
+-------
+Curvature
+
+Raises
+------
+ValueError
+    If the curvature belongs to another surface, or the radius is not positive.
+Cancelled
+)");
+}
+
+/// The semi-axes of each vertex's ellipse, the longer one first.
+std::vector<std::array<Vector, 2>> semi_axes(const Metric& metric, bool is_reach) {
+  std::vector<std::array<Vector, 2>> axes(metric.size());
+  for (std::size_t v = 0; v < metric.size(); ++v) {
+    const PrincipalAxes at = principal_axes({metric.normals[v], metric.tensors[v]});
+    axes[v] = is_reach ? std::array<Vector, 2>{at.e2 / std::sqrt(at.l2), at.e1 / std::sqrt(at.l1)}
+                       : std::array<Vector, 2>{at.l1 * at.e1, at.l2 * at.e2};
+  }
+  return axes;
+}
+
+py::array ellipses(const MetricObject& metric, const std::string& of) {
+  if (of != "norm" && of != "reach") throw InvalidInput("of: expected 'norm' or 'reach', got '" + of + "'");
+  return copied(without_gil([&] { return semi_axes(metric.metric, of == "reach"); }));
+}
+
+double find_max_anisotropy(const MetricObject& object) {
+  return without_gil([&] { return max_anisotropy(object.metric); });
+}
+
+void bind_metric_class(py::module_& module) {
+  MetricClass(module, "Metric", "An anisotropic metric: a tensor on the tangent plane of each vertex.")
+      .def_property_readonly("normals",
+                             array_of<MetricObject>([](const MetricObject& m) -> auto& { return m.metric.normals; }),
+                             "(n, 3) float64: unit normals; zero at vertices without a face.")
+      .def_property_readonly("tensors",
+                             array_of<MetricObject>([](const MetricObject& m) -> auto& { return m.metric.tensors; }),
+                             "(n, 3, 3) float64: symmetric tensors, which map the normal to zero.")
+      .def_property_readonly("max_anisotropy", &find_max_anisotropy,
+                             "float: the largest ratio of the lengths of two unit vectors at a vertex.")
+      .def("ellipses", &ellipses, py::arg("of") = "norm",
+           R"(Return the ellipse of the norm at each vertex (Figures 2, 3 and 6 of the paper).
+
+Parameters
+----------
+of : {'norm', 'reach'}
+    'norm': l1 e1 and l2 e2 of eq. 2, as in the paper's figures. The ellipse is long across the direction of paths.
+    'reach': e2 / sqrt(l2) and e1 / sqrt(l1). This is how far a path of length 1 reaches.
+
+Returns
+-------
+(n, 2, 3) float64
+    The two semi-axes, the longer one first, of the model scaled to the unit cube. Zero at vertices without a face.
+
+Raises
+------
+ValueError
+    If `of` has another value.
+)")
+      .def("__repr__", [](const MetricObject& m) {
+        return "<Metric: " + std::to_string(m.metric.size()) + " vertices, maximum anisotropy " +
+               number(find_max_anisotropy(m)) + ">";
+      });
+}
+
+Follow follow_from(const std::string& name) {
+  if (name == "min") return Follow::kMin;
+  if (name == "max") return Follow::kMax;
+  throw InvalidInput("follow: expected 'min' or 'max', got '" + name + "'");
+}
+
+using MetricFunction = Metric (*)(const Surface&, const Curvature&, Follow, const Strength&, const Task&);
+
+Held<MetricObject> make_metric(MetricFunction function, const SurfaceObject& surface, const CurvatureObject& curvature,
+                               const std::string& follow, const Strength& strength, const py::object& progress) {
+  const Follow direction = follow_from(follow);
+  check_size("curvature", curvature.curvature.k1.size(), *surface.surface);
+  return Watch(progress).run([&](const Task& task) {
+    return make_held<MetricObject>(function(*surface.surface, curvature.curvature, direction, strength, task));
+  });
+}
+
+Held<MetricObject> make_feature_metric(const SurfaceObject& surface, const CurvatureObject& curvature,
+                                       const std::string& follow, OptionalNumber gamma, OptionalNumber max_anisotropy,
+                                       OptionalNumber clamp_percentile, const py::object& progress) {
+  if (!gamma && !max_anisotropy) gamma = 0.1;
+  return make_metric(feature_metric, surface, curvature, follow, {gamma, max_anisotropy, clamp_percentile}, progress);
+}
+
+void bind_feature_metric(py::module_& module) {
+  module.def("feature_metric", &make_feature_metric, py::arg("surface"), py::arg("curvature"),
+             py::arg("follow") = "min", py::arg("gamma") = py::none(), py::arg("max_anisotropy") = py::none(),
+             py::arg("clamp_percentile") = py::none(), py::arg("progress") = py::none(),
+             R"(Make the metric of the paper, eq. 5: l1 = 1 + gamma s, l2 = 1 / l1.
+
+Give gamma or max_anisotropy. Without either, gamma is 0.1.
+
+Parameters
+----------
+surface : Surface
+curvature : Curvature
+    Of that surface.
+follow : {'min', 'max'}
+    The principal direction along which paths are short. 'min' follows ridges and valleys.
+gamma : float, optional
+    At least 0.
+max_anisotropy : float, optional
+    At least 1. It chooses gamma so that this is the largest anisotropy of a vertex.
+clamp_percentile : float, optional
+    In (0, 100]. Values of s above this percentile are lowered to it.
+progress : callable, optional
+    Called repeatedly with the fraction done. Returning False cancels.
+
+Returns
+-------
+Metric
+
+Raises
+------
+ValueError
+    If both gamma and max_anisotropy are given, a parameter is out of range, or the curvature belongs to another
+    surface.
+Cancelled
+)");
+}
+
+template <MetricFunction function>
+Held<MetricObject> make_other_metric(const SurfaceObject& surface, const CurvatureObject& curvature,
+                                     const std::string& follow, OptionalNumber parameter, OptionalNumber max_anisotropy,
+                                     const py::object& progress) {
+  return make_metric(function, surface, curvature, follow, {parameter, max_anisotropy, std::nullopt}, progress);
+}
+
+void bind_earlier_metrics(py::module_& module) {
+  module.def("campen_metric", &make_other_metric<campen_metric>, py::arg("surface"), py::arg("curvature"),
+             py::arg("follow") = "min", py::arg("alpha") = py::none(), py::arg("max_anisotropy") = py::none(),
+             py::arg("progress") = py::none(), R"(Make the metric of Campen et al., eq. 3: l1 = alpha, l2 = 1.
+
+Give either alpha or max_anisotropy.
+
+Parameters
+----------
+surface, curvature, follow, progress
+    As for `feature_metric`.
+alpha : float, optional
+    At least 1.
+max_anisotropy : float, optional
+    At least 1. Its square is alpha.
+
+Returns
+-------
+Metric
+
+Raises
+------
+ValueError
+    If neither or both of alpha and max_anisotropy are given, or as in `feature_metric`.
+Cancelled
+)");
+  module.def("pottmann_kovacs_metric", &make_other_metric<pottmann_kovacs_metric>, py::arg("surface"),
+             py::arg("curvature"), py::arg("follow") = "min", py::arg("beta") = py::none(),
+             py::arg("max_anisotropy") = py::none(), py::arg("progress") = py::none(),
+             R"(Make the metric of Pottmann et al. and Kovacs et al., eq. 4: l1 = k1^2 + beta, l2 = k2^2 + beta.
+
+Give either beta or max_anisotropy.
+
+Parameters
+----------
+surface, curvature, follow, progress
+    As for `feature_metric`.
+beta : float, optional
+    At least 0.
+max_anisotropy : float, optional
+    At least 1. It chooses beta so that this is the largest anisotropy of a vertex.
+
+Returns
+-------
+Metric
+
+Raises
+------
+ValueError
+    If neither or both of beta and max_anisotropy are given, or as in `feature_metric`.
+Cancelled
+)");
+}
+
+Held<MetricObject> make_concave_metric(const SurfaceObject& surface, const CurvatureObject& curvature, double strength,
+                                       const py::object& progress) {
+  return Watch(progress).run([&](const Task& task) {
+    return make_held<MetricObject>(concave_metric(*surface.surface, curvature.curvature, strength, task));
+  });
+}
+
+Held<MetricObject> make_euclidean_metric(const SurfaceObject& surface, const CurvatureObject& curvature,
+                                         const py::object& progress) {
+  check_size("curvature", curvature.curvature.k1.size(), *surface.surface);
+  return Watch(progress).run([&](const Task& task) {
+    return make_held<MetricObject>(euclidean_metric(*surface.surface, curvature.curvature, task));
+  });
+}
+
+void bind_concave_and_euclidean_metric(py::module_& module) {
+  module.def("concave_metric", &make_concave_metric, py::arg("surface"), py::arg("curvature"),
+             py::arg("strength") = 1.0, py::arg("progress") = py::none(),
+             R"(Make a metric in which paths along concave creases are short, as the cuts that people draw.
+
+Parameters
+----------
+surface : Surface
+    Its normals point outwards.
+curvature : Curvature
+    Of that surface, best from `smoothed_curvatures`.
+strength : float
+    At least 0. 0 gives the Euclidean metric.
+progress : callable, optional
+    Called repeatedly with the fraction done. Returning False cancels.
+
+Returns
+-------
+Metric
+
+Raises
+------
+ValueError
+    If the strength is negative, or the curvature belongs to another surface.
+Cancelled
+
+References
+----------
+docs/method.md, Section 3.
+)");
+  module.def("euclidean_metric", &make_euclidean_metric, py::arg("surface"), py::arg("curvature"),
+             py::arg("progress") = py::none(), R"(Make the metric in which lengths are those of space.
+
+Parameters
+----------
+surface : Surface
+curvature : Curvature
+    Of that surface. The metric takes its normals.
+progress : callable, optional
+    Called repeatedly with the fraction done. Returning False cancels.
+
+Returns
+-------
+Metric
+
+Raises
+------
+ValueError
+    If the curvature belongs to another surface.
+Cancelled
+)");
+}
+
+}  // namespace
+
+void bind_metric(py::module_& module) {
+  bind_curvature(module);
+  bind_curvature_functions(module);
+  bind_metric_class(module);
+  bind_feature_metric(module);
+  bind_earlier_metrics(module);
+  bind_concave_and_euclidean_metric(module);
+}
+
+}  // namespace seamwire::python

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "live/closed_cut_search.hpp"
+
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include "live/candidates.hpp"
+#include "wires/wire_pieces.hpp"
+
+namespace seamwire::detail {
+namespace {
+
+/// The number of closed wires to choose from.
+constexpr std::size_t kClosedWires = 3;
+/// The number of pieces of each: a piece that is shorter than half of the wire is the shortest way between its ends.
+constexpr std::size_t kPiecesOfClosedWire = 3, kPiecesOfBentHalf = 2;
+/// From so many faces on, the exact field takes longer than an artist likes to wait. Then closed wires from a field of
+/// so many windows come first.
+constexpr std::size_t kManyFaces = 50'000;
+constexpr std::uint32_t kWindowsBefore = 4;
+
+}  // namespace
+
+ClosedCutSearch::ClosedCutSearch(std::shared_ptr<SurfaceCache> surface_cache, std::shared_ptr<MetricSet> metrics)
+    : surface_cache_(std::move(surface_cache)), metrics_(std::move(metrics)) {}
+
+/// Waits for another thread that prepares the metric.
+std::shared_ptr<const Prepared> ClosedCutSearch::prepared(std::size_t metric, const std::stop_token& stop) {
+  return metrics_->prepared[metric]->get(
+      stop, [&] { return prepare(*surface_cache_, Along::kSurface, *metrics_, metric, stop); });
+}
+
+/// Null if no wires begin at the point.
+const ClosedCutSearch::InMetric* ClosedCutSearch::in_metric(const WireEnd& point, std::size_t metric,
+                                                            const std::stop_token& stop) {
+  if (!around_ || around_->through != point) {
+    around_ = std::nullopt;  // the former one's memory first
+    around_ = Around{.through = point};
+  }
+  std::optional<InMetric>& in = around_->in[metric];
+  if (!in) {
+    const std::shared_ptr<const Prepared> by = prepared(metric, stop);
+    const std::optional<SurfacePoint> seed = by->points->find(point_of(point), "through");
+    if (!seed) return nullptr;
+    const Task task{.stop = stop, .progress = {}};
+    DistanceField field = by->geodesics->solve(std::array{*seed}, {}, task);
+    std::vector<ClosedWire> cuts = closed_wires(surface(), *by->embedding, field, kClosedWires, task);
+    in = InMetric{.prepared = by, .field = std::move(field), .cuts = std::move(cuts)};
+  }
+  return &*in;
+}
+
+/// On a large surface, shows what a bounded number of windows tells in the first metric.
+void ClosedCutSearch::show_bounded(const WireEnd& point, const std::stop_token& stop, const Show& show) {
+  const std::size_t first = metrics_->closing().front();
+  if (knows(point, first)) return;
+  const std::shared_ptr<const Prepared> by = prepared(first, stop);
+  const std::optional<SurfacePoint> seed = by->points->find(point_of(point), "through");
+  if (!seed || seed->vertex < 0 || by->embedding->mesh.face_count() <= kManyFaces) return;
+  const Task task{.stop = stop, .progress = {}};
+  const DistanceField near = by->geodesics->solve_bounded(seed->vertex, kWindowsBefore, task);
+  Cuts cuts(metrics_->closing().size());
+  cuts[0] = closed_wires(surface(), *by->embedding, near, kClosedWires, task);
+  show(choose(point, cuts, stop));
+}
+
+/// The wires of the first metric can be seen while those of the next one are found.
+LiveClosedWires ClosedCutSearch::through(const WireEnd& point, const std::stop_token& stop, const Show& show) {
+  show_bounded(point, stop, show);
+  const std::span<const std::size_t> closing = metrics_->closing();
+  Cuts cuts(closing.size());
+  LiveClosedWires found;
+  for (std::size_t i = 0; i < closing.size(); ++i) {
+    const InMetric* in = in_metric(point, closing[i], stop);
+    cuts[i] = in != nullptr ? in->cuts : std::vector<ClosedWire>();
+    found = choose(point, cuts, stop);
+    if (i + 1 < closing.size()) show(found);
+  }
+  found.final = true;
+  return found;
+}
+
+LiveClosedWires ClosedCutSearch::choose(const WireEnd& point, const Cuts& cuts, const std::stop_token& stop) {
+  LiveClosedWires found;
+  for (const ClosedWireChoice& choice : choose_closed_wires(cuts, kClosedWires)) {
+    found.cuts.push_back(in_pieces(point, cuts[choice.metric][choice.number], choice, stop));
+  }
+  return found;
+}
+
+LiveClosedWire ClosedCutSearch::in_pieces(const WireEnd& point, const ClosedWire& cut, const ClosedWireChoice& choice,
+                                          const std::stop_token& stop) {
+  LiveClosedWire closed{.pieces = {},
+                        .joints = {},
+                        .separates = cut.separates,
+                        .turn = cut.turn,
+                        .length = cut.wire.length,
+                        .which = kClosedWires * choice.metric + choice.number};
+  Wire wire = cut.wire;
+  wire.from = wire.to = nearest_vertex(surface(), point);
+  add_pieces(metrics_->closing()[choice.metric], wire, kPiecesOfClosedWire, stop, closed);
+  if (!closed.joints.empty()) closed.joints.pop_back();  // the last joint is the point itself
+  return closed;
+}
+
+/// Adds the pieces of a wire, and where each ends.
+void ClosedCutSearch::add_pieces(std::size_t metric, const Wire& wire, std::size_t count, const std::stop_token& stop,
+                                 LiveClosedWire& closed) {
+  const Task task{.stop = stop, .progress = {}};
+  const std::shared_ptr<const Prepared> by = prepared(metric, stop);
+  for (WirePiece& piece : cut_in_pieces(surface(), wire, count)) {
+    closed.pieces.push_back(snapped_candidate(surface(), *by, metric, std::move(piece.wire), task));
+    closed.joints.push_back(piece.end);
+  }
+}
+
+LiveClosedWires ClosedCutSearch::bent(const BendPlace& place, const std::stop_token& stop) {
+  LiveClosedWires found{.cuts = {}, .final = true};
+  const std::span<const std::size_t> closing = metrics_->closing();
+  const std::size_t metric = place.which / kClosedWires, number = place.which % kClosedWires;
+  const InMetric* in = metric < closing.size() ? in_metric(place.through, closing[metric], stop) : nullptr;
+  if (in == nullptr || number >= in->cuts.size()) return found;
+  const Prepared& by = *in->prepared;
+  const std::optional<SurfacePoint> second = by.points->find(point_of(place.second), "second");
+  if (!second) return found;
+  const Task task{.stop = stop, .progress = {}};
+  const ClosedWire& cut = in->cuts[number];
+  if (!around_->bent || around_->which != place.which) {
+    around_->bent = std::nullopt;  // its memory first
+    around_->bent.emplace(surface(), *by.embedding, *by.geodesics, in->field, cut, task);
+    around_->which = place.which;
+  }
+  std::optional<BentWire> bent = around_->bent->through(*second, task);
+  if (bent) found.cuts.push_back(in_pieces(place, cut, *std::move(bent), stop));
+  return found;
+}
+
+/// The halves run from the first point to the second and back, and each is in pieces.
+LiveClosedWire ClosedCutSearch::in_pieces(const BendPlace& place, const ClosedWire& cut, BentWire bent,
+                                          const std::stop_token& stop) {
+  LiveClosedWire closed{.pieces = {},
+                        .joints = {},
+                        .separates = cut.separates,
+                        .turn = cut.turn,
+                        .length = bent.there.length + bent.back.length,
+                        .which = place.which};
+  bent.there.from = bent.back.to = nearest_vertex(surface(), place.through);
+  bent.there.to = bent.back.from = nearest_vertex(surface(), place.second);
+  const std::size_t metric = metrics_->closing()[place.which / kClosedWires];
+  for (const Wire* half : {&bent.there, &bent.back}) {
+    add_pieces(metric, *half, kPiecesOfBentHalf, stop, closed);
+    if (!closed.joints.empty()) closed.joints.back() = point_of(half == &bent.there ? place.second : place.through);
+  }
+  if (!closed.joints.empty()) closed.joints.pop_back();  // the last joint is the first point itself
+  return closed;
+}
+
+}  // namespace seamwire::detail

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "live/prepared_metrics.hpp"
+#include "live/wire_end.hpp"
+#include "seamwire/live/livewire.hpp"
+#include "seamwire/wires/bent_wires.hpp"
+#include "seamwire/wires/closed_wires.hpp"
+
+namespace seamwire::detail {
+
+/// A closed wire through a point, by LiveClosedWire::which, and where it is bent to.
+struct BendPlace {
+  WireEnd through, second;
+  std::size_t which;
+
+  bool operator==(const BendPlace&) const = default;
+};
+
+/// Finds the closed wires through a point in the metrics of a live wire, and bends them. Keeps what it found for one
+/// point, so that the next question about it is answered at once. For one thread at a time; has none of its own.
+class ClosedCutSearch {
+ public:
+  using Show = std::function<void(LiveClosedWires)>;
+
+  /// Uses the metrics that are prepared, and prepares the others.
+  ClosedCutSearch(std::shared_ptr<SurfaceCache> surface_cache, std::shared_ptr<MetricSet> metrics);
+
+  /// The closed wires through a point; final, unless it is given to `show`, which gets what is known meanwhile. Throws
+  /// Cancelled, and why a metric cannot be prepared.
+  LiveClosedWires through(const WireEnd& point, const std::stop_token& stop, const Show& show);
+  /// One of these wires bent to a second point; none if it does not lead there. Throws as through().
+  LiveClosedWires bent(const BendPlace& place, const std::stop_token& stop);
+
+ private:
+  /// The closed wires through a point in one metric.
+  struct InMetric {
+    std::shared_ptr<const Prepared> prepared;
+    DistanceField field;
+    std::vector<ClosedWire> cuts;
+  };
+  /// The closed wires through a point, as far as they were asked for, and what bends one of them.
+  struct Around {
+    WireEnd through;
+    std::array<std::optional<InMetric>, kMostMetrics> in = {};
+    std::size_t which = 0;
+    std::optional<BentWires> bent = std::nullopt;  // of that one
+  };
+  using Cuts = std::vector<std::vector<ClosedWire>>;  // of each metric
+
+  std::shared_ptr<const Prepared> prepared(std::size_t metric, const std::stop_token& stop);
+  bool knows(const WireEnd& point, std::size_t metric) const {
+    return around_ && around_->through == point && around_->in[metric];
+  }
+  const InMetric* in_metric(const WireEnd& point, std::size_t metric, const std::stop_token& stop);
+  void show_bounded(const WireEnd& point, const std::stop_token& stop, const Show& show);
+  LiveClosedWires choose(const WireEnd& point, const Cuts& cuts, const std::stop_token& stop);
+  LiveClosedWire in_pieces(const WireEnd& point, const ClosedWire& cut, const ClosedWireChoice& choice,
+                           const std::stop_token& stop);
+  LiveClosedWire in_pieces(const BendPlace& place, const ClosedWire& cut, BentWire bent, const std::stop_token& stop);
+  void add_pieces(std::size_t metric, const Wire& wire, std::size_t count, const std::stop_token& stop,
+                  LiveClosedWire& closed);
+  const Surface& surface() const { return surface_cache_->surface(); }
+
+  std::shared_ptr<SurfaceCache> surface_cache_;
+  std::shared_ptr<MetricSet> metrics_;
+  std::optional<Around> around_;  // the point asked for last
+};
+
+}  // namespace seamwire::detail

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+
+#include "detail/thread_safety.hpp"
+#include "live/deadline.hpp"
+
+namespace seamwire::detail {
+
+/// Counts events, so that a thread can wait for the next one. A waiter reads the count first, then looks at what it
+/// waits for, and waits for a larger count only if it found nothing. So it misses no event.
+class EventCount {
+ public:
+  std::uint64_t count() const {
+    const MutexLock lock(mutex_);
+    return count_;
+  }
+  void add() {
+    const MutexLock lock(mutex_);
+    ++count_;
+    changed_.notify_all();
+  }
+  /// Waits until the count is larger than `seen`; false if the deadline passes before.
+  bool wait_beyond(std::uint64_t seen, const Deadline& deadline = std::nullopt) const {
+    MutexLock lock(mutex_);
+    while (count_ == seen) {
+      if (!wait_once(changed_, lock, deadline)) return count_ != seen;
+    }
+    return true;
+  }
+
+ private:
+  mutable Mutex mutex_;
+  mutable std::condition_variable_any changed_;
+  std::uint64_t count_ SEAMWIRE_GUARDED_BY(mutex_) = 0;
+};
+
+}  // namespace seamwire::detail

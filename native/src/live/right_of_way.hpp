@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <condition_variable>
+#include <stop_token>
+
+#include "detail/thread_safety.hpp"
+
+namespace seamwire::detail {
+
+/// Lets the threads of a live wire make way for the thread whose wire is offered first. Used if there are fewer
+/// processors than threads.
+class RightOfWay {
+ public:
+  /// Sets whether that thread has something to do.
+  void set_busy(bool is_busy) {
+    const MutexLock lock(mutex_);
+    is_busy_ = is_busy;
+    changed_.notify_all();
+  }
+  /// Waits until that thread has nothing to do, or `stop` is requested.
+  void wait(const std::stop_token& stop) {
+    MutexLock lock(mutex_);
+    changed_.wait(lock, stop, [this]() SEAMWIRE_REQUIRES(mutex_) { return !is_busy_; });
+  }
+
+ private:
+  Mutex mutex_;
+  std::condition_variable_any changed_;
+  bool is_busy_ SEAMWIRE_GUARDED_BY(mutex_) = false;
+};
+
+}  // namespace seamwire::detail

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "live/seed_solver.hpp"
+
+#include <algorithm>
+#include <array>
+#include <thread>
+#include <utility>
+
+#include "surface/real_edges.hpp"
+
+namespace seamwire::detail {
+namespace {
+
+bool is_missing_edge(const Surface& surface, const WireEnd& end) {
+  const auto* pick = std::get_if<Pick>(&end);
+  return pick != nullptr && pick->is_edge() && !has_edge(surface, {pick->a, pick->b});
+}
+
+/// With two processors, the first of the other threads goes on beside the one that has the right of way; with three,
+/// both do.
+bool has_to_make_way(std::size_t metric) {
+  const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
+  return metric + 1 < kMostMetrics && metric + 2 > processors;
+}
+
+}  // namespace
+
+SeedSolver::SeedSolver(std::size_t metric, std::shared_ptr<SurfaceCache> surface_cache, const LiveSettings& settings,
+                       std::shared_ptr<RightOfWay> right_of_way, TargetBox& targets)
+    : metric_(metric),
+      surface_cache_(std::move(surface_cache)),
+      settings_(settings),
+      makes_way_(has_to_make_way(metric)),
+      right_of_way_(std::move(right_of_way)),
+      targets_(targets) {}
+
+double SeedSolver::progress(const SeedRequest& request) const {
+  const double solved = std::clamp(fraction_.load(), 0.0, 1.0);
+  const double prepared = std::clamp(request.metrics->fractions[metric_].load(), 0.0, 1.0);
+  return was_prepared_ ? solved : kSolveBegins * prepared + (1.0 - kSolveBegins) * solved;
+}
+
+std::shared_ptr<const SeedSolution> SeedSolver::solve(const SeedBox::Job& job,
+                                                      const std::shared_ptr<const SeedSolution>& former,
+                                                      SeedBox& seeds) {
+  MetricSet& metrics = *job.request->metrics;
+  fraction_ = 0.0;
+  was_prepared_ = metrics.prepared[metric_]->peek() != nullptr;
+  if (metric_ >= metrics.count) return nullptr;
+  const std::stop_token preparing = job.request->preparing.get_token();
+  const std::shared_ptr<const Prepared> prepared = metrics.prepared[metric_]->get(preparing, [&] {
+    return prepare(*surface_cache_, settings_.along, metrics, metric_, preparing, [&] { make_way(preparing); });
+  });
+  metrics.forget_former(metric_);
+  if (former && former->field && former->prepared == prepared) return former;  // only the other metrics have changed
+  const std::optional<WireEnd>& seed = job.request->seed;
+  if (!seed || is_missing_edge(surface(), *seed)) return nullptr;
+  const Task task{.stop = job.stop, .progress = [this](double done) {
+                    fraction_ = done;
+                    return true;
+                  }};
+  task.check(0.0);
+  return settings_.along == Along::kSurface ? find_field(job, prepared, task) : find_chains(job, prepared, task, seeds);
+}
+
+void SeedSolver::make_way(const std::stop_token& stop) {
+  if (makes_way_) right_of_way_->wait(stop);
+}
+
+/// Finds wires to the targets that are asked for meanwhile between the steps of the search for the field. A thread of
+/// its own would take turns with the search all the same.
+std::shared_ptr<const SeedSolution> SeedSolver::find_field(const SeedBox::Job& job,
+                                                           const std::shared_ptr<const Prepared>& prepared, Task task) {
+  const std::optional<SurfacePoint> seed = prepared->points->find(point_of(*job.request->seed), "seed");
+  if (!seed) return std::make_shared<const SeedSolution>(SeedSolution{.prepared = prepared, .field = {}, .wires = {}});
+  make_way(job.stop);
+  task.check(0.0);
+  CorridorPaths paths(*prepared->geodesics, *seed);
+  std::int64_t answered = -1;
+  make_preview(job, *prepared, paths, answered);
+  task.progress = [&, report = std::move(task.progress)](double done) {
+    make_way(job.stop);
+    make_preview(job, *prepared, paths, answered);
+    return report(done);
+  };
+  DistanceField field = prepared->geodesics->solve(std::array{*seed}, {}, task);
+  return std::make_shared<const SeedSolution>(
+      SeedSolution{.prepared = prepared, .field = std::move(field), .wires = std::nullopt});
+}
+
+/// `answered`: the number of the target at the last preview.
+void SeedSolver::make_preview(const SeedBox::Job& job, const Prepared& prepared, CorridorPaths& paths,
+                              std::int64_t& answered) {
+  const std::int64_t asked = targets_.number();
+  if (asked == answered) return;
+  answered = asked;
+  const std::shared_ptr<const WireEnd> target = targets_.newest();
+  if (!target) return;
+  LiveCandidate candidate;
+  if (const std::optional<SurfacePoint> to = prepared.points->find(point_of(*target), "target")) {
+    Wire wire = map_wire(surface(), *prepared.embedding, paths.path(*to, {.stop = job.stop, .progress = {}}));
+    candidate = candidate_between(surface(), prepared, metric_, std::move(wire), *job.request->seed, *target);
+  }
+  targets_.show(asked, std::make_shared<const Preview>(Preview{job.number, std::move(candidate)}));
+}
+
+/// The chains that are found can be seen from the beginning.
+std::shared_ptr<const SeedSolution> SeedSolver::find_chains(const SeedBox::Job& job,
+                                                            const std::shared_ptr<const Prepared>& prepared,
+                                                            const Task& task, SeedBox& seeds) {
+  EdgeWires wires(prepared->graph, std::get<Pick>(*job.request->seed), settings_.turning, job.request->is_forward);
+  auto solution =
+      std::make_shared<const SeedSolution>(SeedSolution{.prepared = prepared, .field = std::nullopt, .wires = wires});
+  seeds.show(job, solution);
+  wires.run(task);
+  return solution;
+}
+
+}  // namespace seamwire::detail

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stop_token>
+
+#include "live/candidates.hpp"
+#include "live/mailbox.hpp"
+#include "live/prepared_metrics.hpp"
+#include "live/right_of_way.hpp"
+#include "live/wire_end.hpp"
+#include "seamwire/geodesics/corridor_paths.hpp"
+#include "seamwire/task.hpp"
+
+namespace seamwire::detail {
+
+/// How wires run, whatever the metric.
+struct LiveSettings {
+  Along along;
+  double turning;
+  std::optional<double> loop_turning;
+};
+
+/// What wires are asked for.
+struct SeedRequest {
+  std::shared_ptr<MetricSet> metrics;
+  std::stop_source preparing;   ///< stops the preparation of the metric; requests with the same metric share it
+  std::optional<WireEnd> seed;  ///< nullopt: only the metric is prepared
+  bool is_forward = false;      ///< as EdgeWires has it
+};
+
+/// A wire to one target that is computed before there is a field.
+struct Preview {
+  std::int64_t seed_number;  ///< of the seed's request
+  LiveCandidate candidate;
+};
+
+using SeedBox = Mailbox<SeedRequest, SeedSolution>;
+using TargetBox = Mailbox<WireEnd, Preview>;
+
+/// Prepares one of the metrics and finds the wires from a seed in it. Used by one thread, but for progress().
+class SeedSolver {
+ public:
+  /// `metric`: its number in kFollow. Previews lead to the newest of `targets`, which gets them. The solver waits for
+  /// `right_of_way` if there are too few processors.
+  SeedSolver(std::size_t metric, std::shared_ptr<SurfaceCache> surface_cache, const LiveSettings& settings,
+             std::shared_ptr<RightOfWay> right_of_way, TargetBox& targets);
+
+  /// The solution of a job, shown in `seeds` before if it grows. `former`: the solution of the same seed in the former
+  /// metric. Null if there is no seed, no such metric, or the seed is not part of the surface.
+  std::shared_ptr<const SeedSolution> solve(const SeedBox::Job& job, const std::shared_ptr<const SeedSolution>& former,
+                                            SeedBox& seeds);
+  /// Fraction of a request's work, preparation included, that is done, as far as it is the request being worked on.
+  double progress(const SeedRequest& request) const;
+
+ private:
+  const Surface& surface() const { return surface_cache_->surface(); }
+  std::shared_ptr<const SeedSolution> find_field(const SeedBox::Job& job,
+                                                 const std::shared_ptr<const Prepared>& prepared, Task task);
+  std::shared_ptr<const SeedSolution> find_chains(const SeedBox::Job& job,
+                                                  const std::shared_ptr<const Prepared>& prepared, const Task& task,
+                                                  SeedBox& seeds);
+  void make_way(const std::stop_token& stop);
+  void make_preview(const SeedBox::Job& job, const Prepared& prepared, CorridorPaths& paths, std::int64_t& answered);
+
+  const std::size_t metric_;
+  const std::shared_ptr<SurfaceCache> surface_cache_;
+  const LiveSettings settings_;
+  const bool makes_way_;
+  const std::shared_ptr<RightOfWay> right_of_way_;
+  TargetBox& targets_;
+  std::atomic<double> fraction_ = 0.0;      // of what is done once the metric is prepared
+  std::atomic<bool> was_prepared_ = false;  // when the last job began
+};
+
+}  // namespace seamwire::detail
