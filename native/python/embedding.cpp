@@ -109,6 +109,30 @@ ValueError
       .def("__repr__", &text_of_embedding);
 }
 
+/// An attribute that is a number in the Embedding's Resolution, None without it.
+template <class T>
+py::cpp_function resolution_in(T Resolution::*member) {
+  return [member](const EmbeddingObject& e) -> std::optional<T> {
+    if (!e.embedding.resolution) return std::nullopt;
+    return (*e.embedding.resolution).*member;
+  };
+}
+
+void bind_resolution(EmbeddingClass& embedding) {
+  embedding
+      .def_property_readonly("estimated_error", resolution_in(&Resolution::estimated_error),
+                             "float or None: the max_error that the worst triangle meets, None if max_error was 0. "
+                             "An estimate of the mean relative error of distances, not a bound.")
+      .def_property_readonly("unmet", resolution_in(&Resolution::unmet),
+                             "int or None: how many triangles miss the max_error. They are 14 bisections deep, or "
+                             "max_faces_added ended the subdivision.")
+      .def_property_readonly("largest_deviation", resolution_in(&Resolution::largest_deviation),
+                             "float or None: eta. Without holes, distances are within a factor of e^eta of those in "
+                             "the metric that varies linearly in each triangle.")
+      .def_property_readonly("mean_edge_length", number_in(&Embedding::mean_edge_length),
+                             "float: the mean length of the surface's edges in the metric.");
+}
+
 void bind_embedding_report(EmbeddingClass& embedding) {
   embedding
       .def_property_readonly("unreachable", array_in(&Embedding::unreachable),
@@ -141,8 +165,8 @@ Perimeter perimeter_from(const std::string& name) {
 
 std::shared_ptr<EmbeddingObject> embed_surface(const SurfaceObject& surface, const MetricObject& metric, double sigma,
                                                const std::string& perimeter, const py::object& max_faces_added,
-                                               const py::object& progress) {
-  EmbedOptions options{.sigma = sigma, .perimeter = perimeter_from(perimeter)};
+                                               double max_error, const py::object& progress) {
+  EmbedOptions options{.sigma = sigma, .perimeter = perimeter_from(perimeter), .max_error = max_error};
   options.max_faces_added = count_from(max_faces_added, "max_faces_added");
   if (!(sigma >= 0.0)) throw InvalidInput("sigma: expected a number that is not negative");
   check_size("metric", metric.metric.size(), *surface.surface);
@@ -154,7 +178,8 @@ std::shared_ptr<EmbeddingObject> embed_surface(const SurfaceObject& surface, con
 
 void bind_embed(py::module_& module) {
   module.def("embed", &embed_surface, py::arg("surface"), py::arg("metric"), py::arg("sigma") = 0.0,
-             py::arg("perimeter") = "metric", py::arg("max_faces_added") = 4'000'000, py::arg("progress") = py::none(),
+             py::arg("perimeter") = "metric", py::arg("max_faces_added") = 4'000'000, py::arg("max_error") = 0.0,
+             py::arg("progress") = py::none(),
              R"(Subdivide a surface until its triangles can have the edge lengths that a metric gives them.
 
 Parameters
@@ -168,6 +193,9 @@ perimeter : {'metric', 'euclidean'}
     How that perimeter is measured.
 max_faces_added : int
     At least 0. Subdivision stops after adding this many triangles.
+max_error : float
+    Between 0 and 1. The mean relative error of distances to aim for: triangles are also subdivided until they resolve
+    the metric that well. With 0 only invalid triangles are subdivided, as in the paper.
 progress : callable, optional
     Called repeatedly with the fraction done. Returning False cancels.
 
@@ -272,6 +300,7 @@ SurfacePoint EmbeddingObject::find(const SurfacePoint& point, const std::string&
 
 std::shared_ptr<EmbeddingObject> EmbeddingObject::with_lengths(const std::vector<double>& lengths) const {
   Embedding changed = embedding;
+  changed.resolution.reset();
   IntrinsicMesh& mesh = changed.mesh;
   const std::size_t count = edges().lengths.size();
   if (lengths.size() != count) {
@@ -298,6 +327,7 @@ The first vertices are those of the surface, with their numbers. New vertices ar
 the paper.)");
   bind_mesh(embedding);
   bind_embedding_report(embedding);
+  bind_resolution(embedding);
   bind_embed(module);
   bind_before_embedding(module);
 }

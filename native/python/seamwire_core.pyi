@@ -110,6 +110,10 @@ class Embedding:
     worst_clamp: float
     hit_cap: bool
     unreachable: NDArray[np.int32]
+    estimated_error: float | None  # of distances, on average; this and the next two: None if max_error was 0
+    unmet: int | None  # triangles that miss the max_error
+    largest_deviation: float | None  # eta: distances are within a factor of e^eta
+    mean_edge_length: float  # of the surface, in the metric
     def with_lengths(self, lengths: ArrayLike) -> Embedding:
         """Return the same triangles with other lengths of `edges`, (e,)."""
 
@@ -345,8 +349,11 @@ def embed(
     sigma: float = 0.0,
     perimeter: Literal["metric", "euclidean"] = "metric",
     max_faces_added: int = 4_000_000,
+    max_error: float = 0.0,
     progress: Progress | None = None,
-) -> Embedding: ...
+) -> Embedding:
+    """Subdivide until triangles are valid and, if max_error is above 0, resolve the metric about that well."""
+
 def distance_field(
     embedding: Embedding,
     seed: SurfacePoint | Sequence[SurfacePoint],

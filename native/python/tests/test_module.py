@@ -168,6 +168,8 @@ def test_wrong_parameters_are_value_errors(surface: sw.Surface, curvature: sw.Cu
         lambda: sw.embed(surface, metric, sigma=nan),
         lambda: sw.embed(surface, metric, perimeter="other"),
         lambda: sw.embed(surface, metric, max_faces_added=-1),
+        lambda: sw.embed(surface, metric, max_error=-0.01),
+        lambda: sw.embed(surface, metric, max_error=nan),
         lambda: sw.embed(surface, metric, progress=1),
         lambda: sw.edge_wires(other, metric, 0),
         lambda: sw.edge_wires(surface, metric, 0, turning=-1),

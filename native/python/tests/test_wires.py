@@ -281,6 +281,21 @@ def test_the_cap_on_new_faces_leaves_holes(surface: sw.Surface, metric: sw.Metri
     assert embedding.faces_added <= 12
 
 
+def test_an_embedding_says_how_well_it_resolves_the_metric(surface: sw.Surface, metric: sw.Metric) -> None:
+    plain = sw.embed(surface, metric)
+    assert plain.estimated_error is plain.unmet is plain.largest_deviation is None
+    added = plain.faces_added
+    for max_error in (0.02, 0.005):
+        embedding = sw.embed(surface, metric, max_error=max_error)
+        assert embedding.estimated_error <= max_error
+        assert embedding.unmet == 0
+        assert embedding.largest_deviation > 0
+        assert embedding.mean_edge_length == pytest.approx(plain.mean_edge_length, rel=0.1)
+        assert embedding.faces_added > added
+        added = embedding.faces_added
+    assert embedding.with_lengths(embedding.lengths).estimated_error is None
+
+
 def test_edge_wires_are_chains_of_real_edges(surface: sw.Surface, metric: sw.Metric) -> None:
     edges = set(map(tuple, surface.edges.tolist()))
     chains = sw.edge_wires(surface, metric, (0, 1))

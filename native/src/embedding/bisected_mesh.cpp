@@ -48,25 +48,26 @@ bool keeps_numbers(const Surface& surface) {
          std::adjacent_find(vertex_of_fan.begin(), vertex_of_fan.end()) == vertex_of_fan.end();
 }
 
-BisectedMesh::BisectedMesh(const Surface& on, const Metric& by, const Task& task, double progress)
-    : surface(on),
-      metric(by),
-      vertex_of_fan_(on.vertex_of_fan()),
-      fans_(vertex_of_fan_.size()),
-      points_(copied(on.points(), task, progress)) {
-  std::optional<CleanMesh> clean = remove_degenerate_faces(surface, metric);
-  is_cleaned_ = clean.has_value();
-  if (clean) {
-    flatten(clean->mesh, *this);
-    origins = std::move(clean->origins);
-    merged_ = std::move(clean->merged);
-    degenerate_faces_removed = clean->removed;
-  } else {
-    corners = copied(surface.face_fans(), task, progress);
-    twins = copied(surface.twins(), task, progress);
-    origins.resize(corners.size());
-    std::iota(origins.begin(), origins.end(), 0);
-  }
+EmbeddingInput::EmbeddingInput(const Surface& on, const Metric& by, const EmbedOptions& with)
+    : surface(on), metric(by), options(with) {
+  if (!options.faces) return;
+  std::vector<std::int32_t> selected = *options.faces;
+  for (const std::int32_t face : selected) check_index(face, surface.face_count(), "faces: face", "faces");
+  std::ranges::sort(selected);
+  selected.erase(std::unique(selected.begin(), selected.end()), selected.end());
+  faces = half_edge_faces(surface, selected);
+  callers_faces = std::move(selected);
+}
+
+BisectedMesh::BisectedMesh(const EmbeddingInput& input, const Task& task, double progress, EdgeRule rule)
+    : surface(input.surface),
+      metric(input.metric),
+      rule_(rule),
+      callers_faces_(input.callers_faces),
+      vertex_of_fan_(surface.vertex_of_fan()),
+      points_(copied(surface.points(), task, progress)) {
+  take_faces(input, task, progress);
+  fans_ = vertex_of_fan_.size();
   given_faces_ = corners.size();
   orient_normals();
   branches.assign(given_faces_, 1);
@@ -84,6 +85,61 @@ BisectedMesh::BisectedMesh(const Surface& on, const Metric& by, const Task& task
     }
   }
   measure_all(task, progress);
+  if (input.options.mean_edge_length > 0) mean_edge_length_ = input.options.mean_edge_length;
+}
+
+// The triangles, before any bisection.
+void BisectedMesh::take_faces(const EmbeddingInput& input, const Task& task, double progress) {
+  const std::vector<std::int32_t> zero_area = half_edge_faces(surface, surface.report().zero_area_faces);
+  const auto has_area = [&](std::int32_t f) { return !std::ranges::binary_search(zero_area, f); };
+  std::optional<CleanMesh> clean;
+  if (!input.faces || !std::ranges::all_of(*input.faces, has_area)) clean = remove_degenerate_faces(surface, metric);
+  is_cleaned_ = clean.has_value();
+  if (clean) {
+    flatten(clean->mesh, *this);
+    origins = std::move(clean->origins);
+    merged_ = std::move(clean->merged);
+    degenerate_faces_removed = clean->removed;
+    if (!input.faces) return;
+    std::vector<std::int32_t> selected;
+    for (std::int32_t f = 0; index(f) < origins.size(); ++f) {
+      if (std::ranges::binary_search(*input.faces, origins[f])) selected.push_back(f);
+    }
+    select(std::exchange(corners, {}), std::exchange(twins, {}), selected);
+    std::erase_if(origins, [&](std::int32_t origin) { return !std::ranges::binary_search(*input.faces, origin); });
+  } else if (input.faces) {
+    select(surface.face_fans(), surface.twins(), *input.faces);
+    origins = *input.faces;
+  } else {
+    corners = copied(surface.face_fans(), task, progress);
+    twins = copied(surface.twins(), task, progress);
+    origins.resize(corners.size());
+    std::iota(origins.begin(), origins.end(), 0);
+  }
+}
+
+// Takes some of all triangles, by ascending numbers, and numbers them and their corner fans from 0 on.
+void BisectedMesh::select(const std::vector<Triangle>& all_corners, const std::vector<std::int32_t>& all_twins,
+                          const std::vector<std::int32_t>& faces) {
+  for (const std::int32_t f : faces) {
+    selected_fans_.insert(selected_fans_.end(), all_corners[f].begin(), all_corners[f].end());
+  }
+  std::ranges::sort(selected_fans_);
+  selected_fans_.erase(std::unique(selected_fans_.begin(), selected_fans_.end()), selected_fans_.end());
+  const auto place = [](const std::vector<std::int32_t>& in, std::int32_t number) {
+    const auto at = std::ranges::lower_bound(in, number);
+    return at != in.end() && *at == number ? static_cast<std::int32_t>(at - in.begin()) : -1;
+  };
+  for (const std::int32_t f : faces) {
+    Triangle& triangle = corners.emplace_back(all_corners[f]);
+    for (std::int32_t& fan : triangle) fan = place(selected_fans_, fan);
+    for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
+      const std::int32_t twin = all_twins[h], beyond = twin < 0 ? -1 : place(faces, twin / 3);
+      twins.push_back(beyond < 0 ? -1 : 3 * beyond + twin % 3);
+    }
+  }
+  for (const std::int32_t fan : selected_fans_) vertex_of_selected_.push_back(surface.vertex_of_fan()[fan]);
+  vertex_of_fan_ = vertex_of_selected_;
 }
 
 BisectedMesh::BisectedMesh(const Surface& on, const Metric& by, Embedding&& old)
@@ -101,7 +157,8 @@ BisectedMesh::BisectedMesh(const Surface& on, const Metric& by, Embedding&& old)
       nodes_(std::make_unique_for_overwrite<MetricNode[]>(fans_)),
       new_nodes_(old.points.size() - fans_),
       tensors_(new_nodes_.size()),
-      points_(std::move(old.points)) {}
+      points_(std::move(old.points)),
+      mean_edge_length_(old.mean_edge_length) {}
 
 BisectedMesh::MetricNode BisectedMesh::node_of(const Vector& point, const Vector& n, const Eigen::Matrix3d& m) {
   const double w = normal_weight(m);
@@ -113,7 +170,14 @@ BisectedMesh::MetricNode BisectedMesh::node_of(const Vector& point, const Vector
 // A vertex has one normal, but its fans need not agree on which side of the surface is outside: where a one-sided
 // surface is cut they cannot. Normals in the middle of edges are means, so they must be of one side.
 void BisectedMesh::orient_normals() {
-  if (std::adjacent_find(vertex_of_fan_.begin(), vertex_of_fan_.end()) == vertex_of_fan_.end()) return;  // ascending
+  const std::vector<std::int32_t>& all = surface.vertex_of_fan();
+  const auto is_shared = [&](std::size_t fan) {
+    const std::size_t i = callers_faces_ ? index(selected_fans_[fan]) : fan;
+    return (i > 0 && all[i - 1] == all[i]) || (i + 1 < all.size() && all[i + 1] == all[i]);  // ascending
+  };
+  bool any = false;
+  for (std::size_t fan = 0; fan < fans_ && !any; ++fan) any = is_shared(fan);
+  if (!any) return;
   is_turned_.assign(fans_, false);
   std::vector<Vector> normals(fans_, Vector::Zero());
   for (const Triangle& fans : corners) {
@@ -122,10 +186,7 @@ void BisectedMesh::orient_normals() {
     for (const std::int32_t fan : fans) normals[fan] += normal;
   }
   for (std::size_t fan = 0; fan < fans_; ++fan) {
-    const std::int32_t v = vertex_of_fan_[fan];
-    const bool is_shared =
-        (fan > 0 && vertex_of_fan_[fan - 1] == v) || (fan + 1 < fans_ && vertex_of_fan_[fan + 1] == v);
-    is_turned_[fan] = is_shared && normals[fan].dot(metric.normals[v]) < 0;
+    is_turned_[fan] = is_shared(fan) && normals[fan].dot(metric.normals[vertex_of_fan_[fan]]) < 0;
   }
 }
 
@@ -141,18 +202,36 @@ TensorAt BisectedMesh::tensor_at(std::int32_t v) const {
   return {is_turned ? Vector(-metric.normals[i]) : metric.normals[i], metric.tensors[i]};
 }
 
+double BisectedMesh::measure_with_middle(std::int32_t h) const {
+  const MetricNode &a = node(tail(h)), &b = node(tip(h));
+  const Vector e = (b.point - a.point) * surface.scale();
+  const double at_a = a.norm(e), at_b = b.norm(e);
+  const double middle = ambient_norm(midpoint_tensor(tensor_at(tail(h)), tensor_at(tip(h))), e);
+  const double halves = (integrated_length(at_a, middle) + integrated_length(middle, at_b)) / 2;
+  return (4 * halves - integrated_length(at_a, at_b)) / 3;
+}
+
 void BisectedMesh::measure_all(const Task& task, double progress) {
   const auto count = static_cast<std::int32_t>(twins.size());
   resize(lengths, twins.size(), task, progress);
   const Poll poll(task, progress, progress, twins.size());
+  double sum = 0;
+  std::size_t edges = 0;
   for (std::int32_t h = 0; h < count; ++h) {
     poll.at(index(h));
     if (const std::size_t ahead = index(h / 3) + kAhead; h % 3 == 0 && ahead < corners.size()) {
       for (const std::int32_t v : corners[ahead]) prefetch(&node(v));
     }
     const std::int32_t twin = twins[h];
-    lengths[h] = twin >= 0 && twin < h ? lengths[twin] : measure(h);
+    if (twin >= 0 && twin < h) {
+      lengths[h] = lengths[twin];
+    } else {
+      lengths[h] = measure(h);
+      sum += lengths[h];
+      ++edges;
+    }
   }
+  mean_edge_length_ = edges == 0 ? 0.0 : sum / static_cast<double>(edges);
 }
 
 bool BisectedMesh::is_degenerate(std::int32_t f) const {
@@ -333,7 +412,8 @@ void BisectedMesh::remove_unused_vertices() {
 Embedding BisectedMesh::to_embedding(bool is_scheme_local) && {
   Embedding out;
   out.faces_added = faces_added();
-  out.faces_embedded = surface.face_fans().size();
+  out.faces_embedded = callers_faces_ ? given_faces_ : surface.face_fans().size();
+  out.mean_edge_length = mean_edge_length_;
   IntrinsicMesh& mesh = out.mesh;
   mesh.vertex_count = static_cast<std::int32_t>(points_.size());
   std::vector<std::int32_t> holes;
@@ -341,7 +421,7 @@ Embedding BisectedMesh::to_embedding(bool is_scheme_local) && {
     if (!is_valid(f)) holes.push_back(f);
   }
   out.invalid_left = holes.size();
-  const bool is_plain = keeps_numbers(surface);
+  const bool is_plain = !callers_faces_ && keeps_numbers(surface);
   if (!is_plain) {
     for (Triangle& triangle : corners) {
       for (std::int32_t& v : triangle) v = external_vertex(v);
@@ -409,12 +489,16 @@ std::vector<std::int32_t> BisectedMesh::unreachable(const IntrinsicMesh& mesh) c
   }
   for (const LooseEdge& edge : mesh.loose_edges) reached[edge.a] = reached[edge.b] = true;
   std::vector<std::int32_t> out;
-  for (const Triangle& triangle : surface.triangles()) {
+  const auto look_at = [&](const Triangle& triangle) {
     for (const std::int32_t v : triangle) {
-      if (reached[v]) continue;
-      out.push_back(v);
+      if (!reached[v]) out.push_back(v);
       reached[v] = true;
     }
+  };
+  if (callers_faces_) {
+    for (const std::int32_t f : *callers_faces_) look_at(surface.triangles()[f]);
+  } else {
+    for (const Triangle& triangle : surface.triangles()) look_at(triangle);
   }
   std::sort(out.begin(), out.end());
   return out;

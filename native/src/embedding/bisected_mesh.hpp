@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "detail/half_edge.hpp"
@@ -21,6 +23,32 @@ namespace seamwire::detail {
 /// Whether vertices and faces have the same numbers in the half-edge mesh as in the surface.
 bool keeps_numbers(const Surface& surface);
 
+/// A quadratic form on space: xx, yy, zz, 2 xy, 2 xz, 2 yz.
+using SpaceForm = std::array<double, 6>;
+
+/// A surface, or some of its faces, to embed in a metric. The surface, the metric and the options must outlive it.
+struct EmbeddingInput {
+  /// Throws InvalidInput if a face of the options is out of range.
+  EmbeddingInput(const Surface& on, const Metric& by, const EmbedOptions& with);
+
+  std::size_t face_count() const { return faces ? faces->size() : surface.face_count(); }
+
+  const Surface& surface;
+  const Metric& metric;
+  const EmbedOptions& options;
+  /// The caller's faces that are embedded, and those of the surface's half-edge mesh, both ascending; nullopt: all.
+  std::optional<std::vector<std::int32_t>> callers_faces, faces;
+};
+
+/// How an edge is measured.
+enum class EdgeRule {
+  /// By the norms at both of its ends, as in the paper.
+  kEnds,
+  /// Also by the norm in its middle, where the normal is nearly across the edge: the lengths measured as a whole and in
+  /// two halves, extrapolated.
+  kMiddle,
+};
+
 /// A surface's triangles, which are bisected in place, with the lengths of their edges in a metric. What is bisected,
 /// and in which order, is decided elsewhere (bisection.hpp, length_repair.hpp).
 ///
@@ -29,9 +57,9 @@ bool keeps_numbers(const Surface& surface);
 /// of a bisected triangle one takes its place, the other becomes the last triangle.
 class BisectedMesh {
  public:
-  /// The surface's triangles, without those degenerate ones that can be removed. Surface and metric must outlive it.
-  /// The task is told `progress`; throws Cancelled.
-  BisectedMesh(const Surface& on, const Metric& by, const Task& task, double progress);
+  /// The triangles to embed, without those degenerate ones that can be removed. The surface and the metric must outlive
+  /// the mesh. The task is told `progress`; throws Cancelled.
+  BisectedMesh(const EmbeddingInput& input, const Task& task, double progress, EdgeRule rule = EdgeRule::kEnds);
   /// The triangles of an embedding of the surface, which must be `is_local`. Points of the metric have to be set with
   /// set_node() before they are used.
   BisectedMesh(const Surface& on, const Metric& by, Embedding&& old);
@@ -46,12 +74,18 @@ class BisectedMesh {
   std::int32_t tail(std::int32_t h) const { return corners[h / 3][h % 3]; }
   std::int32_t tip(std::int32_t h) const { return corners[h / 3][(h + 1) % 3]; }
 
-  /// The length of an edge in the metric, as the tensors at both of its ends have it.
+  /// The length of an edge in the metric.
   double measure(std::int32_t h) const;
   /// The length of an edge as set last.
   double length(std::int32_t h) const { return lengths[h]; }
   void set_length(std::int32_t h, double length);
   double perimeter(std::int32_t f, Perimeter kind) const;
+  /// The mean length of an edge in the metric before the first bisection, or the one that the options give.
+  double mean_edge_length() const { return mean_edge_length_; }
+  /// The form of the ambient norm (metric.hpp) at a vertex.
+  const SpaceForm& form(std::int32_t v) const { return node(v).form; }
+  /// A half-edge in the unit cube.
+  Vector vector(std::int32_t h) const { return (node(tip(h)).point - node(tail(h)).point) * surface.scale(); }
   /// Whether the lengths fulfill the triangle inequality, with some room for rounding.
   bool is_valid(std::int32_t f) const;
   /// Whether a triangle is degenerate in space.
@@ -94,8 +128,8 @@ class BisectedMesh {
  private:
   /// A point with the quadratic form of the ambient norm (metric.hpp) there, M + sqrt(l1 l2) n n^T.
   struct MetricNode {
-    Vector point;                // in the caller's coordinates
-    std::array<double, 6> form;  // xx, yy, zz, 2 xy, 2 xz, 2 yz
+    Vector point;  // in the caller's coordinates
+    SpaceForm form;
 
     double norm(const Vector& e) const {
       const double x = e.x(), y = e.y(), z = e.z();
@@ -108,8 +142,11 @@ class BisectedMesh {
 
   const MetricNode& node(std::int32_t v) const { return index(v) < fans_ ? nodes_[v] : new_nodes_[index(v) - fans_]; }
   TensorAt tensor_at(std::int32_t v) const;
-  Vector vector(std::int32_t h) const { return (node(tip(h)).point - node(tail(h)).point) * surface.scale(); }
+  void take_faces(const EmbeddingInput& input, const Task& task, double progress);
+  void select(const std::vector<Triangle>& all_corners, const std::vector<std::int32_t>& all_twins,
+              const std::vector<std::int32_t>& faces);
   std::int32_t external_vertex(std::int32_t v) const;
+  double measure_with_middle(std::int32_t h) const;
   void orient_normals();
   void measure_all(const Task& task, double progress);
   void halve(std::int32_t h, std::int32_t middle);
@@ -118,8 +155,12 @@ class BisectedMesh {
   void remove_triangles(const std::vector<std::int32_t>& sorted);
   std::vector<std::int32_t> unreachable(const IntrinsicMesh& mesh) const;
 
-  const std::vector<std::int32_t>& vertex_of_fan_;
-  std::size_t fans_;
+  EdgeRule rule_ = EdgeRule::kEnds;
+  std::optional<std::vector<std::int32_t>> callers_faces_;  // that are embedded, ascending; nullopt: all
+  std::vector<std::int32_t> selected_fans_;                 // then: the surface's corner fans that they have, ascending
+  std::vector<std::int32_t> vertex_of_selected_;            // and the vertices of these
+  std::span<const std::int32_t> vertex_of_fan_;
+  std::size_t fans_ = 0;
   std::size_t given_faces_ = 0;
   std::unique_ptr<MetricNode[]> nodes_;  // per fan
   std::vector<MetricNode> new_nodes_;
@@ -128,12 +169,14 @@ class BisectedMesh {
   std::vector<bool> is_turned_;    // per fan: its side is the other one than its vertex's normal's; empty: none
   std::vector<LooseEdge> merged_;  // see CleanMesh
   bool is_cleaned_ = false;
+  double mean_edge_length_ = 0.0;
   std::vector<bool> is_degenerate_origin_;  // per face of the surface's half-edge mesh; empty: none is
 };
 
 // Used in the innermost loops, and so inline.
 
 inline double BisectedMesh::measure(std::int32_t h) const {
+  if (rule_ == EdgeRule::kMiddle) return measure_with_middle(h);
   const MetricNode &a = node(tail(h)), &b = node(tip(h));
   const Vector e = (b.point - a.point) * surface.scale();
   return integrated_length(a.norm(e), b.norm(e));

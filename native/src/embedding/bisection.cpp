@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "detail/poll.hpp"
+#include "embedding/deviation.hpp"
 #include "embedding/length_repair.hpp"
 
 namespace seamwire::detail {
@@ -18,6 +19,9 @@ constexpr std::uint8_t kNewestDepth = BisectedMesh::kMostDepth;
 // Bisections of an original face where the rest is left to length repair: few enough that no edge gets too short for
 // it.
 constexpr std::uint8_t kShallowDepth = 8;
+// Triangles to bisect before another one, of kResolving. Where the halves of an edge measure longer than the edge, as
+// between normals that are nearly opposite, a chain of ever longer edges need not end.
+constexpr int kMostBefore = 12;
 
 }  // namespace
 
@@ -71,8 +75,18 @@ std::int32_t Bisection::longest_edge(std::int32_t f) const {
   return best;
 }
 
+void Bisection::queue(std::int32_t f, double priority) {
+  const std::uint64_t place = std::uint64_t(mesh_.origins[f]) << 32 | mesh_.branches[f];
+  queue_.push({static_cast<float>(priority), f, place});
+}
+
 void Bisection::consider(std::int32_t f) {
-  if (mesh_.is_valid(f)) return;
+  if (scheme_ == Scheme::kResolving && mesh_.depths[f] >= BisectedMesh::kMostDepth) return;
+  if (mesh_.is_valid(f)) {
+    if (scheme_ != Scheme::kResolving) return;
+    if (const double score = error_score(mesh_, f); score > kScorePerError * options_.max_error) queue(f, -1 / score);
+    return;
+  }
   if (mesh_.is_degenerate(f)) {
     has_decayed_ = has_decayed_ || !mesh_.is_of_degenerate_face(f);
     return;
@@ -83,8 +97,7 @@ void Bisection::consider(std::int32_t f) {
   if (scheme_ == Scheme::kPropagation && first_newest_ == 0 && mesh_.depths[f] >= kNewestDepth) {
     deferred_.push_back(f);
   } else {
-    const std::uint64_t place = std::uint64_t(mesh_.origins[f]) << 32 | mesh_.branches[f];
-    queue_.push({static_cast<float>(perimeter), f, place});
+    queue(f, perimeter);
   }
 }
 
@@ -122,10 +135,16 @@ std::int32_t Bisection::refinement_edge(std::int32_t f) const {
 // Bisects a face, and before it those that the scheme wants bisected first; false where that takes too many triangles.
 bool Bisection::refine(std::int32_t f, std::size_t most) {
   chain_.assign(1, f);
-  while (!chain_.empty()) {
+  for (int before = 0; !chain_.empty();) {
     const std::int32_t h = refinement_edge(chain_.back()), beyond = mesh_.twins[h];
-    if (scheme_ != Scheme::kLongestEdge && beyond >= 0 && refinement_edge(beyond / 3) != beyond) {
+    const bool is_forced = scheme_ == Scheme::kResolving && before == kMostBefore;
+    if (is_forced && chain_.size() > 1) {
+      chain_.assign(1, f);
+      continue;
+    }
+    if (scheme_ != Scheme::kLongestEdge && !is_forced && beyond >= 0 && refinement_edge(beyond / 3) != beyond) {
       chain_.push_back(beyond / 3);
+      ++before;
       continue;
     }
     if (mesh_.faces_added() + (beyond < 0 ? 1 : 2) > most) return false;
@@ -181,12 +200,20 @@ bool Bisection::run(const Task& task, std::size_t most, double& progress) {
   const Poll poll(task, progress, progress, mesh_.given_face_count());
   for (std::int32_t f = 0; index(f) < mesh_.given_face_count(); ++f) {
     poll.at(index(f));
-    if (mesh_.is_valid(f)) continue;
-    ++invalid_before_;
-    consider(f);
+    const bool is_valid = mesh_.is_valid(f);
+    if (!is_valid) ++invalid_before_;
+    if (!is_valid || scheme_ == Scheme::kResolving) consider(f);
   }
   task.check(progress);
   return work_off(task, most, progress);
+}
+
+// A face changes when a neighbor is bisected, and is queued again if it is still to be bisected.
+bool Bisection::is_stale(const Candidate& candidate) const {
+  const std::int32_t f = candidate.face;
+  if (scheme_ == Scheme::kResolving) return static_cast<std::uint32_t>(candidate.place) != mesh_.branches[f];
+  const auto perimeter = static_cast<float>(mesh_.perimeter(f, options_.perimeter));
+  return perimeter != candidate.priority || mesh_.is_valid(f);
 }
 
 bool Bisection::work_off(const Task& task, std::size_t most, double& progress) {
@@ -198,9 +225,8 @@ bool Bisection::work_off(const Task& task, std::size_t most, double& progress) {
     }
     const Candidate next = queue_.top();
     queue_.pop();
-    // A face changes when a neighbor is bisected, and is queued again if it is still invalid.
-    const auto perimeter = static_cast<float>(mesh_.perimeter(next.face, options_.perimeter));
-    if (perimeter != next.perimeter || mesh_.is_valid(next.face)) continue;
+    if (is_stale(next)) continue;
+    if (next.priority < 0) were_all_valid_ = true;
     if (!refine(next.face, most)) {
       queue_.push(next);
       hit_cap_ = most == options_.max_faces_added;

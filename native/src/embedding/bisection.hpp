@@ -21,6 +21,9 @@ enum class Scheme {
   kPropagation,
   /// Propagation that bisects no triangle below a small depth for its own sake.
   kShallowPropagation,
+  /// Propagation that also bisects valid triangles that do not resolve the metric (EmbedOptions::max_error). It bisects
+  /// no triangle that is deep below its original face for its own sake, and few others for one.
+  kResolving,
   /// Nothing is bisected: all is left to length repair.
   kNone,
 };
@@ -58,7 +61,8 @@ class ActiveFaces {
   std::size_t activations_ = 0;
 };
 
-/// Bisects invalid triangles of a mesh, those of the largest perimeter first, until none is left that a scheme bisects.
+/// Bisects invalid triangles of a mesh, those of the largest perimeter first, until none is left that a scheme bisects;
+/// after them, if the scheme is kResolving, valid triangles, those of the largest error_score() first.
 class Bisection {
  public:
   /// `active`: nullptr for the whole surface. Options and active faces must outlive it.
@@ -78,29 +82,36 @@ class Bisection {
 
   BisectedMesh& mesh() { return mesh_; }
   const BisectedMesh& mesh() const { return mesh_; }
+  const EmbedOptions& options() const { return options_; }
   /// Whether an invalid part of a face with an area has become so flat that it cannot be bisected on.
   bool has_decayed() const { return has_decayed_; }
   bool hit_cap() const { return hit_cap_; }
+  /// Whether at some time no invalid triangle was left that the scheme kResolving bisects.
+  bool were_all_valid() const { return were_all_valid_; }
 
   /// The embedding, with the counters of this work.
   Embedding to_embedding() &&;
 
  private:
   struct Candidate {
-    float perimeter;  // rounded, so that the scale of the input does not choose between equal ones
+    // Rounded, so that the scale of the input does not choose between equal ones. Of an invalid triangle the perimeter,
+    // of a valid one -1 / error_score().
+    float priority;
     std::int32_t face;
     // Of equal ones, the first: in an order that knows the original face and the bisections of it alone, so that what
     // happens elsewhere on the surface does not decide.
     std::uint64_t place;
 
     friend bool operator<(const Candidate& a, const Candidate& b) {
-      return a.perimeter != b.perimeter ? a.perimeter < b.perimeter : a.place > b.place;
+      return a.priority != b.priority ? a.priority < b.priority : a.place > b.place;
     }
   };
 
   std::int32_t longest_edge(std::int32_t f) const;
   std::int32_t refinement_edge(std::int32_t f) const;
   void begin_newest_vertex_bisection();
+  void queue(std::int32_t f, double priority);
+  bool is_stale(const Candidate& candidate) const;
   bool refine(std::int32_t f, std::size_t most);
   void bisect(std::int32_t h);
   void count_unrepaired(std::int32_t h, std::int32_t beyond, bool are_new);
@@ -109,12 +120,12 @@ class Bisection {
   const EmbedOptions& options_;
   Scheme scheme_;
   ActiveFaces* active_;
-  std::priority_queue<Candidate> queue_;  // invalid triangles that may be bisected; entries grow stale
+  std::priority_queue<Candidate> queue_;  // triangles that may be bisected; entries grow stale
   std::vector<std::int32_t> chain_;       // triangles to bisect, the last one first
   std::vector<std::int32_t> deferred_;    // invalid triangles left to newest-vertex bisection
   std::size_t first_newest_ = 0;          // vertices from here on are of newest-vertex bisection; 0: it has not begun
   std::size_t invalid_before_ = 0, newest_bisections_ = 0;
-  bool has_decayed_ = false, hit_cap_ = false;
+  bool has_decayed_ = false, hit_cap_ = false, were_all_valid_ = false;
   bool watches_unrepaired_ = false;
   std::size_t unrepaired_ = 0, least_unrepaired_ = 0, least_unrepaired_at_ = 0;
 };

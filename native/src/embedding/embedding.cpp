@@ -2,6 +2,7 @@
 #include "seamwire/embedding/embedding.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "detail/index.hpp"
 #include "detail/text.hpp"
 #include "embedding/bisection.hpp"
+#include "embedding/deviation.hpp"
 #include "embedding/length_repair.hpp"
 #include "embedding/re_embedding.hpp"
 #include "metric/metric_check.hpp"
@@ -25,6 +27,8 @@ namespace {
 constexpr std::size_t kBudget = 4, kLeastBudget = 20'000;
 // And propagation and newest-vertex bisection this many. Nearly all that end at all end far below.
 constexpr std::size_t kLaterBudget = 16, kLeastLaterBudget = 200'000;
+// A smaller max_error than this may take more triangles, in proportion.
+constexpr double kErrorOfBudget = 0.005;
 
 void check_size(const Surface& surface, const Metric& metric) {
   const std::size_t n = surface.vertex_count();
@@ -39,10 +43,37 @@ void check_metric(const Surface& surface, const Metric& metric) {
   check_finite(metric);
 }
 
-std::size_t budget(const Surface& surface) { return std::max(kLeastBudget, kBudget * surface.face_count()); }
+void check(const EmbeddingInput& input) {
+  const EmbedOptions& options = input.options;
+  check_size(input.surface, input.metric);
+  if (input.faces) {
+    for (const std::int32_t f : *input.callers_faces) {
+      for (const std::int32_t v : input.surface.triangles()[f]) check_finite(input.metric, index(v));
+    }
+  } else {
+    check_finite(input.metric);
+  }
+  if (!(options.sigma >= 0)) throw InvalidInput("sigma is " + text(options.sigma) + ", not 0 or more");
+  if (!(options.max_error >= 0 && options.max_error <= 1)) {
+    throw InvalidInput("max_error is " + text(options.max_error) + ", not between 0 and 1");
+  }
+  if (!(options.mean_edge_length >= 0 && std::isfinite(options.mean_edge_length))) {
+    throw InvalidInput("mean_edge_length is " + text(options.mean_edge_length) + ", not a finite number of 0 or more");
+  }
+}
+
+std::size_t budget(std::size_t faces) { return std::max(kLeastBudget, kBudget * faces); }
 // Leaves room for length repair below the cap.
-std::size_t later_budget(const Surface& surface, std::size_t cap) {
-  return std::min(std::max(kLeastLaterBudget, kLaterBudget * surface.face_count()), cap / 4);
+std::size_t later_budget(const EmbeddingInput& input) {
+  return std::min(std::max(kLeastLaterBudget, kLaterBudget * input.face_count()), input.options.max_faces_added / 4);
+}
+std::size_t below_cap(const EmbedOptions& options) { return options.max_faces_added - options.max_faces_added / 4; }
+std::size_t resolving_budget(const EmbeddingInput& input) {
+  const double finer = std::max(1.0, kErrorOfBudget / input.options.max_error);
+  const auto budget =
+      std::max(static_cast<double>(kLeastLaterBudget), finer * static_cast<double>(kLaterBudget * input.face_count()));
+  const std::size_t most = below_cap(input.options);
+  return budget < static_cast<double>(most) ? static_cast<std::size_t>(budget) : most;
 }
 
 void sort_and_unify(std::vector<std::int32_t>& numbers) {
@@ -53,7 +84,12 @@ void sort_and_unify(std::vector<std::int32_t>& numbers) {
 // The result of bisection, and of length repair after it.
 Embedding finished(Bisection&& bisection, const LengthRepair& repair, const Task& task) {
   const std::vector<std::int32_t>& face_of = bisection.mesh().surface.face_of_half_edge_face();
+  std::optional<Resolution> resolution;
+  if (const double error = bisection.options().max_error; error > 0) {
+    resolution = measure_resolution(bisection.mesh(), kScorePerError * error, task, 1.0);
+  }
   Embedding out = std::move(bisection).to_embedding();
+  out.resolution = resolution;
   out.hit_cap = out.hit_cap || repair.hit_cap;
   out.clamped_edges = repair.clamped_edges;
   out.worst_clamp = repair.worst_clamp;
@@ -64,42 +100,57 @@ Embedding finished(Bisection&& bisection, const LengthRepair& repair, const Task
 }
 
 // Length repair alone; or longest-edge bisection as far as it leaves fewest invalid triangles, if these are fewer.
-Embedding embed_by_repair(const Surface& surface, const Metric& metric, const EmbedOptions& options, const Task& task,
-                          std::size_t first_most, double progress) {
-  Bisection none(BisectedMesh(surface, metric, task, progress), options, Scheme::kNone);
+Embedding embed_by_repair(const EmbeddingInput& input, const Task& task, std::size_t first_most, double progress) {
+  const EmbedOptions& options = input.options;
+  Bisection none(BisectedMesh(input, task, progress), options, Scheme::kNone);
   none.run(task, 0, progress);
   const LengthRepair repair = repair_lengths(none.mesh(), options, task, progress);
   if (repair.is_complete) return finished(std::move(none), repair, task);
   // Each bisection of length repair leaves fewer invalid triangles, those of the paper's scheme now more, now fewer. So
   // that a larger cap never leaves more, what counts is when the latter has left fewest.
-  Bisection again(BisectedMesh(surface, metric, task, progress), options, Scheme::kLongestEdge);
+  Bisection again(BisectedMesh(input, task, progress), options, Scheme::kLongestEdge);
   again.watch_unrepaired();
   again.run(task, first_most, progress);
   if (again.least_unrepaired() >= count_needing_repair(none.mesh(), options)) {
     return finished(std::move(none), repair, task);
   }
-  Bisection best(BisectedMesh(surface, metric, task, progress), options, Scheme::kLongestEdge);
+  Bisection best(BisectedMesh(input, task, progress), options, Scheme::kLongestEdge);
   best.run(task, again.least_unrepaired_at(), progress);
   Embedding out = finished(std::move(best), {}, task);
   out.hit_cap = repair.hit_cap;
   return out;
 }
 
+// With triangles that resolve the metric, as far as the budget goes. Nothing if invalid ones use it up.
+std::optional<Embedding> embed_resolving(const EmbeddingInput& input, const Task& task, double& progress) {
+  Bisection bisection(BisectedMesh(input, task, progress, EdgeRule::kMiddle), input.options, Scheme::kResolving);
+  const std::size_t most = resolving_budget(input);
+  const bool ends = bisection.run(task, most, progress);
+  if (!ends && !bisection.were_all_valid()) return std::nullopt;
+  LengthRepair repair = repair_lengths(bisection.mesh(), input.options, task, progress);
+  if (!repair.is_complete) return std::nullopt;
+  if (!ends && most == below_cap(input.options)) repair.hit_cap = true;
+  return finished(std::move(bisection), repair, task);
+}
+
 }  // namespace
 
 Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions& options, const Task& task) {
-  check_metric(surface, metric);
-  if (!(options.sigma >= 0)) throw InvalidInput("sigma is " + text(options.sigma) + ", not 0 or more");
+  const EmbeddingInput input(surface, metric, options);
+  check(input);
   task.check(0);
   double progress = 0;
-  Bisection paper(BisectedMesh(surface, metric, task, progress), options, Scheme::kLongestEdge);
-  const std::size_t first_most = std::min(budget(surface), options.max_faces_added);
+  if (options.max_error > 0) {
+    if (std::optional<Embedding> out = embed_resolving(input, task, progress)) return std::move(*out);
+  }
+  Bisection paper(BisectedMesh(input, task, progress), options, Scheme::kLongestEdge);
+  const std::size_t first_most = std::min(budget(input.face_count()), options.max_faces_added);
   const bool ends = paper.run(task, first_most, progress);
   if (ends && !paper.has_decayed()) return finished(std::move(paper), {}, task);
 
-  const std::size_t most = later_budget(surface, options.max_faces_added);
+  const std::size_t most = later_budget(input);
   for (const Scheme scheme : {Scheme::kPropagation, Scheme::kShallowPropagation}) {
-    Bisection bisection(BisectedMesh(surface, metric, task, progress), options, scheme);
+    Bisection bisection(BisectedMesh(input, task, progress), options, scheme);
     if (!bisection.run(task, most, progress)) continue;
     const LengthRepair repair = repair_lengths(bisection.mesh(), options, task, progress);
     if (!repair.is_complete) continue;
@@ -110,7 +161,7 @@ Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions
     }
     return finished(std::move(bisection), repair, task);
   }
-  return embed_by_repair(surface, metric, options, task, first_most, progress);
+  return embed_by_repair(input, task, first_most, progress);
 }
 
 Embedding re_embed(const Surface& surface, const Metric& former, const Metric& metric, Embedding old,
@@ -119,15 +170,18 @@ Embedding re_embed(const Surface& surface, const Metric& former, const Metric& m
   check_metric(surface, metric);
   const std::size_t faces = surface.face_count();
   const bool is_of_surface =
-      old.points.size() >= surface.vertex_count() &&
-      old.mesh.face_count() + old.invalid_left >= surface.face_fans().size() + old.faces_added &&
-      std::ranges::all_of(old.source_face, [&](std::int32_t f) { return f >= 0 && index(f) < faces; });
+      options.faces ||
+      (old.points.size() >= surface.vertex_count() &&
+       old.mesh.face_count() + old.invalid_left >= surface.face_fans().size() + old.faces_added &&
+       std::ranges::all_of(old.source_face, [&](std::int32_t f) { return f >= 0 && index(f) < faces; }));
   if (!is_of_surface) throw InvalidInput("the former embedding is of another surface");
-  if (!old.is_local || former.normals != metric.normals) return embed(surface, metric, options, task);
+  EmbedOptions same_size = options;
+  if (same_size.mean_edge_length == 0) same_size.mean_edge_length = old.mean_edge_length;
+  if (!old.is_local || former.normals != metric.normals) return embed(surface, metric, same_size, task);
   task.check(0);
-  const std::size_t most = std::min(budget(surface), options.max_faces_added);
+  const std::size_t most = std::min(budget(faces), options.max_faces_added);
   std::optional<Embedding> out = re_embed_locally(surface, former, metric, std::move(old), options, task, most);
-  if (!out) return embed(surface, metric, options, task);
+  if (!out) return embed(surface, metric, same_size, task);
   task.check(1);
   return std::move(*out);
 }

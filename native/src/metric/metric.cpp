@@ -152,14 +152,16 @@ void check_strength(const Strength& strength, double smallest_parameter) {
 }
 
 void detail::check_finite(const Metric& metric) {
-  for (std::size_t v = 0; v < metric.size(); ++v) {
-    if (!metric.tensors[v].allFinite() || !metric.normals[v].allFinite()) {
-      throw InvalidInput("the metric at vertex " + std::to_string(v) + " is not finite");
-    }
-    if (metric.tensors[v].cwiseAbs().maxCoeff() > kLargestEigenvalue) {
-      throw InvalidInput("the metric at vertex " + std::to_string(v) +
-                         " is too strong: its tensor has an entry above " + text(kLargestEigenvalue));
-    }
+  for (std::size_t v = 0; v < metric.size(); ++v) check_finite(metric, v);
+}
+
+void detail::check_finite(const Metric& metric, std::size_t v) {
+  if (!metric.tensors[v].allFinite() || !metric.normals[v].allFinite()) {
+    throw InvalidInput("the metric at vertex " + std::to_string(v) + " is not finite");
+  }
+  if (metric.tensors[v].cwiseAbs().maxCoeff() > kLargestEigenvalue) {
+    throw InvalidInput("the metric at vertex " + std::to_string(v) + " is too strong: its tensor has an entry above " +
+                       text(kLargestEigenvalue));
   }
 }
 

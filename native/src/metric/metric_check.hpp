@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+
 #include "seamwire/metric/metric.hpp"
 
 namespace seamwire::detail {
 
 /// Throws InvalidInput where a tensor or a normal is not finite, or an eigenvalue above kLargestEigenvalue.
 void check_finite(const Metric& metric);
+/// The same for one vertex.
+void check_finite(const Metric& metric, std::size_t v);
 
 }  // namespace seamwire::detail

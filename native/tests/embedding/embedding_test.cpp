@@ -236,7 +236,7 @@ TEST(Embed, SplitsLargestPerimeterFirst) {
   const Metric metric = random_metric(surface, 10, 3);
   for (const Perimeter kind : {Perimeter::kMetric, Perimeter::kEuclidean}) {
     const EmbedOptions options{.perimeter = kind};
-    Bisection bisection(BisectedMesh(surface, metric, {}, 0.0), options, Scheme::kLongestEdge);
+    Bisection bisection(BisectedMesh({surface, metric, options}, {}, 0.0), options, Scheme::kLongestEdge);
     const BisectedMesh& mesh = bisection.mesh();
     double progress = 0;
     ASSERT_FALSE(bisection.run({}, 0, progress));

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "seamwire/metric/metric.hpp"
@@ -23,6 +24,32 @@ struct EmbedOptions {
   Perimeter perimeter = Perimeter::kMetric;  ///< which triangle is bisected first, and what sigma is compared with
   /// At most this many triangles are added; what is invalid then becomes a hole. With a larger cap no more is left.
   std::size_t max_faces_added = 4'000'000;
+  /// The mean relative error of distances to aim for, in [0, 1]: triangles are bisected until they resolve the metric
+  /// that well. 0: only invalid triangles are bisected, as in the paper. The error is estimated, not proved (see
+  /// Resolution).
+  double max_error = 0.0;
+  /// The caller's faces to embed, in any order; all others are left out, as if the surface ended there. Edges without a
+  /// face stay. nullopt: all faces.
+  std::optional<std::vector<std::int32_t>> faces = std::nullopt;
+  /// The length in the metric that `max_error` compares the sizes of triangles with. Give that of another embedding
+  /// (Embedding::mean_edge_length) to refine a part of the surface, or the surface in a changed metric, in the same
+  /// way. 0: the mean length of an edge of the faces to embed.
+  double mean_edge_length = 0.0;
+};
+
+/// How well the triangles of an embedding resolve the metric. Within a triangle, the embedding's metric is the constant
+/// form that gives the three sides their lengths; the metric it approximates varies linearly between the forms at the
+/// corners.
+struct Resolution {
+  /// The EmbedOptions::max_error that the worst triangle meets. Measured, not proved: the mean error of distances was
+  /// at most about this on the models of docs/benchmarks.md.
+  double estimated_error = 0.0;
+  /// Triangles that miss the max_error, because they are 14 bisections deep or because of the cap.
+  std::size_t unmet = 0;
+  /// Eta, the largest |ln| of the ratio between a vector's length at a corner of a triangle and in the triangle.
+  /// Proved: where there are no holes, distances are within a factor of e^eta of those in the metric that varies
+  /// linearly in each triangle of the embedding between the forms at its corners.
+  double largest_deviation = 0.0;
 };
 
 /// A surface in an anisotropic metric, as a refined mesh with edge lengths (Section 4.1). The first vertices are the
@@ -36,6 +63,9 @@ struct Embedding {
   std::size_t newest_bisections = 0;      ///< of newest-vertex bisection, where the other schemes are left for it
   std::size_t invalid_left = 0;  ///< holes: faces without an area, smaller ones than sigma, or what the cap leaves
   bool hit_cap = false;          ///< max_faces_added ended the subdivision
+  /// Of the faces embedded, in the metric, before any bisection, or EmbedOptions::mean_edge_length if that is given.
+  double mean_edge_length = 0.0;
+  std::optional<Resolution> resolution;  ///< set if EmbedOptions::max_error is above 0
   /// Edges that length repair gave another length than the metric does; and the largest factor, up or down, between the
   /// two lengths.
   std::size_t clamped_edges = 0;
