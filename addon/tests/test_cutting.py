@@ -369,3 +369,18 @@ def test_a_curve_leaves_a_polygon_over_a_side_with_corners_in_a_row() -> None:
     cuts = plan(faces, [(0, curve)])
     assert set(cuts.splits) == {(2, 3), (3, 8)}
     assert set(cuts.across) == {0, 2, 3}
+
+
+def test_a_curve_over_an_edge_of_three_faces_cuts_the_edge_and_both_faces() -> None:
+    # Three quads share the edge from vertex 0 to 1. The curve runs from the first quad to the third.
+    pages = [(np.cos(angle), np.sin(angle)) for angle in (0.0, 2.0, 4.0)]
+    points = np.array([(0, 0, 0), (0, 0, 1), *((x, y, z) for x, y in pages for z in (0, 1))], dtype=float)
+    faces = Polygons(points, [[0, 1, 3, 2], [0, 1, 5, 4], [0, 1, 7, 6]])
+    curve = np.array([points[2], (0.0, 0.0, 0.5), points[7]])
+    cuts = plan(faces, [(2, curve, 7)])
+    spine = Node((0, 1), (0.5, 0.5))
+    assert cuts.splits == {(0, 1): [spine]}
+    assert {polygon: {*own[0]} for polygon, own in cuts.across.items()} == {
+        0: {Node((2,)), spine},
+        2: {spine, Node((7,))},
+    }

@@ -157,9 +157,55 @@ Mesh soup(Bytes& from) {
   return mesh;
 }
 
+/// A band that closes after half a turn or not, and whose sides may close too: a Moebius strip, a Klein bottle, a tube
+/// or a torus.
+Mesh band(Bytes& from) {
+  const std::int32_t columns = 3 + from.below(6), rows = 1 + from.below(4);
+  const bool turns = from.coin(), closes = from.coin() && rows > 2;
+  const std::int32_t lines = closes ? rows : rows + 1;
+  Mesh mesh;
+  for (std::int32_t x = 0; x < columns; ++x) {
+    const double angle = 6.283185307179586 * x / columns;
+    for (std::int32_t y = 0; y < lines; ++y) {
+      mesh.points.emplace_back(std::cos(angle) * (2.0 + y), std::sin(angle) * (2.0 + y), from.coin() ? 0.25 * y : 0.0);
+    }
+  }
+  const auto at = [&](std::int32_t x, std::int32_t y) {
+    if (x == columns) y = turns ? (closes ? rows : lines - 1) - y : y;
+    return x % columns * lines + (y + lines) % lines;
+  };
+  for (std::int32_t x = 0; x < columns; ++x) {
+    for (std::int32_t y = 0; y < rows; ++y) {
+      mesh.triangles.push_back({at(x, y), at(x + 1, y), at(x + 1, y + 1)});
+      mesh.triangles.push_back({at(x, y), at(x + 1, y + 1), at(x, y + 1)});
+    }
+  }
+  return mesh;
+}
+
+/// Another triangle on some edges, and some triangles turned over.
+void add_fins(Bytes& from, Mesh& mesh) {
+  for (std::int32_t left = 1 + from.below(12); left > 0; --left) {
+    const Triangle on = mesh.triangles[static_cast<std::size_t>(from.below(mesh.triangles.size()))];
+    const auto side = static_cast<std::size_t>(from.below(3));
+    const std::int32_t a = on[side], b = on[(side + 1) % 3];
+    if (from.coin()) {
+      mesh.triangles.push_back({a, b, from.below(mesh.points.size())});
+    } else {
+      const Vector middle = 0.5 * (mesh.points[static_cast<std::size_t>(a)] + mesh.points[static_cast<std::size_t>(b)]);
+      mesh.triangles.push_back({b, a, static_cast<std::int32_t>(mesh.points.size())});
+      mesh.points.emplace_back(middle + Vector(0.125, from.number(), 1.0));
+    }
+    if (from.coin()) std::swap(mesh.triangles.back()[0], mesh.triangles.back()[1]);
+  }
+}
+
 Mesh mesh_from(Bytes& from) {
-  const std::int32_t kind = from.below(4);
-  Mesh mesh = kind == 0 ? soup(from) : kind == 1 ? umbrella(from) : grid(from);
+  const std::uint8_t first = from.byte();
+  const std::int32_t kind = first % 4;
+  const bool is_complex = first >= 0xb0 && first < 0xf0;
+  Mesh mesh = is_complex && kind < 2 ? band(from) : kind == 0 ? soup(from) : kind == 1 ? umbrella(from) : grid(from);
+  if (is_complex && kind > 0) add_fins(from, mesh);
   const std::size_t count = mesh.points.size();
   for (std::int32_t left = from.below(4); left > 0; --left) {
     mesh.points[static_cast<std::size_t>(from.below(count))][from.below(3)] = from.number();
@@ -243,6 +289,51 @@ void check_field(const IntrinsicMesh& mesh, const DistanceField& field) {
     along(mesh.tail(h), mesh.tip(h), mesh.lengths[static_cast<std::size_t>(h)]);
   }
   for (const LooseEdge& edge : mesh.loose_edges) along(edge.a, edge.b, edge.length);
+}
+
+/// The surface's own lengths, with all triangles that have an area in their own.
+std::optional<IntrinsicMesh> own_lengths(const Surface& surface) {
+  IntrinsicMesh mesh;
+  mesh.vertex_count = static_cast<std::int32_t>(surface.vertex_count());
+  mesh.twins = surface.twins();
+  mesh.siblings = surface.siblings();
+  for (const Triangle& fans : surface.face_fans()) {
+    std::array<double, 3> lengths{};
+    Triangle& corners = mesh.triangles.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = surface.vertex_of_fan()[static_cast<std::size_t>(fans[i])];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [a, b] = std::minmax({corners[i], corners[(i + 1) % 3]});
+      lengths[i] =
+          surface.scale() *
+          (surface.points()[static_cast<std::size_t>(a)] - surface.points()[static_cast<std::size_t>(b)]).norm();
+    }
+    std::array<double, 3> sorted = lengths;
+    std::ranges::sort(sorted);
+    if (!(sorted[0] > 1e-6) || !(sorted[0] + sorted[1] - sorted[2] > 1e-6 * sorted[2])) return std::nullopt;
+    mesh.lengths.insert(mesh.lengths.end(), lengths.begin(), lengths.end());
+  }
+  return mesh;
+}
+
+/// Exact geodesics on the triangles as they are, over every edge.
+void check_geodesics(const Patience& patience, const Surface& surface) {
+  const std::optional<IntrinsicMesh> mesh = own_lengths(surface);
+  if (!mesh || mesh->triangles.empty()) return;
+  const ExactGeodesics solver(*mesh);
+  const std::int32_t seed = mesh->triangles.front()[0], other = mesh->triangles.back()[2];
+  const DistanceField field = solver.solve(seed, patience.task()), back = solver.solve(other, patience.task());
+  check_field(*mesh, field);
+  const auto is_near = [](double a, double b) { return a == b || std::abs(a - b) <= 1e-6 * (a + b) + 1e-9; };
+  require(is_near(field.distances()[static_cast<std::size_t>(other)], back.distances()[static_cast<std::size_t>(seed)]),
+          "it is as far there as back");
+  CorridorPaths quick(solver, seed);
+  for (std::int32_t v = 0; v < mesh->vertex_count; ++v) {
+    const double distance = field.distances()[static_cast<std::size_t>(v)];
+    require(is_near(field.trace(v, patience.task()).length, distance), "a path is as long as the distance");
+    const double longer = quick.path(v, patience.task()).length;
+    require(std::isinf(distance) ? std::isinf(longer) : longer >= distance * (1.0 - 1e-6) - 1e-12,
+            "no path is shorter than the distance");
+  }
 }
 
 void check_wires(Bytes& from, const Patience& patience, const Surface& surface, const Metric& metric) {
@@ -404,6 +495,7 @@ void check(Bytes& from) {
   const Mesh mesh = mesh_from(from);
   check_rays(from, mesh);
   const Surface surface(mesh.points, mesh.triangles, mesh.edges);
+  check_geodesics(patience, surface);
   const Curvature curvature = principal_curvatures(surface);
   for (std::size_t v = 0; v < curvature.k1.size(); ++v) {
     require(std::isfinite(curvature.k1[v]) && std::isfinite(curvature.k2[v]), "curvatures are finite");

@@ -22,11 +22,18 @@ namespace {
 
 using EmbeddingClass = py::class_<EmbeddingObject, std::shared_ptr<EmbeddingObject>>;
 
+/// Whether a half-edge is the first one of its edge.
+bool is_first(const IntrinsicMesh& mesh, std::int32_t half_edge) {
+  bool is_first = true;
+  mesh.for_each_beyond(half_edge, [&](std::int32_t other) { is_first = is_first && half_edge < other; });
+  return is_first;
+}
+
 EmbeddingObject::Edges list_edges(const IntrinsicMesh& mesh) {
   EmbeddingObject::Edges edges;
   for (std::size_t h = 0; h < mesh.twins.size(); ++h) {
     const auto half_edge = static_cast<std::int32_t>(h);
-    if (mesh.twins[h] >= 0 && mesh.twins[h] < half_edge) continue;
+    if (!is_first(mesh, half_edge)) continue;
     edges.vertices.push_back({mesh.tail(half_edge), mesh.tip(half_edge)});
     edges.lengths.push_back(mesh.lengths[h]);
   }
@@ -309,10 +316,11 @@ std::shared_ptr<EmbeddingObject> EmbeddingObject::with_lengths(const std::vector
   }
   std::size_t next = 0;
   for (std::size_t h = 0; h < mesh.twins.size(); ++h) {
-    const std::int32_t twin = mesh.twins[h];
-    if (twin >= 0 && static_cast<std::size_t>(twin) < h) continue;
-    mesh.lengths[h] = lengths[next++];
-    if (twin >= 0) mesh.lengths[static_cast<std::size_t>(twin)] = mesh.lengths[h];
+    const auto half_edge = static_cast<std::int32_t>(h);
+    if (!is_first(mesh, half_edge)) continue;
+    const double length = mesh.lengths[h] = lengths[next++];
+    mesh.for_each_beyond(half_edge,
+                         [&](std::int32_t other) { mesh.lengths[static_cast<std::size_t>(other)] = length; });
   }
   for (LooseEdge& edge : mesh.loose_edges) edge.length = lengths[next++];
   auto object = std::make_shared<EmbeddingObject>(surface, std::move(changed));

@@ -14,8 +14,8 @@
 /// Meshes known by their edge lengths, made from shapes.
 namespace seamwire::shapes {
 
-/// Glues triangles along the edges that exactly two of them share in opposite directions, and gives every edge the
-/// length length(a, b), a < b.
+/// Glues triangles along the edges that exactly two of them share in opposite directions, makes all half-edges of other
+/// edges siblings, and gives every edge the length length(a, b), a < b.
 template <class Length>
 IntrinsicMesh intrinsic(const Mesh& mesh, const Length& length) {
   IntrinsicMesh result;
@@ -34,6 +34,11 @@ IntrinsicMesh intrinsic(const Mesh& mesh, const Length& length) {
     if (half_edges.size() == 2 && result.tail(half_edges[0]) == result.tip(half_edges[1])) {
       result.twins[static_cast<std::size_t>(half_edges[0])] = half_edges[1];
       result.twins[static_cast<std::size_t>(half_edges[1])] = half_edges[0];
+    } else if (half_edges.size() > 1) {
+      result.siblings.resize(result.twins.size(), -1);
+      for (std::size_t i = 0; i < half_edges.size(); ++i) {
+        result.siblings[static_cast<std::size_t>(half_edges[i])] = half_edges[(i + 1) % half_edges.size()];
+      }
     }
   }
   return result;

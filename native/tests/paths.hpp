@@ -16,6 +16,14 @@ namespace seamwire::paths {
 
 inline std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
+/// Calls see(other) for each other half-edge of an edge.
+template <class See>
+void for_each_beyond(const IntrinsicMesh& mesh, std::int32_t h, const See& see) {
+  if (mesh.twins[index(h)] >= 0) see(mesh.twins[index(h)]);
+  if (mesh.siblings.empty() || mesh.siblings[index(h)] < 0) return;
+  for (std::int32_t other = mesh.siblings[index(h)]; other != h; other = mesh.siblings[index(other)]) see(other);
+}
+
 /// Where a point of a path lies in a triangle laid into the plane; fails if it lies in another triangle.
 inline Eigen::Vector2d place(const IntrinsicMesh& mesh, std::int32_t face, const PathPoint& point) {
   const double a = mesh.lengths[index(3 * face)], b = mesh.lengths[index(3 * face + 1)],
@@ -36,13 +44,13 @@ inline Eigen::Vector2d place(const IntrinsicMesh& mesh, std::int32_t face, const
   }
   EXPECT_GE(point.t, 0.0);
   EXPECT_LE(point.t, 1.0);
-  const bool is_own = point.half_edge / 3 == face;
-  const std::int32_t h = is_own ? point.half_edge : mesh.twins[index(point.half_edge)];
-  if (h < 0 || h / 3 != face) {
+  std::int32_t h = point.half_edge;
+  for_each_beyond(mesh, point.half_edge, [&](std::int32_t other) { h = other / 3 == face ? other : h; });
+  if (h / 3 != face) {
     ADD_FAILURE() << "half-edge " << point.half_edge << " is no edge of triangle " << face;
     return {};
   }
-  const double t = is_own ? point.t : 1 - point.t;
+  const double t = mesh.tail(h) == mesh.tail(point.half_edge) ? point.t : 1 - point.t;
   const auto i = index(h % 3);
   return (1 - t) * corners[i] + t * corners[(i + 1) % 3];
 }

@@ -108,6 +108,24 @@ class Geodesics {
     Point2 tail, tip, left, right;
   };
 
+  static Point2 mirrored(const Point2& p) { return {-p.x, p.y}; }
+
+  /// Lets lines that leave a triangle over the half-edge h into every other triangle at its edge. Into one that lies on
+  /// the same side of h as the triangle they leave they go as their mirror image.
+  void enter(std::int32_t h, Beam beam, std::vector<Beam>& beams) const {
+    beam.h = mesh_.twins[index(h)];
+    if (beam.h >= 0) beams.push_back(beam);
+    if (mesh_.siblings.empty() || mesh_.siblings[index(h)] < 0) return;
+    for (std::int32_t s = mesh_.siblings[index(h)]; s != h; s = mesh_.siblings[index(s)]) {
+      beam.h = s;
+      if (mesh_.tail(s) == mesh_.tip(h)) {
+        beams.push_back(beam);
+      } else {
+        beams.push_back({s, mirrored(beam.tip), mirrored(beam.tail), mirrored(beam.right), mirrored(beam.left)});
+      }
+    }
+  }
+
   template <class Found>
   void follow_lines(std::int32_t v, double reach, const Found& found) const {
     std::vector<Beam> beams;
@@ -115,8 +133,7 @@ class Geodesics {
       const double a = length(h), b = length(previous(h)), c = length(next(h));
       const double x = (a * a + b * b - c * c) / (2 * a);
       const Point2 tip{a, 0.0}, apex{x, std::sqrt(std::max(b * b - x * x, 0.0))};
-      const std::int32_t opposite = mesh_.twins[index(next(h))];
-      if (opposite >= 0 && apex.y > 0) beams.push_back({opposite, apex, tip, apex, tip});
+      if (apex.y > 0) enter(next(h), {-1, apex, tip, apex, tip}, beams);
     }
     while (!beams.empty()) {
       const Beam beam = beams.back();
@@ -140,13 +157,11 @@ class Geodesics {
       if (right_of_left > -rounding * norm(beam.left) && left_of_right > -rounding * norm(beam.right)) {
         found(mesh_.apex(beam.h), norm(apex));
       }
-      const std::int32_t over_left = mesh_.twins[index(previous(beam.h))];
-      const std::int32_t over_right = mesh_.twins[index(next(beam.h))];
-      if (over_left >= 0 && right_of_left > 0) {
-        beams.push_back({over_left, beam.tail, apex, beam.left, left_of_right > 0 ? apex : beam.right});
+      if (right_of_left > 0) {
+        enter(previous(beam.h), {-1, beam.tail, apex, beam.left, left_of_right > 0 ? apex : beam.right}, beams);
       }
-      if (over_right >= 0 && left_of_right > 0) {
-        beams.push_back({over_right, apex, beam.tip, right_of_left > 0 ? apex : beam.left, beam.right});
+      if (left_of_right > 0) {
+        enter(next(beam.h), {-1, apex, beam.tip, right_of_left > 0 ? apex : beam.left, beam.right}, beams);
       }
     }
   }

@@ -182,11 +182,12 @@ IntrinsicPath CorridorPaths::path(const SurfacePoint& target, const Task& task) 
   const PlacedPoint in_part = to_part(impl_->cutter, end);
   IntrinsicPath path;
   if (is_exact) {
-    path = trace_records(solved, result.records, in_part, part_task);
+    path = trace_records(solved, result.records, result.crossings, in_part, part_task);
     to_whole_mesh(part, path);
   } else {
     for (const std::int32_t v : corners_of(*part.mesh, in_part)) {
-      IntrinsicPath traced = trace_records(solved, result.records, PlacedPoint::at_vertex(v), part_task);
+      IntrinsicPath traced =
+          trace_records(solved, result.records, result.crossings, PlacedPoint::at_vertex(v), part_task);
       to_whole_mesh(part, traced);
       path.points.insert(path.points.end(), traced.points.begin(), traced.points.end());
     }

@@ -58,11 +58,11 @@ IntrinsicPath DistanceField::trace(const SurfacePoint& point, const Task& task) 
   IntrinsicPath path;
   if (data_->is_exact) {
     if (target.vertex >= 0 && std::isinf(solved.at(target.vertex))) return {};
-    path = trace_records(solved, data_->records, target, task);
+    path = trace_records(solved, data_->records, data_->crossings, target, task);
   } else {
     const std::int32_t vertex = nearest_vertex(solved, target);
     if (std::isinf(solved.at(vertex))) return {};
-    path = trace_records(solved, data_->records, PlacedPoint::at_vertex(vertex), task);
+    path = trace_records(solved, data_->records, data_->crossings, PlacedPoint::at_vertex(vertex), task);
     SubmeshCutter cutter(mesh);
     path = shorten(mesh, cutter, path, data_->sources[0], target, task);
   }

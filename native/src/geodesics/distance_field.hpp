@@ -18,6 +18,7 @@ struct DistanceField::Data {
   detail::SourcePoints sources;              ///< the same in internal numbers
   std::vector<double> distances;             ///< in external numbers
   std::vector<detail::TraceRecord> records;  ///< in internal numbers
+  std::vector<detail::SiblingCrossing> crossings;
   bool is_exact;
   double radius;  ///< distances beyond it are infinite
 };

@@ -71,6 +71,7 @@ DistanceField ExactGeodesics::run(std::span<const SurfacePoint> sources, const S
                                                                       .sources = std::move(from),
                                                                       .distances = std::move(distances),
                                                                       .records = std::move(result.records),
+                                                                      .crossings = std::move(result.crossings),
                                                                       .is_exact = windows == 0,
                                                                       .radius = result.radius}));
 }

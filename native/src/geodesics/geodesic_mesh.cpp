@@ -44,6 +44,10 @@ void check_sizes(const IntrinsicMesh& mesh) {
                        " triangles, " + std::to_string(mesh.twins.size()) + " twins, " +
                        std::to_string(mesh.lengths.size()) + " lengths");
   }
+  if (!mesh.siblings.empty() && mesh.siblings.size() != half_edge_count) {
+    throw InvalidInput("siblings must be empty or have 3 entries a triangle: " + std::to_string(mesh.triangles.size()) +
+                       " triangles, " + std::to_string(mesh.siblings.size()) + " siblings");
+  }
 }
 
 void check_corners(const IntrinsicMesh& mesh, std::size_t f) {
@@ -72,6 +76,33 @@ void check_half_edge(const IntrinsicMesh& mesh, std::int32_t h) {
   }
 }
 
+/// Each half-edge with a sibling is the sibling of one other half-edge of its edge: so they form cycles.
+void check_siblings(const IntrinsicMesh& mesh) {
+  std::vector<bool> is_named(mesh.siblings.size(), false);
+  for (std::int32_t h = 0; index(h) < mesh.siblings.size(); ++h) {
+    const std::int32_t sibling = mesh.siblings[h];
+    if (sibling == -1) continue;
+    const auto fail = [&](const std::string& what) {
+      throw InvalidInput("half-edge " + text(h) + " of triangle " + text(h / 3) + ": " + what);
+    };
+    if (mesh.twins[h] != -1) fail("it has a twin and a sibling");
+    if (sibling < 0 || index(sibling) >= mesh.siblings.size() || sibling == h || mesh.siblings[sibling] == -1 ||
+        is_named[sibling]) {
+      fail("its sibling, " + text(sibling) + ", is not in a cycle with it");
+    }
+    is_named[sibling] = true;
+    const std::int32_t tail = mesh.tail(h), tip = mesh.tip(h), to = mesh.tail(sibling), from = mesh.tip(sibling);
+    const bool is_same_edge = (tail == to && tip == from) || (tail == from && tip == to);
+    if (tail == tip || !is_same_edge) {
+      fail("its sibling, " + text(sibling) + ", does not run between the same two vertices");
+    }
+    if (mesh.lengths[sibling] != mesh.lengths[h]) {
+      fail("it is " + text(mesh.lengths[h]) + " long, its sibling, " + text(sibling) + ", " +
+           text(mesh.lengths[sibling]));
+    }
+  }
+}
+
 void check_triangle_inequality(const IntrinsicMesh& mesh, std::size_t f) {
   const double a = mesh.lengths[3 * f], b = mesh.lengths[3 * f + 1], c = mesh.lengths[3 * f + 2];
   const double longest = std::max({a, b, c});
@@ -94,6 +125,7 @@ void check(const IntrinsicMesh& mesh, const Task& task) {
     half_edges.at(index(h));
     check_half_edge(mesh, h);
   }
+  check_siblings(mesh);
   const Poll lengths(task, 0.08, 0.1, mesh.triangles.size());
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     lengths.at(f);
@@ -167,6 +199,7 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh, const Task& task) {
     corners.push_back({half_edges_[3 * f].tail, half_edges_[3 * f + 1].tail, half_edges_[3 * f + 2].tail});
   }
 
+  set_siblings(mesh);
   out_ = leaving(vertex_count(), corners, task);
   list_loose_edges(mesh);
   list_hops(task);
@@ -200,6 +233,18 @@ void GeodesicMesh::set_face(const IntrinsicMesh& mesh, std::int32_t external) {
          .right = entered[after]};
     angle_.edit(first + i) = std::atan2(h.apex_y, h.apex_x);
   }
+}
+
+void GeodesicMesh::set_siblings(const IntrinsicMesh& mesh) {
+  const auto internal = [&](std::int32_t h) { return 3 * internal_face_[h / 3] + h % 3; };
+  siblings_.assign(mesh.siblings.size(), -1);
+  bool is_any = false;
+  for (std::int32_t h = 0; index(h) < mesh.siblings.size(); ++h) {
+    if (mesh.siblings[h] < 0) continue;
+    siblings_[internal(h)] = internal(mesh.siblings[h]);
+    is_any = true;
+  }
+  if (!is_any) siblings_.clear();
 }
 
 void GeodesicMesh::list_loose_edges(const IntrinsicMesh& mesh) {
@@ -250,16 +295,20 @@ void GeodesicMesh::each_hop(std::int32_t vertex, const Add& add) const {
     add(edge.tip, edge.length);
     // On the boundary no half-edge leaves the vertex along the edge that arrives here.
     if (edge.left < 0) add(edge.apex, half_edge(previous_in_face(h)).length);
-    if (edge.right < 0) continue;
     // Over the opposite edge, from below it in the frame of the half-edge entered.
-    const HalfEdge& over = half_edge(edge.right);
-    const HalfEdge& back = half_edge(next_in_face(h));
-    const double x = over.length - back.apex_x, y = -back.apex_y;
-    const double dx = over.apex_x - x, dy = over.apex_y - y, foot = x * dy - dx * y;  // times dy, which is positive
-    if (!(foot > 0 && foot < over.length * dy)) continue;
-    const double length = std::sqrt(dx * dx + dy * dy);
-    const double around = std::min(edge.length + over.right_length, edge.left_length + over.left_length);
-    if (length < kShortcut * around) add(over.apex, length);
+    const std::int32_t opposite = next_in_face(h);
+    const HalfEdge& back = half_edge(opposite);
+    for_each_beyond(opposite, [&](std::int32_t entered) {
+      const HalfEdge& over = half_edge(entered);
+      const bool is_turned = is_mirrored(opposite, entered);
+      const double x = is_turned ? back.apex_x : over.length - back.apex_x, y = -back.apex_y;
+      const double dx = over.apex_x - x, dy = over.apex_y - y, foot = x * dy - dx * y;  // times dy, which is positive
+      if (!(foot > 0 && foot < over.length * dy)) return;
+      const double length = std::sqrt(dx * dx + dy * dy);
+      const double around = is_turned ? std::min(edge.length + over.left_length, edge.left_length + over.right_length)
+                                      : std::min(edge.length + over.right_length, edge.left_length + over.left_length);
+      if (length < kShortcut * around) add(over.apex, length);
+    });
   }
   for (const auto& [to, length] : loose(vertex)) add(to, length);
 }
@@ -348,7 +397,11 @@ void GeodesicMesh::find_pseudo_sources(const Task& task) {
   const Poll poll(task, 0.9, 1.0, vertex_count());
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(vertex_count()); ++v) {
     poll.at(index(v));
-    is_pseudo_source_[v] = may_bend(v);
+    is_pseudo_source_[v] = may_bend(v) ? kPseudoSource : 0;
+  }
+  for (std::int32_t h = 0; index(h) < siblings_.size(); ++h) {
+    if (siblings_[h] < 0) continue;
+    for (const std::int32_t v : {half_edge(h).tail, half_edge(h).tip}) is_pseudo_source_[v] |= kBranching;
   }
 }
 
@@ -405,6 +458,7 @@ std::optional<GeodesicMesh> GeodesicMesh::patched(const IntrinsicMesh& before, c
   const std::size_t common = std::min(count, former_count), most = count / kFacesPerChange;
   if (hop_unit_ != 1.0 || std::max(count, former_count) - common > most) return std::nullopt;
   if (!are_same(before.loose_edges, mesh.loose_edges)) return std::nullopt;
+  if (!before.siblings.empty() || !mesh.siblings.empty()) return std::nullopt;
   const auto vertices = index(mesh.vertex_count), former_vertices = vertex_count();
 
   // What is other than before: by its own numbers, or because it, or what it names, gets another internal number.
@@ -481,7 +535,7 @@ std::optional<GeodesicMesh> GeodesicMesh::patched(const IntrinsicMesh& before, c
   task.check(0.6);
   out.patch_rows(*this, faces.numbers(), rows);
   out.is_pseudo_source_.resize(vertices);
-  for (const std::int32_t v : rows) out.is_pseudo_source_[v] = out.may_bend(v);
+  for (const std::int32_t v : rows) out.is_pseudo_source_[v] = out.may_bend(v) ? kPseudoSource : 0;
   return out;
 }
 

@@ -30,7 +30,8 @@ class GeodesicMesh {
     double apex_x, apex_y;
     double left_length, right_length;  ///< of tail-apex and of tip-apex
     std::int32_t tail, tip, apex;
-    std::int32_t left, right;  ///< the half-edge a path enters next over tail-apex, over tip-apex; -1 on the boundary
+    /// The half-edge a path enters next over tail-apex, over tip-apex; -1 on the boundary and where it has siblings.
+    std::int32_t left, right;
   };
   static_assert(sizeof(HalfEdge) == 64);
 
@@ -52,16 +53,36 @@ class GeodesicMesh {
   /// faces and vertices, by their numbers, as they were. Only what belongs to the others is made anew, the rest is
   /// shared: the time is that of comparing the two, and of copying the hops. What it tells of `mesh` is what one made
   /// from scratch tells, but for internal numbers: of all that keeps its external number, nearly all keeps those too.
-  /// Nothing where too much has changed, or loose edges, or where lengths are huge or tiny. Throws as the constructor
-  /// does.
+  /// Nothing where too much has changed, or loose edges, where edges have siblings, or where lengths are huge or tiny.
+  /// Throws as the constructor does.
   std::optional<GeodesicMesh> patched(const IntrinsicMesh& before, const IntrinsicMesh& mesh,
                                       const Task& task = {}) const;
 
   std::size_t vertex_count() const { return external_vertex_.size(); }
   const HalfEdge& half_edge(std::int32_t h) const { return half_edges_[index(h)]; }
   std::size_t half_edge_count() const { return half_edges_.size(); }
-  /// The other half-edge of h's edge, -1 on the boundary.
+  /// The twin of h, -1 if it has none.
   std::int32_t twin(std::int32_t h) const { return half_edge(previous_in_face(h)).right; }
+  /// The next half-edge of h's edge among siblings (IntrinsicMesh::siblings), -1 if h has none.
+  std::int32_t sibling(std::int32_t h) const { return siblings_.empty() ? -1 : siblings_[index(h)]; }
+  bool has_siblings() const { return !siblings_.empty(); }
+  /// Calls see(other) for each other half-edge of h's edge: its twin, or its siblings. A path that leaves the face of h
+  /// over that edge enters one of their faces.
+  template <class See>
+  void for_each_beyond(std::int32_t h, const See& see) const {
+    if (const std::int32_t other = twin(h); other >= 0) {
+      see(other);
+      return;
+    }
+    const std::int32_t first = sibling(h);
+    if (first < 0) return;
+    for (std::int32_t other = first; other != h; other = sibling(other)) see(other);
+  }
+  /// Whether two half-edges of an edge run the same way. Then the face of one is a mirror image to a path that comes
+  /// from the other: what unfolds to x from the tail of h's twin is at length - x.
+  bool is_mirrored(std::int32_t h, std::int32_t beyond) const {
+    return twin(h) < 0 && half_edge(h).tail == half_edge(beyond).tail;
+  }
 
   /// The angle at the tail of h in its triangle.
   double angle(std::int32_t h) const { return angle_[index(h)]; }
@@ -69,7 +90,8 @@ class GeodesicMesh {
   /// Half-edges that leave a vertex, of all its umbrellas.
   std::span<const std::int32_t> out(std::int32_t vertex) const { return out_[vertex]; }
   std::span<const Loose> loose(std::int32_t vertex) const { return loose_[vertex]; }
-  /// Calls see(to, h, length) for each edge of a vertex, once; h is a half-edge of it, -1 for one without a face.
+  /// Calls see(to, h, length) for each edge of a vertex, once for each of its half-edges without a twin; h is a
+  /// half-edge of it, -1 for an edge without a face.
   template <class See>
   void for_each_edge(std::int32_t vertex, const See& see) const {
     for (const std::int32_t h : out(vertex)) {
@@ -86,6 +108,8 @@ class GeodesicMesh {
   float longest_hop() const { return longest_hop_; }
   /// Shortest paths may bend here: a total angle of more than 2 pi, a boundary, several umbrellas, or a loose edge.
   bool is_pseudo_source(std::int32_t vertex) const { return is_pseudo_source_[vertex] != 0; }
+  /// Whether an edge of the vertex has siblings. Then it is a pseudo-source too.
+  bool is_branching(std::int32_t vertex) const { return (is_pseudo_source_[vertex] & kBranching) != 0; }
 
   /// From internal numbers to those of the IntrinsicMesh, and back.
   std::int32_t external_vertex(std::int32_t v) const { return external_vertex_[v]; }
@@ -114,7 +138,10 @@ class GeodesicMesh {
   void patch_rows(const GeodesicMesh& former, const std::vector<std::int32_t>& faces,
                   const std::vector<std::int32_t>& vertices);
   bool may_bend(std::int32_t vertex) const;
+  void set_siblings(const IntrinsicMesh& mesh);
   void find_pseudo_sources(const Task& task);
+
+  static constexpr std::uint8_t kPseudoSource = 1, kBranching = 2;
 
   PagedArray<HalfEdge> half_edges_;
   PagedArray<double> angle_;
@@ -123,7 +150,8 @@ class GeodesicMesh {
   Csr<Hop> hops_;
   double hop_unit_ = 1.0;
   float mean_hop_ = 0.0F, longest_hop_ = 0.0F;
-  std::vector<std::uint8_t> is_pseudo_source_;
+  std::vector<std::uint8_t> is_pseudo_source_;  ///< 0, kPseudoSource, or that and kBranching
+  std::vector<std::int32_t> siblings_;          ///< empty without any
   std::vector<std::int32_t> external_vertex_, internal_vertex_, external_face_, internal_face_;
 };
 

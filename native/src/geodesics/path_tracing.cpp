@@ -43,8 +43,14 @@ double crossing(const HalfEdge& h, const Point2& p, const Point2& q) {
 /// Walks from a vertex back to a source, and lists what it passes.
 class Tracer {
  public:
-  Tracer(const SolvedDistances& solved, const std::vector<TraceRecord>& records, const Task& task)
-      : mesh_(solved.mesh), distances_(solved.distances), sources_(solved.sources), records_(records), task_(task) {}
+  Tracer(const SolvedDistances& solved, const std::vector<TraceRecord>& records,
+         const std::vector<SiblingCrossing>& crossings, const Task& task)
+      : mesh_(solved.mesh),
+        distances_(solved.distances),
+        sources_(solved.sources),
+        records_(records),
+        crossings_(crossings),
+        task_(task) {}
 
   /// On from a path that ends at the vertex.
   IntrinsicPath run(std::int32_t vertex, IntrinsicPath path) {
@@ -95,6 +101,27 @@ class Tracer {
 
   /// Whether what a record names is a point in a face, no vertex.
   bool is_point(std::int32_t source) const { return source >= static_cast<std::int32_t>(mesh_.vertex_count()); }
+  /// The crossing that a path last came over; nullptr where it came over none.
+  const SiblingCrossing* last_crossing(std::int32_t source) const {
+    const std::size_t before = mesh_.vertex_count() + sources_.points().size();
+    return static_cast<std::size_t>(source) < before ? nullptr : &crossings_[static_cast<std::size_t>(source) - before];
+  }
+  /// The vertex or the point where a path began, whatever it came over.
+  std::int32_t origin(std::int32_t source) const {
+    while (const SiblingCrossing* last = last_crossing(source)) source = last->source;
+    return source;
+  }
+  /// The sibling of h over which the face left is entered, back towards `source`; -1 if the line leads nowhere.
+  /// `source` becomes what the path came from before.
+  std::int32_t sibling_entered(std::int32_t h, std::int32_t& source) const {
+    const SiblingCrossing* last = last_crossing(source);
+    std::int32_t entered = -1;
+    if (last != nullptr) {
+      mesh_.for_each_beyond(h, [&](std::int32_t other) { entered = other == last->half_edge ? other : entered; });
+    }
+    if (entered >= 0) source = last->source;
+    return entered;
+  }
   const PlacedPoint& point(std::int32_t source) const {
     return sources_[source - static_cast<std::int32_t>(mesh_.vertex_count())];
   }
@@ -165,14 +192,23 @@ class Tracer {
       if (passes(vertex, u, corner, from, source, from, record.half_edge, first.length, beside)) return take_best();
     }
 
-    // `h` is the half-edge entered, `behind` the last one of the triangle left; `here` is the last point, in h's frame.
-    std::int32_t h = mesh_.twin(record.half_edge), behind = record.half_edge;
+    // `h` is the half-edge entered, `left` the one of the triangle left, and `behind` the one that was entered by;
+    // `here` is the last point, in h's frame.
+    std::int32_t behind = record.half_edge, left = record.half_edge, coming_from = record.source;
+    const std::int32_t begin = origin(record.source);
+    std::int32_t h = mesh_.twin(left);
     Point2 here = to_twin(first, from);
     from = here;
     source = to_twin(first, source);
+    const auto enter_sibling = [&] {
+      h = sibling_entered(left, coming_from);
+      if (h < 0 || !mesh_.is_mirrored(left, h)) return;
+      for (Point2* p : {&from, &source, &here}) p->x = mesh_.half_edge(h).length - p->x;
+    };
+    if (h < 0) enter_sibling();
     // A straight line crosses no triangle twice unless it winds around a cone; this many crossings are a mistake.
     std::size_t crossings_left = 16 * mesh_.half_edge_count();
-    while (h >= 0 && (source.y > 0 || is_in_face(record.source, h, source)) && crossings_left-- > 0) {
+    while (h >= 0 && (source.y > 0 || is_in_face(begin, h, source)) && crossings_left-- > 0) {
       look_at_task();
       const HalfEdge& edge = mesh_.half_edge(h);
       if (edge.left >= 0) prefetch(&mesh_.half_edge(edge.left));
@@ -180,24 +216,25 @@ class Tracer {
       const double x = crossing(edge, from, source);
       add_crossing(h, x, behind, distance(here, {x, 0.0}));
       here = {x, 0.0};
-      if (is_in_face(record.source, h, source)) {
-        add_source(record.source, h, distance(here, source));
-        return record.source;
+      if (is_in_face(begin, h, source)) {
+        add_source(begin, h, distance(here, source));
+        return begin;
       }
       const Point2 apex{edge.apex_x, edge.apex_y};
-      if (edge.apex == record.source &&
-          distance(apex, source) <= kSameVertex * std::max(edge.length, edge.left_length)) {
+      if (edge.apex == begin && distance(apex, source) <= kSameVertex * std::max(edge.length, edge.left_length)) {
         add_vertex(edge.apex, h, distance(here, apex));
         return edge.apex;
       }
       if (passes(vertex, edge.apex, apex, from, source, here, h, edge.length, beside)) return take_best();
       const bool apex_is_left = cross({source.x - from.x, source.y - from.y}, {apex.x - from.x, apex.y - from.y}) > 0;
       behind = h;
+      left = apex_is_left ? next_in_face(behind) : previous_in_face(behind);
       h = apex_is_left ? edge.right : edge.left;
       const auto move = [&](const Point2& p) { return apex_is_left ? to_right(edge, p) : to_left(edge, p); };
       from = move(from);
       source = move(source);
       here = move(here);
+      if (h < 0) enter_sibling();
     }
     return beside == Beside::kSkip || best_.vertex < 0 ? -1 : take_best();
   }
@@ -274,6 +311,7 @@ class Tracer {
   const std::vector<double>& distances_;
   const SourcePoints& sources_;
   const std::vector<TraceRecord>& records_;
+  const std::vector<SiblingCrossing>& crossings_;
   const Task& task_;
   std::size_t work_ = 0;  ///< triangles crossed and vertices passed
   IntrinsicPath path_;
@@ -284,9 +322,10 @@ class Tracer {
 }  // namespace
 
 IntrinsicPath trace_records(const SolvedDistances& solved, const std::vector<TraceRecord>& records,
-                            const PlacedPoint& target, const Task& task) {
+                            const std::vector<SiblingCrossing>& crossings, const PlacedPoint& target,
+                            const Task& task) {
   if (target.vertex >= 0) {
-    return Tracer(solved, records, task)
+    return Tracer(solved, records, crossings, task)
         .run(target.vertex, {.points = {{.vertex = target.vertex}}, .faces = {}, .length = 0});
   }
   StraightStart start = find_straight_start(solved, target, task);
@@ -295,7 +334,7 @@ IntrinsicPath trace_records(const SolvedDistances& solved, const std::vector<Tra
     std::reverse(start.path.faces.begin(), start.path.faces.end());
     return std::move(start.path);
   }
-  return Tracer(solved, records, task).run(start.vertex, std::move(start.path));
+  return Tracer(solved, records, crossings, task).run(start.vertex, std::move(start.path));
 }
 
 IntrinsicPath shorten(const GeodesicMesh& mesh, SubmeshCutter& cutter, const IntrinsicPath& path,
@@ -316,8 +355,8 @@ IntrinsicPath shorten(const GeodesicMesh& mesh, SubmeshCutter& cutter, const Int
   const Submesh part = cutter.cut(vertices);
   const SourcePoints sources({to_part(cutter, source)});
   const WavefrontResult result = propagate_wavefront(*part.mesh, sources, task);
-  IntrinsicPath shorter =
-      trace_records({*part.mesh, result.distances, sources}, result.records, to_part(cutter, target), task);
+  IntrinsicPath shorter = trace_records({*part.mesh, result.distances, sources}, result.records, result.crossings,
+                                        to_part(cutter, target), task);
   to_whole_mesh(part, shorter);
   return shorter;
 }

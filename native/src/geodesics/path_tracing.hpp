@@ -14,11 +14,13 @@
 
 namespace seamwire::detail {
 
-/// The path to a target that the records tell, in internal numbers. Where one cannot be followed, which takes triangles
-/// thinner than rounding or stretched windows, the path goes along edges for a while. A target that is a vertex has a
-/// distance; another one may have none, and the path then no points, and its distances are exact.
+/// The path to a target that the records and the crossings tell, in internal numbers. Where one cannot be followed,
+/// which takes triangles thinner than rounding or stretched windows, the path goes along edges for a while. A target
+/// that is a vertex has a distance; another one may have none, and the path then no points, and its distances are
+/// exact.
 IntrinsicPath trace_records(const SolvedDistances& solved, const std::vector<TraceRecord>& records,
-                            const PlacedPoint& target, const Task& task = {});
+                            const std::vector<SiblingCrossing>& crossings, const PlacedPoint& target,
+                            const Task& task = {});
 
 /// The shortest path from a source to a target, within the triangles at the vertices of paths between them, at the ends
 /// of the edges these cross and around the faces of source and target; all in internal numbers. Of `path` only the

@@ -42,19 +42,24 @@ std::array<double, 3> checked_barycentric(const std::array<double, 3>& barycentr
 PlacedPoint PlacedPoint::in_face(const GeodesicMesh& mesh, const InFace& first) {
   PlacedPoint point{.vertex = -1, .faces = {first}};
   for (std::size_t i = 0; i < point.faces.size(); ++i) {
-    const auto [face, weights] = point.faces[i];
+    const std::int32_t face = point.faces[i].face;
+    const std::array<double, 3> weights = point.faces[i].weights;
     for (std::int32_t h = 3 * face; h < 3 * face + 3; ++h) {
       const Point2 at = position(mesh, h, weights);
-      const std::int32_t twin = mesh.twin(h);
       const double length = mesh.half_edge(h).length;
-      if (at.y > 0 || !(at.x >= 0 && at.x <= length) || twin < 0) continue;
-      const bool is_known = std::ranges::any_of(point.faces, [&](const InFace& f) { return f.face == twin / 3; });
-      if (is_known) continue;
-      const bool is_on_edge = weights[previous_in_face(h) % 3] == 0;
-      std::array<double, 3> beyond{};
-      beyond[twin % 3] = is_on_edge ? weights[next_in_face(h) % 3] : at.x / length;
-      beyond[next_in_face(twin) % 3] = is_on_edge ? weights[h % 3] : 1 - at.x / length;
-      point.faces.push_back({twin / 3, beyond});
+      if (at.y > 0 || !(at.x >= 0 && at.x <= length)) continue;
+      mesh.for_each_beyond(h, [&](std::int32_t other) {
+        const bool is_known = std::ranges::any_of(point.faces, [&](const InFace& f) { return f.face == other / 3; });
+        if (is_known) return;
+        const bool is_on_edge = weights[previous_in_face(h) % 3] == 0;
+        double at_tail = is_on_edge ? weights[h % 3] : 1 - at.x / length;
+        double at_tip = is_on_edge ? weights[next_in_face(h) % 3] : at.x / length;
+        if (!mesh.is_mirrored(h, other)) std::swap(at_tail, at_tip);
+        std::array<double, 3> beyond{};
+        beyond[other % 3] = at_tail;
+        beyond[next_in_face(other) % 3] = at_tip;
+        point.faces.push_back({other / 3, beyond});
+      });
     }
   }
   return point;

@@ -44,8 +44,8 @@ inline Point2 position(const GeodesicMesh& mesh, std::int32_t h, const std::arra
 /// Barycentric coordinates with the sum 1. Throws InvalidInput, which begins with `what`, for those that are none.
 std::array<double, 3> checked_barycentric(const std::array<double, 3>& barycentric, const std::string& what);
 
-/// A SurfacePoint in internal numbers: a vertex, or a point in one face, or in the two faces of an edge. Where faces
-/// have no height, in all those whose edges it is on.
+/// A SurfacePoint in internal numbers: a vertex, or a point in one face, or in all faces of an edge. Where faces have
+/// no height, in all those whose edges it is on.
 struct PlacedPoint {
   struct InFace {
     std::int32_t face;
@@ -75,17 +75,22 @@ struct PlacedPoint {
       }
     }
   }
-  /// Straight lines that leave its faces: calls enter(h, p) for each half-edge h that they enter the next face over, in
-  /// whose frame the point is p, below it.
+  /// Straight lines that leave its faces: calls enter(h, p, left) for each half-edge h that they enter a next face
+  /// over, in whose frame the point is p, below it; they leave their face over the half-edge `left`.
   template <class Enter>
   void for_each_exit(const GeodesicMesh& mesh, const Enter& enter) const {
-    for (const auto& [face, weights] : faces) {
-      for (std::int32_t h = 3 * face; h < 3 * face + 3; ++h) {
-        const std::int32_t entered = mesh.twin(h);
+    for (const InFace& in : faces) {
+      const std::array<double, 3>& weights = in.weights;
+      for (std::int32_t h = 3 * in.face; h < 3 * in.face + 3; ++h) {
         const GeodesicMesh::HalfEdge& edge = mesh.half_edge(h);
         const double apex = weights[previous_in_face(h) % 3], y = apex * edge.apex_y;
-        if (entered < 0 || !(y > 0)) continue;
-        enter(entered, Point2{weights[h % 3] * edge.length + apex * (edge.length - edge.apex_x), -y});
+        if (!(y > 0)) continue;
+        mesh.for_each_beyond(h, [&](std::int32_t entered) {
+          const double x = mesh.is_mirrored(h, entered)
+                               ? weights[next_in_face(h) % 3] * edge.length + apex * edge.apex_x
+                               : weights[h % 3] * edge.length + apex * (edge.length - edge.apex_x);
+          enter(entered, Point2{x, -y}, h);
+        });
       }
     }
   }

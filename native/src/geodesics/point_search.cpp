@@ -16,6 +16,7 @@
 #include <queue>
 #include <utility>
 
+#include "detail/half_edge.hpp"
 #include "geodesics/window_kernels.hpp"
 
 namespace seamwire::detail {
@@ -50,10 +51,23 @@ struct Bounding {
 /// Straight lines from the point through the interval [begin, end] of a half-edge.
 struct Beam {
   std::int32_t half_edge, parent;
+  std::int32_t left_over;  ///< the half-edge that it left the triangle before over
   double begin, end;
   Point2 point;
-  Bounding left, right;
+  Bounding near_tail, near_tip;  ///< on either side of it
 };
+
+/// Into the frame of a sibling that runs the other way.
+void mirror(Beam& beam, double length) {
+  beam = {.half_edge = beam.half_edge,
+          .parent = beam.parent,
+          .left_over = beam.left_over,
+          .begin = length - beam.end,
+          .end = length - beam.begin,
+          .point = {length - beam.point.x, beam.point.y},
+          .near_tail = {{length - beam.near_tip.at.x, beam.near_tip.at.y}, beam.near_tip.distance},
+          .near_tip = {{length - beam.near_tail.at.x, beam.near_tail.at.y}, beam.near_tail.distance}};
+}
 
 class PointSearch {
  public:
@@ -62,15 +76,16 @@ class PointSearch {
 
   StraightStart run() {
     look_within_faces();
-    point_.for_each_exit(mesh_, [&](std::int32_t h, const Point2& p) {
+    point_.for_each_exit(mesh_, [&](std::int32_t h, const Point2& p, std::int32_t left) {
       const HalfEdge& edge = mesh_.half_edge(h);
       add({.half_edge = h,
            .parent = -1,
+           .left_over = left,
            .begin = 0.0,
            .end = edge.length,
            .point = p,
-           .left = {{0.0, 0.0}, lower_bound(edge.tail)},
-           .right = {{edge.length, 0.0}, lower_bound(edge.tip)}});
+           .near_tail = {{0.0, 0.0}, lower_bound(edge.tail)},
+           .near_tip = {{edge.length, 0.0}, lower_bound(edge.tip)}});
     });
     while (!queue_.empty() && is_promising(queue_.top().first)) {
       const std::int32_t beam = queue_.top().second;
@@ -130,7 +145,7 @@ class PointSearch {
     double bound = distance(beam.point, {x, 0.0}) + std::max(tail - x, tip - (edge.length - x));
     const Point2 begin{beam.begin, 0.0}, end{beam.end, 0.0};
     const double to_begin = distance(beam.point, begin), to_end = distance(beam.point, end);
-    for (const Bounding& vertex : {beam.left, beam.right}) {
+    for (const Bounding& vertex : {beam.near_tail, beam.near_tip}) {
       // On a line |px| - |xv| has one stationary point at most, where the line meets that through p and v. If p lies
       // between v and that point, it is the least value, -|pv|. Otherwise the least value on a segment is at an end.
       double detour = std::min(to_begin - distance(vertex.at, begin), to_end - distance(vertex.at, end));
@@ -168,22 +183,25 @@ class PointSearch {
       offer(distance(beam.point, apex), edge.apex, -1, number, beam.half_edge, apex);
     }
     const Bounding at_apex{apex, lower_bound(edge.apex)};
-    if (edge.left >= 0 && split > beam.begin) {
+    if (split > beam.begin) {
       const bool reaches_apex = split <= beam.end;
-      hand_on(number, edge.left, edge.left_length, beam.begin, reaches_apex ? kInfinity : beam.end, beam.left,
-              reaches_apex ? at_apex : beam.right, [&](const Point2& p) { return to_left(edge, p); });
+      hand_on(number, previous_in_face(beam.half_edge), edge.left_length, beam.begin,
+              reaches_apex ? kInfinity : beam.end, beam.near_tail, reaches_apex ? at_apex : beam.near_tip,
+              [&](const Point2& p) { return to_left(edge, p); });
     }
-    if (edge.right >= 0 && split < beam.end) {
+    if (split < beam.end) {
       const bool reaches_apex = split >= beam.begin;
-      hand_on(number, edge.right, edge.right_length, reaches_apex ? -kInfinity : beam.begin, beam.end,
-              reaches_apex ? at_apex : beam.left, beam.right, [&](const Point2& p) { return to_right(edge, p); });
+      hand_on(number, next_in_face(beam.half_edge), edge.right_length, reaches_apex ? -kInfinity : beam.begin, beam.end,
+              reaches_apex ? at_apex : beam.near_tail, beam.near_tip,
+              [&](const Point2& p) { return to_right(edge, p); });
     }
   }
 
   /// Hands what a beam has between two points of its base on over a side; infinite: as far as the side goes.
+  /// `left_over` is the side's half-edge in the triangle that the beam leaves.
   template <class Move>
-  void hand_on(std::int32_t parent, std::int32_t entered, double length, double begin, double end, Bounding left,
-               Bounding right, const Move& move) {
+  void hand_on(std::int32_t parent, std::int32_t left_over, double length, double begin, double end, Bounding near_tail,
+               Bounding near_tip, const Move& move) {
     const Point2 p = move(beams_[parent].point);
     const auto meets_side = [&](double base) {
       if (std::isinf(base)) return base < 0 ? 0.0 : length;
@@ -191,15 +209,23 @@ class PointSearch {
       if (!(through.y > p.y)) return std::numeric_limits<double>::quiet_NaN();
       return std::clamp(meets_base(p, through), 0.0, length);
     };
-    left.at = move(left.at);
-    right.at = move(right.at);
-    add({.half_edge = entered,
-         .parent = parent,
-         .begin = meets_side(begin),
-         .end = meets_side(end),
-         .point = p,
-         .left = left,
-         .right = right});
+    if (mesh_.twin(left_over) < 0 && mesh_.sibling(left_over) < 0) return;
+    begin = meets_side(begin);
+    end = meets_side(end);
+    near_tail.at = move(near_tail.at);
+    near_tip.at = move(near_tip.at);
+    mesh_.for_each_beyond(left_over, [&](std::int32_t entered) {
+      Beam beam{.half_edge = entered,
+                .parent = parent,
+                .left_over = left_over,
+                .begin = begin,
+                .end = end,
+                .point = p,
+                .near_tail = near_tail,
+                .near_tip = near_tip};
+      if (mesh_.is_mirrored(left_over, entered)) mirror(beam, length);
+      add(beam);
+    });
   }
 
   /// Lists what the best line passes, from its end to the point and then the other way.
@@ -216,10 +242,12 @@ class PointSearch {
       path.faces.push_back(beam.half_edge / 3);
       path.points.push_back(
           {.half_edge = beam.half_edge, .t = std::clamp(meets_base(beam.point, end), beam.begin, beam.end) / length});
-      last = mesh_.twin(beam.half_edge);
+      last = beam.left_over;
       if (beam.parent < 0) break;
-      const HalfEdge& before = mesh_.half_edge(beams_[beam.parent].half_edge);
-      end = before.left == beam.half_edge ? from_left(before, end) : from_right(before, end);
+      if (mesh_.is_mirrored(beam.left_over, beam.half_edge)) end.x = length - end.x;
+      const std::int32_t entered = beams_[beam.parent].half_edge;
+      const HalfEdge& before = mesh_.half_edge(entered);
+      end = beam.left_over == previous_in_face(entered) ? from_left(before, end) : from_right(before, end);
     }
     path.faces.push_back(last / 3);
     path.points.push_back(point_.path_point());

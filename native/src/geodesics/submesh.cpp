@@ -6,7 +6,7 @@
 
 namespace seamwire::detail {
 
-Submesh SubmeshCutter::cut(std::span<const std::int32_t> vertices) {
+void SubmeshCutter::number(std::span<const std::int32_t> vertices) {
   for (const std::int32_t v : used_vertices_) part_vertex_[v] = 0;
   for (const std::int32_t f : used_faces_) part_face_[f] = 0;
   used_vertices_.clear();
@@ -32,7 +32,10 @@ Submesh SubmeshCutter::cut(std::span<const std::int32_t> vertices) {
   for (std::size_t v = 0; v < used_vertices_.size(); ++v) {
     part_vertex_[used_vertices_[v]] = static_cast<std::int32_t>(v) + 1;
   }
+}
 
+Submesh SubmeshCutter::cut(std::span<const std::int32_t> vertices) {
+  number(vertices);
   const std::shared_ptr<GeodesicMesh> part(new GeodesicMesh);
   const auto entered = [&](std::int32_t h) {
     if (h < 0) return -1;
@@ -43,8 +46,9 @@ Submesh SubmeshCutter::cut(std::span<const std::int32_t> vertices) {
   part->angle_.resize(3 * used_faces_.size());
   part->is_pseudo_source_.resize(used_vertices_.size());
   for (std::size_t v = 0; v < used_vertices_.size(); ++v) {
-    part->is_pseudo_source_[v] = mesh_.is_pseudo_source(used_vertices_[v]);
+    part->is_pseudo_source_[v] = mesh_.is_pseudo_source_[used_vertices_[v]];
   }
+  if (mesh_.has_siblings()) part->siblings_.assign(part->half_edges_.size(), -1);
   std::vector<Triangle> corners;
   corners.reserve(used_faces_.size());
   for (std::size_t own = 0; const std::int32_t face : used_faces_) {
@@ -56,7 +60,14 @@ Submesh SubmeshCutter::cut(std::span<const std::int32_t> vertices) {
       edge.apex = part_vertex(edge.apex);
       edge.left = entered(edge.left);
       edge.right = entered(edge.right);
-      if (edge.left < 0) part->is_pseudo_source_[edge.tail] = part->is_pseudo_source_[edge.apex] = 1;
+      if (edge.left < 0) {
+        for (const std::int32_t v : {edge.tail, edge.apex}) part->is_pseudo_source_[v] |= GeodesicMesh::kPseudoSource;
+      }
+      if (mesh_.sibling(h) >= 0) {  // the next one of those that are inside
+        std::int32_t other = mesh_.sibling(h);
+        while (entered(other) < 0) other = mesh_.sibling(other);
+        if (other != h) part->siblings_[own] = entered(other);
+      }
       triangle[index(h % 3)] = edge.tail;
       part->half_edges_.edit(own) = edge;
       part->angle_.edit(own++) = mesh_.angle(h);

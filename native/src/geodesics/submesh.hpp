@@ -31,6 +31,9 @@ class SubmeshCutter {
   std::int32_t part_face(std::int32_t face) const { return part_face_[face] - 1; }
 
  private:
+  /// Numbers the triangles that have one of the given vertices, and their corners.
+  void number(std::span<const std::int32_t> vertices);
+
   const GeodesicMesh& mesh_;
   ZeroedArray<std::int32_t> part_vertex_, part_face_;  ///< the number in the submesh plus one; 0: outside
   std::vector<std::int32_t> used_vertices_, used_faces_;

@@ -12,11 +12,19 @@ struct TraceRecord {
   /// face. Along an edge: x is its length.
   double x = 0.0, y = 0.0;
   std::int32_t half_edge = kNone;  ///< crossed last (>= 0); ~h: straight along half-edge h; kNone: the seed, or none
-  /// The vertex the path runs straight from; the number of vertices plus k: the point in a face that is source k.
+  /// The vertex the path runs straight from; the number of vertices plus k: the point in a face that is source k; the
+  /// number of vertices and sources plus k: whatever crossing k came from.
   std::int32_t source = -1;
 
   static constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::min();
   static constexpr std::int32_t kLooseEdge = kNone + 1;  ///< straight along an edge without faces
+};
+
+/// Where a straight path crosses an edge with siblings: which face it comes from. The last one of a path names the one
+/// before it, and so on.
+struct SiblingCrossing {
+  std::int32_t half_edge;  ///< of the face that the path leaves
+  std::int32_t source;     ///< what the path comes from, as in a TraceRecord
 };
 
 }  // namespace seamwire::detail

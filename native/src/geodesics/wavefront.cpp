@@ -13,6 +13,12 @@
 //
 // A path through what is dropped is longer than another path, or as long up to rounding. In the latter case a sliver
 // may be lost, next to a path of the same length.
+//
+// Over an edge with siblings (IntrinsicMesh::siblings) windows go on into every other face at it. None of the rules
+// depends on the number of faces below a list's edge. The filter and the comparison of neighbors look only at points of
+// that edge. "One angle, two sides" looks only at paths within the triangle above it: a ray that crosses the shortest
+// path to the apex there is no shorter behind the crossing, wherever the two come from. A list is sorted before its
+// windows are compared, so they may arrive in any order.
 #include "geodesics/wavefront.hpp"
 
 #include <algorithm>
@@ -20,12 +26,14 @@
 #include <limits>
 #include <numbers>
 #include <span>
+#include <unordered_map>
 #include <utility>
 
 #include "detail/index.hpp"
 #include "detail/indexed_heap.hpp"
 #include "detail/poll.hpp"
 #include "detail/prefetch.hpp"
+#include "geodesics/corner_angles.hpp"
 #include "geodesics/window_kernels.hpp"
 #include "geodesics/window_lists.hpp"
 
@@ -38,6 +46,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A path arrives at a vertex in a direction known up to this angle: ties, and gains too small to count, are within it.
 constexpr double kShadowMargin = 1e-3;
+constexpr double kShadow = std::numbers::pi - kShadowMargin;
 /// A source whose distance falls by less than this part of it does not emit windows again: that is rounding.
 constexpr double kLeastGain = 1e-13;
 /// A distance that an edge makes shorter by more than this is not rounding.
@@ -182,13 +191,28 @@ class Wavefront {
     source.for_each_corner(mesh_, [&](std::int32_t h, const Point2& p, double straight) {
       relax(mesh_.half_edge(h).apex, straight, {.x = p.x, .y = p.y, .half_edge = h, .source = number});
     });
-    source.for_each_exit(mesh_, [&](std::int32_t h, const Point2& p) {
-      const HalfEdge& edge = mesh_.half_edge(h);
-      WindowList& list = lists_[h];
-      list.reserve_back(1, blocks_).set(0, 0.0, edge.length, p.x, p.y, 0.0, number);
-      list.grew_back(1);
-      queue_list(h, edge.tail, edge.tip);
+    source.for_each_exit(mesh_, [&](std::int32_t h, const Point2& p, std::int32_t left) {
+      add_window(h, 0.0, mesh_.half_edge(h).length, p, 0.0, mesh_.sibling(left) < 0 ? number : crossing(left, number));
     });
+  }
+
+  /// Adds a window to the list of h.
+  void add_window(std::int32_t h, double b0, double b1, const Point2& from, double distance, std::int32_t source) {
+    const HalfEdge& edge = mesh_.half_edge(h);
+    WindowList& list = lists_[h];
+    list.reserve_back(1, blocks_).set(0, b0, b1, from.x, from.y, distance, source);
+    list.grew_back(1);
+    queue_list(h, edge.tail, edge.tip);
+  }
+
+  /// The name of a source for windows that leave a face over the half-edge `left`, which has siblings.
+  std::int32_t crossing(std::int32_t left, std::int32_t source) {
+    const auto key = static_cast<std::uint64_t>(left) << 32U | static_cast<std::uint32_t>(source);
+    const std::size_t first = mesh_.vertex_count() + sources_.points().size();
+    const auto next = static_cast<std::int32_t>(first + result_.crossings.size());
+    const auto [entry, is_new] = crossings_.try_emplace(key, next);
+    if (is_new) result_.crossings.push_back({left, source});
+    return entry->second;
   }
 
   /// A path to v was found; keeps it if it is shorter than what is known.
@@ -223,12 +247,17 @@ class Wavefront {
       make_ready(h);
       make_ready(previous_in_face(h));
       make_ready(next_in_face(h));
-      const std::int32_t opposite = mesh_.half_edge(h).right;
-      if (opposite >= 0 && list_state_[opposite] == ListState::kWaiting &&
-          status_[mesh_.half_edge(opposite).apex] != Status::kUnreached) {
-        make_ready(opposite);
+      if (const std::int32_t opposite = mesh_.half_edge(h).right; opposite >= 0) {
+        make_ready_beyond(opposite);
+      } else {
+        mesh_.for_each_beyond(next_in_face(h), [&](std::int32_t sibling) { make_ready_beyond(sibling); });
       }
     }
+  }
+  /// Opposite to a vertex that the front passes.
+  void make_ready_beyond(std::int32_t h) {
+    if (list_state_[h] != ListState::kWaiting) return;
+    if (status_[mesh_.half_edge(h).apex] != Status::kUnreached) make_ready(h);
   }
 
   /// Relaxes the ends of the edges at v.
@@ -243,6 +272,10 @@ class Wavefront {
   void emit_windows(std::int32_t v) {
     relax_neighbors(v);
     const auto [arrival, angle] = arrival_at(v);
+    if (arrival >= 0 && mesh_.is_branching(v)) {
+      emit_shadow_windows_branching(v, arrival, angle);
+      return;
+    }
     std::size_t corners = 0;
     if (arrival >= 0) corners = emit_shadow_windows(v, arrival, angle);
     if (corners == mesh_.out(v).size()) return;
@@ -274,10 +307,23 @@ class Wavefront {
     return {next_in_face(along), mesh_.angle(next_in_face(along))};
   }
 
+  /// The same where umbrellas meet at edges with siblings: the angle is at least pi on every way around the vertex.
+  void emit_shadow_windows_branching(std::int32_t v, std::int32_t arrival, double angle) {
+    for (const CornerAngles& corner : angles_around(mesh_, v, arrival, angle)) {
+      const std::int32_t h = corner.half_edge;
+      const double begin = kShadow - corner.at_right, end = mesh_.angle(h) - (kShadow - corner.at_left);
+      if (h != arrival) {
+        emit_window(v, h, begin, end);
+      } else {  // within the corner itself, on either side of the path
+        emit_window(v, h, begin, std::min(end, angle - kShadow));
+        emit_window(v, h, std::max(begin, angle + kShadow), end);
+      }
+    }
+  }
+
   /// A shortest path that bends at v has an angle of at least pi on both sides. Emits windows where that is so, in the
   /// umbrella of the corner where the path arrives; returns how many corners it has, and leaves them in umbrella_.
   std::size_t emit_shadow_windows(std::int32_t v, std::int32_t arrival, double angle) {
-    constexpr double kShadow = std::numbers::pi - kShadowMargin;
     umbrella_.clear();
     double turned = -angle;
     std::int32_t h = arrival;
@@ -310,7 +356,8 @@ class Wavefront {
   void emit_window(std::int32_t v, std::int32_t h, double begin, double end) {
     if (!(begin < end) || end <= 0 || begin >= mesh_.angle(h)) return;
     const HalfEdge& edge = mesh_.half_edge(h);
-    if (edge.right < 0) return;
+    const std::int32_t opposite = next_in_face(h);
+    if (edge.right < 0 && mesh_.sibling(opposite) < 0) return;
     const double cosine = (edge.length - edge.apex_x) / edge.right_length;
     const double sine = -edge.apex_y / edge.right_length;
     const double x = -edge.apex_x * cosine - edge.apex_y * sine, y = edge.apex_x * sine - edge.apex_y * cosine;
@@ -325,10 +372,18 @@ class Wavefront {
     const double b0 = end < mesh_.angle(h) ? meets(end) : 0.0;
     const double b1 = begin > 0 ? meets(begin) : length;
     if (!(b1 - b0 > kLeastWidth * length)) return;
-    WindowList& list = lists_[edge.right];
-    list.reserve_back(1, blocks_).set(0, b0, b1, x, y, distance(v), v);
-    list.grew_back(1);
-    queue_list(edge.right, edge.apex, edge.tip);
+    if (edge.right >= 0) {
+      add_window(edge.right, b0, b1, {x, y}, distance(v), v);
+      return;
+    }
+    const std::int32_t source = crossing(opposite, v);
+    mesh_.for_each_beyond(opposite, [&](std::int32_t entered) {
+      if (mesh_.is_mirrored(opposite, entered)) {
+        add_window(entered, length - b1, length - b0, {length - x, y}, distance(v), source);
+      } else {
+        add_window(entered, b0, b1, {x, y}, distance(v), source);
+      }
+    });
   }
 
   void make_ready(std::int32_t h) {
@@ -561,7 +616,9 @@ class Wavefront {
   void cross_side(const Crossing& c) {
     const HalfEdge& edge = c.edge;
     const std::int32_t entered = is_left ? edge.left : edge.right;
-    if (entered < 0 || !(is_left ? c.split > 0 : c.split < edge.length)) return;
+    const std::int32_t left = is_left ? previous_in_face(c.half_edge) : next_in_face(c.half_edge);
+    if (entered < 0 && mesh_.sibling(left) < 0) return;
+    if (!(is_left ? c.split > 0 : c.split < edge.length)) return;
     // Windows behind the split and behind the apex projection do not reach the side; at the far end they are many.
     std::size_t begin = 0, end = c.count;
     if constexpr (is_left) {
@@ -590,6 +647,10 @@ class Wavefront {
       made = kernels_.to_right(windows, count, projections, c.split, triangle, side, children);
     }
     if (made == 0) return;
+    if (entered < 0) {
+      hand_on_to_siblings(windows, children, count, left, length);
+      return;
+    }
     // In the list of the half-edge that they enter, these come before those from the other triangle, or after them.
     WindowList& list = lists_[entered];
     if constexpr (is_left) {
@@ -600,6 +661,23 @@ class Wavefront {
       list.grew_back(made);
     }
     queue_list(entered, tail, tip);
+  }
+
+  /// Hands on those of `count` windows that are alive, to each half-edge of the edge but `left`, which they leave over.
+  void hand_on_to_siblings(const Windows& from, const ChildWindows& children, std::size_t count, std::int32_t left,
+                           double length) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (children.alive[i] == 0) continue;
+      const std::int32_t source = crossing(left, from.source[i]);
+      const double b0 = children.b0[i], b1 = children.b1[i], x = children.x[i], y = children.y[i];
+      mesh_.for_each_beyond(left, [&](std::int32_t entered) {
+        if (mesh_.is_mirrored(left, entered)) {
+          add_window(entered, length - b1, length - b0, {length - x, y}, from.distance[i], source);
+        } else {
+          add_window(entered, b0, b1, {x, y}, from.distance[i], source);
+        }
+      });
+    }
   }
 
   /// Writes those that are alive, `made` of `count`, side by side.
@@ -635,6 +713,7 @@ class Wavefront {
   Scratch<double> projections_, apex_distances_, pairs_, children_;
   Scratch<std::int64_t> flags_;
   Scratch<std::size_t> lefts_;
+  std::unordered_map<std::uint64_t, std::int32_t> crossings_;  ///< by the half-edge left and the source
   std::size_t vertices_done_ = 0, work_ = 0;
 };
 

@@ -16,6 +16,7 @@ namespace seamwire::detail {
 struct WavefrontResult {
   std::vector<double> distances;
   std::vector<TraceRecord> records;
+  std::vector<SiblingCrossing> crossings;  ///< that records name
   GeodesicCounters counters;
   /// Distances up to it are final, others infinite; infinite where the front was not stopped.
   double radius = std::numeric_limits<double>::infinity();

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -213,11 +214,18 @@ void remove_faces(Faces& faces, const std::vector<bool>& remove, std::vector<Ind
   faces.source.resize(kept);
 }
 
-// The side glued to each side; none at edges with one face, or with more than two.
+// The side glued to each side; none at edges with one face, or with more than two. Where more than one face meets at
+// an edge that is not glued, the next side of that edge, in a cycle; empty without such edges.
 struct Gluing {
   std::vector<Index> twin;
+  std::vector<Index> sibling;
   std::vector<Edge> carried;  // edges that faces have, sorted
 };
+
+void link_siblings(Gluing& gluing, std::span<const Index> sides) {
+  if (gluing.sibling.empty()) gluing.sibling.assign(gluing.twin.size(), kNone);
+  for (std::size_t i = 0; i < sides.size(); ++i) gluing.sibling[sides[i]] = sides[(i + 1) % sides.size()];
+}
 
 Gluing glue(const Faces& faces, const ItemsByEdge& by_edge, SurfaceReport& report) {
   Gluing gluing;
@@ -226,7 +234,10 @@ Gluing glue(const Faces& faces, const ItemsByEdge& by_edge, SurfaceReport& repor
   by_edge.for_each_edge(0.3, [&](const Edge& edge, std::span<const Index> sides) {
     gluing.carried.push_back(edge);
     if (sides.size() == 1) ++report.boundary_edges;
-    if (sides.size() > 2) report.nonmanifold_edges.push_back(edge);
+    if (sides.size() > 2) {
+      report.nonmanifold_edges.push_back(edge);
+      link_siblings(gluing, sides);
+    }
     if (sides.size() != 2) return;
     gluing.twin[sides[0]] = sides[1];
     gluing.twin[sides[1]] = sides[0];
@@ -289,17 +300,17 @@ std::vector<bool> find_flips(const Faces& faces, const std::vector<Index>& twin,
 }
 
 // Cuts the glued pairs that the flips cannot make agree.
-void cut_unorientable(const Faces& faces, const std::vector<bool>& flipped, std::vector<Index>& twin,
-                      std::vector<Edge>& cut) {
+void cut_unorientable(const Faces& faces, const std::vector<bool>& flipped, Gluing& gluing, std::vector<Edge>& cut) {
   for (Index side = 0; side < faces.side_count(); ++side) {
-    const Index other = twin[side];
+    const Index other = gluing.twin[side];
     if (other < side) continue;
     const bool agree_as_given = faces.tail(side) == faces.tip(other);
     if (agree_as_given == (flipped[side / 3] == flipped[other / 3])) continue;
     const Index a = faces.tail(side);
     const Index b = faces.tip(side);
     cut.push_back({std::min(a, b), std::max(a, b)});
-    twin[side] = twin[other] = kNone;
+    gluing.twin[side] = gluing.twin[other] = kNone;
+    link_siblings(gluing, std::array{side, other});
   }
   std::ranges::sort(cut);
 }
@@ -416,8 +427,10 @@ void link_half_edges(const std::vector<Vector>& points, const Faces& faces, cons
 }
 
 // The same in flat arrays. A face that is turned over has its sides in the other order.
-void list_faces(const std::vector<Index>& twin, const std::vector<bool>& flipped, const Fans& fans,
-                std::vector<Triangle>& face_fans, std::vector<Index>& twins, const Task& task) {
+void list_faces(const Gluing& gluing, const std::vector<bool>& flipped, const Fans& fans,
+                std::vector<Triangle>& face_fans, std::vector<Index>& twins, std::vector<Index>& siblings,
+                const Task& task) {
+  const std::vector<Index>& twin = gluing.twin;
   const auto turned_over = [&](Index side) { return flipped[side / 3] ? side / 3 * 3 + 2 - side % 3 : side; };
   resize(face_fans, twin.size() / 3, task, 0.9);
   resize(twins, twin.size(), task, 0.9);
@@ -427,6 +440,12 @@ void list_faces(const std::vector<Index>& twin, const std::vector<bool>& flipped
     const Index tail = flipped[side / 3] ? next_in_face(side) : side;
     face_fans[side / 3][turned_over(side) % 3] = fans.of_corner[tail];
     twins[turned_over(side)] = twin[side] == kNone ? -1 : turned_over(twin[side]);
+  }
+  resize(siblings, gluing.sibling.size(), task, 1.0);
+  const Poll listing(task, 1.0, 1.0, siblings.size());
+  for (Index side = 0; side < static_cast<Index>(siblings.size()); ++side) {
+    listing.at(index(side));
+    siblings[turned_over(side)] = gluing.sibling[side] == kNone ? -1 : turned_over(gluing.sibling[side]);
   }
 }
 
@@ -539,7 +558,7 @@ Surface::Surface(std::vector<Vector> points, std::vector<Triangle> triangles, st
   for (Index f = 0; f < faces.count(); ++f) {
     if (flipped[f]) report_.flipped_faces.push_back(faces.source[f]);
   }
-  cut_unorientable(faces, flipped, gluing.twin, report_.unorientable_edges);
+  cut_unorientable(faces, flipped, gluing, report_.unorientable_edges);
 
   task.check(0.6);
   Fans fans = find_fans(points_.size(), faces, gluing.twin, task);
@@ -548,7 +567,7 @@ Surface::Surface(std::vector<Vector> points, std::vector<Triangle> triangles, st
   link_half_edges(points_, faces, gluing.twin, flipped, fans, *mesh, task);
   mesh_ = std::move(mesh);
   task.check(0.9);
-  list_faces(gluing.twin, flipped, fans, face_fans_, twins_, task);
+  list_faces(gluing, flipped, fans, face_fans_, twins_, siblings_, task);
   vertex_of_fan_ = std::move(fans.vertex);
   source_face_ = std::move(faces.source);
 }

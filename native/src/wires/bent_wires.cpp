@@ -40,7 +40,8 @@ class Sides {
     std::size_t holes_seen = 0;
     for (std::size_t e = 0; e < edges_.count(); ++e) {
       const std::int32_t h = edges_.half_edges[e], twin = mesh_.twins[h];
-      ends_.push_back({h / 3, twin < 0 ? edges_.holes[holes_seen++] : twin / 3});
+      const bool is_wall = mesh_.has_siblings(h);  // no line leads over it
+      ends_.push_back({h / 3, is_wall ? h / 3 : twin < 0 ? edges_.holes[holes_seen++] : twin / 3});
       if (h == half_edge) cut_ = static_cast<std::int32_t>(e);
     }
     if (cut_ < 0) throw InvalidInput("the cut is of another embedding");
@@ -177,7 +178,12 @@ DoubleCover::DoubleCover(const IntrinsicMesh& below, const std::vector<std::int3
     return h % 3 == 0 ? false : h % 3 == 1 ? is_crossed[first] != 0 : is_crossed[first] != is_crossed[first + 1];
   };
   const auto face_count = static_cast<std::int32_t>(kept.size());
+  // What lies above a half-edge of an edge, on the sheet where a corner of its face at that edge is.
+  const auto above = [&](std::int32_t h, std::int32_t corner, bool corner_is_other) {
+    return 3 * (number[h / 3] + (corner_is_other != is_other(corner) ? face_count : 0)) + h % 3;
+  };
   mesh.vertex_count = 2 * vertex_count;
+  if (!below.siblings.empty()) mesh.siblings.reserve(6 * kept.size());
   for (const bool other : {false, true}) {
     for (const std::int32_t f : kept) {
       Triangle corners{};
@@ -185,6 +191,14 @@ DoubleCover::DoubleCover(const IntrinsicMesh& below, const std::vector<std::int3
         corners[index(h % 3)] = below.tail(h) + (is_other(h) != other ? vertex_count : 0);
         const std::int32_t twin = below.twins[h];
         mesh.lengths.push_back(below.lengths[h]);
+        if (!below.siblings.empty()) {  // the next one that is left
+          std::int32_t s = below.siblings[h];
+          while (s >= 0 && s != h && number[s / 3] < 0) s = below.siblings[s];
+          const bool tail_is_other = is_other(h) != other;
+          const bool is_alone = s < 0 || s == h;
+          mesh.siblings.push_back(
+              is_alone ? -1 : above(s, below.tail(s) == below.tail(h) ? s : next_in_face(s), tail_is_other));
+        }
         if (twin < 0 || number[twin / 3] < 0) {
           mesh.twins.push_back(-1);
           continue;

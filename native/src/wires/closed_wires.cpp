@@ -23,6 +23,7 @@
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "surface/exact_unit.hpp"
+#include "wires/loop_parts.hpp"
 #include "wires/path_position.hpp"
 #include "wires/polyline.hpp"
 #include "wires/vertex_tree.hpp"
@@ -104,7 +105,7 @@ class CutLocus {
   std::vector<Rated> minima(std::vector<Rated> rated) const;
   std::vector<SurfacePoint> around(std::int32_t half_edge, double radius) const;
   bool is_met_from_all_sides(std::int32_t half_edge, double radius) const;
-  std::optional<ClosedWire> loop(const Rated& rated) const;
+  std::optional<ClosedWire> loop(const Rated& rated);
 
   const Surface& surface_;
   const Embedding& embedding_;
@@ -114,6 +115,7 @@ class CutLocus {
   const double unit_;    // of lengths and areas here, see exact_unit()
   const Vector normal_;  // at the seed: unit, or 0
   std::unordered_map<std::int32_t, Vector> directions_;
+  std::optional<LoopParts> parts_;  // where edges have siblings
 };
 
 /// The point of a line at a distance along it.
@@ -157,10 +159,20 @@ std::vector<Vector> CutLocus::line(const IntrinsicPath& path) const {
   return points;
 }
 
+/// Faces at an edge with siblings count as one. Empty without such edges.
+DisjointSets joined_over_siblings(const IntrinsicMesh& mesh, std::size_t count) {
+  DisjointSets joined(mesh.siblings.empty() ? 0 : count);
+  for (std::int32_t h = 0; index(h) < mesh.siblings.size(); ++h) {
+    if (mesh.has_siblings(h)) joined.join(h / 3, mesh.siblings[h] / 3);
+  }
+  return joined;
+}
+
 /// The faces are joined, over edges that are not in the tree of the vertices, by the spanning tree (in each part) whose
 /// L are largest. Each of its edges, and each edge that is in neither tree, closes a loop of the tree of the vertices.
 /// That loop has on one side the faces which hang on the edge in the tree of the faces, unless an edge of neither tree
-/// leads from one side to the other: then it does not separate.
+/// leads from one side to the other: then it does not separate. No loop closes over an edge with siblings, and faces at
+/// such an edge count as one; loop() finds out whether what it offers does separate.
 std::vector<CutEdge> CutLocus::find() const {
   const MeshEdges edges(mesh_, task_);
   const std::vector<std::uint8_t> is_in_tree = vertex_tree(mesh_, edges, field_.distances(), task_);
@@ -175,15 +187,18 @@ std::vector<CutEdge> CutLocus::find() const {
   };
   std::vector<Closing> closing;
   closing.reserve(edges.count());
+  DisjointSets joined = joined_over_siblings(mesh_, edges.face_count + edges.hole_count);
+  const auto one_of = [&](std::int32_t face) { return mesh_.siblings.empty() ? face : joined.find(face); };
   std::size_t holes_seen = 0;
   for (std::size_t e = 0; e < edges.count(); ++e) {
     const std::int32_t h = edges.half_edges[e], twin = mesh_.twins[h];
+    if (mesh_.has_siblings(h)) continue;
     const std::int32_t other = twin < 0 ? edges.holes[holes_seen++] : twin / 3;
     if (is_in_tree[e] != 0) continue;
     const double length = distance(mesh_.tail(h)) + distance(mesh_.tip(h)) + mesh_.lengths[h];
     // Numbers that are not negative are ordered as their bits are. Half of them is more than enough.
     const std::uint64_t bits = std::bit_cast<std::uint64_t>(length) >> 32U;
-    closing.push_back({(~bits << 32U) | e, h, {h / 3, other}});
+    closing.push_back({(~bits << 32U) | e, h, {one_of(h / 3), one_of(other)}});
   }
   task_.check(0.3);
   std::ranges::sort(closing, {}, &Closing::key);
@@ -196,7 +211,7 @@ std::vector<CutEdge> CutLocus::find() const {
     std::int32_t degree = 0, edges = 0;
   };
   std::vector<Face> faces(edges.face_count + edges.hole_count);
-  for (std::size_t f = 0; f < edges.face_count; ++f) faces[f].area = span(static_cast<std::int32_t>(f)).norm();
+  for (std::int32_t f = 0; index(f) < edges.face_count; ++f) faces[one_of(f)].area += span(f).norm();
   DisjointSets parts(faces.size());
   std::vector<std::int32_t> left_over;
   for (std::size_t i = 0; i < closing.size(); ++i) {
@@ -352,7 +367,7 @@ std::vector<SurfacePoint> CutLocus::around(std::int32_t half_edge, double radius
       if (!(root >= 0 && q > 0)) continue;
       const double low = (-p - std::sqrt(root)) / q, high = (-p + std::sqrt(root)) / q;
       if (low > 1 || high < 0) continue;
-      enter(mesh_.twins[h]);
+      mesh_.for_each_beyond(h, enter);
       for (const double t : {low, high}) {
         if (!(t > 0 && t < 1)) continue;
         std::array<double, 3> at{};
@@ -410,7 +425,7 @@ bool CutLocus::is_met_from_all_sides(std::int32_t half_edge, double radius) cons
 }
 
 /// The loop over an edge, where it is one that the surface suggests.
-std::optional<ClosedWire> CutLocus::loop(const Rated& rated) const {
+std::optional<ClosedWire> CutLocus::loop(const Rated& rated) {
   const std::int32_t h = rated.edge.half_edge;
   IntrinsicPath path = field_.trace(mesh_.tail(h), task_);
   const IntrinsicPath back = field_.trace(mesh_.tip(h), task_);
@@ -428,14 +443,26 @@ std::optional<ClosedWire> CutLocus::loop(const Rated& rated) const {
   const double excess = angle_to(along, there, length_there) + angle_to(-along, other, length_other) - rated.turn;
   if (!(excess >= kLeastExcess)) return std::nullopt;
   if (is_met_from_all_sides(h, kAround * whole)) return std::nullopt;
+  bool separates = rated.edge.separates;
+  if (!mesh_.siblings.empty()) {
+    if (!parts_) parts_.emplace(mesh_, field_.distances(), task_);
+    const std::vector<std::uint8_t> side = parts_->side_of(h);
+    double area = 0.0, all = 0.0;
+    for (std::int32_t f = 0; index(f) < mesh_.face_count(); ++f) {
+      if (side[f] == LoopParts::kElsewhere) continue;
+      const double of_face = span(f).norm();
+      all += of_face;
+      if (side[f] == LoopParts::kLeft) area += of_face;
+    }
+    separates = std::ranges::find(side, LoopParts::kRight) != side.end();
+    if (separates && std::min(area, all - area) < kLeastArea * all) return std::nullopt;
+  }
   path.points.insert(path.points.end(), back.points.rbegin(), back.points.rend());
   path.faces.push_back(h / 3);
   path.faces.insert(path.faces.end(), back.faces.rbegin(), back.faces.rend());
   path.length += mesh_.lengths[h] + back.length;
-  return ClosedWire{.wire = map_wire(surface_, embedding_, path),
-                    .separates = rated.edge.separates,
-                    .turn = rated.turn,
-                    .half_edge = h};
+  return ClosedWire{
+      .wire = map_wire(surface_, embedding_, path), .separates = separates, .turn = rated.turn, .half_edge = h};
 }
 
 /// The mean distance of a loop's points from another one.

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
@@ -93,10 +96,11 @@ class Section {
         const auto face = static_cast<std::int32_t>(at - source.begin());
         end.faces.push_back(face);
         for (std::int32_t side = 3 * face; side < 3 * face + 3; ++side) {
-          const std::int32_t apex = tail(next_in_face(next_in_face(side))), twin = surface_.twins()[side];
+          const std::int32_t apex = tail(next_in_face(next_in_face(side)));
           const auto corner = std::ranges::find(corners, apex) - corners.begin();
           // Where the edge lies in the plane but for rounding, the curve may run on its other side alone.
-          if (weights[corner] == 0.0 && twin != -1) end.faces.push_back(twin / 3);
+          if (weights[corner] != 0.0) continue;
+          for_each_beyond(side, [&](std::int32_t other) { end.faces.push_back(other / 3); });
         }
         return end;
       }
@@ -137,26 +141,79 @@ class Section {
             .length = (to_.place - from_.place).norm()};
   }
 
-  // From the first point out of a face over one of its sides.
-  PlaneSection walk(std::int32_t first, std::int32_t side) const {
+  // A curve that has come to a face and leaves it over one of its sides.
+  struct Branch {
     PlaneSection section;
-    section.points.push_back(from_.place);
-    std::int32_t face = first;
+    std::int32_t face, side;
+    double length = 0.0;
+  };
+
+  // The shortest curve from the first point out of a face over one of its sides. The curve forks at edges with three or
+  // more faces. Of branches that enter the same face there over the same edge, only those that are shorter than each
+  // one before go on.
+  PlaneSection walk(std::int32_t first, std::int32_t side) const {
+    PlaneSection best;
+    std::map<std::int32_t, double> least;  // by the half-edge entered
+    std::vector<Branch> branches(1);
+    branches.front().section.points.push_back(from_.place);
+    branches.front().face = first;
+    branches.front().side = side;
+    while (!branches.empty()) {
+      Branch branch = std::move(branches.back());
+      branches.pop_back();
+      follow(first, branch, [&](std::int32_t entered) {
+        const auto [at, is_new] = least.try_emplace(entered, branch.length);
+        if (!is_new && !(branch.length < at->second)) return;
+        at->second = branch.length;
+        branches.push_back({branch.section, entered / 3, next_side(entered), branch.length});
+      });
+      if (branch.section.length < best.length) best = std::move(branch.section);
+    }
+    return best;
+  }
+
+  // The side over which the curve leaves a face that it entered.
+  std::int32_t next_side(std::int32_t entered) const {
+    return is_crossed(next_in_face(entered)) ? next_in_face(entered) : next_in_face(next_in_face(entered));
+  }
+
+  // To the second point, which gives the curve a length, or to where it ends or forks: then calls enter(half_edge) for
+  // each half-edge over which it may go on.
+  template <class Enter>
+  void follow(std::int32_t first, Branch& branch, const Enter& enter) const {
     while (true) {
-      if (to_.vertex == -1 && std::ranges::find(to_.faces, face) != to_.faces.end()) break;
-      add(section, crossing(side), face);
+      const std::int32_t side = branch.side;
+      if (to_.vertex == -1 && std::ranges::find(to_.faces, branch.face) != to_.faces.end()) break;
+      add(branch.section, crossing(side), branch.face);
       if (to_.vertex != -1 && (tail(side) == to_.vertex || head(side) == to_.vertex)) break;
       const std::int32_t twin = surface_.twins()[side];
-      if (twin == -1 || twin / 3 == first) return {};
-      face = twin / 3;
-      side = is_crossed(next_in_face(twin)) ? next_in_face(twin) : next_in_face(next_in_face(twin));
+      if (twin == -1) {
+        branch.length = length_of(branch.section);
+        for_each_beyond(side, enter);
+        return;
+      }
+      if (twin / 3 == first) return;
+      branch.face = twin / 3;
+      branch.side = next_side(twin);
     }
-    add(section, to_.place, face);
-    section.length = 0.0;
+    add(branch.section, to_.place, branch.face);
+    branch.section.length = length_of(branch.section);
+  }
+
+  static double length_of(const PlaneSection& section) {
+    double length = 0.0;
     for (std::size_t i = 1; i < section.points.size(); ++i) {
-      section.length += (section.points[i] - section.points[i - 1]).norm();
+      length += (section.points[i] - section.points[i - 1]).norm();
     }
-    return section;
+    return length;
+  }
+
+  // Calls visit(other) for each other half-edge of an edge.
+  template <class Visit>
+  void for_each_beyond(std::int32_t side, const Visit& visit) const {
+    if (surface_.twins()[side] != -1) visit(surface_.twins()[side]);
+    if (surface_.siblings().empty() || surface_.siblings()[side] == -1) return;
+    for (auto other = surface_.siblings()[side]; other != side; other = surface_.siblings()[other]) visit(other);
   }
 
   const Surface& surface_;

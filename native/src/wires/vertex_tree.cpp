@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "detail/disjoint_sets.hpp"
@@ -16,10 +17,41 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-std::int32_t next_of_boundary(const IntrinsicMesh& mesh, std::int32_t h) {
-  h = next_in_face(h);
-  while (mesh.twins[h] >= 0) h = next_in_face(mesh.twins[h]);
-  return h;
+/// One end of a half-edge.
+struct End {
+  std::int32_t half_edge;
+  bool is_tip;
+};
+
+/// The next edge of the boundary around the vertex at the end of one. Nothing where an edge with three or more
+/// triangles comes first.
+std::optional<End> next_of_boundary(const IntrinsicMesh& mesh, End at) {
+  while (true) {
+    at = {at.is_tip ? next_in_face(at.half_edge) : previous_in_face(at.half_edge), !at.is_tip};
+    const std::int32_t h = at.half_edge, twin = mesh.twins[h];
+    if (twin >= 0) {
+      at = {twin, !at.is_tip};
+    } else if (mesh.has_siblings(h)) {
+      const std::int32_t sibling = mesh.siblings[h];
+      if (mesh.siblings[sibling] != h) return std::nullopt;
+      at = {sibling, mesh.tail(sibling) == mesh.tail(h) ? at.is_tip : !at.is_tip};
+    } else {
+      return at;
+    }
+  }
+}
+
+/// Calls visit(half_edge) for each edge of a boundary, which may be closed or not.
+template <class Visit>
+void walk_boundary(const IntrinsicMesh& mesh, std::int32_t first, const Visit& visit) {
+  visit(first);
+  for (const bool is_tip : {true, false}) {
+    std::optional<End> at = next_of_boundary(mesh, {first, is_tip});
+    for (; at && at->half_edge != first; at = next_of_boundary(mesh, {at->half_edge, !at->is_tip})) {
+      visit(at->half_edge);
+    }
+    if (at) return;  // it is closed
+  }
 }
 
 }  // namespace
@@ -30,13 +62,14 @@ MeshEdges::MeshEdges(const IntrinsicMesh& mesh, const Task& task) : face_count(m
   const Poll poll(task, 0.0, 0.1, 3 * face_count);
   for (std::int32_t h = 0; index(h) < 3 * face_count; ++h) {
     poll.at(index(h));
-    const std::int32_t twin = mesh.twins[h];
-    if (twin < h && twin >= 0) continue;
+    std::int32_t first = h;
+    mesh.for_each_beyond(h, [&](std::int32_t other) { first = std::min(first, other); });
+    if (first < h) continue;
     half_edges.push_back(h);
-    if (twin >= 0) continue;
+    if (mesh.twins[h] >= 0 || mesh.has_siblings(h)) continue;
     if (hole_of[h] < 0) {
       const auto hole = static_cast<std::int32_t>(face_count + hole_count++);
-      for (std::int32_t at = h; hole_of[at] < 0; at = next_of_boundary(mesh, at)) hole_of[at] = hole;
+      walk_boundary(mesh, h, [&](std::int32_t at) { hole_of[at] = hole; });
     }
     holes.push_back(hole_of[h]);
   }

@@ -19,7 +19,8 @@ namespace {
 std::optional<SurfacePoint> point_in_face(const Surface& surface, std::int32_t face, const Vector& place) {
   const auto& [a, b, c] = surface.triangles()[face];
   const std::vector<Vector>& points = surface.points();
-  const auto from_a = [&](const Vector& p) { return Vector(exact_unit(surface) * (p - points[a])); };
+  const Vector& origin = points[a];
+  const auto from_a = [&](const Vector& p) { return Vector(exact_unit(surface) * (p - origin)); };
   const Vector u = from_a(points[b]), v = from_a(points[c]), w = from_a(place), normal = u.cross(v);
   const double area2 = normal.squaredNorm();
   if (!(area2 > 0)) return std::nullopt;

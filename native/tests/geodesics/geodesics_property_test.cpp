@@ -4,11 +4,13 @@
 // the edges is shorter, traced paths are as long as the distances, and distances are symmetric in their ends.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <queue>
 #include <random>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,6 +48,41 @@ Mesh sphere_with_holes(std::mt19937& random) {
   return mesh;
 }
 
+/// Any triangles of a few points: most edges have three faces or more, and faces turn any way.
+Mesh soup(std::mt19937& random) {
+  Mesh mesh;
+  const auto count = 6 + random() % 6U, triangles = count + random() % (2 * count);
+  for (std::size_t v = 0; v < count; ++v) {
+    const double x = uniform(random, 0, 1), y = uniform(random, 0, 1), z = uniform(random, 0, 1);
+    mesh.points.emplace_back(x, y, z);
+  }
+  std::set<std::set<std::int32_t>> seen;
+  for (std::size_t f = 0; f < triangles; ++f) {
+    const auto vertex = [&] { return static_cast<std::int32_t>(random() % count); };
+    const Triangle triangle{vertex(), vertex(), vertex()};
+    const std::set<std::int32_t> corners(triangle.begin(), triangle.end());
+    if (corners.size() == 3 && seen.insert(corners).second) mesh.triangles.push_back(triangle);
+  }
+  return mesh;
+}
+
+/// A jittered grid with fins on some of its edges, and fins on fins; some faces turned over.
+Mesh grid_with_fins(std::mt19937& random) {
+  Mesh mesh = jittered_grid(random);
+  for (std::size_t fins = 5 + random() % 20U; fins > 0; --fins) {
+    const Triangle on = mesh.triangles[random() % mesh.triangles.size()];
+    const std::size_t side = random() % 3U;
+    const double height = uniform(random, 0.05, 0.3), aside = uniform(random, -0.1, 0.1);
+    const Vector middle = 0.5 * (mesh.points[index(on[side])] + mesh.points[index(on[(side + 1) % 3])]);
+    mesh.triangles.push_back({on[side], on[(side + 1) % 3], static_cast<std::int32_t>(mesh.points.size())});
+    mesh.points.emplace_back(middle + Vector(aside, -aside, height));
+  }
+  for (Triangle& triangle : mesh.triangles) {
+    if (random() % 3U == 0) std::swap(triangle[0], triangle[1]);
+  }
+  return mesh;
+}
+
 /// One of several kinds of lengths for a mesh: those of its points, of its points in stretched space, and such that no
 /// surface in space has them, but each triangle fulfils the triangle inequality: between 1 and 2, or the sum of two
 /// radii, one of each end, which makes needles.
@@ -72,9 +109,10 @@ std::vector<double> over_points_on_edges(const IntrinsicMesh& mesh, int m, std::
   std::vector<std::vector<std::pair<std::size_t, double>>> links(index(mesh.vertex_count));
   std::map<std::int32_t, std::vector<std::size_t>> on_edge;  // by the edge's first half-edge, in its direction
   const auto points_of = [&](std::int32_t h) {
-    const std::int32_t twin = mesh.twins[index(h)];
-    const bool is_turned = twin >= 0 && twin < h;
-    std::vector<std::size_t>& points = on_edge[is_turned ? twin : h];
+    std::int32_t first = h;
+    paths::for_each_beyond(mesh, h, [&](std::int32_t other) { first = std::min(first, other); });
+    const bool is_turned = mesh.tail(first) != mesh.tail(h);
+    std::vector<std::size_t>& points = on_edge[first];
     if (points.empty()) {
       for (int i = 0; i < m; ++i) {
         points.push_back(links.size());
@@ -172,6 +210,16 @@ TEST_P(OnRandomMeshes, ExactIsExactOnJitteredGrids) {
 TEST_P(OnRandomMeshes, ExactIsExactOnSpheresWithHoles) {
   std::mt19937 random(1000 + GetParam());
   check(sphere_with_holes(random), random);
+}
+
+TEST_P(OnRandomMeshes, ExactIsExactOnTriangleSoups) {
+  std::mt19937 random(2000 + GetParam());
+  check(soup(random), random);
+}
+
+TEST_P(OnRandomMeshes, ExactIsExactOnGridsWithFins) {
+  std::mt19937 random(3000 + GetParam());
+  check(grid_with_fins(random), random);
 }
 
 // Four kinds of lengths, six meshes each.

@@ -25,9 +25,34 @@ using shapes::Mesh;
 using Numbers = std::vector<std::int32_t>;
 using Edges = std::vector<Edge>;
 
+// Siblings are the half-edges without a twin of the edges that the report lists, in one cycle an edge.
+void expect_sound_siblings(const Surface& surface) {
+  std::map<Edge, std::set<std::int32_t>> half_edges_of;
+  const auto vertex = [&](std::int32_t h) { return surface.vertex_of_fan()[surface.face_fans()[h / 3][h % 3]]; };
+  for (std::int32_t h = 0; h < static_cast<std::int32_t>(surface.twins().size()); ++h) {
+    const auto [a, b] = std::minmax(vertex(h), vertex(h % 3 == 2 ? h - 2 : h + 1));
+    if (surface.twins()[h] < 0) half_edges_of[{a, b}].insert(h);
+  }
+  std::erase_if(half_edges_of, [](const auto& item) { return item.second.size() == 1; });
+  std::vector<Edge> odd = surface.report().nonmanifold_edges;
+  odd.insert(odd.end(), surface.report().unorientable_edges.begin(), surface.report().unorientable_edges.end());
+  ASSERT_EQ(half_edges_of.size(), odd.size());
+  ASSERT_EQ(surface.siblings().size(), odd.empty() ? 0U : surface.twins().size());
+  std::size_t count = 0;
+  for (const Edge& edge : odd) {
+    std::set<std::int32_t> cycle;
+    ASSERT_TRUE(half_edges_of.contains(edge));
+    for (std::int32_t h = *half_edges_of[edge].begin(); cycle.insert(h).second;) h = surface.siblings()[h];
+    EXPECT_EQ(cycle, half_edges_of[edge]);
+    count += cycle.size();
+  }
+  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count_if(surface.siblings(), [](auto h) { return h >= 0; })), count);
+}
+
 // What every surface must be, whatever it was made of: a manifold, consistently linked half-edge mesh of the caller's
 // faces, nothing lost and nothing twice.
 void expect_sound(const Surface& surface) {
+  expect_sound_siblings(surface);
   const HalfEdgeMesh& mesh = surface.half_edges();
   const auto& vertex_of_fan = surface.vertex_of_fan();
   const auto& source = surface.face_of_half_edge_face();

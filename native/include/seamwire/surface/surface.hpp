@@ -20,8 +20,12 @@ struct HalfEdgeMesh;  // in src/surface/half_edge_mesh.hpp
 
 /// What was odd about the input. Nothing here is an error: the surface was built all the same.
 struct SurfaceReport {
-  std::vector<Edge> nonmanifold_edges;      ///< edges with three or more faces: the surface is cut open there
-  std::vector<Edge> unorientable_edges;     ///< cut open because the faces could not be oriented alike (Moebius strip)
+  /// Edges with three or more faces. Geodesics cross them from each face to each other one. Normals and curvature end
+  /// there as at a boundary, and so do islands.
+  std::vector<Edge> nonmanifold_edges;
+  /// Edges with two faces that cannot be oriented alike, as on a Moebius strip. Geodesics cross them. Normals and
+  /// curvature end there as at a boundary, and so do islands.
+  std::vector<Edge> unorientable_edges;
   std::vector<std::int32_t> flipped_faces;  ///< turned over to agree with their neighbors
   /// Lower than 1e-9 of their longest side, with three different corners: kept, but an embedding removes them, or
   /// leaves them as holes.
@@ -41,7 +45,7 @@ struct SurfaceReport {
 ///
 /// The half-edge mesh inside is manifold and consistently oriented: where the input is not, it is cut open, and a
 /// vertex whose faces form several fans is a half-edge vertex for each of them (a `corner fan`). To a path the fans are
-/// one vertex.
+/// one vertex, and siblings() tells which faces meet at the edges where the mesh is cut open.
 class Surface {
  public:
   /// `points`: finite. `triangles`: vertex numbers in [0, points.size()). `edges`: the real edges where faces are
@@ -83,6 +87,9 @@ class Surface {
   const std::vector<Triangle>& face_fans() const { return face_fans_; }
   /// The half-edge on the other side, as said above.
   const std::vector<std::int32_t>& twins() const { return twins_; }
+  /// The half-edges of each edge at which half_edges() is cut open, as IntrinsicMesh::siblings has them. Empty where
+  /// the surface is manifold and orientable.
+  const std::vector<std::int32_t>& siblings() const { return siblings_; }
   /// Edges that no face of half_edges() carries, along which a path may run all the same: edges without faces, and
   /// edges whose faces were all left out.
   const std::vector<Edge>& loose_edges() const { return loose_edges_; }
@@ -98,7 +105,7 @@ class Surface {
   std::vector<std::int32_t> vertex_of_fan_;
   std::vector<std::int32_t> source_face_;
   std::vector<Triangle> face_fans_;
-  std::vector<std::int32_t> twins_;
+  std::vector<std::int32_t> twins_, siblings_;
   double scale_ = 1.0;
   std::shared_ptr<const detail::HalfEdgeMesh> mesh_;  // immutable, so copies of a surface share it
   SurfaceReport report_;

@@ -13,7 +13,8 @@ namespace seamwire {
 /// A closed cut through the seed of a field: two of its shortest wires, to the ends of an edge, and that edge.
 struct ClosedWire {
   Wire wire;              ///< from the seed to the seed, which is its first point and again its last one
-  bool separates = true;  ///< false: the surface stays in one piece, the loop runs around or through a handle
+  bool separates = true;  ///< false: the surface stays in one piece, the loop runs around or through a handle, or once
+                          ///< around a one-sided surface, or faces at a non-manifold edge connect its sides
   double turn = 0.0;  ///< at the seed, in radians: 0 where the loop goes smoothly through it, pi where it turns back
   std::int32_t half_edge = -1;  ///< of the embedding: the edge at whose ends the two wires end
 };
@@ -24,8 +25,9 @@ struct ClosedWire {
 /// "Greedy Optimal Homotopy and Homology Generators", 2005), and are the places there at which the loop is short and
 /// turns little at the seed.
 ///
-/// A loop that separates has at least 0.3 % of the area of its part of the surface on either side. A hole counts as
-/// something that a loop may run around. Empty where nothing suggests one: on a plane, where no two wires meet, and
+/// Wires may cross non-manifold and unorientable edges (SurfaceReport), but the two that meet never do so at such an
+/// edge. A loop that separates has at least 0.3 % of the area of its part of the surface on either side. A hole counts
+/// as something that a loop may run around. Empty where nothing suggests one: on a plane, where no two wires meet, and
 /// where wires in all directions meet at one place, as on a sphere, or from the tip of a limb. Other parts of the
 /// surface, vertices without a face and what is beyond the field's radius are left alone. `concave_metric()` is the one
 /// in which loops are nearest to those that people draw.

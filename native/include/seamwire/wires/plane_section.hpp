@@ -19,8 +19,8 @@ struct PlaneSection {
 
 /// Where the plane through two points of a surface and along a direction cuts the surface between them: with the
 /// direction of a view, what is straight in that view. Exact but for rounding: straight in each triangle. Where two
-/// ways lead there, around a closed surface, it is the shorter one; there is none where the plane's curve through one
-/// point ends at a boundary, or is closed, before it comes to the other.
+/// ways lead there, around a closed surface or over edges with three or more faces, it is the shortest one; there is
+/// none where the plane's curve through one point ends at a boundary, or is closed, before it comes to the other.
 ///
 /// Throws InvalidInput for a point that is none of the surface, a direction that is not finite, and where there is no
 /// such plane: the points are the same, or one lies behind the other along the direction.
