@@ -24,7 +24,8 @@ def main() -> None:
     with results.open() as lines:
         rows = [row for row in csv.reader(lines, delimiter="\t") if not row[3].startswith("reference")]
     methods = list(dict.fromkeys(row[3] for row in rows))
-    colors = {method: "black" if method == "ours" else f"C{i}" for i, method in enumerate(methods)}
+    grays = {"ours": "0.6", "ours, 2 %": "0.45", "ours, 1 %": "0.2", "ours, 0.5 %": "0"}
+    colors = {method: grays.get(method, f"C{i}") for i, method in enumerate(methods)}
     meshes = list(dict.fromkeys(row[0] for row in rows))
     anisotropies = sorted({float(row[2]) for row in rows})
     figure, panels = plt.subplots(1, len(anisotropies), figsize=(13, 4.4), sharex=True, sharey=True, squeeze=False)

@@ -19,25 +19,48 @@ using OpenMesh::HalfedgeHandle;
 // Faces whose corners memory is asked for in advance.
 constexpr std::size_t kAhead = 8;
 
-// OpenMesh's faces in their order but for deleted ones, each from its first corner on, as OpenMesh lists them.
-void flatten(const HalfEdgeMesh& mesh, BisectedMesh& flat) {
-  flat.corners.reserve(mesh.n_faces());
-  flat.twins.reserve(3 * mesh.n_faces());
-  std::vector<std::int32_t> number(mesh.n_halfedges(), -1);
-  std::vector<std::int32_t> half_edges;
+// OpenMesh's half-edges, but for those of deleted faces, in the order of faces, each from its first corner on, as
+// OpenMesh lists them.
+std::vector<HalfedgeHandle> half_edges_of_faces(const HalfEdgeMesh& mesh) {
+  std::vector<HalfedgeHandle> half_edges;
   half_edges.reserve(3 * mesh.n_faces());
   for (const FaceHandle f : mesh.faces()) {
     const HalfedgeHandle last = mesh.halfedge_handle(f), first = mesh.next_halfedge_handle(last);
-    Triangle corners;
-    std::size_t i = 0;
-    for (const HalfedgeHandle h : {first, mesh.next_halfedge_handle(first), last}) {
-      corners[i++] = mesh.from_vertex_handle(h).idx();
-      number[h.idx()] = static_cast<std::int32_t>(half_edges.size());
-      half_edges.push_back(h.idx());
-    }
-    flat.corners.push_back(corners);
+    half_edges.insert(half_edges.end(), {first, mesh.next_halfedge_handle(first), last});
   }
-  for (const std::int32_t h : half_edges) flat.twins.push_back(number[h ^ 1]);
+  return half_edges;
+}
+
+// Their numbers, -1 for those without a face.
+std::vector<std::int32_t> numbers_of(const std::vector<HalfedgeHandle>& half_edges, std::size_t count) {
+  std::vector<std::int32_t> numbers(count, -1);
+  for (std::size_t h = 0; h < half_edges.size(); ++h) numbers[half_edges[h].idx()] = static_cast<std::int32_t>(h);
+  return numbers;
+}
+
+void flatten(const HalfEdgeMesh& mesh, BisectedMesh& flat) {
+  const std::vector<HalfedgeHandle> half_edges = half_edges_of_faces(mesh);
+  const std::vector<std::int32_t> numbers = numbers_of(half_edges, mesh.n_halfedges());
+  flat.corners.resize(half_edges.size() / 3);
+  flat.twins.resize(half_edges.size());
+  for (std::size_t h = 0; h < half_edges.size(); ++h) {
+    flat.corners[h / 3][h % 3] = mesh.from_vertex_handle(half_edges[h]).idx();
+    flat.twins[h] = numbers[half_edges[h].idx() ^ 1];
+  }
+}
+
+// For each half-edge, the next one in its cycle that is left, -1 if there is no other. `moved`: the new number of each,
+// -1 for those that are not left; `next` is in the old numbers, the result in the new ones.
+std::vector<std::int32_t> left_of_cycles(const std::vector<std::int32_t>& next, const std::vector<std::int32_t>& moved,
+                                         std::size_t count) {
+  std::vector<std::int32_t> left(next.empty() ? 0 : count, -1);
+  for (std::int32_t h = 0; index(h) < next.size(); ++h) {
+    if (moved[h] < 0 || next[h] < 0) continue;
+    std::int32_t other = next[h];
+    while (moved[other] < 0) other = next[other];
+    if (other != h) left[moved[h]] = moved[other];
+  }
+  return left;
 }
 
 }  // namespace
@@ -97,6 +120,7 @@ void BisectedMesh::take_faces(const EmbeddingInput& input, const Task& task, dou
   is_cleaned_ = clean.has_value();
   if (clean) {
     flatten(clean->mesh, *this);
+    if (!surface.siblings().empty()) relink_siblings(clean->mesh);
     origins = std::move(clean->origins);
     merged_ = std::move(clean->merged);
     degenerate_faces_removed = clean->removed;
@@ -105,22 +129,59 @@ void BisectedMesh::take_faces(const EmbeddingInput& input, const Task& task, dou
     for (std::int32_t f = 0; index(f) < origins.size(); ++f) {
       if (std::ranges::binary_search(*input.faces, origins[f])) selected.push_back(f);
     }
-    select(std::exchange(corners, {}), std::exchange(twins, {}), selected);
+    select(std::exchange(corners, {}), std::exchange(twins, {}), std::exchange(siblings, {}), selected);
     std::erase_if(origins, [&](std::int32_t origin) { return !std::ranges::binary_search(*input.faces, origin); });
   } else if (input.faces) {
-    select(surface.face_fans(), surface.twins(), *input.faces);
+    select(surface.face_fans(), surface.twins(), surface.siblings(), *input.faces);
     origins = *input.faces;
   } else {
     corners = copied(surface.face_fans(), task, progress);
     twins = copied(surface.twins(), task, progress);
+    siblings = copied(surface.siblings(), task, progress);
     origins.resize(corners.size());
     std::iota(origins.begin(), origins.end(), 0);
   }
 }
 
+// Siblings are the half-edges of one edge that are left. Half-edges that got other ends are those of other edges.
+void BisectedMesh::relink_siblings(const HalfEdgeMesh& cleaned) {
+  const std::vector<HalfedgeHandle> before = half_edges_of_faces(surface.half_edges());
+  const std::vector<std::int32_t> numbers = numbers_of(half_edges_of_faces(cleaned), cleaned.n_halfedges());
+  siblings.assign(twins.size(), -1);
+  const auto ends = [&](std::int32_t h) {
+    const auto [a, b] = std::minmax({vertex_of_fan_[tail(h)], vertex_of_fan_[tip(h)]});
+    return Edge{a, b};
+  };
+  const std::vector<std::int32_t>& next = surface.siblings();
+  for (std::int32_t h = 0; index(h) < next.size(); ++h) {
+    if (next[h] < 0) continue;
+    std::vector<std::int32_t> cycle;
+    std::int32_t other = h, lowest = h;
+    do {
+      lowest = std::min(lowest, other);
+      if (const std::int32_t left = numbers[before[other].idx()]; left >= 0 && twins[left] < 0) cycle.push_back(left);
+      other = next[other];
+    } while (other != h);
+    if (lowest < h) continue;
+    std::ranges::stable_sort(cycle, {}, ends);
+    for (auto from = cycle.begin(); from != cycle.end();) {
+      const auto to = std::find_if(from, cycle.end(), [&](std::int32_t i) { return ends(i) != ends(*from); });
+      link({from, to});
+      from = to;
+    }
+  }
+}
+
+// Makes half-edges of one edge siblings.
+void BisectedMesh::link(const std::vector<std::int32_t>& cycle) {
+  for (std::size_t i = 0; i < cycle.size(); ++i) {
+    siblings[cycle[i]] = cycle.size() == 1 ? -1 : cycle[(i + 1) % cycle.size()];
+  }
+}
+
 // Takes some of all triangles, by ascending numbers, and numbers them and their corner fans from 0 on.
 void BisectedMesh::select(const std::vector<Triangle>& all_corners, const std::vector<std::int32_t>& all_twins,
-                          const std::vector<std::int32_t>& faces) {
+                          const std::vector<std::int32_t>& all_siblings, const std::vector<std::int32_t>& faces) {
   for (const std::int32_t f : faces) {
     selected_fans_.insert(selected_fans_.end(), all_corners[f].begin(), all_corners[f].end());
   }
@@ -136,6 +197,18 @@ void BisectedMesh::select(const std::vector<Triangle>& all_corners, const std::v
     for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
       const std::int32_t twin = all_twins[h], beyond = twin < 0 ? -1 : place(faces, twin / 3);
       twins.push_back(beyond < 0 ? -1 : 3 * beyond + twin % 3);
+    }
+  }
+  if (!all_siblings.empty()) {
+    siblings.assign(twins.size(), -1);
+    for (std::int32_t h = 0; index(h) < siblings.size(); ++h) {
+      const std::int32_t first = 3 * faces[h / 3] + h % 3;
+      for (std::int32_t s = all_siblings[first]; s >= 0 && s != first; s = all_siblings[s]) {
+        const std::int32_t face = place(faces, s / 3);
+        if (face < 0) continue;
+        siblings[h] = 3 * face + s % 3;
+        break;
+      }
     }
   }
   for (const std::int32_t fan : selected_fans_) vertex_of_selected_.push_back(surface.vertex_of_fan()[fan]);
@@ -206,7 +279,7 @@ double BisectedMesh::measure_with_middle(std::int32_t h) const {
   const MetricNode &a = node(tail(h)), &b = node(tip(h));
   const Vector e = (b.point - a.point) * surface.scale();
   const double at_a = a.norm(e), at_b = b.norm(e);
-  const double middle = ambient_norm(midpoint_tensor(tensor_at(tail(h)), tensor_at(tip(h))), e);
+  const double middle = ambient_norm(midpoint(h), e);
   const double halves = (integrated_length(at_a, middle) + integrated_length(middle, at_b)) / 2;
   return (4 * halves - integrated_length(at_a, at_b)) / 3;
 }
@@ -222,9 +295,8 @@ void BisectedMesh::measure_all(const Task& task, double progress) {
     if (const std::size_t ahead = index(h / 3) + kAhead; h % 3 == 0 && ahead < corners.size()) {
       for (const std::int32_t v : corners[ahead]) prefetch(&node(v));
     }
-    const std::int32_t twin = twins[h];
-    if (twin >= 0 && twin < h) {
-      lengths[h] = lengths[twin];
+    if (const std::int32_t first = first_of_edge(h); first < h) {
+      lengths[h] = lengths[first];
     } else {
       lengths[h] = measure(h);
       sum += lengths[h];
@@ -239,7 +311,9 @@ bool BisectedMesh::is_degenerate(std::int32_t f) const {
 }
 
 std::int32_t BisectedMesh::external_vertex(std::int32_t v) const {
-  return index(v) < fans_ ? vertex_of_fan_[v] : static_cast<std::int32_t>(index(v) - fans_ + surface.vertex_count());
+  if (index(v) < fans_) return vertex_of_fan_[v];
+  const std::size_t i = index(v) - fans_;
+  return static_cast<std::int32_t>(surface.vertex_count() + (number_of_new_.empty() ? i : index(number_of_new_[i])));
 }
 
 // The triangle of a half-edge from a to b keeps its half at a; that at b becomes a new triangle, whose first half-edge
@@ -253,6 +327,15 @@ void BisectedMesh::halve(std::int32_t h, std::int32_t middle) {
   twins.insert(twins.end(), {-1, outer, h1});
   twins[h1] = 3 * g + 2;
   if (outer >= 0) twins[outer] = 3 * g + 1;
+  if (!siblings.empty()) {
+    siblings.insert(siblings.end(), {-1, siblings[h1], -1});
+    if (has_siblings(h1)) {
+      std::int32_t before = h1;
+      while (siblings[before] != h1) before = siblings[before];
+      siblings[before] = 3 * g + 1;
+      siblings[h1] = -1;
+    }
+  }
   lengths.insert(lengths.end(), {0.0, lengths[h1], 0.0});
   origins.push_back(origins[f]);
   if (depths[f] < kMostDepth) ++depths[f];
@@ -264,11 +347,55 @@ void BisectedMesh::halve(std::int32_t h, std::int32_t middle) {
   branches.push_back(first ^ 1U);
 }
 
+// The tensor in the middle of an edge. Faces at an edge with siblings need not agree on the sides of its ends' normals:
+// then these are taken to be within a right angle of each other.
+TensorAt BisectedMesh::midpoint(std::int32_t h) const {
+  const TensorAt a = tensor_at(tail(h));
+  TensorAt b = tensor_at(tip(h));
+  if (has_siblings(h) && a.normal.dot(b.normal) < 0) {
+    bool all_agree = true;
+    for_each_beyond(h, [&](std::int32_t s) {
+      all_agree = all_agree && tensor_at(tail(s)).normal.dot(tensor_at(tip(s)).normal) < 0;
+    });
+    if (!all_agree) b.normal = -b.normal;
+  }
+  return midpoint_tensor(a, b);
+}
+
+// Each triangle gets a middle of its own, with the normal on its own side.
+void BisectedMesh::bisect_siblings(std::int32_t h) {
+  std::vector<std::int32_t> sides{h}, at_start, at_end;
+  for_each_beyond(h, [&](std::int32_t other) { sides.push_back(other); });
+  const TensorAt middle = midpoint(h);
+  const auto count = static_cast<std::int32_t>(corners.size());
+  const std::int32_t start = external_vertex(tail(h));
+  const auto number = static_cast<std::int32_t>(points_.size() - surface.vertex_count());
+  points_.emplace_back((node(tail(h)).point + node(tip(h)).point) / 2);
+  for (const std::int32_t side : sides) {
+    const Vector outside = tensor_at(tail(side)).normal + tensor_at(tip(side)).normal;
+    const auto own = static_cast<std::int32_t>(vertex_count());
+    tensors_.push_back({outside.dot(middle.normal) < 0 ? Vector(-middle.normal) : middle.normal, middle.tensor});
+    new_nodes_.push_back(node_of(points_.back(), middle.normal, middle.tensor));
+    number_of_new_.push_back(number);
+    const bool is_from_start = external_vertex(tail(side)) == start;
+    const auto half = static_cast<std::int32_t>(3 * corners.size());
+    halve(side, own);
+    (is_from_start ? at_start : at_end).push_back(side);
+    (is_from_start ? at_end : at_start).push_back(half);
+  }
+  link(at_start);
+  link(at_end);
+  for (const std::int32_t half : {h, 3 * count}) set_length(half, measure(half));
+  for (std::int32_t g = count; index(g) < corners.size(); ++g) set_length(3 * g + 2, measure(3 * g + 2));
+}
+
 void BisectedMesh::bisect(std::int32_t h) {
-  const std::int32_t a = tail(h), b = tip(h), o = twins[h];
-  const auto middle = static_cast<std::int32_t>(fans_ + new_nodes_.size());
-  tensors_.push_back(midpoint_tensor(tensor_at(a), tensor_at(b)));
-  points_.emplace_back((node(a).point + node(b).point) / 2);
+  if (has_siblings(h)) return bisect_siblings(h);
+  const std::int32_t o = twins[h];
+  const auto middle = static_cast<std::int32_t>(vertex_count());
+  tensors_.push_back(midpoint(h));
+  if (!siblings.empty()) number_of_new_.push_back(static_cast<std::int32_t>(points_.size() - surface.vertex_count()));
+  points_.emplace_back((node(tail(h)).point + node(tip(h)).point) / 2);
   new_nodes_.push_back(node_of(points_.back(), tensors_.back().normal, tensors_.back().tensor));
   const auto half = static_cast<std::int32_t>(3 * corners.size());  // from the middle to b
   const std::int32_t beyond_half = half + 3;                        // from the middle to a, if there is a triangle
@@ -435,14 +562,16 @@ Embedding BisectedMesh::to_embedding(bool is_scheme_local) && {
   const auto is_hole = [&](std::int32_t f) { return std::binary_search(holes.begin(), holes.end(), f); };
   for (const std::int32_t f : holes) {
     for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
-      const std::int32_t twin = twins[h];
-      if (twin >= 0 && (twin < h || !is_hole(twin / 3))) continue;
-      mesh.loose_edges.push_back({tail(h), tip(h), lengths[h]});
+      bool is_listed = false;
+      for_each_beyond(h, [&](std::int32_t o) { is_listed = is_listed || o < h || !is_hole(o / 3); });
+      if (!is_listed) mesh.loose_edges.push_back({tail(h), tip(h), lengths[h]});
     }
   }
   if (!holes.empty()) remove_triangles(holes);
+  make_twins_of_pairs();
   mesh.triangles = std::move(corners);
   mesh.twins = std::move(twins);
+  mesh.siblings = std::move(siblings);
   mesh.lengths = std::move(lengths);
   out.source_face = std::move(origins);
   out.points = std::move(points_);
@@ -464,6 +593,13 @@ void BisectedMesh::remove_triangles(const std::vector<std::int32_t>& sorted) {
   for (std::int32_t& f : moved) {
     if (f == 0) f = to++;
   }
+  if (!siblings.empty()) {
+    std::vector<std::int32_t> moved_half_edges(twins.size());
+    for (std::int32_t h = 0; index(h) < twins.size(); ++h) {
+      moved_half_edges[h] = moved[h / 3] < 0 ? -1 : 3 * moved[h / 3] + h % 3;
+    }
+    siblings = left_of_cycles(siblings, moved_half_edges, 3 * index(to));
+  }
   for (std::int32_t f = 0; f < count; ++f) {
     if (moved[f] < 0) continue;
     const std::size_t g = index(moved[f]);
@@ -481,6 +617,24 @@ void BisectedMesh::remove_triangles(const std::vector<std::int32_t>& sorted) {
   twins.resize(3 * index(to));
   lengths.resize(3 * index(to));
 }
+
+// Two half-edges of an edge that run in opposite ways are twins. The corners are numbered as in the embedding.
+void BisectedMesh::make_twins_of_pairs() {
+  bool has_any = false;
+  for (std::int32_t h = 0; index(h) < siblings.size(); ++h) {
+    const std::int32_t other = siblings[h];
+    if (other < 0) continue;
+    if (siblings[other] != h || tail(h) == tail(other)) {
+      has_any = true;
+      continue;
+    }
+    twins[h] = other;
+    twins[other] = h;
+    siblings[h] = siblings[other] = -1;
+  }
+  if (!has_any) siblings.clear();
+}
+
 // Vertices of a triangle that no path leads to.
 std::vector<std::int32_t> BisectedMesh::unreachable(const IntrinsicMesh& mesh) const {
   std::vector<bool> reached(index(mesh.vertex_count), false);

@@ -73,6 +73,20 @@ class BisectedMesh {
 
   std::int32_t tail(std::int32_t h) const { return corners[h / 3][h % 3]; }
   std::int32_t tip(std::int32_t h) const { return corners[h / 3][(h + 1) % 3]; }
+  bool has_siblings(std::int32_t h) const { return !siblings.empty() && siblings[h] >= 0; }
+  /// Calls visit(other) for each other half-edge of h's edge: its twin, or its siblings in the order of their cycle.
+  template <class Visit>
+  void for_each_beyond(std::int32_t h, const Visit& visit) const {
+    if (twins[h] >= 0) visit(twins[h]);
+    if (!has_siblings(h)) return;
+    for (std::int32_t other = siblings[h]; other != h; other = siblings[other]) visit(other);
+  }
+  /// The lowest half-edge of h's edge.
+  std::int32_t first_of_edge(std::int32_t h) const {
+    std::int32_t first = h;
+    for_each_beyond(h, [&](std::int32_t other) { first = std::min(first, other); });
+    return first;
+  }
 
   /// The length of an edge in the metric.
   double measure(std::int32_t h) const;
@@ -95,10 +109,10 @@ class BisectedMesh {
     return !is_degenerate_origin_.empty() && is_degenerate_origin_[origins[f]];
   }
 
-  /// Bisects an edge from a to b, and with it the triangles on both sides. With n triangles before: half-edge h then
-  /// runs from a to the midpoint, 3 n from there to b, and 3 n + 2 from the apex of h's triangle to the midpoint. The
-  /// new half of the triangle beyond the edge, if there is one, is n + 1, and 3 n + 5 runs from its apex to the
-  /// midpoint.
+  /// Bisects an edge from a to b, and with it all triangles at the edge. With n triangles before: half-edge h then runs
+  /// from a to the midpoint, 3 n from there to b, and 3 n + 2 from the apex of h's triangle to the midpoint. The new
+  /// half of the i-th triangle beyond the edge (for_each_beyond(), from 1 on) is n + i, and 3 (n + i) + 2 runs from its
+  /// apex to the midpoint.
   void bisect(std::int32_t h);
 
   /// Takes the metric of a vertex of the surface's half-edge mesh from the metric.
@@ -115,7 +129,10 @@ class BisectedMesh {
   const Surface& surface;
   const Metric& metric;
   std::vector<Triangle> corners;
-  std::vector<std::int32_t> twins;    ///< per half-edge; -1 on the boundary
+  std::vector<std::int32_t> twins;  ///< per half-edge; -1 if it has none
+  /// Per half-edge without a twin: the next one of the same edge in a cycle, as in IntrinsicMesh, but two may run in
+  /// opposite ways. Empty if there are no such edges.
+  std::vector<std::int32_t> siblings;
   std::vector<double> lengths;        ///< per half-edge
   std::vector<std::int32_t> origins;  ///< per triangle: the face of the surface's half-edge mesh that it lies in
   /// Per triangle: which part of that face it is, as the number of a node of a binary tree of bisections.
@@ -144,9 +161,14 @@ class BisectedMesh {
   TensorAt tensor_at(std::int32_t v) const;
   void take_faces(const EmbeddingInput& input, const Task& task, double progress);
   void select(const std::vector<Triangle>& all_corners, const std::vector<std::int32_t>& all_twins,
-              const std::vector<std::int32_t>& faces);
+              const std::vector<std::int32_t>& all_siblings, const std::vector<std::int32_t>& faces);
   std::int32_t external_vertex(std::int32_t v) const;
   double measure_with_middle(std::int32_t h) const;
+  TensorAt midpoint(std::int32_t h) const;
+  void relink_siblings(const HalfEdgeMesh& cleaned);
+  void bisect_siblings(std::int32_t h);
+  void link(const std::vector<std::int32_t>& cycle);
+  void make_twins_of_pairs();
   void orient_normals();
   void measure_all(const Task& task, double progress);
   void halve(std::int32_t h, std::int32_t middle);
@@ -165,6 +187,9 @@ class BisectedMesh {
   std::unique_ptr<MetricNode[]> nodes_;  // per fan
   std::vector<MetricNode> new_nodes_;
   std::vector<TensorAt> tensors_;  // of the new vertices
+  // In the embedding, the number of a new vertex among the new ones. Where an edge with siblings is bisected, each of
+  // its triangles has a vertex of its own here, as it has corner fans of its own. Empty without siblings.
+  std::vector<std::int32_t> number_of_new_;
   std::vector<Vector> points_;     // in the caller's coordinates, the caller's vertices first
   std::vector<bool> is_turned_;    // per fan: its side is the other one than its vertex's normal's; empty: none
   std::vector<LooseEdge> merged_;  // see CleanMesh
@@ -184,7 +209,7 @@ inline double BisectedMesh::measure(std::int32_t h) const {
 
 inline void BisectedMesh::set_length(std::int32_t h, double length) {
   lengths[h] = length;
-  if (const std::int32_t twin = twins[h]; twin >= 0) lengths[twin] = length;
+  for_each_beyond(h, [&](std::int32_t other) { lengths[other] = length; });
 }
 
 /// A triangle is valid where its longest edge is shorter than the others together by this fraction: exact geodesics

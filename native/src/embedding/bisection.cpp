@@ -122,8 +122,7 @@ std::int32_t Bisection::refinement_edge(std::int32_t f) const {
     if (index(corners[newest]) >= first_newest_) return next_in_face(3 * f + newest);
   }
   const auto key = [&](std::int32_t h) {
-    const std::int32_t twin = mesh_.twins[h];
-    return std::pair(static_cast<float>(mesh_.lengths[h]), twin < 0 ? h : std::min(h, twin));
+    return std::pair(static_cast<float>(mesh_.lengths[h]), mesh_.first_of_edge(h));
   };
   std::int32_t best = 3 * f;
   for (const std::int32_t h : {3 * f + 1, 3 * f + 2}) {
@@ -137,17 +136,23 @@ bool Bisection::refine(std::int32_t f, std::size_t most) {
   chain_.assign(1, f);
   for (int before = 0; !chain_.empty();) {
     const std::int32_t h = refinement_edge(chain_.back()), beyond = mesh_.twins[h];
+    std::int32_t next = -1;  // a triangle to bisect first, at another edge
+    std::size_t parts = 1;
+    mesh_.for_each_beyond(h, [&](std::int32_t o) {
+      ++parts;
+      if (scheme_ != Scheme::kLongestEdge && next < 0 && refinement_edge(o / 3) != o) next = o / 3;
+    });
     const bool is_forced = scheme_ == Scheme::kResolving && before == kMostBefore;
     if (is_forced && chain_.size() > 1) {
       chain_.assign(1, f);
       continue;
     }
-    if (scheme_ != Scheme::kLongestEdge && !is_forced && beyond >= 0 && refinement_edge(beyond / 3) != beyond) {
-      chain_.push_back(beyond / 3);
+    if (next >= 0 && !is_forced) {
+      chain_.push_back(next);
       ++before;
       continue;
     }
-    if (mesh_.faces_added() + (beyond < 0 ? 1 : 2) > most) return false;
+    if (mesh_.faces_added() + parts > most) return false;
     newest_bisections_ += first_newest_ > 0;
     if (active_ == nullptr || beyond < 0 || active_->activate(mesh_, mesh_.origins[beyond / 3])) {
       bisect(h);
@@ -160,17 +165,19 @@ bool Bisection::refine(std::int32_t f, std::size_t most) {
 }
 
 void Bisection::bisect(std::int32_t h) {
-  const std::int32_t beyond = mesh_.twins[h];
-  const auto count = static_cast<std::int32_t>(mesh_.face_count());
-  if (watches_unrepaired_) count_unrepaired(h, beyond, false);
+  parts_.assign(1, h / 3);
+  mesh_.for_each_beyond(h, [&](std::int32_t o) { parts_.push_back(o / 3); });
+  if (watches_unrepaired_) unrepaired_ -= count_unrepaired(parts_);
+  const std::size_t halved = parts_.size();
+  auto count = static_cast<std::int32_t>(mesh_.face_count());
   mesh_.bisect(h);
-  if (watches_unrepaired_) count_unrepaired(h, beyond, true);
-  consider(h / 3);
-  consider(count);
-  if (beyond >= 0) {
-    consider(beyond / 3);
-    consider(count + 1);
-  }
+  for (std::size_t i = 0; i < halved; ++i) parts_.insert(parts_.begin() + std::ptrdiff_t(2 * i + 1), count++);
+  for (const std::int32_t part : parts_) consider(part);
+  if (!watches_unrepaired_) return;
+  unrepaired_ += count_unrepaired(parts_);
+  if (unrepaired_ >= least_unrepaired_) return;
+  least_unrepaired_ = unrepaired_;
+  least_unrepaired_at_ = mesh_.faces_added();
 }
 
 void Bisection::watch_unrepaired() {
@@ -179,21 +186,10 @@ void Bisection::watch_unrepaired() {
   least_unrepaired_at_ = mesh_.faces_added();
 }
 
-// Before and after the bisection of the triangle of h, and of that of `beyond`, if there is one.
-void Bisection::count_unrepaired(std::int32_t h, std::int32_t beyond, bool are_new) {
-  const auto needs = [&](std::int32_t f) -> std::size_t { return needs_length_repair(mesh_, options_, f) ? 1 : 0; };
-  const auto count = static_cast<std::int32_t>(mesh_.face_count());
-  std::size_t unrepaired = needs(h / 3);
-  if (beyond >= 0) unrepaired += needs(beyond / 3);
-  if (!are_new) {
-    unrepaired_ -= unrepaired;
-    return;
-  }
-  for (std::int32_t f = beyond < 0 ? count - 1 : count - 2; f < count; ++f) unrepaired += needs(f);
-  unrepaired_ += unrepaired;
-  if (unrepaired_ >= least_unrepaired_) return;
-  least_unrepaired_ = unrepaired_;
-  least_unrepaired_at_ = mesh_.faces_added();
+std::size_t Bisection::count_unrepaired(const std::vector<std::int32_t>& triangles) const {
+  std::size_t count = 0;
+  for (const std::int32_t f : triangles) count += needs_length_repair(mesh_, options_, f) ? 1 : 0;
+  return count;
 }
 
 bool Bisection::run(const Task& task, std::size_t most, double& progress) {

@@ -114,7 +114,7 @@ class Bisection {
   bool is_stale(const Candidate& candidate) const;
   bool refine(std::int32_t f, std::size_t most);
   void bisect(std::int32_t h);
-  void count_unrepaired(std::int32_t h, std::int32_t beyond, bool are_new);
+  std::size_t count_unrepaired(const std::vector<std::int32_t>& triangles) const;
 
   BisectedMesh mesh_;
   const EmbedOptions& options_;
@@ -122,6 +122,7 @@ class Bisection {
   ActiveFaces* active_;
   std::priority_queue<Candidate> queue_;  // triangles that may be bisected; entries grow stale
   std::vector<std::int32_t> chain_;       // triangles to bisect, the last one first
+  std::vector<std::int32_t> parts_;       // of those bisected last
   std::vector<std::int32_t> deferred_;    // invalid triangles left to newest-vertex bisection
   std::size_t first_newest_ = 0;          // vertices from here on are of newest-vertex bisection; 0: it has not begun
   std::size_t invalid_before_ = 0, newest_bisections_ = 0;

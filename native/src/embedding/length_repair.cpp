@@ -26,10 +26,7 @@ bool is_repairable(const BisectedMesh& mesh, const EmbedOptions& options, std::i
 
 // Edges are in one strict order, that of their lengths and then of their numbers.
 std::int32_t longest_edge(const BisectedMesh& mesh, std::int32_t f) {
-  const auto key = [&](std::int32_t h) {
-    const std::int32_t twin = mesh.twins[h];
-    return std::pair(mesh.lengths[h], twin < 0 ? h : std::min(h, twin));
-  };
+  const auto key = [&](std::int32_t h) { return std::pair(mesh.lengths[h], mesh.first_of_edge(h)); };
   return std::ranges::max(std::array{3 * f, 3 * f + 1, 3 * f + 2}, {}, key);
 }
 
@@ -46,6 +43,26 @@ void set_clamped_length(BisectedMesh& mesh, std::int32_t h, double half, double 
   ++repair.clamped_edges;
   repair.faces.push_back(mesh.origins[h / 3]);
   repair.worst_clamp = std::max({repair.worst_clamp, length / measured, measured / length});
+}
+
+// A triangle at an edge, and its sides after that edge.
+struct Side {
+  std::int32_t face;
+  double next, last;
+};
+
+// Bisects an edge, halves its length and clamps those of the new edges. The triangles there are `sides`.
+void bisect_clamped(BisectedMesh& mesh, std::int32_t h, const std::vector<Side>& sides, LengthRepair& repair) {
+  const double half = mesh.lengths[h] / 2;
+  const auto count = static_cast<std::int32_t>(mesh.face_count());
+  mesh.bisect(h);
+  mesh.set_length(h, half);
+  mesh.set_length(3 * count, half);
+  std::int32_t inner = 3 * count + 2;
+  for (const Side& side : sides) {
+    set_clamped_length(mesh, inner, half, side.next, side.last, repair);
+    inner += 3;
+  }
 }
 
 }  // namespace
@@ -70,35 +87,40 @@ LengthRepair repair_lengths(BisectedMesh& mesh, const EmbedOptions& options, con
     if (is_repairable(mesh, options, f)) todo.push_back(f);
   }
   std::vector<std::int32_t> chain;  // triangles to bisect, the last one first
+  std::vector<Side> sides;
   for (std::size_t i = 0; i < todo.size(); ++i) {
     if ((i + 1) % kBisectionsBetweenChecks == 0) task.check(progress);
     if (!is_repairable(mesh, options, todo[i])) continue;
     chain.assign(1, todo[i]);
     while (!chain.empty()) {
-      const std::int32_t h = longest_edge(mesh, chain.back()), o = mesh.twins[h];
+      const std::int32_t h = longest_edge(mesh, chain.back());
       // An invalid neighbor can be repaired at its longest edge only, which is longer than this one.
-      if (o >= 0 && is_repairable(mesh, options, o / 3) && longest_edge(mesh, o / 3) != o) {
-        chain.push_back(o / 3);
+      std::int32_t before = -1;
+      sides.clear();
+      const auto look_at = [&](std::int32_t side) {
+        const std::int32_t next = next_in_face(side);
+        sides.push_back({side / 3, mesh.lengths[next], mesh.lengths[next_in_face(next)]});
+        if (before >= 0 || side == h || !is_repairable(mesh, options, side / 3)) return;
+        if (longest_edge(mesh, side / 3) != side) before = side / 3;
+      };
+      look_at(h);
+      mesh.for_each_beyond(h, look_at);
+      if (before >= 0) {
+        chain.push_back(before);
         continue;
       }
-      if (mesh.faces_added() + 2 > options.max_faces_added) {
+      if (mesh.faces_added() + std::max<std::size_t>(2, sides.size()) > options.max_faces_added) {
         repair.is_complete = false;
         repair.hit_cap = true;
         return repair;
       }
-      const auto next_side = [&](std::int32_t of) { return mesh.lengths[next_in_face(of)]; };
-      const auto last_side = [&](std::int32_t of) { return mesh.lengths[next_in_face(next_in_face(of))]; };
-      const double half = mesh.lengths[h] / 2, b = next_side(h), c = last_side(h);
-      const double d = o < 0 ? 0.0 : next_side(o), e = o < 0 ? 0.0 : last_side(o);
-      const auto count = static_cast<std::int32_t>(mesh.face_count());
-      mesh.bisect(h);
-      mesh.set_length(h, half);
-      mesh.set_length(3 * count, half);
-      set_clamped_length(mesh, 3 * count + 2, half, b, c, repair);
-      if (o >= 0) set_clamped_length(mesh, 3 * count + 5, half, d, e, repair);
+      auto part = static_cast<std::int32_t>(mesh.face_count());
+      bisect_clamped(mesh, h, sides, repair);
       // Rounding may leave one of them invalid.
-      for (const std::int32_t part : {h / 3, count, o < 0 ? count : o / 3, o < 0 ? count : count + 1}) {
-        if (is_repairable(mesh, options, part)) todo.push_back(part);
+      for (const Side& side : sides) {
+        for (const std::int32_t f : {side.face, part++}) {
+          if (is_repairable(mesh, options, f)) todo.push_back(f);
+        }
       }
       chain.pop_back();
     }

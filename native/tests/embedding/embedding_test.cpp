@@ -306,55 +306,6 @@ TEST(Embed, KeepsOneNumberForAVertexOfSeveralFans) {
   EXPECT_EQ(std::ranges::count(reached, false), 0);
 }
 
-TEST(Embed, TakesTheSidesOfAOneSidedSurfaceForOne) {
-  // A Moebius strip, and the same strip cut open where the faces' orientation breaks.
-  const int n = 24, rows = 4;
-  const auto point = [&](int i, int j) {
-    const double t = 2 * std::numbers::pi * i / n, w = 0.4 * (double(j) / rows - 0.5);
-    return Vector((1 + w * std::cos(t / 2)) * std::cos(t), (1 + w * std::cos(t / 2)) * std::sin(t),
-                  w * std::sin(t / 2));
-  };
-  const auto normal_and_tensor = [&](int i, int j) {
-    const double t = 2 * std::numbers::pi * i / n;
-    const Vector across(std::cos(t / 2) * std::cos(t), std::cos(t / 2) * std::sin(t), std::sin(t / 2));
-    const Vector along = (point(i + 1, j) - point(i - 1, j)).normalized(), normal = along.cross(across).normalized();
-    const double a = 1 + 20 * ((7 * (i % n) + 3 * (i < n ? j : rows - j)) % 11) / 10.0;
-    return TensorAt{normal,
-                    a * across * across.transpose() + across.cross(normal) * across.cross(normal).transpose() / a};
-  };
-  const auto strip = [&](bool closed) {
-    Mesh mesh;
-    Metric metric;
-    const auto number = [&](int i, int j) { return closed && i == n ? rows - j : i * (rows + 1) + j; };
-    for (int i = 0; i < (closed ? n : n + 1); ++i) {
-      for (int j = 0; j <= rows; ++j) {
-        mesh.points.push_back(point(i, j));
-        metric.normals.push_back(normal_and_tensor(i, j).normal);
-        metric.tensors.push_back(normal_and_tensor(i, j).tensor);
-      }
-    }
-    for (int i = 0; i < n; ++i) {
-      for (int j = 0; j < rows; ++j) {
-        mesh.triangles.push_back({number(i, j), number(i + 1, j), number(i + 1, j + 1)});
-        mesh.triangles.push_back({number(i, j), number(i + 1, j + 1), number(i, j + 1)});
-      }
-    }
-    const Surface surface = mesh.surface();
-    EXPECT_EQ(surface.report().unorientable_edges.size(), closed ? std::size_t{rows} : 0U);
-    Embedding embedding = embed(surface, metric);
-    expect_sound(surface, embedding);
-    return embedding;
-  };
-  const Embedding closed = strip(true), open = strip(false);
-  EXPECT_GT(open.faces_added, 20U);
-  EXPECT_EQ(closed.faces_added, open.faces_added);
-  ASSERT_EQ(closed.mesh.lengths.size(), open.mesh.lengths.size());
-  std::vector<double> a = closed.mesh.lengths, b = open.mesh.lengths;
-  std::ranges::sort(a);
-  std::ranges::sort(b);
-  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-12);
-}
-
 TEST(Embed, CarriesEdgesWithoutFaces) {
   const Surface surface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}, {3, 3, 3}}, {{0, 1, 2}},
                         std::vector<Edge>{{0, 1}, {1, 3}});

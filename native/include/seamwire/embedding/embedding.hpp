@@ -80,22 +80,31 @@ struct Embedding {
       unreachable;  ///< the caller's vertices in a face, but in no valid triangle and on no edge to run along
 };
 
-/// Embeds a surface in a metric (Section 4.1 of the paper): bisects invalid triangles, which fail the triangle
-/// inequality, at the midpoint of their longest edge in the metric, the largest perimeter first, until none is left.
-/// Lengths are those of the ambient reading of the norm (metric.hpp).
+/// Embeds a surface in a metric (Section 4.1 of the paper).
 ///
-/// Where that takes more than four times the surface's triangles, and 20 000, or the cap, it begins anew with schemes
-/// that end: longest-edge propagation, newest-vertex bisection deep below a face, and length repair, which bisects an
-/// invalid triangle once more and gives its new edges lengths that make the parts valid. The result has at most one and
-/// a half times the triangles of the first scheme where that ends (docs/method.md, Section 4).
+/// Bisects invalid triangles, which fail the triangle inequality, at the midpoint of their longest edge in the metric.
+/// The largest perimeter comes first, until none is left. Lengths are those of the ambient reading of the norm
+/// (metric.hpp). All faces at an edge are bisected together, also where there are three or more, or where they cannot
+/// be oriented alike.
 ///
-/// Where the surface is cut open each side is bisected on its own. Degenerate triangles, which have no area, are
-/// removed before: needles by collapsing their shortest edge (one of its ends then has no triangle, but a loose edge of
-/// length 0 to the other), caps by flipping their longest edge. Where neither is possible, they become holes. Every
-/// edge of a hole that no valid triangle has is a loose edge, so that what the input's edges connect stays connected.
+/// If that takes more than four times the surface's triangles, and 20 000, or the cap, it begins anew with schemes that
+/// end: longest-edge propagation, newest-vertex bisection deep below a face, and length repair. Length repair bisects
+/// an invalid triangle once more and gives its new edges lengths that make the parts valid. The result has at most one
+/// and a half times the triangles of the first scheme if that ends (docs/method.md, Section 4).
 ///
-/// Throws InvalidInput where metric and surface differ in size, a tensor is not finite, or sigma is negative;
-/// Cancelled.
+/// With a `max_error`, longest-edge propagation also bisects valid triangles that do not resolve the metric, and edges
+/// are measured with their middles. If the cap does not allow all triangles to become valid, the schemes above follow.
+///
+/// Degenerate triangles, which have no area, are removed first: needles by collapsing their shortest edge, caps by
+/// flipping their longest edge. One end of a collapsed edge then has no triangle, but a loose edge of length 0 to the
+/// other end. A degenerate triangle that allows neither becomes a hole. Every edge of a hole that no valid triangle has
+/// is a loose edge, so that what the input's edges connect stays connected.
+///
+/// \param metric a metric of the surface's vertices
+/// \param task cancels, and is told the fraction done
+/// \throws InvalidInput if the metric and the surface differ in size, a tensor is not finite, or an option is out of
+/// range
+/// \throws Cancelled
 Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions& options = {}, const Task& task = {});
 
 /// The embedding in another metric, made from that in a former one by bisecting anew only what touches the vertices
@@ -104,9 +113,11 @@ Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions
 /// bisected together. So these are made anew with it, and those that they then run into. All else costs is comparing
 /// the metrics, vertex by vertex.
 ///
-/// Where `old` is not local this is embed(): for surfaces with holes left, with degenerate faces removed, cut open, or
-/// bisected by another scheme than the first; also where normals differ. `old` must be of the same surface, the metric
-/// `former` and the same options; throws InvalidInput where it cannot be, and what embed() throws.
+/// If `old` is not local, or the normals of the metrics differ, this is embed(). An embedding is not local if it has
+/// holes, a `max_error`, only some faces, or the work of another scheme than the first, or if the surface has
+/// degenerate faces or is not manifold and oriented. Sizes are compared with the mean edge length of `old` unless the
+/// options give one, so a stroke does not change what `max_error` means elsewhere. `old` must be of the same surface,
+/// the metric `former` and the same options. Throws InvalidInput if it cannot be, and what embed() throws.
 Embedding re_embed(const Surface& surface, const Metric& former, const Metric& metric, Embedding old,
                    const EmbedOptions& options = {}, const Task& task = {});
 
