@@ -19,6 +19,7 @@ class FakeCandidate:
     vertices: NDArray[np.int32]
     length: float
     final: bool
+    follow: str = "min"
 
 
 @dataclass
@@ -29,6 +30,11 @@ class FakeWires:
     active: int
     settled: bool
     final: bool
+
+    @property
+    def solved(self) -> bool:
+        """Nothing here becomes more exact."""
+        return self.final
 
 
 @dataclass
@@ -63,7 +69,7 @@ class FakeCut:
     pieces: list[FakePiece]
     joints: list[int | tuple[int, tuple[float, float, float]]]
     separates: bool
-    which: int
+    id: tuple[int, int]
 
 
 @dataclass
@@ -161,9 +167,11 @@ class FakeLive:
                 path = []
             points = grid_points(self.size)[path] if path else np.empty((0, 3))
             length = float(len(path)) if path else float("inf")
-            candidates.append(FakeCandidate(points, np.array(path, dtype=np.int32), length, self.ready[index]))
+            follow = ("min", "max", "concave")[index]
+            candidates.append(FakeCandidate(points, np.array(path, dtype=np.int32), length, self.ready[index], follow))
         if len(candidates) == 3:
-            return FakeWires(tuple(candidates), 2, self.ready[2], all(self.ready))
+            in_order = (candidates[2], *candidates[:2])
+            return FakeWires(in_order, 0, self.ready[2], all(self.ready))
         return FakeWires(tuple(candidates), self.shorter, all(self.ready), all(self.ready))
 
     def loop(self, edge: tuple[int, int]) -> FakeChain:
@@ -187,11 +195,11 @@ class FakeLive:
         late = [self._square(through, 1)] if all(self.ready) else []
         return FakeCuts([*late, self._square(through, -1)], all(self.ready))
 
-    def bent_wire(self, through: object, second: object, which: int) -> FakeCuts:
+    def bent_wire(self, through: object, second: object, cut: tuple[int, int]) -> FakeCuts:
         """Along x from a vertex to another and up, then on around the square between them; none where they are in line."""
         if not 0 <= second < self.size**2:
             raise ValueError(f"vertex {second} is not part of the surface")
-        self.bent.append((through, second, which))
+        self.bent.append((through, second, cut))
         (x, y), (to_x, to_y) = ((v % self.size, v // self.size) for v in (through, second))
         if not all(self.ready) or x == to_x or y == to_y:
             return FakeCuts([], all(self.ready))
@@ -201,7 +209,7 @@ class FakeLive:
         there, back = ([i + self.size * j for i, j in way] for way in (right, left))
         chains = [[*there, second], [*back, through]]
         pieces = [FakePiece(grid_points(self.size)[chain], np.array(chain, dtype=np.int32)) for chain in chains]
-        return FakeCuts([FakeCut(pieces, [second], separates=which == 0, which=which)], True)
+        return FakeCuts([FakeCut(pieces, [second], separates=cut == (0, 0), id=cut)], True)
 
     def _square(self, corner: int, dx: int) -> FakeCut:
         up = self.size if corner + 2 * self.size < self.size**2 else -self.size
@@ -217,7 +225,7 @@ class FakeLive:
             at = next(i for i, corners in enumerate(triangles) if chain[-1] in corners)
             joints.append((at, tuple(0.8 if v == chain[-1] else 0.1 for v in triangles[at])))
         pieces = [FakePiece(grid_points(self.size)[chain], np.array(chain, dtype=np.int32)) for chain in chains]
-        return FakeCut(pieces, joints, separates=dx > 0, which=0 if dx > 0 else 4)
+        return FakeCut(pieces, joints, separates=dx > 0, id=(0, 0) if dx > 0 else (1, 1))
 
     def extend_straight(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> FakeChain:
         """Return the way on to a stop, to the boundary (or around along it), or to a vertex where it has been."""

@@ -57,7 +57,7 @@ def test_a_cut_is_bent_in_the_session_after_it_was_cut(left: bool) -> None:
     assert it.session.can_bend
     it.session.hover(28, bend=True)
     it.session.poll()
-    assert it.lives["SURFACE"].bent[-1] == (8, 28, 4 if left else 0), (
+    assert it.lives["SURFACE"].bent[-1] == (8, 28, (1, 1) if left else (0, 0)), (
         "the one of those through the point that ran there"
     )
     assert it.session.click(28)
@@ -73,12 +73,12 @@ def test_it_is_the_one_that_runs_there_whatever_the_library_calls_it(monkeypatch
 
     def renamed(self: FakeLive, through: object) -> FakeCuts:
         found = squares(self, through)
-        return FakeCuts([replace(cut, which=cut.which + 3) for cut in reversed(found.cuts)], found.final)
+        return FakeCuts([replace(cut, id=(cut.id[0] + 1, cut.id[1])) for cut in reversed(found.cuts)], found.final)
 
     monkeypatch.setattr(FakeLive, "closed_wires", renamed)
     it = after_cutting(session, as_cut(session))
     assert it.session.bend(28)
-    assert it.lives["SURFACE"].bent[-1] == (8, 28, 3)
+    assert it.lives["SURFACE"].bent[-1] == (8, 28, (1, 0))
 
 
 def circle(radius: float, x: float, towards: int) -> np.ndarray:

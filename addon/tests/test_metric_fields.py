@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from seamwire.core import color_maps
 from seamwire.core.metric_fields import ELLIPSES, PATHS, FieldMaker, Paths, Request, band_levels, spread
+from seamwire.core.solver import by_number
 
 sw = pytest.importorskip("seamwire_core")
 
@@ -102,9 +103,10 @@ def test_distances_are_as_long_as_the_wires_of_the_same_settings(metric: str, fo
     live = sw.LiveWire(points, triangles, max_anisotropy=8.0, clamp_percentile=95.0, metric=metric, along="surface")
     live.seed(3)
     live.wait()
-    wire = next((wire for wire in live.wires(250).wires if wire.follow == follow), None)
-    if wire is None:
+    wires, _ = by_number(live.wires(250))
+    if follow == "max" and len(wires) == 1:
         pytest.skip("such a metric has one wire alone")
+    wire = wires[("min", "max").index(follow)]
     made = maker().make(Request(frozenset({"DISTANCE"}), metric, 8.0, 95.0, follow, 3))
     assert made.distance[250] == pytest.approx(wire.length, rel=1e-9)
 

@@ -3,10 +3,14 @@
 
 from __future__ import annotations
 
-from fake_live import FakeLive
+from typing import get_args
+
+import pytest
+from fake_live import FakeLive, grid_points
 from seamwire.core.defaults import CLAMP_PERCENTILE, STRENGTHS
 from seamwire.core.network import Along
-from seamwire.core.solver import Engines
+from seamwire.core.solver import Engines, MetricName
+from seamwire.core.strokes import ActsOn, Scribble, through_vertices
 from table import SIZE
 
 
@@ -20,6 +24,10 @@ class Made:
     def _make(self, along: Along) -> FakeLive:
         self.lives.append(FakeLive(SIZE, along))
         return self.lives[-1]
+
+
+def stroke(acts_on: ActsOn) -> Scribble:
+    return Scribble(*through_vertices([0, 1], grid_points(SIZE)), acts_on=acts_on)
 
 
 def test_live_wires_are_made_once_for_each_way_when_they_are_asked_for() -> None:
@@ -43,10 +51,11 @@ def test_what_they_are_made_with_is_not_told_again() -> None:
 def test_those_that_are_made_later_hear_of_metric_and_strokes() -> None:
     made = Made({"SURFACE": 7.0})
     made.engines.get("EDGES")
-    made.engines.follow(["one", "two"])
+    one, two = stroke("both"), stroke("both")
+    made.engines.follow([one, two])
     made.engines.get("SURFACE")
     assert [live.metrics for live in made.lives] == [[], [("feature", 7.0, CLAMP_PERCENTILE)]]
-    assert [live.scribbles for live in made.lives] == [[(("stroke", "one"), ("stroke", "two"))]] * 2
+    assert [live.scribbles for live in made.lives] == [[(("stroke", one), ("stroke", two))]] * 2
 
 
 def test_another_strength_is_told_to_those_that_it_is_for() -> None:
@@ -72,3 +81,37 @@ def test_triangles_that_wires_lead_around_are_told_of_once() -> None:
     made.lives[-1].ready = (True, True)
     assert made.engines.warning("SURFACE").startswith("3 triangles could not")
     assert made.engines.warning("SURFACE") == ""
+
+
+def told(made: Made) -> list[list[str]]:
+    """Return for each live wire which metrics the strokes act on that it was told last."""
+    return [[stroke.acts_on for _, stroke in live.scribbles[-1]] for live in made.lives]
+
+
+@pytest.mark.parametrize(
+    ("metric", "kinds"),
+    [
+        ("feature", ["both", "min", "max", "concave"]),
+        ("campen", ["both", "min", "max", "concave"]),
+        ("concave", ["both", "concave", "euclidean"]),
+        ("euclidean", ["both", "euclidean"]),
+    ],
+)
+def test_a_stroke_for_one_wire_acts_on_the_metric_of_the_wire_with_that_number(metric: str, kinds: list[str]) -> None:
+    made = Made()
+    made.engines.get("SURFACE")
+    made.engines.follow([stroke(acts_on) for acts_on in ("both", "min", "max", "concave")])
+    made.engines.use(metric, STRENGTHS, CLAMP_PERCENTILE)
+    assert told(made) == [kinds]
+
+
+def test_for_closed_cuts_strokes_are_for_the_wires_of_the_concave_metric() -> None:
+    made = Made()
+    made.engines.cuts()
+    made.engines.follow([stroke("min"), stroke("max"), stroke("concave")])
+    assert told(made) == [["concave", "euclidean"]]
+
+
+def test_metrics_have_the_names_that_the_library_gives_them() -> None:
+    families = pytest.importorskip("seamwire_core").metric_families()
+    assert [family.name for family in families] == list(get_args(MetricName))

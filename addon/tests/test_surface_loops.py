@@ -299,7 +299,7 @@ def test_a_cut_that_was_taken_is_shown_bent_and_a_click_keeps_it_in_place_of_the
     assert session.edges_to_mark() == edges(8, 9, 10, 16, 22, 28, 27, 26, 20, 14)
     assert [(wire.start, wire.end) for wire in session.wires] == [(8, 28), (28, 8)]
     assert session.seeds() == [8, 28]
-    assert it.lives["SURFACE"].bent[-1] == (8, 28, 0)
+    assert it.lives["SURFACE"].bent[-1] == (8, 28, (0, 0))
     session.hover(28)
     assert not session.bending
     assert session.loop_preview is None
@@ -326,7 +326,7 @@ def test_bent_once_more_its_second_point_moves() -> None:
     assert session.bend(22)
     assert session.edges_to_mark() == edges(*BOX)
     assert session.seeds() == [8, 22]
-    assert it.lives["SURFACE"].bent[-1] == (8, 22, 0)
+    assert it.lives["SURFACE"].bent[-1] == (8, 22, (0, 0))
 
 
 def test_the_one_of_several_cuts_that_was_taken_is_the_one_that_is_bent() -> None:
@@ -336,7 +336,7 @@ def test_the_one_of_several_cuts_that_was_taken_is_the_one_that_is_bent() -> Non
     session.toggle()
     session.click(8)
     session.bend(22)
-    assert it.lives["SURFACE"].bent[-1] == (8, 22, 4), "by what the library calls it"
+    assert it.lives["SURFACE"].bent[-1] == (8, 22, (1, 1)), "by what the library calls it"
 
 
 def test_what_is_not_there_as_it_was_taken_is_not_bent() -> None:

@@ -46,19 +46,17 @@ void measure(const std::string& file, const Options& options) {
   for (int s = 0; s < options.seeds; ++s) {
     const std::int32_t seed = s == 0 ? 0 : any(random);
     for (int i = 0; i < options.repeats; ++i) {
-      GeodesicCounters counters;
       std::unique_ptr<DistanceField> field;
       forget_peak();
       const double before = memory("VmRSS");
-      solving.push_back(
-          seconds([&] { field = std::make_unique<DistanceField>(geodesics->solve(seed, {}, &counters)); }));
+      solving.push_back(seconds([&] { field = std::make_unique<DistanceField>(geodesics->solve(seed)); }));
       peak = std::max(peak, memory("VmHWM") - before);
       const std::int32_t step = std::max(1, embedding.mesh.vertex_count / 1000);
       for (std::int32_t v = 0; v < embedding.mesh.vertex_count; v += step) {
         tracing.push_back(seconds([&] { field->trace(v); }));
       }
       if (s > 0 || i > 0) continue;
-      first = counters;
+      first = field->counters();
       for (const double d : field->distances()) checksum += std::isinf(d) ? 0.0 : d;
     }
   }

@@ -254,9 +254,9 @@ def click_on(
     if off:
         nearest = int(np.argmin(off))
         second = int(vertices[np.argmax(to_chain(line, loops[nearest]))])
-        which = found.cuts[nearest].which
-        bent, _, bend_time = answer(lambda: live.bent_wire(vertex, second, which))
-        _, _, second_time = answer(lambda: live.bent_wire(vertex, int(vertices[0]), which))
+        cut = found.cuts[nearest].id
+        bent, _, bend_time = answer(lambda: live.bent_wire(vertex, second, cut))
+        _, _, second_time = answer(lambda: live.bent_wire(vertex, int(vertices[0]), cut))
         bent_off = min((1000 * scale * apart(line_of(cut), line) for cut in bent.cuts), default=np.inf)
     return Click(
         off[0] if off else np.inf,

@@ -163,7 +163,8 @@ void measure_waits(const std::shared_ptr<const Surface>& surface, const Options&
   for (int i = 0; i < 9; ++i) {
     double processor = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
     Clock::time_point start = Clock::now();
-    LiveWire live(surface, {.strength = {.max_anisotropy = options.anisotropy, .clamp_percentile = 99.0}});
+    LiveWire live(surface, {.metrics = live_metrics(MetricFamily::kFeature,
+                                                    {.max_anisotropy = options.anisotropy, .clamp_percentile = 99.0})});
     live.seed({any(random)});
     anew.add(live, any(random), start, processor);
     live.wait();
@@ -199,7 +200,7 @@ Scribble stroke(const Surface& surface, std::int32_t v, int edges) {
 /// do the work. Seconds from first to last.
 std::array<std::vector<double>, 2> strokes_of(const std::shared_ptr<const Surface>& surface, const Options& options,
                                               bool for_both) {
-  LiveWire live(surface, {.strength = {.max_anisotropy = options.anisotropy}});
+  LiveWire live(surface, {.metrics = live_metrics(MetricFamily::kFeature, {.max_anisotropy = options.anisotropy})});
   std::mt19937 random(1);
   std::uniform_int_distribution<std::int32_t> any(0, static_cast<std::int32_t>(surface->vertex_count()) - 1);
   std::array<std::vector<double>, 2> found;
@@ -210,7 +211,7 @@ std::array<std::vector<double>, 2> strokes_of(const std::shared_ptr<const Surfac
     live.wait();
     const LiveWires before = live.wires({to});
     Scribble scribble = stroke(*surface, from, 16);  // it begins at the seed, so that the wires feel it
-    if (!for_both) scribble.meant_for = Follow::kMin;
+    if (!for_both) scribble.meant_for = MetricKind::kMin;
     const Clock::time_point start = Clock::now();
     live.set_scribbles({std::move(scribble)});
     const std::size_t expected = for_both ? 2 : 1;

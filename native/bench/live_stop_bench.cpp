@@ -43,8 +43,10 @@ void measure(const std::string& file, const Options& options) {
     std::uniform_real_distribution<double> moment(0.0, options.seconds);
     std::vector<double> clock, processor;
     for (int i = 0; i < options.repeats; ++i) {
-      std::optional<LiveWire> live(std::in_place, surface.points(), surface.triangles(), std::nullopt,
-                                   LiveWireOptions{.along = along, .strength = {.max_anisotropy = 20.0}});
+      std::optional<LiveWire> live(
+          std::in_place, surface.points(), surface.triangles(), std::nullopt,
+          LiveWireOptions{.along = along,
+                          .metrics = live_metrics(MetricFamily::kFeature, {.max_anisotropy = 20.0}, along)});
       live->seed({0});
       const double when = moment(random);
       std::this_thread::sleep_for(std::chrono::duration<double>(when));

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "seamwire/context/embedded_surface.hpp"
+#include "seamwire/context/surface_context.hpp"
 #include "seamwire/edges/edge_loop.hpp"
 #include "seamwire/edges/edge_wires.hpp"
 #include "seamwire/edges/shortest_cycle.hpp"
@@ -28,7 +30,6 @@
 #include "seamwire/surface/ray_tree.hpp"
 #include "seamwire/surface/segments.hpp"
 #include "seamwire/surface/surface.hpp"
-#include "seamwire/wires/embedded_points.hpp"
 #include "seamwire/wires/snap.hpp"
 #include "seamwire/wires/wire.hpp"
 
@@ -101,15 +102,14 @@ int main() {
   //! [geodesics]
 
   //! [surface points]
-  const EmbeddedPoints embedded(*surface, embedding);  // the caller's faces, as the embedding has refined them
-  const auto on_face = [&](std::int32_t face) {
-    return *embedded.find({.face = face, .barycentric = {0.2, 0.3, 0.5}});
-  };
+  const SurfaceContext context(surface);  // curvature and all else that depends on the surface alone, computed once
+  const EmbeddedSurface embedded(context, MetricSpec::feature(Follow::kMax, {.max_anisotropy = 20.0}));
+  const auto on_face = [](std::int32_t face) { return SurfacePoint{.face = face, .barycentric = {0.2, 0.3, 0.5}}; };
   const std::vector<SurfacePoint> sources{on_face(0), on_face(40)};
   const SurfacePoint point = on_face(100);
-  const DistanceField nearest = geodesics.solve(sources, {.targets = {point}});  // stops when that is known
+  const EmbeddedField nearest = embedded.field(sources, {.targets = {point}});  // stops when that is known
   say("distance of a point of a face", nearest.distance(point));
-  say("the same, along its wire", trace_wire(*surface, embedding, nearest, point).length);
+  say("the same, along its wire", nearest.wire(point).length);
   //! [surface points]
 
   //! [first path]
@@ -138,7 +138,8 @@ int main() {
   //! [loops]
 
   //! [live]
-  LiveWire live(surface, {.along = Along::kEdges, .strength = {.max_anisotropy = 10.0}});
+  LiveWire live(context, {.along = Along::kEdges,
+                          .metrics = live_metrics(MetricFamily::kFeature, {.max_anisotropy = 10.0}, Along::kEdges)});
   live.seed({.a = seed});
   LiveWires both = live.wires({.a = target});  // returns at once, with what is there so far
   live.wait();

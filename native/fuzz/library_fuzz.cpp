@@ -291,6 +291,12 @@ void check_field(const IntrinsicMesh& mesh, const DistanceField& field) {
   for (const LooseEdge& edge : mesh.loose_edges) along(edge.a, edge.b, edge.length);
 }
 
+/// A pointer to an object that outlives what gets it.
+template <class T>
+std::shared_ptr<const T> held(const T& object) {
+  return std::shared_ptr<const T>(std::shared_ptr<const T>(), &object);
+}
+
 /// The surface's own lengths, with all triangles that have an area in their own.
 std::optional<IntrinsicMesh> own_lengths(const Surface& surface) {
   IntrinsicMesh mesh;
@@ -354,7 +360,7 @@ void check_wires(Bytes& from, const Patience& patience, const Surface& surface, 
     require(!loop.wire.points.empty() && loop.wire.points.front() == loop.wire.points.back(),
             "a closed wire is closed");
     require(std::isfinite(loop.wire.length), "a closed wire has a length");
-    const BentWires bent(surface, embedding, solver, field, loop, patience.task());
+    const BentWires bent(held(surface), held(embedding), solver, field, loop, patience.task());
     const SurfacePoint second = SurfacePoint::at_vertex(from.below(surface.vertex_count()));
     if (const std::optional<BentWire> found = bent.through(second, patience.task())) {
       require(found->there.points.back() == found->back.points.front() &&
@@ -393,7 +399,7 @@ void check_chain(const Surface& surface, const std::vector<std::int32_t>& chain)
 void check_edge_wires(Bytes& from, const Patience& patience, const Surface& surface, const Metric& metric,
                       const std::vector<Scribble>& scribbles) {
   const auto adjacency = make_edge_adjacency(surface, patience.task());
-  const auto graph = make_edge_graph(surface, metric, adjacency, patience.task(), scribbles);
+  const auto graph = make_edge_graph(surface, metric, adjacency, scribbles, std::nullopt, patience.task());
   const auto pick = [&]() -> Pick {
     if (surface.edges().empty() || from.coin()) return {from.below(surface.vertex_count()), -1};
     const Edge& edge = surface.edges()[static_cast<std::size_t>(from.below(surface.edges().size()))];

@@ -173,7 +173,7 @@ FittedChain fit_chain_to(const SurfaceObject& surface, const py::object& points,
                          const py::object& begin, const py::object& end, const py::object& progress) {
   const LineGiven line(points, faces, begin, end, surface.surface->vertex_count());
   return Watch(progress).run([&](const Task& task) {
-    return fit_chain(*surface.surface, surface.edge_adjacency(task), line.drawn(), line.begin, line.end);
+    return fit_chain(*surface.surface, *surface.context.edge_adjacency(task), line.drawn(), line.begin, line.end);
   });
 }
 

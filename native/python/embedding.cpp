@@ -5,9 +5,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <algorithm>
 #include <cstddef>
-#include <optional>
 
 #include "arrays.hpp"
 #include "held.hpp"
@@ -179,7 +177,7 @@ std::shared_ptr<EmbeddingObject> embed_surface(const SurfaceObject& surface, con
   check_size("metric", metric.metric.size(), *surface.surface);
   return Watch(progress).run([&](const Task& task) {
     return std::shared_ptr<EmbeddingObject>(
-        make_held<EmbeddingObject>(surface.surface, embed(*surface.surface, metric.metric, options, task)));
+        make_held<EmbeddingObject>(EmbeddedSurface(surface.context, metric.shared, options, task)));
   });
 }
 
@@ -283,26 +281,8 @@ ValueError
 
 }  // namespace
 
-const ExactGeodesics& EmbeddingObject::geodesics(const Task& task) const {
-  return geodesics_.get(task, [&] { return ExactGeodesics(embedding.mesh, task); });
-}
-
-const EmbeddedPoints& EmbeddingObject::points() const {
-  return points_.get(Task{}, [this] { return EmbeddedPoints(*surface, embedding); });
-}
-
 const EmbeddingObject::Edges& EmbeddingObject::edges() const {
   return edges_.get(Task{}, [this] { return list_edges(embedding.mesh); });
-}
-
-SurfacePoint EmbeddingObject::find(const SurfacePoint& point, const std::string& name) const {
-  if (point.vertex >= 0) return point;
-  if (const std::optional<SurfacePoint> found = points().find(point, name)) return *found;
-  const std::string face = name + ": face " + std::to_string(point.face);
-  if (std::ranges::binary_search(embedding.hole_faces, point.face)) {
-    throw InvalidInput(face + " is a hole of the embedding there");
-  }
-  throw InvalidInput(face + " has no area, so the embedding leaves it out: name a vertex or another face");
 }
 
 std::shared_ptr<EmbeddingObject> EmbeddingObject::with_lengths(const std::vector<double>& lengths) const {
@@ -323,7 +303,8 @@ std::shared_ptr<EmbeddingObject> EmbeddingObject::with_lengths(const std::vector
                          [&](std::int32_t other) { mesh.lengths[static_cast<std::size_t>(other)] = length; });
   }
   for (LooseEdge& edge : mesh.loose_edges) edge.length = lengths[next++];
-  auto object = std::make_shared<EmbeddingObject>(surface, std::move(changed));
+  auto object = std::make_shared<EmbeddingObject>(
+      EmbeddedSurface(embedded.context(), embedded.shared_metric(), std::move(changed)));
   object->geodesics(Task{});  // checks the lengths
   return object;
 }

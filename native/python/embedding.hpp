@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "lazy.hpp"
+#include "seamwire/context/embedded_surface.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/surface/surface_point.hpp"
 #include "seamwire/task.hpp"
-#include "seamwire/wires/embedded_points.hpp"
 
 namespace seamwire::python {
 
@@ -24,26 +24,24 @@ struct EmbeddingObject {
     std::vector<double> lengths;
   };
 
-  EmbeddingObject(std::shared_ptr<const Surface> of, Embedding computed)
-      : surface(std::move(of)), embedding(std::move(computed)) {}
+  explicit EmbeddingObject(EmbeddedSurface made)
+      : embedded(std::move(made)), surface(embedded.context().peek_surface()), embedding(embedded.embedding()) {}
 
-  const ExactGeodesics& geodesics(const Task& task) const;
-  const EmbeddedPoints& points() const;
+  const ExactGeodesics& geodesics(const Task& task) const { return embedded.geodesics(task); }
   const Edges& edges() const;
 
   /// Finds a point of the surface on the embedding. Throws InvalidInput, which begins with `name`, if the embedding has
   /// a hole there.
-  SurfacePoint find(const SurfacePoint& point, const std::string& name) const;
+  SurfacePoint find(const SurfacePoint& point, const std::string& name) const { return embedded.locate(point, name); }
   /// Returns a copy with other lengths of edges(). Throws InvalidInput if they make no triangles.
   std::shared_ptr<EmbeddingObject> with_lengths(const std::vector<double>& lengths) const;
 
+  EmbeddedSurface embedded;
   std::shared_ptr<const Surface> surface;
-  Embedding embedding;
+  const Embedding& embedding;
 
  private:
-  Lazy<ExactGeodesics> geodesics_;
   Lazy<Edges> edges_;
-  Lazy<EmbeddedPoints> points_;
 };
 
 }  // namespace seamwire::python

@@ -206,9 +206,9 @@ std::vector<ClosedWire> find_closed_wires(const FieldObject& object, const py::o
 Held<BentObject> bend(const FieldObject& object, const ClosedWire& cut, const py::object& progress) {
   return Watch(progress).run([&](const Task& task) {
     const EmbeddingObject& on = *object.embedding;
-    return make_held<BentObject>(
-        BentObject{.embedding = object.embedding,
-                   .bent = BentWires(*on.surface, on.embedding, on.geodesics(task), object.field, cut, task)});
+    return make_held<BentObject>(BentObject{
+        .embedding = object.embedding,
+        .bent = BentWires(on.surface, on.embedded.shared_embedding(), on.geodesics(task), object.field, cut, task)});
   });
 }
 

@@ -49,42 +49,36 @@ HeldLiveWire make_live_wire(Arguments&&... arguments) {
   return HeldLiveWire(new LiveWireObject(std::forward<Arguments>(arguments)...));
 }
 
-MetricFamily family_from(const std::string& name) {
-  if (name == "feature") return MetricFamily::kFeature;
-  if (name == "campen") return MetricFamily::kCampen;
-  if (name == "pottmann_kovacs") return MetricFamily::kPottmannKovacs;
-  if (name == "concave") return MetricFamily::kConcave;
-  if (name == "euclidean") return MetricFamily::kEuclidean;
-  throw InvalidInput("metric: expected 'feature', 'campen', 'pottmann_kovacs', 'concave' or 'euclidean', got '" + name +
-                     "'");
-}
-
 /// The strength that the arguments mean. Without gamma and max_anisotropy it depends on the family and on `along`.
 Strength strength_from(MetricFamily family, Along along, OptionalNumber gamma, OptionalNumber max_anisotropy,
                        OptionalNumber clamp_percentile) {
   if (gamma && family != MetricFamily::kFeature) {
     throw InvalidInput("gamma: only the metric 'feature' has it; give max_anisotropy instead");
   }
-  Strength strength{gamma, max_anisotropy, clamp_percentile};
-  if (gamma || max_anisotropy) return strength;
-  if (family == MetricFamily::kConcave) {
-    strength.parameter = 1.0;
-  } else if (along == Along::kSurface && family == MetricFamily::kFeature) {
-    strength.parameter = 0.1;
-  } else {
-    strength.max_anisotropy = 10.0;
-    if (!clamp_percentile && family == MetricFamily::kFeature) strength.clamp_percentile = 99.0;
+  if (gamma || max_anisotropy) return {gamma, max_anisotropy, clamp_percentile};
+  Strength strength = info_of(family).initial;
+  if (along == Along::kEdges && family == MetricFamily::kFeature) {
+    strength = {.max_anisotropy = 10.0, .clamp_percentile = 99.0};
   }
+  if (clamp_percentile) strength.clamp_percentile = clamp_percentile;
   return strength;
+}
+
+LiveMetrics metrics_from(const std::string& metric, Along along, OptionalNumber gamma, OptionalNumber max_anisotropy,
+                         OptionalNumber clamp_percentile) {
+  const MetricFamily family = metric_family(metric);
+  return live_metrics(family, strength_from(family, along, gamma, max_anisotropy, clamp_percentile), along);
 }
 
 LiveWireOptions options_from(OptionalNumber gamma, OptionalNumber max_anisotropy, OptionalNumber clamp_percentile,
                              const std::string& along, double turning, OptionalNumber loop_turning,
-                             const std::string& metric) {
-  LiveWireOptions options{
-      .along = along_from(along), .family = family_from(metric), .turning = turning, .loop_turning = loop_turning};
-  options.strength = strength_from(options.family, options.along, gamma, max_anisotropy, clamp_percentile);
-  return options;
+                             const std::string& metric, double max_error) {
+  const Along how = along_from(along);
+  return {.along = how,
+          .metrics = metrics_from(metric, how, gamma, max_anisotropy, clamp_percentile),
+          .turning = turning,
+          .loop_turning = loop_turning,
+          .max_error = max_error};
 }
 
 /// The arguments of options_from(), with their defaults.
@@ -96,6 +90,7 @@ struct OptionArguments {
   py::arg_v turning = py::arg("turning") = 3.0;
   py::arg_v loop_turning = py::arg("loop_turning") = py::none();
   py::arg_v metric = py::arg("metric") = "feature";
+  py::arg_v max_error = py::arg("max_error") = 0.01;
 };
 
 constexpr const char* kClassDoc = R"(Wires from a seed to any target, one in each metric of a family.
@@ -124,9 +119,12 @@ loop_turning : float, optional
     The cost of turning in closed chains, as for `shortest_cycle`. None: 20, and more on meshes with over 6400 edges, so
     that they have rings, too.
 metric : {'feature', 'campen', 'pottmann_kovacs', 'concave', 'euclidean'}
-    The family of metrics. Across the surface, 'feature' has a third wire in `concave_metric`. Its strength is
+    The family of metrics. Across the surface, the first wire of 'feature' is in `concave_metric`. Its strength is
     gamma / 0.1 or (max_anisotropy - 1) / 19, and its curvatures are smoothed over 0.01. 'concave' has two wires: one in
     that metric, with strength (max_anisotropy - 1) / 19, and the shortest path.
+max_error : float
+    The mean relative error of lengths to aim for, in [0, 1], across the surface: the `max_error` of `embed` for the
+    faces around a wire. The wire is final once it is the shortest there. 0: the wire of the embedding is final.
 
 Raises
 ------
@@ -136,10 +134,10 @@ ValueError
 
 HeldLiveWire live_wire_on(const SharedSurface& surface, OptionalNumber gamma, OptionalNumber max_anisotropy,
                           OptionalNumber clamp_percentile, const std::string& along, double turning,
-                          OptionalNumber loop_turning, const std::string& metric) {
+                          OptionalNumber loop_turning, const std::string& metric, double max_error) {
   const LiveWireOptions options =
-      options_from(gamma, max_anisotropy, clamp_percentile, along, turning, loop_turning, metric);
-  auto live = without_gil([&] { return std::make_unique<LiveWire>(surface->surface, options); });
+      options_from(gamma, max_anisotropy, clamp_percentile, along, turning, loop_turning, metric, max_error);
+  auto live = without_gil([&] { return std::make_unique<LiveWire>(surface->context, options); });
   return make_live_wire(surface->surface->vertex_count(), surface->surface->face_count(), options.along,
                         std::move(live), surface);
 }
@@ -147,9 +145,9 @@ HeldLiveWire live_wire_on(const SharedSurface& surface, OptionalNumber gamma, Op
 HeldLiveWire live_wire_of(const py::object& points, const py::object& triangles, const py::object& edges,
                           OptionalNumber gamma, OptionalNumber max_anisotropy, OptionalNumber clamp_percentile,
                           const std::string& along, double turning, OptionalNumber loop_turning,
-                          const std::string& metric) {
+                          const std::string& metric, double max_error) {
   const LiveWireOptions options =
-      options_from(gamma, max_anisotropy, clamp_percentile, along, turning, loop_turning, metric);
+      options_from(gamma, max_anisotropy, clamp_percentile, along, turning, loop_turning, metric, max_error);
   auto p = points_from(points, "points");
   auto t = triangles_from(triangles, "triangles");
   auto e = edges.is_none() ? std::nullopt : std::optional(edges_from(edges, "edges"));
@@ -163,10 +161,10 @@ void bind_construction(LiveWireClass& live_wire) {
   const OptionArguments with;
   live_wire
       .def(py::init(&live_wire_on), py::arg("surface"), with.gamma, with.max_anisotropy, with.clamp_percentile,
-           with.along, with.turning, with.loop_turning, with.metric)
+           with.along, with.turning, with.loop_turning, with.metric, with.max_error)
       .def(py::init(&live_wire_of), py::arg("points"), py::arg("triangles"), py::arg("edges") = py::none(),
            py::kw_only(), with.gamma, with.max_anisotropy, with.clamp_percentile, with.along, with.turning,
-           with.loop_turning, with.metric)
+           with.loop_turning, with.metric, with.max_error)
       .def("__repr__", [](const LiveWireObject& object) {
         return "<LiveWire: " + std::string(object.along == Along::kEdges ? "along edges" : "across the surface") +
                " of " + std::to_string(object.vertex_count) + " vertices>";
@@ -180,9 +178,9 @@ HeldLiveWire fork(const LiveWireObject& object) {
 
 HeldLiveWire sibling(const LiveWireObject& object, OptionalNumber gamma, OptionalNumber max_anisotropy,
                      OptionalNumber clamp_percentile, const std::string& along, double turning,
-                     OptionalNumber loop_turning, const std::string& metric) {
+                     OptionalNumber loop_turning, const std::string& metric, double max_error) {
   const LiveWireOptions options =
-      options_from(gamma, max_anisotropy, clamp_percentile, along, turning, loop_turning, metric);
+      options_from(gamma, max_anisotropy, clamp_percentile, along, turning, loop_turning, metric, max_error);
   auto live = without_gil([&] { return std::make_unique<LiveWire>(object.live->sibling(options)); });
   return make_live_wire(object.vertex_count, object.face_count, options.along, std::move(live), object.surface);
 }
@@ -198,7 +196,7 @@ Returns
 LiveWire
 )");
   live_wire.def("sibling", &sibling, py::kw_only(), with.gamma, with.max_anisotropy, with.clamp_percentile, with.along,
-                with.turning, with.loop_turning, with.metric,
+                with.turning, with.loop_turning, with.metric, with.max_error,
                 R"(Return another live wire on the same surface, with its own metrics.
 
 It shares the surface and the curvatures. It has no strokes and no seed.
@@ -221,9 +219,8 @@ ValueError
 
 void set_metric(const LiveWireObject& object, const std::string& metric, OptionalNumber max_anisotropy,
                 OptionalNumber gamma, OptionalNumber clamp_percentile) {
-  const MetricFamily family = family_from(metric);
-  const Strength strength = strength_from(family, object.along, gamma, max_anisotropy, clamp_percentile);
-  without_gil([&] { object.live->set_metric(family, strength); });
+  const LiveMetrics metrics = metrics_from(metric, object.along, gamma, max_anisotropy, clamp_percentile);
+  without_gil([&] { object.live->set_metrics(metrics); });
 }
 
 void set_scribbles(const LiveWireObject& object, std::vector<Scribble> scribbles) {
@@ -324,8 +321,9 @@ ValueError
 )");
   live_wire.def("wires", &wires, py::arg("target"), R"(Return the wires to a target, as far as they are computed.
 
-Along edges, wires near the seed are final first. Across the surface, a path that may be slightly too long is computed
-for the newest target. A later call for that target returns it before the final wire.
+Along edges, wires near the seed are final first. Across the surface, the work goes on for the newest target. Later calls
+for it return a path that may be slightly too long, then the shortest wire of the embedding, then the final wire, which
+is as exact as `max_error` says. `wait` waits for the final wire of the newest target.
 
 Parameters
 ----------
@@ -353,12 +351,19 @@ std::unique_ptr<LiveClosedWires> closed_wires_through(const LiveWireObject& obje
   return without_gil([&] { return std::make_unique<LiveClosedWires>(object.live->closed_wires(place)); });
 }
 
+ClosedCutId cut_id_from(const py::object& value, const std::string& name) {
+  const bool is_pair = py::isinstance<py::sequence>(value) && py::len(value) == 2;
+  if (!is_pair) throw InvalidInput(name + ": expected the id of a LiveClosedWire, two numbers");
+  const auto pair = py::cast<py::sequence>(value);
+  return {.metric = count_from(py::object(pair[0]), name), .number = count_from(py::object(pair[1]), name)};
+}
+
 std::unique_ptr<LiveClosedWires> bent_wire(const LiveWireObject& object, const py::object& through,
-                                           const py::object& second, const py::object& which) {
+                                           const py::object& second, const py::object& cut) {
   const SurfacePoint from = place_from(through, object.vertex_count, object.face_count, "through");
   const SurfacePoint to = place_from(second, object.vertex_count, object.face_count, "second");
-  const std::size_t number = count_from(which, "which");
-  return without_gil([&] { return std::make_unique<LiveClosedWires>(object.live->bent_wire(from, to, number)); });
+  const ClosedCutId id = cut_id_from(cut, "cut");
+  return without_gil([&] { return std::make_unique<LiveClosedWires>(object.live->bent_wire(from, to, id)); });
 }
 
 void bind_loops(LiveWireClass& live_wire) {
@@ -401,7 +406,7 @@ Raises
 ValueError
     If the point is not part of the surface, or wires do not run across it.
 )");
-  live_wire.def("bent_wire", &bent_wire, py::arg("through"), py::arg("second"), py::arg("which") = 0,
+  live_wire.def("bent_wire", &bent_wire, py::arg("through"), py::arg("second"), py::arg("cut") = py::make_tuple(0, 0),
                 R"(Bend one of the closed cuts through a point, so that it leads through a second point as well.
 
 The result is the shortest closed wire through both points that goes around what the cut goes around. It has two pieces
@@ -411,8 +416,8 @@ Parameters
 ----------
 through, second : int or (int, (3,) array_like)
     A vertex, or a face and three barycentric coordinates.
-which : int
-    `LiveClosedWire.which` of the cut, as `closed_wires` returns it for the first point.
+cut : (int, int)
+    `LiveClosedWire.id` of the cut, as `closed_wires` returns it for the first point.
 
 Returns
 -------
@@ -422,7 +427,8 @@ LiveClosedWires
 Raises
 ------
 ValueError
-    If a point is not part of the surface, wires do not run across it, or which is negative.
+    If a point is not part of the surface, wires do not run across it, or the id is no pair of numbers that are not
+    negative.
 )");
 }
 
@@ -524,9 +530,9 @@ ValueError
 
 SharedSurface surface_of(LiveWireObject& object) {
   if (!object.surface) {
-    auto built = without_gil([&] { return object.live->surface(); });
+    const bool is_built = without_gil([&] { return object.live->surface() != nullptr; });
     // Another thread may have made the object meanwhile.
-    if (built && !object.surface) object.surface = make_held<SurfaceObject>(std::move(built));
+    if (is_built && !object.surface) object.surface = make_held<SurfaceObject>(object.live->context());
   }
   return object.surface;
 }

@@ -19,10 +19,11 @@ void bind_live_candidate(py::module_& module) {
   };
   py::class_<CandidateObject>(module, "LiveCandidate", "One of the wires from the seed to a target.")
       .def_property_readonly(
-          "follow", [](const CandidateObject& c) { return name_of(c.get().follow); },
-          "str: the metric in which the wire is short: 'min', 'max' or 'concave'. The two wires of the family "
-          "'concave' "
-          "are 'min' and 'max'.")
+          "follow", [](const CandidateObject& c) { return name_of(c.get().metric.kind()); },
+          "str: what the metric's paths follow: 'min', 'max' or 'concave'; 'euclidean' if they follow nothing.")
+      .def_property_readonly(
+          "metric", [](const CandidateObject& c) { return c.get().metric; },
+          "MetricSpec: the metric in which the wire is short.")
       .def_property_readonly("points", array(&LiveCandidate::points),
                              "(p, 3) float64, in the caller's coordinates. There are no rows if there is no such wire.")
       .def_property_readonly("faces", array(&LiveCandidate::faces),
@@ -32,10 +33,14 @@ void bind_live_candidate(py::module_& module) {
       .def_property_readonly(
           "length", [](const CandidateObject& c) { return c.get().length; }, "float: the length in its own metric.")
       .def_property_readonly(
+          "solved", [](const CandidateObject& c) { return c.get().solved; },
+          "bool: True once the wire is the shortest in the embedding of the whole surface, or along edges. Across the "
+          "surface, it may become more exact until it is final.")
+      .def_property_readonly(
           "final", [](const CandidateObject& c) { return c.get().final; },
           "bool: False while the wire is still being computed. A later answer will replace what is here.")
       .def("__repr__", [](const CandidateObject& c) {
-        return std::string("<LiveCandidate: ") + name_of(c.get().follow) + ", " +
+        return std::string("<LiveCandidate: ") + name_of(c.get().metric.kind()) + ", " +
                (c.get().final ? std::to_string(c.get().points.size()) + " points>" : "not yet>");
       });
 }
@@ -49,16 +54,19 @@ py::tuple candidates_of(const LiveWiresObject& object) {
 void bind_live_wires(py::module_& module) {
   py::class_<LiveWiresObject>(module, "LiveWires", "The wires from the seed to a target.")
       .def_property_readonly("wires", &candidates_of,
-                             "tuple of LiveCandidate: the wires in M_min and M_max. Across the surface, the family "
-                             "'feature' adds the wire in `concave_metric`.")
+                             "tuple of LiveCandidate: one for each metric. Those of M_min and M_max; across the "
+                             "surface, the family 'feature' has the wire in `concave_metric` before them.")
       .def_property_readonly(
           "active", [](const LiveWiresObject& w) { return w.wires->active; },
-          "int: the index of the wire to offer first. This is the wire in `concave_metric` of the family 'feature', "
-          "unless it does not reach the target. Otherwise it is the wire that is shorter in its own metric (Section 5 "
-          "of the paper).")
+          "int: the index of the wire to offer first. This is the first wire, or of M_min and M_max the wire that is "
+          "shorter in its own metric (Section 5 of the paper). If it does not reach the target, it is the shortest of "
+          "all wires.")
       .def_property_readonly(
           "settled", [](const LiveWiresObject& w) { return w.wires->settled; },
           "bool: whether the active wire is final and stays active, whatever the other wires become.")
+      .def_property_readonly(
+          "solved", [](const LiveWiresObject& w) { return w.wires->solved(); },
+          "bool: whether all wires are solved. What follows a moving cursor need not wait for more.")
       .def_property_readonly(
           "final", [](const LiveWiresObject& w) { return w.wires->final(); }, "bool: whether all wires are final.")
       .def("__repr__", [](const LiveWiresObject& w) {
@@ -127,8 +135,10 @@ void bind_live_closed_wires(py::module_& module) {
       .def_readonly("turn", &LiveClosedWire::turn, "float: as `ClosedWire.turn`.")
       .def_readonly("length", &LiveClosedWire::length,
                     "float: the length in its metric, of the model scaled to the unit cube.")
-      .def_readonly("which", &LiveClosedWire::which,
-                    "int: the cut's number for `LiveWire.bent_wire`. It may change until the cuts are final.")
+      .def_property_readonly(
+          "id", [](const LiveClosedWire& wire) { return std::pair(wire.id.metric, wire.id.number); },
+          "(int, int): the number of the cut's metric and of the cut in it, for `LiveWire.bent_wire`. They may change "
+          "until the cuts are final.")
       .def("__repr__", [](const LiveClosedWire& wire) {
         return "<LiveClosedWire: " + std::to_string(wire.pieces.size()) + " pieces>";
       });

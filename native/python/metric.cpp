@@ -45,14 +45,18 @@ curvature 0.)")
       .def_property_readonly("d1", array(&Curvature::d1), "(n, 3) float64: the unit tangent direction of k1.")
       .def_property_readonly("d2", array(&Curvature::d2), "(n, 3) float64: the unit tangent direction of k2.")
       .def_property_readonly("normals", array(&Curvature::normals), "(n, 3) float64: unit normals.")
-      .def_property_readonly("difference", array_of<CurvatureObject>(&CurvatureObject::difference),
+      .def_property_readonly("difference",
+                             array_of<CurvatureObject>([](const CurvatureObject& c) -> auto& { return c.difference; }),
                              "(n,) float64: s of eq. 5, |k1| - |k2|.")
       .def("__repr__", &text_of_curvature);
 }
 
 Held<CurvatureObject> compute_curvatures(const SurfaceObject& surface, const py::object& progress) {
-  return Watch(progress).run(
-      [&](const Task& task) { return make_held<CurvatureObject>(principal_curvatures(*surface.surface, task)); });
+  return Watch(progress).run([&](const Task& task) {
+    auto curvature = surface.context.curvature(task);
+    task.check(1.0);  // even if it was there
+    return make_held<CurvatureObject>(std::move(curvature), surface.context.feature_strength(task));
+  });
 }
 
 Held<CurvatureObject> smooth_curvatures(const SurfaceObject& surface, const CurvatureObject& curvature, double radius,
@@ -164,12 +168,6 @@ ValueError
         return "<Metric: " + std::to_string(m.metric.size()) + " vertices, maximum anisotropy " +
                number(find_max_anisotropy(m)) + ">";
       });
-}
-
-Follow follow_from(const std::string& name) {
-  if (name == "min") return Follow::kMin;
-  if (name == "max") return Follow::kMax;
-  throw InvalidInput("follow: expected 'min' or 'max', got '" + name + "'");
 }
 
 using MetricFunction = Metric (*)(const Surface&, const Curvature&, Follow, const Strength&, const Task&);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -15,21 +16,30 @@
 namespace seamwire::python {
 
 struct CurvatureObject {
-  explicit CurvatureObject(Curvature computed) : curvature(std::move(computed)), difference(curvature.difference()) {}
+  CurvatureObject(std::shared_ptr<const Curvature> computed, std::shared_ptr<const std::vector<double>> strength)
+      : shared(std::move(computed)), curvature(*shared), held(std::move(strength)), difference(*held) {}
+  explicit CurvatureObject(Curvature computed)
+      : CurvatureObject(std::make_shared<const Curvature>(computed),
+                        std::make_shared<const std::vector<double>>(computed.difference())) {}
 
-  Curvature curvature;
-  std::vector<double> difference;
+  std::shared_ptr<const Curvature> shared;
+  const Curvature& curvature;
+  std::shared_ptr<const std::vector<double>> held;
+  const std::vector<double>& difference;
 };
 
 struct MetricObject {
-  explicit MetricObject(Metric computed) : metric(std::move(computed)) {}
+  explicit MetricObject(Metric computed)
+      : shared(std::make_shared<const Metric>(std::move(computed))), metric(*shared) {}
 
   /// Returns the graph of a surface's edges in this metric, and keeps that of the last surface. Call without the GIL.
   std::shared_ptr<const EdgeGraph> edge_graph(const std::shared_ptr<const Surface>& surface, const Task& task) const {
-    return graph_.get(surface, task, [&] { return make_edge_graph(*surface, metric, nullptr, task); });
+    return graph_.get(surface, task,
+                      [&] { return make_edge_graph(*surface, metric, nullptr, {}, std::nullopt, task); });
   }
 
-  Metric metric;
+  std::shared_ptr<const Metric> shared;
+  const Metric& metric;
 
  private:
   OfLastSurface<EdgeGraph> graph_;

@@ -22,6 +22,7 @@ functions on other threads stop and raise SystemExit.)";
   stop_at_interpreter_exit();
   bind_surface(module);
   bind_metric(module);
+  bind_metric_specs(module);
   bind_scribble(module);
   bind_embedding(module);
   bind_wires(module);

@@ -7,8 +7,26 @@
 
 namespace seamwire::python {
 
-const char* name_of(Follow follow) {
-  return follow == Follow::kConcave ? "concave" : follow == Follow::kMin ? "min" : "max";
+const char* name_of(Follow follow) { return follow == Follow::kMin ? "min" : "max"; }
+
+Follow follow_from(const std::string& name) {
+  if (name == "min") return Follow::kMin;
+  if (name == "max") return Follow::kMax;
+  throw InvalidInput("follow: expected 'min' or 'max', got '" + name + "'");
+}
+
+const char* name_of(MetricKind kind) {
+  switch (kind) {
+    case MetricKind::kMin:
+      return "min";
+    case MetricKind::kMax:
+      return "max";
+    case MetricKind::kConcave:
+      return "concave";
+    case MetricKind::kEuclidean:
+      break;
+  }
+  return "euclidean";
 }
 
 Along along_from(const std::string& name) {

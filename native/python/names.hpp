@@ -3,14 +3,21 @@
 
 #include <string>
 
-#include "seamwire/live/livewire.hpp"
+#include "seamwire/context/along.hpp"
 #include "seamwire/metric/metric.hpp"
+#include "seamwire/metric/scribble.hpp"
 
 /// The names that Python uses for values of the library, and numbers as text.
 namespace seamwire::python {
 
-/// "min", "max" or "concave".
+/// "min" or "max".
 const char* name_of(Follow follow);
+
+/// The direction of that name. Throws InvalidInput for any other name.
+Follow follow_from(const std::string& name);
+
+/// "min", "max", "concave" or "euclidean".
+const char* name_of(MetricKind kind);
 
 /// Where wires run: "surface" or "edges".
 Along along_from(const std::string& name);

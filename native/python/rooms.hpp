@@ -10,6 +10,7 @@ namespace py = pybind11;
 
 void bind_surface(py::module_& module);
 void bind_metric(py::module_& module);
+void bind_metric_specs(py::module_& module);
 void bind_scribble(py::module_& module);
 void bind_embedding(py::module_& module);
 void bind_wires(py::module_& module);

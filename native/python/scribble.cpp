@@ -21,18 +21,23 @@ namespace seamwire::python {
 
 namespace {
 
-std::optional<Follow> metric_from(const std::optional<std::string>& name) {
-  if (!name) return std::nullopt;
-  if (*name == "min") return Follow::kMin;
-  if (*name == "max") return Follow::kMax;
-  if (*name == "concave") return Follow::kConcave;
-  throw InvalidInput("follow: expected 'min', 'max', 'concave' or None, got '" + *name + "'");
+std::optional<MetricKind> find_kind(const std::string& name) {
+  for (const MetricKind kind : {MetricKind::kMin, MetricKind::kMax, MetricKind::kConcave, MetricKind::kEuclidean}) {
+    if (name == name_of(kind)) return kind;
+  }
+  return std::nullopt;
 }
 
-std::optional<Follow> meant_for(const std::string& acts_on) {
-  if (acts_on == "both") return std::nullopt;
-  if (acts_on == "min" || acts_on == "max" || acts_on == "concave") return metric_from(acts_on);
-  throw InvalidInput("acts_on: expected 'both', 'min', 'max' or 'concave', got '" + acts_on + "'");
+std::optional<MetricKind> kind_from(const std::optional<std::string>& name) {
+  const std::optional<MetricKind> kind = name ? find_kind(*name) : std::nullopt;
+  if (!name || kind) return kind;
+  throw InvalidInput("follow: expected 'min', 'max', 'concave', 'euclidean' or None, got '" + *name + "'");
+}
+
+std::optional<MetricKind> meant_for(const std::string& acts_on) {
+  const std::optional<MetricKind> kind = find_kind(acts_on);
+  if (kind || acts_on == "both") return kind;
+  throw InvalidInput("acts_on: expected 'both', 'min', 'max', 'concave' or 'euclidean', got '" + acts_on + "'");
 }
 
 Scribble make_scribble(const py::object& points, const py::object& faces, const py::object& vertices, double eta,
@@ -66,8 +71,8 @@ radius : float, optional
     Use this distance in place of rings, in the caller's units.
 attracts : bool
     False makes wires that cross the stroke short, and wires that follow it long.
-acts_on : {'both', 'min', 'max', 'concave'}
-    The metric that the stroke changes. 'both': every metric.
+acts_on : {'both', 'min', 'max', 'concave', 'euclidean'}
+    The kind of metrics that the stroke changes, as `MetricSpec.kind`. 'both': every metric.
 
 Raises
 ------
@@ -94,7 +99,7 @@ ValueError
 Held<MetricObject> apply(const SurfaceObject& surface, const MetricObject& metric,
                          const std::vector<Scribble>& scribbles, const std::optional<std::string>& follow,
                          const py::object& progress) {
-  const std::optional<Follow> meant = metric_from(follow);
+  const std::optional<MetricKind> meant = kind_from(follow);
   return Watch(progress).run([&](const Task& task) {
     return make_held<MetricObject>(apply_scribbles(*surface.surface, metric.metric, scribbles, meant, task));
   });
@@ -114,8 +119,8 @@ surface : Surface
 metric : Metric
     Of that surface.
 scribbles : sequence of Scribble
-follow : {'min', 'max', 'concave'}, optional
-    Apply only the strokes that act on this metric.
+follow : {'min', 'max', 'concave', 'euclidean'}, optional
+    Apply only the strokes that act on metrics of this kind.
 progress : callable, optional
     Called repeatedly with the fraction done. Returning False cancels.
 

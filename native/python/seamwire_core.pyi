@@ -84,7 +84,7 @@ class Scribble:
         rings: int = 10,
         radius: float | None = None,
         attracts: bool = True,
-        acts_on: Literal["both", "min", "max", "concave"] = "both",
+        acts_on: Literal["both", "min", "max", "concave", "euclidean"] = "both",
     ) -> None: ...
     points: NDArray[np.float64]
     faces: NDArray[np.int32]
@@ -93,7 +93,7 @@ class Scribble:
     rings: int
     radius: float | None
     attracts: bool
-    acts_on: Literal["both", "min", "max", "concave"]
+    acts_on: Literal["both", "min", "max", "concave", "euclidean"]
 
 class Embedding:
     points: NDArray[np.float64]
@@ -166,11 +166,13 @@ class EdgeWires:
     def trace(self, target: Pick) -> EdgeChain: ...
 
 class LiveCandidate:
-    follow: Literal["min", "max", "concave"]
+    follow: Literal["min", "max", "concave", "euclidean"]
+    metric: MetricSpec
     points: NDArray[np.float64]
     faces: NDArray[np.int32]
     vertices: NDArray[np.int32]  # the edges that the wire would mark
     length: float
+    solved: bool  # the shortest in the embedding of the whole surface, or along edges
     final: bool  # False while it is still being computed
 
 class LiveEmbedding:
@@ -195,7 +197,7 @@ class LiveClosedWire:
     separates: bool
     turn: float
     length: float
-    which: int  # the number of the cut for bent_wire
+    id: tuple[int, int]  # of the metric and of the cut in it, for bent_wire
 
 class LiveClosedWires:
     cuts: list[LiveClosedWire]  # best first; empty if the surface suggests no cut, or not yet
@@ -213,6 +215,7 @@ class LiveWires:
     wires: tuple[LiveCandidate, ...]
     active: int
     settled: bool
+    solved: bool
     final: bool
 
 class LiveWire:
@@ -227,6 +230,7 @@ class LiveWire:
         turning: float = 3.0,
         loop_turning: float | None = None,
         metric: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"] = "feature",
+        max_error: float = 0.01,
     ) -> None:
         """Start preparing metrics. Defaults: gamma = 0.1 across the surface, max_anisotropy = 10 with clamp_percentile = 99 along edges."""
     @overload
@@ -243,6 +247,7 @@ class LiveWire:
         turning: float = 3.0,
         loop_turning: float | None = None,
         metric: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"] = "feature",
+        max_error: float = 0.01,
     ) -> None:
         """Copy the arrays, return at once and build the surface in the background. If that fails, the other methods raise the error."""
     surface: Surface | None  # None until it is built
@@ -260,6 +265,7 @@ class LiveWire:
         turning: float = 3.0,
         loop_turning: float | None = None,
         metric: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"] = "feature",
+        max_error: float = 0.01,
     ) -> LiveWire:
         """Return another live wire on the same surface, with its own metrics, no strokes and no seed."""
     def set_metric(
@@ -275,13 +281,13 @@ class LiveWire:
     def seed(self, pick: Pick | SurfacePoint, forward: bool = False) -> None:
         """Start wires from a pick and return at once."""
     def wires(self, target: Pick | SurfacePoint) -> LiveWires:
-        """Return the wires to a target, as far as they are computed."""
+        """Return the wires to a target, as far as they are computed. Work goes on for the newest target: ask again until they are final."""
     def loop(self, edge: tuple[int, int]) -> LiveLoop:
         """Return the closed chain through an edge. Found in the background: call again until the answer is final."""
     def closed_wires(self, through: int | tuple[int, ArrayLike]) -> LiveClosedWires:
         """Return at most three closed cuts through a point, found as `loop` is."""
     def bent_wire(
-        self, through: int | tuple[int, ArrayLike], second: int | tuple[int, ArrayLike], which: int = 0
+        self, through: int | tuple[int, ArrayLike], second: int | tuple[int, ArrayLike], cut: tuple[int, int] = (0, 0)
     ) -> LiveClosedWires:
         """Bend one of these cuts to a second point, as `closed_wires` finds them."""
     def extend_straight(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> EdgeChain:
@@ -300,6 +306,42 @@ class LiveWire:
         """Return the fraction of the preparation and the seed's work that is done."""
     def wait(self, seconds: float | None = None) -> bool:
         """Wait for all running work, including loops, and return whether it is done."""
+
+class MetricFamily:
+    """A family of metrics, and the parameters of its metrics."""
+
+    name: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"]
+    parameter: str | None
+    least_parameter: float
+    has_directions: bool
+    has_clamp: bool
+
+def metric_families() -> tuple[MetricFamily, ...]:
+    """Return the families of metrics."""
+
+class MetricSpec:
+    """A metric as a value: what it takes to compute it on any surface."""
+
+    def __init__(
+        self,
+        family: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"],
+        follow: Literal["min", "max"] | None = None,
+        *,
+        parameter: float | None = None,
+        max_anisotropy: float | None = None,
+        clamp_percentile: float | None = None,
+    ) -> None: ...
+    family: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"]
+    follow: Literal["min", "max"] | None
+    kind: Literal["min", "max", "concave", "euclidean"]  # what paths follow
+    parameter: float | None
+    max_anisotropy: float | None
+    clamp_percentile: float | None
+    def __eq__(self, other: object) -> bool: ...
+    def __hash__(self) -> int: ...
+
+def make_metric(surface: Surface, spec: MetricSpec, progress: Progress | None = None) -> Metric:
+    """Make the metric that a spec describes. Curvatures are kept with the surface."""
 
 def principal_curvatures(surface: Surface, progress: Progress | None = None) -> Curvature: ...
 def feature_metric(
@@ -340,7 +382,7 @@ def apply_scribbles(
     surface: Surface,
     metric: Metric,
     scribbles: Sequence[Scribble],
-    follow: Literal["min", "max"] | None = None,
+    follow: Literal["min", "max", "concave", "euclidean"] | None = None,
     progress: Progress | None = None,
 ) -> Metric: ...
 def embed(

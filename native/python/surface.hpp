@@ -5,30 +5,19 @@
 #include <memory>
 #include <utility>
 
-#include "lazy.hpp"
-#include "seamwire/edges/fit_chain.hpp"
+#include "seamwire/context/surface_context.hpp"
 #include "seamwire/surface/surface.hpp"
-#include "seamwire/task.hpp"
-#include "seamwire/wires/snap.hpp"
 
 namespace seamwire::python {
 
-/// A surface, with what is built from it once, when it is first needed.
+/// A surface, with what is computed from it once, when it is first needed.
 struct SurfaceObject {
-  explicit SurfaceObject(std::shared_ptr<const Surface> built) : surface(std::move(built)) {}
+  explicit SurfaceObject(std::shared_ptr<const Surface> built) : context(built), surface(std::move(built)) {}
+  /// The surface of a context, which must be built.
+  explicit SurfaceObject(const SurfaceContext& of) : context(of), surface(of.peek_surface()) {}
 
-  const SnapGraph& snap_graph(const Task& task) const {
-    return snap_graph_.get(task, [&] { return SnapGraph(*surface, task); });
-  }
-  const EdgeAdjacency& edge_adjacency(const Task& task) const {
-    return *edge_adjacency_.get(task, [&] { return make_edge_adjacency(*surface, task); });
-  }
-
+  SurfaceContext context;
   std::shared_ptr<const Surface> surface;
-
- private:
-  Lazy<SnapGraph> snap_graph_;
-  Lazy<std::shared_ptr<const EdgeAdjacency>> edge_adjacency_;
 };
 
 /// Throws InvalidInput unless `what`, with `size` vertices, fits the surface.

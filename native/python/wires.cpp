@@ -101,7 +101,7 @@ Cancelled
 
 py::array snap(const SurfaceObject& surface, const Wire& wire, const py::object& progress) {
   return handed_over(Watch(progress).run([&](const Task& task) {
-    return snap_to_edges(*surface.surface, surface.snap_graph(beginning(task)), wire, task);
+    return snap_to_edges(*surface.surface, *surface.context.snap_graph(beginning(task)), wire, task);
   }));
 }
 

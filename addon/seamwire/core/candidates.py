@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .network import FacePoint, Network, Snap, Wire, distinct, name
-from .solver import for_live
+from .solver import by_number, for_live
 from .straight import straight_wire
 
 if TYPE_CHECKING:
@@ -154,16 +154,17 @@ class CandidateWires:
             found = self._engines.get(along).wires(for_live(goal, along))
         except ValueError as error:
             return str(error)
-        self.finals = tuple(wire.final for wire in found.wires)
-        self.leading, self.settled = found.active, found.settled
+        wires, self.leading = by_number(found)
+        self.finals = tuple(wire.final for wire in wires)
+        self.settled = found.settled
         if along == "SURFACE":
             begin = seed.begins("SURFACE")
-            self.wires = tuple(across(wire, follow, begin, target.pick) for follow, wire in enumerate(found.wires))
+            self.wires = tuple(across(wire, follow, begin, target.pick) for follow, wire in enumerate(wires))
             if self.with_straight:
                 self._add_straight(begin, target)
         else:
             self.wires = tuple(
-                self._along_edges(wire, follow, seed, target.pick, avoid) for follow, wire in enumerate(found.wires)
+                self._along_edges(wire, follow, seed, target.pick, avoid) for follow, wire in enumerate(wires)
             )
         if self.chosen is not None and self.chosen >= len(self.wires):
             self.chosen = None  # the metric that is used now has no such wire

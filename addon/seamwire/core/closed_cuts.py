@@ -42,7 +42,7 @@ class TakenCut:
         (k, 3) how it ran when it was taken, from that point around to it, whatever it was bent to since.
     wires
         What it consists of now.
-    which
+    id
         What the library calls it among those through that point; None: it was taken on another mesh.
     metric
         What it was found by.
@@ -51,7 +51,7 @@ class TakenCut:
     through: Pick
     course: NDArray[np.float64]
     wires: tuple[Wire, ...]
-    which: int | None = None
+    id: tuple[int, int] | None = None
     metric: tuple[object, ...] = ()
 
     def is_in(self, network: Network) -> bool:
@@ -70,7 +70,7 @@ class TakenCut:
         around = sum(_length(wire.points) for wire in wires)
         if abs(around - length) > _LONGER * length:
             return None
-        return replace(self, wires=wires, which=None, metric=())
+        return replace(self, wires=wires, id=None, metric=())
 
 
 def is_same(one: NDArray[np.float64], two: NDArray[np.float64]) -> float | None:

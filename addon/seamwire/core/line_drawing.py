@@ -11,7 +11,7 @@ import numpy as np
 from .candidates import across
 from .network import FacePoint, Wire
 from .seam_wires import wires_along
-from .solver import for_live
+from .solver import by_number, for_live
 from .symmetry import among
 
 if TYPE_CHECKING:
@@ -290,17 +290,21 @@ class SurfaceLine:
         """Lead the wires on; return whether they have come to the end of the line."""
         while self._anchor < len(self._picks) - 1 and not self.message:
             goal = self._goal()
-            if goal is None:
-                if not self._take():
-                    break
-                continue
+            if goal is None and self._bad is None and not self._finished:
+                break  # the hand may lead it on
             try:
+                if goal is None:
+                    if not self._refine():
+                        return False
+                    if not self._take():
+                        break
+                    continue
                 found = self._live.wires(for_live(self._picks[goal][0], "SURFACE"))
             except ValueError as error:
                 self.message = str(error)
                 break
             wire, fits = self._nearest(found, goal)
-            if not found.final:
+            if not found.solved:
                 self._show(wire)
                 return False
             if fits and wire is not None:
@@ -320,12 +324,25 @@ class SurfaceLine:
         step = _STEP if self._anywhere else 1
         return between if self._bad[0] - good > step and between > good else None
 
+    def _farthest(self) -> tuple[int, Wire | None]:
+        """Return the wire that goes farthest, and where. If even the next place is too far off, a wire there is better than none."""
+        return self._good or self._bad or (self._anchor, None)
+
+    def _refine(self) -> bool:
+        """Make the wire that goes farthest final; return whether it is."""
+        number, wire = self._farthest()
+        if wire is None:
+            return True
+        found = self._live.wires(for_live(self._picks[number][0], "SURFACE"))
+        if not found.final:
+            return False
+        final = across(found.wires[wire.follow], wire.follow, self._picks[self._anchor][0], self._picks[number][0])
+        self._good = number, final or wire
+        return True
+
     def _take(self) -> bool:
         """Keep the wire that goes farthest, and go on from its end; return whether there is more to do."""
-        if self._bad is None and not self._finished:
-            return False  # the hand may lead it on
-        # Where even the next place is too far off, a wire there is better than none.
-        number, wire = self._good or self._bad or (self._anchor, None)
+        number, wire = self._farthest()
         if wire is None:
             self.message = "No wire follows the line any further"
             return False
@@ -338,8 +355,9 @@ class SurfaceLine:
     def _nearest(self, found: Candidates, goal: int) -> tuple[Wire | None, bool]:
         """Return the first wire offered that keeps near to the line, else the nearest one; and whether it does."""
         best: tuple[float, Wire] | None = None
-        for follow in sorted(range(len(found.wires)), key=lambda follow: follow != found.active):
-            wire = across(found.wires[follow], follow, self._picks[self._anchor][0], self._picks[goal][0])
+        wires, leading = by_number(found)
+        for follow in sorted(range(len(wires)), key=lambda follow: follow != leading):
+            wire = across(wires[follow], follow, self._picks[self._anchor][0], self._picks[goal][0])
             if wire is None:
                 continue
             off = _apart(wire.points, self.points[self._picks[self._anchor][1] : self._picks[goal][1] + 1])

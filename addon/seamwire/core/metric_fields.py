@@ -12,7 +12,9 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from .crests import Crests
+from .network import FOLLOWS
 from .newest import Newest
+from .solver import kinds_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -36,8 +38,6 @@ ELLIPSES = 1500
 """So many ellipses at most."""
 _RADIUS, _LONGEST = 0.33, 1.5
 """Of an ellipse, in distances to the next one: its mean radius, and its longest semi-axis at most."""
-CONCAVE_UNIT = 20.0
-"""The strength at which the concave metric is as it was measured, as the library's live wires have it."""
 
 
 @dataclass(frozen=True)
@@ -356,22 +356,25 @@ class FieldMaker:
             if not request.scribbles:
                 return plain
             scribbles = list(request.scribbles)
-            return self._core.apply_scribbles(self.surface(), plain, scribbles, request.follow, progress=self._go_on)
+            kind = self._spec(request).kind
+            return self._core.apply_scribbles(self.surface(), plain, scribbles, kind, progress=self._go_on)
 
         return self._once("metric", request.metric_key, make)
 
     def _plain_metric(self, request: Request) -> seamwire_core.Metric:
         """Return the metric without strokes."""
-        core, surface, curvature = self._core, self.surface(), self._curvature()
-        if request.metric == "euclidean" or (request.metric == "concave" and request.follow == "max"):
-            return core.euclidean_metric(surface, curvature, progress=self._go_on)
-        if request.metric == "concave":
-            strength = (request.strength - 1.0) / (CONCAVE_UNIT - 1.0)
-            return core.concave_metric(surface, self._smoothed(), strength, progress=self._go_on)
-        more = {"clamp_percentile": request.clamp} if request.metric == "feature" else {}
-        function = getattr(core, f"{request.metric}_metric")
-        return function(
-            surface, curvature, request.follow, max_anisotropy=request.strength, progress=self._go_on, **more
+        return self._core.make_metric(self.surface(), self._spec(request), progress=self._go_on)
+
+    def _spec(self, request: Request) -> seamwire_core.MetricSpec:
+        kinds = kinds_of(request.metric)
+        kind = kinds[min(FOLLOWS.index(request.follow), len(kinds) - 1)]
+        if kind == "euclidean":
+            return self._core.MetricSpec("euclidean")
+        if kind == "concave":
+            return self._core.MetricSpec("concave", max_anisotropy=request.strength)
+        clamp = request.clamp if request.metric == "feature" else None
+        return self._core.MetricSpec(
+            request.metric, request.follow, max_anisotropy=request.strength, clamp_percentile=clamp
         )
 
     def embedding(self, request: Request) -> seamwire_core.Embedding:

@@ -12,7 +12,7 @@ import json
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 
@@ -21,17 +21,16 @@ from .defaults import CLAMP_PERCENTILE
 from .geometry import Moments, creases, vertex_normals
 from .network import FacePoint, place_of, undirected
 from .serialization import Record
+from .solver import MetricName
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from .network import Edge, Network, Pick, Wire
-    from .solver import MetricName
     from .strokes import Scribble
 
 FORMAT = "seamwire-network"
 VERSION = 1
-_METRICS = ("feature", "campen", "pottmann_kovacs", "concave", "euclidean")
 
 
 class NetworkFileError(ValueError):
@@ -251,7 +250,7 @@ class NetworkFile:
             origin = Origin(str(mesh["name"]), *counts, moments)
             where = "metric"
             metric, clamp = data["metric"], float(data["clamp"])
-            if metric not in _METRICS or not 0.0 < clamp <= 100.0:
+            if metric not in get_args(MetricName) or not 0.0 < clamp <= 100.0:
                 raise ValueError
             seeds, courses, strokes = [], [], []
             for number, row in enumerate(data["seeds"], start=1):

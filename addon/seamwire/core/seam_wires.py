@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .network import Wire
+from .solver import by_number
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -150,7 +151,7 @@ def _run(live: LiveWire, chain: list[int], begin: int, skipped: int) -> Generato
         while not found.final:
             yield
             found = live.wires(chain[end])
-        ways = [candidate.vertices[skipped:].tolist() for candidate in found.wires]
+        ways = [candidate.vertices[skipped:].tolist() for candidate in by_number(found)[0]]
         wanted = chain[begin : end + 1]
         if wanted in ways:
             reached = end, ways.index(wanted)

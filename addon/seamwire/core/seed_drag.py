@@ -10,7 +10,7 @@ import numpy as np
 
 from .candidates import only_vertices
 from .network import FacePoint, Network, Snap, Wire, distinct, name, undirected, vertices_of
-from .solver import for_live
+from .solver import by_number, for_live
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -25,6 +25,7 @@ class Courses:
 
     ways: tuple[Wire | None, ...] = ()
     leading: int = 0
+    solved: bool = False
     final: bool = False
 
     def following(self, follow: int) -> Wire | None:
@@ -91,8 +92,9 @@ class Leg:
             Where the target is not part of the surface.
         """
         found = self.live.wires(for_live(target, self.wire.along))
-        ways = tuple(self._wire(wire, follow, place, avoid) for follow, wire in enumerate(found.wires))
-        return Courses(ways, found.active, found.final)
+        wires, leading = by_number(found)
+        ways = tuple(self._wire(wire, follow, place, avoid) for follow, wire in enumerate(wires))
+        return Courses(ways, leading, found.solved, found.final)
 
     def _wire(self, candidate: Candidate, follow: int, place: Pick, avoid: int | None) -> Wire | None:
         vertices = tuple(int(vertex) for vertex in candidate.vertices)[self._skip :]
@@ -160,6 +162,7 @@ class SeedDrag:
         self.seed = seed
         self.target: Snap | None = None
         self.final = True
+        self._solved = True
         self.ending = False
         self.message = ""
         self.legs = [Leg(engines.get(wire.along).fork(), network, wire, end, points) for wire, end in ends]
@@ -190,7 +193,7 @@ class SeedDrag:
     def to(self, target: Snap) -> bool:
         """Lead the wires to another place; where that cannot be, say why in `message` and leave them as they were."""
         self.target = target
-        self.final = True
+        self.final = self._solved = True
         self.message = self._refusal(target.pick)
         if self.message:
             return False
@@ -199,7 +202,7 @@ class SeedDrag:
         except ValueError as error:
             self.message = str(error)
             return False
-        if not self.final:
+        if not self._solved:
             return False
         missing = [leg for leg in self.legs if leg.wire.id not in courses]
         if missing:
@@ -229,6 +232,7 @@ class SeedDrag:
             else:
                 found = leg.trace(pick, pick)
             self.final &= found.final
+            self._solved &= found.solved
             wire = found.following(leg.wire.follow)
             if wire is None:
                 continue

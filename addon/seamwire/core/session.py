@@ -995,12 +995,13 @@ class Session:
     @property
     def computing(self) -> bool:
         """Whether the library still works on what is shown."""
-        return self._progress < 1.0 or not self._offers_final
+        return self._wires_computing or not self._offers_final
 
     @property
     def _wires_computing(self) -> bool:
         """Whether it works on wires: a loop that waits behind a click must not keep that waiting."""
-        return self._progress < 1.0
+        drag = self._drag
+        return self._progress < 1.0 or not self._candidates.final or (drag is not None and not drag.final)
 
     @property
     def progress(self) -> float:

@@ -4,10 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Literal, Protocol
+from dataclasses import replace
+from typing import TYPE_CHECKING, Literal, Protocol, get_args
 
 from .defaults import CLAMP_PERCENTILE, STRENGTHS
-from .network import FacePoint
+from .network import FOLLOWS, FacePoint
 
 if TYPE_CHECKING:
     import numpy as np
@@ -20,10 +21,21 @@ if TYPE_CHECKING:
 MetricName = Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"]
 """What draws wires to features, as the library calls it."""
 
+Kind = Literal["min", "max", "concave", "euclidean"]
+"""What a wire follows, as the library calls it: a direction of curvature, concave creases, or nothing."""
+_KINDS: tuple[Kind, ...] = get_args(Kind)
+_KINDS_OF: Mapping[MetricName, tuple[Kind, ...]] = {"concave": ("concave", "euclidean"), "euclidean": ("euclidean",)}
+
+
+def kinds_of(metric: MetricName) -> tuple[Kind, ...]:
+    """Return what the wires of a metric follow, by `Wire.follow`."""
+    return _KINDS_OF.get(metric, ("min", "max", "concave"))
+
 
 class Candidate(Protocol):
     """One of the wires from the seed to a target, as the library gives it."""
 
+    follow: Kind
     points: NDArray[np.float64]
     vertices: NDArray[np.int32]
     length: float
@@ -36,7 +48,23 @@ class Candidates(Protocol):
     wires: Sequence[Candidate]
     active: int
     settled: bool
+    solved: bool
+    """Whether each is the shortest: across the surface they may become more exact until they are `final`."""
     final: bool
+
+
+def by_number(found: Candidates) -> tuple[tuple[Candidate, ...], int]:
+    """Return the wires by `Wire.follow`, and the number of the one that leads."""
+    order = sorted(range(len(found.wires)), key=lambda at: _KINDS.index(found.wires[at].follow))
+    return tuple(found.wires[at] for at in order), order.index(found.active)
+
+
+def _meant_for(stroke: Scribble, kinds: tuple[Kind, ...]) -> Scribble | None:
+    """Return a stroke for one of the wires as the library names that wire; None if there is no such wire."""
+    if stroke.acts_on == "both":
+        return stroke
+    number = FOLLOWS.index(stroke.acts_on)
+    return replace(stroke, acts_on=kinds[number]) if number < len(kinds) else None
 
 
 class Chain(Protocol):
@@ -69,8 +97,8 @@ class ClosedCut(Protocol):
     pieces: Sequence[Piece]
     joints: Sequence[int | tuple[int, Sequence[float]]]
     separates: bool
-    which: int
-    """What `LiveWire.bent_wire` calls it."""
+    id: tuple[int, int]
+    """The number of its metric and its number in that, for `LiveWire.bent_wire`."""
 
 
 class ClosedCuts(Protocol):
@@ -122,8 +150,8 @@ class LiveWire(Protocol):
     def closed_wires(self, through: End) -> ClosedCuts:
         """Return the closed cuts across the surface through a point, as far as they are computed."""
 
-    def bent_wire(self, through: End, second: End, which: int) -> ClosedCuts:
-        """Return one of these cuts, by its `which`, bent to a second point, as far as it is computed."""
+    def bent_wire(self, through: End, second: End, cut: tuple[int, int]) -> ClosedCuts:
+        """Return one of these cuts, by its id, bent to a second point, as far as it is computed."""
 
     def extend_straight(self, edge: Edge, stops: Iterable[int]) -> Chain:
         """Return the straight way on from the end of a directed edge until a stop, a boundary or itself."""
@@ -190,7 +218,8 @@ class Engines:
         self.metric: MetricName = "feature"
         self.clamp = CLAMP_PERCENTILE
         self._make_scribble = make_scribble
-        self._scribbles: list[object] = []
+        self._strokes: tuple[Scribble, ...] = ()
+        self._made: dict[MetricName, list[object]] = {}
         self._told: int = 0
 
     def get(self, along: Along) -> LiveWire:
@@ -199,8 +228,8 @@ class Engines:
             self._lives[along] = self._make(along)
             if (self.metric, self.strengths[along], self.clamp) != ("feature", STRENGTHS[along], CLAMP_PERCENTILE):
                 self._tell_metric(along)
-            if self._scribbles:
-                self._lives[along].set_scribbles(self._scribbles)
+            if self._strokes:
+                self._lives[along].set_scribbles(self._scribbles(self.metric))
         return self._lives[along]
 
     def cuts(self) -> LiveWire:
@@ -208,8 +237,8 @@ class Engines:
         if self._cuts is None:
             self._cuts = self._make("SURFACE")
             self._tell_cuts()
-            if self._scribbles:
-                self._cuts.set_scribbles(self._scribbles)
+            if self._strokes:
+                self._cuts.set_scribbles(self._scribbles("concave"))
         return self._cuts
 
     def use(self, metric: MetricName, strengths: Mapping[Along, float], clamp: float) -> None:
@@ -219,20 +248,30 @@ class Engines:
         for along in self._lives:
             if (metric, strengths[along], clamp) != (before[0], before[1][along], before[2]):
                 self._tell_metric(along)
+                if self._strokes and kinds_of(metric) != kinds_of(before[0]):
+                    self._lives[along].set_scribbles(self._scribbles(metric))
         if strengths["SURFACE"] != before[1]["SURFACE"]:
             self._tell_cuts()
 
     def follow(self, scribbles: Sequence[Scribble]) -> None:
         """Compute with other strokes from here on; forks that were made before keep theirs."""
-        self._scribbles = [self._make_scribble(scribble) for scribble in scribbles]
-        for live in (*self._lives.values(), self._cuts):
-            if live is not None:
-                live.set_scribbles(self._scribbles)
+        self._strokes, self._made = tuple(scribbles), {}
+        for live in self._lives.values():
+            live.set_scribbles(self._scribbles(self.metric))
+        if self._cuts is not None:
+            self._cuts.set_scribbles(self._scribbles("concave"))
 
     @property
     def scribbles(self) -> tuple[object, ...]:
         """What live wires are told of strokes now: the same objects as long as the strokes are."""
-        return tuple(self._scribbles)
+        return tuple(self._scribbles(self.metric))
+
+    def _scribbles(self, metric: MetricName) -> list[object]:
+        """Return the strokes as live wires with a metric take them: without those for a wire that it does not have."""
+        if metric not in self._made:
+            meant = (_meant_for(stroke, kinds_of(metric)) for stroke in self._strokes)
+            self._made[metric] = [self._make_scribble(stroke) for stroke in meant if stroke is not None]
+        return self._made[metric]
 
     def warning(self, along: Along) -> str:
         """Return that wires which run one way have to lead around triangles; empty where they have not, or it was said."""

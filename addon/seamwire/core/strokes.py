@@ -14,8 +14,8 @@ from . import native
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-ActsOn = Literal["both", "min", "max", "concave"]
-"""Which of `FOLLOWS` a stroke acts on; "both": on all of them. Files have these words."""
+ActsOn = Literal["both", "min", "max", "concave", "euclidean"]
+"""Which of `FOLLOWS` a stroke acts on; "both": on all of them. Files have these words; "euclidean" is for the library only."""
 
 _OFF_MESH = 0.05
 """How far from its triangle a point may be, as part of the mesh's longest side: what the library takes."""

@@ -44,7 +44,7 @@ class SurfaceLoops(Offers):
         super().__init__()
         self._engines = engines
         self._triangles = triangles
-        self._found: dict[int, tuple[tuple[Wire, ...], int]] = {}
+        self._found: dict[int, tuple[tuple[Wire, ...], tuple[int, int]]] = {}
         self._taken: Pick | None = None
         self._cuts: list[TakenCut] = []
         self.bends = False
@@ -74,11 +74,11 @@ class SurfaceLoops(Offers):
             if cut is None:
                 raise ValueError(NOTHING_TO_BEND)
             begin = cut.through
-            which = self._which(cut, live)
-            if which is None:
+            number = self._id_of(cut, live)
+            if number is None:
                 self.final = False
                 return ()
-            found = live.bent_wire(for_live(begin, "SURFACE"), for_live(pick, "SURFACE"), which)
+            found = live.bent_wire(for_live(begin, "SURFACE"), for_live(pick, "SURFACE"), number)
             if found.final and not found.cuts:
                 raise ValueError("No closed cut leads through both points")
         else:
@@ -93,7 +93,7 @@ class SurfaceLoops(Offers):
             whole = _whole(pieces, each.separates)
             if not any(self._alike(whole, other) for other in shown):
                 shown.append(whole)
-                self._found[whole.id] = pieces, each.which
+                self._found[whole.id] = pieces, each.id
         return tuple(shown)
 
     def _alike(self, one: Wire, other: Wire) -> bool:
@@ -112,7 +112,7 @@ class SurfaceLoops(Offers):
     def bendable(self, network: Network) -> TakenCut | None:
         """Return the cut taken last of those that a network has still as they were, and that would be found again."""
         metric = self._metric
-        known = (cut for cut in reversed(self._cuts) if cut.which is None or cut.metric == metric)
+        known = (cut for cut in reversed(self._cuts) if cut.id is None or cut.metric == metric)
         return next((cut for cut in known if cut.is_in(network)), None)
 
     def taken(self, network: Network) -> tuple[TakenCut, ...]:
@@ -123,23 +123,23 @@ class SurfaceLoops(Offers):
         """Go on from cuts that were taken in other sessions, in place of those taken in this one."""
         self._cuts = list(cuts)
 
-    def _which(self, cut: TakenCut, live: LiveWire) -> int | None:
+    def _id_of(self, cut: TakenCut, live: LiveWire) -> tuple[int, int] | None:
         """Return what the library calls a cut that is bent; None while that is computed, where it was taken on another mesh.
 
         On a mesh that was cut the numbers are others: it is the one that runs as the cut ran.
         """
-        if cut.which is not None:
-            return cut.which
+        if cut.id is not None:
+            return cut.id
         found = live.closed_wires(for_live(cut.through, "SURFACE"))
         if not found.final:
             return None
-        apart = {each.which: is_same(cut.course, _course(each)) for each in found.cuts}
-        same = {which: gap for which, gap in apart.items() if gap is not None}
+        apart = {each.id: is_same(cut.course, _course(each)) for each in found.cuts}
+        same = {number: gap for number, gap in apart.items() if gap is not None}
         if not same:
             raise ValueError(CUT_IS_GONE)
-        which = min(same, key=same.__getitem__)
-        self._cuts[self._cuts.index(cut)] = replace(cut, which=which, metric=self._metric)
-        return which
+        nearest = min(same, key=same.__getitem__)
+        self._cuts[self._cuts.index(cut)] = replace(cut, id=nearest, metric=self._metric)
+        return nearest
 
     @property
     def _metric(self) -> tuple[object, ...]:

@@ -22,6 +22,7 @@ from .network import LOOP_NAMES, Network, Wire
 from .network_file import Course, NetworkFile, NetworkFileError
 from .placing import DOUBTFUL, Landmarks, Placed, Shape, Similarity, Surface
 from .serialization import unpacked
+from .solver import by_number
 from .strokes import Scribble, for_library, on_mesh
 from .symmetry import Symmetry
 
@@ -453,7 +454,7 @@ class _Tracing:
             live.wait(_SLICE)
             found = live.wires(end)
         best = None
-        for follow, candidate in enumerate(found.wires):
+        for follow, candidate in enumerate(by_number(found)[0]):
             if len(candidate.vertices) < 2:
                 continue
             off, worst = _strays(self._in_object(candidate.points), places)

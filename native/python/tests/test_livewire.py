@@ -21,15 +21,16 @@ def metric_of(surface: sw.Surface, curvature: sw.Curvature, follow: str) -> sw.M
 
 
 def test_across_the_surface_gives_geodesics_and_their_edges(surface: sw.Surface, curvature: sw.Curvature) -> None:
-    live = sw.LiveWire(surface)
+    live = sw.LiveWire(surface, max_error=0)
     live.seed(3)
     assert live.wait()
     assert live.progress() == 1
     found = live.wires(500)
     assert found.final
     assert found.settled
-    assert [wire.follow for wire in found.wires] == ["min", "max", "concave"]
-    assert found.active == 2
+    assert [wire.follow for wire in found.wires] == ["concave", "min", "max"]
+    assert [wire.metric.kind for wire in found.wires] == ["concave", "min", "max"]
+    assert found.active == 0
     for wire in found.wires:
         metric = metric_of(surface, curvature, wire.follow)
         traced = sw.distance_field(sw.embed(surface, metric), 3).trace(500)
@@ -40,7 +41,7 @@ def test_across_the_surface_gives_geodesics_and_their_edges(surface: sw.Surface,
 
 
 def test_from_point_to_point_within_faces(surface: sw.Surface, curvature: sw.Curvature) -> None:
-    live = sw.LiveWire(surface)
+    live = sw.LiveWire(surface, max_error=0)
     seed, target = (40, (0.2, 0.5, 0.3)), (900, np.array([0.1, 0.8, 0.1]))
     live.seed(seed)
     live.wait()
@@ -66,10 +67,11 @@ def test_closed_wires_are_those_of_the_field_in_pieces(
         sw.euclidean_metric(surface, curvature),
     )
     loops = [sw.distance_field(sw.embed(surface, metric), through).closed_wires() for metric in metrics]
-    assert found.cuts[0].which == 0
-    assert len({cut.which for cut in found.cuts}) == len(found.cuts)
+    assert found.cuts[0].id == (0, 0)
+    assert len({cut.id for cut in found.cuts}) == len(found.cuts)
     for cut in found.cuts:
-        loop = loops[cut.which // 3][cut.which % 3]
+        metric, number = cut.id
+        loop = loops[metric][number]
         assert cut.length == loop.length
         assert (cut.separates, cut.turn) == (loop.separates, loop.turn)
         assert (len(cut.pieces), len(cut.joints)) == (3, 2)
@@ -111,12 +113,14 @@ def test_a_bent_wire_is_that_of_the_field_in_pieces(
         assert piece.vertices[-1] == after.vertices[0]
     with pytest.raises(ValueError, match=r"second: .*not edges"):
         live.bent_wire(3, (3, 4))
-    with pytest.raises(ValueError, match="which: expected a number that is not negative"):
-        live.bent_wire(3, 300, -1)
+    with pytest.raises(ValueError, match="cut: expected a number that is not negative"):
+        live.bent_wire(3, 300, (0, -1))
+    with pytest.raises(ValueError, match="cut: expected the id of a LiveClosedWire"):
+        live.bent_wire(3, 300, 0)
 
 
 def test_closed_wires_lead_through_points_of_the_surface(surface: sw.Surface) -> None:
-    live = sw.LiveWire(surface)
+    live = sw.LiveWire(surface, max_error=0)
     with pytest.raises(ValueError, match="through: vertex 99999 is out of range"):
         live.closed_wires(99999)
     with pytest.raises(ValueError, match="not edges"):
@@ -126,7 +130,7 @@ def test_closed_wires_lead_through_points_of_the_surface(surface: sw.Surface) ->
 
 
 def test_what_is_no_point_of_a_face_is_refused(surface: sw.Surface) -> None:
-    live = sw.LiveWire(surface)
+    live = sw.LiveWire(surface, max_error=0)
     for wrong, why in (
         ((1920, (1, 0, 0)), "pick: face 1920 is out of range: there are 1920 faces"),
         ((5, (0.5, 0.6, -0.1)), "a barycentric coordinate is -0.1"),
@@ -146,7 +150,7 @@ def test_tells_what_became_of_its_embeddings(surface: sw.Surface, curvature: sw.
     live = sw.LiveWire(surface, max_anisotropy=30.0)
     live.seed(3)
     live.wait()
-    for follow, told in zip(("min", "max"), live.embeddings()[:2], strict=True):
+    for follow, told in zip(("min", "max"), live.embeddings()[1:], strict=True):
         embedding = sw.embed(surface, sw.feature_metric(surface, curvature, follow=follow, max_anisotropy=30.0))
         assert told is not None
         for name in ("invalid_left", "hit_cap", "clamped_edges", "worst_clamp"):
@@ -216,11 +220,11 @@ def test_waiting_ends_when_it_is_told_to(large: sw.Surface) -> None:
 
 def test_without_a_seed_there_are_no_wires(surface: sw.Surface) -> None:
     with pytest.raises(ValueError, match="no seed"):
-        sw.LiveWire(surface).wires(0)
+        sw.LiveWire(surface, max_error=0).wires(0)
 
 
 def test_edges_cannot_be_picked_across_the_surface(surface: sw.Surface) -> None:
-    live = sw.LiveWire(surface)
+    live = sw.LiveWire(surface, max_error=0)
     with pytest.raises(ValueError, match="vertex to vertex"):
         live.seed((0, 1))
     with pytest.raises(ValueError, match="along edges"):
@@ -228,7 +232,7 @@ def test_edges_cannot_be_picked_across_the_surface(surface: sw.Surface) -> None:
 
 
 def test_what_fails_on_a_thread_is_raised_to_the_caller(surface: sw.Surface) -> None:
-    live = sw.LiveWire(surface, gamma=1e308)
+    live = sw.LiveWire(surface, gamma=1e307)
     with pytest.raises(ValueError, match="too strong"):
         live.wait()
 
@@ -330,7 +334,7 @@ def test_strips_run_both_ways() -> None:
 
 
 def test_tells_the_strength_of_features(surface: sw.Surface, curvature: sw.Curvature) -> None:
-    live = sw.LiveWire(surface)
+    live = sw.LiveWire(surface, max_error=0)
     assert live.wait()
     strength = live.feature_strength()
     del live
@@ -527,3 +531,25 @@ def test_what_can_be_told_without_a_surface_is_refused_at_once() -> None:
         live.seed(90_000)
     with pytest.raises(ValueError, match="no seed"):
         live.wires(0)
+
+
+def test_across_the_surface_wires_are_final_once_they_are_refined(
+    surface: sw.Surface, curvature: sw.Curvature
+) -> None:
+    live, plain = sw.LiveWire(surface, max_error=0.0005), sw.LiveWire(surface, max_error=0)
+    for each in (live, plain):
+        each.seed(3)
+        assert each.wait()
+    early = live.wires(500)
+    assert early.solved
+    assert live.wait()
+    found, unrefined = live.wires(500), plain.wires(500)
+    assert found.final
+    assert unrefined.final
+    for wire, first in zip(found.wires, unrefined.wires, strict=True):
+        assert wire.solved
+        assert (wire.vertices[0], wire.vertices[-1]) == (3, 500)
+        assert wire.length == pytest.approx(first.length, rel=0.2)
+    assert any(wire.length != first.length for wire, first in zip(found.wires, unrefined.wires, strict=True))
+    with pytest.raises(ValueError, match="max_error is 2"):
+        sw.LiveWire(surface, max_error=2)

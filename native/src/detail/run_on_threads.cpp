@@ -104,9 +104,13 @@ void run_on_threads(std::size_t count, const Task& task, const std::function<dou
     shared.end_threads(thread_count - threads.size());
   }
   while (!shared.wait(kPeriod)) {
-    if (!task.progress || task.progress(fraction(shared.done()))) continue;
-    stop.request_stop();
-    shared.fail(std::make_exception_ptr(Cancelled()));
+    if (shared.error()) continue;
+    try {
+      task.check(fraction(shared.done()));
+    } catch (...) {
+      stop.request_stop();
+      shared.fail(std::current_exception());
+    }
   }
   if (const std::exception_ptr error = shared.error()) std::rethrow_exception(error);
 }

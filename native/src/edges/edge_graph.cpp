@@ -62,13 +62,14 @@ void EdgeGraph::follow(const Surface& surface, const Metric& metric, const Scrib
 }
 
 std::shared_ptr<const EdgeGraph> make_edge_graph(const Surface& surface, const Metric& metric,
-                                                 std::shared_ptr<const EdgeAdjacency> adjacency, const Task& task,
-                                                 std::span<const Scribble> scribbles, std::optional<Follow> follow) {
+                                                 std::shared_ptr<const EdgeAdjacency> adjacency,
+                                                 std::span<const Scribble> scribbles, std::optional<MetricKind> kind,
+                                                 const Task& task) {
   for (std::size_t i = 0; i < scribbles.size(); ++i) check_scribble(surface, scribbles[i], i);
   auto graph = std::make_shared<EdgeGraph>(surface, metric, std::move(adjacency), task);
   for (const Scribble& scribble : scribbles) {
     task.check(1.0);
-    if (!follow || scribble.acts_on(*follow)) graph->follow(surface, metric, scribble);
+    if (!kind || scribble.acts_on(*kind)) graph->follow(surface, metric, scribble);
   }
   return graph;
 }

@@ -129,7 +129,7 @@ class BisectedMesh {
   const Surface& surface;
   const Metric& metric;
   std::vector<Triangle> corners;
-  std::vector<std::int32_t> twins;  ///< per half-edge; -1 if it has none
+  std::vector<std::int32_t> twins;    ///< per half-edge; -1 if it has none
   /// Per half-edge without a twin: the next one of the same edge in a cycle, as in IntrinsicMesh, but two may run in
   /// opposite ways. Empty if there are no such edges.
   std::vector<std::int32_t> siblings;

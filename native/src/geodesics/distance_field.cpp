@@ -39,11 +39,13 @@ std::int32_t DistanceField::seed() const {
 }
 const std::vector<SurfacePoint>& DistanceField::sources() const { return data_->given_sources; }
 bool DistanceField::is_exact() const { return data_->is_exact; }
+const GeodesicCounters& DistanceField::counters() const { return data_->counters; }
 double DistanceField::radius() const { return data_->radius; }
 bool DistanceField::fits(const IntrinsicMesh& mesh) const {
   return data_->mesh->vertex_count() == index(mesh.vertex_count) &&
          data_->mesh->half_edge_count() == 3 * mesh.face_count();
 }
+std::weak_ptr<const void> DistanceField::mesh() const { return data_->mesh; }
 const std::vector<double>& DistanceField::distances() const { return data_->distances; }
 
 IntrinsicPath DistanceField::trace(std::int32_t vertex, const Task& task) const {

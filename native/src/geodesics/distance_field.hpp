@@ -20,6 +20,7 @@ struct DistanceField::Data {
   std::vector<detail::TraceRecord> records;  ///< in internal numbers
   std::vector<detail::SiblingCrossing> crossings;
   bool is_exact;
+  GeodesicCounters counters;
   double radius;  ///< distances beyond it are infinite
 };
 

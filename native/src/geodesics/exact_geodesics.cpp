@@ -27,29 +27,28 @@ ExactGeodesics::ExactGeodesics(const ExactGeodesics& former, const IntrinsicMesh
                   : std::make_shared<const GeodesicMesh>(mesh, task);
 }
 
-DistanceField ExactGeodesics::solve(std::int32_t seed, const Task& task, GeodesicCounters* counters) const {
+DistanceField ExactGeodesics::solve(std::int32_t seed, const Task& task) const {
   check_index(seed, mesh_->vertex_count(), "seed");
-  return run(std::array{SurfacePoint::at_vertex(seed)}, {}, 0, task, counters);
+  return run(std::array{SurfacePoint::at_vertex(seed)}, {}, 0, task);
 }
 
 DistanceField ExactGeodesics::solve(std::span<const SurfacePoint> sources, const SolveOptions& options,
-                                    const Task& task, GeodesicCounters* counters) const {
+                                    const Task& task) const {
   if (sources.empty()) throw InvalidInput("no source to have distances from");
   if (!(options.max_distance >= 0)) {
     throw InvalidInput("max_distance is " + text(options.max_distance) + ", not 0 or more");
   }
-  return run(sources, options, 0, task, counters);
+  return run(sources, options, 0, task);
 }
 
-DistanceField ExactGeodesics::solve_bounded(std::int32_t seed, std::uint32_t windows, const Task& task,
-                                            GeodesicCounters* counters) const {
+DistanceField ExactGeodesics::solve_bounded(std::int32_t seed, std::uint32_t windows, const Task& task) const {
   if (windows == 0) throw InvalidInput("windows must be at least 1");
   check_index(seed, mesh_->vertex_count(), "seed");
-  return run(std::array{SurfacePoint::at_vertex(seed)}, {}, windows, task, counters);
+  return run(std::array{SurfacePoint::at_vertex(seed)}, {}, windows, task);
 }
 
 DistanceField ExactGeodesics::run(std::span<const SurfacePoint> sources, const SolveOptions& options,
-                                  std::uint32_t windows, const Task& task, GeodesicCounters* counters) const {
+                                  std::uint32_t windows, const Task& task) const {
   std::vector<PlacedPoint> placed;
   for (const SurfacePoint& source : sources) {
     placed.push_back(PlacedPoint::of(*mesh_, source, "source " + std::to_string(placed.size())));
@@ -60,7 +59,6 @@ DistanceField ExactGeodesics::run(std::span<const SurfacePoint> sources, const S
   }
   SourcePoints from(std::move(placed));
   WavefrontResult result = propagate_wavefront(*mesh_, from, task, windows, end);
-  if (counters != nullptr) *counters = result.counters;
   std::vector<double> distances(mesh_->vertex_count());
   for (std::size_t v = 0; v < distances.size(); ++v) {
     distances[mesh_->external_vertex(static_cast<std::int32_t>(v))] = result.distances[v];
@@ -73,6 +71,7 @@ DistanceField ExactGeodesics::run(std::span<const SurfacePoint> sources, const S
                                                                       .records = std::move(result.records),
                                                                       .crossings = std::move(result.crossings),
                                                                       .is_exact = windows == 0,
+                                                                      .counters = result.counters,
                                                                       .radius = result.radius}));
 }
 

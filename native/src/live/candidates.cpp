@@ -6,41 +6,44 @@
 
 namespace seamwire::detail {
 
-LiveCandidate snapped_candidate(const Surface& surface, const Prepared& prepared, std::size_t metric, Wire wire,
-                                const Task& task) {
+LiveCandidate snapped_candidate(const Prepared& prepared, Wire wire, const Task& task) {
   LiveCandidate candidate;
-  candidate.follow = kFollow[metric];
-  candidate.vertices = snap_to_edges(surface, *prepared.snap_graph, wire, task);
+  candidate.metric = prepared.spec;
+  candidate.vertices = snap_to_edges(*prepared.surface, *prepared.snap_graph, wire, task);
   candidate.length = wire.length;
   candidate.points = std::move(wire.points);
   candidate.faces = std::move(wire.faces);
   return candidate;
 }
 
-LiveCandidate candidate_between(const Surface& surface, const Prepared& prepared, std::size_t metric, Wire wire,
-                                const WireEnd& seed, const WireEnd& target) {
-  wire.from = nearest_vertex(surface, seed);
-  wire.to = nearest_vertex(surface, target);
-  return snapped_candidate(surface, prepared, metric, std::move(wire));
+LiveCandidate candidate_between(const Prepared& prepared, Wire wire, const WireEnd& seed, const WireEnd& target,
+                                const Task& task) {
+  wire.from = nearest_vertex(*prepared.surface, seed);
+  wire.to = nearest_vertex(*prepared.surface, target);
+  return snapped_candidate(prepared, std::move(wire), task);
 }
 
-LiveCandidate candidate_of(const Surface& surface, const SeedSolution& solution, std::size_t metric,
-                           const WireEnd& seed, const WireEnd& target) {
+Wire wire_of(const SeedSolution& solution, const WireEnd& target, const Task& task) {
+  if (!solution.field) return {};
+  const EmbeddedSurface& on = *solution.prepared->embedded;
+  const std::optional<SurfacePoint> to = on.points().find(point_of(target), "target");
+  return to ? trace_wire(on.surface(), on.embedding(), *solution.field, *to, task) : Wire{};
+}
+
+LiveCandidate candidate_of(const SeedSolution& solution, const WireEnd& seed, const WireEnd& target) {
+  const Prepared& prepared = *solution.prepared;
   LiveCandidate candidate;
-  candidate.follow = kFollow[metric];
+  candidate.metric = prepared.spec;
   if (solution.field) {
-    const Prepared& prepared = *solution.prepared;
-    const std::optional<SurfacePoint> to = prepared.points->find(point_of(target), "target");
-    if (!to) return candidate;
-    Wire wire = trace_wire(surface, *prepared.embedding, *solution.field, *to);
-    return candidate_between(surface, prepared, metric, std::move(wire), seed, target);
+    Wire wire = wire_of(solution, target);
+    return wire.points.empty() ? candidate : candidate_between(prepared, std::move(wire), seed, target);
   }
   if (!solution.wires) return candidate;
   EdgeChain chain = solution.wires->trace(std::get<Pick>(target));
   candidate.length = chain.length;
   candidate.vertices = std::move(chain.vertices);
   candidate.points.reserve(candidate.vertices.size());
-  for (const std::int32_t v : candidate.vertices) candidate.points.push_back(surface.points()[v]);
+  for (const std::int32_t v : candidate.vertices) candidate.points.push_back(prepared.surface->points()[v]);
   return candidate;
 }
 

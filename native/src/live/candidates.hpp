@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
 #include <memory>
 #include <optional>
 
@@ -26,15 +25,16 @@ struct SeedSolution {
 };
 
 /// A wire across the surface as a candidate in a metric, with the chain of edges that it snaps to.
-LiveCandidate snapped_candidate(const Surface& surface, const Prepared& prepared, std::size_t metric, Wire wire,
-                                const Task& task = {});
+LiveCandidate snapped_candidate(const Prepared& prepared, Wire wire, const Task& task = {});
 
 /// The same for a wire from a seed to a target, whose nearest vertices it is to begin and end at.
-LiveCandidate candidate_between(const Surface& surface, const Prepared& prepared, std::size_t metric, Wire wire,
-                                const WireEnd& seed, const WireEnd& target);
+LiveCandidate candidate_between(const Prepared& prepared, Wire wire, const WireEnd& seed, const WireEnd& target,
+                                const Task& task = {});
 
-/// The wire of a solution to a target; without points if there is none. It is not marked as final.
-LiveCandidate candidate_of(const Surface& surface, const SeedSolution& solution, std::size_t metric,
-                           const WireEnd& seed, const WireEnd& target);
+/// The wire of a field to a target; without points if there is none. Throws Cancelled.
+Wire wire_of(const SeedSolution& solution, const WireEnd& target, const Task& task = {});
+
+/// The candidate of a solution to a target; without points if there is none. It is not marked as final.
+LiveCandidate candidate_of(const SeedSolution& solution, const WireEnd& seed, const WireEnd& target);
 
 }  // namespace seamwire::detail

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "live/closed_cut_search.hpp"
 
+#include <array>
 #include <cstdint>
-#include <span>
 #include <utility>
 
 #include "live/candidates.hpp"
@@ -22,13 +22,14 @@ constexpr std::uint32_t kWindowsBefore = 4;
 
 }  // namespace
 
-ClosedCutSearch::ClosedCutSearch(std::shared_ptr<SurfaceCache> surface_cache, std::shared_ptr<MetricSet> metrics)
-    : surface_cache_(std::move(surface_cache)), metrics_(std::move(metrics)) {}
+ClosedCutSearch::ClosedCutSearch(const SurfaceContext& context, std::shared_ptr<MetricSet> metrics)
+    : context_(context), metrics_(std::move(metrics)) {}
 
 /// Waits for another thread that prepares the metric.
 std::shared_ptr<const Prepared> ClosedCutSearch::prepared(std::size_t metric, const std::stop_token& stop) {
-  return metrics_->prepared[metric]->get(
-      stop, [&] { return prepare(*surface_cache_, Along::kSurface, *metrics_, metric, stop); });
+  return metrics_->prepared[metric]->get({.stop = stop, .progress = {}}, [&](const Task&) {
+    return prepare(context_, Along::kSurface, *metrics_, metric, stop);
+  });
 }
 
 /// Null if no wires begin at the point.
@@ -36,16 +37,18 @@ const ClosedCutSearch::InMetric* ClosedCutSearch::in_metric(const WireEnd& point
                                                             const std::stop_token& stop) {
   if (!around_ || around_->through != point) {
     around_ = std::nullopt;  // the former one's memory first
-    around_ = Around{.through = point};
+    around_ = Around{.through = point, .in = {}};
+    around_->in.resize(metrics_->count());
   }
   std::optional<InMetric>& in = around_->in[metric];
   if (!in) {
     const std::shared_ptr<const Prepared> by = prepared(metric, stop);
-    const std::optional<SurfacePoint> seed = by->points->find(point_of(point), "through");
+    const EmbeddedSurface& on = *by->embedded;
+    const std::optional<SurfacePoint> seed = on.points().find(point_of(point), "through");
     if (!seed) return nullptr;
     const Task task{.stop = stop, .progress = {}};
-    DistanceField field = by->geodesics->solve(std::array{*seed}, {}, task);
-    std::vector<ClosedWire> cuts = closed_wires(surface(), *by->embedding, field, kClosedWires, task);
+    DistanceField field = on.geodesics().solve(std::array{*seed}, {}, task);
+    std::vector<ClosedWire> cuts = closed_wires(on.surface(), on.embedding(), field, kClosedWires, task);
     in = InMetric{.prepared = by, .field = std::move(field), .cuts = std::move(cuts)};
   }
   return &*in;
@@ -53,29 +56,29 @@ const ClosedCutSearch::InMetric* ClosedCutSearch::in_metric(const WireEnd& point
 
 /// On a large surface, shows what a bounded number of windows tells in the first metric.
 void ClosedCutSearch::show_bounded(const WireEnd& point, const std::stop_token& stop, const Show& show) {
-  const std::size_t first = metrics_->closing().front();
+  const std::size_t first = closing().front();
   if (knows(point, first)) return;
   const std::shared_ptr<const Prepared> by = prepared(first, stop);
-  const std::optional<SurfacePoint> seed = by->points->find(point_of(point), "through");
-  if (!seed || seed->vertex < 0 || by->embedding->mesh.face_count() <= kManyFaces) return;
+  const EmbeddedSurface& on = *by->embedded;
+  const std::optional<SurfacePoint> seed = on.points().find(point_of(point), "through");
+  if (!seed || seed->vertex < 0 || on.embedding().mesh.face_count() <= kManyFaces) return;
   const Task task{.stop = stop, .progress = {}};
-  const DistanceField near = by->geodesics->solve_bounded(seed->vertex, kWindowsBefore, task);
-  Cuts cuts(metrics_->closing().size());
-  cuts[0] = closed_wires(surface(), *by->embedding, near, kClosedWires, task);
+  const DistanceField near = on.geodesics().solve_bounded(seed->vertex, kWindowsBefore, task);
+  Cuts cuts(closing().size());
+  cuts[0] = closed_wires(on.surface(), on.embedding(), near, kClosedWires, task);
   show(choose(point, cuts, stop));
 }
 
 /// The wires of the first metric can be seen while those of the next one are found.
 LiveClosedWires ClosedCutSearch::through(const WireEnd& point, const std::stop_token& stop, const Show& show) {
   show_bounded(point, stop, show);
-  const std::span<const std::size_t> closing = metrics_->closing();
-  Cuts cuts(closing.size());
+  Cuts cuts(closing().size());
   LiveClosedWires found;
-  for (std::size_t i = 0; i < closing.size(); ++i) {
-    const InMetric* in = in_metric(point, closing[i], stop);
+  for (std::size_t i = 0; i < closing().size(); ++i) {
+    const InMetric* in = in_metric(point, closing()[i], stop);
     cuts[i] = in != nullptr ? in->cuts : std::vector<ClosedWire>();
     found = choose(point, cuts, stop);
-    if (i + 1 < closing.size()) show(found);
+    if (i + 1 < closing().size()) show(found);
   }
   found.final = true;
   return found;
@@ -83,23 +86,19 @@ LiveClosedWires ClosedCutSearch::through(const WireEnd& point, const std::stop_t
 
 LiveClosedWires ClosedCutSearch::choose(const WireEnd& point, const Cuts& cuts, const std::stop_token& stop) {
   LiveClosedWires found;
-  for (const ClosedWireChoice& choice : choose_closed_wires(cuts, kClosedWires)) {
-    found.cuts.push_back(in_pieces(point, cuts[choice.metric][choice.number], choice, stop));
+  for (const ClosedCutId& id : choose_closed_wires(cuts, kClosedWires)) {
+    found.cuts.push_back(in_pieces(point, cuts[id.metric][id.number], id, stop));
   }
   return found;
 }
 
-LiveClosedWire ClosedCutSearch::in_pieces(const WireEnd& point, const ClosedWire& cut, const ClosedWireChoice& choice,
+LiveClosedWire ClosedCutSearch::in_pieces(const WireEnd& point, const ClosedWire& cut, const ClosedCutId& id,
                                           const std::stop_token& stop) {
-  LiveClosedWire closed{.pieces = {},
-                        .joints = {},
-                        .separates = cut.separates,
-                        .turn = cut.turn,
-                        .length = cut.wire.length,
-                        .which = kClosedWires * choice.metric + choice.number};
+  LiveClosedWire closed{
+      .pieces = {}, .joints = {}, .separates = cut.separates, .turn = cut.turn, .length = cut.wire.length, .id = id};
   Wire wire = cut.wire;
-  wire.from = wire.to = nearest_vertex(surface(), point);
-  add_pieces(metrics_->closing()[choice.metric], wire, kPiecesOfClosedWire, stop, closed);
+  wire.from = wire.to = nearest_vertex(*context_.peek_surface(), point);
+  add_pieces(closing()[id.metric], wire, kPiecesOfClosedWire, stop, closed);
   if (!closed.joints.empty()) closed.joints.pop_back();  // the last joint is the point itself
   return closed;
 }
@@ -109,27 +108,26 @@ void ClosedCutSearch::add_pieces(std::size_t metric, const Wire& wire, std::size
                                  LiveClosedWire& closed) {
   const Task task{.stop = stop, .progress = {}};
   const std::shared_ptr<const Prepared> by = prepared(metric, stop);
-  for (WirePiece& piece : cut_in_pieces(surface(), wire, count)) {
-    closed.pieces.push_back(snapped_candidate(surface(), *by, metric, std::move(piece.wire), task));
+  for (WirePiece& piece : cut_in_pieces(*by->surface, wire, count)) {
+    closed.pieces.push_back(snapped_candidate(*by, std::move(piece.wire), task));
     closed.joints.push_back(piece.end);
   }
 }
 
 LiveClosedWires ClosedCutSearch::bent(const BendPlace& place, const std::stop_token& stop) {
   LiveClosedWires found{.cuts = {}, .final = true};
-  const std::span<const std::size_t> closing = metrics_->closing();
-  const std::size_t metric = place.which / kClosedWires, number = place.which % kClosedWires;
-  const InMetric* in = metric < closing.size() ? in_metric(place.through, closing[metric], stop) : nullptr;
+  const auto [metric, number] = place.cut;
+  const InMetric* in = metric < closing().size() ? in_metric(place.through, closing()[metric], stop) : nullptr;
   if (in == nullptr || number >= in->cuts.size()) return found;
-  const Prepared& by = *in->prepared;
-  const std::optional<SurfacePoint> second = by.points->find(point_of(place.second), "second");
+  const EmbeddedSurface& on = *in->prepared->embedded;
+  const std::optional<SurfacePoint> second = on.points().find(point_of(place.second), "second");
   if (!second) return found;
   const Task task{.stop = stop, .progress = {}};
   const ClosedWire& cut = in->cuts[number];
-  if (!around_->bent || around_->which != place.which) {
+  if (!around_->bent || around_->bent_cut != place.cut) {
     around_->bent = std::nullopt;  // its memory first
-    around_->bent.emplace(surface(), *by.embedding, *by.geodesics, in->field, cut, task);
-    around_->which = place.which;
+    around_->bent.emplace(context_.peek_surface(), on.shared_embedding(), on.geodesics(), in->field, cut, task);
+    around_->bent_cut = place.cut;
   }
   std::optional<BentWire> bent = around_->bent->through(*second, task);
   if (bent) found.cuts.push_back(in_pieces(place, cut, *std::move(bent), stop));
@@ -144,10 +142,11 @@ LiveClosedWire ClosedCutSearch::in_pieces(const BendPlace& place, const ClosedWi
                         .separates = cut.separates,
                         .turn = cut.turn,
                         .length = bent.there.length + bent.back.length,
-                        .which = place.which};
-  bent.there.from = bent.back.to = nearest_vertex(surface(), place.through);
-  bent.there.to = bent.back.from = nearest_vertex(surface(), place.second);
-  const std::size_t metric = metrics_->closing()[place.which / kClosedWires];
+                        .id = place.cut};
+  const Surface& surface = *context_.peek_surface();
+  bent.there.from = bent.back.to = nearest_vertex(surface, place.through);
+  bent.there.to = bent.back.from = nearest_vertex(surface, place.second);
+  const std::size_t metric = closing()[place.cut.metric];
   for (const Wire* half : {&bent.there, &bent.back}) {
     add_pieces(metric, *half, kPiecesOfBentHalf, stop, closed);
     if (!closed.joints.empty()) closed.joints.back() = point_of(half == &bent.there ? place.second : place.through);

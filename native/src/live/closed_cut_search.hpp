@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -17,10 +16,10 @@
 
 namespace seamwire::detail {
 
-/// A closed wire through a point, by LiveClosedWire::which, and where it is bent to.
+/// A closed wire through a point, and where it is bent to.
 struct BendPlace {
   WireEnd through, second;
-  std::size_t which;
+  ClosedCutId cut;
 
   bool operator==(const BendPlace&) const = default;
 };
@@ -32,7 +31,7 @@ class ClosedCutSearch {
   using Show = std::function<void(LiveClosedWires)>;
 
   /// Uses the metrics that are prepared, and prepares the others.
-  ClosedCutSearch(std::shared_ptr<SurfaceCache> surface_cache, std::shared_ptr<MetricSet> metrics);
+  ClosedCutSearch(const SurfaceContext& context, std::shared_ptr<MetricSet> metrics);
 
   /// The closed wires through a point; final, unless it is given to `show`, which gets what is known meanwhile. Throws
   /// Cancelled, and why a metric cannot be prepared.
@@ -50,9 +49,9 @@ class ClosedCutSearch {
   /// The closed wires through a point, as far as they were asked for, and what bends one of them.
   struct Around {
     WireEnd through;
-    std::array<std::optional<InMetric>, kMostMetrics> in = {};
-    std::size_t which = 0;
-    std::optional<BentWires> bent = std::nullopt;  // of that one
+    std::vector<std::optional<InMetric>> in;  // of the metrics
+    ClosedCutId bent_cut = {};
+    std::optional<BentWires> bent = std::nullopt;  // of that cut
   };
   using Cuts = std::vector<std::vector<ClosedWire>>;  // of each metric
 
@@ -63,14 +62,14 @@ class ClosedCutSearch {
   const InMetric* in_metric(const WireEnd& point, std::size_t metric, const std::stop_token& stop);
   void show_bounded(const WireEnd& point, const std::stop_token& stop, const Show& show);
   LiveClosedWires choose(const WireEnd& point, const Cuts& cuts, const std::stop_token& stop);
-  LiveClosedWire in_pieces(const WireEnd& point, const ClosedWire& cut, const ClosedWireChoice& choice,
+  LiveClosedWire in_pieces(const WireEnd& point, const ClosedWire& cut, const ClosedCutId& id,
                            const std::stop_token& stop);
   LiveClosedWire in_pieces(const BendPlace& place, const ClosedWire& cut, BentWire bent, const std::stop_token& stop);
   void add_pieces(std::size_t metric, const Wire& wire, std::size_t count, const std::stop_token& stop,
                   LiveClosedWire& closed);
-  const Surface& surface() const { return surface_cache_->surface(); }
+  const std::vector<std::size_t>& closing() const { return metrics_->metrics.cuts; }
 
-  std::shared_ptr<SurfaceCache> surface_cache_;
+  SurfaceContext context_;
   std::shared_ptr<MetricSet> metrics_;
   std::optional<Around> around_;  // the point asked for last
 };

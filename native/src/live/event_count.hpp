@@ -4,8 +4,8 @@
 #include <condition_variable>
 #include <cstdint>
 
+#include "detail/deadline.hpp"
 #include "detail/thread_safety.hpp"
-#include "live/deadline.hpp"
 
 namespace seamwire::detail {
 

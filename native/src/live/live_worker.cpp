@@ -11,19 +11,20 @@
 namespace seamwire::detail {
 namespace {
 
+/// Fraction of a wire's work, that of its seed included, at which its refinement begins.
+constexpr double kRefinementBegins = 0.99;
+
 double loop_turning_for(std::size_t edges) { return std::max(20.0, std::sqrt(static_cast<double>(edges)) / 4.0); }
 
 }  // namespace
 
-LiveWorker::LiveWorker(std::size_t which, std::shared_ptr<SurfaceCache> surface_cache,
-                       std::shared_ptr<MetricSet> metrics, const LiveSettings& settings,
-                       std::shared_ptr<RightOfWay> right_of_way)
+LiveWorker::LiveWorker(std::size_t which, const SurfaceContext& context, std::shared_ptr<MetricSet> metrics,
+                       const LiveSettings& settings, std::shared_ptr<RightOfWay> right_of_way)
     : which_(which),
-      surface_cache_(std::move(surface_cache)),
+      context_(context),
       settings_(settings),
-      has_right_of_way_(which + 1 == kMostMetrics),
       right_of_way_(std::move(right_of_way)),
-      solver_(which, surface_cache_, settings, right_of_way_, targets_) {
+      solver_(which, context, settings, right_of_way_, targets_) {
   seeds_.post({.metrics = std::move(metrics), .preparing = {}, .seed = std::nullopt});
   tell_right_of_way();
   thread_ = std::jthread([this] { run(); });
@@ -39,6 +40,7 @@ void LiveWorker::request_stop() {
   std::stop_source preparing = seeds_.newest()->preparing;
   preparing.request_stop();
   seeds_.close();
+  targets_.close();
   loops_.close();
   tell_right_of_way();
   events_.add();
@@ -47,11 +49,12 @@ void LiveWorker::request_stop() {
 void LiveWorker::change_metric(std::shared_ptr<MetricSet> metrics) {
   const std::shared_ptr<const SeedRequest> before = seeds_.newest();
   SeedRequest request = *before;
-  if (metrics->prepared[which_] != before->metrics->prepared[which_]) {
+  if (!metrics->shares(*before->metrics, which_)) {
     request.preparing.request_stop();
     request.preparing = std::stop_source();
   }
   request.metrics = std::move(metrics);
+  targets_.withdraw();  // until it is asked for again, in the new metric
   seeds_.post(std::move(request), SeedBox::Former::kKeep);
   loops_.withdraw();  // what is found in the former metric answers nothing
   tell_right_of_way();
@@ -66,17 +69,32 @@ void LiveWorker::seed(const WireEnd& seed, bool forward) {
   tell_right_of_way();
 }
 
-LiveWorker::Snapshot LiveWorker::snapshot(const WireEnd& target) {
+LiveWorker::Known LiveWorker::wire(const WireEnd& seed, const WireEnd& target) {
   const std::shared_ptr<const WireEnd> before = targets_.newest();
   if (!before || *before != target) targets_.post(target);
-  const SeedBox::Reading found = seeds_.read();
-  Snapshot now{.solution = found.answer, .is_newest = found.is_newest, .preview = nullptr};
-  if (now.is_newest) return now;
-  const TargetBox::Reading preview = targets_.read();
-  if (preview.is_newest && preview.answer->seed_number == seeds_.number()) {
-    now.preview = {preview.answer, &preview.answer->candidate};
+  SeedBox::Reading found = seeds_.read();
+  const TargetBox::Reading known = targets_.read();
+  if (known.is_newest && known.answer->seed_number == seeds_.number() &&
+      (known.answer->is_refined || !found.is_newest)) {
+    seeds_.give_back(std::move(found.answer));
+    return {.candidate = known.answer->candidate, .first_length = known.answer->first_length};
   }
-  return now;
+  if (!found.answer) return {};
+  const bool is_solved = found.is_newest && found.answer->is_final(target);  // before it is looked up
+  LiveCandidate candidate = candidate_of(*found.answer, seed, target);
+  candidate.solved = is_solved;
+  candidate.final = is_solved && !refines();
+  seeds_.give_back(std::move(found.answer));
+  const double length = candidate.length;
+  return {.candidate = std::move(candidate), .first_length = length};
+}
+
+/// Euclidean lengths are exact in any embedding, and along edges there is none.
+bool LiveWorker::refines() const {
+  if (settings_.along != Along::kSurface || settings_.max_error == 0) return false;
+  const std::shared_ptr<const SeedRequest> newest = seeds_.newest();
+  const std::vector<MetricSpec>& metrics = newest->metrics->metrics.wires;
+  return which_ < metrics.size() && metrics[which_].family != MetricFamily::kEuclidean;
 }
 
 void LiveWorker::find_loop(const LoopPlace& through) {
@@ -85,7 +103,7 @@ void LiveWorker::find_loop(const LoopPlace& through) {
   // What takes time is what they have in common: it goes on, however fast the second point moves.
   const auto *before = std::get_if<BendPlace>(newest.get()), *now = std::get_if<BendPlace>(&through);
   const bool is_same_cut =
-      before != nullptr && now != nullptr && before->through == now->through && before->which == now->which;
+      before != nullptr && now != nullptr && before->through == now->through && before->cut == now->cut;
   loops_.post(through, LoopBox::Former::kDrop, is_same_cut ? LoopBox::Running::kGoOn : LoopBox::Running::kStop);
 }
 
@@ -101,10 +119,18 @@ LiveClosedWires LiveWorker::closed_wires() const {
   return std::get<LiveClosedWires>(*found.answer);
 }
 
-double LiveWorker::progress() const { return seeds_.is_finished() ? 1.0 : solver_.progress(*seeds_.newest()); }
+double LiveWorker::progress() const {
+  if (!seeds_.is_finished()) return solver_.progress(*seeds_.newest());
+  return targets_.is_finished() || !refines() ? 1.0 : kRefinementBegins;
+}
+
+std::exception_ptr LiveWorker::error() const {
+  const std::exception_ptr error = seeds_.error();
+  return error ? error : targets_.error();
+}
 
 std::exception_ptr LiveWorker::loop_error() const {
-  const std::exception_ptr error = seeds_.error();
+  const std::exception_ptr error = this->error();
   return error ? error : loops_.error();
 }
 
@@ -127,10 +153,10 @@ void LiveWorker::run() {
 /// Or waits for the thread that does; false if there is no surface, or no more time for it.
 bool LiveWorker::build_surface() {
   try {
-    surface_cache_->surface_now(quit_.get_token());
+    context_.surface({.stop = quit_.get_token(), .progress = {}});
     return true;
   } catch (...) {
-    // Cancelled, to end; the cache has all other errors.
+    // Cancelled, to end; the context has all other errors.
     has_failed_ = true;
     tell_right_of_way();
     events_.add();
@@ -145,9 +171,15 @@ bool LiveWorker::work() {
     work_on(*job);
     return true;
   }
+  if (refines()) {
+    if (const std::optional<TargetBox::Job> job = targets_.take()) {
+      // A seed that came before the target was taken did not stop it.
+      if (seeds_.is_finished()) work_on(*job);
+      return true;
+    }
+  }
   const std::optional<LoopBox::Job> job = loops_.take();
   if (!job) return false;
-  // A seed that came before the loop was taken did not interrupt it.
   if (seeds_.is_finished()) work_on(*job);
   return true;
 }
@@ -158,13 +190,24 @@ void LiveWorker::work_on(const SeedBox::Job& job) {
   tell_right_of_way();
 }
 
+void LiveWorker::work_on(const TargetBox::Job& job) {
+  const SeedBox::Reading found = seeds_.read();
+  const std::optional<WireEnd> seed = seeds_.newest()->seed;
+  targets_.answer(job, [&]() -> std::shared_ptr<const TargetWire> {
+    if (found.answer && seed) {
+      return std::make_shared<const TargetWire>(solver_.refine(found, *seed, *job.request, job.stop));
+    }
+    return nullptr;
+  });
+}
+
 void LiveWorker::work_on(const LoopBox::Job& job) {
   loops_.answer(job, [&] { return std::make_shared<const LoopAnswer>(find_closed(job)); });
 }
 
 LoopAnswer LiveWorker::find_closed(const LoopBox::Job& job) {
   if (const auto* edge = std::get_if<Edge>(job.request.get())) return find_cycle(*edge, job.stop);
-  if (!closed_cuts_) closed_cuts_.emplace(surface_cache_, seeds_.newest()->metrics);
+  if (!closed_cuts_) closed_cuts_.emplace(context_, seeds_.newest()->metrics);
   if (const auto* place = std::get_if<BendPlace>(job.request.get())) return closed_cuts_->bent(*place, job.stop);
   const auto show = [&](LiveClosedWires found) {
     loops_.show(job, std::make_shared<const LoopAnswer>(std::move(found)));
@@ -173,19 +216,19 @@ LoopAnswer LiveWorker::find_closed(const LoopBox::Job& job) {
 }
 
 EdgeChain LiveWorker::find_cycle(const Edge& edge, const std::stop_token& stop) const {
-  const Surface& surface = surface_cache_->surface();
-  const std::shared_ptr<const Prepared> prepared = seeds_.newest()->metrics->prepared[which_]->peek();
-  if (!prepared || !has_edge(surface, edge)) return {};  // error() says why, or LiveWire::loop() refuses the edge
-  const double turning = settings_.loop_turning.value_or(loop_turning_for(surface.edges().size()));
+  const std::shared_ptr<const Surface> surface = context_.peek_surface();
+  const std::shared_ptr<const Prepared> prepared = seeds_.newest()->metrics->peek(which_);
+  if (!prepared || !has_edge(*surface, edge)) return {};  // error() says why, or LiveWire::loop() refuses the edge
+  const double turning = settings_.loop_turning.value_or(loop_turning_for(surface->edges().size()));
   return shortest_cycle(*prepared->graph, edge, turning, {.stop = stop, .progress = {}});
 }
 
 /// To be called after each change of what it tells. Then the last call tells what is true.
 void LiveWorker::tell_right_of_way() {
-  if (!has_right_of_way_) return;
+  if (which_ != 0) return;
   const MutexLock lock(right_of_way_mutex_);
-  const bool has_metric = which_ < seeds_.newest()->metrics->count;
-  right_of_way_->set_busy(has_metric && !has_failed_ && !quit_.stop_requested() && !seeds_.is_finished());
+  const bool leads = seeds_.newest()->metrics->first_leads();
+  right_of_way_->set_busy(leads && !has_failed_ && !quit_.stop_requested() && !seeds_.is_finished());
 }
 
 }  // namespace seamwire::detail

@@ -4,15 +4,16 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stop_token>
 #include <thread>
 #include <variant>
 
+#include "detail/deadline.hpp"
 #include "live/candidates.hpp"
 #include "live/closed_cut_search.hpp"
-#include "live/deadline.hpp"
 #include "live/discards.hpp"
 #include "live/event_count.hpp"
 #include "live/mailbox.hpp"
@@ -29,13 +30,13 @@ using LoopPlace = std::variant<Edge, WireEnd, BendPlace>;
 using LoopAnswer = std::variant<EdgeChain, LiveClosedWires>;
 
 /// One of the threads behind a LiveWire, for one of its metrics. It builds the surface if nobody does yet, prepares the
-/// metric, then answers the newest seed and after it the newest loop. No member waits for the thread but
-/// wait_until_idle() and the destructor.
+/// metric, then answers the newest seed, refines the wire to the newest target, and answers the newest loop. No member
+/// waits for the thread but wait_until_idle() and the destructor.
 class LiveWorker {
  public:
-  /// `which`: the metric's number in kFollow. If the family has no such metric, there is nothing to do.
-  /// `right_of_way`: shared by all workers of a live wire.
-  LiveWorker(std::size_t which, std::shared_ptr<SurfaceCache> surface_cache, std::shared_ptr<MetricSet> metrics,
+  /// `which`: the metric's number. If there is no such metric, there is nothing to do. `right_of_way`: shared by all
+  /// workers of a live wire; the thread of the first metric has it.
+  LiveWorker(std::size_t which, const SurfaceContext& context, std::shared_ptr<MetricSet> metrics,
              const LiveSettings& settings, std::shared_ptr<RightOfWay> right_of_way);
   /// Waits until the thread has ended.
   ~LiveWorker();
@@ -50,20 +51,14 @@ class LiveWorker {
   /// Drops the solution of the former seed. The caller has checked the seed; an edge only if there is a surface.
   void seed(const WireEnd& seed, bool forward);
 
-  /// What is known of the wires now.
-  struct Snapshot {
-    std::shared_ptr<const SeedSolution> solution;  ///< null: none yet
-    bool is_newest = false;                        ///< whether it is of the newest seed and metric
-    /// A wire to the target, of the newest seed and metric, as long as the solution is not.
-    std::shared_ptr<const LiveCandidate> preview;
+  /// What is known of a wire now.
+  struct Known {
+    std::optional<LiveCandidate> candidate;                         ///< nullopt: nothing yet
+    double first_length = std::numeric_limits<double>::infinity();  ///< of the wire before it is refined
   };
-  /// `target` is where a preview leads to from now on. The solution has to be given back by release().
-  Snapshot snapshot(const WireEnd& target);
-  void release(std::shared_ptr<const SeedSolution> solution) { seeds_.give_back(std::move(solution)); }
-  /// The wire from a seed to a target.
-  LiveCandidate candidate(const SeedSolution& solution, const WireEnd& seed, const WireEnd& target) const {
-    return candidate_of(surface_cache_->surface(), solution, which_, seed, target);
-  }
+  /// The wire from the newest seed to a target. The thread works on this target from now on: previews lead to it until
+  /// there is a field, and then its wire is refined. Needs the surface to be built.
+  Known wire(const WireEnd& seed, const WireEnd& target);
 
   /// Along edges searches the loop through an edge, `edge[0] < edge[1]`, across the surface the closed wires through a
   /// point, or one of them bent to a second point. Does nothing if that was searched for last. If only the second point
@@ -76,8 +71,8 @@ class LiveWorker {
 
   /// Fraction of the newest seed's work, preparation included, that is done.
   double progress() const;
-  /// Why the newest seed or metric failed; null if they did not.
-  std::exception_ptr error() const { return seeds_.error(); }
+  /// Why the newest seed, metric or target failed; null if they did not.
+  std::exception_ptr error() const;
   /// The same, or why the newest loop failed.
   std::exception_ptr loop_error() const;
   /// Whether it has answered all requests, or will answer none because there is no surface.
@@ -90,16 +85,19 @@ class LiveWorker {
   bool build_surface();
   bool work();
   void work_on(const SeedBox::Job& job);
+  void work_on(const TargetBox::Job& job);
   void work_on(const LoopBox::Job& job);
   LoopAnswer find_closed(const LoopBox::Job& job);
   EdgeChain find_cycle(const Edge& edge, const std::stop_token& stop) const;
   void tell_right_of_way();
-  bool is_idle() const { return has_failed_ || (seeds_.is_finished() && loops_.is_finished()); }
+  bool refines() const;
+  bool is_idle() const {
+    return has_failed_ || (seeds_.is_finished() && (targets_.is_finished() || !refines()) && loops_.is_finished());
+  }
 
   const std::size_t which_;
-  const std::shared_ptr<SurfaceCache> surface_cache_;
+  const SurfaceContext context_;
   const LiveSettings settings_;
-  const bool has_right_of_way_;  // if the family has its metric
   const std::shared_ptr<RightOfWay> right_of_way_;
   Mutex right_of_way_mutex_;              // held while it is told
   std::stop_source quit_;                 // its state guards itself

@@ -2,18 +2,18 @@
 #include "seamwire/live/livewire.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <deque>
+#include <limits>
+#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
 
+#include "detail/deadline.hpp"
 #include "detail/index.hpp"
 #include "detail/text.hpp"
 #include "detail/thread_safety.hpp"
 #include "geodesics/placed_point.hpp"
-#include "live/deadline.hpp"
 #include "live/live_worker.hpp"
 #include "surface/real_edges.hpp"
 
@@ -40,14 +40,14 @@ void check_pick(const Surface* surface, std::size_t vertex_count, Along along, c
 }
 
 /// Throws where an end is not part of the surface, null where that is not known yet.
-void check_end(const Surface* surface, const SurfaceCache& cache, Along along, const WireEnd& end,
+void check_end(const Surface* surface, const SurfaceContext& context, Along along, const WireEnd& end,
                const std::string& what) {
-  if (const auto* pick = std::get_if<Pick>(&end)) return check_pick(surface, cache.vertex_count, along, *pick);
+  if (const auto* pick = std::get_if<Pick>(&end)) return check_pick(surface, context.vertex_count(), along, *pick);
   if (along == Along::kEdges) {
     throw InvalidInput(what + ": along edges wires lead from vertices and edges, not from other points");
   }
   const auto& point = std::get<SurfacePoint>(end);
-  check_index(point.face, cache.face_count, what + ": face", "faces");
+  check_index(point.face, context.face_count(), what + ": face", "faces");
   checked_barycentric(point.barycentric, what);
 }
 
@@ -56,120 +56,192 @@ WireEnd end_at(const SurfacePoint& point) {
   return point.vertex >= 0 ? WireEnd(Pick{.a = point.vertex}) : WireEnd(point);
 }
 
-void check_metric(MetricFamily family, const Strength& strength) {
-  if (family != MetricFamily::kEuclidean) check_strength(strength, family == MetricFamily::kCampen ? 1.0 : 0.0);
+void check_metrics(const LiveMetrics& metrics) {
+  if (metrics.wires.empty()) throw InvalidInput("metrics: there is none");
+  if (metrics.cuts.empty()) throw InvalidInput("metrics: there is none for closed cuts");
+  for (const MetricSpec& spec : metrics.wires) check_metric(spec);
+  for (const std::size_t metric : metrics.cuts) {
+    if (metric < metrics.wires.size()) continue;
+    throw InvalidInput("metric " + std::to_string(metric) + " for closed cuts is out of range: there are " +
+                       std::to_string(metrics.wires.size()));
+  }
 }
 
 void check_options(const LiveWireOptions& options) {
-  check_metric(options.family, options.strength);
+  check_metrics(options.metrics);
   for (const double turning : {options.turning, options.loop_turning.value_or(0.0)}) {
     if (!(std::isfinite(turning) && turning >= 0)) {
       throw InvalidInput("turning is " + text(turning) + ", not a finite number of at least 0");
     }
   }
+  if (!(options.max_error >= 0 && options.max_error <= 1)) {
+    throw InvalidInput("max_error is " + text(options.max_error) + ", not between 0 and 1");
+  }
 }
 
 std::shared_ptr<MetricSet> new_metrics(const LiveWireOptions& options) {
-  return std::make_shared<MetricSet>(options.family, options.along, options.strength, std::vector<Scribble>());
+  return std::make_shared<MetricSet>(options.metrics, std::vector<Scribble>());
 }
 
-void choose_active(LiveWires& found, const std::optional<std::size_t>& leader) {
+/// Whether it is known that a metric has no wire to the target.
+bool is_missing(const LiveCandidate& wire) { return wire.final && wire.points.empty(); }
+
+/// `first_lengths`: of the wires before they were refined. Until all are refined, these are compared, because a refined
+/// wire is measured in another embedding.
+void choose_active(LiveWires& found, const std::vector<double>& first_lengths, const LiveMetrics& metrics) {
   const std::vector<LiveCandidate>& wires = found.wires;
-  const bool it_leads = leader && (!wires[*leader].final || !wires[*leader].points.empty());
-  const auto shortest = std::ranges::min_element(wires, {}, &LiveCandidate::length) - wires.begin();
-  found.active = static_cast<int>(it_leads ? *leader : static_cast<std::size_t>(shortest));
-  found.settled = found.final() || (it_leads && wires[*leader].final);
+  std::vector<std::size_t> first = {0};
+  for (std::size_t i = 1; i < wires.size(); ++i) {
+    if (is_counterpart(metrics.wires[0], metrics.wires[i])) first.push_back(i);
+  }
+  const bool are_missing = std::ranges::all_of(first, [&](std::size_t i) { return is_missing(wires[i]); });
+  found.settled = found.final() || (first.size() == 1 && wires[0].final && !are_missing);
+  if (are_missing) {
+    first.resize(wires.size());
+    std::iota(first.begin(), first.end(), std::size_t{0});
+  }
+  const auto length = [&](std::size_t i) { return found.final() ? wires[i].length : first_lengths[i]; };
+  found.active = static_cast<int>(*std::ranges::min_element(first, {}, length));
 }
 
 LiveSettings settings_of(const LiveWireOptions& options) {
-  return {.along = options.along, .turning = options.turning, .loop_turning = options.loop_turning};
+  return {.along = options.along,
+          .turning = options.turning,
+          .loop_turning = options.loop_turning,
+          .max_error = options.max_error};
 }
 
 }  // namespace
 
-/// What the members of a LiveWire have in common. The mutex is held only for a look at what it guards, never while a
-/// worker is asked, which has one of its own.
+/// What the members of a LiveWire have in common.
 struct LiveWire::Impl {
-  Impl(const std::shared_ptr<SurfaceCache>& on, const std::shared_ptr<MetricSet>& by, const LiveSettings& with)
-      : surface_cache(on), settings(with), metrics_(by) {
-    const auto right_of_way = std::make_shared<RightOfWay>();
-    const std::size_t most = with.along == Along::kSurface ? kMostMetrics : 2;
-    for (std::size_t which = 0; which < most; ++which) workers.emplace_back(which, on, by, with, right_of_way);
+  using Workers = std::vector<std::shared_ptr<LiveWorker>>;
+
+  /// What was set last.
+  struct State {
+    std::shared_ptr<MetricSet> metrics;
+    Workers workers;  // one for each metric, or more: metrics may have become fewer
+    std::optional<WireEnd> seed = std::nullopt;
+    bool is_forward = false;
+  };
+
+  Impl(const SurfaceContext& on, const std::shared_ptr<MetricSet>& by, const LiveSettings& with)
+      : context(on), settings(with), right_of_way_(std::make_shared<RightOfWay>()) {
+    State state{.metrics = by, .workers = {}};
+    add_workers(state);
+    const MutexLock lock(mutex_);
+    state_ = std::move(state);
   }
   ~Impl() {
-    for (LiveWorker& worker : workers) worker.request_stop();  // all, before the first of them is waited for
+    const Workers workers = now().workers;
+    for (const auto& worker : workers) worker->request_stop();  // all, before the first of them is waited for
   }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  /// Null until it is built. Throws why there will be none.
-  std::shared_ptr<const Surface> surface_if_built() const {
-    surface_cache->rethrow_failure();
-    return surface_cache->peek_surface();
-  }
-  /// Why wires, or with `loops` loops, cannot be had.
-  void rethrow(bool loops = false) const {
-    surface_cache->rethrow_failure();
-    for (const LiveWorker& worker : workers) {
-      if (const std::exception_ptr error = loops ? worker.loop_error() : worker.error()) std::rethrow_exception(error);
-    }
-  }
-  std::shared_ptr<MetricSet> metrics() const {
+  State now() const {
     const MutexLock lock(mutex_);
-    return metrics_;
+    return state_;
   }
-  void change_metrics(const std::shared_ptr<MetricSet>& to) {
-    {
-      const MutexLock lock(mutex_);
-      metrics_ = to;  // the workers have the former ones still, so they are not freed here
+  /// Throws why wires, or with `loops` loops, cannot be had.
+  void rethrow(const State& state, bool loops = false) const {
+    context.peek_surface();
+    for (const auto& worker : state.workers) {
+      if (const std::exception_ptr error = loops ? worker->loop_error() : worker->error()) {
+        std::rethrow_exception(error);
+      }
     }
-    for (LiveWorker& worker : workers) worker.change_metric(to);
+  }
+  /// Goes on with the metrics that make(former) returns, unless that is null.
+  template <class Make>
+  void change_metrics(const Make& make) {
+    context.peek_surface();
+    const MutexLock lock(changing_);
+    State state = now();
+    const std::shared_ptr<MetricSet> to = make(*state.metrics);
+    if (!to) return;
+    state.metrics = to;  // the workers have the former ones still, so that they are not freed here
+    const std::size_t before = state.workers.size();
+    add_workers(state);
+    set(state);
+    for (std::size_t i = 0; i < before; ++i) state.workers[i]->change_metric(to);
   }
   void seed(const WireEnd& seed, bool forward) {
-    check_end(surface_if_built().get(), *surface_cache, settings.along, seed, "seed");
-    {
-      const MutexLock lock(mutex_);
-      seed_ = seed;
-    }
-    for (LiveWorker& worker : workers) worker.seed(seed, forward);
+    check_end(context.peek_surface().get(), context, settings.along, seed, "seed");
+    const MutexLock lock(changing_);
+    State state = now();
+    state.seed = seed;
+    state.is_forward = forward;
+    set(state);
+    for (const auto& worker : state.workers) worker->seed(seed, forward);
   }
-  LiveWires wires(const WireEnd& target);
+  LiveWires wires(const WireEnd& target) const;
   void check_closed(const WireEnd& end, const std::string& what) const {
     if (settings.along != Along::kSurface) throw InvalidInput("closed wires run across the surface, not along edges");
-    check_end(surface_if_built().get(), *surface_cache, Along::kSurface, end, what);
+    check_end(context.peek_surface().get(), context, Along::kSurface, end, what);
   }
-  LiveClosedWires closed_wires(const LoopPlace& place) {
-    const bool is_built = surface_if_built() != nullptr;
-    workers[0].find_loop(place);
-    rethrow(true);
-    return is_built ? workers[0].closed_wires() : LiveClosedWires{};
+  LiveClosedWires closed_wires(const LoopPlace& place) const {
+    const bool is_built = context.peek_surface() != nullptr;
+    const State state = now();
+    LiveWorker& worker = *state.workers[state.metrics->metrics.cuts.front()];
+    worker.find_loop(place);
+    rethrow(state, true);
+    return is_built ? worker.closed_wires() : LiveClosedWires{};
   }
 
-  const std::shared_ptr<SurfaceCache> surface_cache;
+  const SurfaceContext context;
   const LiveSettings settings;
 
  private:
-  mutable Mutex mutex_;
-  std::shared_ptr<MetricSet> metrics_ SEAMWIRE_GUARDED_BY(mutex_);
-  std::optional<WireEnd> seed_ SEAMWIRE_GUARDED_BY(mutex_);
+  void add_workers(State& state) const {
+    while (state.workers.size() < state.metrics->count()) {
+      auto worker = std::make_shared<LiveWorker>(state.workers.size(), context, state.metrics, settings, right_of_way_);
+      if (state.seed) worker->seed(*state.seed, state.is_forward);
+      state.workers.push_back(std::move(worker));
+    }
+  }
+  void set(const State& state) {
+    const MutexLock lock(mutex_);
+    state_ = state;
+  }
 
- public:
-  std::deque<LiveWorker> workers;  // of the metrics; last, so that they end first
+  const std::shared_ptr<RightOfWay> right_of_way_;
+  Mutex changing_;  // held until all workers were told of a change, so that they are told of all in one order
+  mutable Mutex mutex_;
+  State state_ SEAMWIRE_GUARDED_BY(mutex_);  // changes with changing_ held
 };
 
-LiveWire::LiveWire(std::shared_ptr<const Surface> surface, const LiveWireOptions& options) {
-  if (!surface) throw InvalidInput("surface: there is none");
-  check_options(options);
-  impl_ = std::make_unique<Impl>(std::make_shared<SurfaceCache>(std::move(surface)), new_metrics(options),
-                                 settings_of(options));
+LiveMetrics live_metrics(MetricFamily family, const Strength& strength, Along along) {
+  const MetricFamilyInfo& info = info_of(family);
+  if (!info.parameter.empty()) check_strength(strength, info.least_parameter);
+  const Strength own{.parameter = strength.parameter,
+                     .max_anisotropy = strength.max_anisotropy,
+                     .clamp_percentile = info.has_clamp ? strength.clamp_percentile : std::nullopt};
+  if (family == MetricFamily::kEuclidean) return {.wires = {MetricSpec::euclidean()}};
+  if (family == MetricFamily::kConcave) {
+    return {.wires = {MetricSpec::concave(own), MetricSpec::euclidean()}, .cuts = {0, 1}};
+  }
+  LiveMetrics metrics;
+  if (family == MetricFamily::kFeature && along == Along::kSurface) {
+    metrics = {.wires = {MetricSpec::concave_like(own)}, .cuts = {1}};
+  }
+  for (const Follow follow : {Follow::kMin, Follow::kMax}) {
+    metrics.wires.push_back({.family = family, .follow = follow, .strength = own});
+  }
+  return metrics;
 }
 
-LiveWire::LiveWire(std::vector<Vector> points, std::vector<Triangle> triangles, std::optional<std::vector<Edge>> edges,
-                   const LiveWireOptions& options) {
+LiveWire::LiveWire(const SurfaceContext& context, const LiveWireOptions& options) {
   check_options(options);
-  auto cache = std::make_shared<SurfaceCache>(std::move(points), std::move(triangles), std::move(edges));
-  impl_ = std::make_unique<Impl>(cache, new_metrics(options), settings_of(options));
+  impl_ = std::make_unique<Impl>(context, new_metrics(options), settings_of(options));
 }
+
+LiveWire::LiveWire(std::shared_ptr<const Surface> surface, const LiveWireOptions& options)
+    : LiveWire(SurfaceContext(std::move(surface)), options) {}
+
+LiveWire::LiveWire(std::vector<Vector> points, std::vector<Triangle> triangles, std::optional<std::vector<Edge>> edges,
+                   const LiveWireOptions& options)
+    : LiveWire(SurfaceContext(std::move(points), std::move(triangles), std::move(edges)), options) {}
 
 LiveWire::LiveWire(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 LiveWire::LiveWire(LiveWire&& other) noexcept = default;
@@ -177,33 +249,30 @@ LiveWire& LiveWire::operator=(LiveWire&& other) noexcept = default;
 LiveWire::~LiveWire() = default;
 
 LiveWire LiveWire::fork() const {
-  impl_->surface_cache->rethrow_failure();
-  return LiveWire(std::make_unique<Impl>(impl_->surface_cache, impl_->metrics(), impl_->settings));
+  impl_->context.peek_surface();
+  return LiveWire(std::make_unique<Impl>(impl_->context, impl_->now().metrics, impl_->settings));
 }
 
 LiveWire LiveWire::sibling(const LiveWireOptions& options) const {
   check_options(options);
-  impl_->surface_cache->rethrow_failure();
-  return LiveWire(std::make_unique<Impl>(impl_->surface_cache, new_metrics(options), settings_of(options)));
+  impl_->context.peek_surface();
+  return LiveWire(impl_->context, options);
 }
 
-std::shared_ptr<const Surface> LiveWire::surface() const { return impl_->surface_if_built(); }
+const SurfaceContext& LiveWire::context() const { return impl_->context; }
+std::shared_ptr<const Surface> LiveWire::surface() const { return impl_->context.peek_surface(); }
 
-void LiveWire::set_metric(MetricFamily family, const Strength& strength) {
-  check_metric(family, strength);
-  impl_->surface_cache->rethrow_failure();
-  auto to = std::make_shared<MetricSet>(family, impl_->settings.along, strength, impl_->metrics()->scribbles);
-  impl_->change_metrics(to);  // the former metric is held here no longer, so it is not freed here
+void LiveWire::set_metrics(const LiveMetrics& metrics) {
+  check_metrics(metrics);
+  impl_->change_metrics(
+      [&](const MetricSet& former) { return std::make_shared<MetricSet>(metrics, former.scribbles, former); });
 }
 
 void LiveWire::set_scribbles(std::vector<Scribble> scribbles) {
-  impl_->surface_cache->rethrow_failure();
-  std::shared_ptr<MetricSet> now = impl_->metrics();
-  if (scribbles == now->scribbles) return;
-  auto to = std::make_shared<MetricSet>(now->family, impl_->settings.along, now->strength, std::move(scribbles));
-  to->go_on_from(*now);
-  now = nullptr;  // before the workers may free it, so that this is not the thread that does
-  impl_->change_metrics(to);
+  impl_->change_metrics([&](const MetricSet& former) {
+    if (scribbles == former.scribbles) return std::shared_ptr<MetricSet>();
+    return std::make_shared<MetricSet>(former.metrics, std::move(scribbles), former);
+  });
 }
 
 void LiveWire::seed(const Pick& pick, bool forward) { impl_->seed(pick, forward); }
@@ -211,51 +280,42 @@ void LiveWire::seed_at(const SurfacePoint& point) { impl_->seed(end_at(point), f
 LiveWires LiveWire::wires(const Pick& target) const { return impl_->wires(target); }
 LiveWires LiveWire::wires_to(const SurfacePoint& target) const { return impl_->wires(end_at(target)); }
 
-LiveWires LiveWire::Impl::wires(const WireEnd& target) {
-  const std::shared_ptr<const Surface> surface = surface_if_built();
-  check_end(surface.get(), *surface_cache, settings.along, target, "target");
-  std::optional<WireEnd> seed;
-  {
-    const MutexLock lock(mutex_);
-    seed = seed_;
-  }
-  if (!seed) throw InvalidInput("there is no seed that wires could start from");
-  check_end(surface.get(), *surface_cache, settings.along, *seed, "seed");  // it may have been too early before
-  rethrow();
-  const std::shared_ptr<MetricSet> metrics = this->metrics();
+LiveWires LiveWire::Impl::wires(const WireEnd& target) const {
+  const std::shared_ptr<const Surface> surface = context.peek_surface();
+  check_end(surface.get(), context, settings.along, target, "target");
+  const State state = now();
+  if (!state.seed) throw InvalidInput("there is no seed that wires could start from");
+  check_end(surface.get(), context, settings.along, *state.seed, "seed");  // it may have been too early before
+  rethrow(state);
+  const LiveMetrics& metrics = state.metrics->metrics;
   LiveWires result;
-  result.wires.resize(metrics->count);
-  for (std::size_t which = 0; which < metrics->count; ++which) {
-    LiveWorker& worker = workers[which];
-    LiveCandidate& wire = result.wires[which];
-    wire.follow = kFollow[which];
-    auto [solution, is_newest, preview] = worker.snapshot(target);
-    if (!surface) {
-      // It may be there by now, but the target was not looked for on it.
-    } else if (preview) {
-      wire = *preview;
-    } else if (solution) {
-      const bool is_final = is_newest && solution->is_final(target);  // before it is looked up
-      wire = worker.candidate(*solution, *seed, target);
-      wire.final = is_final;
-    }
-    if (solution) worker.release(std::move(solution));
+  result.wires.resize(metrics.wires.size());
+  std::vector<double> first_lengths(metrics.wires.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < metrics.wires.size(); ++i) {
+    result.wires[i].metric = metrics.wires[i];
+    if (!surface) continue;  // it may be there by now, but the target was not looked for on it
+    LiveWorker::Known known = state.workers[i]->wire(*state.seed, target);
+    if (known.candidate) result.wires[i] = *std::move(known.candidate);
+    first_lengths[i] = known.first_length;
   }
-  choose_active(result, metrics->leader());
+  choose_active(result, first_lengths, metrics);
   return result;
 }
 
 LiveLoop LiveWire::loop(const Edge& edge) {
   if (impl_->settings.along != Along::kEdges) throw InvalidInput("loops run along edges, not across the surface");
-  const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
+  const std::shared_ptr<const Surface> surface = impl_->context.peek_surface();
   check_edge(surface.get(), edge);
-  for (LiveWorker& worker : impl_->workers)
-    worker.find_loop(Edge{std::min(edge[0], edge[1]), std::max(edge[0], edge[1])});
-  impl_->rethrow(true);
+  const Impl::State state = impl_->now();
+  const auto workers = std::span(state.workers).first(state.metrics->count());
+  for (const auto& worker : workers) {
+    worker->find_loop(Edge{std::min(edge[0], edge[1]), std::max(edge[0], edge[1])});
+  }
+  impl_->rethrow(state, true);
   if (!surface) return {};
   EdgeChain cheapest;
-  for (const LiveWorker& worker : impl_->workers) {
-    std::optional<EdgeChain> loop = worker.loop();
+  for (const auto& worker : workers) {
+    std::optional<EdgeChain> loop = worker->loop();
     if (!loop) return {};
     if (loop->length < cheapest.length) cheapest = std::move(*loop);
   }
@@ -268,19 +328,19 @@ LiveClosedWires LiveWire::closed_wires(const SurfacePoint& through) {
   return impl_->closed_wires(end);
 }
 
-LiveClosedWires LiveWire::bent_wire(const SurfacePoint& through, const SurfacePoint& second, std::size_t which) {
-  const BendPlace place{.through = end_at(through), .second = end_at(second), .which = which};
+LiveClosedWires LiveWire::bent_wire(const SurfacePoint& through, const SurfacePoint& second, const ClosedCutId& cut) {
+  const BendPlace place{.through = end_at(through), .second = end_at(second), .cut = cut};
   impl_->check_closed(place.through, "through");
   impl_->check_closed(place.second, "second");
   return impl_->closed_wires(place);
 }
 
 EdgeChain LiveWire::extend_straight(const Edge& edge, std::span<const std::int32_t> stops) const {
-  const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
+  const std::shared_ptr<const Surface> surface = impl_->context.peek_surface();
   check_edge(surface.get(), edge);
-  const auto fans = surface ? impl_->surface_cache->fans.peek() : nullptr;
-  if (!fans) return {};
-  EdgeChain way{.vertices = seamwire::extend_straight(**fans, edge, stops), .length = 0.0};
+  const auto adjacency = surface ? impl_->context.peek_edge_adjacency() : nullptr;
+  if (!adjacency) return {};
+  EdgeChain way{.vertices = seamwire::extend_straight(*adjacency, edge, stops), .length = 0.0};
   const auto point = [&](std::int32_t v) -> const Vector& { return surface->points()[v]; };
   for (std::size_t i = 1; i < way.vertices.size(); ++i) {
     way.length += surface->scale() * (point(way.vertices[i]) - point(way.vertices[i - 1])).norm();
@@ -289,63 +349,61 @@ EdgeChain LiveWire::extend_straight(const Edge& edge, std::span<const std::int32
 }
 
 EdgeLoop LiveWire::edge_loop(const Edge& edge, std::span<const std::int32_t> stops) const {
-  const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
+  const std::shared_ptr<const Surface> surface = impl_->context.peek_surface();
   check_edge(surface.get(), edge);
-  const auto fans = surface ? impl_->surface_cache->fans.peek() : nullptr;
-  return fans ? seamwire::edge_loop(**fans, edge, stops) : EdgeLoop{};
+  const auto adjacency = surface ? impl_->context.peek_edge_adjacency() : nullptr;
+  return adjacency ? seamwire::edge_loop(*adjacency, edge, stops) : EdgeLoop{};
 }
 
 FittedChain LiveWire::fit_chain(const DrawnLine& line, std::optional<std::int32_t> begin,
                                 std::optional<std::int32_t> end) const {
   if (impl_->settings.along != Along::kEdges)
     throw InvalidInput("lines are fitted along edges, not across the surface");
-  const std::shared_ptr<const Surface> surface = impl_->surface_if_built();
-  const auto fans = surface ? impl_->surface_cache->fans.peek() : nullptr;
-  return fans ? seamwire::fit_chain(*surface, **fans, line, begin, end) : FittedChain{};
+  const std::shared_ptr<const Surface> surface = impl_->context.peek_surface();
+  const auto adjacency = surface ? impl_->context.peek_edge_adjacency() : nullptr;
+  return adjacency ? seamwire::fit_chain(*surface, *adjacency, line, begin, end) : FittedChain{};
 }
 
 std::shared_ptr<const std::vector<double>> LiveWire::feature_strength() const {
-  impl_->surface_cache->rethrow_failure();
-  std::shared_ptr<const CurvatureCache> curvatures = impl_->surface_cache->curvatures.peek();
-  return curvatures ? std::shared_ptr<const std::vector<double>>(curvatures, &curvatures->difference) : nullptr;
+  impl_->context.peek_surface();
+  return impl_->context.peek_feature_strength();
 }
 
 std::vector<std::optional<LiveEmbedding>> LiveWire::embeddings() const {
-  impl_->surface_cache->rethrow_failure();
-  const std::shared_ptr<MetricSet> metrics = impl_->metrics();
-  std::vector<std::optional<LiveEmbedding>> found(metrics->count);
-  for (std::size_t which = 0; which < found.size(); ++which) {
-    const std::shared_ptr<const Prepared> prepared = metrics->prepared[which]->peek();
-    if (!prepared || !prepared->embedding) continue;
-    const Embedding& embedding = *prepared->embedding;
-    found[which] = {.invalid_left = embedding.invalid_left,
-                    .hit_cap = embedding.hit_cap,
-                    .clamped_edges = embedding.clamped_edges,
-                    .worst_clamp = embedding.worst_clamp};
+  impl_->context.peek_surface();
+  const std::shared_ptr<MetricSet> metrics = impl_->now().metrics;
+  std::vector<std::optional<LiveEmbedding>> found(metrics->count());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const std::shared_ptr<const Prepared> prepared = metrics->peek(i);
+    if (!prepared || !prepared->embedded) continue;
+    const Embedding& embedding = prepared->embedded->embedding();
+    found[i] = {.invalid_left = embedding.invalid_left,
+                .hit_cap = embedding.hit_cap,
+                .clamped_edges = embedding.clamped_edges,
+                .worst_clamp = embedding.worst_clamp};
   }
   return found;
 }
 
 double LiveWire::progress() const {
-  impl_->surface_cache->rethrow_failure();
-  const std::size_t count = impl_->metrics()->count;
+  impl_->context.peek_surface();
+  const Impl::State state = impl_->now();
+  const std::size_t count = state.metrics->count();
   double sum = 0.0;
-  for (std::size_t which = 0; which < count; ++which) sum += impl_->workers[which].progress();
+  for (std::size_t i = 0; i < count; ++i) sum += state.workers[i]->progress();
   return sum / static_cast<double>(count);
 }
 
 bool LiveWire::wait(double seconds) const {
   const Deadline deadline = deadline_after(seconds);
-  // One after the other: what is idle stays so, as only the caller gives them something to do.
+  const Impl::State state = impl_->now();
+  // One after the other: what is idle stays so, unless some thread gives it something to do meanwhile.
   bool are_idle = true;
-  for (const LiveWorker& worker : impl_->workers) are_idle = worker.wait_until_idle(deadline) && are_idle;
-  impl_->rethrow(true);
+  for (const auto& worker : state.workers) are_idle = worker->wait_until_idle(deadline) && are_idle;
+  impl_->rethrow(state, true);
   return are_idle;
 }
 
-bool LiveWire::wait_for_surface(double seconds) const {
-  impl_->surface_cache->wait_for_surface(deadline_after(seconds));
-  return impl_->surface_if_built() != nullptr;
-}
+bool LiveWire::wait_for_surface(double seconds) const { return impl_->context.wait_for_surface(seconds); }
 
 }  // namespace seamwire

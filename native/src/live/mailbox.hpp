@@ -31,7 +31,8 @@ class Mailbox {
   /// What is known of the requests.
   struct Reading {
     std::shared_ptr<const Answer> answer;  ///< the last one that was kept; null if there is none
-    bool is_newest = false;                ///< whether the answer is to the newest request
+    std::int64_t number = 0;               ///< of the request that it answers
+    bool is_newest = false;                ///< whether that is the newest request
     bool is_finished = true;               ///< whether the newest request needs no more work
   };
   enum class Former { kKeep, kDrop };   ///< what a request does with the answer to the one before
@@ -73,7 +74,10 @@ class Mailbox {
   }
   Reading read() const {
     const MutexLock lock(mutex_);
-    return {.answer = answer_, .is_newest = answer_ && answer_to_ == number_, .is_finished = finished_ == number_};
+    return {.answer = answer_,
+            .number = answer_to_,
+            .is_newest = answer_ && answer_to_ == number_,
+            .is_finished = finished_ == number_};
   }
   /// Why the newest request failed; null if it did not.
   std::exception_ptr error() const {

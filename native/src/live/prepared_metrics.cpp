@@ -4,44 +4,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "context/interactive_embedding.hpp"
+#include "metric/scribble_points.hpp"
+
 namespace seamwire::detail {
 namespace {
 
-/// An artist waits for an embedding, and one that runs away is better cut short: at most so many times the surface's
-/// triangles are added, but no fewer than the first number and no more than the last.
-constexpr std::size_t kLeastFacesAdded = 200'000, kFacesAddedPerFace = 12, kMostFacesAdded = 1'000'000;
-
-/// Of concave_metric(), whose parameter is `unit` times its strength.
-double concave_strength(const Strength& strength, double unit) {
-  return strength.parameter ? *strength.parameter / unit : (*strength.max_anisotropy - 1.0) / (kConcaveUnit - 1.0);
-}
-
-Metric make_metric(SurfaceCache& surface_cache, const Curvature& curvature, Follow follow, const MetricSet& metrics,
-                   const Task& task) {
-  const Surface& surface = surface_cache.surface();
-  const auto concave = [&](double unit) {
-    return concave_metric(surface, *surface_cache.smoothed_curvatures_now(task.stop),
-                          concave_strength(metrics.strength, unit), task);
-  };
-  switch (metrics.family) {
-    case MetricFamily::kFeature:
-      if (follow == Follow::kConcave) return concave(kConcaveGamma);
-      return feature_metric(surface, curvature, follow, metrics.strength, task);
-    case MetricFamily::kCampen:
-      return campen_metric(surface, curvature, follow, metrics.strength, task);
-    case MetricFamily::kPottmannKovacs:
-      return pottmann_kovacs_metric(surface, curvature, follow, metrics.strength, task);
-    case MetricFamily::kConcave:
-      if (follow == Follow::kMax) break;
-      return concave(1.0);
-    case MetricFamily::kEuclidean:
-      break;
-  }
-  return euclidean_metric(surface, curvature, task);
-}
-
-bool are_same_for(Follow follow, const std::vector<Scribble>& these, const std::vector<Scribble>& those) {
-  const auto acts = [follow](const Scribble& scribble) { return scribble.acts_on(follow); };
+bool are_same_for(MetricKind kind, const std::vector<Scribble>& these, const std::vector<Scribble>& those) {
+  const auto acts = [kind](const Scribble& scribble) { return scribble.acts_on(kind); };
   auto other = those.begin();
   for (const Scribble& scribble : these) {
     if (!acts(scribble)) continue;
@@ -51,84 +21,113 @@ bool are_same_for(Follow follow, const std::vector<Scribble>& these, const std::
   return std::none_of(other, those.end(), acts);
 }
 
+/// Whether scribbles, which must all be right, change a metric.
+bool is_scribbled(const Surface& surface, const std::vector<Scribble>& scribbles, MetricKind kind) {
+  bool acts = false;
+  for (std::size_t i = 0; i < scribbles.size(); ++i) {
+    check_scribble(surface, scribbles[i], i);
+    acts |= scribbles[i].acts_on(kind);
+  }
+  return acts;
+}
+
 }  // namespace
 
-SurfaceCache::SurfaceCache(std::shared_ptr<const Surface> on)
-    : vertex_count(on->vertex_count()), face_count(on->face_count()) {
-  built_.get({}, [&] { return std::move(on); });
+MetricSet::MetricSet(LiveMetrics of, std::vector<Scribble> after)
+    : metrics(std::move(of)), scribbles(std::move(after)), fractions(count()), former_(count()) {
+  prepared.reserve(count());
+  for (std::size_t i = 0; i < count(); ++i) prepared.push_back(std::make_shared<ComputedOnce<Prepared>>());
 }
 
-SurfaceCache::SurfaceCache(std::vector<Vector> points, std::vector<Triangle> triangles,
-                           std::optional<std::vector<Edge>> edges)
-    : vertex_count(points.size()),
-      face_count(triangles.size()),
-      input_(Input{.points = std::move(points), .triangles = std::move(triangles), .edges = std::move(edges)}) {}
-
-std::shared_ptr<const Surface> SurfaceCache::surface_now(const std::stop_token& stop) {
-  return *built_.get(stop, [&] {
-    // Copied: where this is stopped, another live wire may build the surface.
-    auto surface = std::make_shared<const Surface>(input_->points, input_->triangles, input_->edges,
-                                                   Task{.stop = stop, .progress = {}});
-    input_.reset();
-    return surface;
-  });
-}
-
-void MetricSet::go_on_from(const MetricSet& metrics) {
-  for (std::size_t which = 0; which < count; ++which) {
+MetricSet::MetricSet(LiveMetrics of, std::vector<Scribble> after, const MetricSet& former)
+    : MetricSet(std::move(of), std::move(after)) {
+  for (std::size_t i = 0; i < count(); ++i) {
+    const MetricSpec& spec = metrics.wires[i];
+    const auto same = std::ranges::find(former.metrics.wires, spec);
+    if (same == former.metrics.wires.end()) continue;
+    const auto at = static_cast<std::size_t>(same - former.metrics.wires.begin());
     // In this order: what is former is forgotten only when the metric is prepared.
-    std::shared_ptr<const Prepared> from = metrics.former(which);
-    if (std::shared_ptr<const Prepared> made = metrics.prepared[which]->peek()) from = std::move(made);
-    if (are_same_for(kFollow[which], scribbles, metrics.scribbles)) prepared[which] = metrics.prepared[which];
+    std::shared_ptr<const Prepared> from = former.former(at);
+    if (std::shared_ptr<const Prepared> made = former.peek(at)) from = std::move(made);
+    if (are_same_for(spec.kind(), scribbles, former.scribbles)) prepared[i] = former.prepared[at];
     const MutexLock lock(mutex_);
-    former_[which] = std::move(from);
+    former_[i] = std::move(from);
   }
 }
 
-Prepared prepare(SurfaceCache& surface_cache, Along along, MetricSet& metrics, std::size_t which,
+bool MetricSet::first_leads() const {
+  const MetricSpec& first = metrics.wires.front();
+  return std::ranges::none_of(metrics.wires, [&](const MetricSpec& other) { return is_counterpart(first, other); });
+}
+
+std::shared_ptr<const Prepared> MetricSet::peek(std::size_t metric) const {
+  return metric < count() ? prepared[metric]->peek() : nullptr;
+}
+
+double MetricSet::fraction(std::size_t metric) const {
+  return metric < count() ? std::clamp(fractions[metric].load(), 0.0, 1.0) : 0.0;
+}
+
+bool MetricSet::shares(const MetricSet& other, std::size_t metric) const {
+  return metric < std::min(count(), other.count()) && prepared[metric] == other.prepared[metric];
+}
+
+std::shared_ptr<const Prepared> MetricSet::former(std::size_t metric) const {
+  const MutexLock lock(mutex_);
+  return former_[metric];
+}
+
+void MetricSet::forget_former(std::size_t metric) {
+  std::shared_ptr<const Prepared> dropped;  // freed without the lock
+  const MutexLock lock(mutex_);
+  dropped.swap(former_[metric]);
+}
+
+Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics, std::size_t which,
                  const std::stop_token& stop, const std::function<void()>& make_way) {
+  const MetricSpec& spec = metrics.metrics.wires[which];
   const bool on_surface = along == Along::kSurface;
-  const Surface& surface = surface_cache.surface();
+  const Task silent{.stop = stop, .progress = {}};
+  const std::shared_ptr<const Surface> surface = context.surface(silent);
   std::atomic<double>& fraction = metrics.fractions[which];
-  Prepared prepared;
-  std::shared_ptr<const EdgeAdjacency> fans;
+  Prepared prepared{
+      .spec = spec, .surface = surface, .embedded = std::nullopt, .snap_graph = nullptr, .graph = nullptr};
+  std::shared_ptr<const EdgeAdjacency> adjacency;
   const auto prepare_edges = [&] {
-    if (on_surface) prepared.snap_graph = surface_cache.snap_graph_now(stop);
-    fans = surface_cache.fans_now(stop);
+    if (on_surface) prepared.snap_graph = context.snap_graph(silent);
+    adjacency = context.edge_adjacency(silent);
   };
   if (which == 1) prepare_edges();  // while the other thread is at the curvatures
-  const std::shared_ptr<const CurvatureCache> curvatures = surface_cache.curvatures_now(stop);
+  context.curvature(silent);
   if (which != 1) prepare_edges();
   make_way();
-  Task task{.stop = stop, .progress = {}};
-  Metric metric = make_metric(surface_cache, curvatures->curvature, kFollow[which], metrics, task);
-  if (!metrics.scribbles.empty()) {
-    metric = apply_scribbles(surface, metric, metrics.scribbles, kFollow[which], task);
-  }
-  fraction = kEmbedBegins / kSolveBegins;
-  task.progress = [&](double done) {
-    make_way();
-    fraction = (kEmbedBegins + (kSolveBegins - kEmbedBegins) * done) / kSolveBegins;
-    return true;
+  const bool scribbled = is_scribbled(*surface, metrics.scribbles, spec.kind());
+  const EmbedOptions options = interactive_options(*surface);
+  if (on_surface && !scribbled) prepared.embedded = EmbeddedSurface::find(context, spec, options);
+  if (prepared.embedded) return prepared;
+  const Task task{.stop = stop, .progress = [&](double done) {
+                    make_way();
+                    fraction = (kEmbedBegins + (kSolveBegins - kEmbedBegins) * done) / kSolveBegins;
+                    return true;
+                  }};
+  const auto scribbled_metric = [&] {
+    Metric metric = make_metric(context, spec, silent);
+    return scribbled ? apply_scribbles(*surface, metric, metrics.scribbles, spec.kind(), silent) : metric;
   };
-  if (on_surface) {
-    const std::size_t most = std::clamp(kFacesAddedPerFace * surface.face_count(), kLeastFacesAdded, kMostFacesAdded);
-    const EmbedOptions options{.max_faces_added = most};
-    const std::shared_ptr<const Prepared> former = metrics.former(which);
-    prepared.embedding = std::make_shared<const Embedding>(
-        former ? re_embed(surface, former->metric, metric, *former->embedding, options, task)
-               : embed(surface, metric, options, task));
-    prepared.points.emplace(surface, *prepared.embedding);
-    const IntrinsicMesh& mesh = prepared.embedding->mesh;
-    const Task silent{.stop = stop, .progress = {}};
-    if (former) {
-      prepared.geodesics.emplace(*former->geodesics, former->embedding->mesh, mesh, silent);
-    } else {
-      prepared.geodesics.emplace(mesh, silent);
-    }
-    prepared.metric = std::move(metric);
+  const std::shared_ptr<const Prepared> former = metrics.former(which);
+  if (!on_surface) {
+    prepared.graph =
+        make_edge_graph(*surface, scribbled_metric(), std::move(adjacency), metrics.scribbles, spec.kind(), task);
+  } else if (former) {
+    prepared.embedded = former->embedded->with_metric(std::make_shared<const Metric>(scribbled_metric()), task);
+  } else if (scribbled) {
+    prepared.embedded.emplace(context, std::make_shared<const Metric>(scribbled_metric()), options, task);
   } else {
-    prepared.graph = make_edge_graph(surface, metric, std::move(fans), task, metrics.scribbles, kFollow[which]);
+    prepared.embedded.emplace(context, spec, options, task);
+  }
+  if (on_surface) {
+    prepared.embedded->points();
+    prepared.embedded->geodesics(silent);
   }
   return prepared;
 }

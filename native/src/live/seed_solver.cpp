@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "surface/real_edges.hpp"
+#include "wires/refined_wire.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -16,19 +17,19 @@ bool is_missing_edge(const Surface& surface, const WireEnd& end) {
   return pick != nullptr && pick->is_edge() && !has_edge(surface, {pick->a, pick->b});
 }
 
-/// With two processors, the first of the other threads goes on beside the one that has the right of way; with three,
-/// both do.
+/// Beside the thread of the first metric, which may have the right of way, as many threads go on as there are other
+/// processors.
 bool has_to_make_way(std::size_t metric) {
   const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
-  return metric + 1 < kMostMetrics && metric + 2 > processors;
+  return metric > 0 && metric + 1 > processors;
 }
 
 }  // namespace
 
-SeedSolver::SeedSolver(std::size_t metric, std::shared_ptr<SurfaceCache> surface_cache, const LiveSettings& settings,
+SeedSolver::SeedSolver(std::size_t metric, const SurfaceContext& context, const LiveSettings& settings,
                        std::shared_ptr<RightOfWay> right_of_way, TargetBox& targets)
     : metric_(metric),
-      surface_cache_(std::move(surface_cache)),
+      context_(context),
       settings_(settings),
       makes_way_(has_to_make_way(metric)),
       right_of_way_(std::move(right_of_way)),
@@ -36,7 +37,7 @@ SeedSolver::SeedSolver(std::size_t metric, std::shared_ptr<SurfaceCache> surface
 
 double SeedSolver::progress(const SeedRequest& request) const {
   const double solved = std::clamp(fraction_.load(), 0.0, 1.0);
-  const double prepared = std::clamp(request.metrics->fractions[metric_].load(), 0.0, 1.0);
+  const double prepared = request.metrics->fraction(metric_);
   return was_prepared_ ? solved : kSolveBegins * prepared + (1.0 - kSolveBegins) * solved;
 }
 
@@ -45,16 +46,17 @@ std::shared_ptr<const SeedSolution> SeedSolver::solve(const SeedBox::Job& job,
                                                       SeedBox& seeds) {
   MetricSet& metrics = *job.request->metrics;
   fraction_ = 0.0;
-  was_prepared_ = metrics.prepared[metric_]->peek() != nullptr;
-  if (metric_ >= metrics.count) return nullptr;
+  was_prepared_ = metrics.peek(metric_) != nullptr;
+  if (metric_ >= metrics.count()) return nullptr;
   const std::stop_token preparing = job.request->preparing.get_token();
-  const std::shared_ptr<const Prepared> prepared = metrics.prepared[metric_]->get(preparing, [&] {
-    return prepare(*surface_cache_, settings_.along, metrics, metric_, preparing, [&] { make_way(preparing); });
-  });
+  const std::shared_ptr<const Prepared> prepared =
+      metrics.prepared[metric_]->get({.stop = preparing, .progress = {}}, [&](const Task&) {
+        return prepare(context_, settings_.along, metrics, metric_, preparing, [&] { make_way(preparing); });
+      });
   metrics.forget_former(metric_);
   if (former && former->field && former->prepared == prepared) return former;  // only the other metrics have changed
   const std::optional<WireEnd>& seed = job.request->seed;
-  if (!seed || is_missing_edge(surface(), *seed)) return nullptr;
+  if (!seed || is_missing_edge(*context_.peek_surface(), *seed)) return nullptr;
   const Task task{.stop = job.stop, .progress = [this](double done) {
                     fraction_ = done;
                     return true;
@@ -71,11 +73,12 @@ void SeedSolver::make_way(const std::stop_token& stop) {
 /// its own would take turns with the search all the same.
 std::shared_ptr<const SeedSolution> SeedSolver::find_field(const SeedBox::Job& job,
                                                            const std::shared_ptr<const Prepared>& prepared, Task task) {
-  const std::optional<SurfacePoint> seed = prepared->points->find(point_of(*job.request->seed), "seed");
+  const EmbeddedSurface& on = *prepared->embedded;
+  const std::optional<SurfacePoint> seed = on.points().find(point_of(*job.request->seed), "seed");
   if (!seed) return std::make_shared<const SeedSolution>(SeedSolution{.prepared = prepared, .field = {}, .wires = {}});
   make_way(job.stop);
   task.check(0.0);
-  CorridorPaths paths(*prepared->geodesics, *seed);
+  CorridorPaths paths(on.geodesics(), *seed);
   std::int64_t answered = -1;
   make_preview(job, *prepared, paths, answered);
   task.progress = [&, report = std::move(task.progress)](double done) {
@@ -83,7 +86,7 @@ std::shared_ptr<const SeedSolution> SeedSolver::find_field(const SeedBox::Job& j
     make_preview(job, *prepared, paths, answered);
     return report(done);
   };
-  DistanceField field = prepared->geodesics->solve(std::array{*seed}, {}, task);
+  DistanceField field = on.geodesics().solve(std::array{*seed}, {}, task);
   return std::make_shared<const SeedSolution>(
       SeedSolution{.prepared = prepared, .field = std::move(field), .wires = std::nullopt});
 }
@@ -97,11 +100,33 @@ void SeedSolver::make_preview(const SeedBox::Job& job, const Prepared& prepared,
   const std::shared_ptr<const WireEnd> target = targets_.newest();
   if (!target) return;
   LiveCandidate candidate;
-  if (const std::optional<SurfacePoint> to = prepared.points->find(point_of(*target), "target")) {
-    Wire wire = map_wire(surface(), *prepared.embedding, paths.path(*to, {.stop = job.stop, .progress = {}}));
-    candidate = candidate_between(surface(), prepared, metric_, std::move(wire), *job.request->seed, *target);
+  candidate.metric = prepared.spec;
+  const EmbeddedSurface& on = *prepared.embedded;
+  if (const std::optional<SurfacePoint> to = on.points().find(point_of(*target), "target")) {
+    Wire wire = map_wire(on.surface(), on.embedding(), paths.path(*to, {.stop = job.stop, .progress = {}}));
+    candidate = candidate_between(prepared, std::move(wire), *job.request->seed, *target);
   }
-  targets_.show(asked, std::make_shared<const Preview>(Preview{job.number, std::move(candidate)}));
+  const double length = candidate.length;
+  targets_.show(asked, std::make_shared<const TargetWire>(TargetWire{job.number, std::move(candidate), length}));
+}
+
+TargetWire SeedSolver::refine(const SeedBox::Reading& found, const WireEnd& seed, const WireEnd& target,
+                              const std::stop_token& stop) const {
+  TargetWire refined{.seed_number = found.number, .candidate = {}, .first_length = 0.0, .is_refined = true};
+  const SeedSolution& solution = *found.answer;
+  const Prepared& prepared = *solution.prepared;
+  const EmbeddedSurface& on = *prepared.embedded;
+  const Task task{.stop = stop, .progress = {}};
+  Wire wire = wire_of(solution, target, task);
+  refined.first_length = wire.length;
+  const WireRefinement how{.max_error = settings_.max_error, .mean_edge_length = on.embedding().mean_edge_length};
+  if (std::optional<Wire> better =
+          refined_wire(prepared.surface, on.metric(), wire, point_of(seed), point_of(target), how, task)) {
+    wire = *std::move(better);
+  }
+  refined.candidate = candidate_between(prepared, std::move(wire), seed, target, task);
+  refined.candidate.solved = refined.candidate.final = true;
+  return refined;
 }
 
 /// The chains that are found can be seen from the beginning.

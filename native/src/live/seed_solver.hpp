@@ -24,6 +24,7 @@ struct LiveSettings {
   Along along;
   double turning;
   std::optional<double> loop_turning;
+  double max_error;  ///< 0: wires are not refined
 };
 
 /// What wires are asked for.
@@ -34,32 +35,37 @@ struct SeedRequest {
   bool is_forward = false;      ///< as EdgeWires has it
 };
 
-/// A wire to one target that is computed before there is a field.
-struct Preview {
+/// A wire to one target: a preview, computed before there is a field, or a refined wire.
+struct TargetWire {
   std::int64_t seed_number;  ///< of the seed's request
   LiveCandidate candidate;
+  double first_length;      ///< of the wire in the embedding of the whole surface
+  bool is_refined = false;  ///< nothing will change it
 };
 
 using SeedBox = Mailbox<SeedRequest, SeedSolution>;
-using TargetBox = Mailbox<WireEnd, Preview>;
+using TargetBox = Mailbox<WireEnd, TargetWire>;
 
 /// Prepares one of the metrics and finds the wires from a seed in it. Used by one thread, but for progress().
 class SeedSolver {
  public:
-  /// `metric`: its number in kFollow. Previews lead to the newest of `targets`, which gets them. The solver waits for
+  /// `metric`: its number. Previews lead to the newest of `targets`, which gets them. The solver waits for
   /// `right_of_way` if there are too few processors.
-  SeedSolver(std::size_t metric, std::shared_ptr<SurfaceCache> surface_cache, const LiveSettings& settings,
+  SeedSolver(std::size_t metric, const SurfaceContext& context, const LiveSettings& settings,
              std::shared_ptr<RightOfWay> right_of_way, TargetBox& targets);
 
   /// The solution of a job, shown in `seeds` before if it grows. `former`: the solution of the same seed in the former
   /// metric. Null if there is no seed, no such metric, or the seed is not part of the surface.
   std::shared_ptr<const SeedSolution> solve(const SeedBox::Job& job, const std::shared_ptr<const SeedSolution>& former,
                                             SeedBox& seeds);
+  /// The wire of a solution to a target, refined in its corridor. `target`: without a face or vertex in the embedding,
+  /// there is no wire. Throws Cancelled.
+  TargetWire refine(const SeedBox::Reading& found, const WireEnd& seed, const WireEnd& target,
+                    const std::stop_token& stop) const;
   /// Fraction of a request's work, preparation included, that is done, as far as it is the request being worked on.
   double progress(const SeedRequest& request) const;
 
  private:
-  const Surface& surface() const { return surface_cache_->surface(); }
   std::shared_ptr<const SeedSolution> find_field(const SeedBox::Job& job,
                                                  const std::shared_ptr<const Prepared>& prepared, Task task);
   std::shared_ptr<const SeedSolution> find_chains(const SeedBox::Job& job,
@@ -69,7 +75,7 @@ class SeedSolver {
   void make_preview(const SeedBox::Job& job, const Prepared& prepared, CorridorPaths& paths, std::int64_t& answered);
 
   const std::size_t metric_;
-  const std::shared_ptr<SurfaceCache> surface_cache_;
+  const SurfaceContext context_;
   const LiveSettings settings_;
   const bool makes_way_;
   const std::shared_ptr<RightOfWay> right_of_way_;

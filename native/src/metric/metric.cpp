@@ -93,10 +93,6 @@ struct Eigenvalues {
   double l1, l2;
 };
 
-void check_direction(Follow follow) {
-  if (follow == Follow::kConcave) throw InvalidInput("follow: concave creases have a metric of their own");
-}
-
 // The metric whose minor eigenvector has the direction to follow, with the eigenvalues that `at` gives for a vertex.
 template <class EigenvaluesAt>
 Metric aligned_metric(const Curvature& curvature, Follow follow, const Task& task, const EigenvaluesAt& at) {
@@ -167,7 +163,6 @@ void detail::check_finite(const Metric& metric, std::size_t v) {
 
 Metric feature_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Strength& strength,
                       const Task& task) {
-  check_direction(follow);
   check_curvature(surface, curvature, task);
   check_strength(strength, 0);
   const Features f = features(curvature, strength, task);
@@ -183,7 +178,6 @@ Metric feature_metric(const Surface& surface, const Curvature& curvature, Follow
 
 Metric campen_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Strength& strength,
                      const Task& task) {
-  check_direction(follow);
   check_curvature(surface, curvature, task);
   check_strength(strength, 1);
   const double alpha = strength.parameter ? *strength.parameter : *strength.max_anisotropy * *strength.max_anisotropy;
@@ -192,7 +186,6 @@ Metric campen_metric(const Surface& surface, const Curvature& curvature, Follow 
 
 Metric pottmann_kovacs_metric(const Surface& surface, const Curvature& curvature, Follow follow,
                               const Strength& strength, const Task& task) {
-  check_direction(follow);
   check_curvature(surface, curvature, task);
   check_strength(strength, 0);
   const Features f = features(curvature, strength, task);

@@ -465,7 +465,7 @@ void detail::check_scribble(const Surface& surface, const Scribble& scribble, st
 }
 
 Metric apply_scribbles(const Surface& surface, const Metric& metric, std::span<const Scribble> scribbles,
-                       std::optional<Follow> follow, const Task& task) {
+                       std::optional<MetricKind> kind, const Task& task) {
   if (metric.normals.size() != surface.vertex_count() || metric.tensors.size() != surface.vertex_count()) {
     throw InvalidInput("metric of " + std::to_string(metric.size()) + " vertices for a surface of " +
                        std::to_string(surface.vertex_count()));
@@ -476,7 +476,7 @@ Metric apply_scribbles(const Surface& surface, const Metric& metric, std::span<c
   for (std::size_t i = 0; i < scribbles.size(); ++i) check_scribble(surface, scribbles[i], i);
   for (const Scribble& scribble : scribbles) {
     task.check(1.0);
-    if (!follow || scribble.acts_on(*follow)) scribbler.apply(scribble);
+    if (!kind || scribble.acts_on(*kind)) scribbler.apply(scribble);
   }
   return result;
 }

@@ -2,8 +2,10 @@
 #include "seams/candidate_wires.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
+#include "context/interactive_embedding.hpp"
 #include "detail/run_on_threads.hpp"
 #include "seamwire/geodesics/corridor_paths.hpp"
 #include "seamwire/wires/snap.hpp"
@@ -11,14 +13,27 @@
 
 namespace seamwire::detail {
 
-CandidateWires::CandidateWires(std::shared_ptr<const Surface> surface, const Strength& strength, const Task& task)
-    : surfaces_(std::make_unique<SurfaceCache>(std::move(surface))) {
-  surfaces_->curvatures_now(task.stop);  // both metrics need them
-  MetricSet metrics(MetricFamily::kFeature, Along::kSurface, strength, {});
+CandidateWires::CandidateWires(const SurfaceContext& context, const Strength& strength, const Task& task)
+    : context_(context) {
+  constexpr double kEmbeddingBegins = 0.2;
+  const auto part = [&task](double begin, double end) {
+    return Task{.stop = task.stop, .progress = [&task, begin, end](double done) {
+                  return !task.progress || task.progress(begin + (end - begin) * done);
+                }};
+  };
+  context_.curvature(part(0.0, kEmbeddingBegins));  // both metrics need it
+  std::array<std::atomic<double>, 2> fractions = {};
   run_on_threads(
-      metrics_.size(), task, [&](std::size_t) { return 0.5 * (metrics.fractions[0] + metrics.fractions[1]); },
-      [&](std::size_t which, const Task& own) {
-        metrics_[which] = prepare(*surfaces_, Along::kSurface, metrics, which, own.stop);
+      metrics_.size(), part(kEmbeddingBegins, 1.0), [&](std::size_t) { return 0.5 * (fractions[0] + fractions[1]); },
+      [&](std::size_t i, const Task& own) {
+        const Task embedding{.stop = own.stop, .progress = [&, i](double done) {
+                               fractions[i] = done;
+                               return true;
+                             }};
+        const MetricSpec spec = MetricSpec::feature(i == 0 ? Follow::kMin : Follow::kMax, strength);
+        metrics_[i].emplace(context_, spec, interactive_options(*context_.surface(own)), embedding);
+        metrics_[i]->geodesics(own);
+        context_.snap_graph(own);
       });
 }
 
@@ -35,13 +50,13 @@ std::vector<CandidateWire> CandidateWires::find(std::span<const Ends> ends, cons
 }
 
 CandidateWires::Found CandidateWires::find_in(std::size_t metric, const Ends& ends, const Task& task) const {
-  const Prepared& prepared = metrics_[metric];
-  CorridorPaths paths(*prepared.geodesics, ends.from);
-  Wire wire = map_wire(surfaces_->surface(), *prepared.embedding, paths.path(ends.to, task));
+  const EmbeddedSurface& on = *metrics_[metric];
+  CorridorPaths paths(on.geodesics(), ends.from);
+  Wire wire = map_wire(on.surface(), on.embedding(), paths.path(ends.to, task));
   wire.from = ends.from;
   wire.to = ends.to;
-  std::vector<std::int32_t> vertices = snap_to_edges(surfaces_->surface(), *prepared.snap_graph, wire, task);
-  return {{.follow = kFollow[metric],
+  std::vector<std::int32_t> vertices = snap_to_edges(on.surface(), *context_.snap_graph(task), wire, task);
+  return {{.follow = metric == 0 ? Follow::kMin : Follow::kMax,
            .vertices = std::move(vertices),
            .points = std::move(wire.points),
            .faces = std::move(wire.faces)},

@@ -3,12 +3,12 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "live/prepared_metrics.hpp"
-#include "seamwire/live/livewire.hpp"
+#include "seamwire/context/embedded_surface.hpp"
+#include "seamwire/context/surface_context.hpp"
 #include "seamwire/task.hpp"
 
 namespace seamwire::detail {
@@ -25,7 +25,7 @@ struct CandidateWire {
 class CandidateWires {
  public:
   /// Prepares both metrics, on two threads. Throws as SeamPlanner does.
-  CandidateWires(std::shared_ptr<const Surface> surface, const Strength& strength, const Task& task);
+  CandidateWires(const SurfaceContext& context, const Strength& strength, const Task& task);
 
   /// Two seeds: vertices of the surface.
   struct Ends {
@@ -42,8 +42,8 @@ class CandidateWires {
   };
   Found find_in(std::size_t metric, const Ends& ends, const Task& task) const;
 
-  std::unique_ptr<SurfaceCache> surfaces_;
-  std::array<Prepared, 2> metrics_;
+  SurfaceContext context_;
+  std::array<std::optional<EmbeddedSurface>, 2> metrics_;  // M_min, M_max
 };
 
 }  // namespace seamwire::detail

@@ -83,10 +83,9 @@ void add_straight(const PlanMesh& mesh, const Chain& chain, std::vector<Chain>& 
 
 }  // namespace
 
-PlannedWires::PlannedWires(std::shared_ptr<const Surface> surface, Along along, const Strength& strength,
-                           const Task& task)
-    : surface_(std::move(surface)) {
-  if (along == Along::kSurface) across_ = std::make_unique<const CandidateWires>(surface_, strength, task);
+PlannedWires::PlannedWires(const SurfaceContext& context, Along along, const Strength& strength, const Task& task)
+    : surface_(context.surface(task)) {
+  if (along == Along::kSurface) across_ = std::make_unique<const CandidateWires>(context, strength, task);
 }
 
 std::vector<PlannedWire> PlannedWires::along(const SlitProblem& problem, std::span<const Slit> slits,

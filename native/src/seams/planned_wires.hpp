@@ -18,7 +18,7 @@ class PlannedWires {
   using Chain = std::vector<std::int32_t>;  ///< vertices joined by edges
 
   /// Prepares the metrics of wires across the surface. Throws InvalidInput for a strength; Cancelled.
-  PlannedWires(std::shared_ptr<const Surface> surface, Along along, const Strength& strength, const Task& task);
+  PlannedWires(const SurfaceContext& context, Along along, const Strength& strength, const Task& task);
 
   /// Along edges, wires are the slits. Across the surface, they are the shortest curves between seeds of the slits,
   /// with as many seeds as it takes to stay near them. Throws Cancelled.

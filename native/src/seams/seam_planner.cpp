@@ -96,8 +96,10 @@ std::vector<std::int32_t> nearest_of(const PlanMesh& mesh, std::span<const std::
 }  // namespace
 
 struct SeamPlanner::Impl {
-  Impl(std::shared_ptr<const Surface> on, SeamPlannerOptions with) : surface(std::move(on)), options(std::move(with)) {}
+  Impl(const SurfaceContext& on, SeamPlannerOptions with, const Task& task)
+      : context(on), surface(on.surface(task)), options(std::move(with)) {}
 
+  SurfaceContext context;
   std::shared_ptr<const Surface> surface;
   SeamPlannerOptions options;
   SlitProblem original;
@@ -147,7 +149,7 @@ void SeamPlanner::Impl::prepare(const Task& task) {
   original.prices = find_prices(original.mesh, visibility, original.reflection, weights_of(original.mesh));
   find_pieces_of(original);
   if (is_simplified()) find_pieces_of(simple);
-  wires = std::make_unique<const PlannedWires>(surface, options.along, options.strength, task);
+  wires = std::make_unique<const PlannedWires>(context, options.along, options.strength, task);
 }
 
 /// Chains of edges across which triangles cannot be oriented alike. A one-sided surface is cut open there.
@@ -232,9 +234,12 @@ void SeamPlanner::Impl::add_map(SeamPlan& plan, const SlitPlan& solved, const Se
   plan.is_reached = plan.energy <= goal.distortion && !solved.overlaps;
 }
 
-SeamPlanner::SeamPlanner(std::shared_ptr<const Surface> surface, const SeamPlannerOptions& options, const Task& task) {
-  check_options(*surface, options);
-  auto impl = std::make_shared<Impl>(std::move(surface), options);
+SeamPlanner::SeamPlanner(std::shared_ptr<const Surface> surface, const SeamPlannerOptions& options, const Task& task)
+    : SeamPlanner(SurfaceContext(std::move(surface)), options, task) {}
+
+SeamPlanner::SeamPlanner(const SurfaceContext& context, const SeamPlannerOptions& options, const Task& task) {
+  auto impl = std::make_shared<Impl>(context, options, task);
+  check_options(*impl->surface, options);
   impl->prepare(task);
   impl_ = std::move(impl);
 }

@@ -244,6 +244,10 @@ Vector position(const Embedding& embedding, const SurfacePoint& point) {
                           PathPoint{.vertex = point.vertex, .face = point.face, .barycentric = point.barycentric});
 }
 
+bool is_same(const std::weak_ptr<const void>& one, const std::weak_ptr<const void>& other) {
+  return !one.owner_before(other) && !other.owner_before(one);
+}
+
 Crossed line_across(const Surface& surface, const Embedding& embedding, const ExactGeodesics& geodesics,
                     const DistanceField& field, const ClosedWire& cut, const Task& task,
                     std::vector<std::int32_t>& half_edges) {
@@ -252,6 +256,7 @@ Crossed line_across(const Surface& surface, const Embedding& embedding, const Ex
   if (field.sources().size() != 1) {
     throw InvalidInput("a cut leads through one seed: the field has " + std::to_string(field.sources().size()));
   }
+  if (!is_same(cut.mesh, field.mesh())) throw InvalidInput("the cut is of another embedding");
   Sides sides(embedding.mesh, field, cut.half_edge, task);
   const std::vector<Vector>& points = cut.wire.points;
   const Vector seed = position(embedding, field.sources().front());
@@ -265,19 +270,21 @@ Crossed line_across(const Surface& surface, const Embedding& embedding, const Ex
 }  // namespace
 
 struct BentWires::Impl {
-  const Surface* surface;
-  const Embedding* embedding;
+  std::shared_ptr<const Surface> surface;
+  std::shared_ptr<const Embedding> embedding;
   DoubleCover cover;
   std::optional<DistanceField> field;  // nothing where the seed is in a face that was taken out
 };
 
-BentWires::BentWires(const Surface& surface, const Embedding& embedding, const ExactGeodesics& geodesics,
-                     const DistanceField& field, const ClosedWire& cut, const Task& task) {
+BentWires::BentWires(std::shared_ptr<const Surface> surface, std::shared_ptr<const Embedding> embedding,
+                     const ExactGeodesics& geodesics, const DistanceField& field, const ClosedWire& cut,
+                     const Task& task) {
   std::vector<std::int32_t> half_edges;
-  const Crossed line = line_across(surface, embedding, geodesics, field, cut, task, half_edges);
-  Impl made{.surface = &surface,
-            .embedding = &embedding,
-            .cover = DoubleCover(embedding.mesh, half_edges, line),
+  const Crossed line = line_across(*surface, *embedding, geodesics, field, cut, task, half_edges);
+  const IntrinsicMesh& below = embedding->mesh;
+  Impl made{.surface = std::move(surface),
+            .embedding = std::move(embedding),
+            .cover = DoubleCover(below, half_edges, line),
             .field = std::nullopt};
   const SurfacePoint seed = made.cover.lifted(field.sources().front(), false);
   if (seed.vertex >= 0 || seed.face >= 0) {

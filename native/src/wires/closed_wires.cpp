@@ -513,25 +513,27 @@ std::vector<ClosedWire> closed_wires(const Surface& surface, const Embedding& em
     throw InvalidInput("closed wires lead through one seed: the field has " + std::to_string(field.sources().size()));
   }
   if (count == 0) return {};
-  return CutLocus(surface, embedding, field, task).best(count);
+  std::vector<ClosedWire> best = CutLocus(surface, embedding, field, task).best(count);
+  for (ClosedWire& cut : best) cut.mesh = field.mesh();
+  return best;
 }
 
-std::vector<ClosedWireChoice> choose_closed_wires(std::span<const std::vector<ClosedWire>> metrics, std::size_t count) {
+std::vector<ClosedCutId> choose_closed_wires(std::span<const std::vector<ClosedWire>> metrics, std::size_t count) {
   for (const std::vector<ClosedWire>& cuts : metrics) {
     if (std::ranges::any_of(cuts, [](const ClosedWire& cut) { return cut.wire.points.empty(); })) {
       throw InvalidInput("a closed cut has no points");
     }
   }
-  std::vector<ClosedWireChoice> order;
+  std::vector<ClosedCutId> order;
   for (std::size_t metric = 0; metric < metrics.size(); ++metric) {
     if (!metrics[metric].empty()) order.push_back({.metric = metric, .number = 0});
   }
   for (std::size_t metric = 0; metric < metrics.size(); ++metric) {
     for (std::size_t i = 1; i < metrics[metric].size(); ++i) order.push_back({.metric = metric, .number = i});
   }
-  std::vector<ClosedWireChoice> chosen;
+  std::vector<ClosedCutId> chosen;
   DistinctLoops distinct;
-  for (const ClosedWireChoice& choice : order) {
+  for (const ClosedCutId& choice : order) {
     if (chosen.size() == count) break;
     if (distinct.add(metrics[choice.metric][choice.number].wire.points)) chosen.push_back(choice);
   }

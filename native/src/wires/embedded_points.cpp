@@ -44,8 +44,8 @@ double rounded(double weight, double error) {
 struct EmbeddedPoints::Impl {
   Weights weights_in(std::int32_t face, std::int32_t vertex) const;
 
-  const Surface* surface;
-  const Embedding* embedding;
+  std::shared_ptr<const Surface> surface;
+  std::shared_ptr<const Embedding> embedding;
   Csr<std::int32_t> parts_of;  // of the caller's faces
 };
 
@@ -72,16 +72,16 @@ Weights EmbeddedPoints::Impl::weights_in(std::int32_t face, std::int32_t vertex)
   return weights;
 }
 
-EmbeddedPoints::EmbeddedPoints(const Surface& surface, const Embedding& embedding) {
-  const std::vector<std::int32_t>& faces = embedding.source_face;
-  if (!std::ranges::all_of(faces, [&](std::int32_t f) { return is_index(f, surface.face_count()); }) ||
-      embedding.points.size() < surface.vertex_count()) {
+EmbeddedPoints::EmbeddedPoints(std::shared_ptr<const Surface> surface, std::shared_ptr<const Embedding> embedding) {
+  const std::vector<std::int32_t>& faces = embedding->source_face;
+  if (!std::ranges::all_of(faces, [&](std::int32_t f) { return is_index(f, surface->face_count()); }) ||
+      embedding->points.size() < surface->vertex_count()) {
     throw InvalidInput("the embedding is of another surface");
   }
-  impl_ = std::make_unique<const Impl>(
-      Impl{&surface, &embedding, Csr<std::int32_t>(surface.face_count(), [&](const auto& visit) {
-             for (std::size_t f = 0; f < faces.size(); ++f) visit(faces[f], static_cast<std::int32_t>(f));
-           })});
+  Csr<std::int32_t> parts_of(surface->face_count(), [&](const auto& visit) {
+    for (std::size_t f = 0; f < faces.size(); ++f) visit(faces[f], static_cast<std::int32_t>(f));
+  });
+  impl_ = std::make_unique<const Impl>(Impl{std::move(surface), std::move(embedding), std::move(parts_of)});
 }
 
 EmbeddedPoints::~EmbeddedPoints() = default;

@@ -60,10 +60,10 @@ double off(const Surface& surface, const std::vector<std::int32_t>& chain, const
 }
 
 std::vector<std::int32_t> wire(const Surface& surface, const std::vector<Scribble>& scribbles, std::int32_t from,
-                               std::int32_t to, std::optional<Follow> follow = std::nullopt) {
+                               std::int32_t to, std::optional<MetricKind> kind = std::nullopt) {
   const Metric plain = euclidean_metric(surface, principal_curvatures(surface));
-  const Metric metric = apply_scribbles(surface, plain, scribbles, follow);
-  return edge_wires(make_edge_graph(surface, metric, nullptr, {}, scribbles, follow), {from}).trace({to}).vertices;
+  const Metric metric = apply_scribbles(surface, plain, scribbles, kind);
+  return edge_wires(make_edge_graph(surface, metric, nullptr, scribbles, kind), {from}).trace({to}).vertices;
 }
 
 std::vector<std::int32_t> wire_between_ends(const Surface& surface, const Scribble& scribble) {
@@ -118,7 +118,7 @@ TEST(StrokesAlongEdges, ThatCloseAreFollowedAllTheWayRound) {
   const Scribble scribble = stroke(points);
   const Metric metric =
       apply_scribbles(surface, euclidean_metric(surface, principal_curvatures(surface)), std::vector{scribble});
-  const auto graph = make_edge_graph(surface, metric, nullptr, {}, std::vector{scribble});
+  const auto graph = make_edge_graph(surface, metric, nullptr, std::vector{scribble});
   const EdgeWires wires = edge_wires(graph, {scribble.vertices[0]});
   for (const std::size_t i : {50u, 99u, 150u}) {
     EXPECT_LT(off(surface, wires.trace({scribble.vertices[i]}).vertices, points), kBesideTheLine) << i;
@@ -138,10 +138,10 @@ TEST(StrokesAlongEdges, AreTakenBackByOnesThatRepelLater) {
 TEST(StrokesAlongEdges, LeadOnlyTheMetricThatTheyAreMeantFor) {
   const Surface surface = shapes::quad_grid(kSquares).surface();
   Scribble scribble = stroke(arc(0.3, std::numbers::pi, 0));
-  scribble.meant_for = Follow::kMin;
+  scribble.meant_for = MetricKind::kMin;
   const std::int32_t from = vertex_at(0.2, 0.5), to = vertex_at(0.8, 0.5);
-  EXPECT_LT(off(surface, wire(surface, {scribble}, from, to, Follow::kMin), scribble.points), kBesideTheLine);
-  EXPECT_EQ(wire(surface, {scribble}, from, to, Follow::kMax), wire(surface, {}, from, to));
+  EXPECT_LT(off(surface, wire(surface, {scribble}, from, to, MetricKind::kMin), scribble.points), kBesideTheLine);
+  EXPECT_EQ(wire(surface, {scribble}, from, to, MetricKind::kMax), wire(surface, {}, from, to));
 }
 
 TEST(StrokesAlongEdges, HaveAGapWhereNoEdgesLeadAndEndWhereThereIsNoMovement) {

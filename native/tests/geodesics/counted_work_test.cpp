@@ -33,8 +33,7 @@ void expect_work(const std::string& name, const Work& counted, const Work& recor
 }
 
 Work seeding(const IntrinsicMesh& mesh) {
-  GeodesicCounters counters;
-  ExactGeodesics(mesh).solve(0, {}, &counters);
+  const GeodesicCounters counters = ExactGeodesics(mesh).solve(0).counters();
   return {counters.lists, counters.windows, 0};
 }
 
@@ -60,8 +59,8 @@ TEST(CountedWork, OnEmbeddedMeshesIsWhatItWas) {
 }
 
 TEST(CountedWork, OfBoundedSeedingIsWhatItWas) {
-  GeodesicCounters counters;
-  ExactGeodesics(shapes::intrinsic(shapes::grid(100, 0.2))).solve_bounded(0, 4, {}, &counters);
+  const GeodesicCounters counters =
+      ExactGeodesics(shapes::intrinsic(shapes::grid(100, 0.2))).solve_bounded(0, 4).counters();
   expect_work("jittered grid, four windows", {counters.lists, counters.windows, 0}, {30243, 96232, 0});
 }
 

@@ -390,11 +390,11 @@ TEST(Geodesics, NumberingDoesNotMatter) {
 
 TEST(Geodesics, RepeatedSolvesAgreeToTheBit) {
   const ExactGeodesics geodesics(intrinsic(shapes::bumpy(shapes::icosphere(4), 0.1)));
-  GeodesicCounters counters, counters_again;
-  const DistanceField field = geodesics.solve(5, {}, &counters);
+  const DistanceField field = geodesics.solve(5);
   DistanceField again = field;
-  std::jthread([&] { again = geodesics.solve(5, {}, &counters_again); }).join();
+  std::jthread([&] { again = geodesics.solve(5); }).join();
   EXPECT_EQ(field.distances(), again.distances());
+  const GeodesicCounters &counters = field.counters(), &counters_again = again.counters();
   EXPECT_GT(counters.lists, 5120u);
   EXPECT_GT(counters.windows, counters.lists);
   EXPECT_EQ(counters.lists, counters_again.lists);
@@ -404,11 +404,9 @@ TEST(Geodesics, RepeatedSolvesAgreeToTheBit) {
 // The filter and the two-sides rule keep the windows to some twenty a triangle on meshes of this size; without one of
 // them they are several times as many, and without both they never end.
 TEST(Geodesics, WindowsStayFew) {
-  GeodesicCounters counters;
-  ExactGeodesics(intrinsic(shapes::grid(100, 0.2))).solve(5000, {}, &counters);
-  EXPECT_LT(counters.windows, 32u * 20000u);
-  ExactGeodesics(intrinsic(shapes::grid(100))).solve(5000, {}, &counters);
-  EXPECT_LT(counters.windows, 32u * 20000u);
+  for (const shapes::Mesh& mesh : {shapes::grid(100, 0.2), shapes::grid(100)}) {
+    EXPECT_LT(ExactGeodesics(intrinsic(mesh)).solve(5000).counters().windows, 32u * 20000u);
+  }
 }
 
 TEST(Geodesics, ProgressRisesAndCancelEndsTheWork) {

@@ -396,11 +396,10 @@ TEST(SurfacePoints, ASolveThatStopsKnowsWhatItWasFor) {
 TEST(SurfacePoints, StoppingSavesWork) {
   const IntrinsicMesh mesh = shapes::intrinsic(shapes::grid(40, 0.2));
   const ExactGeodesics geodesics(mesh);
-  GeodesicCounters whole, stopped, at_distance;
   const std::array source{at(1, 0.2, 0.2, 0.6)};
-  geodesics.solve(source, {}, {}, &whole);
-  geodesics.solve(source, {.targets = {at(200, 0.3, 0.3, 0.4)}}, {}, &stopped);
-  geodesics.solve(source, {.max_distance = 0.2, .targets = {}}, {}, &at_distance);
+  const GeodesicCounters whole = geodesics.solve(source).counters();
+  const GeodesicCounters stopped = geodesics.solve(source, {.targets = {at(200, 0.3, 0.3, 0.4)}}).counters();
+  const GeodesicCounters at_distance = geodesics.solve(source, {.max_distance = 0.2, .targets = {}}).counters();
   EXPECT_LT(stopped.windows, whole.windows / 4);
   EXPECT_LT(at_distance.windows, whole.windows / 4);
 }

@@ -135,8 +135,7 @@ TEST_F(Cancelling, APathAtOnce) {
   // In a corridor as wide as the mesh, with all windows, the front looks at the task as often as in a field.
   const CorridorPathOptions all{.corridor_vertices = vertices, .windows = 0};
   const auto target = static_cast<std::int32_t>(vertices / 2);
-  GeodesicCounters counters;
-  geodesics.solve(0, {}, &counters);
+  const GeodesicCounters counters = geodesics.solve(0).counters();
   expect_stops(counters.windows / 4, [&](const Task& task) { CorridorPaths(geodesics, 0, all).path(target, task); });
 }
 
@@ -145,7 +144,7 @@ TEST_F(Cancelling, TheEdgesAroundEachVertexAndTheirLengths) {
   expect_stops(edges + 4 * 2 * vertices, [&](const Task& task) { make_edge_adjacency(surface, task); });
   const auto adjacency = make_edge_adjacency(surface);
   const Metric metric = euclidean_metric(surface, principal_curvatures(surface));
-  expect_stops(edges, [&](const Task& task) { make_edge_graph(surface, metric, adjacency, task); });
+  expect_stops(edges, [&](const Task& task) { make_edge_graph(surface, metric, adjacency, {}, std::nullopt, task); });
 }
 
 }  // namespace

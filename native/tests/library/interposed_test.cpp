@@ -123,6 +123,10 @@ TEST(WithoutMemory, ALiveWireThatBuildsItsSurfaceSaysSo) {
   EXPECT_THROW(live.seed({0}), std::bad_alloc) << "for good";
 }
 
+LiveMetrics features(double max_anisotropy, Along along) {
+  return live_metrics(MetricFamily::kFeature, {.max_anisotropy = max_anisotropy}, along);
+}
+
 /// Calls `change`, and asks for progress until all is done and what was dropped is freed.
 template <class Change>
 void change_under_watch(LiveWire& live, const Change& change) {
@@ -156,7 +160,7 @@ class Freeing : public testing::TestWithParam<Along> {
   Freeing() { freed_by_caller = freed_by_workers = freed_with_the_lock = 0; }
 
   std::shared_ptr<const Surface> surface_ = some_surface();
-  LiveWire live_{surface_, {.along = GetParam(), .strength = {.max_anisotropy = 5}}};
+  LiveWire live_{surface_, {.along = GetParam(), .metrics = features(5.0, GetParam())}};
 
   static void expect_freed_by_workers() {
     EXPECT_GT(freed_by_workers, 0);
@@ -167,7 +171,7 @@ class Freeing : public testing::TestWithParam<Along> {
 
 TEST_P(Freeing, OfAFormerMetricIsDoneByTheWorkersWithoutTheLock) {
   live_.wait();
-  change_under_watch(live_, [&] { live_.set_metric(MetricFamily::kFeature, {.max_anisotropy = 7}); });
+  change_under_watch(live_, [&] { live_.set_metrics(features(7.0, GetParam())); });
   expect_freed_by_workers();
 }
 
@@ -175,7 +179,7 @@ TEST_P(Freeing, OfAFormerMetricAndItsFieldsToo) {
   live_.seed({7});
   live_.wait();
   change_under_watch(live_, [&] {
-    live_.set_metric(MetricFamily::kCampen, {.max_anisotropy = 3});
+    live_.set_metrics(live_metrics(MetricFamily::kCampen, {.max_anisotropy = 3}));
     static_cast<void>(live_.wires({100}));
     live_.seed({70});
     static_cast<void>(live_.wires({100}));
@@ -189,7 +193,7 @@ TEST_P(Freeing, OfAFormerMetricWhoseWiresAreStillSoughtIsDoneWithoutTheLock) {
     change_under_watch(live_, [&] {
       live_.seed({100 * i});
       std::this_thread::sleep_for(2ms);  // the workers are at it, and the last to hold the metric
-      live_.set_metric(MetricFamily::kFeature, {.max_anisotropy = 2.0 + i});
+      live_.set_metrics(features(2.0 + i, GetParam()));
     });
   }
   expect_freed_by_workers();
@@ -211,7 +215,7 @@ TEST_P(Freeing, OfMetricsThatAreReplacedWhileTheyAreMade) {
   live_.seed({7});
   change_under_watch(live_, [&] {
     for (const double a : {2.0, 3.0, 4.0, 5.0}) {
-      live_.set_metric(MetricFamily::kFeature, {.max_anisotropy = a});
+      live_.set_metrics(features(a, GetParam()));
       std::this_thread::sleep_for(2ms);
       static_cast<void>(live_.wires({100}));
     }
@@ -223,12 +227,12 @@ INSTANTIATE_TEST_SUITE_P(LiveWire, Freeing, testing::Values(Along::kSurface, Alo
 
 TEST(FreeingLoops, OfAFormerMetricWhileALoopIsSearchedForIsDoneWithoutTheLock) {
   freed_by_caller = freed_by_workers = freed_with_the_lock = 0;
-  LiveWire live(some_surface(), {.along = Along::kEdges, .strength = {.max_anisotropy = 5}});
+  LiveWire live(some_surface(), {.along = Along::kEdges, .metrics = features(5.0, Along::kEdges)});
   live.wait();
   change_under_watch(live, [&] {
     for (std::int32_t v = 0; v < 5; ++v) {
       static_cast<void>(live.loop({v, v + 1}));
-      live.set_metric(MetricFamily::kFeature, {.max_anisotropy = 2.0 + v});
+      live.set_metrics(features(2.0 + v, Along::kEdges));
     }
   });
   EXPECT_GT(freed_by_workers, 0);

@@ -41,15 +41,25 @@ Metric metric_of(const Surface& surface, Follow follow, const Strength& strength
   return feature_metric(surface, principal_curvatures(surface), follow, strength);
 }
 
-const LiveWireOptions kAlongEdges = {.along = Along::kEdges,
-                                     .strength = {.max_anisotropy = 10, .clamp_percentile = 99}};
+/// Wires are final in the embedding of the whole surface (live_refinement_test.cpp has the others).
+const LiveWireOptions kPlain = {.max_error = 0.0};
 
-const LiveWireOptions kConcave = {.family = MetricFamily::kConcave, .strength = {.parameter = 1.0}};
+const Strength kEdgeStrength = {.max_anisotropy = 10, .clamp_percentile = 99};
+const LiveWireOptions kAlongEdges = {.along = Along::kEdges,
+                                     .metrics = live_metrics(MetricFamily::kFeature, kEdgeStrength, Along::kEdges)};
+
+LiveWireOptions in(MetricFamily family, const Strength& strength = {}, Along along = Along::kSurface) {
+  return {.along = along, .metrics = live_metrics(family, strength, along), .max_error = 0.0};
+}
+
+const LiveWireOptions kConcave = in(MetricFamily::kConcave, {.parameter = 1.0});
 
 /// Both wires to a vertex from a live wire that has just been made.
 LiveWires fresh_wires(const std::shared_ptr<const Surface>& surface, const LiveWireOptions& options, const Pick& from,
                       const Pick& to) {
-  LiveWire live(surface, options);
+  LiveWireOptions plain = options;
+  plain.max_error = 0.0;
+  LiveWire live(surface, plain);
   live.seed(from);
   live.wait();
   return live.wires(to);
@@ -67,34 +77,39 @@ void expect_equal(const LiveWires& got, const LiveWires& expected) {
   }
 }
 
+/// The kinds of metrics that a live wire across the surface has if it is told nothing.
+constexpr std::array kKinds = {MetricKind::kConcave, MetricKind::kMin, MetricKind::kMax};
+
 /// In the library's default strength.
-Metric default_metric_of(const Surface& surface, Follow follow) {
-  if (follow != Follow::kConcave) return metric_of(surface, follow, {.parameter = 0.1});
+Metric default_metric_of(const Surface& surface, MetricKind kind) {
+  if (kind != MetricKind::kConcave) {
+    return metric_of(surface, kind == MetricKind::kMin ? Follow::kMin : Follow::kMax, {.parameter = 0.1});
+  }
   return concave_metric(surface, smoothed_curvatures(surface, principal_curvatures(surface), 0.01));
 }
 
 TEST(LiveWire, AcrossTheSurfaceGivesTheGeodesicsOfThreeMetricsAndTheConcaveOneLeads) {
   const auto surface = shared(shapes::bumpy(shapes::torus(32, 20), 0.02));
-  LiveWire live(surface);
+  LiveWire live(surface, kPlain);
   live.seed({7});
   ASSERT_TRUE(live.wait());
   EXPECT_EQ(live.progress(), 1);
   const SnapGraph graph(*surface);
-  for (const Follow follow : kFollow) {
-    const Embedding embedding = embed(*surface, default_metric_of(*surface, follow));
+  for (std::size_t i = 0; i < kKinds.size(); ++i) {
+    const Embedding embedding = embed(*surface, default_metric_of(*surface, kKinds[i]));
     const DistanceField field = ExactGeodesics(embedding.mesh).solve(7);
     for (const std::int32_t target : {7, 8, 100, 639}) {
       const LiveWires wires = live.wires({target});
       ASSERT_EQ(wires.wires.size(), 3U);
-      const LiveCandidate& got = wires.wires[static_cast<std::size_t>(follow)];
+      const LiveCandidate& got = wires.wires[i];
       const Wire expected = trace_wire(*surface, embedding, field, target);
-      EXPECT_EQ(got.follow, follow);
+      EXPECT_EQ(got.metric.kind(), kKinds[i]);
       EXPECT_TRUE(got.final);
       EXPECT_EQ(got.points, expected.points);
       EXPECT_EQ(got.faces, expected.faces);
       EXPECT_EQ(got.length, expected.length);
       EXPECT_EQ(got.vertices, snap_to_edges(*surface, graph, expected));
-      EXPECT_EQ(wires.active, 2);
+      EXPECT_EQ(wires.active, 0);
       EXPECT_TRUE(wires.settled);
     }
   }
@@ -105,17 +120,17 @@ TEST(LiveWire, OfTheStrengthsOfTheOtherMetricsTheConcaveOneHasAShare) {
   const auto concave = [&](const LiveWireOptions& options, std::size_t which) {
     return fresh_wires(surface, options, {7}, {333}).wires[which].length;
   };
-  const double half = concave({.family = MetricFamily::kConcave, .strength = {.parameter = 0.5}}, 0);
-  EXPECT_EQ(concave({.strength = {.parameter = 0.05}}, 2), half);
-  EXPECT_EQ(concave({.strength = {.max_anisotropy = 10.5}}, 2), half);
+  const double half = concave(in(MetricFamily::kConcave, {.parameter = 0.5}), 0);
+  EXPECT_EQ(concave(in(MetricFamily::kFeature, {.parameter = 0.05}), 0), half);
+  EXPECT_EQ(concave(in(MetricFamily::kFeature, {.max_anisotropy = 10.5}), 0), half);
 }
 
 TEST(LiveWire, WithAnotherFamilyOrAlongEdgesTheShorterOfTwoWiresLeads) {
   const auto surface = shared(shapes::bumpy(shapes::torus(32, 20), 0.02));
-  LiveWire live(surface);
+  LiveWire live(surface, kPlain);
   live.seed({7});
   ASSERT_TRUE(live.wait());
-  live.set_metric(MetricFamily::kCampen, {.max_anisotropy = 4});
+  live.set_metrics(live_metrics(MetricFamily::kCampen, {.max_anisotropy = 4}));
   ASSERT_TRUE(live.wait());
   for (const std::int32_t target : {8, 100, 333, 639}) {
     for (const LiveWires& found : {live.wires({target}), fresh_wires(surface, kAlongEdges, {7}, {target})}) {
@@ -123,19 +138,19 @@ TEST(LiveWire, WithAnotherFamilyOrAlongEdgesTheShorterOfTwoWiresLeads) {
       EXPECT_EQ(found.active, found.wires[1].length < found.wires[0].length ? 1 : 0);
     }
   }
-  live.set_metric(MetricFamily::kFeature, {.parameter = 0.1});
+  live.set_metrics(live_metrics(MetricFamily::kFeature, {.parameter = 0.1}));
   EXPECT_EQ(live.wires({333}).wires.size(), 3U);
   ASSERT_TRUE(live.wait());
-  expect_equal(live.wires({333}), fresh_wires(surface, {}, {7}, {333}));
+  expect_equal(live.wires({333}), fresh_wires(surface, kPlain, {7}, {333}));
 }
 
 TEST(LiveWire, WhereTheLeadingWireIsFinalTheOthersNeedNotBeWaitedFor) {
   const auto surface = shared(shapes::torus(160, 120));
-  LiveWire live(surface);
+  LiveWire live(surface, kPlain);
   live.seed({77});
   for (LiveWires wires = live.wires({9000});; wires = live.wires({9000})) {
-    EXPECT_EQ(wires.active, 2) << "before it is there, too";
-    EXPECT_EQ(wires.settled, wires.wires[2].final);
+    EXPECT_EQ(wires.active, 0) << "before it is there, too";
+    EXPECT_EQ(wires.settled, wires.wires[0].final);
     if (wires.final()) break;
     std::this_thread::yield();
   }
@@ -174,19 +189,21 @@ std::int32_t nearest_corner(const Surface& surface, const SurfacePoint& point) {
 TEST(LiveWire, FromPointsOfFacesGivesTheGeodesicsBetweenThem) {
   const auto surface = shared(shapes::torus(32, 20));
   const SurfacePoint seed{.face = 40, .barycentric = {0.2, 0.5, 0.3}};
-  LiveWire live(surface);
+  LiveWire live(surface, kPlain);
   live.seed_at(seed);
   ASSERT_TRUE(live.wait());
-  for (const Follow follow : kFollow) {
-    const Embedding embedding = embed(*surface, default_metric_of(*surface, follow));
-    const EmbeddedPoints points(*surface, embedding);
+  for (std::size_t i = 0; i < kKinds.size(); ++i) {
+    const auto shared_embedding =
+        std::make_shared<const Embedding>(embed(*surface, default_metric_of(*surface, kKinds[i])));
+    const Embedding& embedding = *shared_embedding;
+    const EmbeddedPoints points(surface, shared_embedding);
     const DistanceField field = ExactGeodesics(embedding.mesh).solve(std::array{*points.find(seed)});
     const std::array targets{SurfacePoint{.face = 40, .barycentric = {0.6, 0.1, 0.3}},
                              SurfacePoint{.face = 900, .barycentric = {0.1, 0.8, 0.1}},
                              SurfacePoint{.face = 517, .barycentric = {0.0, 0.4, 0.6}},
                              SurfacePoint{.face = 3, .barycentric = {0.0, 1.0, 0.0}}, SurfacePoint::at_vertex(100)};
     for (const SurfacePoint& target : targets) {
-      const LiveCandidate got = live.wires_to(target).wires[static_cast<std::size_t>(follow)];
+      const LiveCandidate got = live.wires_to(target).wires[i];
       const Wire expected = trace_wire(*surface, embedding, field, *points.find(target));
       EXPECT_TRUE(got.final);
       EXPECT_EQ(got.points, expected.points);
@@ -200,12 +217,12 @@ TEST(LiveWire, FromPointsOfFacesGivesTheGeodesicsBetweenThem) {
   EXPECT_EQ(live.wires_to(SurfacePoint::at_vertex(100)).wires[0].points, live.wires({100}).wires[0].points);
   live.seed_at(SurfacePoint::at_vertex(7));
   ASSERT_TRUE(live.wait());
-  expect_equal(live.wires({100}), fresh_wires(surface, {}, {7}, {100}));
+  expect_equal(live.wires({100}), fresh_wires(surface, kPlain, {7}, {100}));
 }
 
 TEST(LiveWire, PointsThatAreNoneAreRefused) {
   const auto surface = shared(shapes::torus(8, 6));  // 96 triangles
-  LiveWire live(surface), along_edges(surface, kAlongEdges);
+  LiveWire live(surface, kPlain), along_edges(surface, kAlongEdges);
   const SurfacePoint right{.face = 3, .barycentric = {0.2, 0.5, 0.3}};
   EXPECT_THROW(along_edges.seed_at(right), InvalidInput);
   live.seed_at(right);
@@ -226,7 +243,7 @@ TEST(LiveWire, FromAFaceWithoutAreaNoWireBegins) {
   const auto flat = static_cast<std::int32_t>(mesh.triangles.size());
   mesh.triangles.push_back({0, 1, 1});
   const auto surface = std::make_shared<const Surface>(mesh.points, mesh.triangles);
-  LiveWire live(surface);
+  LiveWire live(surface, kPlain);
   live.seed_at({.face = flat, .barycentric = {0.2, 0.5, 0.3}});
   ASSERT_TRUE(live.wait());
   const LiveWires none = live.wires({20});
@@ -239,7 +256,7 @@ TEST(LiveWire, FromAFaceWithoutAreaNoWireBegins) {
 
 TEST(LiveWire, BeforeItIsFinalAWireLeadsFromPointToPoint) {
   const auto surface = shared(shapes::torus(160, 120));
-  LiveWire live(surface);
+  LiveWire live(surface, kPlain);
   const SurfacePoint target{.face = 9000, .barycentric = {0.3, 0.3, 0.4}};
   live.seed_at({.face = 77, .barycentric = {0.6, 0.3, 0.1}});
   std::array<LiveCandidate, 3> early;
@@ -269,8 +286,8 @@ TEST(LiveWire, AlongEdgesGivesTheChainsOfBothMetrics) {
       live.seed(seed, forward);
       ASSERT_TRUE(live.wait());
       for (const Follow follow : {Follow::kMin, Follow::kMax}) {
-        const EdgeWires chains = edge_wires(
-            make_edge_graph(*surface, metric_of(*surface, follow, kAlongEdges.strength)), seed, 3.0, forward);
+        const EdgeWires chains =
+            edge_wires(make_edge_graph(*surface, metric_of(*surface, follow, kEdgeStrength)), seed, 3.0, forward);
         for (const Pick target : {Pick{100}, Pick{300, 301}, Pick{8}}) {
           const LiveCandidate got = live.wires(target).wires[follow == Follow::kMin ? 0 : 1];
           const EdgeChain expected = chains.trace(target);
@@ -297,7 +314,7 @@ TEST(LiveWire, TheLoopIsTheCheaperOfBothMetrics) {
     ASSERT_TRUE(loop.final);
     double least = std::numeric_limits<double>::infinity();
     for (const Follow follow : {Follow::kMin, Follow::kMax}) {
-      const auto graph = make_edge_graph(*surface, metric_of(*surface, follow, kAlongEdges.strength));
+      const auto graph = make_edge_graph(*surface, metric_of(*surface, follow, kEdgeStrength));
       least = std::min(least, shortest_cycle(*graph, edge).length);
     }
     EXPECT_EQ(loop.length, least);
@@ -353,13 +370,13 @@ TEST(LiveWire, TheSecondClosedWireIsTheFirstOfTheEuclideanMetric) {
     const LiveClosedWires found = live.closed_wires(SurfacePoint::at_vertex(through));
     ASSERT_TRUE(found.final);
     const auto closed = both.closed(through);
-    const std::vector<ClosedWireChoice> expected = choose_closed_wires(closed);
+    const std::vector<ClosedCutId> expected = choose_closed_wires(closed);
     ASSERT_EQ(found.cuts.size(), expected.size());
     ASSERT_FALSE(expected.empty());
     for (std::size_t i = 0; i < expected.size(); ++i) {
       const auto& [metric, number] = expected[i];
       EXPECT_EQ(found.cuts[i].length, closed[metric][number].wire.length);
-      EXPECT_EQ(found.cuts[i].which, 3 * metric + number);
+      EXPECT_EQ(found.cuts[i].id, expected[i]);
       expect_around(found.cuts[i], 3, through);
       of_second_metric += metric;
     }
@@ -379,11 +396,11 @@ TEST(LiveWire, TheClosedWiresOfTheFirstMetricAreThereBeforeThoseOfTheSecond) {
   }
   ASSERT_FALSE(early.cuts.empty());
   if (early.final) GTEST_SKIP() << "this thread was kept away for so long that all of them are there";
-  for (const LiveClosedWire& cut : early.cuts) EXPECT_LT(cut.which, 3U);
+  for (const LiveClosedWire& cut : early.cuts) EXPECT_EQ(cut.id.metric, 0U);
   live.wait();
   const LiveClosedWires late = live.closed_wires(through);
   ASSERT_TRUE(late.final);
-  EXPECT_EQ(late.cuts[0].which, early.cuts[0].which);
+  EXPECT_EQ(late.cuts[0].id, early.cuts[0].id);
   EXPECT_EQ(late.cuts[0].length, early.cuts[0].length);
 }
 
@@ -391,7 +408,7 @@ TEST(LiveWire, OnALargeSurfaceClosedWiresAreThereBeforeTheyAreFinal) {
   // In TheClosedWiresOfTheFirstMetricAreThereBeforeThoseOfTheSecond, threads exchange the same on a smaller surface.
   if (sized(false, true)) GTEST_SKIP() << "takes minutes under ThreadSanitizer";
   const auto surface = shared(shapes::torus(300, 200));
-  LiveWire live(surface, {.family = MetricFamily::kEuclidean});
+  LiveWire live(surface, in(MetricFamily::kEuclidean));
   const SurfacePoint through = SurfacePoint::at_vertex(0);
   live.wait();
   LiveClosedWires early = live.closed_wires(through);
@@ -407,7 +424,7 @@ TEST(LiveWire, OnALargeSurfaceClosedWiresAreThereBeforeTheyAreFinal) {
 
 TEST(LiveWire, ClosedWiresLeadThroughPointsOfTheSurface) {
   const auto surface = shared(shapes::torus(24, 16));
-  LiveWire live(surface), along_edges(surface, kAlongEdges);
+  LiveWire live(surface, kPlain), along_edges(surface, kAlongEdges);
   EXPECT_THROW(live.closed_wires(SurfacePoint::at_vertex(24 * 16)), InvalidInput);
   EXPECT_THROW(live.closed_wires({.face = -1, .barycentric = {1, 0, 0}}), InvalidInput);
   EXPECT_THROW(along_edges.closed_wires(SurfacePoint::at_vertex(0)), InvalidInput);
@@ -421,31 +438,32 @@ TEST(LiveWire, AClosedWireIsBentToASecondPointInItsMetric) {
   const auto closed = both.closed(100);
   for (const std::size_t metric : {0U, 1U, 0U}) {
     ASSERT_FALSE(closed[metric].empty());
-    const BentWires bent(*surface, both.embeddings[metric], both.solvers[metric], both.solvers[metric].solve(100),
-                         closed[metric][0]);
+    const BentWires bent(surface, std::make_shared<const Embedding>(both.embeddings[metric]), both.solvers[metric],
+                         both.solvers[metric].solve(100), closed[metric][0]);
     for (const std::int32_t vertex : {103, 420, 500}) {
       const SurfacePoint second = SurfacePoint::at_vertex(vertex);
-      live.bent_wire(through, SurfacePoint::at_vertex(7), 3 * metric);  // the newest counts
-      live.bent_wire(through, second, 3 * metric);
+      const ClosedCutId id{.metric = metric};
+      live.bent_wire(through, SurfacePoint::at_vertex(7), id);  // the newest counts
+      live.bent_wire(through, second, id);
       ASSERT_TRUE(live.wait());
-      const LiveClosedWires found = live.bent_wire(through, second, 3 * metric);
+      const LiveClosedWires found = live.bent_wire(through, second, id);
       ASSERT_TRUE(found.final);
       ASSERT_EQ(found.cuts.size(), 1U);
       const LiveClosedWire& cut = found.cuts[0];
       const std::optional<BentWire> expected = bent.through(second);
       ASSERT_TRUE(expected);
       EXPECT_EQ(cut.length, expected->there.length + expected->back.length);
-      EXPECT_EQ(cut.which, 3 * metric);
+      EXPECT_EQ(cut.id, id);
       expect_around(cut, 4, 100);
       EXPECT_EQ(cut.joints[1], second);
       EXPECT_EQ(cut.pieces[1].vertices.back(), vertex);
     }
   }
-  for (const std::size_t which : {2U, 5U, 6U, 99U}) {
-    if (which < 6 && which % 3 < closed[which / 3].size()) continue;
-    live.bent_wire(through, SurfacePoint::at_vertex(420), which);
+  for (const ClosedCutId& id :
+       {ClosedCutId{0, closed[0].size()}, ClosedCutId{1, closed[1].size()}, ClosedCutId{2, 0}}) {
+    live.bent_wire(through, SurfacePoint::at_vertex(420), id);
     ASSERT_TRUE(live.wait());
-    const LiveClosedWires none = live.bent_wire(through, SurfacePoint::at_vertex(420), which);
+    const LiveClosedWires none = live.bent_wire(through, SurfacePoint::at_vertex(420), id);
     EXPECT_TRUE(none.final && none.cuts.empty()) << "there is no cut of that number";
   }
   EXPECT_THROW(live.bent_wire(through, SurfacePoint::at_vertex(40 * 24)), InvalidInput);
@@ -453,7 +471,7 @@ TEST(LiveWire, AClosedWireIsBentToASecondPointInItsMetric) {
 
 TEST(LiveWire, BeforeItIsFinalAWireIsARealPathThatMayBeLonger) {
   const auto surface = shared(shapes::torus(160, 120));
-  LiveWire live(surface);
+  LiveWire live(surface, kPlain);
   live.seed({0});
   const Pick target{3000};
   std::array<std::vector<LiveCandidate>, 2> seen;
@@ -511,7 +529,7 @@ TEST(LiveWire, AlongEdgesWiresNearTheSeedAreFinalFirst) {
 
 TEST(LiveWire, TheNewestSeedCounts) {
   const auto surface = shared(shapes::torus(64, 48));
-  for (const LiveWireOptions& options : {LiveWireOptions{}, kAlongEdges}) {
+  for (const LiveWireOptions& options : {kPlain, kAlongEdges}) {
     LiveWire live(surface, options);
     for (std::int32_t seed = 0; seed < 200; ++seed) {
       live.seed({seed * 15});
@@ -533,7 +551,7 @@ TEST(LiveWire, TheNewestSeedCounts) {
 TEST(LiveWire, EndsInTheMiddleOfItsWork) {
   const auto surface = shared(shapes::torus(200, 150));
   for (const int milliseconds : {0, 1, 10, 50}) {
-    LiveWire live(surface);
+    LiveWire live(surface, kPlain);
     live.seed({0});
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
   }
@@ -541,7 +559,7 @@ TEST(LiveWire, EndsInTheMiddleOfItsWork) {
 
 TEST(LiveWire, WaitsNoLongerThanItIsTold) {
   const auto surface = shared(shapes::torus(200, 150));
-  LiveWire live(surface);
+  LiveWire live(surface, kPlain);
   live.seed({0});
   const auto start = std::chrono::steady_clock::now();
   for (const double seconds : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), 1e-3}) live.wait(seconds);
@@ -552,7 +570,7 @@ TEST(LiveWire, WaitsNoLongerThanItIsTold) {
 TEST(LiveWire, AVertexWithoutAPathHasAFinalWireWithoutPoints) {
   shapes::Mesh mesh = shapes::grid(4);
   mesh.points.emplace_back(3, 3, 3);
-  for (const LiveWireOptions& options : {LiveWireOptions{}, kAlongEdges}) {
+  for (const LiveWireOptions& options : {kPlain, kAlongEdges}) {
     LiveWire live(shared(mesh), options);
     live.seed({0});
     ASSERT_TRUE(live.wait());
@@ -599,21 +617,20 @@ TEST(LiveWire, OfLoopsTheOneAskedForLastCounts) {
 
 TEST(LiveWire, AnotherMetricIsThatOfALiveWireMadeWithIt) {
   const auto surface = shared(shapes::bumpy(shapes::torus(32, 20), 0.02));
-  for (LiveWireOptions options : {LiveWireOptions{}, kAlongEdges}) {
+  for (LiveWireOptions options : {kPlain, kAlongEdges}) {
     LiveWire live(surface, options);
     live.seed({7});
-    const std::vector<std::pair<MetricFamily, Strength>> metrics = {
-        {MetricFamily::kFeature, {.max_anisotropy = 20, .clamp_percentile = 95}},
-        {MetricFamily::kCampen, {.max_anisotropy = 5}},
-        {MetricFamily::kPottmannKovacs, {.max_anisotropy = 5}},
-        {MetricFamily::kConcave, {.max_anisotropy = 5}},
-        {MetricFamily::kEuclidean, {}},
-        {options.family, options.strength}};
-    for (const auto& [family, strength] : metrics) {
-      live.set_metric(family, strength);
+    const std::vector<LiveMetrics> all = {
+        live_metrics(MetricFamily::kFeature, {.max_anisotropy = 20, .clamp_percentile = 95}, options.along),
+        live_metrics(MetricFamily::kCampen, {.max_anisotropy = 5}),
+        live_metrics(MetricFamily::kPottmannKovacs, {.max_anisotropy = 5}),
+        live_metrics(MetricFamily::kConcave, {.max_anisotropy = 5}),
+        live_metrics(MetricFamily::kEuclidean, {}),
+        options.metrics};
+    for (const LiveMetrics& metrics : all) {
+      live.set_metrics(metrics);
       ASSERT_TRUE(live.wait());
-      options.family = family;
-      options.strength = strength;
+      options.metrics = metrics;
       expect_equal(live.wires({333}), fresh_wires(surface, options, {7}, {333}));
     }
   }
@@ -621,26 +638,26 @@ TEST(LiveWire, AnotherMetricIsThatOfALiveWireMadeWithIt) {
 
 TEST(LiveWire, OfConcaveCreasesTheFirstWireLeadsAndTheSecondIsTheShortestPath) {
   const auto surface = shared(shapes::bumpy(shapes::torus(32, 20), 0.02));
-  const LiveWireOptions concave{.family = MetricFamily::kConcave, .strength = {.parameter = 1.0}};
+  const LiveWireOptions concave = in(MetricFamily::kConcave, {.parameter = 1.0});
   const LiveWires wires = fresh_wires(surface, concave, {7}, {333});
-  const LiveWires shortest = fresh_wires(surface, {.family = MetricFamily::kEuclidean}, {7}, {333});
+  const LiveWires shortest = fresh_wires(surface, in(MetricFamily::kEuclidean), {7}, {333});
   EXPECT_EQ(wires.wires[1].points, shortest.wires[0].points);
   const Metric metric = concave_metric(*surface, smoothed_curvatures(*surface, principal_curvatures(*surface), 0.01));
   const Embedding embedding = embed(*surface, metric);
   EXPECT_NEAR(wires.wires[0].length, ExactGeodesics(embedding.mesh).solve(7).distances()[333], 1e-12);
   EXPECT_EQ(wires.active, 0);
   // Half as strong by either of the two; so strong that the second is shorter, the first leads all the same.
-  const LiveWireOptions half{.family = MetricFamily::kConcave, .strength = {.parameter = 0.5}};
-  const LiveWireOptions same{.family = MetricFamily::kConcave, .strength = {.max_anisotropy = 10.5}};
+  const LiveWireOptions half = in(MetricFamily::kConcave, {.parameter = 0.5});
+  const LiveWireOptions same = in(MetricFamily::kConcave, {.max_anisotropy = 10.5});
   expect_equal(fresh_wires(surface, half, {7}, {333}), fresh_wires(surface, same, {7}, {333}));
-  const LiveWireOptions strong{.family = MetricFamily::kConcave, .strength = {.parameter = 50.0}};
+  const LiveWireOptions strong = in(MetricFamily::kConcave, {.parameter = 50.0});
   EXPECT_EQ(fresh_wires(surface, strong, {7}, {333}).active, 0);
 }
 
 TEST(LiveWire, OfTheEuclideanMetricThereIsOneWire) {
   const auto surface = shared(shapes::torus(24, 16));
   for (const Along along : {Along::kSurface, Along::kEdges}) {
-    LiveWire live(surface, {.along = along, .family = MetricFamily::kEuclidean});
+    LiveWire live(surface, in(MetricFamily::kEuclidean, {}, along));
     live.seed({0});
     ASSERT_TRUE(live.wait());
     const LiveWires found = live.wires({100});
@@ -654,7 +671,7 @@ TEST(LiveWire, OfTheEuclideanMetricThereIsOneWire) {
       ASSERT_TRUE(live.wait());
       EXPECT_FALSE(live.loop({0, 1}).vertices.empty());
     }
-    live.set_metric(MetricFamily::kFeature, {.max_anisotropy = 10.0});
+    live.set_metrics(live_metrics(MetricFamily::kFeature, {.max_anisotropy = 10.0}, along));
     ASSERT_TRUE(live.wait());
     EXPECT_GT(live.wires({100}).wires.size(), 1U);
   }
@@ -663,11 +680,11 @@ TEST(LiveWire, OfTheEuclideanMetricThereIsOneWire) {
 
 TEST(LiveWire, WhileTheMetricChangesTheWiresAreTheFormerOnesAndNotFinal) {
   const auto surface = shared(shapes::torus(160, 120));
-  LiveWire live(surface);
+  LiveWire live(surface, kPlain);
   live.seed({0});
   ASSERT_TRUE(live.wait());
   const LiveWires before = live.wires({900});
-  live.set_metric(MetricFamily::kFeature, {.max_anisotropy = 8});
+  live.set_metrics(live_metrics(MetricFamily::kFeature, {.max_anisotropy = 8}));
   const LiveWires now = live.wires({900});
   EXPECT_FALSE(now.final());
   for (std::size_t which = 0; which < 2; ++which) {
@@ -686,8 +703,8 @@ TEST(LiveWire, OfMetricsTheOneSetLastCounts) {
   LiveWire live(surface, options);
   live.seed({7});
   for (int i = 0; i < 100; ++i) {
-    options.strength = {.max_anisotropy = 2 + 0.1 * i};
-    live.set_metric(options.family, options.strength);
+    options.metrics = live_metrics(MetricFamily::kFeature, {.max_anisotropy = 2 + 0.1 * i}, Along::kEdges);
+    live.set_metrics(options.metrics);
     if (i % 10 == 0) live.wait(0.002);
   }
   ASSERT_TRUE(live.wait());
@@ -701,9 +718,9 @@ TEST(LiveWire, ScribblesChangeTheMetricsTheyAreMeantForAndGoWithoutATrace) {
   for (const Vector& p : scribble.points) {
     scribble.vertices.push_back(static_cast<std::int32_t>(std::lround(p.y() * 40) * 41 + std::lround(p.x() * 40)));
   }
-  scribble.meant_for = Follow::kMin;
+  scribble.meant_for = MetricKind::kMin;
   const Pick from{scribble.vertices.front()}, to{scribble.vertices.back()};
-  for (const LiveWireOptions& options : {LiveWireOptions{}, kAlongEdges}) {
+  for (const LiveWireOptions& options : {kPlain, kAlongEdges}) {
     LiveWire live(surface, options);
     live.seed(from);
     ASSERT_TRUE(live.wait());
@@ -713,27 +730,30 @@ TEST(LiveWire, ScribblesChangeTheMetricsTheyAreMeantForAndGoWithoutATrace) {
     ASSERT_TRUE(live.wait());
     const LiveWires after = live.wires(to);
     ASSERT_TRUE(after.final());
-    if (meanwhile.wires[0].final) {
-      EXPECT_EQ(meanwhile.wires[0].points, after.wires[0].points) << "what is said to be final is of the new metric";
+    const std::size_t min = options.along == Along::kEdges ? 0 : 1, max = min + 1;
+    if (meanwhile.wires[min].final) {
+      EXPECT_EQ(meanwhile.wires[min].points, after.wires[min].points)
+          << "what is said to be final is of the new metric";
     }
-    EXPECT_EQ(after.wires[1].points, before.wires[1].points);
-    const Metric metric = apply_scribbles(*surface, metric_of(*surface, Follow::kMin, options.strength),
-                                          std::vector{scribble}, Follow::kMin);
+    EXPECT_EQ(after.wires[max].points, before.wires[max].points);
+    const Strength strength = options.along == Along::kEdges ? kEdgeStrength : Strength{.parameter = 0.1};
+    const Metric metric =
+        apply_scribbles(*surface, metric_of(*surface, Follow::kMin, strength), std::vector{scribble}, MetricKind::kMin);
     if (options.along == Along::kEdges) {
-      const auto graph = make_edge_graph(*surface, metric, nullptr, {}, std::vector{scribble}, Follow::kMin);
-      EXPECT_EQ(after.wires[0].vertices, edge_wires(graph, from).trace(to).vertices);
+      const auto graph = make_edge_graph(*surface, metric, nullptr, std::vector{scribble}, MetricKind::kMin);
+      EXPECT_EQ(after.wires[min].vertices, edge_wires(graph, from).trace(to).vertices);
     } else {
       const Embedding embedding = embed(*surface, metric);
       const DistanceField field = ExactGeodesics(embedding.mesh).solve(from.a);
-      EXPECT_EQ(after.wires[0].points, trace_wire(*surface, embedding, field, to.a).points);
-      const bool bends = std::ranges::any_of(after.wires[0].points, [](const Vector& p) { return p.y() > 0.35; });
+      EXPECT_EQ(after.wires[min].points, trace_wire(*surface, embedding, field, to.a).points);
+      const bool bends = std::ranges::any_of(after.wires[min].points, [](const Vector& p) { return p.y() > 0.35; });
       EXPECT_TRUE(bends) << "as the stroke does";
     }
-    live.set_metric(MetricFamily::kFeature, {.max_anisotropy = 3});  // scribbles stay
+    live.set_metrics(live_metrics(MetricFamily::kFeature, {.max_anisotropy = 3}, options.along));  // scribbles stay
     ASSERT_TRUE(live.wait());
-    EXPECT_EQ(live.wires(to).wires[1].points, before.wires[1].points) << "a plane has no features";
-    EXPECT_EQ(live.wires(to).wires[0].length, after.wires[0].length);
-    live.set_metric(options.family, options.strength);
+    EXPECT_EQ(live.wires(to).wires[max].points, before.wires[max].points) << "a plane has no features";
+    EXPECT_EQ(live.wires(to).wires[min].length, after.wires[min].length);
+    live.set_metrics(options.metrics);
     live.set_scribbles({});
     ASSERT_TRUE(live.wait());
     expect_equal(live.wires(to), before);
@@ -748,27 +768,46 @@ TEST(LiveWire, ScribblesChangeTheMetricsTheyAreMeantForAndGoWithoutATrace) {
 }
 
 TEST(LiveWire, AStrokeForOneMetricLeavesWhatIsPreparedForTheOther) {
+  constexpr std::size_t kConcaveOne = 0, kMinOne = 1, kMaxOne = 2;
   Scribble one, two;
-  one.meant_for = two.meant_for = Follow::kMin;
+  one.meant_for = two.meant_for = MetricKind::kMin;
   two.rings = 3;
-  const auto after = [](const MetricSet& before, const std::vector<Scribble>& scribbles) {
-    auto metrics = std::make_unique<MetricSet>(MetricFamily::kFeature, Along::kSurface, Strength{}, scribbles);
-    metrics->go_on_from(before);
-    return metrics;
+  const LiveMetrics metrics = live_metrics(MetricFamily::kFeature, {.parameter = 0.1});
+  const auto after = [&](const MetricSet& before, const std::vector<Scribble>& scribbles) {
+    return std::make_unique<MetricSet>(metrics, scribbles, before);
   };
-  const MetricSet none(MetricFamily::kFeature, Along::kSurface, {}, {});
+  const MetricSet none(metrics, {});
   const auto with_one = after(none, {one}), with_both = after(*with_one, {one, two});
-  EXPECT_EQ(with_one->prepared[1], none.prepared[1]);
-  EXPECT_NE(with_one->prepared[0], none.prepared[0]);
-  EXPECT_EQ(with_both->prepared[1], none.prepared[1]);
-  EXPECT_NE(with_both->prepared[0], with_one->prepared[0]);
-  EXPECT_NE(after(*with_both, {two, one})->prepared[0], with_both->prepared[0]) << "their order counts";
+  EXPECT_TRUE(with_one->shares(none, kMaxOne));
+  EXPECT_FALSE(with_one->shares(none, kMinOne));
+  EXPECT_TRUE(with_both->shares(none, kMaxOne));
+  EXPECT_FALSE(with_both->shares(*with_one, kMinOne));
+  EXPECT_FALSE(after(*with_both, {two, one})->shares(*with_both, kMinOne)) << "their order counts";
   Scribble three;
-  three.meant_for = Follow::kMax;
+  three.meant_for = MetricKind::kMax;
   const auto with_three = after(*with_both, {three, one, two});
-  EXPECT_EQ(with_three->prepared[0], with_both->prepared[0]);
-  EXPECT_NE(with_three->prepared[1], with_both->prepared[1]);
-  EXPECT_EQ(with_three->prepared[2], none.prepared[2]);
+  EXPECT_TRUE(with_three->shares(*with_both, kMinOne));
+  EXPECT_FALSE(with_three->shares(*with_both, kMaxOne));
+  EXPECT_TRUE(with_three->shares(none, kConcaveOne));
+}
+
+TEST(LiveWire, MetricsThatStayAreNotPreparedAgain) {
+  const LiveMetrics metrics{.wires = {MetricSpec::concave(), MetricSpec::euclidean()}};
+  const MetricSet before(metrics, {});
+  const MetricSet changed({.wires = {MetricSpec::euclidean(), MetricSpec::concave({.parameter = 0.5})}}, {}, before);
+  EXPECT_EQ(changed.prepared[0], before.prepared[1]);
+  EXPECT_NE(changed.prepared[1], before.prepared[0]);
+}
+
+TEST(LiveWire, WiresInMetricsThatAnotherOneHasAreTheSame) {
+  const SurfaceContext context(shared(shapes::bumpy(shapes::torus(32, 20), 0.02)));
+  LiveWire live(context), cuts(context, {.metrics = {.wires = {MetricSpec::concave(), MetricSpec::euclidean()}}});
+  for (LiveWire* each : {&live, &cuts}) {
+    each->seed({7});
+    ASSERT_TRUE(each->wait());
+  }
+  EXPECT_EQ(cuts.wires({333}).wires[0].points, live.wires({333}).wires[0].points);
+  EXPECT_EQ(cuts.wires({333}).wires[0].length, live.wires({333}).wires[0].length);
 }
 
 TEST(LiveWire, AfterManyChangesOfTheStrokesWiresAreThoseOfTheListAlone) {
@@ -784,10 +823,10 @@ TEST(LiveWire, AfterManyChangesOfTheStrokesWiresAreThoseOfTheListAlone) {
     }
     scribble.rings = 1 + static_cast<int>(random() % 6);
     scribble.attracts = random() % 4 != 0;
-    if (random() % 2 == 0) scribble.meant_for = static_cast<Follow>(random() % 3);
+    if (random() % 2 == 0) scribble.meant_for = static_cast<MetricKind>(random() % 3);
     return scribble;
   };
-  LiveWire live(surface);
+  LiveWire live(surface, kPlain);
   live.seed({7});
   ASSERT_TRUE(live.wait());
   std::vector<Scribble> strokes;
@@ -803,7 +842,7 @@ TEST(LiveWire, AfterManyChangesOfTheStrokesWiresAreThoseOfTheListAlone) {
     live.set_scribbles(strokes);
     if (i % 3 != 2) continue;  // the others are replaced while they are being worked on
     ASSERT_TRUE(live.wait());
-    LiveWire fresh(surface);
+    LiveWire fresh(surface, kPlain);
     fresh.set_scribbles(strokes);
     fresh.seed({7});
     ASSERT_TRUE(fresh.wait());
@@ -822,7 +861,7 @@ TEST(LiveWire, AfterManyChangesOfTheStrokesWiresAreThoseOfTheListAlone) {
 
 TEST(LiveWire, AForkHasTheSameMetricsAndASeedOfItsOwn) {
   const auto surface = shared(shapes::bumpy(shapes::torus(40, 24), 0.02));
-  for (const LiveWireOptions& options : {LiveWireOptions{}, kAlongEdges}) {
+  for (const LiveWireOptions& options : {kPlain, kAlongEdges}) {
     auto live = std::make_optional<LiveWire>(surface, options);
     live->seed({7});
     LiveWire early = live->fork();  // while the metrics are being computed
@@ -832,7 +871,7 @@ TEST(LiveWire, AForkHasTheSameMetricsAndASeedOfItsOwn) {
     LiveWire late = live->fork();
     late.seed({99});
     ASSERT_TRUE(live->wait());
-    live->set_metric(MetricFamily::kEuclidean, {});
+    live->set_metrics(live_metrics(MetricFamily::kEuclidean, {}));
     ASSERT_TRUE(late.wait());
     ASSERT_TRUE(live->wait());
     expect_equal(early.wires({700}), fresh_wires(surface, options, {50}, {700}));
@@ -845,7 +884,7 @@ TEST(LiveWire, AForkHasTheSameMetricsAndASeedOfItsOwn) {
 
 TEST(LiveWire, AForkGoesOnWithWhatItsOriginLeftUndone) {
   const auto surface = shared(shapes::torus(100, 80));
-  for (const LiveWireOptions& options : {LiveWireOptions{}, kAlongEdges}) {
+  for (const LiveWireOptions& options : {kPlain, kAlongEdges}) {
     auto live = std::make_optional<LiveWire>(surface, options);
     LiveWire fork = live->fork();
     fork.seed({3});
@@ -867,7 +906,7 @@ TEST(LiveWire, TellsWhatBecameOfItsEmbeddings) {
   const shapes::Mesh mesh = shapes::torus(24, 40);
   const auto surface = std::make_shared<const Surface>(mesh.points, mesh.triangles);
   const Strength strength{.parameter = {}, .max_anisotropy = 1000};
-  LiveWire live(surface, {.strength = strength});
+  LiveWire live(surface, in(MetricFamily::kFeature, strength));
   live.seed({0, -1});
   ASSERT_TRUE(live.wait());
   const Curvature curvature = principal_curvatures(*surface);
@@ -877,7 +916,7 @@ TEST(LiveWire, TellsWhatBecameOfItsEmbeddings) {
     const Embedding embedding =
         embed(*surface, feature_metric(*surface, curvature, follow, strength), {.max_faces_added = 200'000});
     clamped += embedding.clamped_edges;
-    const auto told = live.embeddings()[static_cast<std::size_t>(follow == Follow::kMax)];
+    const auto told = live.embeddings()[follow == Follow::kMin ? 1 : 2];
     ASSERT_TRUE(told);
     EXPECT_EQ(told->invalid_left, embedding.invalid_left);
     EXPECT_EQ(told->hit_cap, embedding.hit_cap);
@@ -885,13 +924,13 @@ TEST(LiveWire, TellsWhatBecameOfItsEmbeddings) {
     EXPECT_EQ(told->worst_clamp, embedding.worst_clamp);
   }
   EXPECT_GT(clamped, 0U);
-  const LiveWire along_edges = live.sibling({.along = Along::kEdges});
+  const LiveWire along_edges = live.sibling(kAlongEdges);
   EXPECT_FALSE(along_edges.embeddings()[0] || along_edges.embeddings()[1]);
 }
 
 TEST(LiveWire, RunsOnAlongBothKinds) {
   const auto surface = std::make_shared<const Surface>(shapes::quad_cylinder(12, 6, 0.5, 1.0).surface());
-  for (const LiveWireOptions& options : {LiveWireOptions{}, kAlongEdges}) {
+  for (const LiveWireOptions& options : {kPlain, kAlongEdges}) {
     const LiveWire live(surface, options);
     ASSERT_TRUE(live.wait());
     const EdgeChain up = live.extend_straight({0, 12}, {});
@@ -924,7 +963,8 @@ TEST(LiveWire, RefusesWhatIsNotPartOfTheSurface) {
 TEST(LiveWire, TakesAnAnisotropyBeyondAllSense) {
   const auto surface = shared(shapes::bumpy(shapes::torus(20, 10), 0.05));
   for (const Along along : {Along::kSurface, Along::kEdges}) {
-    const LiveWires wires = fresh_wires(surface, {.along = along, .strength = {.max_anisotropy = 1e100}}, {0}, {100});
+    const LiveWires wires =
+        fresh_wires(surface, in(MetricFamily::kFeature, {.max_anisotropy = 1e100}, along), {0}, {100});
     for (const LiveCandidate& wire : wires.wires) {
       EXPECT_TRUE(wire.final);
       EXPECT_TRUE(std::isfinite(wire.length) && wire.length > 0) << wire.length;
@@ -935,31 +975,32 @@ TEST(LiveWire, TakesAnAnisotropyBeyondAllSense) {
 
 TEST(LiveWire, RefusesWrongOptions) {
   const auto surface = shared(shapes::grid(4));
-  EXPECT_THROW(LiveWire(surface, {.strength = {}}), InvalidInput);
-  EXPECT_THROW(LiveWire(surface, {.strength = {.parameter = -1}}), InvalidInput);
-  EXPECT_THROW(LiveWire(surface, {.family = MetricFamily::kCampen, .strength = {.parameter = 0.5}}), InvalidInput);
-  LiveWire live(surface);
-  EXPECT_THROW(live.set_metric(MetricFamily::kFeature, {}), InvalidInput);
-  EXPECT_THROW(live.set_metric(MetricFamily::kCampen, {.max_anisotropy = 0.5}), InvalidInput);
-  EXPECT_THROW(LiveWire(surface, {.strength = {.parameter = 1, .max_anisotropy = 2}}), InvalidInput);
+  EXPECT_THROW(LiveWire(surface, in(MetricFamily::kFeature, {})), InvalidInput);
+  EXPECT_THROW(LiveWire(surface, in(MetricFamily::kFeature, {.parameter = -1})), InvalidInput);
+  EXPECT_THROW(LiveWire(surface, in(MetricFamily::kCampen, {.parameter = 0.5})), InvalidInput);
+  LiveWire live(surface, kPlain);
+  EXPECT_THROW(live.set_metrics(live_metrics(MetricFamily::kFeature, {})), InvalidInput);
+  EXPECT_THROW(live.set_metrics(live_metrics(MetricFamily::kCampen, {.max_anisotropy = 0.5})), InvalidInput);
+  EXPECT_THROW(LiveWire(surface, in(MetricFamily::kFeature, {.parameter = 1, .max_anisotropy = 2})), InvalidInput);
   EXPECT_THROW(LiveWire(surface, {.turning = -1}), InvalidInput);
   EXPECT_THROW(LiveWire(surface, {.loop_turning = std::numeric_limits<double>::quiet_NaN()}), InvalidInput);
 }
 
 TEST(LiveWire, WhatFailsOnAThreadIsThrownToTheCaller) {
-  LiveWire live(shared(shapes::torus(16, 12)), {.strength = {.parameter = 1e308}});  // eigenvalues overflow
+  LiveWire live(shared(shapes::torus(16, 12)),
+                in(MetricFamily::kFeature, {.parameter = 1e307}));  // eigenvalues overflow
   EXPECT_THROW(live.wait(), InvalidInput);
   live.seed({0});
   EXPECT_THROW(live.wait(), InvalidInput);
   EXPECT_THROW(live.wires({1}), InvalidInput);
   EXPECT_THROW(live.fork().wait(), InvalidInput);
-  live.set_metric(MetricFamily::kFeature, {.parameter = 0.1});
+  live.set_metrics(live_metrics(MetricFamily::kFeature, {.parameter = 0.1}));
   EXPECT_TRUE(live.wait()) << "a metric that can be computed mends it";
   EXPECT_TRUE(live.wires({1}).final());
 }
 
 /// A live wire that builds the mesh's surface itself.
-LiveWire live_on(const shapes::Mesh& mesh, const LiveWireOptions& options = {}) {
+LiveWire live_on(const shapes::Mesh& mesh, const LiveWireOptions& options = kPlain) {
   return {mesh.points, mesh.triangles, std::nullopt, options};
 }
 
@@ -972,7 +1013,7 @@ const shapes::Mesh& slow_mesh() {
 TEST(LiveWireBuildingItsSurface, GivesTheWiresOfOneOnThatSurface) {
   const shapes::Mesh mesh = shapes::bumpy(shapes::torus(40, 24), 0.02);
   const auto surface = shared(mesh);
-  for (const LiveWireOptions& options : {LiveWireOptions{}, kAlongEdges}) {
+  for (const LiveWireOptions& options : {kPlain, kAlongEdges}) {
     LiveWire live = live_on(mesh, options);
     live.seed({7});  // asked for before it is there, most likely
     ASSERT_TRUE(live.wait());
@@ -1006,8 +1047,8 @@ TEST(LiveWireBuildingItsSurface, SaysUntilItIsThereThatNothingIsFinal) {
   const bool was_idle = live.wait(0);
   if (live.surface()) GTEST_SKIP() << "this thread was kept away for so long that the surface is there";
   EXPECT_FALSE(wires.wires[0].final || wires.wires[1].final);
-  EXPECT_EQ(wires.wires[0].follow, Follow::kMin);
-  EXPECT_EQ(wires.wires[1].follow, Follow::kMax);
+  EXPECT_EQ(wires.wires[0].metric.kind(), MetricKind::kMin);
+  EXPECT_EQ(wires.wires[1].metric.kind(), MetricKind::kMax);
   for (const LiveCandidate& wire : wires.wires) EXPECT_TRUE(wire.points.empty() && wire.vertices.empty());
   EXPECT_FALSE(loop.final);
   EXPECT_TRUE(loop.vertices.empty() && on.vertices.empty() && strip.vertices.empty());
@@ -1030,7 +1071,7 @@ TEST(LiveWireBuildingItsSurface, DoesThenWhatItWasAskedForBefore) {
   const auto ask = [&](LiveWire& live) {
     live.seed({3});
     live.seed({7, 8}, true);
-    live.set_metric(MetricFamily::kCampen, {.max_anisotropy = 5});
+    live.set_metrics(live_metrics(MetricFamily::kCampen, {.max_anisotropy = 5}));
     live.set_scribbles({scribble});
   };
   LiveWire live = live_on(mesh, kAlongEdges), on_surface(surface, kAlongEdges);
@@ -1043,8 +1084,8 @@ TEST(LiveWireBuildingItsSurface, DoesThenWhatItWasAskedForBefore) {
 
 TEST(LiveWireBuildingItsSurface, IsSharedByForksAndSiblingsAndBuiltOnce) {
   auto live = std::make_optional<LiveWire>(live_on(shapes::torus(100, 80), kAlongEdges));
-  LiveWire fork = live->fork(), across = live->sibling({.family = MetricFamily::kEuclidean, .strength = {}});
-  EXPECT_THROW(live->sibling({.strength = {}}), InvalidInput);
+  LiveWire fork = live->fork(), across = live->sibling(in(MetricFamily::kEuclidean, {}));
+  EXPECT_THROW(live->sibling(in(MetricFamily::kFeature, {})), InvalidInput);
   fork.seed({3});
   across.seed({5});
   ASSERT_TRUE(across.wait_for_surface());
@@ -1056,8 +1097,7 @@ TEST(LiveWireBuildingItsSurface, IsSharedByForksAndSiblingsAndBuiltOnce) {
   EXPECT_EQ(across.feature_strength(), fork.feature_strength()) << "and so are the curvatures";
   const auto surface = fork.surface();
   expect_equal(fork.wires({99}), fresh_wires(surface, kAlongEdges, {3}, {99}));
-  expect_equal(across.wires({99}),
-               fresh_wires(surface, {.family = MetricFamily::kEuclidean, .strength = {}}, {5}, {99}));
+  expect_equal(across.wires({99}), fresh_wires(surface, in(MetricFamily::kEuclidean, {}), {5}, {99}));
 }
 
 TEST(LiveWireBuildingItsSurface, AForkBuildsItWhereItsOriginIsGone) {
@@ -1114,7 +1154,7 @@ TEST(LiveWireBuildingItsSurface, AnEdgeThatTurnsOutToBeNoneIsRefused) {
     EXPECT_STREQ(error.what(), "the surface has no edge between the vertices 0 and 777");
   }
   EXPECT_THROW(live.loop({0, 777}), InvalidInput);
-  live.set_metric(MetricFamily::kEuclidean, {});
+  live.set_metrics(live_metrics(MetricFamily::kEuclidean, {}));
   EXPECT_THROW(live.wires({1}), InvalidInput) << "still";
   live.seed({0, 1});
   ASSERT_TRUE(live.wait());
@@ -1127,7 +1167,7 @@ TEST(LiveWireBuildingItsSurface, RefusesAtOnceWhatCanBeToldWithoutIt) {
   for (const Pick pick : {Pick{-1}, Pick{200'000}, Pick{0, 1}}) EXPECT_THROW(across.seed(pick), InvalidInput);
   EXPECT_THROW(along.seed({200'000}), InvalidInput);
   EXPECT_THROW(across.loop({0, 1}), InvalidInput);
-  EXPECT_THROW(live_on(slow_mesh(), {.strength = {}}), InvalidInput);
+  EXPECT_THROW(live_on(slow_mesh(), in(MetricFamily::kFeature, {})), InvalidInput);
 }
 
 TEST(LiveWireBuildingItsSurface, EveryCallThrowsWhyItCannotBeBuilt) {
@@ -1160,7 +1200,7 @@ TEST(LiveWireBuildingItsSurface, EveryCallThrowsWhyItCannotBeBuilt) {
     expect_thrown([&] { live.surface(); });
     expect_thrown([&] { live.fork(); });
     expect_thrown([&] { live.sibling({}); });
-    expect_thrown([&] { live.set_metric(MetricFamily::kEuclidean, {}); });
+    expect_thrown([&] { live.set_metrics(live_metrics(MetricFamily::kEuclidean, {})); });
     expect_thrown([&] { live.set_scribbles({}); });
     expect_thrown([&] { live.seed({0}); });
     expect_thrown([&] { live.wires({0}); });

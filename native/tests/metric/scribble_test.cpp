@@ -384,15 +384,15 @@ TEST(Scribble, ActsOnTheMetricsItIsMeantFor) {
   const Surface surface = shapes::grid(20).surface();
   const Metric flat = flat_metric(surface);
   Scribble scribble = stroke_on_plane(surface, line(Vector(0.2, 0.51, 0), Vector(0.8, 0.51, 0), 40));
-  scribble.meant_for = Follow::kMin;
+  scribble.meant_for = MetricKind::kMin;
   const Metric changed = apply_scribbles(surface, flat, {{scribble}});
   EXPECT_NE(changed.tensors, flat.tensors);
-  EXPECT_EQ(apply_scribbles(surface, flat, {{scribble}}, Follow::kMin).tensors, changed.tensors);
-  EXPECT_EQ(apply_scribbles(surface, flat, {{scribble}}, Follow::kMax).tensors, flat.tensors);
-  EXPECT_EQ(apply_scribbles(surface, flat, {{scribble}}, Follow::kConcave).tensors, flat.tensors);
+  EXPECT_EQ(apply_scribbles(surface, flat, {{scribble}}, MetricKind::kMin).tensors, changed.tensors);
+  EXPECT_EQ(apply_scribbles(surface, flat, {{scribble}}, MetricKind::kMax).tensors, flat.tensors);
+  EXPECT_EQ(apply_scribbles(surface, flat, {{scribble}}, MetricKind::kConcave).tensors, flat.tensors);
   scribble.meant_for = std::nullopt;
-  for (const Follow follow : {Follow::kMin, Follow::kMax, Follow::kConcave}) {
-    EXPECT_EQ(apply_scribbles(surface, flat, {{scribble}}, follow).tensors, changed.tensors);
+  for (const MetricKind kind : {MetricKind::kMin, MetricKind::kMax, MetricKind::kConcave}) {
+    EXPECT_EQ(apply_scribbles(surface, flat, {{scribble}}, kind).tensors, changed.tensors);
   }
 }
 

@@ -12,6 +12,7 @@
 
 #include "seamwire/metric/metric.hpp"
 #include "shapes.hpp"
+#include "unowned.hpp"
 
 namespace seamwire {
 namespace {
@@ -29,7 +30,7 @@ struct Cut {
         field(geodesics.solve(from)),
         cuts(closed_wires(surface, embedding, field)) {}
 
-  BentWires bent() const { return {surface, embedding, geodesics, field, cuts.at(0)}; }
+  BentWires bent() const { return {unowned(surface), unowned(embedding), geodesics, field, cuts.at(0)}; }
   const Vector& point(std::int32_t vertex) const { return surface.points()[vertex]; }
 
   Surface surface;
@@ -159,15 +160,21 @@ TEST(BentWires, NoneLeadsToAnotherPartOfTheSurface) {
 
 TEST(BentWires, WhatIsOfSomethingElseIsRefused) {
   const Cut cut(shapes::cylinder(kAround, 30), kAround * 15);
-  EXPECT_THROW(BentWires(cut.surface, cut.embedding, cut.geodesics, cut.field, ClosedWire{}), InvalidInput);
+  EXPECT_THROW(BentWires(unowned(cut.surface), unowned(cut.embedding), cut.geodesics, cut.field, ClosedWire{}),
+               InvalidInput);
   const DistanceField two = cut.geodesics.solve(std::vector{SurfacePoint::at_vertex(0), SurfacePoint::at_vertex(5)});
-  EXPECT_THROW(BentWires(cut.surface, cut.embedding, cut.geodesics, two, cut.cuts[0]), InvalidInput);
+  EXPECT_THROW(BentWires(unowned(cut.surface), unowned(cut.embedding), cut.geodesics, two, cut.cuts[0]), InvalidInput);
   const Cut beside(shapes::cylinder(kAround, 30), kAround * 16), finer(shapes::cylinder(kAround, 31), kAround * 15);
-  EXPECT_THROW(BentWires(cut.surface, cut.embedding, cut.geodesics, cut.field, beside.cuts[0]), InvalidInput);
-  EXPECT_THROW(BentWires(cut.surface, cut.embedding, cut.geodesics, cut.field, finer.cuts[0]), InvalidInput);
-  EXPECT_THROW(BentWires(cut.surface, cut.embedding, finer.geodesics, cut.field, cut.cuts[0]), InvalidInput);
-  EXPECT_THROW(BentWires(cut.surface, cut.embedding, cut.geodesics, finer.field, cut.cuts[0]), InvalidInput);
-  EXPECT_THROW(BentWires(cut.surface, finer.embedding, finer.geodesics, finer.field, finer.cuts[0]), InvalidInput);
+  EXPECT_THROW(BentWires(unowned(cut.surface), unowned(cut.embedding), cut.geodesics, cut.field, beside.cuts[0]),
+               InvalidInput);
+  EXPECT_THROW(BentWires(unowned(cut.surface), unowned(cut.embedding), cut.geodesics, cut.field, finer.cuts[0]),
+               InvalidInput);
+  EXPECT_THROW(BentWires(unowned(cut.surface), unowned(cut.embedding), finer.geodesics, cut.field, cut.cuts[0]),
+               InvalidInput);
+  EXPECT_THROW(BentWires(unowned(cut.surface), unowned(cut.embedding), cut.geodesics, finer.field, cut.cuts[0]),
+               InvalidInput);
+  EXPECT_THROW(BentWires(unowned(cut.surface), unowned(finer.embedding), finer.geodesics, finer.field, finer.cuts[0]),
+               InvalidInput);
   EXPECT_THROW(closed_wires(cut.surface, finer.embedding, finer.field), InvalidInput);
   EXPECT_THROW(closed_wires(cut.surface, cut.embedding, finer.field), InvalidInput);
   EXPECT_THROW(cut.bent().through(SurfacePoint::at_vertex(100'000)), InvalidInput);
@@ -183,7 +190,8 @@ TEST(BentWires, TheyCanBeStopped) {
   const Cut cut(shapes::torus(60, 30), 0);
   for (const double until : {0.0, 0.15}) {
     const Task task{.stop = {}, .progress = [until](double fraction) { return fraction < until; }};
-    EXPECT_THROW(BentWires(cut.surface, cut.embedding, cut.geodesics, cut.field, cut.cuts[0], task), Cancelled);
+    EXPECT_THROW(BentWires(unowned(cut.surface), unowned(cut.embedding), cut.geodesics, cut.field, cut.cuts[0], task),
+                 Cancelled);
   }
 }
 

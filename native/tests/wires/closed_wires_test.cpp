@@ -223,7 +223,7 @@ TEST(ClosedWires, OfSeveralMetricsTheBestOfEachComeFirst) {
   const double apart = 0.03 * kTau;
   const std::vector<std::vector<ClosedWire>> metrics = {
       {ring(1, 0), ring(1, 1), ring(1, 2)}, {ring(1, 3), ring(1, 4)}, {}, {ring(1, 5)}};
-  using Choices = std::vector<ClosedWireChoice>;
+  using Choices = std::vector<ClosedCutId>;
   EXPECT_EQ(choose_closed_wires(metrics), (Choices{{0, 0}, {1, 0}, {3, 0}}));
   EXPECT_EQ(choose_closed_wires(metrics, 9), (Choices{{0, 0}, {1, 0}, {3, 0}, {0, 1}, {0, 2}, {1, 1}}));
   EXPECT_EQ(choose_closed_wires(metrics, 0), Choices{});

@@ -15,6 +15,7 @@
 #include "embeddings.hpp"
 #include "seamwire/wires/wire.hpp"
 #include "shapes.hpp"
+#include "unowned.hpp"
 
 namespace seamwire {
 namespace {
@@ -61,7 +62,7 @@ TEST(EmbeddedPoints, ArePointsOfTheSameFaceAtTheSamePlace) {
   for (const Refined& on : {Refined(shapes::grid(6, 0.2)), Refined(shapes::icosphere(2)), Refined(far),
                             Refined(shapes::torus(12, 8), 200)}) {
     ASSERT_GT(on.embedding.faces_added, on.surface.face_count() / 4);
-    const EmbeddedPoints points(on.surface, on.embedding);
+    const EmbeddedPoints points(unowned(on.surface), unowned(on.embedding));
     double size = 0;
     for (const Vector& p : on.mesh.points) size = std::max(size, p.norm());
     for (const SurfacePoint& point : random_points(on.surface)) {
@@ -76,7 +77,7 @@ TEST(EmbeddedPoints, ArePointsOfTheSameFaceAtTheSamePlace) {
 
 TEST(EmbeddedPoints, OnEdgesStayOnEdges) {
   for (const Refined& on : {Refined(shapes::grid(6, 0.2)), Refined(shapes::icosphere(2))}) {
-    const EmbeddedPoints points(on.surface, on.embedding);
+    const EmbeddedPoints points(unowned(on.surface), unowned(on.embedding));
     for (const SurfacePoint& point : random_points(on.surface)) {
       const bool is_on_edge = std::ranges::count(point.barycentric, 0.0) > 0;
       if (!is_on_edge) continue;
@@ -88,7 +89,7 @@ TEST(EmbeddedPoints, OnEdgesStayOnEdges) {
 
 TEST(EmbeddedPoints, VerticesKeepTheirNumbers) {
   const Refined on(shapes::grid(4, 0.2));
-  const EmbeddedPoints points(on.surface, on.embedding);
+  const EmbeddedPoints points(unowned(on.surface), unowned(on.embedding));
   EXPECT_EQ(points.find(SurfacePoint::at_vertex(7)), SurfacePoint::at_vertex(7));
   for (std::int32_t f = 0; at(f) < on.surface.face_count(); ++f) {
     EXPECT_EQ(points.find({.face = f, .barycentric = {0, 1, 0}}),
@@ -98,7 +99,7 @@ TEST(EmbeddedPoints, VerticesKeepTheirNumbers) {
 
 TEST(EmbeddedPoints, WiresEndWhereOneClicks) {
   const Refined on(shapes::icosphere(2));
-  const EmbeddedPoints points(on.surface, on.embedding);
+  const EmbeddedPoints points(unowned(on.surface), unowned(on.embedding));
   const std::vector<SurfacePoint> clicks = random_points(on.surface);
   const ExactGeodesics geodesics(on.embedding.mesh);
   const DistanceField field = geodesics.solve(std::array{*points.find(clicks[0])});
@@ -121,14 +122,14 @@ TEST(EmbeddedPoints, HolesHaveNone) {
   const Surface surface = mesh.surface();
   const Embedding embedding = embed(surface, embeddings::identity_metric(surface));
   ASSERT_EQ(embedding.invalid_left, 1U);
-  const EmbeddedPoints points(surface, embedding);
+  const EmbeddedPoints points(unowned(surface), unowned(embedding));
   EXPECT_TRUE(points.find({.face = 0, .barycentric = {0.2, 0.3, 0.5}}));
   EXPECT_FALSE(points.find({.face = 1, .barycentric = {0.2, 0.3, 0.5}}));
 }
 
 TEST(EmbeddedPoints, WhatIsNoPointIsRefused) {
   const Refined on(shapes::grid(3));
-  const EmbeddedPoints points(on.surface, on.embedding);
+  const EmbeddedPoints points(unowned(on.surface), unowned(on.embedding));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const SurfacePoint& wrong :
        {SurfacePoint{.face = 18, .barycentric = {1, 0, 0}}, SurfacePoint{.face = 0, .barycentric = {0.5, 0.6, -0.1}},
@@ -137,7 +138,7 @@ TEST(EmbeddedPoints, WhatIsNoPointIsRefused) {
     EXPECT_THROW(points.find(wrong), InvalidInput);
   }
   const Surface other = shapes::grid(2).surface();
-  EXPECT_THROW(EmbeddedPoints(other, on.embedding), InvalidInput);
+  EXPECT_THROW(EmbeddedPoints(unowned(other), unowned(on.embedding)), InvalidInput);
 }
 
 }  // namespace

@@ -31,14 +31,14 @@ class EdgeGraph;
 /// `adjacency`: that of the surface if it has been made already. Throws InvalidInput where metric or adjacency are of
 /// another surface, and what apply_scribbles() throws for scribbles; Cancelled.
 ///
-/// `scribbles`: those that `metric` has been through; `follow` as in apply_scribbles(). Tensors alone lead no chain
+/// `scribbles`: those that `metric` has been through; `kind` as in apply_scribbles(). Tensors alone lead no chain
 /// along a stroke that runs askew to the edges, since each edge is then partly across the stroke, which is long in the
 /// metric. So the edges that stay nearest to a stroke that attracts get the length that the stroke itself has, their
 /// Euclidean length / sqrt(eta), and turning from one of them to the next costs nothing. A later stroke that repels
 /// undoes this on the edges it runs along.
 std::shared_ptr<const EdgeGraph> make_edge_graph(const Surface& surface, const Metric& metric,
                                                  std::shared_ptr<const EdgeAdjacency> adjacency = nullptr,
-                                                 const Task& task = {}, std::span<const Scribble> scribbles = {},
-                                                 std::optional<Follow> follow = std::nullopt);
+                                                 std::span<const Scribble> scribbles = {},
+                                                 std::optional<MetricKind> kind = std::nullopt, const Task& task = {});
 
 }  // namespace seamwire

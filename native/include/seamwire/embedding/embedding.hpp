@@ -35,6 +35,9 @@ struct EmbedOptions {
   /// (Embedding::mean_edge_length) to refine a part of the surface, or the surface in a changed metric, in the same
   /// way. 0: the mean length of an edge of the faces to embed.
   double mean_edge_length = 0.0;
+
+  /// Member by member.
+  friend bool operator==(const EmbedOptions&, const EmbedOptions&) = default;
 };
 
 /// How well the triangles of an embedding resolve the metric. Within a triangle, the embedding's metric is the constant
@@ -84,13 +87,13 @@ struct Embedding {
 ///
 /// Bisects invalid triangles, which fail the triangle inequality, at the midpoint of their longest edge in the metric.
 /// The largest perimeter comes first, until none is left. Lengths are those of the ambient reading of the norm
-/// (metric.hpp). All faces at an edge are bisected together, also where there are three or more, or where they cannot
-/// be oriented alike.
+/// (metric.hpp). All faces at an edge are bisected together, also where there are three or more, or where they cannot be
+/// oriented alike.
 ///
 /// If that takes more than four times the surface's triangles, and 20 000, or the cap, it begins anew with schemes that
-/// end: longest-edge propagation, newest-vertex bisection deep below a face, and length repair. Length repair bisects
-/// an invalid triangle once more and gives its new edges lengths that make the parts valid. The result has at most one
-/// and a half times the triangles of the first scheme if that ends (docs/method.md, Section 4).
+/// end: longest-edge propagation, newest-vertex bisection deep below a face, and length repair. Length repair bisects an
+/// invalid triangle once more and gives its new edges lengths that make the parts valid. The result has at most one and
+/// a half times the triangles of the first scheme if that ends (docs/method.md, Section 4).
 ///
 /// With a `max_error`, longest-edge propagation also bisects valid triangles that do not resolve the metric, and edges
 /// are measured with their middles. If the cap does not allow all triangles to become valid, the schemes above follow.
@@ -114,10 +117,10 @@ Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions
 /// the metrics, vertex by vertex.
 ///
 /// If `old` is not local, or the normals of the metrics differ, this is embed(). An embedding is not local if it has
-/// holes, a `max_error`, only some faces, or the work of another scheme than the first, or if the surface has
-/// degenerate faces or is not manifold and oriented. Sizes are compared with the mean edge length of `old` unless the
-/// options give one, so a stroke does not change what `max_error` means elsewhere. `old` must be of the same surface,
-/// the metric `former` and the same options. Throws InvalidInput if it cannot be, and what embed() throws.
+/// holes, a `max_error`, only some faces, or the work of another scheme than the first, or if the surface has degenerate
+/// faces or is not manifold and oriented. Sizes are compared with the mean edge length of `old` unless the options give
+/// one, so a stroke does not change what `max_error` means elsewhere. `old` must be of the same surface, the metric
+/// `former` and the same options. Throws InvalidInput if it cannot be, and what embed() throws.
 Embedding re_embed(const Surface& surface, const Metric& former, const Metric& metric, Embedding old,
                    const EmbedOptions& options = {}, const Task& task = {});
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -30,6 +31,12 @@ struct IntrinsicPath {
   double length = std::numeric_limits<double>::infinity();  ///< sum of the segments' lengths
 };
 
+/// What the work of a solve consisted of; the same for the same input on every machine.
+struct GeodesicCounters {
+  std::size_t lists = 0;    ///< window lists propagated
+  std::size_t windows = 0;  ///< windows propagated
+};
+
 /// Distances from a seed, or from the nearest of several sources, to every point of an IntrinsicMesh, with what it
 /// takes to trace the paths; exact, or from a bounded number of windows (ExactGeodesics makes both). Immutable; copies
 /// share the data.
@@ -38,11 +45,14 @@ class DistanceField {
   std::int32_t seed() const;  ///< the vertex that distances are from; -1: several, or a point that is none
   /// What distances are from, as given.
   const std::vector<SurfacePoint>& sources() const;
-  bool is_exact() const;  ///< or from a bounded number of windows
+  bool is_exact() const;                     ///< or from a bounded number of windows
+  const GeodesicCounters& counters() const;  ///< the work that it took
   /// Distances beyond it are given as infinite: that at which the solve stopped, or infinity.
   double radius() const;
   /// Whether the field may be one over a mesh, as far as the numbers of vertices and triangles tell.
   bool fits(const IntrinsicMesh& mesh) const;
+  /// Stands for the mesh: the same for all fields of one ExactGeodesics and its copies, and for no other field.
+  std::weak_ptr<const void> mesh() const;
   /// One a vertex; infinite where no path leads. Where the field is not exact they may be too long or too short.
   const std::vector<double>& distances() const;
 

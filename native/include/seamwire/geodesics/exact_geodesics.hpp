@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -18,12 +17,6 @@ namespace seamwire {
 namespace detail {
 class GeodesicMesh;  // the solver's own form of the mesh
 }
-
-/// What the work of a solve consisted of; the same for the same input on every machine.
-struct GeodesicCounters {
-  std::size_t lists = 0;    ///< window lists propagated
-  std::size_t windows = 0;  ///< windows propagated
-};
 
 /// What a solve is for: it may stop when it knows that much. The front looks back by no more than the mesh's longest
 /// edge, so what it saves is less where that is long.
@@ -50,25 +43,24 @@ class ExactGeodesics {
   ExactGeodesics(const ExactGeodesics& former, const IntrinsicMesh& former_mesh, const IntrinsicMesh& mesh,
                  const Task& task = {});
   /// Throws InvalidInput for a seed out of range; Cancelled.
-  DistanceField solve(std::int32_t seed, const Task& task = {}, GeodesicCounters* counters = nullptr) const;
+  DistanceField solve(std::int32_t seed, const Task& task = {}) const;
 
   /// Distances from the nearest of one or several sources, each any point of the mesh. Throws InvalidInput for no
   /// source, for sources and targets as DistanceField::distance() does, and for a max_distance that is negative or not
   /// a number; Cancelled.
-  DistanceField solve(std::span<const SurfacePoint> sources, const SolveOptions& options = {}, const Task& task = {},
-                      GeodesicCounters* counters = nullptr) const;
+  DistanceField solve(std::span<const SurfacePoint> sources, const SolveOptions& options = {},
+                      const Task& task = {}) const;
 
   /// The same as from a seed, with at most `windows` > 0 windows of a list going on: those around the shortest way to
   /// the apex, stretched over what the others covered. The more windows, the longer it takes and the nearer it comes
   /// (docs/benchmarks.md).
-  DistanceField solve_bounded(std::int32_t seed, std::uint32_t windows, const Task& task = {},
-                              GeodesicCounters* counters = nullptr) const;
+  DistanceField solve_bounded(std::int32_t seed, std::uint32_t windows, const Task& task = {}) const;
 
  private:
   friend class CorridorPaths;
 
   DistanceField run(std::span<const SurfacePoint> sources, const SolveOptions& options, std::uint32_t windows,
-                    const Task& task, GeodesicCounters* counters) const;
+                    const Task& task) const;
 
   std::shared_ptr<const detail::GeodesicMesh> mesh_;
 };

@@ -10,62 +10,76 @@
 #include <span>
 #include <vector>
 
+#include "seamwire/context/along.hpp"
+#include "seamwire/context/metric_spec.hpp"
+#include "seamwire/context/surface_context.hpp"
 #include "seamwire/edges/edge_loop.hpp"
 #include "seamwire/edges/edge_wires.hpp"
 #include "seamwire/edges/fit_chain.hpp"
-#include "seamwire/metric/metric.hpp"
 #include "seamwire/metric/scribble.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/surface/surface_point.hpp"
-#include "seamwire/wires/snap.hpp"
-#include "seamwire/wires/wire.hpp"
+#include "seamwire/wires/closed_wires.hpp"
 
 namespace seamwire {
 
-/// Where wires run: across the surface, as exact geodesics, or along its real edges.
-enum class Along { kSurface, kEdges };
+/// The metrics of live wires.
+struct LiveMetrics {
+  /// One wire is computed for each, at least one. The wire of the first metric is offered first; if some metrics are
+  /// counterparts of the first one (is_counterpart()), the shortest wire of these.
+  std::vector<MetricSpec> wires;
+  /// The numbers in `wires` of the metrics whose closed cuts are offered, at least one, those of the first one first.
+  std::vector<std::size_t> cuts = {0};
 
-/// Which of the metrics of metric.hpp wires are short in: a wire in M_min and one in M_max of that name. kFeature,
-/// across the surface: a third one in concave_metric(), on curvatures smoothed over 0.01. kConcave: the first wire in
-/// that metric, the second one in the Euclidean metric. kEuclidean: one wire, in that metric.
-enum class MetricFamily { kFeature, kCampen, kPottmannKovacs, kConcave, kEuclidean };
-/// What concave_metric() takes a max_anisotropy A for, a strength of (A - 1) / (kConcaveUnit - 1), and, beside
-/// kFeature, a gamma: gamma / kConcaveGamma; so that one setting serves all wires.
-inline constexpr double kConcaveUnit = 20.0, kConcaveGamma = 0.1;
+  /// Member by member.
+  friend bool operator==(const LiveMetrics&, const LiveMetrics&) = default;
+};
+
+/// The metrics of a family as an artist is offered their wires. kFeature: M_min and M_max, and across the surface the
+/// concave metric before them. kCampen, kPottmannKovacs: M_min and M_max. kConcave: that metric, and the Euclidean one,
+/// whose closed cuts help out where nothing is concave. kEuclidean: that metric; it ignores the strength. Throws
+/// InvalidInput for a strength that is not as metric.hpp says.
+LiveMetrics live_metrics(MetricFamily family, const Strength& strength, Along along = Along::kSurface);
 
 /// How live wires run.
 struct LiveWireOptions {
-  Along along = Along::kSurface;                 ///< where
-  MetricFamily family = MetricFamily::kFeature;  ///< in which metric
-  Strength strength = {.parameter = 0.1};        ///< of that metric; the Euclidean one has none
-  double turning = 3.0;                          ///< q of edge_wires()
+  Along along = Along::kSurface;                                                          ///< where
+  LiveMetrics metrics = live_metrics(MetricFamily::kFeature, {.parameter = 0.1}, along);  ///< in which metrics
+  double turning = 3.0;                                                                   ///< q of edge_wires()
   /// q of shortest_cycle(). nullopt: 20, and a quarter of the root of the number of edges where that is more. A circle
   /// around one quad costs four turns, 4 q edges, so with a fixed q a ring of a dense mesh, which may have as many
   /// edges as that root, would be dearer.
   std::optional<double> loop_turning = std::nullopt;
+  /// The mean relative error of a wire's length to aim for, in [0, 1], across the surface. A wire becomes final once
+  /// the faces around it resolve the metric that well (EmbedOptions::max_error) and it is the shortest there. 0: a wire
+  /// is final in the embedding of Section 4.1.
+  double max_error = 0.01;
 };
 
 /// One of the wires from the seed to a target. `vertices` are the ends of the edges that would be marked: along
 /// edges the wire itself, across the surface the chain it snaps to. Where the wire begins or ends within a face, the
 /// chain does so at the corner of the face that has the largest barycentric coordinate.
 struct LiveCandidate {
-  Follow follow = Follow::kMin;                             ///< whose metric it is the shortest in
+  MetricSpec metric;                                        ///< that it is short in
   std::vector<Vector> points;                               ///< in the caller's coordinates; empty: no such wire
   std::vector<std::int32_t> faces;                          ///< per segment, across the surface only
   std::vector<std::int32_t> vertices;                       ///< the chain of edges, as said above
   double length = std::numeric_limits<double>::infinity();  ///< in its metric, of the model scaled to the unit cube
-  bool final = false;  ///< false: still being computed; what is here, if anything, will be replaced
+  bool solved = false;  ///< it is the shortest in the embedding of the whole surface, or along edges; or it is final
+  bool final = false;   ///< false: still being computed; what is here, if anything, will be replaced
 };
 
 /// The wires to a target.
 struct LiveWires {
-  std::vector<LiveCandidate> wires;  ///< one for each metric, in the order of Follow
-  /// The one to be offered first: that of the concave metric, unless it turns out not to reach the target; where there
-  /// is none the one shorter in its own metric (Section 5).
+  std::vector<LiveCandidate> wires;  ///< one for each metric, in the order of LiveMetrics::wires
+  /// The number of the wire to be offered first, see LiveMetrics. If that wire turns out not to reach the target, it is
+  /// the shortest of all wires.
   int active = 0;
   bool settled = false;  ///< whether `active` is final, and stays the active one whatever the others will be
   /// Whether all are.
   bool final() const { return std::ranges::all_of(wires, &LiveCandidate::final); }
+  /// Whether all are solved: what follows a moving cursor need not wait for more.
+  bool solved() const { return std::ranges::all_of(wires, &LiveCandidate::solved); }
 };
 
 /// A closed chain of edges.
@@ -86,7 +100,7 @@ struct LiveClosedWire {
   bool separates = true;  ///< as ClosedWire has it
   double turn = 0.0;      ///< as ClosedWire has it; of one that was bent what it was before
   double length = std::numeric_limits<double>::infinity();  ///< in its metric, of the model scaled to the unit cube
-  std::size_t which = 0;  ///< what bent_wire() calls it; of one that is not final it may become another
+  ClosedCutId id;  ///< for bent_wire(); it may change until the answer is final
 };
 
 /// What closed_wires() finds.
@@ -104,17 +118,21 @@ struct LiveEmbedding {
   double worst_clamp = 1.0;       ///< by that factor at most, 1 or more
 };
 
-/// The metrics of one family for a surface, each computed on a thread of its own; seed, then a wire in each to any
-/// target (Section 5). Where there are fewer processors than metrics, the last ones wait until the work on the leading
-/// one is done. All members may be called from one thread at a time, surface() and wait_for_surface() from
-/// others meanwhile; none but wait() and wait_for_surface() waits for the computation.
+/// Some metrics of a surface, each prepared on a thread of its own; seed, then a wire in each to any target (Section
+/// 5). Where there are fewer processors than metrics, the last ones wait until the work on the leading one is done.
+///
+/// Any number of threads may call the members at once, except that nobody may use an object while it is moved or
+/// destroyed. Only wait() and wait_for_surface() wait for the computation. Metrics, strokes and seed are those that
+/// were set last.
 ///
 /// Where the surface is still being built, the members keep what they are given and answer that nothing is there yet
 /// and nothing final; an edge that turns out not to be part of the surface is refused at a later call. Where it cannot
 /// be built, each member throws what the constructor of Surface threw.
 class LiveWire {
  public:
-  /// Throws InvalidInput for options that are not as said above and in metric.hpp, and where there is no surface.
+  /// Throws InvalidInput for options that are not as said above and in metric.hpp.
+  explicit LiveWire(const SurfaceContext& context, const LiveWireOptions& options = {});
+  /// On a context of its own. Throws InvalidInput, too, if there is no surface.
   explicit LiveWire(std::shared_ptr<const Surface> surface, const LiveWireOptions& options = {});
   /// Builds the surface on its own threads, from the arguments of Surface's constructor, and returns at once.
   LiveWire(std::vector<Vector> points, std::vector<Triangle> triangles,
@@ -123,22 +141,24 @@ class LiveWire {
   LiveWire& operator=(LiveWire&& other) noexcept;  ///< stops the work that was running
   ~LiveWire();                                     ///< stops the running work
 
-  /// Another one with the same metrics, those still being computed too, and no seed. A later set_metric() of either
-  /// does not change the other.
+  /// Another one with the same metrics, those still being computed too, and no seed. A later set_metrics() of
+  /// either does not change the other.
   LiveWire fork() const;
   /// Another one on the same surface, which is built once, with the curvatures and whatever else does not depend on the
   /// options. It has metrics of its own, no strokes and no seed. Throws InvalidInput as the constructors do.
   LiveWire sibling(const LiveWireOptions& options) const;
 
+  /// The surface with all that depends on it alone.
+  const SurfaceContext& context() const;
   /// Null until it is built.
   std::shared_ptr<const Surface> surface() const;
   /// Waits until the surface is built, at most `seconds`; whether it is.
   bool wait_for_surface(double seconds = std::numeric_limits<double>::infinity()) const;
 
-  /// Changes the metric in the background, and then seeds again: until then wires are those of the former metric, and
-  /// not final. Throws InvalidInput where the strength is not as said in metric.hpp.
-  void set_metric(MetricFamily family, const Strength& strength);
-  /// The strokes that change the metric from here on, instead of those before; as set_metric(). What apply_scribbles()
+  /// Changes the metrics in the background, and then seeds again: until then wires are those of the former metrics, and
+  /// not final. What is prepared of a metric that stays is kept. Throws InvalidInput as the constructors do.
+  void set_metrics(const LiveMetrics& metrics);
+  /// The strokes that change the metric from here on, instead of those before; as set_metrics(). What apply_scribbles()
   /// throws for them comes out of the calls that ask for results.
   void set_scribbles(std::vector<Scribble> scribbles);
 
@@ -149,10 +169,11 @@ class LiveWire {
   /// Starts the wires from any point of the surface, across the surface only. Throws InvalidInput where the point is
   /// none. Where the metric's embedding has a hole, or the face no area, no wire begins.
   void seed_at(const SurfacePoint& point);
-  /// The wires from the seed to a target now, as far as they are computed: along edges those near the seed are final
-  /// first; across the surface a path that may be a little longer than the shortest one is computed for the target
-  /// asked for last, and is there at one of the next calls for it. Throws InvalidInput for a target that is not part of
-  /// the surface or where there is no seed that is.
+  /// The wires from the seed to a target now, as far as they are computed. Along edges, wires near the seed are final
+  /// first. Across the surface, work goes on for the target that was asked for last: later calls for it give a path
+  /// that may be a little longer than the shortest one, then the shortest one in the embedding, then that of the faces
+  /// around it as LiveWireOptions::max_error says, which is final. Throws InvalidInput for a target that is not part of
+  /// the surface, and if there is no seed that is. Until all wires are final, progress() is below 1.
   LiveWires wires(const Pick& target) const;
   /// To any point of the surface, across the surface only.
   LiveWires wires_to(const SurfacePoint& target) const;
@@ -160,16 +181,15 @@ class LiveWire {
   /// The closed chain through an edge, the cheapest of the metrics'; along edges only. The first call for an edge
   /// starts the search, in place of that for another edge; ask again until the answer is final. A seed goes first.
   LiveLoop loop(const Edge& edge);
-  /// The closed cuts through a point, at most three, in M_min, or what the metric's family has in its place; across the
-  /// surface only. In the family kConcave the second one is the best in the Euclidean metric, unless it is like the
-  /// first one (choose_closed_wires()). Of M_min's thread; asked for as loop(). Those of the first metric are there
-  /// before, and on a large surface what a bounded number of windows tells of them, not final. Throws InvalidInput
-  /// where the point is none.
+  /// The closed cuts through a point, at most three, in the metrics of LiveMetrics::cuts (choose_closed_wires());
+  /// across the surface only. The thread of the first of these metrics finds them; asked for as loop(). Those of the
+  /// first metric are there before, and on a large surface what a bounded number of windows tells of them, not final.
+  /// Throws InvalidInput where the point is none.
   LiveClosedWires closed_wires(const SurfacePoint& through);
-  /// Of the closed cuts through a point the one with that `which`, bent to a second point (BentWires) in the metric
-  /// that it is of; none where there is none, or none leads there. Asked for as the others, and never there before it
-  /// is final.
-  LiveClosedWires bent_wire(const SurfacePoint& through, const SurfacePoint& second, std::size_t which = 0);
+  /// One of the closed cuts through a point, by its LiveClosedWire::id, bent to a second point (BentWires) in its
+  /// metric; none if there is no such cut, or it does not lead there. Asked for as the others, and never there before
+  /// it is final.
+  LiveClosedWires bent_wire(const SurfacePoint& through, const SurfacePoint& second, const ClosedCutId& cut = {});
   /// seamwire::extend_straight(), with the way's length in the unit cube; no vertices where it cannot be told yet.
   EdgeChain extend_straight(const Edge& edge, std::span<const std::int32_t> stops) const;
   /// seamwire::edge_loop(); no vertices where it cannot be told yet.
@@ -183,7 +203,8 @@ class LiveWire {
   /// One for each metric, in the order of the wires: across the surface, as far as they are prepared; along edges none.
   std::vector<std::optional<LiveEmbedding>> embeddings() const;
 
-  /// Fraction of the preparation and the seed's work that is done, 0 until the surface is there, 1 when all is.
+  /// Fraction of the preparation and the seed's work that is done: 0 until the surface is there, 1 when all is, the
+  /// wires to the newest target included.
   double progress() const;
   /// Waits for all running work, loops too, at most `seconds`; whether it is done.
   bool wait(double seconds = std::numeric_limits<double>::infinity()) const;

@@ -24,9 +24,9 @@ struct Metric {
   std::size_t size() const { return tensors.size(); }
 };
 
-/// What paths shall follow: the principal direction of the minimal curvature (M_min: along ridges and valleys), that of
-/// the maximal (M_max), or concave creases, which have a metric of their own, concave_metric().
-enum class Follow { kMin, kMax, kConcave };
+/// The principal direction that paths follow: that of the minimal curvature (M_min: along ridges and valleys), or that
+/// of the maximal one (M_max).
+enum class Follow { kMin, kMax };
 
 /// How strong a metric is: by its own parameter, or such that its maximum anisotropy, sup sqrt(l1 / l2), is the one
 /// given. Exactly one of the two is set. Both must be finite; parameter >= 0 (Campen: >= 1), max_anisotropy >= 1; else
@@ -37,13 +37,16 @@ struct Strength {
   /// s above this percentile (0 < p <= 100) of its values counts as that value, so that single noisy vertices do not
   /// decide.
   std::optional<double> clamp_percentile = std::nullopt;
+
+  /// Member by member.
+  friend bool operator==(const Strength&, const Strength&) = default;
 };
 
 /// Throws InvalidInput where a strength is not as said there; `smallest_parameter`: 1 for Campen.
 void check_strength(const Strength& strength, double smallest_parameter = 0.0);
 
-/// Each of the first three throws InvalidInput for Follow::kConcave, curvatures of another size or that are not finite,
-/// a strength that is not as said above or too strong for them; Cancelled.
+/// Each of the metrics throws InvalidInput for curvatures of another size or that are not finite, and for a strength
+/// that is not as said above or too strong for them; Cancelled.
 ///
 /// Eq. 5, the paper's metric: l1 = 1 + gamma s, l2 = 1 / l1. Parameter: gamma; max_anisotropy A means gamma =
 /// (A - 1) / max s, or 0 where max s is but rounding (planes, spheres).

@@ -12,22 +12,26 @@
 
 namespace seamwire {
 
+/// What the paths of a metric follow: the direction of least curvature, that of most curvature, concave creases
+/// (concave_metric()), or nothing (euclidean_metric()).
+enum class MetricKind { kMin, kMax, kConcave, kEuclidean };
+
 /// A stroke drawn on a surface: wires near it run as it does (Section 5 of the paper).
 struct Scribble {
   /// In the caller's coordinates, in drawing order; the first again at the end: closed. Each lies in the triangle of
   /// `faces` or at the vertex of `vertices` (the caller's numbers, one a point; where one is -1, or all are left out,
   /// the other counts).
   std::vector<Vector> points;
-  std::vector<std::int32_t> faces;                 ///< per point, or none at all
-  std::vector<std::int32_t> vertices;              ///< per point, or none at all
-  double eta = 20;                                 ///< the eigenvalues along the stroke are eta and 1 / eta; >= 1
-  int rings = 10;                                  ///< k: from the k-th ring of vertices around it on nothing changes
-  std::optional<double> radius = std::nullopt;     ///< instead of `rings`: from this distance on, caller's units
-  bool attracts = true;                            ///< false: crossing becomes short, and following long
-  std::optional<Follow> meant_for = std::nullopt;  ///< one metric only; none: it acts on all
+  std::vector<std::int32_t> faces;              ///< per point, or none at all
+  std::vector<std::int32_t> vertices;           ///< per point, or none at all
+  double eta = 20;                              ///< the eigenvalues along the stroke are eta and 1 / eta; >= 1
+  int rings = 10;                               ///< k: from the k-th ring of vertices around it on nothing changes
+  std::optional<double> radius = std::nullopt;  ///< instead of `rings`: from this distance on, caller's units
+  bool attracts = true;                         ///< false: crossing becomes short, and following long
+  std::optional<MetricKind> meant_for = std::nullopt;  ///< metrics of one kind only; nullopt: all metrics
 
-  /// Whether it changes one of the metrics.
-  bool acts_on(Follow follow) const { return !meant_for || *meant_for == follow; }
+  /// Whether it changes metrics of a kind.
+  bool acts_on(MetricKind kind) const { return !meant_for || *meant_for == kind; }
   /// Member by member.
   friend bool operator==(const Scribble&, const Scribble&) = default;
 };
@@ -42,14 +46,13 @@ struct Scribble {
 /// Points further apart than a triangle are joined along the vertices nearest to the straight line between them; where
 /// none lead there (another component, the far side of a hole) the stroke has a gap. A stroke that crosses itself takes
 /// at each vertex the direction of its nearest part, of equal ones the later. A stroke without movement has no
-/// direction and changes nothing, and vertices without a normal are left as they are. `follow`: takes only the
-/// scribbles meant for that metric. (The paper changes the metric of the active wire; a scribble is meant for all
-/// unless it says otherwise.)
+/// direction and changes nothing, and vertices without a normal are left as they are. `kind`: that of the metric; takes
+/// only the scribbles meant for it. nullopt: takes all. (The paper changes the metric of the active wire.)
 ///
 /// Throws InvalidInput, naming scribble and point, for a point that is not finite, without a face or vertex, with one
 /// out of range, or off the mesh: further from its face or vertex than a twentieth of the model's longest side; for
 /// lists that differ in length, eta, rings or a radius that is out of range, and a metric of another size; Cancelled.
 Metric apply_scribbles(const Surface& surface, const Metric& metric, std::span<const Scribble> scribbles,
-                       std::optional<Follow> follow = std::nullopt, const Task& task = {});
+                       std::optional<MetricKind> kind = std::nullopt, const Task& task = {});
 
 }  // namespace seamwire

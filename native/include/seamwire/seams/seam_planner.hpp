@@ -9,8 +9,10 @@
 #include <optional>
 #include <vector>
 
+#include "seamwire/context/along.hpp"
+#include "seamwire/context/surface_context.hpp"
 #include "seamwire/flatten/measure_map.hpp"
-#include "seamwire/live/livewire.hpp"
+#include "seamwire/metric/metric.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/task.hpp"
 
@@ -84,6 +86,8 @@ struct SeamPlan {
 class SeamPlanner {
  public:
   /// Measures the surface, on several threads. Throws InvalidInput for options that are not as described; Cancelled.
+  explicit SeamPlanner(const SurfaceContext& context, const SeamPlannerOptions& options = {}, const Task& task = {});
+  /// Measures a surface in a context of its own.
   explicit SeamPlanner(std::shared_ptr<const Surface> surface, const SeamPlannerOptions& options = {},
                        const Task& task = {});
 

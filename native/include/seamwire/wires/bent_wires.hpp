@@ -27,12 +27,11 @@ struct BentWire {
 /// All of it depends on the cut alone, so that it is bent to one point after the other in the time of two traces.
 class BentWires {
  public:
-  /// From a cut that closed_wires() found with the same arguments; `geodesics` is of the embedding's mesh. Surface and
-  /// embedding have to outlive it. Throws InvalidInput where the field has several sources, and where the cut does not
-  /// lead through its seed. Throws it, too, where sizes show that embedding, geodesics or field do not belong together;
-  /// Cancelled.
-  BentWires(const Surface& surface, const Embedding& embedding, const ExactGeodesics& geodesics,
-            const DistanceField& field, const ClosedWire& cut, const Task& task = {});
+  /// From a cut that closed_wires() found with the same arguments; `geodesics` is of the embedding's mesh. Throws
+  /// InvalidInput where the field has several sources, and where the cut does not lead through its seed. Throws it,
+  /// too, where sizes show that embedding, geodesics or field do not belong together; Cancelled.
+  BentWires(std::shared_ptr<const Surface> surface, std::shared_ptr<const Embedding> embedding,
+            const ExactGeodesics& geodesics, const DistanceField& field, const ClosedWire& cut, const Task& task = {});
   ~BentWires();
   BentWires(BentWires&&) noexcept;             ///< leaves one that may only be destroyed
   BentWires& operator=(BentWires&&) noexcept;  ///< as moving

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -16,7 +17,8 @@ struct ClosedWire {
   bool separates = true;  ///< false: the surface stays in one piece, the loop runs around or through a handle, or once
                           ///< around a one-sided surface, or faces at a non-manifold edge connect its sides
   double turn = 0.0;  ///< at the seed, in radians: 0 where the loop goes smoothly through it, pi where it turns back
-  std::int32_t half_edge = -1;  ///< of the embedding: the edge at whose ends the two wires end
+  std::int32_t half_edge = -1;          ///< of the embedding: the edge at whose ends the two wires end
+  std::weak_ptr<const void> mesh = {};  ///< DistanceField::mesh() of its field
 };
 
 /// The closed cuts through the seed of a field over `embedding` that the surface suggests, at most `count`, best first;
@@ -38,17 +40,16 @@ std::vector<ClosedWire> closed_wires(const Surface& surface, const Embedding& em
                                      std::size_t count = 3, const Task& task = {});
 
 /// One of the closed cuts through a point in several metrics.
-struct ClosedWireChoice {
-  std::size_t metric;  ///< the metric's number
-  std::size_t number;  ///< the cut's among those of the metric
+struct ClosedCutId {
+  std::size_t metric = 0;  ///< the metric's number
+  std::size_t number = 0;  ///< the cut's among those of the metric
 
-  bool operator==(const ClosedWireChoice&) const = default;  ///< whether both are the same
+  bool operator==(const ClosedCutId&) const = default;  ///< whether both are the same
 };
 
 /// What to offer, at most `count`, of the closed cuts that closed_wires() found through one point in several metrics:
 /// the best in each metric, in their order, then the others, first those of the first metric. One that is like an
 /// earlier one, on average within 3 % of its length of it, is left out. Throws InvalidInput for a cut without points.
-std::vector<ClosedWireChoice> choose_closed_wires(std::span<const std::vector<ClosedWire>> metrics,
-                                                  std::size_t count = 3);
+std::vector<ClosedCutId> choose_closed_wires(std::span<const std::vector<ClosedWire>> metrics, std::size_t count = 3);
 
 }  // namespace seamwire

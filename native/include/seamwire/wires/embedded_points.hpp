@@ -12,13 +12,13 @@
 
 namespace seamwire {
 
-/// Finds points of the caller's faces on an embedding of the surface, whose triangles are parts of them. Surface and
-/// embedding have to outlive it; several threads may ask at once.
+/// Finds points of the caller's faces on an embedding of the surface, whose triangles are parts of them. Several
+/// threads may ask at once.
 class EmbeddedPoints {
  public:
   /// Takes time proportional to the embedding. Throws InvalidInput where the embedding is not one of the surface, as
   /// far as its faces tell.
-  EmbeddedPoints(const Surface& surface, const Embedding& embedding);
+  EmbeddedPoints(std::shared_ptr<const Surface> surface, std::shared_ptr<const Embedding> embedding);
   ~EmbeddedPoints();
   EmbeddedPoints(EmbeddedPoints&&) noexcept;             ///< leaves one that may only be destroyed
   EmbeddedPoints& operator=(EmbeddedPoints&&) noexcept;  ///< as moving

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "context/embedded_surface.hpp"
+#include "detail/computed_once.hpp"
+#include "detail/thread_safety.hpp"
+#include "seamwire/context/surface_context.hpp"
+
+namespace seamwire {
+
+struct SurfaceContext::Data {
+  /// The arguments of Surface's constructor.
+  struct Input {
+    std::vector<Vector> points;
+    std::vector<Triangle> triangles;
+    std::optional<std::vector<Edge>> edges;
+  };
+  struct Curvatures {
+    Curvature curvature;
+    std::vector<double> difference;
+  };
+
+  Data(std::size_t vertices, std::size_t faces) : vertex_count(vertices), face_count(faces) {}
+
+  std::shared_ptr<const Curvatures> curvatures(const SurfaceContext& context, const Task& task);
+
+  const std::size_t vertex_count, face_count;
+  std::optional<Input> input;  // until the surface is built; only the thread that builds it looks at it
+  detail::ComputedOnce<std::shared_ptr<const Surface>> surface;
+  detail::ComputedOnce<Curvatures> made_curvatures;
+  detail::ComputedOnce<Curvature> smoothed_curvature;
+  detail::ComputedOnce<std::shared_ptr<const EdgeAdjacency>> edge_adjacency;
+  detail::ComputedOnce<SnapGraph> snap_graph;
+
+  detail::Mutex mutex;
+  std::vector<std::weak_ptr<EmbeddedSurface::Data>> embedded SEAMWIRE_GUARDED_BY(mutex);  // of specs
+};
+
+}  // namespace seamwire

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Who calls Task::progress, and what becomes of an exception that it throws.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "detail/run_on_threads.hpp"
+#include "seamwire/context/embedded_surface.hpp"
+#include "seamwire/context/surface_context.hpp"
+#include "seamwire/edges/edge_graph.hpp"
+#include "seamwire/edges/edge_wires.hpp"
+#include "seamwire/flatten/flatten.hpp"
+#include "seamwire/seams/seam_planner.hpp"
+#include "shapes.hpp"
+
+namespace seamwire {
+namespace {
+
+using Work = std::pair<std::string, std::function<void(const Task&)>>;
+
+/// Functions of each room, those that work on several threads among them.
+std::vector<Work> all_work() {
+  const shapes::Mesh mesh = shapes::torus(60, 40);
+  const auto surface = std::make_shared<const Surface>(mesh.points, mesh.triangles);
+  const SurfaceContext context(surface);
+  const auto metric = std::make_shared<const Metric>(make_metric(context, MetricSpec::concave()));
+  const EmbeddedSurface embedded(context, metric);
+  return {
+      {"Surface", [=](const Task& task) { Surface(mesh.points, mesh.triangles, std::nullopt, task); }},
+      {"SurfaceContext",
+       [=](const Task& task) { SurfaceContext(mesh.points, mesh.triangles).smoothed_curvature(task); }},
+      {"make_metric", [=](const Task& task) { make_metric(context, MetricSpec::concave(), task); }},
+      {"EmbeddedSurface", [=](const Task& task) { EmbeddedSurface(context, metric, {}, task); }},
+      {"its field", [=](const Task& task) { embedded.field(0, task); }},
+      {"its closed wires", [=](const Task& task) { embedded.field(0).closed_wires(3, task); }},
+      {"EdgeWires", [=](const Task& task) { edge_wires(make_edge_graph(*surface, *metric), {0}, 3.0, false, task); }},
+      {"flatten", [=](const Task& task) { flatten(*surface, {}, {}, task); }},
+      {"SeamPlanner", [=](const Task& task) { SeamPlanner(context, {}, task); }},
+      {"its plan", [=](const Task& task) { SeamPlanner(context).plan({.distortion = 6.0, .steps = 5}, {}, task); }},
+      {"run_on_threads", [](const Task& task) {
+         const auto wait = [](std::size_t, const Task& own) {
+           for (int i = 0; i < 500 && !own.stop.stop_requested(); ++i) {
+             std::this_thread::sleep_for(std::chrono::milliseconds(1));
+           }
+         };
+         detail::run_on_threads(
+             8, task, [](std::size_t done) { return static_cast<double>(done) / 8; }, wait);
+       }}};
+}
+
+TEST(Progress, IsReportedOnTheThreadThatCalls) {
+  for (const auto& [name, work] : all_work()) {
+    SCOPED_TRACE(name);
+    const std::thread::id caller = std::this_thread::get_id();
+    int calls = 0;
+    work({.stop = {}, .progress = [&](double fraction) {
+            EXPECT_EQ(std::this_thread::get_id(), caller);
+            EXPECT_TRUE(fraction >= 0.0 && fraction <= 1.0) << fraction;
+            ++calls;
+            return true;
+          }});
+    EXPECT_GT(calls, 0);
+  }
+}
+
+TEST(Progress, WhatItThrowsComesOutOfTheFunction) {
+  for (const auto& [name, work] : all_work()) {
+    SCOPED_TRACE(name);
+    int calls = 0;
+    const Task task{.stop = {}, .progress = [&](double) -> bool {
+                      ++calls;
+                      throw std::logic_error("enough");
+                    }};
+    EXPECT_THROW(work(task), std::logic_error);
+    EXPECT_EQ(calls, 1) << "it went on";
+  }
+}
+
+}  // namespace
+}  // namespace seamwire
