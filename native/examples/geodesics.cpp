@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The snippets of docs/library/geodesics.md.
+#include <cstdio>
+#include <utility>
+#include <vector>
+
+#include "mesh.hpp"
+#include "seamwire/context/embedded_surface.hpp"
+#include "seamwire/geodesics/corridor_paths.hpp"
+
+using namespace seamwire;
+
+int main() {
+  auto [points, triangles] = sheet();
+  const SurfaceContext context(std::move(points), std::move(triangles));
+  const EmbeddedSurface embedded(context, MetricSpec::feature(Follow::kMin, {.max_anisotropy = 20.0}));
+  const std::int32_t start = 10 * 101 + 44, end = 140 * 101 + 56;
+  //! [field]
+  const EmbeddedField field = embedded.field(start);
+  const Wire wire = field.wire(end);
+  std::printf("length %g, %zu points\n", wire.length, wire.points.size());
+  //! [field]
+
+  //! [points]
+  const SurfacePoint inside{.face = 15000, .barycentric = {0.2, 0.3, 0.5}};
+  std::printf("distance of a point in a face: %g\n", field.distance(inside));
+  const Wire to_it = field.wire(inside);
+  //! [points]
+  std::printf("its wire has the length %g\n", to_it.length);
+
+  //! [seeds]
+  const std::vector<SurfacePoint> seeds{SurfacePoint::at_vertex(start), inside};
+  const EmbeddedField nearest = embedded.field(seeds);
+  //! [seeds]
+  std::printf("distance from the nearest seed: %g\n", nearest.distance(SurfacePoint::at_vertex(end)));
+
+  //! [early]
+  const EmbeddedField near = embedded.field(seeds, {.targets = {SurfacePoint::at_vertex(start + 9)}});
+  const EmbeddedField limited = embedded.field(seeds, {.max_distance = 0.1, .targets = {}});
+  //! [early]
+  std::printf("complete up to %g and %g\n", near.distances().radius(), limited.distances().radius());
+
+  //! [bounded]
+  const EmbeddedField quick = embedded.bounded_field(start, 2);
+  std::printf("%s\n", quick.distances().is_exact() ? "exact" : "approximate");
+  //! [bounded]
+
+  //! [corridor]
+  CorridorPaths paths(embedded.geodesics(), start);  // needs no distance field
+  const IntrinsicPath path = paths.path(end);        // at least as long as the geodesic
+  //! [corridor]
+  std::printf("length of a path found at once: %g\n", path.length);
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The snippets of docs/library/maps.md.
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include "mesh.hpp"
+#include "seamwire/flatten/flatten.hpp"
+#include "seamwire/seams/seam_planner.hpp"
+
+using namespace seamwire;
+
+int main() {
+  const auto [points, triangles] = sheet();
+  const Surface surface(points, triangles);
+  //! [flatten]
+  std::vector<Edge> cuts;
+  for (int j = 0; j < 100; ++j) cuts.push_back({75 * 101 + j, 75 * 101 + j + 1});
+  const Flattening flat = flatten(surface, cuts);
+  std::printf("energy %g, %zu islands\n", flat.energy, flat.by_island.size());
+  //! [flatten]
+
+  //! [measure]
+  const MapReport report = measure_map(surface, flat.uvs, flat.islands);
+  std::printf("%zu flipped triangles, %zu overlapping islands\n", report.flipped.size(), report.overlapping.size());
+  //! [measure]
+
+  //! [plan]
+  const auto [ring, ring_triangles] = torus();
+  const SeamPlanner planner(std::make_shared<const Surface>(ring, ring_triangles),
+                            {.along = Along::kEdges, .front = Vector(0, 0, 1)});
+  const SeamPlan plan = planner.plan({.distortion = 4.5, .steps = 20});
+  std::printf("%zu wires, %zu islands, energy %g\n", plan.wires.size(), plan.island_count, plan.energy);
+  //! [plan]
+}

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The snippets of docs/library/wires.md.
+#include <cstdio>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "mesh.hpp"
+#include "seamwire/context/embedded_surface.hpp"
+#include "seamwire/wires/plane_section.hpp"
+#include "seamwire/wires/snap.hpp"
+
+using namespace seamwire;
+
+int main() {
+  auto [points, triangles] = sheet();
+  const SurfaceContext context(std::move(points), std::move(triangles));
+  const EmbeddedSurface embedded(context, MetricSpec::feature(Follow::kMin, {.max_anisotropy = 20.0}));
+  const std::int32_t start = 10 * 101 + 44, end = 140 * 101 + 56;
+  //! [snap]
+  const Wire wire = embedded.field(start).wire(end);
+  const std::vector<std::int32_t> chain = snap_to_edges(embedded.surface(), *context.snap_graph(), wire);
+  std::printf("%zu vertices from %d to %d\n", chain.size(), chain.front(), chain.back());
+  //! [snap]
+
+  //! [closed]
+  auto [ring, ring_triangles] = torus();
+  const EmbeddedSurface tube(SurfaceContext(ring, ring_triangles), MetricSpec::concave());
+  const EmbeddedField field = tube.field(0);
+  const std::vector<ClosedWire> cuts = field.closed_wires();
+  for (const ClosedWire& cut : cuts)
+    std::printf("%g long, %s\n", cut.wire.length, cut.separates ? "separates" : "around");
+  //! [closed]
+
+  //! [bent]
+  const BentWires bent = field.bend(cuts.front());
+  const std::optional<BentWire> through = bent.through(SurfacePoint::at_vertex(12));
+  //! [bent]
+  if (through) std::printf("%g there, %g back\n", through->there.length, through->back.length);
+
+  //! [section]
+  const PlaneSection section =
+      plane_section(embedded.surface(), SurfacePoint::at_vertex(start), SurfacePoint::at_vertex(end), Vector(0, 0, 1));
+  //! [section]
+  std::printf("a straight cut of length %g\n", section.length);
+}
