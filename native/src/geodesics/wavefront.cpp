@@ -25,6 +25,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <unordered_map>
 #include <utility>
@@ -92,7 +93,7 @@ class Wavefront {
       prefetch(next.data());
       expand_vertex(v);
       ++vertices_done_;
-      for (const std::int32_t h : next) prefetch(&mesh_.half_edge(h));
+      for (const std::int32_t h : next) mesh_.prefetch_half_edge(h);
       propagate_ready_lists();
     }
     if (may_stop) forget_beyond(std::min(result_.radius, end_.max_distance));
@@ -122,7 +123,7 @@ class Wavefront {
       is_any = false;
       for (std::size_t h = 0; h < mesh_.half_edge_count(); ++h) {
         check_task(1);
-        const HalfEdge& edge = mesh_.half_edge(static_cast<std::int32_t>(h));
+        const HalfEdge edge = mesh_.half_edge(static_cast<std::int32_t>(h));
         const double tail = distance(edge.tail), tip = distance(edge.tip);
         const bool is_tip_late = (tail + edge.length) * kLate < tip, is_tail_late = (tip + edge.length) * kLate < tail;
         if (!is_tip_late && !is_tail_late) [[likely]]
@@ -198,7 +199,7 @@ class Wavefront {
 
   /// Adds a window to the list of h.
   void add_window(std::int32_t h, double b0, double b1, const Point2& from, double distance, std::int32_t source) {
-    const HalfEdge& edge = mesh_.half_edge(h);
+    const HalfEdge edge = mesh_.half_edge(h);
     WindowList& list = lists_[h];
     list.reserve_back(1, blocks_).set(0, b0, b1, from.x, from.y, distance, source);
     list.grew_back(1);
@@ -234,7 +235,7 @@ class Wavefront {
     status_[v] = Status::kPassed;
     const auto leaving = mesh_.out(v);
     for (const std::int32_t h : leaving) {
-      const HalfEdge& edge = mesh_.half_edge(h);
+      const HalfEdge edge = mesh_.half_edge(h);
       if (status_[edge.tip] == Status::kUnreached) status_[edge.tip] = Status::kOnFront;
       if (status_[edge.apex] == Status::kUnreached) status_[edge.apex] = Status::kOnFront;
     }
@@ -254,7 +255,7 @@ class Wavefront {
       }
     }
   }
-  /// Opposite to a vertex that the front passes.
+  /// Lets the list of h go on if it waits and the apex of h is reached. The front passes a vertex opposite to h.
   void make_ready_beyond(std::int32_t h) {
     if (list_state_[h] != ListState::kWaiting) return;
     if (status_[mesh_.half_edge(h).apex] != Status::kUnreached) make_ready(h);
@@ -293,7 +294,7 @@ class Wavefront {
     const TraceRecord& record = result_.records[v];
     if (is_next_to_source(v, record)) return {-1, 0.0};
     if (record.half_edge >= 0) {
-      const HalfEdge& edge = mesh_.half_edge(record.half_edge);
+      const HalfEdge edge = mesh_.half_edge(record.half_edge);
       const double x = record.x - edge.apex_x, y = record.y - edge.apex_y;
       const double turn = std::atan2(edge.apex_y * x - edge.apex_x * y, -edge.apex_x * x - edge.apex_y * y);
       const std::int32_t corner = previous_in_face(record.half_edge);
@@ -301,13 +302,14 @@ class Wavefront {
     }
     if (record.half_edge == TraceRecord::kNone || record.half_edge == TraceRecord::kLooseEdge) return {-1, 0.0};
     const std::int32_t along = ~record.half_edge;
-    const HalfEdge& edge = mesh_.half_edge(along);
+    const HalfEdge edge = mesh_.half_edge(along);
     if (edge.tail == edge.tip) return {-1, 0.0};
     if (edge.tail == v) return {along, 0.0};
     return {next_in_face(along), mesh_.angle(next_in_face(along))};
   }
 
-  /// The same where umbrellas meet at edges with siblings: the angle is at least pi on every way around the vertex.
+  /// A shortest path that bends at v has an angle of at least pi on every way around v. Emits windows where that is so,
+  /// at a vertex whose umbrellas meet at edges with siblings.
   void emit_shadow_windows_branching(std::int32_t v, std::int32_t arrival, double angle) {
     for (const CornerAngles& corner : angles_around(mesh_, v, arrival, angle)) {
       const std::int32_t h = corner.half_edge;
@@ -355,7 +357,7 @@ class Wavefront {
   /// `end`, as angles from h.
   void emit_window(std::int32_t v, std::int32_t h, double begin, double end) {
     if (!(begin < end) || end <= 0 || begin >= mesh_.angle(h)) return;
-    const HalfEdge& edge = mesh_.half_edge(h);
+    const HalfEdge edge = mesh_.half_edge(h);
     const std::int32_t opposite = next_in_face(h);
     if (edge.right < 0 && mesh_.sibling(opposite) < 0) return;
     const double cosine = (edge.length - edge.apex_x) / edge.right_length;
@@ -390,7 +392,7 @@ class Wavefront {
     if (list_state_[h] != ListState::kWaiting) return;
     list_state_[h] = ListState::kReady;
     ready_lists_.push_back(h);
-    prefetch(&mesh_.half_edge(h));
+    mesh_.prefetch_half_edge(h);
     prefetch(&lists_[h]);
   }
   /// The list of h, from tail to tip, has got windows. It is ready to be propagated as soon as the front has passed an
@@ -468,27 +470,12 @@ class Wavefront {
   }
 
   /// Sorts a list in place, cuts windows back to where they are nearer than their neighbors, and drops those of which
-  /// nothing is left. Returns how many there still are. What is cut off is reached sooner by a path that exists,
-  /// whatever becomes of its window, so all pairs can be compared at once.
+  /// nothing is left. Returns how many there still are.
   std::size_t prune(const Windows& w, std::size_t size, double length) {
     const std::size_t count = list_overlapping_pairs(w, size);
     if (count == 0) return size;
     const std::size_t* lefts = lefts_.room_for(size);
-    const std::size_t stride = count + kPadding;
-    const Pairs pairs = Pairs::in(pairs_.room_for(Pairs::kColumns * stride), stride);
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t i = lefts[k], j = i + 1;
-      pairs.begin[k] = std::max(w.b0[i], w.b0[j]);
-      pairs.end[k] = std::min(w.b1[i], w.b1[j]);
-      pairs.left.set(k, w, i);
-      pairs.right.set(k, w, j);
-    }
-    kernels_.compare(pairs, count);
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t i = lefts[k], j = i + 1;
-      if (pairs.left_until[k] < pairs.end[k] && w.b1[i] <= pairs.end[k]) w.b1[i] = pairs.left_until[k];
-      if (pairs.right_from[k] > pairs.begin[k] && w.b0[j] >= pairs.begin[k]) w.b0[j] = pairs.right_from[k];
-    }
+    compare_pairs(w, count, [&](std::size_t k) { return std::pair(lefts[k], lefts[k] + 1); });
     const double narrow = kLeastWidth * length;
     const auto is_left_over = [&](std::size_t i) { return w.b1[i] - w.b0[i] > narrow; };
     bool are_all = true;
@@ -545,7 +532,7 @@ class Wavefront {
 
   /// Carries the list of h through the triangle it enters.
   void propagate(std::int32_t h) {
-    const HalfEdge& edge = mesh_.half_edge(h);
+    const HalfEdge edge = mesh_.half_edge(h);
     const WindowList list = std::exchange(lists_[h], {});
     if (edge.left >= 0) prefetch(&lists_[edge.left]);
     if (edge.right >= 0) prefetch(&lists_[edge.right]);
@@ -557,12 +544,69 @@ class Wavefront {
                       .windows = list.windows(),
                       .count = 0};
     crossing.count = prune(crossing.windows, list.size, edge.length);
+    if (mesh_.sibling(h) >= 0) crossing.count = prune_all(crossing.windows, crossing.count, edge.length);
     const ApexPath path = find_apex_path(crossing);
     if (windows_kept_ > 0 && crossing.count > windows_kept_) keep_around(path.window, crossing);
     relax(edge.apex, path.distance, path.record);
     cross_side<true>(crossing);
     cross_side<false>(crossing);
     blocks_.give_back(list.block);
+  }
+
+  /// Compares all pairs of windows, not neighbors alone. Windows multiply where they go on into several faces at each
+  /// edge: around needles there would be no end of them. Returns how many there still are.
+  std::size_t prune_all(const Windows& w, std::size_t size, double length) {
+    const double narrow = kLeastWidth * length;
+    const auto is_left_over = [&](std::size_t i) { return w.b1[i] - w.b0[i] > narrow; };
+    const auto distance_of_middle = [&](std::size_t i) {
+      const double x = (w.b0[i] + w.b1[i]) / 2 - w.x[i];
+      return w.distance[i] + std::sqrt(x * x + w.y[i] * w.y[i]);
+    };
+    nearest_first_.resize(size);
+    std::iota(nearest_first_.begin(), nearest_first_.end(), std::size_t{0});
+    std::ranges::sort(nearest_first_, {}, [&](std::size_t i) { return std::pair(distance_of_middle(i), i); });
+    kept_.clear();
+    for (const std::size_t i : nearest_first_) {
+      std::size_t* lefts = lefts_.room_for(2 * kept_.size());
+      std::size_t* rights = lefts + kept_.size();
+      std::size_t count = 0;
+      for (const std::size_t k : kept_) {
+        if (!(std::min(w.b1[i], w.b1[k]) - std::max(w.b0[i], w.b0[k]) > narrow)) continue;
+        const bool is_left = w.b0[i] + w.b1[i] < w.b0[k] + w.b1[k];
+        lefts[count] = is_left ? i : k;
+        rights[count++] = is_left ? k : i;
+      }
+      compare_pairs(w, count, [&](std::size_t k) { return std::pair(lefts[k], rights[k]); });
+      std::erase_if(kept_, [&](std::size_t k) { return !is_left_over(k); });
+      if (is_left_over(i)) kept_.push_back(i);
+    }
+    std::ranges::sort(kept_);
+    for (std::size_t k = 0; k < kept_.size(); ++k) {
+      const std::size_t i = kept_[k];
+      w.set(k, w.b0[i], w.b1[i], w.x[i], w.y[i], w.distance[i], w.source[i]);
+    }
+    return kept_.size();
+  }
+
+  /// Cuts the windows of pairs, the left and the right one, back to where they are nearer than the other. What is cut
+  /// off is reached sooner by a path that exists, whatever becomes of its window, so all pairs can be compared at once.
+  template <class PairAt>
+  void compare_pairs(const Windows& w, std::size_t count, const PairAt& pair_at) {
+    const std::size_t stride = count + kPadding;
+    const Pairs pairs = Pairs::in(pairs_.room_for(Pairs::kColumns * stride), stride);
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto [i, j] = pair_at(k);
+      pairs.begin[k] = std::max(w.b0[i], w.b0[j]);
+      pairs.end[k] = std::min(w.b1[i], w.b1[j]);
+      pairs.left.set(k, w, i);
+      pairs.right.set(k, w, j);
+    }
+    kernels_.compare(pairs, count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto [i, j] = pair_at(k);
+      if (pairs.left_until[k] < pairs.end[k] && w.b1[i] <= pairs.end[k]) w.b1[i] = pairs.left_until[k];
+      if (pairs.right_from[k] > pairs.begin[k] && w.b0[j] >= pairs.begin[k]) w.b0[j] = pairs.right_from[k];
+    }
   }
 
   /// Finds the apex projections, the shortest path to the apex, along a side or through a window, and the split.
@@ -713,6 +757,7 @@ class Wavefront {
   Scratch<double> projections_, apex_distances_, pairs_, children_;
   Scratch<std::int64_t> flags_;
   Scratch<std::size_t> lefts_;
+  std::vector<std::size_t> nearest_first_, kept_;
   std::unordered_map<std::uint64_t, std::int32_t> crossings_;  ///< by the half-edge left and the source
   std::size_t vertices_done_ = 0, work_ = 0;
 };

@@ -25,6 +25,9 @@ namespace {
 SEAMWIRE_INLINE double least(double a, double b) { return a < b ? a : b; }
 SEAMWIRE_INLINE double most(double a, double b) { return a > b ? a : b; }
 
+/// A root that misses its condition by less than this part of the squares in it may do so by rounding.
+constexpr double kMirrorImage = 1e-9;
+
 /// A number of entries in whole vectors of four.
 SEAMWIRE_INLINE std::size_t padded(std::size_t count) { return (count + 3) & ~std::size_t{3}; }
 
@@ -73,7 +76,17 @@ SEAMWIRE_INLINE void compare_all(const Pairs& pairs, std::size_t count) {
     const bool is_inside0 = (r0 >= 0) & (r0 <= width), is_inside1 = (r1 >= 0) & (r1 <= width);
     const double miss0 = gap < 0 ? p * r0 + q + gap2 : -(p * r0 + q);
     const double miss1 = gap < 0 ? p * r1 + q + gap2 : -(p * r1 + q);
-    const double border = (is_inside0 & (!is_inside1 | (miss0 <= miss1))) ? r0 : r1;
+    // Of two roots that meet it, one is a tie at an end of the interval.
+    const double rounding = kMirrorImage * (norm_i + norm_j);
+    const bool are_roots = (miss0 <= rounding) & (miss1 <= rounding);
+    const bool is_0_farther_in = least(r0, width - r0) >= least(r1, width - r1);
+    const bool is_0_better = (are_roots & is_0_farther_in) | (!are_roots & (miss0 <= miss1));
+    const bool is_0 = is_inside0 & (!is_inside1 | is_0_better);
+    const double inside = is_0 ? r0 : r1, miss = is_0 ? miss0 : miss1;
+    const double other = is_0 ? r1 : r0, other_miss = is_0 ? miss1 : miss0;
+    // With a tie at an end, rounding may put the root beyond that end, and the one inside is the mirror image's.
+    const bool is_mirror_image = (other_miss < miss) & (miss > rounding);
+    const double border = is_mirror_image ? most(0.0, least(other, width)) : inside;
     const bool crosses = (more0 < 0) & (more1 > 0) & (is_inside0 | is_inside1);
     pairs.left_until[k] = crosses ? begin + border : j_wins ? begin : pairs.end[k];
     pairs.right_from[k] = crosses ? begin + border : i_wins ? pairs.end[k] : begin;
