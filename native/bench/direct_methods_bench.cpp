@@ -140,9 +140,8 @@ void measure(const std::string& file, const Options& options) {
     for (const auto& [name, max_error] : {std::pair("ours", 0.0), std::pair("ours, 2 %", 0.02),
                                           std::pair("ours, 1 %", 0.01), std::pair("ours, 0.5 %", 0.005)}) {
       std::unique_ptr<ExactGeodesics> ours;
-      const double building = seconds([&] {
-        ours = std::make_unique<ExactGeodesics>(embed(surface, metric, {.max_error = max_error}).mesh);
-      });
+      const double building = seconds(
+          [&] { ours = std::make_unique<ExactGeodesics>(embed(surface, metric, {.max_error = max_error}).mesh); });
       row(name, building, [&](std::int32_t seed) { return ours->solve(seed).distances(); });
     }
   }

@@ -114,7 +114,8 @@ void bind_metric_spec(py::module_& module) {
       .def_property_readonly("max_anisotropy", [](const MetricSpec& spec) { return spec.strength.max_anisotropy; })
       .def_property_readonly("clamp_percentile", [](const MetricSpec& spec) { return spec.strength.clamp_percentile; })
       .def(
-          "__eq__", [](const MetricSpec& one, const MetricSpec& other) { return one == other; }, py::is_operator())
+          "__eq__", [](const MetricSpec& one, const MetricSpec& other) { return one == other; }, py::is_operator(),
+          py::arg("other"))
       .def("__hash__", [](const MetricSpec& spec) { return py::hash(py::str(text_of_spec(spec))); })
       .def("__repr__", &text_of_spec);
 }

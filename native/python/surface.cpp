@@ -47,10 +47,12 @@ std::string text_of_report(const ReportObject& object) {
 void bind_surface_report(py::module_& module) {
   py::class_<ReportObject, Held<ReportObject>>(
       module, "SurfaceReport", "Unusual parts of a surface's input. The surface works in spite of them.")
-      .def_property_readonly("nonmanifold_edges", elements(&SurfaceReport::nonmanifold_edges),
-                             "(k, 2) int32: edges with three or more faces. Wires cross them; curvature and islands end there.")
+      .def_property_readonly(
+          "nonmanifold_edges", elements(&SurfaceReport::nonmanifold_edges),
+          "(k, 2) int32: edges with three or more faces. Wires cross them; curvature and islands end there.")
       .def_property_readonly("unorientable_edges", elements(&SurfaceReport::unorientable_edges),
-                             "(k, 2) int32: edges whose faces cannot be oriented alike. Wires cross them; curvature and islands end there.")
+                             "(k, 2) int32: edges whose faces cannot be oriented alike. Wires cross them; curvature "
+                             "and islands end there.")
       .def_property_readonly("flipped_faces", elements(&SurfaceReport::flipped_faces),
                              "(k,) int32: faces that were turned over to agree with their neighbors.")
       .def_property_readonly("zero_area_faces", elements(&SurfaceReport::zero_area_faces),

@@ -27,16 +27,16 @@ tidy_check() {
     -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DSEAMWIRE_UNITY_BUILD=OFF -DSEAMWIRE_BENCHMARKS=ON -DSEAMWIRE_PYTHON=ON \
     -DPython_EXECUTABLE="$VENV/bin/python" -Dpybind11_DIR="$("$VENV/bin/python" -m pybind11 --cmakedir)" \
     >build/configure-tidy.log || { cat build/configure-tidy.log; return 1; }
-  tidy 'native/*.cpp' ':!native/tests' ':!native/python' ':!native/bench' || result=1
+  tidy 'native/*.cpp' ':!native/tests' ':!native/python' ':!native/bench' ':!native/examples' || result=1
   # Bytes there are numbers from NumPy, not characters; the module's own function uses the namespace of its parts.
   tidy_options=(--checks=-bugprone-signed-char-misuse,-google-build-using-namespace,-performance-unnecessary-value-param)
   tidy native/python/*.cpp || result=1
   # The analyzer takes two thirds of the time, a minute per test file, and the tests run under sanitizers.
   tidy_options=('--checks=-clang-analyzer-*')
-  tidy 'native/tests/*.cpp' ':!native/tests/install' || result=1
+  tidy 'native/tests/*.cpp' || result=1
   # In the benchmarks the analyzer complains about OpenMesh's and Google Benchmark's headers only. CGAL's peer is built without our flags.
   tidy_options=('--checks=-clang-analyzer-*,-google-build-using-namespace')
-  tidy native/bench/*.cpp ':!native/bench/cgal_bench.cpp' ':!native/bench/lengths_bench.cpp' || result=1
+  tidy native/bench/*.cpp 'native/examples/*.cpp' ':!native/bench/cgal_bench.cpp' ':!native/bench/lengths_bench.cpp' || result=1
   return $result
 }
 

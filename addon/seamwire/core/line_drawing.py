@@ -336,7 +336,8 @@ class SurfaceLine:
         found = self._live.wires(for_live(self._picks[number][0], "SURFACE"))
         if not found.final:
             return False
-        final = across(found.wires[wire.follow], wire.follow, self._picks[self._anchor][0], self._picks[number][0])
+        wires, _ = by_number(found)
+        final = across(wires[wire.follow], wire.follow, self._picks[self._anchor][0], self._picks[number][0])
         self._good = number, final or wire
         return True
 

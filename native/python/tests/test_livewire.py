@@ -375,10 +375,11 @@ def building(n: int = 300, **options: object) -> sw.LiveWire:
 
 def test_it_builds_the_surface_itself(surface: sw.Surface) -> None:
     for along in ("surface", "edges"):
-        live = sw.LiveWire(surface.points, surface.triangles, along=along)
-        fresh = sw.LiveWire(surface, along=along)
+        live = sw.LiveWire(surface.points, surface.triangles, along=along, max_error=0)
+        fresh = sw.LiveWire(surface, along=along, max_error=0)
         for one in (live, fresh):
             one.seed(3)
+            one.wires(500)
             assert one.wait()
         for got, expected in zip(live.wires(500).wires, fresh.wires(500).wires, strict=True):
             assert got.final
@@ -426,12 +427,14 @@ def test_both_ways_share_a_surface() -> None:
     across = live.sibling(along="surface", max_anisotropy=5)
     fork = live.fork()
     across.seed(3)
+    across.wires(900)
     assert across.wait()
     np.testing.assert_array_equal(across.surface.points, meshes.torus(60, 60)[0])
     assert live.wait()
     assert fork.wait()
     fresh = sw.LiveWire(live.surface, max_anisotropy=5)
     fresh.seed(3)
+    fresh.wires(900)
     assert fresh.wait()
     assert across.wires(900).wires[0].length == fresh.wires(900).wires[0].length
     with pytest.raises(ValueError, match="along"):
@@ -533,9 +536,7 @@ def test_what_can_be_told_without_a_surface_is_refused_at_once() -> None:
         live.wires(0)
 
 
-def test_across_the_surface_wires_are_final_once_they_are_refined(
-    surface: sw.Surface, curvature: sw.Curvature
-) -> None:
+def test_across_the_surface_wires_are_final_once_they_are_refined(surface: sw.Surface, curvature: sw.Curvature) -> None:
     live, plain = sw.LiveWire(surface, max_error=0.0005), sw.LiveWire(surface, max_error=0)
     for each in (live, plain):
         each.seed(3)

@@ -107,6 +107,9 @@ SurfacePoint EmbeddedSurface::locate(const SurfacePoint& point, const std::strin
   if (std::ranges::binary_search(embedding().hole_faces, point.face)) {
     throw InvalidInput(face + " is a hole of the embedding there");
   }
+  if (const auto& only = data_->options.faces; only && std::ranges::find(*only, point.face) == only->end()) {
+    throw InvalidInput(face + " is not among the faces that were embedded");
+  }
   throw InvalidInput(face + " has no area, so the embedding leaves it out: name a vertex or another face");
 }
 

@@ -24,7 +24,11 @@ constexpr double kGammaOfConcave = 0.1;
 
 std::span<const MetricFamilyInfo> metric_families() { return kFamilies; }
 
-const MetricFamilyInfo& info_of(MetricFamily family) { return kFamilies.at(static_cast<std::size_t>(family)); }
+const MetricFamilyInfo& info_of(MetricFamily family) {
+  const auto number = static_cast<std::size_t>(family);
+  if (number >= kFamilies.size()) throw InvalidInput("metric: there is no family " + std::to_string(number));
+  return kFamilies[number];
+}
 
 MetricFamily metric_family(std::string_view name) {
   const auto found = std::ranges::find(kFamilies, name, &MetricFamilyInfo::name);

@@ -8,6 +8,7 @@
 #include "detail/poll.hpp"
 #include "detail/prefetch.hpp"
 #include "embedding/degenerate_faces.hpp"
+#include "metric/tangent_frame.hpp"
 #include "surface/face_height.hpp"
 
 namespace seamwire::detail {
@@ -268,18 +269,36 @@ void BisectedMesh::set_node(std::int32_t fan) {
   nodes_[fan] = node_of(surface.points()[v], metric.normals[v], metric.tensors[v]);
 }
 
+Vector BisectedMesh::normal(std::int32_t v) const {
+  if (index(v) >= fans_) return tensors_[index(v) - fans_].normal;
+  const Vector& n = metric.normals[vertex_of_fan_[v]];
+  return !is_turned_.empty() && is_turned_[v] ? Vector(-n) : n;
+}
+
 TensorAt BisectedMesh::tensor_at(std::int32_t v) const {
   if (index(v) >= fans_) return tensors_[index(v) - fans_];
-  const std::size_t i = index(vertex_of_fan_[v]);
-  const bool is_turned = !is_turned_.empty() && is_turned_[v];
-  return {is_turned ? Vector(-metric.normals[i]) : metric.normals[i], metric.tensors[i]};
+  return {normal(v), metric.tensors[vertex_of_fan_[v]]};
+}
+
+// That of the mean of the forms at the edge's ends, each turned by the least rotation onto the middle's normal. Instead
+// of the form the edge is turned, the other way.
+double BisectedMesh::norm_in_middle(std::int32_t h, const Vector& e) const {
+  const std::pair<Vector, Vector> normals = end_normals(h);
+  const Vector &a = normals.first, &b = normals.second, sum = a + b;
+  const double length = sum.norm();
+  if (a.isZero(0) || b.isZero(0) || length * length < 2 * kOppositeNormals) return ambient_norm(midpoint(h), e);
+  const Vector n = sum / length;
+  const double out = e.dot(n), c = 1 + length / 2;  // 1 + a.n, and 1 + b.n
+  const auto turned = [&](const Vector& to) { return Vector(e - e.dot(n + to) / c * (n + to) + 2 * out * to); };
+  const double at_a = node(tail(h)).norm(turned(a)), at_b = node(tip(h)).norm(turned(b));
+  return std::sqrt((at_a * at_a + at_b * at_b) / 2);
 }
 
 double BisectedMesh::measure_with_middle(std::int32_t h) const {
   const MetricNode &a = node(tail(h)), &b = node(tip(h));
   const Vector e = (b.point - a.point) * surface.scale();
   const double at_a = a.norm(e), at_b = b.norm(e);
-  const double middle = ambient_norm(midpoint(h), e);
+  const double middle = norm_in_middle(h, e);
   const double halves = (integrated_length(at_a, middle) + integrated_length(middle, at_b)) / 2;
   return (4 * halves - integrated_length(at_a, at_b)) / 3;
 }
@@ -347,19 +366,20 @@ void BisectedMesh::halve(std::int32_t h, std::int32_t middle) {
   branches.push_back(first ^ 1U);
 }
 
-// The tensor in the middle of an edge. Faces at an edge with siblings need not agree on the sides of its ends' normals:
-// then these are taken to be within a right angle of each other.
+// The normals at the ends of an edge. Faces at an edge with siblings need not agree on the sides of these: then they
+// are taken to be within a right angle of each other.
+std::pair<Vector, Vector> BisectedMesh::end_normals(std::int32_t h) const {
+  const Vector a = normal(tail(h)), b = normal(tip(h));
+  if (!has_siblings(h) || a.dot(b) >= 0) return {a, b};
+  bool all_agree = true;
+  for_each_beyond(h, [&](std::int32_t s) { all_agree = all_agree && normal(tail(s)).dot(normal(tip(s))) < 0; });
+  return {a, all_agree ? b : Vector(-b)};
+}
+
+// The tensor in the middle of an edge.
 TensorAt BisectedMesh::midpoint(std::int32_t h) const {
-  const TensorAt a = tensor_at(tail(h));
-  TensorAt b = tensor_at(tip(h));
-  if (has_siblings(h) && a.normal.dot(b.normal) < 0) {
-    bool all_agree = true;
-    for_each_beyond(h, [&](std::int32_t s) {
-      all_agree = all_agree && tensor_at(tail(s)).normal.dot(tensor_at(tip(s)).normal) < 0;
-    });
-    if (!all_agree) b.normal = -b.normal;
-  }
-  return midpoint_tensor(a, b);
+  const auto [a, b] = end_normals(h);
+  return midpoint_tensor({a, tensor_at(tail(h)).tensor}, {b, tensor_at(tip(h)).tensor});
 }
 
 // Each triangle gets a middle of its own, with the normal on its own side.
@@ -458,6 +478,7 @@ std::vector<std::int32_t> BisectedMesh::undo(const std::vector<std::int32_t>& se
     corners[face] = surface.face_fans()[face];
     std::copy_n(surface.twins().begin() + std::ptrdiff_t{3} * face, 3, twins.begin() + std::ptrdiff_t{3} * face);
     branches[face] = 1;
+    depths[face] = 0;
   }
   for (const auto& [inside, outside] : sides) {
     twins[inside] = outside;
@@ -482,6 +503,7 @@ void BisectedMesh::remove_parts(const std::vector<bool>& is_undone) {
     corners[to] = corners[f];
     origins[to] = origins[f];
     branches[to] = branches[f];
+    depths[to] = depths[f];
     for (std::size_t i = 0; i < 3; ++i) {
       lengths[3 * to + i] = lengths[3 * f + i];
       const std::int32_t twin = twins[3 * f + i];

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "detail/half_edge.hpp"
@@ -66,8 +67,7 @@ class BisectedMesh {
 
   std::size_t face_count() const { return corners.size(); }
   std::size_t vertex_count() const { return fans_ + new_nodes_.size(); }
-  /// Vertices, and triangles, before the first bisection.
-  std::size_t fan_count() const { return fans_; }
+  /// Triangles before the first bisection.
   std::size_t given_face_count() const { return given_faces_; }
   std::size_t faces_added() const { return corners.size() - given_faces_; }
 
@@ -129,7 +129,7 @@ class BisectedMesh {
   const Surface& surface;
   const Metric& metric;
   std::vector<Triangle> corners;
-  std::vector<std::int32_t> twins;    ///< per half-edge; -1 if it has none
+  std::vector<std::int32_t> twins;  ///< per half-edge; -1 if it has none
   /// Per half-edge without a twin: the next one of the same edge in a cycle, as in IntrinsicMesh, but two may run in
   /// opposite ways. Empty if there are no such edges.
   std::vector<std::int32_t> siblings;
@@ -164,6 +164,9 @@ class BisectedMesh {
               const std::vector<std::int32_t>& all_siblings, const std::vector<std::int32_t>& faces);
   std::int32_t external_vertex(std::int32_t v) const;
   double measure_with_middle(std::int32_t h) const;
+  std::pair<Vector, Vector> end_normals(std::int32_t h) const;
+  double norm_in_middle(std::int32_t h, const Vector& e) const;
+  Vector normal(std::int32_t v) const;
   TensorAt midpoint(std::int32_t h) const;
   void relink_siblings(const HalfEdgeMesh& cleaned);
   void bisect_siblings(std::int32_t h);

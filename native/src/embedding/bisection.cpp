@@ -222,7 +222,7 @@ bool Bisection::work_off(const Task& task, std::size_t most, double& progress) {
     const Candidate next = queue_.top();
     queue_.pop();
     if (is_stale(next)) continue;
-    if (next.priority < 0) were_all_valid_ = true;
+    if (next.priority <= 0) were_all_valid_ = true;
     if (!refine(next.face, most)) {
       queue_.push(next);
       hit_cap_ = most == options_.max_faces_added;

@@ -31,15 +31,21 @@ PlaneForm form_of_lengths(const BisectedMesh& mesh, std::int32_t f) {
           .determinant = squared_area_16 / 4};
 }
 
-// A form in space on the plane of the vectors u and v. Its determinant is that of the form of their cross product in
-// the adjugate: the difference of two products would lose it for thin triangles.
-PlaneForm restricted(const SpaceForm& form, const Vector& u, const Vector& v) {
+// The plane of a triangle, by its first two sides and their cross product.
+struct Plane {
+  Plane(const BisectedMesh& mesh, std::int32_t f) : u(mesh.vector(3 * f)), v(mesh.vector(3 * f + 1)), n(u.cross(v)) {}
+  Vector u, v, n;
+};
+
+// A form in space on a plane. Its determinant is the value of the adjugate form for the cross product: as a difference
+// of products it would be lost for thin triangles.
+PlaneForm restricted(const SpaceForm& form, const Plane& plane) {
+  const auto& [u, v, n] = plane;
   const double xx = form[0], yy = form[1], zz = form[2], xy = form[3] / 2, xz = form[4] / 2, yz = form[5] / 2;
   const Vector of_u(xx * u.x() + xy * u.y() + xz * u.z(), xy * u.x() + yy * u.y() + yz * u.z(),
                     xz * u.x() + yz * u.y() + zz * u.z());
   const Vector of_v(xx * v.x() + xy * v.y() + xz * v.z(), xy * v.x() + yy * v.y() + yz * v.z(),
                     xz * v.x() + yz * v.y() + zz * v.z());
-  const Vector n = u.cross(v);
   const double determinant = (yy * zz - yz * yz) * n.x() * n.x() + (xx * zz - xz * xz) * n.y() * n.y() +
                              (xx * yy - xy * xy) * n.z() * n.z() + 2 * (xz * yz - xy * zz) * n.x() * n.y() +
                              2 * (xy * yz - xz * yy) * n.x() * n.z() + 2 * (xy * xz - yz * xx) * n.y() * n.z();
@@ -52,21 +58,25 @@ PlaneForm restricted(const SpaceForm& form, const Vector& u, const Vector& v) {
 double largest_ratio(const PlaneForm& g, const PlaneForm& h) {
   const double product = h.determinant / g.determinant;
   const double p = h.uu / g.uu, q = (h.uv - p * g.uv) / std::sqrt(g.determinant), r = (product + q * q) / p;
-  const double high = (p + r) / 2 + std::hypot((p - r) / 2, q);
+  const double high = (p + r + std::sqrt((p - r) * (p - r) + 4 * q * q)) / 2;
   return std::max(high, high / product);
+}
+
+// error_score(), with the form of the triangle's lengths.
+double score(const BisectedMesh& mesh, std::int32_t f, const PlaneForm& g, const Plane& plane) {
+  const Triangle& corners = mesh.corners[f];
+  const SpaceForm &a = mesh.form(corners[0]), &b = mesh.form(corners[1]), &c = mesh.form(corners[2]);
+  SpaceForm mean;
+  for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = (a[i] + b[i] + c[i]) / 3;
+  const double deviation = std::log(largest_ratio(g, restricted(mean, plane))) / 2;
+  const double area = std::sqrt(g.determinant) / 2;
+  return deviation * std::sqrt(area) / mesh.mean_edge_length();
 }
 
 }  // namespace
 
 double error_score(const BisectedMesh& mesh, std::int32_t f) {
-  const Triangle& corners = mesh.corners[f];
-  const SpaceForm &a = mesh.form(corners[0]), &b = mesh.form(corners[1]), &c = mesh.form(corners[2]);
-  SpaceForm mean;
-  for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = (a[i] + b[i] + c[i]) / 3;
-  const PlaneForm g = form_of_lengths(mesh, f);
-  const double deviation = std::log(largest_ratio(g, restricted(mean, mesh.vector(3 * f), mesh.vector(3 * f + 1)))) / 2;
-  const double area = std::sqrt(g.determinant) / 2;
-  return deviation * std::sqrt(area) / mesh.mean_edge_length();
+  return score(mesh, f, form_of_lengths(mesh, f), Plane(mesh, f));
 }
 
 Resolution measure_resolution(const BisectedMesh& mesh, double tolerance, const Task& task, double progress) {
@@ -76,13 +86,13 @@ Resolution measure_resolution(const BisectedMesh& mesh, double tolerance, const 
   for (std::int32_t f = 0; index(f) < mesh.face_count(); ++f) {
     poll.at(index(f));
     if (!mesh.is_valid(f)) continue;
-    const double score = error_score(mesh, f);
-    highest = std::max(highest, score);
-    if (score > tolerance) ++resolution.unmet;
     const PlaneForm g = form_of_lengths(mesh, f);
-    const Vector u = mesh.vector(3 * f), v = mesh.vector(3 * f + 1);
+    const Plane plane(mesh, f);
+    const double of_face = score(mesh, f, g, plane);
+    highest = std::max(highest, of_face);
+    if (of_face > tolerance) ++resolution.unmet;
     for (const std::int32_t corner : mesh.corners[f]) {
-      largest = std::max(largest, largest_ratio(g, restricted(mesh.form(corner), u, v)));
+      largest = std::max(largest, largest_ratio(g, restricted(mesh.form(corner), plane)));
     }
   }
   resolution.estimated_error = highest / kScorePerError;

@@ -50,6 +50,9 @@ void check(const EmbeddingInput& input) {
     for (const std::int32_t f : *input.callers_faces) {
       for (const std::int32_t v : input.surface.triangles()[f]) check_finite(input.metric, index(v));
     }
+    for (const Edge& edge : input.surface.loose_edges()) {
+      for (const std::int32_t v : edge) check_finite(input.metric, index(v));
+    }
   } else {
     check_finite(input.metric);
   }
@@ -90,6 +93,7 @@ Embedding finished(Bisection&& bisection, const LengthRepair& repair, const Task
   }
   Embedding out = std::move(bisection).to_embedding();
   out.resolution = resolution;
+  if (resolution) out.is_local = false;
   out.hit_cap = out.hit_cap || repair.hit_cap;
   out.clamped_edges = repair.clamped_edges;
   out.worst_clamp = repair.worst_clamp;
@@ -167,7 +171,7 @@ Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions
 Embedding re_embed(const Surface& surface, const Metric& former, const Metric& metric, Embedding old,
                    const EmbedOptions& options, const Task& task) {
   check_size(surface, former);
-  check_metric(surface, metric);
+  check(EmbeddingInput(surface, metric, options));
   const std::size_t faces = surface.face_count();
   const bool is_of_surface =
       options.faces ||
@@ -177,7 +181,9 @@ Embedding re_embed(const Surface& surface, const Metric& former, const Metric& m
   if (!is_of_surface) throw InvalidInput("the former embedding is of another surface");
   EmbedOptions same_size = options;
   if (same_size.mean_edge_length == 0) same_size.mean_edge_length = old.mean_edge_length;
-  if (!old.is_local || former.normals != metric.normals) return embed(surface, metric, same_size, task);
+  if (!old.is_local || options.faces || options.max_error > 0 || former.normals != metric.normals) {
+    return embed(surface, metric, same_size, task);
+  }
   task.check(0);
   const std::size_t most = std::min(budget(faces), options.max_faces_added);
   std::optional<Embedding> out = re_embed_locally(surface, former, metric, std::move(old), options, task, most);

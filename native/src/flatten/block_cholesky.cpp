@@ -36,8 +36,7 @@ std::vector<std::int32_t> minimum_degree_order(std::size_t vertex_count, std::sp
     column.assign(neighbors[v].begin(), neighbors[v].end());
     column.push_back(v);
     std::ranges::sort(column);
-    const auto repeated = std::ranges::unique(column);
-    column.erase(repeated.begin(), repeated.end());
+    column.erase(std::unique(column.begin(), column.end()), column.end());
     pattern.startVec(v);
     for (const std::int32_t row : column) pattern.insertBack(row, v) = 1.0;
   }

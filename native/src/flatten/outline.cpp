@@ -55,7 +55,7 @@ bool Outline::crosses_itself(std::span<const double> map, double tolerance) cons
   };
   for (std::size_t e = 0; e < edges_.size() && !crosses; ++e) {
     const auto& [a, b] = edges_[e];
-    grid.for_each_meeting(boxes[e], [&](std::int32_t i) {
+    grid.for_each_meeting(boxes[e], [&, a = a, b = b](std::int32_t i) {
       const auto& [c, d] = edges_[index(i)];
       if (index(i) <= e || a == c || a == d || b == c || b == d) return;
       crosses = crosses || (has_ends_on_both_sides(edges_[e], edges_[index(i)]) &&
@@ -75,7 +75,7 @@ std::vector<Outline::Pair> Outline::close_pairs(std::span<const double> map, dou
   for (const auto& [vertex, next] : edges_) {
     Box box;
     box.add(at(map, vertex));
-    grid.for_each_meeting(box, [&](std::int32_t e) {
+    grid.for_each_meeting(box, [&, vertex = vertex](std::int32_t e) {
       const auto& [a, b] = edges_[index(e)];
       if (vertex == a || vertex == b) return;
       const Pair pair{vertex, a, b};
@@ -149,7 +149,7 @@ double Outline::first_contact(std::span<const double> map, std::span<const doubl
   for (const auto& [vertex, next] : edges_) {
     Box box;
     add_way(box, vertex);
-    grid.for_each_meeting(box, [&](std::int32_t e) {
+    grid.for_each_meeting(box, [&, vertex = vertex](std::int32_t e) {
       const auto& [a, b] = edges_[index(e)];
       if (vertex != a && vertex != b) try_pair(vertex, a, b);
     });

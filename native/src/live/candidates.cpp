@@ -30,13 +30,13 @@ Wire wire_of(const SeedSolution& solution, const WireEnd& target, const Task& ta
   return to ? trace_wire(on.surface(), on.embedding(), *solution.field, *to, task) : Wire{};
 }
 
-LiveCandidate candidate_of(const SeedSolution& solution, const WireEnd& seed, const WireEnd& target) {
+LiveCandidate candidate_of(const SeedSolution& solution, const WireEnd& target) {
   const Prepared& prepared = *solution.prepared;
   LiveCandidate candidate;
   candidate.metric = prepared.spec;
   if (solution.field) {
     Wire wire = wire_of(solution, target);
-    return wire.points.empty() ? candidate : candidate_between(prepared, std::move(wire), seed, target);
+    return wire.points.empty() ? candidate : candidate_between(prepared, std::move(wire), solution.seed, target);
   }
   if (!solution.wires) return candidate;
   EdgeChain chain = solution.wires->trace(std::get<Pick>(target));

@@ -18,6 +18,7 @@ namespace seamwire::detail {
 /// neither if no wires begin at the seed.
 struct SeedSolution {
   std::shared_ptr<const Prepared> prepared;
+  WireEnd seed;
   std::optional<DistanceField> field;
   std::optional<EdgeWires> wires;
 
@@ -35,6 +36,6 @@ LiveCandidate candidate_between(const Prepared& prepared, Wire wire, const WireE
 Wire wire_of(const SeedSolution& solution, const WireEnd& target, const Task& task = {});
 
 /// The candidate of a solution to a target; without points if there is none. It is not marked as final.
-LiveCandidate candidate_of(const SeedSolution& solution, const WireEnd& seed, const WireEnd& target);
+LiveCandidate candidate_of(const SeedSolution& solution, const WireEnd& target);
 
 }  // namespace seamwire::detail

@@ -54,36 +54,39 @@ void LiveWorker::change_metric(std::shared_ptr<MetricSet> metrics) {
     request.preparing = std::stop_source();
   }
   request.metrics = std::move(metrics);
-  targets_.withdraw();  // until it is asked for again, in the new metric
   seeds_.post(std::move(request), SeedBox::Former::kKeep);
-  loops_.withdraw();  // what is found in the former metric answers nothing
+  targets_.withdraw();  // until it is asked for again; after the post, so that no work for the former metric is left
+  loops_.withdraw();    // what is found in the former metric answers nothing
   tell_right_of_way();
   discards_.add(before);
 }
 
 void LiveWorker::seed(const WireEnd& seed, bool forward) {
   const std::shared_ptr<const SeedRequest> before = seeds_.newest();
-  targets_.withdraw();
   seeds_.post({.metrics = before->metrics, .preparing = before->preparing, .seed = seed, .is_forward = forward});
+  targets_.withdraw();  // after the post, so that no work for the former seed is left
   loops_.interrupt();
   tell_right_of_way();
 }
 
-LiveWorker::Known LiveWorker::wire(const WireEnd& seed, const WireEnd& target) {
+LiveWorker::Known LiveWorker::wire(const WireEnd& target) {
   const std::shared_ptr<const WireEnd> before = targets_.newest();
   if (!before || *before != target) targets_.post(target);
+  const bool needs_refining = refines();  // before the answer is read, which may be of a metric that needs it
   SeedBox::Reading found = seeds_.read();
   const TargetBox::Reading known = targets_.read();
-  if (known.is_newest && known.answer->seed_number == seeds_.number() &&
-      (known.answer->is_refined || !found.is_newest)) {
+  // Another thread may have asked for another target meanwhile.
+  const bool is_known = known.is_newest && known.answer->target == target &&
+                        known.answer->seed_number == seeds_.number() && (known.answer->is_refined || !found.is_newest);
+  if (is_known) {
     seeds_.give_back(std::move(found.answer));
     return {.candidate = known.answer->candidate, .first_length = known.answer->first_length};
   }
   if (!found.answer) return {};
   const bool is_solved = found.is_newest && found.answer->is_final(target);  // before it is looked up
-  LiveCandidate candidate = candidate_of(*found.answer, seed, target);
+  LiveCandidate candidate = candidate_of(*found.answer, target);
   candidate.solved = is_solved;
-  candidate.final = is_solved && !refines();
+  candidate.final = is_solved && !needs_refining;
   seeds_.give_back(std::move(found.answer));
   const double length = candidate.length;
   return {.candidate = std::move(candidate), .first_length = length};
@@ -130,7 +133,7 @@ std::exception_ptr LiveWorker::error() const {
 }
 
 std::exception_ptr LiveWorker::loop_error() const {
-  const std::exception_ptr error = this->error();
+  const std::exception_ptr error = seeds_.error();
   return error ? error : loops_.error();
 }
 
@@ -192,12 +195,9 @@ void LiveWorker::work_on(const SeedBox::Job& job) {
 
 void LiveWorker::work_on(const TargetBox::Job& job) {
   const SeedBox::Reading found = seeds_.read();
-  const std::optional<WireEnd> seed = seeds_.newest()->seed;
   targets_.answer(job, [&]() -> std::shared_ptr<const TargetWire> {
-    if (found.answer && seed) {
-      return std::make_shared<const TargetWire>(solver_.refine(found, *seed, *job.request, job.stop));
-    }
-    return nullptr;
+    if (!found.answer) return nullptr;
+    return std::make_shared<const TargetWire>(solver_.refine(found, *job.request, job.stop));
   });
 }
 

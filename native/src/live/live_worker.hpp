@@ -57,8 +57,8 @@ class LiveWorker {
     double first_length = std::numeric_limits<double>::infinity();  ///< of the wire before it is refined
   };
   /// The wire from the newest seed to a target. The thread works on this target from now on: previews lead to it until
-  /// there is a field, and then its wire is refined. Needs the surface to be built.
-  Known wire(const WireEnd& seed, const WireEnd& target);
+  /// there is a field, and then its wire is refined. Along edges, needs the surface to be built.
+  Known wire(const WireEnd& target);
 
   /// Along edges searches the loop through an edge, `edge[0] < edge[1]`, across the surface the closed wires through a
   /// point, or one of them bent to a second point. Does nothing if that was searched for last. If only the second point

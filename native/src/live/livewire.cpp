@@ -286,18 +286,18 @@ LiveWires LiveWire::Impl::wires(const WireEnd& target) const {
   const State state = now();
   if (!state.seed) throw InvalidInput("there is no seed that wires could start from");
   check_end(surface.get(), context, settings.along, *state.seed, "seed");  // it may have been too early before
-  rethrow(state);
   const LiveMetrics& metrics = state.metrics->metrics;
   LiveWires result;
   result.wires.resize(metrics.wires.size());
   std::vector<double> first_lengths(metrics.wires.size(), std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < metrics.wires.size(); ++i) {
     result.wires[i].metric = metrics.wires[i];
-    if (!surface) continue;  // it may be there by now, but the target was not looked for on it
-    LiveWorker::Known known = state.workers[i]->wire(*state.seed, target);
+    if (!surface && settings.along == Along::kEdges) continue;  // a target edge could not be looked up
+    LiveWorker::Known known = state.workers[i]->wire(target);
     if (known.candidate) result.wires[i] = *std::move(known.candidate);
     first_lengths[i] = known.first_length;
   }
+  rethrow(state);  // after the target was asked for, which clears what went wrong on the way to another one
   choose_active(result, first_lengths, metrics);
   return result;
 }

@@ -104,7 +104,12 @@ Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics,
   const bool scribbled = is_scribbled(*surface, metrics.scribbles, spec.kind());
   const EmbedOptions options = interactive_options(*surface);
   if (on_surface && !scribbled) prepared.embedded = EmbeddedSurface::find(context, spec, options);
-  if (prepared.embedded) return prepared;
+  if (prepared.embedded) {
+    prepared.embedded->points();
+    prepared.embedded->geodesics(silent);
+    fraction = 1.0;
+    return prepared;
+  }
   const Task task{.stop = stop, .progress = [&](double done) {
                     make_way();
                     fraction = (kEmbedBegins + (kSolveBegins - kEmbedBegins) * done) / kSolveBegins;

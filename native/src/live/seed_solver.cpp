@@ -75,7 +75,9 @@ std::shared_ptr<const SeedSolution> SeedSolver::find_field(const SeedBox::Job& j
                                                            const std::shared_ptr<const Prepared>& prepared, Task task) {
   const EmbeddedSurface& on = *prepared->embedded;
   const std::optional<SurfacePoint> seed = on.points().find(point_of(*job.request->seed), "seed");
-  if (!seed) return std::make_shared<const SeedSolution>(SeedSolution{.prepared = prepared, .field = {}, .wires = {}});
+  if (!seed)
+    return std::make_shared<const SeedSolution>(
+        SeedSolution{.prepared = prepared, .seed = *job.request->seed, .field = {}, .wires = {}});
   make_way(job.stop);
   task.check(0.0);
   CorridorPaths paths(on.geodesics(), *seed);
@@ -88,7 +90,7 @@ std::shared_ptr<const SeedSolution> SeedSolver::find_field(const SeedBox::Job& j
   };
   DistanceField field = on.geodesics().solve(std::array{*seed}, {}, task);
   return std::make_shared<const SeedSolution>(
-      SeedSolution{.prepared = prepared, .field = std::move(field), .wires = std::nullopt});
+      SeedSolution{.prepared = prepared, .seed = *job.request->seed, .field = std::move(field), .wires = std::nullopt});
 }
 
 /// `answered`: the number of the target at the last preview.
@@ -107,12 +109,13 @@ void SeedSolver::make_preview(const SeedBox::Job& job, const Prepared& prepared,
     candidate = candidate_between(prepared, std::move(wire), *job.request->seed, *target);
   }
   const double length = candidate.length;
-  targets_.show(asked, std::make_shared<const TargetWire>(TargetWire{job.number, std::move(candidate), length}));
+  targets_.show(asked,
+                std::make_shared<const TargetWire>(TargetWire{job.number, *target, std::move(candidate), length}));
 }
 
-TargetWire SeedSolver::refine(const SeedBox::Reading& found, const WireEnd& seed, const WireEnd& target,
-                              const std::stop_token& stop) const {
-  TargetWire refined{.seed_number = found.number, .candidate = {}, .first_length = 0.0, .is_refined = true};
+TargetWire SeedSolver::refine(const SeedBox::Reading& found, const WireEnd& target, const std::stop_token& stop) const {
+  TargetWire refined{
+      .seed_number = found.number, .target = target, .candidate = {}, .first_length = 0.0, .is_refined = true};
   const SeedSolution& solution = *found.answer;
   const Prepared& prepared = *solution.prepared;
   const EmbeddedSurface& on = *prepared.embedded;
@@ -121,10 +124,10 @@ TargetWire SeedSolver::refine(const SeedBox::Reading& found, const WireEnd& seed
   refined.first_length = wire.length;
   const WireRefinement how{.max_error = settings_.max_error, .mean_edge_length = on.embedding().mean_edge_length};
   if (std::optional<Wire> better =
-          refined_wire(prepared.surface, on.metric(), wire, point_of(seed), point_of(target), how, task)) {
+          refined_wire(prepared.surface, on.metric(), wire, point_of(solution.seed), point_of(target), how, task)) {
     wire = *std::move(better);
   }
-  refined.candidate = candidate_between(prepared, std::move(wire), seed, target, task);
+  refined.candidate = candidate_between(prepared, std::move(wire), solution.seed, target, task);
   refined.candidate.solved = refined.candidate.final = true;
   return refined;
 }
@@ -134,8 +137,8 @@ std::shared_ptr<const SeedSolution> SeedSolver::find_chains(const SeedBox::Job& 
                                                             const std::shared_ptr<const Prepared>& prepared,
                                                             const Task& task, SeedBox& seeds) {
   EdgeWires wires(prepared->graph, std::get<Pick>(*job.request->seed), settings_.turning, job.request->is_forward);
-  auto solution =
-      std::make_shared<const SeedSolution>(SeedSolution{.prepared = prepared, .field = std::nullopt, .wires = wires});
+  auto solution = std::make_shared<const SeedSolution>(
+      SeedSolution{.prepared = prepared, .seed = *job.request->seed, .field = std::nullopt, .wires = wires});
   seeds.show(job, solution);
   wires.run(task);
   return solution;

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -38,6 +37,7 @@ struct SeedRequest {
 /// A wire to one target: a preview, computed before there is a field, or a refined wire.
 struct TargetWire {
   std::int64_t seed_number;  ///< of the seed's request
+  WireEnd target;
   LiveCandidate candidate;
   double first_length;      ///< of the wire in the embedding of the whole surface
   bool is_refined = false;  ///< nothing will change it
@@ -60,8 +60,7 @@ class SeedSolver {
                                             SeedBox& seeds);
   /// The wire of a solution to a target, refined in its corridor. `target`: without a face or vertex in the embedding,
   /// there is no wire. Throws Cancelled.
-  TargetWire refine(const SeedBox::Reading& found, const WireEnd& seed, const WireEnd& target,
-                    const std::stop_token& stop) const;
+  TargetWire refine(const SeedBox::Reading& found, const WireEnd& target, const std::stop_token& stop) const;
   /// Fraction of a request's work, preparation included, that is done, as far as it is the request being worked on.
   double progress(const SeedRequest& request) const;
 

@@ -88,7 +88,7 @@ class Collapsing {
       }
     }
     std::ranges::sort(found);
-    found.erase(std::ranges::unique(found).begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
     return found;
   }
   bool is_feature(std::int32_t a, std::int32_t b) const {

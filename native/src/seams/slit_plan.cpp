@@ -95,7 +95,7 @@ std::vector<std::int32_t> pieces_of(const SlitProblem& problem, const Slit& slit
     });
   }
   std::ranges::sort(found);
-  found.erase(std::ranges::unique(found).begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 

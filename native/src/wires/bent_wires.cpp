@@ -279,6 +279,7 @@ struct BentWires::Impl {
 BentWires::BentWires(std::shared_ptr<const Surface> surface, std::shared_ptr<const Embedding> embedding,
                      const ExactGeodesics& geodesics, const DistanceField& field, const ClosedWire& cut,
                      const Task& task) {
+  if (!surface || !embedding) throw InvalidInput("surface or embedding: there is none");
   std::vector<std::int32_t> half_edges;
   const Crossed line = line_across(*surface, *embedding, geodesics, field, cut, task, half_edges);
   const IntrinsicMesh& below = embedding->mesh;

@@ -73,8 +73,10 @@ Weights EmbeddedPoints::Impl::weights_in(std::int32_t face, std::int32_t vertex)
 }
 
 EmbeddedPoints::EmbeddedPoints(std::shared_ptr<const Surface> surface, std::shared_ptr<const Embedding> embedding) {
+  if (!surface || !embedding) throw InvalidInput("surface or embedding: there is none");
   const std::vector<std::int32_t>& faces = embedding->source_face;
-  if (!std::ranges::all_of(faces, [&](std::int32_t f) { return is_index(f, surface->face_count()); }) ||
+  if (faces.size() != embedding->mesh.face_count() ||
+      !std::ranges::all_of(faces, [&](std::int32_t f) { return is_index(f, surface->face_count()); }) ||
       embedding->points.size() < surface->vertex_count()) {
     throw InvalidInput("the embedding is of another surface");
   }

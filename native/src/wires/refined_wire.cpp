@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <utility>
 #include <vector>
 
-#include "detail/index.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/wires/embedded_points.hpp"
@@ -66,6 +66,7 @@ std::optional<Wire> refined_wire(const std::shared_ptr<const Surface>& surface, 
                                                                   .faces = std::move(corridor),
                                                                   .mean_edge_length = refinement.mean_edge_length},
                                                                  silent));
+  if (embedding->faces_added == 0) return std::nullopt;
   const EmbeddedPoints points(surface, embedding);
   const CompactMesh compact(embedding->mesh);
   const auto find = [&](const SurfacePoint& point) -> std::optional<SurfacePoint> {

@@ -24,8 +24,9 @@ struct WireRefinement {
 /// repair or a hole changes the corridor. Takes time proportional to the corridor, but for copying the surface's
 /// points.
 ///
-/// `from` and `to` are the ends on the surface. Nothing if `first` crosses no face, or its ends are not connected in
-/// the corridor. Throws what embed() throws; Cancelled.
+/// `from` and `to` are the ends on the surface. Nothing if `first` crosses no face, all triangles of its corridor
+/// resolve the metric as they are, or its ends are not connected in the corridor. Throws what embed() throws;
+/// Cancelled.
 std::optional<Wire> refined_wire(const std::shared_ptr<const Surface>& surface, const Metric& metric, const Wire& first,
                                  const SurfacePoint& from, const SurfacePoint& to, const WireRefinement& refinement,
                                  const Task& task = {});

@@ -88,6 +88,7 @@ TEST(MetricSpecs, ThatDescribeNoMetricAreRefused) {
   EXPECT_THROW(check_metric(MetricSpec::concave({.parameter = -1.0})), InvalidInput);
   EXPECT_THROW(check_metric(MetricSpec::campen(Follow::kMin, {.parameter = 0.5})), InvalidInput);
   EXPECT_THROW(check_metric(MetricSpec::feature(Follow::kMin, {})), InvalidInput);
+  EXPECT_EQ(message_of([] { check_metric({.family = static_cast<MetricFamily>(9)}); }), "metric: there is no family 9");
 }
 
 TEST(MetricSpecs, DescribeTheMetricsOfTheFunctionsOfTheirFamilies) {
@@ -151,7 +152,7 @@ TEST(SurfaceContext, OfASurfaceThatCannotBeBuiltEveryCallSaysWhy) {
   EXPECT_EQ(message_of([&] { context.snap_graph(); }), why);
   EXPECT_EQ(message_of([&] { context.edge_adjacency(); }), why);
   EXPECT_EQ(message_of([&] { context.peek_surface(); }), why);
-  EXPECT_EQ(message_of([&] { context.wait_for_surface(); }), why);
+  EXPECT_EQ(message_of([&] { context.wait_for_surface(1.0); }), why);
   EXPECT_EQ(message_of([&] { make_metric(context, MetricSpec::euclidean()); }), why);
   EXPECT_THROW(SurfaceContext(std::shared_ptr<const Surface>()), InvalidInput);
 }
@@ -330,6 +331,13 @@ TEST(EmbeddedSurface, SaysWhyAFaceHasNoPoints) {
               embedded.locate({.face = 1, .barycentric = {0.2, 0.3, 0.5}}, "seed");
             }),
             "seed: face 1 is a hole of the embedding there");
+  const EmbedOptions options{.faces = std::vector<std::int32_t>{1}};
+  const SurfaceContext grid(shared(shapes::grid(2)));
+  const EmbeddedSurface part(grid, MetricSpec::euclidean(), options);
+  EXPECT_EQ(message_of([&] {
+              part.locate({.face = 2, .barycentric = {0.2, 0.3, 0.5}}, "seed");
+            }),
+            "seed: face 2 is not among the faces that were embedded");
 }
 
 TEST(EmbeddedSurface, OutlivesItsContext) {

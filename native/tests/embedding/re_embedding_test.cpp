@@ -123,6 +123,23 @@ TEST(ReEmbed, TakesSurfacesThatAreCutOpenAndOtherNormals) {
   EXPECT_THROW(re_embed(grid, random, former, embed(grid, random)), InvalidInput);
 }
 
+TEST(ReEmbed, IsEmbeddingFromScratchWithAnErrorOrSomeFaces) {
+  const Surface grid = shapes::grid(12).surface();
+  const Metric former = random_metric(grid, 10, 3), metric = random_metric(grid, 10, 4);
+  const Embedding old = embed(grid, former);
+  ASSERT_TRUE(old.is_local);
+  for (EmbedOptions options :
+       {EmbedOptions{.max_error = 0.05}, EmbedOptions{.faces = std::vector<std::int32_t>{3, 4, 40}}}) {
+    const Embedding made = re_embed(grid, former, metric, old, options);
+    options.mean_edge_length = old.mean_edge_length;
+    const Embedding fresh = embed(grid, metric, options);
+    EXPECT_EQ(placed(made), placed(fresh));
+    EXPECT_EQ(made.resolution.has_value(), options.max_error > 0);
+  }
+  EXPECT_THROW(re_embed(grid, former, metric, old, {.max_error = -1.0}), InvalidInput);
+  EXPECT_THROW(re_embed(grid, former, metric, old, {.sigma = -1.0}), InvalidInput);
+}
+
 // The work, not the time, which other processes share in: a scribble is far smaller than the surface.
 TEST(ReEmbed, LeavesWhatIsFarAwayWhereItIs) {
   const Surface surface = shapes::grid(100, 0.2).surface();

@@ -21,6 +21,9 @@
 #include "shapes.hpp"
 
 namespace seamwire {
+
+using namespace detail;
+
 namespace {
 
 using Work = std::pair<std::string, std::function<void(const Task&)>>;

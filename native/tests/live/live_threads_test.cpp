@@ -58,9 +58,11 @@ void expect_as_fresh(LiveWire& live, const std::shared_ptr<const Surface>& surfa
   live.set_scribbles({});
   live.set_metrics(options.metrics);
   live.seed({5});
+  live.wires({100});
   ASSERT_TRUE(live.wait());
   LiveWire fresh(surface, options);
   fresh.seed({5});
+  fresh.wires({100});
   ASSERT_TRUE(fresh.wait());
   const LiveWires got = live.wires({100}), expected = fresh.wires({100});
   EXPECT_TRUE(got.final() && got.settled);
@@ -76,7 +78,7 @@ class LiveWireForThreads : public testing::TestWithParam<Along> {};
 
 TEST_P(LiveWireForThreads, AnswersAllOfThemAndEndsWithWhatWasSetLast) {
   const auto surface = some_surface();
-  const LiveWireOptions options{.along = GetParam()};
+  const LiveWireOptions options{.along = GetParam(), .max_error = 0.0};
   LiveWire live(surface, options);
   live.seed({1});
   const auto change_metrics = [&](int i) { live.set_metrics(metrics_of(i, GetParam())); };
@@ -88,7 +90,7 @@ TEST_P(LiveWireForThreads, AnswersAllOfThemAndEndsWithWhatWasSetLast) {
     const LiveWires found = live.wires({50 + i % 50});
     EXPECT_LT(static_cast<std::size_t>(found.active), found.wires.size());
     for (const LiveCandidate& wire : found.wires) {
-      if (wire.final && !wire.vertices.empty()) EXPECT_EQ(wire.vertices.back(), 50 + i % 50);
+      EXPECT_TRUE(!wire.final || wire.vertices.empty() || wire.vertices.back() == 50 + i % 50);
     }
   };
   const auto look = [&](int i) {
@@ -113,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(Along, LiveWireForThreads, testing::Values(Along::kSurf
 
 TEST(LiveWireMetrics, ListsOfMetricsMayGrowAndShrink) {
   const auto surface = some_surface();
-  LiveWire live(surface, {.metrics = live_metrics(MetricFamily::kEuclidean, {})});
+  LiveWire live(surface, {.metrics = live_metrics(MetricFamily::kEuclidean, {}), .max_error = 0.0});
   live.seed({5});
   LiveMetrics many;
   for (const double strength : {0.25, 0.5, 0.75, 1.0, 1.25}) {

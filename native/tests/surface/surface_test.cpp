@@ -30,7 +30,7 @@ void expect_sound_siblings(const Surface& surface) {
   std::map<Edge, std::set<std::int32_t>> half_edges_of;
   const auto vertex = [&](std::int32_t h) { return surface.vertex_of_fan()[surface.face_fans()[h / 3][h % 3]]; };
   for (std::int32_t h = 0; h < static_cast<std::int32_t>(surface.twins().size()); ++h) {
-    const auto [a, b] = std::minmax(vertex(h), vertex(h % 3 == 2 ? h - 2 : h + 1));
+    const auto [a, b] = std::minmax({vertex(h), vertex(h % 3 == 2 ? h - 2 : h + 1)});
     if (surface.twins()[h] < 0) half_edges_of[{a, b}].insert(h);
   }
   std::erase_if(half_edges_of, [](const auto& item) { return item.second.size() == 1; });

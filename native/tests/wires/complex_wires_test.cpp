@@ -19,6 +19,7 @@
 #include "seamwire/wires/snap.hpp"
 #include "seamwire/wires/wire.hpp"
 #include "shapes.hpp"
+#include "unowned.hpp"
 
 namespace seamwire {
 namespace {
@@ -132,7 +133,7 @@ TEST(ComplexWires, AWireCrossesTheSpineOfABookStraight) {
 TEST(ComplexWires, APointOnTheSpineIsReachedFromEachPage) {
   const Mesh mesh = book(4);
   const Solved solved(mesh);
-  const EmbeddedPoints points(solved.surface, solved.embedding);
+  const EmbeddedPoints points(unowned(solved.surface), unowned(solved.embedding));
   for (std::int32_t f = 0; index(f) < mesh.triangles.size(); ++f) {
     for (std::size_t i = 0; i < 3; ++i) {
       const Vector &a = mesh.points[index(mesh.triangles[index(f)][i])],
@@ -229,7 +230,7 @@ TEST(ComplexWires, ABentCutPassesEdgesOfThreeFaces) {
   const std::int32_t seed = (n / 2 + 2) * n, second = (n / 2 - 2) * n + n / 2;
   const DistanceField field = solved.solver.solve(seed);
   for (const ClosedWire& loop : closed_wires(solved.surface, solved.embedding, field)) {
-    const BentWires bent(solved.surface, solved.embedding, solved.solver, field, loop);
+    const BentWires bent(unowned(solved.surface), unowned(solved.embedding), solved.solver, field, loop);
     const std::optional<BentWire> wire = bent.through(SurfacePoint::at_vertex(second));
     if (!wire) continue;
     EXPECT_EQ(wire->there.points.back(), wire->back.points.front());

@@ -137,6 +137,8 @@ TEST(EmbeddedPoints, WhatIsNoPointIsRefused) {
         SurfacePoint::at_vertex(16), SurfacePoint{}}) {
     EXPECT_THROW(points.find(wrong), InvalidInput);
   }
+  EXPECT_THROW(EmbeddedPoints(nullptr, unowned(on.embedding)), InvalidInput);
+  EXPECT_THROW(EmbeddedPoints(unowned(on.surface), nullptr), InvalidInput);
   const Surface other = shapes::grid(2).surface();
   EXPECT_THROW(EmbeddedPoints(unowned(other), unowned(on.embedding)), InvalidInput);
 }

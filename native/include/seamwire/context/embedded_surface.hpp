@@ -37,7 +37,7 @@ class EmbeddedSurface {
   /// Embeds a surface in any metric. Throws what embed() throws; Cancelled.
   EmbeddedSurface(const SurfaceContext& context, std::shared_ptr<const Metric> metric, const EmbedOptions& options = {},
                   const Task& task = {});
-  /// A surface with an embedding that was made otherwise. Throws InvalidInput if metric or embedding are not of the
+  /// A surface with an existing embedding. Throws InvalidInput if metric or embedding are not of the
   /// surface, as far as their sizes tell.
   EmbeddedSurface(const SurfaceContext& context, std::shared_ptr<const Metric> metric, Embedding embedding);
 
@@ -54,13 +54,13 @@ class EmbeddedSurface {
   const Surface& surface() const;
   /// The metric.
   const Metric& metric() const { return *shared_metric(); }
-  /// The metric, for what has to hold it.
+  /// The metric, to share ownership.
   const std::shared_ptr<const Metric>& shared_metric() const;
   /// The spec of the metric, nullopt if the metric was not made from one.
   const std::optional<MetricSpec>& spec() const;
   /// The embedding.
   const Embedding& embedding() const { return *shared_embedding(); }
-  /// The embedding, for what has to hold it.
+  /// The embedding, to share ownership.
   const std::shared_ptr<const Embedding>& shared_embedding() const;
   /// The solver on the embedding. Throws what its constructor throws; Cancelled.
   const ExactGeodesics& geodesics(const Task& task = {}) const;
@@ -92,7 +92,7 @@ class EmbeddedSurface {
 /// Distances over an embedded surface, and the wires that lead from their sources. Immutable; copies share the data.
 class EmbeddedField {
  public:
-  /// The surface that it is over.
+  /// The embedded surface that the distances belong to.
   const EmbeddedSurface& on() const { return on_; }
   /// The distances, with the vertices and faces of the embedding: the first vertices are those of the surface.
   const DistanceField& distances() const { return distances_; }

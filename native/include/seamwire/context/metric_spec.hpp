@@ -13,13 +13,13 @@ namespace seamwire {
 /// The families of metrics in metric.hpp.
 enum class MetricFamily { kFeature, kCampen, kPottmannKovacs, kConcave, kEuclidean };
 
-/// What a family of metrics is called, and what its metrics are told.
+/// The name and the parameters of a family of metrics.
 struct MetricFamilyInfo {
-  MetricFamily family;
+  MetricFamily family;         ///< the family
   std::string_view name;       ///< "feature", "campen", "pottmann_kovacs", "concave" or "euclidean"
   std::string_view parameter;  ///< the name of Strength::parameter; empty: the family has no strength
   double least_parameter;      ///< the smallest parameter that is allowed
-  Strength initial;            ///< the strength of a metric that is told none
+  Strength initial;            ///< the default strength
   bool has_directions;         ///< whether a metric follows one of the principal directions
   bool has_clamp;              ///< whether Strength::clamp_percentile matters
 };
@@ -33,8 +33,8 @@ MetricFamily metric_family(std::string_view name);
 
 /// A metric as a value: what it takes to compute it on any surface. Two specs that are equal give the same metric.
 struct MetricSpec {
-  MetricFamily family = MetricFamily::kEuclidean;
-  std::optional<Follow> follow = std::nullopt;  ///< in the families that have directions only
+  MetricFamily family = MetricFamily::kEuclidean;  ///< which one
+  std::optional<Follow> follow = std::nullopt;     ///< in the families that have directions only
   /// kConcave: the parameter is that of concave_metric(), and max_anisotropy A gives (A - 1) / 19. Euclidean: nothing
   /// is set.
   Strength strength = {};
@@ -58,7 +58,7 @@ struct MetricSpec {
   friend bool operator==(const MetricSpec&, const MetricSpec&) = default;
 };
 
-/// Whether two metrics differ in the direction that they follow alone, so that lengths in both can be compared (Section
+/// Whether two metrics differ only in the direction that they follow, so that lengths in both can be compared (Section
 /// 5 of the paper).
 bool is_counterpart(const MetricSpec& one, const MetricSpec& other);
 /// Throws InvalidInput unless the spec has a direction exactly if its family has, and a strength as metric.hpp says.

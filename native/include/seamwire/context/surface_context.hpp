@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -25,13 +24,12 @@ class EmbeddedSurface;
 ///
 /// Copies share the surface and what was computed. Any number of threads may use them at once. If several threads ask
 /// for the same thing, one computes it and the others wait. If that thread is cancelled, one of the others goes on in
-/// its place. If the surface cannot be built, every call throws what the constructor of Surface threw.
+/// its place. If the surface cannot be built, every call that needs it throws what the constructor of Surface threw.
 class SurfaceContext {
  public:
   /// The context of a surface. Throws InvalidInput if it is null.
   explicit SurfaceContext(std::shared_ptr<const Surface> surface);
-  /// The context of a surface that the first thread builds that asks for it, from the arguments of Surface's
-  /// constructor.
+  /// The context of a surface that is built when it is first asked for. Takes the arguments of Surface's constructor.
   SurfaceContext(std::vector<Vector> points, std::vector<Triangle> triangles,
                  std::optional<std::vector<Edge>> edges = std::nullopt);
 
@@ -46,7 +44,7 @@ class SurfaceContext {
   std::shared_ptr<const Curvature> curvature(const Task& task = {}) const;
   /// Curvature::difference(), s of eq. 5. Throws Cancelled.
   std::shared_ptr<const std::vector<double>> feature_strength(const Task& task = {}) const;
-  /// smoothed_curvatures() with a radius of 0.01, those that the concave metric needs. Throws Cancelled.
+  /// The smoothed curvatures (radius 0.01) that the concave metric uses. Throws Cancelled.
   std::shared_ptr<const Curvature> smoothed_curvature(const Task& task = {}) const;
   /// make_edge_adjacency() of the surface. Throws Cancelled.
   std::shared_ptr<const EdgeAdjacency> edge_adjacency(const Task& task = {}) const;
@@ -59,9 +57,9 @@ class SurfaceContext {
   std::shared_ptr<const std::vector<double>> peek_feature_strength() const;
   /// edge_adjacency(), null until it is computed. Does not wait.
   std::shared_ptr<const EdgeAdjacency> peek_edge_adjacency() const;
-  /// Waits at most `seconds` while another thread builds the surface. Returns whether it is built; throws if it cannot
-  /// be.
-  bool wait_for_surface(double seconds = std::numeric_limits<double>::infinity()) const;
+  /// Waits at most `seconds` until another thread has built the surface, which surface() does. Returns whether it is
+  /// built; throws if it cannot be.
+  bool wait_for_surface(double seconds) const;
 
   /// Whether two contexts are copies of each other.
   friend bool operator==(const SurfaceContext&, const SurfaceContext&) = default;

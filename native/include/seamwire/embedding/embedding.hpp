@@ -22,7 +22,7 @@ struct EmbedOptions {
   /// scaled to the unit cube. 0: until none is left.
   double sigma = 0.0;
   Perimeter perimeter = Perimeter::kMetric;  ///< which triangle is bisected first, and what sigma is compared with
-  /// At most this many triangles are added; what is invalid then becomes a hole. With a larger cap no more is left.
+  /// At most this many triangles are added; what is invalid then becomes a hole. A larger cap never leaves more holes.
   std::size_t max_faces_added = 4'000'000;
   /// The mean relative error of distances to aim for, in [0, 1]: triangles are bisected until they resolve the metric
   /// that well. 0: only invalid triangles are bisected, as in the paper. The error is estimated, not proved (see
@@ -47,7 +47,8 @@ struct Resolution {
   /// The EmbedOptions::max_error that the worst triangle meets. Measured, not proved: the mean error of distances was
   /// at most about this on the models of docs/benchmarks.md.
   double estimated_error = 0.0;
-  /// Triangles that miss the max_error, because they are 14 bisections deep or because of the cap.
+  /// Triangles that miss the max_error, because they are 14 bisections deep, or because as many triangles were added
+  /// as the budget or the cap allows.
   std::size_t unmet = 0;
   /// Eta, the largest |ln| of the ratio between a vector's length at a corner of a triangle and in the triangle.
   /// Proved: where there are no holes, distances are within a factor of e^eta of those in the metric that varies
@@ -87,13 +88,13 @@ struct Embedding {
 ///
 /// Bisects invalid triangles, which fail the triangle inequality, at the midpoint of their longest edge in the metric.
 /// The largest perimeter comes first, until none is left. Lengths are those of the ambient reading of the norm
-/// (metric.hpp). All faces at an edge are bisected together, also where there are three or more, or where they cannot be
-/// oriented alike.
+/// (metric.hpp). All faces at an edge are bisected together, also where there are three or more, or where they cannot
+/// be oriented alike.
 ///
 /// If that takes more than four times the surface's triangles, and 20 000, or the cap, it begins anew with schemes that
-/// end: longest-edge propagation, newest-vertex bisection deep below a face, and length repair. Length repair bisects an
-/// invalid triangle once more and gives its new edges lengths that make the parts valid. The result has at most one and
-/// a half times the triangles of the first scheme if that ends (docs/method.md, Section 4).
+/// end: longest-edge propagation, newest-vertex bisection deep below a face, and length repair. Length repair bisects
+/// an invalid triangle once more and gives its new edges lengths that make the parts valid. The result has at most one
+/// and a half times the triangles of the first scheme if that ends (docs/method.md, Section 4).
 ///
 /// With a `max_error`, longest-edge propagation also bisects valid triangles that do not resolve the metric, and edges
 /// are measured with their middles. If the cap does not allow all triangles to become valid, the schemes above follow.
@@ -117,10 +118,10 @@ Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions
 /// the metrics, vertex by vertex.
 ///
 /// If `old` is not local, or the normals of the metrics differ, this is embed(). An embedding is not local if it has
-/// holes, a `max_error`, only some faces, or the work of another scheme than the first, or if the surface has degenerate
-/// faces or is not manifold and oriented. Sizes are compared with the mean edge length of `old` unless the options give
-/// one, so a stroke does not change what `max_error` means elsewhere. `old` must be of the same surface, the metric
-/// `former` and the same options. Throws InvalidInput if it cannot be, and what embed() throws.
+/// holes, a `max_error`, only some faces, or the work of another scheme than the first, or if the surface has
+/// degenerate faces or is not manifold and oriented. Sizes are compared with the mean edge length of `old` unless the
+/// options give one, so a stroke does not change what `max_error` means elsewhere. `old` must be of the same surface,
+/// the metric `former` and the same options. Throws InvalidInput if it cannot be, and what embed() throws.
 Embedding re_embed(const Surface& surface, const Metric& former, const Metric& metric, Embedding old,
                    const EmbedOptions& options = {}, const Task& task = {});
 

@@ -28,7 +28,7 @@ struct LiveMetrics {
   /// One wire is computed for each, at least one. The wire of the first metric is offered first; if some metrics are
   /// counterparts of the first one (is_counterpart()), the shortest wire of these.
   std::vector<MetricSpec> wires;
-  /// The numbers in `wires` of the metrics whose closed cuts are offered, at least one, those of the first one first.
+  /// Indices into `wires`: the metrics whose closed cuts are offered, in this order. At least one.
   std::vector<std::size_t> cuts = {0};
 
   /// Member by member.
@@ -46,9 +46,8 @@ struct LiveWireOptions {
   Along along = Along::kSurface;                                                          ///< where
   LiveMetrics metrics = live_metrics(MetricFamily::kFeature, {.parameter = 0.1}, along);  ///< in which metrics
   double turning = 3.0;                                                                   ///< q of edge_wires()
-  /// q of shortest_cycle(). nullopt: 20, and a quarter of the root of the number of edges where that is more. A circle
-  /// around one quad costs four turns, 4 q edges, so with a fixed q a ring of a dense mesh, which may have as many
-  /// edges as that root, would be dearer.
+  /// q of shortest_cycle(). nullopt: 20, or a quarter of the root of the number of edges if that is more. A fixed q
+  /// would make a long ring of a dense mesh more expensive than a circle around one quad, which costs 4 q edges.
   std::optional<double> loop_turning = std::nullopt;
   /// The mean relative error of a wire's length to aim for, in [0, 1], across the surface. A wire becomes final once
   /// the faces around it resolve the metric that well (EmbedOptions::max_error) and it is the shortest there. 0: a wire
@@ -91,7 +90,7 @@ struct LiveLoop {
 
 /// A closed cut through a point of the surface, in pieces of about the same length that follow each other from the
 /// point around to it. Each is the shortest wire between its ends, but for the place at which the cut's halves meet.
-/// One through a second point as well is in four pieces, two from either point to the other, each the shortest among
+/// A cut that was bent to a second point has four pieces: two from each point to the other. Each is the shortest among
 /// wires that lead around as it does.
 struct LiveClosedWire {
   std::vector<LiveCandidate> pieces;  ///< three or four, or fewer where one would begin on an edge without a face
@@ -182,19 +181,20 @@ class LiveWire {
   /// starts the search, in place of that for another edge; ask again until the answer is final. A seed goes first.
   LiveLoop loop(const Edge& edge);
   /// The closed cuts through a point, at most three, in the metrics of LiveMetrics::cuts (choose_closed_wires());
-  /// across the surface only. The thread of the first of these metrics finds them; asked for as loop(). Those of the
-  /// first metric are there before, and on a large surface what a bounded number of windows tells of them, not final.
-  /// Throws InvalidInput where the point is none.
+  /// across the surface only. The thread of the first of these metrics finds them; asked for as loop(). The cuts
+  /// of the first metric come first. On a large surface, a rough version of them comes even before. Neither is final.
+  /// Throws InvalidInput if the point is not on the surface.
   LiveClosedWires closed_wires(const SurfacePoint& through);
   /// One of the closed cuts through a point, by its LiveClosedWire::id, bent to a second point (BentWires) in its
   /// metric; none if there is no such cut, or it does not lead there. Asked for as the others, and never there before
   /// it is final.
   LiveClosedWires bent_wire(const SurfacePoint& through, const SurfacePoint& second, const ClosedCutId& cut = {});
-  /// seamwire::extend_straight(), with the way's length in the unit cube; no vertices where it cannot be told yet.
+  /// seamwire::extend_straight(), with the way's length in the unit cube; no vertices until the edge adjacency is
+  /// computed.
   EdgeChain extend_straight(const Edge& edge, std::span<const std::int32_t> stops) const;
-  /// seamwire::edge_loop(); no vertices where it cannot be told yet.
+  /// seamwire::edge_loop(); no vertices until the edge adjacency is computed.
   EdgeLoop edge_loop(const Edge& edge, std::span<const std::int32_t> stops) const;
-  /// seamwire::fit_chain(); no vertices, too, where it cannot be told yet. Along edges only.
+  /// seamwire::fit_chain(); no vertices, too, until the edge adjacency is computed. Along edges only.
   FittedChain fit_chain(const DrawnLine& line, std::optional<std::int32_t> begin = std::nullopt,
                         std::optional<std::int32_t> end = std::nullopt) const;
   /// s of eq. 5 at each vertex; null while it is being computed.
