@@ -51,12 +51,13 @@ class GeodesicMesh {
   /// Throws as ExactGeodesics does.
   explicit GeodesicMesh(const IntrinsicMesh& mesh, const Task& task = {});
 
-  /// The mesh anew after a change: `before` is what this one was made of, `mesh` what it is to be made of, with most
-  /// faces and vertices, by their numbers, as they were. Only what belongs to the others is made anew, the rest is
-  /// shared: the time is that of comparing the two, and of copying the hops. What it tells of `mesh` is what one made
-  /// from scratch tells, but for internal numbers: of all that keeps its external number, nearly all keeps those too.
-  /// Nothing where too much has changed, or loose edges, where edges have siblings, or where lengths are huge or tiny.
-  /// Throws as the constructor does.
+  /// Makes the mesh anew after a change. `before` is the IntrinsicMesh that this one was made of, `mesh` the new one.
+  /// Most faces and vertices, by their numbers, should be the same in both. They are shared, and only the others are
+  /// made anew. The time is that of comparing the two and of copying the hops. The result equals one made from scratch,
+  /// except for internal numbers; faces and vertices that keep their external number mostly keep the internal one.
+  ///
+  /// Nothing if too much has changed, if loose edges have changed, if edges have siblings, or if lengths are huge or
+  /// tiny. Throws as the constructor does.
   std::optional<GeodesicMesh> patched(const IntrinsicMesh& before, const IntrinsicMesh& mesh,
                                       const Task& task = {}) const;
 

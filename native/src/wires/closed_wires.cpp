@@ -168,11 +168,11 @@ DisjointSets joined_over_siblings(const IntrinsicMesh& mesh, std::size_t count) 
   return joined;
 }
 
-/// The faces are joined, over edges that are not in the tree of the vertices, by the spanning tree (in each part) whose
-/// L are largest. Each of its edges, and each edge that is in neither tree, closes a loop of the tree of the vertices.
-/// That loop has on one side the faces which hang on the edge in the tree of the faces, unless an edge of neither tree
-/// leads from one side to the other: then it does not separate. No loop closes over an edge with siblings, and faces at
-/// such an edge count as one; loop() finds out whether what it offers does separate.
+/// The tree of the faces joins the faces of each part over edges that are not in the tree of the vertices. It is the
+/// spanning tree whose L are largest. Each of its edges, and each edge that is in neither tree, closes a loop of the
+/// tree of the vertices. The faces on one side of that loop are those below the edge in the tree of the faces. If an
+/// edge of neither tree leads from one side to the other, the loop does not separate. No loop closes over an edge with
+/// siblings, and faces at such an edge count as one; loop() finds out whether what it offers does separate.
 std::vector<CutEdge> CutLocus::find() const {
   const MeshEdges edges(mesh_, task_);
   const std::vector<std::uint8_t> is_in_tree = vertex_tree(mesh_, edges, field_.distances(), task_);

@@ -23,9 +23,10 @@ struct MeshEdges {
   std::vector<std::int32_t> holes;  ///< of the edges of boundaries, in their order
 };
 
-/// Per edge, whether it is in the tree of the vertices: edges join each vertex to the seed of the distances, over
-/// vertices that are ever nearer; and where the mesh has none that is (a wire may reach a vertex through a triangle
-/// whose other corners are further from the seed), to what else is near. `task` is told of a tenth to a quarter.
+/// Tells of each edge whether it is in the tree of the vertices. The tree joins each vertex to the seed of the
+/// distances, over vertices that are nearer and nearer to the seed. A vertex may have no nearer neighbor, because a
+/// wire may reach it through a triangle whose other corners are farther away. Such a vertex is joined to another one
+/// nearby. `task` is told of a tenth to a quarter.
 std::vector<std::uint8_t> vertex_tree(const IntrinsicMesh& mesh, const MeshEdges& edges,
                                       const std::vector<double>& distances, const Task& task);
 

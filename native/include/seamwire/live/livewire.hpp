@@ -35,10 +35,14 @@ struct LiveMetrics {
   friend bool operator==(const LiveMetrics&, const LiveMetrics&) = default;
 };
 
-/// The metrics of a family as an artist is offered their wires. kFeature: M_min and M_max, and across the surface the
-/// concave metric before them. kCampen, kPottmannKovacs: M_min and M_max. kConcave: that metric, and the Euclidean one,
-/// whose closed cuts help out where nothing is concave. kEuclidean: that metric; it ignores the strength. Throws
-/// InvalidInput for a strength that is not as metric.hpp says.
+/// Returns the metrics of a family, as the tool offers their wires.
+///
+/// - kFeature: M_min and M_max; across the surface, the concave metric comes first.
+/// - kCampen, kPottmannKovacs: M_min and M_max.
+/// - kConcave: the concave metric, then the Euclidean one, whose closed cuts help out where nothing is concave.
+/// - kEuclidean: the Euclidean metric, whatever the strength.
+///
+/// Throws InvalidInput for a strength that is not as metric.hpp says.
 LiveMetrics live_metrics(MetricFamily family, const Strength& strength, Along along = Along::kSurface);
 
 /// How live wires run.
@@ -168,11 +172,14 @@ class LiveWire {
   /// Starts the wires from any point of the surface, across the surface only. Throws InvalidInput where the point is
   /// none. Where the metric's embedding has a hole, or the face no area, no wire begins.
   void seed_at(const SurfacePoint& point);
-  /// The wires from the seed to a target now, as far as they are computed. Along edges, wires near the seed are final
-  /// first. Across the surface, work goes on for the target that was asked for last: later calls for it give a path
-  /// that may be a little longer than the shortest one, then the shortest one in the embedding, then that of the faces
-  /// around it as LiveWireOptions::max_error says, which is final. Throws InvalidInput for a target that is not part of
-  /// the surface, and if there is no seed that is. Until all wires are final, progress() is below 1.
+  /// Returns the wires from the seed to a target, as far as they are computed. Ask again until they are final.
+  ///
+  /// Along edges, wires near the seed are final first. Across the surface, work goes on for the target that was asked
+  /// for last. Its first answer is a path that may be a little longer than the shortest one. The next answer is the
+  /// shortest path in the embedding. The last answer, which is final, is the shortest path in refined faces around it
+  /// (LiveWireOptions::max_error). Until the wires to the newest target are final, progress() is below 1.
+  ///
+  /// Throws InvalidInput if the target is not part of the surface, or if no seed on the surface is set.
   LiveWires wires(const Pick& target) const;
   /// To any point of the surface, across the surface only.
   LiveWires wires_to(const SurfacePoint& target) const;

@@ -49,9 +49,10 @@ struct Scribble {
 /// direction and changes nothing, and vertices without a normal are left as they are. `kind`: that of the metric; takes
 /// only the scribbles meant for it. nullopt: takes all. (The paper changes the metric of the active wire.)
 ///
-/// Throws InvalidInput, naming scribble and point, for a point that is not finite, without a face or vertex, with one
-/// out of range, or off the mesh: further from its face or vertex than a twentieth of the model's longest side; for
-/// lists that differ in length, eta, rings or a radius that is out of range, and a metric of another size; Cancelled.
+/// Throws InvalidInput, naming scribble and point, for a point that is not finite, or whose face or vertex is missing
+/// or out of range. A point may also be too far from the mesh: farther from its face or vertex than a twentieth of the
+/// model's longest side. Throws InvalidInput, too, for lists of different lengths, if eta, rings or a radius is out of
+/// range, and for a metric of another size; Cancelled.
 Metric apply_scribbles(const Surface& surface, const Metric& metric, std::span<const Scribble> scribbles,
                        std::optional<MetricKind> kind = std::nullopt, const Task& task = {});
 

@@ -81,11 +81,11 @@ class Surface {
   const std::vector<std::int32_t>& vertex_of_fan() const { return vertex_of_fan_; }
   /// The caller's face of each face of half_edges().
   const std::vector<std::int32_t>& face_of_half_edge_face() const { return source_face_; }
-  /// half_edges() in flat arrays, for passes over all of it: the fans at the corners of each face, from the caller's
-  /// first corner on; and for its half-edge 3 f + i, from corner i of face f to the next, the one on the other side of
-  /// the edge, -1 on the boundary.
+  /// The fans at the corners of each face of half_edges(), from the caller's first corner on. Together with twins()
+  /// this is half_edges() in flat arrays, for passes over all of it.
   const std::vector<Triangle>& face_fans() const { return face_fans_; }
-  /// The half-edge on the other side, as said above.
+  /// The half-edge on the other side of each half-edge, -1 on the boundary. Half-edge 3 f + i runs from corner i of
+  /// face f to the next corner.
   const std::vector<std::int32_t>& twins() const { return twins_; }
   /// The half-edges of each edge at which half_edges() is cut open, as IntrinsicMesh::siblings has them. Empty where
   /// the surface is manifold and orientable.

@@ -15,16 +15,16 @@ struct BentWire {
   Wire back;   ///< from the second point to the seed
 };
 
-/// Bends a closed cut, so that it leads through a second point as well: the shortest closed wire through both that
-/// lies around what the cut lies around; docs/method.md, Section 6.
+/// Bends a closed cut, so that it leads through a second point as well. The result is the shortest closed wire through
+/// both points that runs around the same thing as the cut. docs/method.md, Section 6.
 ///
-/// On either side of the cut the place deepest in it is taken out, a face or a hole. What is left has a double cover
-/// in which a closed wire ends on the sheet it began on exactly where it crosses the lines from one place to the other
-/// an even number of times. So the shortest wires from the seed on one sheet to the second point on both make, put
-/// together, one that crosses them an odd number of times: it parts the two places, as the cut does. A cut that does
-/// not separate is crossed once by a closed line instead, and nothing is taken out.
+/// The place deepest on each side of the cut, a face or a hole, is removed, and a line joins the two places. The rest
+/// has a double cover: a closed wire ends on the sheet that it began on if it crosses the line an even number of times.
+/// The shortest wires lead from the seed on one sheet to the second point on both sheets. Together they cross the line
+/// an odd number of times, so they separate the two places, as the cut does. If the cut does not separate the surface,
+/// a closed line crosses it once instead, and nothing is removed.
 ///
-/// All of it depends on the cut alone, so that it is bent to one point after the other in the time of two traces.
+/// The double cover depends on the cut only. So the cut can be bent to many points, each in the time of two traces.
 class BentWires {
  public:
   /// From a cut that closed_wires() found with the same arguments; `geodesics` is of the embedding's mesh. Throws

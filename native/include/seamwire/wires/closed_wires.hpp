@@ -21,21 +21,23 @@ struct ClosedWire {
   std::weak_ptr<const void> mesh = {};  ///< DistanceField::mesh() of its field
 };
 
-/// The closed cuts through the seed of a field over `embedding` that the surface suggests, at most `count`, best first;
-/// docs/method.md, Section 6, has the equations. They belong to the cut locus of the seed, where shortest wires that
-/// leave it on different sides meet (found by a tree of the vertices and a tree of the faces, Erickson and Whittlesey,
-/// "Greedy Optimal Homotopy and Homology Generators", 2005), and are the places there at which the loop is short and
-/// turns little at the seed.
+/// Finds the closed cuts through the seed of a field over `embedding` that the surface suggests, at most `count`, best
+/// first. docs/method.md, Section 6, has the equations.
+///
+/// Each cut consists of two shortest wires from the seed that meet on its cut locus. There, shortest wires that leave
+/// the seed on different sides meet. A cut is better if it is short and turns little at the seed. A tree of the
+/// vertices and a tree of the faces find the cut locus: Erickson and Whittlesey, "Greedy Optimal Homotopy and Homology
+/// Generators" (2005).
 ///
 /// Wires may cross non-manifold and unorientable edges (SurfaceReport), but the two that meet never do so at such an
 /// edge. A loop that separates has at least 0.3 % of the area of its part of the surface on either side. A hole counts
-/// as something that a loop may run around. Empty where nothing suggests one: on a plane, where no two wires meet, and
-/// where wires in all directions meet at one place, as on a sphere, or from the tip of a limb. Other parts of the
-/// surface, vertices without a face and what is beyond the field's radius are left alone. `concave_metric()` is the one
-/// in which loops are nearest to those that people draw.
+/// as something that a loop may run around. The result is empty if nothing suggests a cut. On a plane no two wires
+/// meet; on a sphere, or from the tip of a limb, wires in all directions meet in one place. Other parts of the surface,
+/// vertices without a face and everything beyond the field's radius are ignored. In `concave_metric()` loops are
+/// nearest to those that people draw.
 ///
-/// Throws InvalidInput where the field has several sources, or is of another embedding, and where the embedding is not
-/// one of the surface, as far as sizes tell; Cancelled.
+/// Throws InvalidInput if the field has several sources or is of another embedding, or if the embedding is not one of
+/// the surface, as far as sizes tell; Cancelled.
 std::vector<ClosedWire> closed_wires(const Surface& surface, const Embedding& embedding, const DistanceField& field,
                                      std::size_t count = 3, const Task& task = {});
 

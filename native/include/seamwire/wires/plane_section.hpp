@@ -17,13 +17,16 @@ struct PlaneSection {
   double length = std::numeric_limits<double>::infinity();  ///< in the caller's units
 };
 
-/// Where the plane through two points of a surface and along a direction cuts the surface between them: with the
-/// direction of a view, what is straight in that view. Exact but for rounding: straight in each triangle. Where two
-/// ways lead there, around a closed surface or over edges with three or more faces, it is the shortest one; there is
-/// none where the plane's curve through one point ends at a boundary, or is closed, before it comes to the other.
+/// Finds the curve in which a plane cuts the surface between two points. The plane leads through both points and along
+/// a direction. With the direction of a view, the curve is straight in that view. It is straight in each triangle, and
+/// exact up to rounding.
 ///
-/// Throws InvalidInput for a point that is none of the surface, a direction that is not finite, and where there is no
-/// such plane: the points are the same, or one lies behind the other along the direction.
+/// If several curves lead there, around a closed surface or over edges with three or more faces, the result is the
+/// shortest one. The result has no points if the curve through one point ends at a boundary, or closes, before it
+/// reaches the other point.
+///
+/// Throws InvalidInput if a point is not on the surface, if the direction is not finite, or if there is no such plane:
+/// the points are the same, or one lies behind the other along the direction.
 PlaneSection plane_section(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to,
                            const Vector& direction);
 
