@@ -2,6 +2,7 @@
 #include "geodesics/geodesic_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -154,6 +155,14 @@ double four_areas(double a, double b, double c) {
   return std::sqrt(std::max(product, 0.0));
 }
 
+/// Where the apex stands over the base, from its tail: (left^2 + base^2 - right^2) / (2 base), with the difference
+/// taken between the two that are nearest to each other.
+double foot(double base, double left, double right) {
+  const double square = std::abs(base - right) < std::abs(left - right) ? left * left + (base - right) * (base + right)
+                                                                        : base * base + (left - right) * (left + right);
+  return square / (2 * base);
+}
+
 /// Hops are in a unit of their own where the longest is longer than 2 to this, or shorter than the inverse: 2^80 times
 /// the number of vertices is still far below 2^128, where single precision ends.
 constexpr int kMostHopExponent = 80;
@@ -173,7 +182,7 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh, const Task& task) {
 
   internal_face_ = std::move(internal_face);
 
-  faces_.resize(external_face_.size());
+  half_edges_.resize(3 * external_face_.size());
   angle_.resize(3 * external_face_.size());
   std::vector<Triangle> corners;
   corners.reserve(external_face_.size());
@@ -187,7 +196,7 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh, const Task& task) {
       prefetch(&mesh.triangles[ahead]);
     }
     set_face(mesh, external_face_[f]);
-    corners.push_back(faces_[f].corners);
+    corners.push_back({half_edges_[3 * f].tail, half_edges_[3 * f + 1].tail, half_edges_[3 * f + 2].tail});
   }
 
   set_siblings(mesh);
@@ -204,16 +213,25 @@ void GeodesicMesh::set_face(const IntrinsicMesh& mesh, std::int32_t external) {
     return twin < 0 ? -1 : 3 * internal_face_[twin / 3] + twin % 3;
   };
   const double* lengths = &mesh.lengths[3 * index(external)];
+  const double areas = four_areas(lengths[0], lengths[1], lengths[2]);
   const Triangle& triangle = mesh.triangles[external];
-  const std::size_t own = index(internal_face_[external]);
-  Face& face = faces_.edit(own);
-  face = {.lengths = {lengths[0], lengths[1], lengths[2]},
-          .four_areas = four_areas(lengths[0], lengths[1], lengths[2]),
-          .corners = {internal_vertex(triangle[0]), internal_vertex(triangle[1]), internal_vertex(triangle[2])},
-          .twins = {entered_over(3 * external), entered_over(3 * external + 1), entered_over(3 * external + 2)}};
+  const Triangle own{internal_vertex(triangle[0]), internal_vertex(triangle[1]), internal_vertex(triangle[2])};
+  const std::array entered{entered_over(3 * external), entered_over(3 * external + 1), entered_over(3 * external + 2)};
+  const std::size_t first = 3 * index(internal_face_[external]);
   for (std::size_t i = 0; i < 3; ++i) {
-    const HalfEdge h = face.unfolded(i);
-    angle_.edit(3 * own + i) = std::atan2(h.apex_y, h.apex_x);
+    const std::size_t after = (i + 1) % 3, before = (i + 2) % 3;
+    HalfEdge& h = half_edges_.edit(first + i);
+    h = {.length = lengths[i],
+         .apex_x = foot(lengths[i], lengths[before], lengths[after]),
+         .apex_y = areas / (2 * lengths[i]),
+         .left_length = lengths[before],
+         .right_length = lengths[after],
+         .tail = own[i],
+         .tip = own[after],
+         .apex = own[before],
+         .left = entered[before],
+         .right = entered[after]};
+    angle_.edit(first + i) = std::atan2(h.apex_y, h.apex_x);
   }
 }
 
@@ -256,7 +274,7 @@ Csr<std::int32_t> GeodesicMesh::leaving(std::size_t vertex_count, const std::vec
 /// of single precision.
 double GeodesicMesh::unit_of_hops() const {
   double longest = 0.0;
-  for (std::size_t f = 0; f < faces_.size(); ++f) longest = std::max(longest, std::ranges::max(faces_[f].lengths));
+  for (std::size_t h = 0; h < half_edges_.size(); ++h) longest = std::max(longest, half_edges_[h].length);
   for (const Loose& edge : loose_.items()) longest = std::max(longest, edge.length);
   if (longest == 0.0) return 1.0;
   const int exponent = std::ilogb(longest);
@@ -270,18 +288,18 @@ void GeodesicMesh::each_hop(std::int32_t vertex, const Add& add) const {
   std::size_t leaving = index(out_.offset(vertex));  // of `all`, half-edges looked at
   for (const std::int32_t h : out(vertex)) {
     if (++leaving + 2 * kAhead < all.size()) {
-      prefetch_half_edge(all[leaving + 2 * kAhead]);
-      if (const std::int32_t over = twin(next_in_face(all[leaving + kAhead])); over >= 0) prefetch_half_edge(over);
+      prefetch(&half_edge(all[leaving + 2 * kAhead]));
+      if (const std::int32_t over = half_edge(all[leaving + kAhead]).right; over >= 0) prefetch(&half_edge(over));
     }
-    const HalfEdge edge = half_edge(h);
+    const HalfEdge& edge = half_edge(h);
     add(edge.tip, edge.length);
     // On the boundary no half-edge leaves the vertex along the edge that arrives here.
     if (edge.left < 0) add(edge.apex, half_edge(previous_in_face(h)).length);
     // Over the opposite edge, from below it in the frame of the half-edge entered.
     const std::int32_t opposite = next_in_face(h);
-    const HalfEdge back = half_edge(opposite);
+    const HalfEdge& back = half_edge(opposite);
     for_each_beyond(opposite, [&](std::int32_t entered) {
-      const HalfEdge over = half_edge(entered);
+      const HalfEdge& over = half_edge(entered);
       const bool is_turned = is_mirrored(opposite, entered);
       const double x = is_turned ? back.apex_x : over.length - back.apex_x, y = -back.apex_y;
       const double dx = over.apex_x - x, dy = over.apex_y - y, foot = x * dy - dx * y;  // times dy, which is positive
@@ -296,7 +314,7 @@ void GeodesicMesh::each_hop(std::int32_t vertex, const Add& add) const {
 }
 
 void GeodesicMesh::list_hops(const Task& task) {
-  hops_.reserve(vertex_count(), 2 * half_edge_count() + loose_.items().size());
+  hops_.reserve(vertex_count(), 2 * half_edges_.size() + loose_.items().size());
   hop_unit_ = unit_of_hops();
   const auto add = [&](std::int32_t to, double length) { hops_.push({to, static_cast<float>(length * hop_unit_)}); };
   const Poll poll(task, 0.7, 0.9, vertex_count());
@@ -461,7 +479,7 @@ std::optional<GeodesicMesh> GeodesicMesh::patched(const IntrinsicMesh& before, c
   for (const std::int32_t f : faces.numbers()) check_corners(mesh, index(f));
 
   GeodesicMesh out;  // rows of half-edges and hops are copied when they are patched
-  out.faces_ = faces_;
+  out.half_edges_ = half_edges_;
   out.angle_ = angle_;
   out.is_pseudo_source_ = is_pseudo_source_;
   out.external_vertex_ = external_vertex_;
@@ -494,7 +512,7 @@ std::optional<GeodesicMesh> GeodesicMesh::patched(const IntrinsicMesh& before, c
   }
   for (const std::int32_t f : faces.numbers()) check_triangle_inequality(mesh, index(f));
 
-  out.faces_.resize(count);
+  out.half_edges_.resize(3 * count);
   out.angle_.resize(3 * count);
   InsertionMap around;  // internal numbers of the vertices of all these faces
   for (const std::int32_t f : faces.numbers()) {
@@ -526,7 +544,7 @@ std::optional<GeodesicMesh> GeodesicMesh::patched(const IntrinsicMesh& before, c
 void GeodesicMesh::patch_rows(const GeodesicMesh& former, const std::vector<std::int32_t>& faces,
                               const std::vector<std::int32_t>& vertices) {
   std::vector<std::pair<std::int32_t, std::int32_t>> leaving;  // vertex, half-edge
-  std::vector<bool> is_new(faces_.size(), false);
+  std::vector<bool> is_new(half_edges_.size() / 3, false);
   for (const std::int32_t face : faces) {
     const std::int32_t own = internal_face_[face];
     is_new[own] = true;
@@ -535,7 +553,7 @@ void GeodesicMesh::patch_rows(const GeodesicMesh& former, const std::vector<std:
   for (const std::int32_t v : vertices) {
     if (index(v) >= former.vertex_count()) continue;
     for (const std::int32_t h : former.out(v)) {
-      if (index(h) < half_edge_count() && !is_new[h / 3]) leaving.emplace_back(v, h);
+      if (index(h) < half_edges_.size() && !is_new[h / 3]) leaving.emplace_back(v, h);
     }
   }
   std::ranges::sort(leaving);

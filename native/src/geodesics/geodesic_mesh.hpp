@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -27,8 +25,7 @@ namespace seamwire::detail {
 /// that paths come from below.
 class GeodesicMesh {
  public:
-  /// A half-edge with its triangle unfolded into its frame.
-  struct HalfEdge {
+  struct alignas(64) HalfEdge {
     double length;
     double apex_x, apex_y;
     double left_length, right_length;  ///< of tail-apex and of tip-apex
@@ -36,6 +33,7 @@ class GeodesicMesh {
     /// The half-edge a path enters next over tail-apex, over tip-apex; -1 on the boundary and where it has siblings.
     std::int32_t left, right;
   };
+  static_assert(sizeof(HalfEdge) == 64);
 
   struct Loose {
     std::int32_t to;
@@ -62,12 +60,10 @@ class GeodesicMesh {
                                       const Task& task = {}) const;
 
   std::size_t vertex_count() const { return external_vertex_.size(); }
-  HalfEdge half_edge(std::int32_t h) const { return faces_[index(h / 3)].unfolded(index(h % 3)); }
-  /// Asks for the memory of a half-edge in advance.
-  void prefetch_half_edge(std::int32_t h) const { prefetch(&faces_[index(h / 3)]); }
-  std::size_t half_edge_count() const { return 3 * faces_.size(); }
+  const HalfEdge& half_edge(std::int32_t h) const { return half_edges_[index(h)]; }
+  std::size_t half_edge_count() const { return half_edges_.size(); }
   /// The twin of h, -1 if it has none.
-  std::int32_t twin(std::int32_t h) const { return faces_[index(h / 3)].twins[index(h % 3)]; }
+  std::int32_t twin(std::int32_t h) const { return half_edge(previous_in_face(h)).right; }
   /// The next half-edge of h's edge among siblings (IntrinsicMesh::siblings), -1 if h has none.
   std::int32_t sibling(std::int32_t h) const { return siblings_.empty() ? -1 : siblings_[index(h)]; }
   bool has_siblings() const { return !siblings_.empty(); }
@@ -100,7 +96,7 @@ class GeodesicMesh {
   template <class See>
   void for_each_edge(std::int32_t vertex, const See& see) const {
     for (const std::int32_t h : out(vertex)) {
-      const HalfEdge edge = half_edge(h);
+      const HalfEdge& edge = half_edge(h);
       see(edge.tip, h, edge.length);
       if (edge.left < 0) see(edge.apex, previous_in_face(h), edge.left_length);  // else that of the corner beside
     }
@@ -122,41 +118,12 @@ class GeodesicMesh {
   std::int32_t internal_face(std::int32_t external) const { return internal_face_[external]; }
   std::int32_t external_half_edge(std::int32_t h) const { return 3 * external_face_[h / 3] + h % 3; }
   /// Whether a half-edge is in the memory of another mesh, which this one was patched from, or it from this one.
-  bool shares(const GeodesicMesh& other, std::int32_t h) const { return faces_.shares(other.faces_, index(h / 3)); }
+  bool shares(const GeodesicMesh& other, std::int32_t h) const {
+    return half_edges_.shares(other.half_edges_, index(h));
+  }
 
  private:
   friend class SubmeshCutter;
-
-  /// A triangle in one cache line. Its apexes are computed from it: that is faster than fetching a line for each.
-  struct alignas(64) Face {
-    std::array<double, 3> lengths;
-    double four_areas;  ///< four times its area
-    Triangle corners;
-    std::array<std::int32_t, 3> twins;
-
-    HalfEdge unfolded(std::size_t i) const {
-      const std::size_t after = i == 2 ? 0 : i + 1, before = i == 0 ? 2 : i - 1;
-      return {.length = lengths[i],
-              .apex_x = foot(lengths[i], lengths[before], lengths[after]),
-              .apex_y = four_areas / (2 * lengths[i]),
-              .left_length = lengths[before],
-              .right_length = lengths[after],
-              .tail = corners[i],
-              .tip = corners[after],
-              .apex = corners[before],
-              .left = twins[before],
-              .right = twins[after]};
-    }
-    /// Where the apex stands over the base, from its tail: (left^2 + base^2 - right^2) / (2 base), with the difference
-    /// taken between the two that are nearest to each other.
-    static double foot(double base, double left, double right) {
-      const bool is_right_nearer = std::abs(base - right) < std::abs(left - right);
-      const double one = is_right_nearer ? left : base, other = is_right_nearer ? base : left;
-      return (one * one + (other - right) * (other + right)) / (2 * base);
-    }
-  };
-  static_assert(sizeof(Face) == 64);
-
   GeodesicMesh() = default;
   void renumber(const IntrinsicMesh& mesh, std::vector<std::int32_t>& internal_face, const Task& task);
   static Csr<std::int32_t> leaving(std::size_t vertex_count, const std::vector<Triangle>& corners,
@@ -177,7 +144,7 @@ class GeodesicMesh {
 
   static constexpr std::uint8_t kPseudoSource = 1, kBranching = 2;
 
-  PagedArray<Face> faces_;
+  PagedArray<HalfEdge> half_edges_;
   PagedArray<double> angle_;
   Csr<std::int32_t> out_;
   Csr<Loose> loose_;

@@ -93,7 +93,7 @@ class Wavefront {
       prefetch(next.data());
       expand_vertex(v);
       ++vertices_done_;
-      for (const std::int32_t h : next) mesh_.prefetch_half_edge(h);
+      for (const std::int32_t h : next) prefetch(&mesh_.half_edge(h));
       propagate_ready_lists();
     }
     if (may_stop) forget_beyond(std::min(result_.radius, end_.max_distance));
@@ -123,7 +123,7 @@ class Wavefront {
       is_any = false;
       for (std::size_t h = 0; h < mesh_.half_edge_count(); ++h) {
         check_task(1);
-        const HalfEdge edge = mesh_.half_edge(static_cast<std::int32_t>(h));
+        const HalfEdge& edge = mesh_.half_edge(static_cast<std::int32_t>(h));
         const double tail = distance(edge.tail), tip = distance(edge.tip);
         const bool is_tip_late = (tail + edge.length) * kLate < tip, is_tail_late = (tip + edge.length) * kLate < tail;
         if (!is_tip_late && !is_tail_late) [[likely]]
@@ -199,7 +199,7 @@ class Wavefront {
 
   /// Adds a window to the list of h.
   void add_window(std::int32_t h, double b0, double b1, const Point2& from, double distance, std::int32_t source) {
-    const HalfEdge edge = mesh_.half_edge(h);
+    const HalfEdge& edge = mesh_.half_edge(h);
     WindowList& list = lists_[h];
     list.reserve_back(1, blocks_).set(0, b0, b1, from.x, from.y, distance, source);
     list.grew_back(1);
@@ -235,7 +235,7 @@ class Wavefront {
     status_[v] = Status::kPassed;
     const auto leaving = mesh_.out(v);
     for (const std::int32_t h : leaving) {
-      const HalfEdge edge = mesh_.half_edge(h);
+      const HalfEdge& edge = mesh_.half_edge(h);
       if (status_[edge.tip] == Status::kUnreached) status_[edge.tip] = Status::kOnFront;
       if (status_[edge.apex] == Status::kUnreached) status_[edge.apex] = Status::kOnFront;
     }
@@ -294,7 +294,7 @@ class Wavefront {
     const TraceRecord& record = result_.records[v];
     if (is_next_to_source(v, record)) return {-1, 0.0};
     if (record.half_edge >= 0) {
-      const HalfEdge edge = mesh_.half_edge(record.half_edge);
+      const HalfEdge& edge = mesh_.half_edge(record.half_edge);
       const double x = record.x - edge.apex_x, y = record.y - edge.apex_y;
       const double turn = std::atan2(edge.apex_y * x - edge.apex_x * y, -edge.apex_x * x - edge.apex_y * y);
       const std::int32_t corner = previous_in_face(record.half_edge);
@@ -302,7 +302,7 @@ class Wavefront {
     }
     if (record.half_edge == TraceRecord::kNone || record.half_edge == TraceRecord::kLooseEdge) return {-1, 0.0};
     const std::int32_t along = ~record.half_edge;
-    const HalfEdge edge = mesh_.half_edge(along);
+    const HalfEdge& edge = mesh_.half_edge(along);
     if (edge.tail == edge.tip) return {-1, 0.0};
     if (edge.tail == v) return {along, 0.0};
     return {next_in_face(along), mesh_.angle(next_in_face(along))};
@@ -357,7 +357,7 @@ class Wavefront {
   /// `end`, as angles from h.
   void emit_window(std::int32_t v, std::int32_t h, double begin, double end) {
     if (!(begin < end) || end <= 0 || begin >= mesh_.angle(h)) return;
-    const HalfEdge edge = mesh_.half_edge(h);
+    const HalfEdge& edge = mesh_.half_edge(h);
     const std::int32_t opposite = next_in_face(h);
     if (edge.right < 0 && mesh_.sibling(opposite) < 0) return;
     const double cosine = (edge.length - edge.apex_x) / edge.right_length;
@@ -392,7 +392,7 @@ class Wavefront {
     if (list_state_[h] != ListState::kWaiting) return;
     list_state_[h] = ListState::kReady;
     ready_lists_.push_back(h);
-    mesh_.prefetch_half_edge(h);
+    prefetch(&mesh_.half_edge(h));
     prefetch(&lists_[h]);
   }
   /// The list of h, from tail to tip, has got windows. It is ready to be propagated as soon as the front has passed an
@@ -532,7 +532,7 @@ class Wavefront {
 
   /// Carries the list of h through the triangle it enters.
   void propagate(std::int32_t h) {
-    const HalfEdge edge = mesh_.half_edge(h);
+    const HalfEdge& edge = mesh_.half_edge(h);
     const WindowList list = std::exchange(lists_[h], {});
     if (edge.left >= 0) prefetch(&lists_[edge.left]);
     if (edge.right >= 0) prefetch(&lists_[edge.right]);
