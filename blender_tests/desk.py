@@ -14,7 +14,7 @@ from bl_ui.space_statusbar import STATUSBAR_HT_header
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from numpy.typing import NDArray
 from scene import add_grid, add_layers, edit, snapshot
-from seamwire.core.session import Session
+from seamwire.core.drawing.session import Session
 from seamwire.mesh.settings import TOOL, settings
 from seamwire.operators import modal
 from seamwire.operators.report import running

@@ -6,7 +6,7 @@ from __future__ import annotations
 import bpy
 import pytest
 from scene import Edge, seams
-from seamwire.core.serialization import Archive
+from seamwire.core.storage.serialization import Archive
 from seamwire.mesh import object_session
 from seamwire.mesh.object_session import ObjectSession
 

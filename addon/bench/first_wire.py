@@ -51,8 +51,8 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     Reading the mesh; beginning all that is computed beside; that it is ready for a seed; from the click to the first wire that is
     shown; to both final ones; and from a move of the cursor to the next wire.
     """
-    from seamwire.core import session
-    from seamwire.core.live_maker import LiveMaker
+    from seamwire.core.drawing import session
+    from seamwire.core.solver.live_maker import LiveMaker
     from seamwire.mesh import edit_mesh
     from seamwire.operators.modal import TICK
     from seamwire.view import picking, viewport

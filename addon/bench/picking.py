@@ -17,8 +17,8 @@ from types import FrameType
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from seamwire.core.mesh_arrays import Arrays
-from seamwire.core.network import Wire
+from seamwire.core.base.mesh_arrays import Arrays
+from seamwire.core.network.network import Wire
 from seamwire.view.picking import Picker
 from seamwire.view.viewport import View
 

@@ -18,7 +18,7 @@ REPEATS = 5
 
 def main() -> None:
     """Measure and print."""
-    from seamwire.core.stretch import Stretch
+    from seamwire.core.islands.stretch import Stretch
     from seamwire.mesh import edit_mesh, unwrap, uv_map
 
     bpy.ops.mesh.primitive_grid_add(x_subdivisions=SIDE, y_subdivisions=SIDE)

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from seamwire.core.symmetry import TOLERANCE, Symmetry
+from seamwire.core.network.symmetry import TOLERANCE, Symmetry
 
 SIDE = 1000
 FLIP = np.array([-1.0, 1.0, 1.0])

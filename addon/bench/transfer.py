@@ -86,7 +86,7 @@ def spread_pairs(
 
 def near(places: NDArray, starts: NDArray, ends: NDArray, reach: NDArray) -> float:
     """Return the share of places that are within reach of some segments."""
-    from seamwire.core.geometry import nearest_on_segments
+    from seamwire.core.base.geometry import nearest_on_segments
 
     if not len(places) or not len(starts):
         return 0.0
@@ -96,8 +96,8 @@ def near(places: NDArray, starts: NDArray, ends: NDArray, reach: NDArray) -> flo
 
 def measure(path: Path) -> None:
     """Print a line for each change."""
-    from seamwire.core import transfer
-    from seamwire.core.placing import Shape
+    from seamwire.core.matching import transfer
+    from seamwire.core.matching.placing import Shape
     from seamwire.mesh.object_session import ObjectSession
     from seamwire.mesh.settings import settings
     from seamwire.mesh.transfer import network_of, shape_of

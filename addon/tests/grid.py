@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 from fake_live import FakeLive, grid_edges, grid_points
-from seamwire.core.network import Along, Wire
-from seamwire.core.solver import Engines
-from seamwire.core.symmetry import Symmetry
+from seamwire.core.network.network import Along, Wire
+from seamwire.core.network.symmetry import Symmetry
+from seamwire.core.solver.solver import Engines
 
 SIZE = 6
 POINTS = grid_points(SIZE)

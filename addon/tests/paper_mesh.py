@@ -8,12 +8,12 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from seamwire.core import wire_labels
-from seamwire.core.network import Edge, Network
-from seamwire.core.serialization import Archive
-from seamwire.core.session import Session
-from seamwire.core.strokes import on_mesh
-from seamwire.core.wire_labels import EdgeLabels, Found, Places, Plan
+from seamwire.core.drawing.session import Session
+from seamwire.core.network.network import Edge, Network
+from seamwire.core.network.strokes import on_mesh
+from seamwire.core.storage import wire_labels
+from seamwire.core.storage.serialization import Archive
+from seamwire.core.storage.wire_labels import EdgeLabels, Found, Places, Plan
 
 
 def undirected(pairs: Iterable[Sequence[int]]) -> list[Edge]:

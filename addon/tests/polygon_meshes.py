@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
-from seamwire.core.mesh_arrays import Arrays
+from seamwire.core.base.mesh_arrays import Arrays
 
 
 def arrays_of(

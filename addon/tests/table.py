@@ -7,8 +7,8 @@ import itertools
 
 from fake_live import FakeLive, grid_edges, grid_points, grid_triangles
 from paper_mesh import PaperMesh
-from seamwire.core.network import Along
-from seamwire.core.session import Session
+from seamwire.core.drawing.session import Session
+from seamwire.core.network.network import Along
 
 SIZE = 6
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The five packages: arrows run downwards only, no two modules need each other, and the core knows no Blender."""
+"""Imports run downwards only, between packages and between rooms of the core; no two modules need each other."""
 
 from __future__ import annotations
 
@@ -11,7 +11,9 @@ import pytest
 from blender_refusal import BLENDERS
 
 ROOT = Path(__file__).parent.parent / "seamwire"
-FLOORS = ("core", "mesh", "view", "operators", "ui")
+ROOMS = ("base", "network", "solver", "storage", "matching", "seams", "islands", "fields", "offers", "drawing")
+"""The rooms of the core; each imports from itself and from those before it."""
+FLOORS = (*(f"core.{room}" for room in ROOMS), "mesh", "view", "operators", "ui")
 KNOWN_CYCLES = {
     ("operators.report", "operators.modal"): {
         "operators.cut",
@@ -28,8 +30,18 @@ def modules() -> list[Path]:
     return [path for path in sorted(ROOT.rglob("*.py")) if path.parent != ROOT and path.name != "__init__.py"]
 
 
+def name_of(path: Path) -> str:
+    """Return a module's name below the add-on, such as ``core.base.geometry``."""
+    return ".".join(path.relative_to(ROOT).with_suffix("").parts)
+
+
+def floor_of(name: str) -> int:
+    """Return the floor of a package or module."""
+    return FLOORS.index(next(floor for floor in FLOORS if f"{name}.".startswith(f"{floor}.")))
+
+
 def imported(path: Path) -> tuple[set[str], set[str]]:
-    """Return the add-on's modules that one imports, types included, as ``package.module``, and other top-level ones."""
+    """Return the add-on's modules that one imports, types included, and other top-level ones."""
     own, others = set(), set()
     tree = ast.parse(path.read_text(encoding="utf-8"))
     for node in ast.walk(tree):
@@ -38,22 +50,28 @@ def imported(path: Path) -> tuple[set[str], set[str]]:
         elif isinstance(node, ast.ImportFrom) and node.level == 0:
             others.add(node.module.split(".")[0])
         elif isinstance(node, ast.ImportFrom):
-            package = [path.parent.name] if node.level == 1 else []
-            parts = package + (node.module.split(".") if node.module else [])
-            if len(parts) == 2:
-                own.add(".".join(parts))
+            above = path.relative_to(ROOT).parts[: -node.level]
+            parts = (*above, *(node.module.split(".") if node.module else ()))
+            if ROOT.joinpath(*parts).is_dir():
+                own.update(".".join((*parts, name.name)) for name in node.names)
             else:
-                own.update(f"{parts[0]}.{name.name}" for name in node.names)
+                own.add(".".join(parts))
     return own, others
 
 
-@pytest.mark.parametrize("path", modules(), ids=lambda path: f"{path.parent.name}.{path.stem}")
-def test_a_module_imports_from_its_own_package_and_those_below(path: Path) -> None:
+@pytest.mark.parametrize("path", modules(), ids=name_of)
+def test_a_module_imports_from_its_own_package_or_room_and_those_below(path: Path) -> None:
     own, others = imported(path)
-    floor = FLOORS.index(path.parent.name)
-    assert [name for name in own if FLOORS.index(name.split(".")[0]) > floor] == []
-    if path.parent.name == "core":
+    name = name_of(path)
+    assert [other for other in own if floor_of(other) > floor_of(name)] == []
+    if name.startswith("core."):
         assert not others & BLENDERS
+
+
+def test_the_core_has_rooms_only() -> None:
+    core = ROOT / "core"
+    assert {path.name for path in core.iterdir() if path.is_dir() and path.name != "__pycache__"} == set(ROOMS)
+    assert [path.name for path in core.glob("*.py")] == ["__init__.py"]
 
 
 def test_edit_meshes_are_had_from_one_place_which_numbers_their_items() -> None:
@@ -73,7 +91,7 @@ def reached(graph: dict[str, set[str]], start: str) -> set[str]:
 
 
 def test_no_modules_need_each_other_but_the_known_ones() -> None:
-    graph = {f"{path.parent.name}.{path.stem}": imported(path)[0] for path in modules()}
+    graph = {name_of(path): imported(path)[0] for path in modules()}
     assert len(graph) > 30
     for (module, other), cycle in KNOWN_CYCLES.items():
         assert other in graph[module]

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 from polygon_meshes import arrays_of, grid_places, grid_polygons
-from seamwire.core.mesh_arrays import Arrays
-from seamwire.core.network import FacePoint, Pick, Snap, Wire
+from seamwire.core.base.mesh_arrays import Arrays
+from seamwire.core.network.network import FacePoint, Pick, Snap, Wire
 from seamwire.view.picking import Picker, nearest_edge
 from seamwire.view.viewport import View
 

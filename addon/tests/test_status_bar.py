@@ -3,9 +3,9 @@
 
 import pytest
 from polygon_meshes import arrays_of, grid_places, grid_polygons
-from seamwire.core.live_maker import LiveMaker
-from seamwire.core.network import Snap
-from seamwire.core.session import Session
+from seamwire.core.drawing.session import Session
+from seamwire.core.network.network import Snap
+from seamwire.core.solver.live_maker import LiveMaker
 from seamwire.operators.bindings import Action, Bindings, Key
 from seamwire.ui.status_bar import Status, hints
 

@@ -228,8 +228,8 @@ class Run:
                 options["unwrap"] = False
             self._call(obj, lambda: operator(**options))
             return
-        from seamwire.core.network_file import NetworkFile
-        from seamwire.core.placing import Shape
+        from seamwire.core.matching.placing import Shape
+        from seamwire.core.storage.network_file import NetworkFile
         from seamwire.mesh.object_session import ObjectSession
         from seamwire.mesh.transfer import carry_over, group_middles, write
 
@@ -346,7 +346,7 @@ class Run:
 
     def _picture(self, objects: list[bpy.types.Object]) -> None:
         """Render the objects together; a picture that cannot be made is a warning."""
-        from seamwire.core.seam_wires import wires_between
+        from seamwire.core.seams.seam_wires import wires_between
         from seamwire.mesh import edit_mesh
         from seamwire.mesh.seam_islands import labels_of
 

@@ -13,7 +13,7 @@ pytestmark = pytest.mark.every_blender
 
 
 def test_without_the_compiled_part_the_operator_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    from seamwire.core import native
+    from seamwire.core.base import native
 
     def fail() -> None:
         raise native.NativeError("Seamwire's compiled part is missing: install the package")

@@ -24,8 +24,8 @@ from scene import (
     seams,
     snapshot,
 )
-from seamwire.core.network import Network
-from seamwire.mesh import cut as cutting
+from seamwire.core.network.network import Network
+from seamwire.mesh import cut as mesh_cut
 from seamwire.mesh.cut import CUTS
 from seamwire.mesh.edit_mesh import LABELS
 from seamwire.mesh.object_session import ObjectSession
@@ -312,7 +312,7 @@ def test_a_face_that_is_not_folded_is_cut_where_it_is(monkeypatch: pytest.Monkey
     def refuse_drawing(_count: int) -> object:
         raise AssertionError("no drawing is needed")
 
-    monkeypatch.setattr(cutting.cutting, "regular_corners", refuse_drawing)
+    monkeypatch.setattr(mesh_cut.cut, "regular_corners", refuse_drawing)
     obj = add_grid(9)
     edit()
     assert cut("0 44") == {"FINISHED"}
@@ -348,7 +348,7 @@ def test_a_face_that_cannot_be_cut_stays_whole_and_is_told_of(
         edge_split = staticmethod(bmesh.utils.edge_split)
         face_split_edgenet = staticmethod(refuse_one)
 
-    monkeypatch.setattr(cutting.bmesh, "utils", Utils)
+    monkeypatch.setattr(mesh_cut.bmesh, "utils", Utils)
     obj = add_grid(9)
     edit()
     cut("0 44")
@@ -372,7 +372,7 @@ def refuse(monkeypatch: pytest.MonkeyPatch, call: int) -> None:
         edge_split = staticmethod(bmesh.utils.edge_split)
         face_split_edgenet = staticmethod(split_some)
 
-    monkeypatch.setattr(cutting.bmesh, "utils", Utils)
+    monkeypatch.setattr(mesh_cut.bmesh, "utils", Utils)
 
 
 @pytest.mark.every_blender
@@ -584,7 +584,7 @@ def test_a_wire_that_leaves_the_mesh_where_a_cut_was_taken_back_is_kept(monkeypa
     obj = add_grid(9)
     edit()
     mesh, before, changed = with_a_cut_to_take_back()
-    plan, calls = cutting.plan, []
+    plan, calls = mesh_cut.plan, []
 
     def astray(cage: object, arrays: object, curves: list[tuple], *more: object) -> object:
         calls.append(1)
@@ -592,7 +592,7 @@ def test_a_wire_that_leaves_the_mesh_where_a_cut_was_taken_back_is_kept(monkeypa
             curves = [(start, points * (3.0 if start == 64 else 1.0), *end) for start, points, *end in curves]
         return plan(cage, arrays, curves, *more)
 
-    monkeypatch.setattr(cutting, "plan", astray)
+    monkeypatch.setattr(mesh_cut, "plan", astray)
     done = mesh.finish_wires(before, changed)
     assert len(calls) == 2
     assert (done.cut, done.left_out, done.problem) == (1, 1, "")

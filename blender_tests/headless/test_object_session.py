@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from mathutils import Matrix
 from scene import add_grid, add_layers, chain, edit, seams, snapshot
-from seamwire.core.live_maker import LiveMaker
+from seamwire.core.solver.live_maker import LiveMaker
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.object_session import ObjectSession
 from stored import agree, chains, forget, session_on, wired, write

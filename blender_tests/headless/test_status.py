@@ -4,8 +4,8 @@
 import bpy
 import pytest
 from scene import add_grid, edit
-from seamwire.core.live_maker import LiveMaker
-from seamwire.core.session import Session
+from seamwire.core.drawing.session import Session
+from seamwire.core.solver.live_maker import LiveMaker
 from seamwire.mesh import edit_mesh
 from seamwire.operators.bindings import Bindings
 from seamwire.ui.status_bar import Status, hints

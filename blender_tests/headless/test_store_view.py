@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from scene import add_object, add_suzanne, edit
-from seamwire.core import native
+from seamwire.core.base import native
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.settings import settings
 

@@ -11,8 +11,8 @@ import pytest
 from maps import covered_twice, energy, flipped, in_square, triangles
 from mathutils import Matrix
 from scene import add_grid, add_object, add_suzanne, edit, seams, snapshot
-from seamwire.core import native
-from seamwire.core.suggestion import energy_of, stretch_of
+from seamwire.core.base import native
+from seamwire.core.seams.suggestion import energy_of, stretch_of
 from seamwire.mesh import edit_mesh, seam_islands, suggestion, uv_map
 from seamwire.mesh.seam_islands import island_count as islands
 from stored import agree, chains, session_on

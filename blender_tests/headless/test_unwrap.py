@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from maps import areas, covered_twice, energy, flipped, in_square, signed_areas, triangles
 from scene import add_grid, add_layers, add_object, add_suzanne, edit, snapshot
-from seamwire.core import native
+from seamwire.core.base import native
 from seamwire.mesh.seam_islands import island_count, worst_island
 from seamwire.mesh.unwrap import UNWRAPPED
 from stored import session_on, write

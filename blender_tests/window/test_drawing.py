@@ -9,7 +9,7 @@ import ui as driver
 from desk import GREEN, ORANGE, RED, WHITE, Desk, choose, near, shows, undo_steps
 from mathutils import Euler
 from scene import add_grid, chain, seams, snapshot
-from seamwire.core.session import Session
+from seamwire.core.drawing.session import Session
 from seamwire.mesh import object_session
 
 

@@ -12,7 +12,7 @@ import ui as driver
 from desk import Desk, draw, grid, half_cone, leave, near
 from mathutils import Vector
 from scene import add_suzanne
-from seamwire.core.color_maps import PURPLE_ORANGE, colors
+from seamwire.core.fields.color_maps import PURPLE_ORANGE, colors
 from seamwire.mesh.settings import settings
 from seamwire.view import gpu_draw, metric_views
 from seamwire.view.edited_objects import edited

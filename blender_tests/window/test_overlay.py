@@ -18,8 +18,8 @@ import show
 import ui as driver
 from numpy.typing import NDArray
 from scene import add_grid, add_object, edit
-from seamwire.core.islands import IslandMaker
-from seamwire.core.network import Edge, Pick, Snap, Wire
+from seamwire.core.islands.islands import IslandMaker
+from seamwire.core.network.network import Edge, Pick, Snap, Wire
 from seamwire.mesh import edit_mesh
 from seamwire.view.overlay import Overlay
 from seamwire.view.theme import Looks, Style

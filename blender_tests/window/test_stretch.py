@@ -12,7 +12,7 @@ import pytest
 import ui as driver
 from desk import Desk, draw, grid, leave, near, undo_steps
 from mathutils import Vector
-from seamwire.core.stretch import Stretch
+from seamwire.core.islands.stretch import Stretch
 from seamwire.mesh.settings import settings
 from seamwire.view.edited_objects import edited
 from seamwire.view.stretch_heat import HOT, StretchHeat, heat_colors

@@ -12,7 +12,7 @@ import pytest
 import ui as driver
 from desk import choose, leave, undo_steps
 from scene import add_suzanne, edit, seams, snapshot
-from seamwire.core import native
+from seamwire.core.base import native
 from seamwire.mesh.suggestion import Suggestion
 from seamwire.operators import suggest
 from seamwire.view.edited_objects import edited

@@ -10,8 +10,8 @@ import pytest
 import ui as driver
 from desk import GREEN, Desk, leave, shows
 from scene import add_object, seams
-from seamwire.core.geometry import nearest_on_segments
-from seamwire.core.surface_loops import SurfaceLoops
+from seamwire.core.base.geometry import nearest_on_segments
+from seamwire.core.offers.surface_loops import SurfaceLoops
 from seamwire.mesh.settings import settings
 from seamwire.operators.report import running
 from seamwire.ui import status_bar

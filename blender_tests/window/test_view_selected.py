@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from desk import Desk, drag, draw
 from scene import chain, seams
-from seamwire.core.session import Session
+from seamwire.core.drawing.session import Session
 from seamwire.mesh.settings import settings
 from stored import agree
 

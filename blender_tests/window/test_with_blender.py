@@ -12,7 +12,7 @@ import pytest
 import ui as driver
 from desk import ORANGE, Desk, choose, dismiss, draw, shows, undo_steps
 from scene import chain, edit, seams
-from seamwire.core.session import Session
+from seamwire.core.drawing.session import Session
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.settings import TOOL
 from seamwire.operators.report import running

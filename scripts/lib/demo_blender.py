@@ -99,7 +99,7 @@ def suggest(obj: bpy.types.Object) -> pictures.Network:
 
 def stretch(obj: bpy.types.Object, points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     """Return for each triangle how much longer the longest direction in the unwrapping is than the shortest: 1 is none."""
-    from seamwire.core.stretch import Stretch
+    from seamwire.core.islands.stretch import Stretch
 
     mesh = obj.data
     corners = column(mesh.loop_triangles, "loops", np.int32, 3)

@@ -85,7 +85,7 @@ class Figures:
     """
 
     def __init__(self, folder: Path, models: Mapping[str, Model]) -> None:
-        from seamwire.core import color_maps, metric_fields
+        from seamwire.core.fields import color_maps, metric_fields
 
         self._folder, self._models = folder, models
         self._maps, self._fields = color_maps, metric_fields
@@ -561,7 +561,7 @@ def main(arguments: Sequence[str]) -> None:
     """Make the figures that are asked for."""
     folder, only, *files = arguments
     addon_utils.enable("seamwire", default_set=True)
-    from seamwire.core import native
+    from seamwire.core.base import native
 
     core = native.load()
     models = {path.stem.lower(): Model(core, path.stem.lower(), *read(path)) for path in map(Path, files)}

@@ -161,7 +161,7 @@ class Film:
 
     def islands(self) -> int:
         """Return into how many islands seams part the mesh."""
-        from seamwire.core.native import load
+        from seamwire.core.base.native import load
 
         core, seams = load(), np.array(sorted(self.seams()))
         mesh = self.obj.data  # as it is now: the seams were read from it

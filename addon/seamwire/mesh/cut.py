@@ -16,15 +16,15 @@ import bmesh
 import numpy as np
 from mathutils import Vector
 
-from ..core import cutting
-from ..core.network import FacePoint, vertices_of
+from ..core.network.network import FacePoint, vertices_of
+from ..core.seams import cut
 from .edit_mesh import LABELS
 from .unwrap import JOINED, UNWRAPPED
 
 if TYPE_CHECKING:
-    from ..core.cutting import Curve, CutPlan, Node
-    from ..core.mesh_arrays import Arrays
-    from ..core.network import Edge, Pick
+    from ..core.base.mesh_arrays import Arrays
+    from ..core.network.network import Edge, Pick
+    from ..core.seams.cut import Curve, CutPlan, Node
     from .edit_mesh import Cage
 
 CUTS = ".seamwire_cut"
@@ -134,8 +134,8 @@ def _verts_that_stay(
 
 
 def plan(cage: Cage, arrays: Arrays, curves: Iterable[Curve], images: Mapping[int, int]) -> CutPlan:
-    """Find what curves cut, see `cutting.plan`; raises `CuttingError`, before anything is changed."""
-    return cutting.plan(CageFaces(cage, arrays), curves, images)
+    """Find what curves cut, see `core.seams.cut.plan`; raises `CutError`, before anything is changed."""
+    return cut.plan(CageFaces(cage, arrays), curves, images)
 
 
 def rehearse(cage: Cage, what: CutPlan) -> None:
@@ -442,7 +442,7 @@ def _drawn(
         The vertices that nodes name.
     """
     before = {vert: vert.co.copy() for vert in (*rim, *between)}
-    for vert, (x, y) in zip(rim, cutting.regular_corners(len(rim)), strict=True):
+    for vert, (x, y) in zip(rim, cut.regular_corners(len(rim)), strict=True):
         vert.co = (x, y, 0.0)
     for vert, node in between.items():
         parts = zip(node.vertices, node.weights, strict=True)

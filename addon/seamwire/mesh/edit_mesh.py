@@ -15,18 +15,18 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core import native
-from ..core.gaps import triangles_at
-from ..core.mesh_arrays import Arrays
-from ..core.network import vertices_of
-from ..core.triangulation import without_flat_triangles
-from ..core.wire_labels import EdgeLabels
+from ..core.base import native
+from ..core.base.mesh_arrays import Arrays
+from ..core.base.triangulation import without_flat_triangles
+from ..core.network.network import vertices_of
+from ..core.seams.gaps import triangles_at
+from ..core.storage.wire_labels import EdgeLabels
 
 if TYPE_CHECKING:
     from mathutils import Matrix
     from numpy.typing import NDArray
 
-    from ..core.network import Pick
+    from ..core.network.network import Pick
 
 LABELS = ".seamwire"
 """The layer of the edges that holds their labels, see `core.wire_labels`. Blender does not show names that begin so."""

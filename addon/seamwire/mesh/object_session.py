@@ -13,18 +13,19 @@ import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from ..core import cutting, serialization, sliding, wire_labels
-from ..core.closed_cuts import CutMemory
-from ..core.cutting import CuttingError
-from ..core.live_maker import LiveMaker
-from ..core.network import FacePoint, edges_after, vertices_of
-from ..core.network_file import NetworkFile
-from ..core.seam_wires import wires_between
-from ..core.serialization import Archive, UnreadableError
-from ..core.session import Session
-from ..core.strokes import on_mesh
-from ..core.suggestion import best_finish
-from ..core.wire_labels import EdgeLabels, Found, Places
+from ..core.drawing.session import Session
+from ..core.network.network import FacePoint, edges_after, vertices_of
+from ..core.network.strokes import on_mesh
+from ..core.offers.closed_cuts import CutMemory
+from ..core.seams.cut import NEAR, CutError
+from ..core.seams.seam_wires import wires_between
+from ..core.seams.slide import plan as plan_slide
+from ..core.seams.suggestion import best_finish
+from ..core.solver.live_maker import LiveMaker
+from ..core.storage import serialization, wire_labels
+from ..core.storage.network_file import NetworkFile
+from ..core.storage.serialization import Archive, UnreadableError
+from ..core.storage.wire_labels import EdgeLabels, Found, Places
 from . import cut, edit_mesh, slide
 
 if TYPE_CHECKING:
@@ -32,10 +33,10 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..core.closed_cuts import TakenCut
-    from ..core.cutting import CutPlan
-    from ..core.network import Along, Edge, Finish, Network, Pick, Wire
-    from ..core.strokes import Scribble
+    from ..core.network.network import Along, Edge, Finish, Network, Pick, Wire
+    from ..core.network.strokes import Scribble
+    from ..core.offers.closed_cuts import TakenCut
+    from ..core.seams.cut import CutPlan
     from .settings import SeamwireSettings
 
 FIRST_VERSION = "seamwire"
@@ -447,7 +448,7 @@ class ObjectSession:
 
         Raises
         ------
-        CuttingError
+        CutError
             If no wire runs over the mesh, or nothing is cut.
         """
         wires = list(wires)
@@ -461,7 +462,7 @@ class ObjectSession:
         originals = {len(wires) + row: number for row, (number, _) in enumerate(images)}
         plan = cut.plan(self.cage, self.arrays, curves, originals)
         if not plan.segments():
-            raise CuttingError("No wire leaves the face that it begins in")
+            raise CutError("No wire leaves the face that it begins in")
         cut.rehearse(self.cage, plan)
         return plan
 
@@ -495,7 +496,7 @@ class ObjectSession:
 
         Raises
         ------
-        CuttingError
+        CutError
             If no wire can be cut once former cuts were taken back. These cuts are gone then, and the wires are snapped to edges.
         """
         taken = self.session.taken_cuts if taken is None else taken
@@ -519,7 +520,7 @@ class ObjectSession:
                 again = after.plan_cut(placed)
             except ValueError as error:
                 after._draw_again(placed[: len(wires)])
-                raise CuttingError(f"{error}; what was cut before is taken back, undo brings it again") from error
+                raise CutError(f"{error}; what was cut before is taken back, undo brings it again") from error
             missing = [placed[number] for number in again.left_out if number < len(wires)]
             after._draw_again(missing)
             done = after.cut(again, placed, taken=taken)
@@ -559,7 +560,7 @@ class ObjectSession:
             if vertex is not None:
                 return vertex
             point = self.finder(places.faces(pick))((self.arrays.to_object @ place).tolist())
-            return point.vertex if max(point.weights) > 1.0 - cutting.NEAR else point
+            return point.vertex if max(point.weights) > 1.0 - NEAR else point
 
         placed = []
         for wire in wires:
@@ -634,7 +635,7 @@ class ObjectSession:
         if to_cut:
             try:
                 done = mesh.cut(mesh.plan_cut(to_cut), to_cut, kept=True, before=before)
-            except CuttingError as error:
+            except CutError as error:
                 return replace(finished, problem=str(error))
             return replace(finished, cut=done.wires, edges=len(done.edges), uncut=done.uncut, left_out=done.left_out)
         return replace(finished, taken_back=mesh.take_back_cuts(before))
@@ -648,7 +649,7 @@ class ObjectSession:
         courses = [(image.vertices, image.points) for images in own.values() for image in images]
         seams = {edge for images in own.values() for image in images for edge in image.edges()}
         stiff = slide.stiff_vertices(self.cage, {vertex for chain, _ in courses for vertex in chain}, seams)
-        moves = sliding.plan(cut.CageFaces(self.cage, self.arrays), courses, stiff)
+        moves = plan_slide(cut.CageFaces(self.cage, self.arrays), courses, stiff)
         if moves:
             slide.carry_out(self.obj, self.cage, moves)
             # What the mesh keeps of a wire tells where its vertices are: it is written anew, its curve as it was.

@@ -12,9 +12,9 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core import native
-from ..core.islands import choose_hues, neighbours, places_of
-from ..core.stretch import IslandStretch, Stretch
+from ..core.base import native
+from ..core.islands.islands import choose_hues, neighbours, places_of
+from ..core.islands.stretch import IslandStretch, Stretch
 from . import edit_mesh, uv_map
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..core.mesh_arrays import Arrays
+    from ..core.base.mesh_arrays import Arrays
 
 ATTRIBUTE = "island"
 """The face attribute that islands are stored as."""

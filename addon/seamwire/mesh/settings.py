@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ..core.defaults import CLAMP_PERCENTILE, CLAMP_RANGE, STRENGTH_RANGE, STRENGTHS
+from ..core.solver.defaults import CLAMP_PERCENTILE, CLAMP_RANGE, STRENGTH_RANGE, STRENGTHS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ..core.network import Along
+    from ..core.network.network import Along
 
 ADDON = __package__.rpartition(".")[0]
 """The add-on's name in this Blender."""

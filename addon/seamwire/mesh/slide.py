@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..core.network import Edge
-    from ..core.sliding import Move
+    from ..core.network.network import Edge
+    from ..core.seams.slide import Move
     from .edit_mesh import Cage
 
     Value = Vector | float

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from mathutils import Vector
 
-from ..core import native
-from ..core.defaults import CLAMP_PERCENTILE, STRENGTHS
-from ..core.suggestion import (
+from ..core.base import native
+from ..core.seams.suggestion import (
     CRUMB,
     best_along,
     best_finish,
@@ -21,6 +20,7 @@ from ..core.suggestion import (
     seam_length,
     stroke_weights,
 )
+from ..core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
 from .object_session import ObjectSession, mirror_axes
 from .seam_islands import labels_of
 
@@ -31,8 +31,8 @@ if TYPE_CHECKING:
     import seamwire_core
     from numpy.typing import NDArray
 
-    from ..core.network import Along, Finish, Wire
-    from ..core.suggestion import Request
+    from ..core.network.network import Along, Finish, Wire
+    from ..core.seams.suggestion import Request
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from ..core import transfer
-from ..core.placing import Shape
+from ..core.matching import transfer
+from ..core.matching.placing import Shape
 from .object_session import ObjectSession
 
 if TYPE_CHECKING:
@@ -16,10 +16,10 @@ if TYPE_CHECKING:
 
     import bpy
 
-    from ..core.mesh_arrays import Arrays
-    from ..core.network import Edge
-    from ..core.network_file import NetworkFile
-    from ..core.transfer import Transfer
+    from ..core.base.mesh_arrays import Arrays
+    from ..core.matching.transfer import Transfer
+    from ..core.network.network import Edge
+    from ..core.storage.network_file import NetworkFile
     from .settings import SeamwireSettings
 
 Place = Literal["AUTO", "NUMBERS", "SURFACE", "PAIRS"]

@@ -19,8 +19,8 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core import native
-from ..core.uv_islands import NewIsland, boxes_of, families, in_rows, place, split_edges, uv_areas
+from ..core.base import native
+from ..core.islands.uv_islands import NewIsland, boxes_of, families, in_rows, place, split_edges, uv_areas
 from . import edit_mesh, uv_map
 from .seam_islands import labels_of
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..core.mesh_arrays import Arrays
+    from ..core.base.mesh_arrays import Arrays
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,9 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core import native
-from ..core.crests import Crests
-from ..core.metric_fields import FieldMaker, Request
+from ..core.base import native
+from ..core.fields.crests import Crests
+from ..core.fields.metric_fields import FieldMaker, Request
 from . import edit_mesh
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from .slide import wires_across
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from ..core.network import Wire
+    from ..core.network.network import Wire
     from ..mesh.object_session import ObjectSession
 
 
@@ -63,7 +63,7 @@ def cut_wires(
     live_unwrap
         Whether Blender unwraps where the scene asks for that.
     """
-    from ..core.cutting import CuttingError
+    from ..core.seams.cut import CutError
     from ..mesh import edit_mesh
 
     plans, problems = {}, []
@@ -71,7 +71,7 @@ def cut_wires(
         try:
             if own:
                 plans[mesh] = mesh.plan_cut(own)
-        except CuttingError as error:
+        except CutError as error:
             problems.append(f"{mesh.obj.name}: {error}" if len(wires) > 1 else str(error))
     if not plans:
         operator.report({"ERROR"}, problems[0])

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..core.network import Snap
+    from ..core.network.network import Snap
     from ..view.object_view import ObjectView
     from ..view.viewport import Place, View
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ..core.native import NativeError
+from ..core.base.native import NativeError
 from ..mesh.settings import ALONG_ITEMS, settings
 from .bindings import Action, Key
 from .navigation import takes

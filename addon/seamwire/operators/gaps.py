@@ -12,7 +12,7 @@ from .report import count, in_edit_mode, open_meshes
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from ..core.gaps import Gap
+    from ..core.seams.gaps import Gap
     from ..mesh.object_session import ObjectSession
 
 
@@ -38,7 +38,7 @@ class MESH_OT_seamwire_close_gaps(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Draw wires over the gaps of all objects in edit mode, then write them: where one object fails, none is changed."""
-        from ..core.native import NativeError
+        from ..core.base.native import NativeError
         from ..mesh import edit_mesh
 
         meshes = open_meshes(self, context)
@@ -63,7 +63,7 @@ class MESH_OT_seamwire_close_gaps(bpy.types.Operator):
 
     def _find(self, meshes: Iterable[ObjectSession]) -> dict[ObjectSession, list[Gap]]:
         """Return the gaps of each object that has some."""
-        from ..core.gaps import GapFinder
+        from ..core.seams.gaps import GapFinder
 
         found = {}
         for mesh in meshes:

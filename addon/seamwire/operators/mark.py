@@ -13,7 +13,7 @@ from .report import in_edit_mode, summary
 from .slide import slide_wires
 
 if TYPE_CHECKING:
-    from ..core.network import Pick, Wire
+    from ..core.network.network import Pick, Wire
     from ..mesh.object_session import ObjectSession
     from .seed_text import Stroke
 
@@ -94,7 +94,7 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Draw the chains and loops, and mark or clear what they run along."""
-        from ..core.native import NativeError
+        from ..core.base.native import NativeError
         from ..mesh import edit_mesh
 
         self._before: dict[str, tuple[Wire, ...]] = {}
@@ -189,7 +189,7 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
 
     def _read(self, mesh: ObjectSession) -> tuple[list[list[Pick]], list[Pick], list[Stroke]]:
         """Return chains, loops and strokes; raises ValueError where they cannot be drawn."""
-        from ..core.network import FacePoint
+        from ..core.network.network import FacePoint
         from . import seed_text
 
         if self.finish == "CUT" and self.clear and self.along == "SURFACE":

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ..core.network import Network
+from ..core.network.network import Network
 from ..mesh import settings as chosen
 from ..view.edited_objects import edited
 from ..view.viewport import Place, place_of
@@ -23,8 +23,8 @@ from .report import count, running, status_makers, summary
 from .unwrap import unwrap_after_chain
 
 if TYPE_CHECKING:
-    from ..core.network import Snap
-    from ..core.session import Session
+    from ..core.drawing.session import Session
+    from ..core.network.network import Snap
     from ..view.object_view import ObjectView
 
 TICK = 0.008

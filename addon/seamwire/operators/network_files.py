@@ -14,7 +14,7 @@ from .report import count, in_edit_mode, open_mesh
 from .transfer import ALIGN, MIRROR_ITEMS, PLACE_ITEMS, axis_of, write_and_report
 
 if TYPE_CHECKING:
-    from ..core.network_file import NetworkFile
+    from ..core.storage.network_file import NetworkFile
 
 SUFFIX = ".json"
 
@@ -35,7 +35,7 @@ class MESH_OT_seamwire_save_network(bpy.types.Operator, ExportHelper):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Write the file, whole or not at all."""
-        from ..core.native import NativeError
+        from ..core.base.native import NativeError
 
         try:
             mesh = open_mesh(self, context.active_object)
@@ -67,7 +67,7 @@ def _write(path: Path, text: str) -> None:
 
 def read_network(path: str) -> NetworkFile:
     """Read a file; raises ValueError with a sentence for the artist where it cannot be read."""
-    from ..core.network_file import NetworkFile
+    from ..core.storage.network_file import NetworkFile
 
     try:
         text = Path(bpy.path.abspath(path)).read_text(encoding="utf-8")
@@ -101,7 +101,7 @@ class MESH_OT_seamwire_load_network(bpy.types.Operator, ImportHelper):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Read the file, and write its wires to the mesh."""
-        from ..core.native import NativeError
+        from ..core.base.native import NativeError
         from ..mesh.transfer import carry_over
 
         try:

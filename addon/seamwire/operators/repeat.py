@@ -10,7 +10,7 @@ import bpy
 from .report import count, in_edit_mode, open_mesh
 
 if TYPE_CHECKING:
-    from ..core.network import Wire
+    from ..core.network.network import Wire
     from ..mesh.object_session import ObjectSession
 
 
@@ -32,8 +32,8 @@ class MESH_OT_seamwire_repeat(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Find the repeats on the active object, and write what is new."""
-        from ..core.native import NativeError
-        from ..core.repeats import Repeats
+        from ..core.base.native import NativeError
+        from ..core.matching.repeats import Repeats
         from ..mesh import edit_mesh
 
         try:

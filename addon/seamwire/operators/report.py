@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
     import bpy
 
-    from ..core.network import Along
+    from ..core.network.network import Along
     from ..mesh.object_session import ObjectSession
     from .modal import Chain
 
@@ -35,7 +35,7 @@ def for_each_object(
     operator: bpy.types.Operator, context: bpy.types.Context, work: Callable[[bpy.types.Object], _Found]
 ) -> dict[bpy.types.Object, _Found]:
     """Return what work gives for each object in edit mode of which something is visible; nothing, and say why, for none."""
-    from ..core.native import NativeError
+    from ..core.base.native import NativeError
     from ..mesh.edit_mesh import NothingVisibleError
 
     found, problems = {}, []

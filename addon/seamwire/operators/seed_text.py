@@ -9,11 +9,11 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..core.network import LOOP_NAMES, name, undirected
+from ..core.network.network import LOOP_NAMES, name, undirected
 
 if TYPE_CHECKING:
-    from ..core.network import Edge, LoopKind, Pick
-    from ..core.session import Session
+    from ..core.drawing.session import Session
+    from ..core.network.network import Edge, LoopKind, Pick
 
 _TOKENS = re.compile(r"\([^()]*\)|[^\s,()]+|[()]")
 _TOKEN = re.compile(r"(\d+)(?:-(\d+))?")

@@ -12,7 +12,7 @@ from .report import count, in_edit_mode, open_meshes
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
 
-    from ..core.network import Wire
+    from ..core.network.network import Wire
     from ..mesh.object_session import ObjectSession
 
 

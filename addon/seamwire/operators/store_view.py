@@ -55,7 +55,7 @@ class MESH_OT_seamwire_store_view(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Compute it of the active object, and store it; nothing is changed where that cannot be."""
-        from ..core.native import NativeError
+        from ..core.base.native import NativeError
         from ..mesh.view_fields import store
 
         settings = chosen.settings(context)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from ..core.suggestion import Request
+    from ..core.seams.suggestion import Request
     from ..mesh.suggestion import Suggestion
     from ..view.plan_preview import PlanPreview
 
@@ -190,7 +190,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
 
     def _follow_older_scripts(self) -> None:
         """Let settings of older scripts be what is nearest to them now, and say so."""
-        from ..core.suggestion import stretch_of_ratio
+        from ..core.seams.suggestion import stretch_of_ratio
 
         is_set = self.properties.is_property_set
         if self.limit == "BEND":
@@ -217,7 +217,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
 
     def _request(self) -> Request:
         """Return what is asked of a plan."""
-        from ..core.suggestion import Request, energy_of
+        from ..core.seams.suggestion import Request, energy_of
 
         distortion = math.inf if self.limit == "DISCS" else energy_of(0.01 * self.distortion)
         return Request(distortion, self.islands if self.limit == "ISLANDS" else 0, self.parts)
@@ -232,7 +232,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
 
     def _begin(self, context: bpy.types.Context) -> list[Suggestion]:
         """Read the meshes in edit mode; report where that cannot be. Raises as `_chosen`."""
-        from ..core.native import NativeError
+        from ..core.base.native import NativeError
         from ..mesh.suggestion import Options, Suggestion
 
         along, finish = (None if chosen == "AUTO" else chosen for chosen in (self.along, self.finish))
@@ -308,7 +308,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         The UVs of a mesh without seams do not follow seams: all of them are replaced, so that the new islands have the UV square to
         themselves.
         """
-        from ..core.native import NativeError
+        from ..core.base.native import NativeError
         from ..mesh import edit_mesh
         from ..mesh.unwrap import unwrap_changed
 
@@ -327,7 +327,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
 
     def _tell(self, suggestions: Sequence[Suggestion]) -> None:
         """Report the wires, the islands, and how good the map is."""
-        from ..core.suggestion import mean_stretch
+        from ..core.seams.suggestion import mean_stretch
         from ..mesh.seam_islands import map_quality, missing_cuts
 
         missing = [int(cuts) for suggestion in suggestions for cuts in missing_cuts(suggestion.mesh.obj)]
@@ -370,7 +370,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
     @staticmethod
     def _stretch(suggestions: Sequence[Suggestion]) -> float:
         """Return the stretch of the planned maps together, in percent."""
-        from ..core.suggestion import mean_stretch
+        from ..core.seams.suggestion import mean_stretch
 
         energies = [float(suggestion.best.energy) for suggestion in suggestions]
         return 100.0 * mean_stretch(energies, [suggestion.area for suggestion in suggestions])
@@ -394,7 +394,7 @@ class _Look:
 
     def __call__(self) -> str:
         """Show a plan that is new; return its stretch and length."""
-        from ..core.suggestion import stretch_of
+        from ..core.seams.suggestion import stretch_of
 
         suggestion = self._suggestion
         plan = suggestion.best_so_far

@@ -11,7 +11,7 @@ from ..mesh.settings import settings
 from .report import count, in_edit_mode, open_mesh
 
 if TYPE_CHECKING:
-    from ..core.transfer import Transfer
+    from ..core.matching.transfer import Transfer
     from ..mesh.object_session import ObjectSession
 
 PLACE_ITEMS = (
@@ -34,7 +34,7 @@ def write_and_report(
     operator: bpy.types.Operator, context: bpy.types.Context, mesh: ObjectSession, found: Transfer
 ) -> set[str]:
     """Write what was found to the mesh, and say how sure it is and what is missing."""
-    from ..core.transfer import WORDS
+    from ..core.matching.transfer import WORDS
     from ..mesh import edit_mesh
     from ..mesh.transfer import write
 
@@ -115,7 +115,7 @@ class MESH_OT_seamwire_transfer(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Read the source, and write its seams to the active mesh."""
-        from ..core.native import NativeError
+        from ..core.base.native import NativeError
         from ..mesh import transfer
         from .seed_text import parse_pairs
 

@@ -40,7 +40,7 @@ class MESH_OT_seamwire_unwrap(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Unwrap, and say how many islands."""
-        from ..core.native import NativeError
+        from ..core.base.native import NativeError
         from ..mesh.unwrap import unwrap_changed
 
         try:
@@ -62,7 +62,7 @@ def unwrap_after_chain(context: bpy.types.Context) -> str:
 
         edit_mesh.live_unwrap(context)
         return ""
-    from ..core.native import NativeError
+    from ..core.base.native import NativeError
     from ..mesh.unwrap import unwrap_changed
 
     try:

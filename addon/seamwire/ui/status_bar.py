@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 
     import bpy
 
-    from ..core.network import LoopKind
-    from ..core.session import Session
+    from ..core.drawing.session import Session
+    from ..core.network.network import LoopKind
     from ..operators.modal import Chain
 
 Hint = tuple[str, str]
@@ -118,7 +118,7 @@ def _click(session: Session) -> Iterator[Deed]:
 
 
 def _offer(kind: LoopKind) -> str:
-    from ..core.network import LOOP_NAMES
+    from ..core.network.network import LOOP_NAMES
 
     return LOOP_NAMES[kind].title()
 

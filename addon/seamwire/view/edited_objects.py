@@ -19,7 +19,7 @@ from .object_view import ObjectView, in_bounds, let_blender_tell
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from ..core.network import Snap
+    from ..core.network.network import Snap
     from .viewport import Place
 
 _RHYTHM = 0.05

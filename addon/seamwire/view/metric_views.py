@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core import color_maps, metric_fields
-from ..core.metric_fields import FieldMaker, Request
+from ..core.fields import color_maps, metric_fields
+from ..core.fields.metric_fields import FieldMaker, Request
 from .gpu_draw import ColoredLines, Faces, Lines, ShadedFaces, blended
 from .legend import Legend
 from .theme import Style
@@ -20,10 +20,10 @@ if TYPE_CHECKING:
     import seamwire_core
     from numpy.typing import NDArray
 
-    from ..core.color_maps import ColorMap
-    from ..core.crests import Crests
-    from ..core.mesh_arrays import Arrays
-    from ..core.metric_fields import Ellipses, Fields, Part, Source
+    from ..core.base.mesh_arrays import Arrays
+    from ..core.fields.color_maps import ColorMap
+    from ..core.fields.crests import Crests
+    from ..core.fields.metric_fields import Ellipses, Fields, Part, Source
     from ..mesh.settings import SeamwireSettings
     from .gpu_draw import Eye
     from .theme import Color

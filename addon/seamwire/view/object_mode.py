@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import bpy
 from mathutils import Matrix
 
-from ..core import native
+from ..core.base import native
 from ..mesh import edit_mesh
 from ..mesh import settings as chosen
 from . import legend
@@ -20,7 +20,7 @@ from .metric_views import MetricViews
 from .overlay import free_room
 
 if TYPE_CHECKING:
-    from ..core.mesh_arrays import Arrays
+    from ..core.base.mesh_arrays import Arrays
 
 _RHYTHM = 0.05
 """Seconds between two looks at running work."""

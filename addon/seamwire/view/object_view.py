@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ..core import islands, native
-from ..core.gaps import GapFinder
-from ..core.solver import for_live
+from ..core.base import native
+from ..core.islands import islands
+from ..core.seams.gaps import GapFinder
+from ..core.solver.solver import for_live
 from ..mesh import settings as chosen
 from ..mesh.object_session import ObjectSession
 from .metric_views import MetricViews
@@ -25,10 +26,10 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..core.metric_fields import Source
-    from ..core.network import Pick, Snap
-    from ..core.session import Session
-    from ..core.strokes import Scribble
+    from ..core.drawing.session import Session
+    from ..core.fields.metric_fields import Source
+    from ..core.network.network import Pick, Snap
+    from ..core.network.strokes import Scribble
     from .text_overlay import Row
     from .viewport import View
 

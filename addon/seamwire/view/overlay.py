@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from ..core.network import edges_after, place_of
+from ..core.network.network import edges_after, place_of
 from . import legend, text_overlay
 from .gpu_draw import Eye, Faces, Lines, blended, draw_dots
 from .theme import Looks, Style, hue_colors
@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from ..core.islands import IslandMaker
-    from ..core.network import Edge, Finish, Pick, Wire
-    from ..core.session import Session
+    from ..core.drawing.session import Session
+    from ..core.islands.islands import IslandMaker
+    from ..core.network.network import Edge, Finish, Pick, Wire
     from .metric_views import MetricViews
     from .stretch_heat import StretchHeat
 

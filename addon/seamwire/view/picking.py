@@ -10,21 +10,21 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core import native
-from ..core.geometry import nearest_on_segments
-from ..core.incidence import Incidence
-from ..core.network import FacePoint, Snap, place_of, vertices_of
+from ..core.base import native
+from ..core.base.geometry import nearest_on_segments
+from ..core.base.incidence import Incidence
+from ..core.network.network import FacePoint, Snap, place_of, vertices_of
 from .viewport import Projected
 
 if TYPE_CHECKING:
     from mathutils import Matrix
     from numpy.typing import ArrayLike, NDArray
 
-    from ..core.crests import Crests
-    from ..core.mesh_arrays import Arrays
-    from ..core.network import Pick, Wire
-    from ..core.session import Session
-    from ..core.strokes import Scribble
+    from ..core.base.mesh_arrays import Arrays
+    from ..core.drawing.session import Session
+    from ..core.fields.crests import Crests
+    from ..core.network.network import Pick, Wire
+    from ..core.network.strokes import Scribble
     from .viewport import View
 
 VERTEX_RADIUS = 12.0

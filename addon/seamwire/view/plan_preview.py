@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ..core import native
-from ..core.islands import IslandMaker
+from ..core.base import native
+from ..core.islands.islands import IslandMaker
 from ..mesh import settings as chosen
 from .edited_objects import edited
 from .gpu_draw import Eye, Faces, Lines, blended
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..core.mesh_arrays import Arrays
+    from ..core.base.mesh_arrays import Arrays
 
 _TINT = 0.35
 """The least opacity of the islands: they are what a preview is for."""

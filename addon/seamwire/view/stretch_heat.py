@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ..core import color_maps
-from ..core.stretch import Stretch
+from ..core.fields import color_maps
+from ..core.islands.stretch import Stretch
 from ..mesh import uv_map
 from . import gpu_draw
 from .legend import Legend
@@ -19,8 +19,8 @@ from .theme import Style
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..core.islands import IslandMaker
-    from ..core.mesh_arrays import Arrays
+    from ..core.base.mesh_arrays import Arrays
+    from ..core.islands.islands import IslandMaker
     from .gpu_draw import Eye
     from .theme import Color
 

@@ -7,14 +7,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..core.network import LOOP_NAMES
+from ..core.network.network import LOOP_NAMES
 from . import gpu_draw
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ..core.islands import Islands
-    from ..core.session import Session
+    from ..core.drawing.session import Session
+    from ..core.islands.islands import Islands
     from .theme import Color
 
 _METRICS = {

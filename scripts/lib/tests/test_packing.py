@@ -35,7 +35,7 @@ def test_a_package_is_for_its_system_and_brings_the_wheels_that_it_names(tmp_pat
         brought = [archive.read(str(PurePosixPath("seamwire") / name)).decode() for name in manifest["wheels"]]
         assert brought == [wheel.name for wheel in wheels]
         names = set(archive.namelist())
-    assert {"seamwire/", "seamwire/__init__.py", "seamwire/LICENSE", "seamwire/core/native.py"} <= names
+    assert {"seamwire/", "seamwire/__init__.py", "seamwire/LICENSE", "seamwire/core/base/native.py"} <= names
     assert all(name.startswith("seamwire/") for name in names)
     assert not any("__pycache__" in name or "_native" in name for name in names)
 

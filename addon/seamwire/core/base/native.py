@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Finds and loads ``seamwire_core``, the compiled part."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib
+import shutil
+import sys
+import sysconfig
+import tempfile
+import zipfile
+from importlib.machinery import PathFinder
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from types import ModuleType
+
+NAME = "seamwire_core"
+FOLDER = Path(__file__).parents[2] / "_native"
+"""Where the add-on's own copy lies, in Blenders that do not install wheels themselves."""
+WHEELS = Path(__file__).parents[2] / "wheels"
+"""The compiled part for each Python and system that this package is for, as the package brought them."""
+IS_EXTENSION = __package__.startswith("bl_ext.")
+"""Whether this is an extension of Blender 4.2 or later, which installs the wheel of an extension itself."""
+
+
+class NativeError(ImportError):
+    """The compiled part cannot be used; the text is a sentence for the artist."""
+
+
+def load(folder: Path = FOLDER, wheels: Path = WHEELS) -> ModuleType:
+    """Return the module: an installed one first, else the one in the add-on's own folder, unpacked there if need be.
+
+    An extension has no folder of its own: what Blender has not installed is not there.
+
+    Raises
+    ------
+    NativeError
+        Where there is none, or none for this Python and system, or one of another version is loaded.
+    """
+    if NAME in sys.modules:
+        return _of_this_package(sys.modules[NAME], wheels)
+    try:
+        return _of_this_package(_import(), wheels)
+    except NativeError:
+        raise
+    except ImportError as error:
+        installed = error
+    if IS_EXTENSION:
+        fitting = _fitting(wheels)
+        if fitting and _is_absent(installed):
+            raise NativeError(
+                f"Blender has not installed Seamwire's compiled part, {fitting[0].name}, or has removed it since: "
+                "disable and enable the add-on"
+            ) from installed
+        raise NativeError(_sentence(folder, wheels, installed, installed)) from installed
+    place = _unpacked(folder, wheels)
+    sys.path.insert(0, str(place))
+    try:
+        importlib.invalidate_caches()
+        return _import()
+    except ImportError as error:
+        raise NativeError(_sentence(place, wheels, installed, error)) from error
+    finally:
+        sys.path.remove(str(place))
+
+
+def _import() -> ModuleType:
+    """Import the module from where Python finds it; on Windows a copy of it.
+
+    Nobody can overwrite or delete a loaded library there, so Blender could neither update nor remove the add-on.
+    """
+    found = PathFinder.find_spec(NAME) if sys.platform == "win32" else None
+    if found is None or found.origin is None or not found.origin.endswith(".pyd"):
+        return importlib.import_module(NAME)
+    try:
+        copy = _copied(Path(found.origin))
+    except OSError:
+        # No room or no right to write: better one that cannot be updated while it runs than none.
+        return importlib.import_module(NAME)
+    spec = spec_from_file_location(NAME, copy)
+    module = module_from_spec(spec)
+    sys.modules[NAME] = module
+    try:
+        spec.loader.exec_module(module)
+    except BaseException:
+        del sys.modules[NAME]
+        raise
+    return module
+
+
+def _copied(library: Path) -> Path:
+    """Return a copy of the library in a folder named after its content; copies of others that nobody uses are removed."""
+    content = library.read_bytes()
+    folder = Path(tempfile.gettempdir()) / f"{NAME}-{hashlib.sha256(content).hexdigest()[:16]}"
+    for other in folder.parent.glob(f"{NAME}-*"):
+        if other != folder:
+            shutil.rmtree(other, ignore_errors=True)
+    copy = folder / library.name
+    if not copy.exists() or copy.read_bytes() != content:
+        with tempfile.TemporaryDirectory() as unfinished:
+            whole = Path(unfinished) / library.name
+            whole.write_bytes(content)
+            folder.mkdir(exist_ok=True)
+            whole.replace(copy)
+    return copy
+
+
+def _of_this_package(module: ModuleType, wheels: Path) -> ModuleType:
+    # Python cannot let go of a compiled module: after an update in place the old one stays until Blender ends.
+    versions = {_version(wheel) for wheel in wheels.glob("*.whl")}
+    if versions and module.__version__ not in versions:
+        found = PathFinder.find_spec(NAME)
+        place = found.origin if found and found.origin else module.__file__
+        raise NativeError(
+            f"Seamwire was updated to {', '.join(sorted(versions))} while its version {module.__version__} was in use: "
+            f"restart Blender. If that does not help, remove the {NAME} in {Path(place).parent}"
+        )
+    return module
+
+
+def _unpacked(folder: Path, wheels: Path) -> Path:
+    """Return where to import from: the folder, or the one below it that the fitting wheel was unpacked to."""
+    fitting = _fitting(wheels)
+    if not fitting:
+        return folder
+    # One folder a wheel: a later version is never written over a file that is in use.
+    wheel = fitting[0]
+    place = folder / wheel.stem
+    if place.is_dir():
+        return place
+    try:
+        folder.mkdir(exist_ok=True)
+        with tempfile.TemporaryDirectory(dir=folder) as unfinished, zipfile.ZipFile(wheel) as archive:
+            whole = Path(unfinished) / wheel.stem
+            archive.extractall(whole)
+            whole.replace(place)
+    except OSError as error:
+        # Another Blender may have been faster.
+        if not place.is_dir():
+            raise NativeError(f"Seamwire cannot unpack its compiled part to {folder}: {error.strerror}") from error
+    return place
+
+
+def _version(wheel: Path) -> str:
+    return wheel.stem.split("-")[1]
+
+
+def _fitting(wheels: Path) -> list[Path]:
+    return [wheel for wheel in wheels.glob("*.whl") if _fits(wheel)]
+
+
+def _fits(wheel: Path) -> bool:
+    """Tell whether a wheel is for this Python and system, by its name: NAME-VERSION-PYTHON-ABI-PLATFORM."""
+    python, _, platforms = wheel.stem.split("-")[2:]
+    return python == f"cp{sys.version_info.major}{sys.version_info.minor}" and any(
+        _runs_here(platform) for platform in platforms.split(".")
+    )
+
+
+def _runs_here(platform: str) -> bool:
+    here = sysconfig.get_platform().replace("-", "_").replace(".", "_")
+    if here.startswith("macosx"):
+        # macosx_MAJOR_MINOR_MACHINE: the numbers tell the oldest system.
+        return platform.startswith("macosx") and platform.endswith(here.split("_", 3)[3])
+    if here.startswith("linux"):
+        return platform.startswith(("manylinux", "linux")) and platform.endswith(here.removeprefix("linux"))
+    return platform == here
+
+
+def _is_absent(error: ImportError) -> bool:
+    # Only "No module named seamwire_core" means that there is none: anything else was found, and did not load.
+    return isinstance(error, ModuleNotFoundError) and error.name == NAME
+
+
+def _sentence(folder: Path, wheels: Path, installed: ImportError, own: ImportError) -> str:
+    python = f"Python {sys.version_info.major}.{sys.version_info.minor} on {sysconfig.get_platform()}"
+    found = sorted(path.name for path in folder.glob(f"{NAME}*") if path.suffix in {".so", ".pyd", ".dll"})
+    found += sorted(path.name for path in wheels.glob("*.whl"))
+    for error in (installed, own):
+        if not _is_absent(error):
+            return f"Seamwire's compiled part does not load in this Blender ({python}): {error}"
+    if found:
+        return (
+            f"Seamwire's compiled part was built for another Python or system ({', '.join(found)}), and this Blender "
+            f"has {python}: install the Seamwire package made for it"
+        )
+    return f"Seamwire's compiled part, {NAME}, is missing: install the Seamwire package made for {python}"

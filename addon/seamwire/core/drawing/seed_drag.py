@@ -1,0 +1,255 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Wires that follow a seed of the network while it is dragged."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..network.network import FacePoint, Network, Snap, Wire, distinct, name, undirected, vertices_of
+from ..solver.solver import by_number, for_live
+from .wire import only_vertices
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..network.network import Edge, End, Pick
+    from ..solver.solver import Candidate, Engines, LiveWire
+
+
+@dataclass(frozen=True)
+class Courses:
+    """The ways that a wire may take, one for each metric, as far as they are computed; `leading` is offered first."""
+
+    ways: tuple[Wire | None, ...] = ()
+    leading: int = 0
+    solved: bool = False
+    final: bool = False
+
+    def following(self, follow: int) -> Wire | None:
+        """Return the way of one metric with the others as its alternatives; where there is none, the next of them."""
+        way, *others = self.in_order(follow if follow < len(self.ways) else self.leading) or (None,)
+        return way and replace(way, alternatives=tuple(others))
+
+    def others(self, own: Wire) -> tuple[Wire, ...]:
+        """Return the ways that a wire does not take, in the order in which they come forward after its own."""
+        return tuple(way for way in self.in_order(own.follow + 1) if not way.like(own))
+
+    def in_order(self, first: int) -> tuple[Wire, ...]:
+        """Return the ways that differ, in the order in which they come forward, from that of one metric on."""
+        count = len(self.ways)
+        return distinct(self.ways[(first + step) % count] for step in range(count))
+
+
+class Leg:
+    """Finds new courses for one wire: live wires of its own, from the end that stays.
+
+    Parameters
+    ----------
+    live
+        Made for this leg alone.
+    network
+        The network that the wire is part of: where it joins others, it leaves and arrives as they do.
+    wire
+        Not a loop.
+    moving
+        The end that moves.
+    points
+        (n, 3) vertices of the mesh.
+
+    Raises
+    ------
+    ValueError
+        Where the end that stays is not part of the surface.
+    """
+
+    def __init__(self, live: LiveWire, network: Network, wire: Wire, moving: End, points: NDArray[np.float64]) -> None:
+        self.wire = wire
+        self.moving = moving
+        self.live = live
+        self.stays = wire.end if moving == "start" else wire.start
+        self._points = points
+        seed, forward, self._skip = _fixed_seed(network, wire, moving)
+        live.seed(for_live(seed, wire.along), forward=forward)
+
+    def trace(self, target: Pick, place: Pick, avoid: int | None = None) -> Courses:
+        """Return the courses to a target.
+
+        Parameters
+        ----------
+        target
+            Where they lead.
+        place
+            The seed that they have there.
+        avoid
+            A vertex where they end as soon as they pass it.
+
+        Raises
+        ------
+        ValueError
+            Where the target is not part of the surface.
+        """
+        found = self.live.wires(for_live(target, self.wire.along))
+        wires, leading = by_number(found)
+        ways = tuple(self._wire(wire, follow, place, avoid) for follow, wire in enumerate(wires))
+        return Courses(ways, leading, found.solved, found.final)
+
+    def _wire(self, candidate: Candidate, follow: int, place: Pick, avoid: int | None) -> Wire | None:
+        vertices = tuple(int(vertex) for vertex in candidate.vertices)[self._skip :]
+        if avoid in vertices:
+            vertices = vertices[: vertices.index(avoid) + 1]
+        free = isinstance(place, FacePoint) or isinstance(self.stays, FacePoint)
+        if len(vertices) < (1 if free and self.wire.along == "SURFACE" else 2):
+            return None
+        points = np.array(candidate.points, dtype=np.float64)
+        if self.moving == "start":
+            vertices, points = vertices[::-1], points[::-1]
+        if self.wire.along == "EDGES":
+            points = self._points[list(vertices)]
+        ends = {"start": self.wire.start, "end": self.wire.end, self.moving: place}
+        return self.wire.drawn(vertices=vertices, points=points, follow=follow, **ends)
+
+
+def _fixed_seed(network: Network, wire: Wire, moving: End) -> tuple[Pick, bool, int]:
+    """Return where a leg's live wires begin, whether that is a directed edge, and how many vertices are not the leg's."""
+    stays = wire.end if moving == "start" else wire.start
+    if wire.along == "SURFACE":
+        return stays if isinstance(stays, FacePoint) else vertices_of(stays)[-1], False, 0
+    if moving == "end":
+        before = network.before(wire)
+        return (stays, False, 0) if before is None else (before.last_edge, True, 1)
+    after = network.after(wire)
+    if after is None:
+        return stays, False, 0
+    if isinstance(stays, tuple):
+        # The wire after this one leaves the edge over its second vertex: this one arrives over the first.
+        return wire.last_edge[::-1], True, 0
+    return (after.vertices[1], after.vertices[0]), True, 1
+
+
+class SeedDrag:
+    """A seed of a network on its way to somewhere else.
+
+    Parameters
+    ----------
+    engines
+        Have the live wires that those of the legs are forks of.
+    network
+        As it was before.
+    seed
+        The seed that is dragged, a pick that wires of the network have as their end, or that of the live wire.
+    points
+        (n, 3) vertices of the mesh.
+
+    Raises
+    ------
+    ValueError
+        Where there is no seed, or a wire's other end is not part of the surface; the text is a sentence for the artist.
+    """
+
+    def __init__(self, engines: Engines, network: Network, seed: Pick, points: NDArray[np.float64]) -> None:
+        # Wires that were cut go across the surface anew.
+        own = {wire.id for wire, _ in network.at(seed)}
+        network = replace(network, wires=tuple(wire.uncut() if wire.id in own else wire for wire in network.wires))
+        ends = network.at(seed)
+        live = network.seed
+        if not ends and (live is None or undirected(live.place) != undirected(seed)):
+            raise ValueError(f"There is no seed to move at {name(seed)}")
+        self.before = network
+        self.network = network
+        self.seed = seed
+        self.target: Snap | None = None
+        self.final = True
+        self._solved = True
+        self.ending = False
+        self.message = ""
+        self.legs = [Leg(engines.get(wire.along).fork(), network, wire, end, points) for wire, end in ends]
+
+    @property
+    def place(self) -> Pick:
+        """Where the seed is now."""
+        return self.seed if self.target is None else self.target.pick
+
+    @property
+    def moved(self) -> tuple[Wire, ...]:
+        """The wires that follow, as they run now."""
+        own = {leg.wire.id for leg in self.legs}
+        return tuple(wire for wire in self.network.wires if wire.id in own)
+
+    def lives(self) -> list[LiveWire]:
+        """Return what computes the wires."""
+        return [leg.live for leg in self.legs]
+
+    def poll(self) -> bool:
+        """Take in what was computed since; return whether the wires run elsewhere now."""
+        if self.final or self.target is None:
+            return False
+        before = self.network
+        self.to(self.target)
+        return self.network is not before
+
+    def to(self, target: Snap) -> bool:
+        """Lead the wires to another place; where that cannot be, say why in `message` and leave them as they were."""
+        self.target = target
+        self.final = self._solved = True
+        self.message = self._refusal(target.pick)
+        if self.message:
+            return False
+        try:
+            courses = self._courses(target.pick)
+        except ValueError as error:
+            self.message = str(error)
+            return False
+        if not self._solved:
+            return False
+        missing = [leg for leg in self.legs if leg.wire.id not in courses]
+        if missing:
+            self.message = f"No wire from {name(missing[0].stays)} reaches {name(target.pick)}"
+            return False
+        self.network = self._with_seed(self.before.with_courses(courses), target.pick)
+        return True
+
+    def _refusal(self, pick: Pick) -> str:
+        if isinstance(pick, tuple) and any(leg.wire.along == "SURFACE" for leg in self.legs):
+            return only_vertices(pick)
+        if self.legs and all(undirected(leg.stays) == undirected(pick) for leg in self.legs):
+            return "The wire would end where it begins: drop it instead"
+        return ""
+
+    def _courses(self, pick: Pick) -> dict[int, Wire | None]:
+        """Return the wires' new courses; one whose ends meet goes, one that is not reached or computed is left out."""
+        courses: dict[int, Wire | None] = {}
+        # A wire that arrives comes first: those that leave an edge have to go on in its direction.
+        direction: Edge | None = None
+        for leg in sorted(self.legs, key=lambda leg: leg.moving == "start"):
+            if undirected(leg.stays) == undirected(pick):
+                courses[leg.wire.id] = None
+                continue
+            if direction is not None and leg.moving == "start":
+                found = leg.trace(direction[1], pick, avoid=direction[0])
+            else:
+                found = leg.trace(pick, pick)
+            self.final &= found.final
+            self._solved &= found.solved
+            wire = found.following(leg.wire.follow)
+            if wire is None:
+                continue
+            courses[leg.wire.id] = wire
+            if isinstance(pick, tuple) and direction is None:
+                # Another wire leaves in the direction of one that arrives, and goes the other way from one that leaves.
+                direction = wire.last_edge if leg.moving == "end" else (wire.vertices[1], wire.vertices[0])
+        return courses
+
+    def _with_seed(self, network: Network, pick: Pick) -> Network:
+        """Return a network whose live wire begins, and whose chain began, at the dragged seed's new place."""
+        seed = network.seed
+        if seed is None or self.before.seed is None:
+            return network
+        at_seed = undirected(self.before.seed.place) == undirected(self.seed)
+        if at_seed and undirected(seed.place) != undirected(pick):
+            seed = replace(seed, pick=pick, forward=False, clicked=None)
+        if seed.first is not None and undirected(seed.first) == undirected(self.seed):
+            seed = replace(seed, first=pick)
+        return replace(network, seed=seed)

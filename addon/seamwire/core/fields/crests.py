@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Ridges and valleys of a mesh: lines over its faces, what is near to them, and what they are worth at its vertices."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..network.network import FacePoint, Wire
+
+if TYPE_CHECKING:
+    import seamwire_core
+    from numpy.typing import NDArray
+
+    from ..network.network import LoopKind, Pick
+
+CREST_KINDS: tuple[LoopKind, ...] = ("RIDGE", "VALLEY")
+"""What their offers are."""
+
+
+@dataclass(frozen=True, eq=False)
+class Crests:
+    """Ridges and valleys, the strongest first: line i has the points starts[i] to starts[i + 1].
+
+    Parameters
+    ----------
+    points
+        (p, 3) each on an edge. A closed line ends with its first point.
+    edges, parts
+        (p, 2) and (p,): which edge, and where on it, 0 to 1.
+    faces
+        (p,) the triangle that leads to the next point; -1 at a line's end.
+    curvatures
+        (p,) above 0 along ridges, below along valleys.
+    starts
+        (k + 1,).
+    strengths
+        (k,) the curvature along each line, in radians.
+    """
+
+    points: NDArray[np.float64]
+    edges: NDArray[np.int32]
+    parts: NDArray[np.float64]
+    faces: NDArray[np.int32]
+    curvatures: NDArray[np.float64]
+    starts: NDArray[np.int32]
+    strengths: NDArray[np.float64]
+
+    @classmethod
+    def of(cls, lines: seamwire_core.CrestLines) -> Crests:
+        """Return what the library found."""
+        return cls(lines.points, lines.edges, lines.parts, lines.faces, lines.curvatures, lines.starts, lines.strengths)
+
+    def __len__(self) -> int:
+        return len(self.strengths)
+
+    @cached_property
+    def pieces(self) -> NDArray[np.int64]:
+        """The points that a straight piece begins at, (s,)."""
+        return np.flatnonzero(self.faces >= 0)
+
+    @cached_property
+    def segments(self) -> NDArray[np.float64]:
+        """The straight pieces of all lines, (s, 2, 3)."""
+        return np.stack([self.points[self.pieces], self.points[self.pieces + 1]], axis=1)
+
+    @cached_property
+    def owners(self) -> NDArray[np.int64]:
+        """The line that each point is of, (p,)."""
+        return np.repeat(np.arange(len(self)), np.diff(self.starts))
+
+    @cached_property
+    def vertices(self) -> NDArray[np.int32]:
+        """The vertex that each point is nearest to on its edge, (p,)."""
+        return self.edges[np.arange(len(self.edges)), np.round(self.parts).astype(np.int64)]
+
+    @cached_property
+    def ridges(self) -> NDArray[np.bool_]:
+        """Which lines are ridges, (k,); the others are valleys."""
+        return self.curvatures[self.starts[:-1]] > 0.0
+
+    def line(self, number: int) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+        """Return a line's points, (q, 3), and the triangle that each lies in, (q,)."""
+        mine = slice(self.starts[number], self.starts[number + 1])
+        faces = self.faces[mine].copy()
+        faces[-1] = faces[-2]
+        return self.points[mine], faces
+
+    def line_at(self, pick: Pick) -> int | None:
+        """Return the strongest line at a pick; None: there is none.
+
+        It crosses an edge of a vertex, the triangle of a point, or this edge, or it runs beside that.
+        """
+        if isinstance(pick, FacePoint):
+            found = self.owners[self.faces == pick.triangle]
+        elif isinstance(pick, tuple):
+            beside = [set(self.owners[self.vertices == vertex].tolist()) for vertex in pick]
+            crossing = self.owners[(self.edges == np.sort(pick)).all(axis=1)].tolist()
+            return min({*crossing, *(beside[0] & beside[1])}, default=None)
+        else:
+            found = self.owners[(self.edges == pick).any(axis=1)]
+        return int(found.min()) if len(found) else None
+
+    def offer(self, pick: Pick) -> Wire | None:
+        """Return the line at a pick as a wire to be shown; it marks nothing."""
+        number = self.line_at(pick)
+        if number is None:
+            return None
+        kind: LoopKind = "RIDGE" if self.ridges[number] else "VALLEY"
+        return Wire("SURFACE", (), self.line(number)[0], pick, pick, kind=kind)
+
+    def place_at(self, piece: int, place: NDArray[np.float64]) -> tuple[NDArray[np.float64], int, int]:
+        """Return the point of a piece that is nearest to a place, (3,), its triangle, and the vertex that it is nearest to.
+
+        That is the one of both vertices of the edge at the nearer end of the piece.
+        """
+        start = self.pieces[piece]
+        ends = self.segments[piece]
+        along = ends[1] - ends[0]
+        square = float(along @ along)
+        part = float(np.clip((place - ends[0]) @ along / square, 0.0, 1.0)) if square > 0.0 else 0.0
+        end = start + round(part)
+        return ends[0] + part * along, int(self.faces[start]), int(self.vertices[end])
+
+    def at_vertices(self, count: int) -> NDArray[np.float64]:
+        """Return for each of so many vertices the strength of the strongest line beside it, below 0 that of a valley; 0: none."""
+        values = np.zeros(count)
+        signed = np.where(self.ridges, self.strengths, -self.strengths)[self.owners]
+        # The strongest lines are written last.
+        values[self.vertices[::-1]] = signed[::-1]
+        return values

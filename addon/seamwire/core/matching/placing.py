@@ -1,0 +1,519 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where points of one mesh are on another one: by the nearest point of the aligned surface, or by distances to known pairs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..base import native
+from ..base.geometry import Moments, creases, vertex_normals
+from ..network.strokes import into_triangles
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+_STEPS = 30
+"""Of the alignment: it has come to rest long before on shapes that are alike."""
+_ELSEWHERE = 0.1
+"""As part of the mesh's size: what lies that far off lies elsewhere."""
+_RIVAL = 2.0
+"""How many times farther off something may lie elsewhere for it to be as likely: on artists' models, moved and with another topology,
+it is 1.06 where the wrong one is nearest, and 2.6 at least where only one is right (docs/benchmarks.md)."""
+_TURNED = 5.0
+"""Degrees: what is turned by less than that lies elsewhere because it is moved."""
+_SAMPLE = 100
+"""How many points it looks at."""
+_TRIMMED = 0.8
+"""The part of the points that the alignment heeds, the nearest ones: what one mesh has alone does not pull."""
+_ALIGNED = 0.01
+"""As part of the mesh's size: points this near to a surface lie on it as they are."""
+_CREASE = 30.0
+"""Degrees: where a surface is as sharp as that, a seed lies on the edge on purpose."""
+DOUBTFUL = 0.25
+"""The confidence from which on a point has a place."""
+_APART = 0.5
+"""By how much more another place's distances have to be off for the best one to be sure."""
+_BLOCK = 1 << 22
+"""How many pairs of points and triangles are looked at together."""
+
+
+@dataclass(frozen=True)
+class Shape:
+    """A mesh as arrays.
+
+    Parameters
+    ----------
+    points
+        (n, 3) vertices as sessions have them.
+    triangles
+        (m, 3)
+    edges
+        (e, 2) the edges that wires may run along.
+    to_object
+        (3, 3) takes `points` to object coordinates, ``points @ to_object.T``; None: they are such.
+    """
+
+    points: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+    edges: NDArray[np.int32]
+    to_object: NDArray[np.float64] | None = None
+
+    @cached_property
+    def places(self) -> NDArray[np.float64]:
+        """(n, 3) the vertices in object coordinates."""
+        return self.points if self.to_object is None else self.points @ self.to_object.T
+
+    @cached_property
+    def normals(self) -> NDArray[np.float64]:
+        """(n, 3) of the vertices, in object coordinates."""
+        return vertex_normals(self.places, self.triangles)
+
+    @cached_property
+    def creases(self) -> NDArray[np.float64]:
+        """(n,) the largest angle between triangles at each vertex, in degrees."""
+        return creases(self.places, self.triangles)
+
+    @cached_property
+    def spacing(self) -> NDArray[np.float64]:
+        """(n,) how long the edges at each vertex are on average, in object coordinates; 0 where there is none."""
+        lengths = np.linalg.norm(self.places[self.edges[:, 0]] - self.places[self.edges[:, 1]], axis=1)
+        ends = self.edges.reshape(-1)
+        sums, counts = (
+            np.bincount(ends, np.repeat(lengths, 2), len(self.places)),
+            np.bincount(ends, None, len(self.places)),
+        )
+        return np.divide(sums, counts, out=np.zeros(len(sums)), where=counts > 0)
+
+    @cached_property
+    def around(self) -> dict[int, list[int]]:
+        """The vertices that share an edge with each."""
+        found: dict[int, list[int]] = {}
+        for one, two in self.edges.tolist():
+            found.setdefault(one, []).append(two)
+            found.setdefault(two, []).append(one)
+        return found
+
+    @cached_property
+    def moments(self) -> Moments:
+        """Where its surface lies."""
+        return Moments.of(self.places, self.triangles)
+
+    @cached_property
+    def size(self) -> float:
+        """The diagonal of the bounds of what is seen, in object coordinates."""
+        used = self.places[np.unique(self.triangles)]
+        return float(np.linalg.norm(np.ptp(used, axis=0))) if len(used) else 0.0
+
+
+def _onto(source: Moments, target: Moments, scale: float, signs: tuple[int, int]) -> Similarity:
+    """Return what lays one mesh's principal axes onto another's, the first two of them in directions by signs."""
+
+    def frame(moments: Moments) -> NDArray[np.float64]:
+        _, _, directions = np.linalg.svd(moments.axes)
+        directions[2] = np.cross(directions[0], directions[1])
+        return directions
+
+    one, other = frame(source), frame(target)
+    rotation = other.T @ np.diag([*signs, signs[0] * signs[1]]) @ one
+    return Similarity(scale, rotation, target.middle - scale * rotation @ source.middle)
+
+
+@dataclass(frozen=True)
+class Placed:
+    """Points on a mesh.
+
+    Parameters
+    ----------
+    triangles
+        (k,) the triangle that each lies in; -1: there is none.
+    places
+        (k, 3) in object coordinates.
+    confidence
+        (k,) from 0, nothing is known, to 1, it is certain.
+    """
+
+    triangles: NDArray[np.int64]
+    places: NDArray[np.float64]
+    confidence: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Similarity:
+    """Turns, scales and moves: ``scale * points @ rotation.T + shift``. A mirroring is one too."""
+
+    scale: float
+    rotation: NDArray[np.float64]
+    shift: NDArray[np.float64]
+
+    @classmethod
+    def none(cls) -> Similarity:
+        """Return the one that leaves everything where it is."""
+        return cls(1.0, np.eye(3), np.zeros(3))
+
+    @classmethod
+    def between(cls, points: NDArray[np.float64], targets: NDArray[np.float64]) -> Similarity:
+        """Return the one that brings points nearest to others, by least squares.
+
+        Umeyama, Least-squares estimation of transformation parameters between two point patterns (1991), without mirroring.
+        """
+        middle, other = points.mean(axis=0), targets.mean(axis=0)
+        p, q = points - middle, targets - other
+        u, values, vt = np.linalg.svd(q.T @ p / len(p))
+        signs = np.ones(3)
+        signs[2] = np.sign(np.linalg.det(u) * np.linalg.det(vt)) or 1.0
+        rotation = u @ np.diag(signs) @ vt
+        spread = float((p**2).sum()) / len(p)
+        scale = float((values * signs).sum()) / spread if spread > 0.0 else 1.0
+        if not scale > 0.0:
+            scale = 1.0
+        return cls(scale, rotation, other - scale * rotation @ middle)
+
+    @classmethod
+    def mirroring(cls, axis: int) -> Similarity:
+        """Return the one that mirrors over an axis, 0 to 2."""
+        signs = np.ones(3)
+        signs[axis] = -1.0
+        return cls(1.0, np.diag(signs), np.zeros(3))
+
+    def of(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return where (k, 3) points are then."""
+        return self.scale * points @ self.rotation.T + self.shift
+
+    def of_normals(self, normals: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return what way (k, 3) normals point then."""
+        return normals @ self.rotation.T
+
+    def after(self, other: Similarity) -> Similarity:
+        """Return the one that does first another one, then this one."""
+        return Similarity(
+            self.scale * other.scale,
+            self.rotation @ other.rotation,
+            self.scale * self.rotation @ other.shift + self.shift,
+        )
+
+
+@dataclass(frozen=True)
+class Aligned:
+    """What brings a network onto a mesh.
+
+    Parameters
+    ----------
+    way
+        That.
+    rival
+        What lays it elsewhere about as well; None: nothing does.
+    """
+
+    way: Similarity
+    rival: Similarity | None = None
+
+    @property
+    def doubt(self) -> str:
+        """What is to be said where there is a rival."""
+        if self.rival is None:
+            return ""
+        cosine = 0.5 * (np.trace(self.rival.rotation @ self.way.rotation.T) - 1.0)
+        turn = np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
+        elsewhere = f"turned by {turn:.0f} degrees" if turn >= _TURNED else "moved to another place"
+        return f"{elsewhere} the network fits as well: look whether it lies right, or give pairs"
+
+
+class Surface:
+    """Finds the points of a mesh that are nearest to places.
+
+    Parameters
+    ----------
+    shape
+        The mesh, with a triangle at least.
+
+    Raises
+    ------
+    ValueError
+        Where it has none.
+    """
+
+    def __init__(self, shape: Shape) -> None:
+        if not len(shape.triangles):
+            raise ValueError("The mesh has no visible faces: there is nowhere to place wires")
+        self._shape = shape
+        self._corners = corners = shape.places[shape.triangles]
+        self._middles = corners.mean(axis=1)
+        self._radii = np.linalg.norm(corners - self._middles[:, None], axis=2).max(axis=1)
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+        self._normals = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0.0)
+
+    @cached_property
+    def parts(self) -> NDArray[np.int32]:
+        """(m,) which of the parts that hang together each triangle belongs to."""
+        shape, core = self._shape, native.load()
+        whole = core.Surface(shape.places, shape.triangles, shape.edges)
+        return np.asarray(core.face_segments(whole, np.empty((0, 2), dtype=np.int32)))
+
+    def nearest(
+        self, places: NDArray[np.float64], normals: NDArray[np.float64] | None = None, part: int | None = None
+    ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
+        """Return the triangle that is nearest to each place, its point there, and how far away that is; (k,), (k, 3), (k,).
+
+        Parameters
+        ----------
+        places
+            (k, 3) in object coordinates.
+        normals
+            (k, 3) triangles that face away from these do not count, unless all do: thin cloth has two sides.
+        part
+            The only one of the parts that counts; None: all.
+        """
+        triangles = np.empty(len(places), dtype=np.int64)
+        found = np.empty((len(places), 3))
+        step = max(_BLOCK // len(self._middles), 1)
+        for start in range(0, len(places), step):
+            some = places[start : start + step]
+            square = (some**2).sum(axis=1)[:, None] - 2.0 * some @ self._middles.T + (self._middles**2).sum(axis=1)
+            middle = np.sqrt(np.maximum(square, 0.0))
+            if normals is not None:
+                facing = normals[start : start + step] @ self._normals.T >= 0.0
+                facing[~facing.any(axis=1)] = True
+                middle[~facing] = np.inf
+            if part is not None:
+                middle[:, self.parts != part] = np.inf
+                middle[np.isinf(middle).all(axis=1)] = np.where(self.parts == part, 0.0, np.inf)
+            # A triangle lies within its radius of its middle: what is farther than the nearest middle at least is not looked at.
+            reach = (middle + self._radii).min(axis=1)
+            for row in range(len(some)):
+                near = np.flatnonzero(middle[row] - self._radii <= reach[row] * (1.0 + 1e-9))
+                points = _closest(some[row], self._corners[near])
+                best = int(np.argmin(((points - some[row]) ** 2).sum(axis=1)))
+                triangles[start + row], found[start + row] = near[best], points[best]
+        return triangles, found, np.linalg.norm(found - places, axis=1)
+
+    def align(self, points: NDArray[np.float64], moments: Moments) -> Aligned:
+        """Find what brings points of a mesh onto this one.
+
+        They stay where they are if they lie on it. Else from there, and from where the meshes' principal axes agree in one of the four ways
+        that mirror nothing, all are brought nearer by turns to what they are nearest to (Besl, McKay, A method for
+        registration of 3-D shapes, 1992), and the best one is taken.
+
+        Parameters
+        ----------
+        points
+            (k, 3) in object coordinates.
+        moments
+            Of their mesh.
+        """
+        size = self._shape.size
+        some = points[np.linspace(0, len(points) - 1, min(len(points), _SAMPLE)).astype(np.int64)]
+        best, least = Similarity.none(), self._gap(some)
+        if least <= _ALIGNED * size or len(points) < 3:
+            return Aligned(best)
+        own = self._shape.moments
+        scale = own.size / moments.size if moments.size > 0.0 else 1.0
+        starts = [best, *(_onto(moments, own, scale, signs) for signs in ((1, 1), (1, -1), (-1, 1), (-1, -1)))]
+        starts.append(Similarity(scale, np.eye(3), own.middle - scale * moments.middle))
+        found_ways = [(least, best)]
+        for start in starts:
+            current = start
+            for _ in range(_STEPS):
+                moved = current.of(some)
+                _, found, gaps = self.nearest(moved)
+                near = gaps <= np.quantile(gaps, _TRIMMED)
+                current = Similarity.between(moved[near], found[near]).after(current)
+                if np.linalg.norm(current.of(some) - moved, axis=1).max() <= 1e-4 * size:
+                    break
+            # What has shrunk lies on any surface.
+            if 0.8 <= current.scale / scale <= 1.25:
+                found_ways.append((self._gap(current.of(some)), current))
+        least, best = min(found_ways, key=lambda way: way[0])
+        rivals = [
+            (gap, way)
+            for gap, way in found_ways
+            if gap <= max(_RIVAL * least, 1e-6 * size)
+            and np.linalg.norm(way.of(some) - best.of(some), axis=1).max() > _ELSEWHERE * size
+        ]
+        return Aligned(best, min(rivals, key=lambda way: way[0])[1] if rivals else None)
+
+    def _gap(self, points: NDArray[np.float64]) -> float:
+        gaps = self.nearest(points)[2]
+        return float(gaps[gaps <= np.quantile(gaps, _TRIMMED)].mean())
+
+    def place(
+        self,
+        points: NDArray[np.float64],
+        normals: NDArray[np.float64],
+        spacing: NDArray[np.float64] | float = 0.0,
+        part: int | None = None,
+    ) -> Placed:
+        """Place points that lie near.
+
+        Parameters
+        ----------
+        points, normals
+            (k, 3) in object coordinates.
+        spacing
+            (k,) how long the edges are there that they came from.
+        part
+            As `nearest` takes it.
+
+        Returns
+        -------
+        Placed
+            How far the surface is, in edges, and whether it faces the same way, say how sure each is.
+        """
+        triangles, found, gaps = self.nearest(points, normals, part)
+        edges = np.maximum(self._shape.spacing[self._shape.triangles[triangles]].mean(axis=1), spacing)
+        near = 1.0 / (1.0 + (gaps / np.maximum(edges, 1e-300)) ** 2)
+        agree = np.einsum("ij,ij->i", normals, self._normals[triangles])
+        known = np.linalg.norm(normals, axis=1) > 0.5
+        return Placed(triangles, found, near * np.where(known, np.clip(0.3 + 1.4 * agree, 0.0, 1.0), 1.0))
+
+    def vertex(self, triangle: int, place: NDArray[np.float64], crease: float) -> int:
+        """Return the vertex that stands for a place in a triangle: the nearest one, or a crease beside it for what was on one.
+
+        Parameters
+        ----------
+        triangle
+            Its number.
+        place
+            (3,) in object coordinates.
+        crease
+            How sharp the surface was there that it came from, in degrees.
+        """
+        shape = self._shape
+        corners = shape.triangles[triangle].tolist()
+        # Hidden edges and those of no triangle are none that wires run along.
+        near = dict.fromkeys(corner for corner in corners if corner in shape.around)
+        if crease >= _CREASE:
+            near |= dict.fromkeys(other for corner in near for other in shape.around[corner])
+        if not near:
+            return corners[0]
+        candidates = np.array(list(near))
+        edge = max(float(shape.spacing[candidates].mean()), 1e-300)
+        cost = np.linalg.norm(shape.places[candidates] - place, axis=1) / edge
+        if crease >= _CREASE:
+            # A whole edge away a crease is as good as the nearest vertex that is flat.
+            cost += np.clip(1.0 - shape.creases[candidates] / crease, 0.0, 1.0)
+        return int(candidates[np.argmin(cost)])
+
+
+def _closest(place: NDArray[np.float64], corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the point of each triangle, (k, 3, 3), that is nearest to a place, (k, 3)."""
+    origin = corners[:, 0]
+    normals = np.cross(corners[:, 1] - origin, corners[:, 2] - origin)
+    square = (normals**2).sum(axis=1)
+    off = np.einsum("ij,ij->i", place - origin, normals)
+    inside = place - (off / np.where(square > 0.0, square, 1.0))[:, None] * normals
+    best = into_triangles(inside, corners)
+    # In the plane of the triangle, and not beyond a side, that is the point; else it lies on a side.
+    within = (np.linalg.norm(best - inside, axis=1) <= 1e-12 * np.sqrt(np.sqrt(square))) & (square > 0.0)
+    gaps = np.where(within, ((best - place) ** 2).sum(axis=1), np.inf)
+    for one in range(3):
+        start, along = corners[:, one], corners[:, (one + 1) % 3] - corners[:, one]
+        length = (along**2).sum(axis=1)
+        part = np.einsum("ij,ij->i", place - start, along) / np.where(length > 0.0, length, 1.0)
+        points = start + np.clip(part, 0.0, 1.0)[:, None] * along
+        square_gaps = ((points - place) ** 2).sum(axis=1)
+        nearer = square_gaps < gaps
+        best[nearer], gaps[nearer] = points[nearer], square_gaps[nearer]
+    return best
+
+
+class Landmarks:
+    """Places vertices of one mesh on another by their distances, along the surface, to points that both have.
+
+    Poses change these little. Of two places with the same distances, such as both sides of what is symmetric with all pairs in its
+    plane, the one counts that is nearer after the pairs were laid onto each other.
+
+    Parameters
+    ----------
+    source, target
+        The meshes.
+    pairs
+        (k, 2) a vertex of each that are the same point of the shape, three pairs at least.
+
+    Raises
+    ------
+    ValueError
+        Where there are fewer, or one is not there.
+    """
+
+    _RESOLUTION = 0.02
+    """As part of the mesh's size: distances in other poses agree no better."""
+    _CHANGE = 0.1
+    """By which part of themselves poses change distances."""
+    _TIE = 1.0
+    """How much where the aligned place is counts beside distances."""
+
+    def __init__(self, source: Shape, target: Shape, pairs: ArrayLike) -> None:
+        numbers = np.array(pairs, dtype=np.int64).reshape(-1, 2)
+        if len(numbers) < 3:
+            raise ValueError(f"Transfer by pairs needs three pairs of vertices at least, and there are {len(numbers)}")
+        for shape, column, what in ((source, 0, "source"), (target, 1, "target")):
+            outside = numbers[~np.isin(numbers[:, column], shape.triangles), column]
+            if len(outside):
+                raise ValueError(f"Pairs: vertex {outside[0]} is no vertex of a visible face of the {what}")
+        self._source, self._target = source, target
+        self._here, self._there = _distances(source, numbers[:, 0]), _distances(target, numbers[:, 1])
+        one, other = self._here[numbers[:, 0]], self._there[numbers[:, 1]]
+        both = np.isfinite(one) & np.isfinite(other) & (one > 0.0)
+        square = float((one[both] ** 2).sum())
+        self._scale = float((one[both] * other[both]).sum()) / square if square > 0.0 else 1.0
+        aligned = Similarity.between(source.places[numbers[:, 0]], target.places[numbers[:, 1]])
+        self._aligned = aligned.of(source.places)
+        self._used = np.unique(target.triangles)
+        self._triangle_of = np.full(len(target.places), -1, dtype=np.int64)
+        self._triangle_of[target.triangles.reshape(-1)] = np.repeat(np.arange(len(target.triangles)), 3)
+
+    def place(self, vertices: NDArray[np.int64]) -> Placed:
+        """Place vertices of the source on the target, (k,).
+
+        How far the best place's distances are off, and how much farther off those of other places are, says how sure each is.
+        """
+        target, used = self._target, self._used
+        size = max(target.size, 1e-300)
+        there = self._there[used]
+        best = np.empty(len(vertices), dtype=np.int64)
+        confidence = np.zeros(len(vertices))
+        for row, vertex in enumerate(vertices.tolist()):
+            wanted = self._scale * self._here[vertex]
+            known = np.isfinite(wanted)
+            if not known.any():
+                best[row] = used[0]
+                continue
+            # Near pairs say more: poses change long ways most.
+            off = (there[:, known] - wanted[known]) / (self._RESOLUTION * size + self._CHANGE * wanted[known])
+            square = (off**2).mean(axis=1)
+            aside = ((target.places[used] - self._aligned[vertex]) ** 2).sum(axis=1) / size**2
+            chosen = int(np.argmin(square + self._TIE * aside))
+            best[row] = used[chosen]
+            edge = max(float(target.spacing[used[chosen]]), self._RESOLUTION * size)
+            far = np.linalg.norm(target.places[used] - target.places[used[chosen]], axis=1) > 4.0 * edge
+            rival = np.sqrt(square[far].min()) if far.any() else np.inf
+            # Where the distances are off by more than edges are long, so is the place.
+            weights = (self._RESOLUTION * size + self._CHANGE * wanted[known]) ** -2.0
+            gaps = ((there[chosen, known] - wanted[known]) ** 2 * weights).sum() / weights.sum()
+            exact = 1.0 / (1.0 + gaps / (2.0 * max(float(target.spacing[used[chosen]]), 1e-300)) ** 2)
+            likely = _landmark_confidence(np.sqrt(square[chosen]), rival)
+            confidence[row] = max(exact * likely, min(likely, DOUBTFUL))
+        return Placed(self._triangle_of[best], target.places[best], confidence)
+
+
+def _landmark_confidence(off: float, rival: float) -> float:
+    """Return how sure a place is whose distances are so far off, where those of another place are so far off; 1 is what poses do."""
+    if not np.isfinite(off):
+        return 0.0
+    apart = np.clip((rival - off) / _APART, 0.0, 1.0) if np.isfinite(rival) else 1.0
+    return float((0.2 + 0.8 * apart) / (1.0 + off**2))
+
+
+def _distances(shape: Shape, vertices: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Return the distances along the surface from all vertices to some, (n, k), in object coordinates; inf: there is no way."""
+    core = native.load()
+    surface = core.Surface(shape.places, shape.triangles, shape.edges)
+    flat = core.embed(surface, core.euclidean_metric(surface, core.principal_curvatures(surface)))
+    # Of several pairs at one vertex, and those on parts of their own, each counts for itself.
+    columns = [core.distance_field(flat, int(vertex)).distances / surface.scale for vertex in vertices]
+    return np.stack(columns, axis=1)

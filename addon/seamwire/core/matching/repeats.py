@@ -1,0 +1,231 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where a mesh has again what a set of edges runs along: fingers, bolts, wheels, the other hand.
+
+The set is described by a walk along it: how many edges each of its vertices has, whether that is on the border, and by how many edges
+the walk turns there. The same walk is begun at every other edge of the mesh, in both directions and mirrored, and what comes to its end
+is such a place. So what is alike is how the mesh hangs together there, not where it lies; lengths of edges have to agree too.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from numpy.typing import NDArray
+
+    from ..network.network import Edge, Pick, Wire
+
+_TOLERANCES = (0.01, 0.05)
+"""Parts by which lengths of edges may differ; the second is asked where with the first nothing is found."""
+
+
+@dataclass(frozen=True)
+class _Step:
+    """One edge of the walk.
+
+    Parameters
+    ----------
+    dart
+        The edge and its direction.
+    parent
+        The step whose head it leaves; -1: the first one.
+    turn
+        By how many places it lies beyond the way back, counterclockwise around that vertex.
+    """
+
+    dart: int
+    parent: int
+    turn: int
+
+
+class Repeats:
+    """Finds the repeats of wires on one mesh.
+
+    A dart is an edge with a direction: 2 e from the first vertex of edge e to the second, 2 e + 1 back.
+
+    Parameters
+    ----------
+    points
+        (n, 3) vertices of the mesh.
+    triangles
+        (m, 3) what its polygons are divided into.
+    edges
+        (e, 2) its edges.
+    """
+
+    def __init__(self, points: NDArray[np.float64], triangles: NDArray[np.int32], edges: NDArray[np.int32]) -> None:
+        self._edges = edges
+        self._tails = edges.reshape(-1).astype(np.int64)
+        self._lengths = np.repeat(np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1), 2)
+        self._numbers = {(min(pair), max(pair)): number for number, pair in enumerate(edges.tolist())}
+        self._look_around(len(points), triangles)
+
+    def of(self, wires: Iterable[Wire], points: NDArray[np.float64]) -> list[list[Wire]]:
+        """Return for each repeat of some wires its wires.
+
+        Parameters
+        ----------
+        wires
+            Those along edges that are connected with each other: what no walk along edges reaches is left out.
+        points
+            (n, 3) vertices of the mesh, for the curves.
+        """
+        wires = list(wires)
+        return [
+            [_moved(wire, to, points) for wire in wires if set(wire.vertices) <= to.keys()]
+            for to in self.maps({edge for wire in wires for edge in wire.edges()})
+        ]
+
+    def maps(self, edges: Iterable[Edge]) -> Iterator[dict[int, int]]:
+        """Yield for each repeat of a connected set of edges where its vertices are there; no two have all edges in common."""
+        known = [self._numbers[pair] for pair in edges]
+        steps = self._walk(known)
+        seen = {frozenset(known)}
+        for tolerance in _TOLERANCES:
+            for found in (self._follow(steps, tolerance, sense) for sense in (1, -1)):
+                for darts in found.tolist():
+                    whole = frozenset(dart >> 1 for dart in darts)
+                    to = self._matched(steps, darts)
+                    if whole not in seen and to is not None:
+                        seen.add(whole)
+                        yield to
+            if len(seen) > 1:
+                return
+
+    def _walk(self, edges: list[int]) -> list[_Step]:
+        """Return a walk along all edges that hang together with the first one, breadth first."""
+        left = set(edges[1:])
+        steps = [_Step(2 * edges[0], -1, 0)]
+        # Both ends of the first edge are left from: its other end by the way back, as if that were a step of its own.
+        steps.append(_Step(2 * edges[0] + 1, -1, 0))
+        at = 0
+        while at < len(steps):
+            back = steps[at].dart ^ 1
+            vertex = self._tails[back]
+            for dart in self._order[self._begin[vertex] : self._begin[vertex + 1]].tolist():
+                if dart >> 1 in left:
+                    left.discard(dart >> 1)
+                    turn = (self._place[dart] - self._place[back]) % self._valence[vertex]
+                    steps.append(_Step(dart, at, int(turn)))
+            at += 1
+        return steps
+
+    def _follow(self, steps: list[_Step], tolerance: float, sense: int) -> NDArray[np.int64]:
+        """Return the darts, (k, steps), of all walks that are like one, counterclockwise or mirrored."""
+        begin = np.arange(len(self._tails))
+        darts = np.empty((len(begin), len(steps)), dtype=np.int64)
+        for number, step in enumerate(steps):
+            if step.parent < 0:
+                darts[:, number] = begin[: len(darts)] if number == 0 else darts[:, 0] ^ 1
+            else:
+                back = darts[:, step.parent] ^ 1
+                vertices = self._tails[back]
+                place = (self._place[back] + sense * step.turn) % np.maximum(self._valence[vertices], 1)
+                darts[:, number] = self._order[self._begin[vertices] + place]
+            darts = darts[self._alike(step.dart, darts[:, number], tolerance, sense)]
+        return darts
+
+    def _alike(self, dart: int, others: NDArray[np.int64], tolerance: float, sense: int) -> NDArray[np.bool_]:
+        """Tell which darts are as long as one, and lead to a vertex like its head."""
+        head, heads = self._tails[dart ^ 1], self._tails[others ^ 1]
+        alike = np.abs(self._lengths[others] - self._lengths[dart]) <= tolerance * self._lengths[dart]
+        alike &= self._valence[heads] == self._valence[head]
+        alike &= self._on_border[heads] == self._on_border[head]
+        alike &= self._sound[heads] & self._sound[head]
+        if self._on_border[head]:
+            # Around a vertex on the border places are counted from there.
+            place = self._place[dart ^ 1]
+            wanted = place if sense > 0 else self._valence[head] - 1 - place
+            alike &= self._place[others ^ 1] == wanted
+        return alike
+
+    def _matched(self, steps: list[_Step], darts: list[int]) -> dict[int, int] | None:
+        """Return which vertices those of the walk are at another place; None: not one to one."""
+        to: dict[int, int] = {}
+        for step, dart in zip(steps, darts, strict=True):
+            for ours, theirs in ((step.dart, dart), (step.dart ^ 1, dart ^ 1)):
+                if to.setdefault(int(self._tails[ours]), int(self._tails[theirs])) != self._tails[theirs]:
+                    return None
+        return to if len(set(to.values())) == len(to) else None
+
+    def _look_around(self, count: int, triangles: NDArray[np.int32]) -> None:
+        """Order the darts that leave each vertex counterclockwise; on the border the first one follows on it."""
+        # The sides of triangles that are no edges have darts too, behind those of the edges: one turns past them.
+        tails, heads = (
+            triangles.astype(np.int64).reshape(-1),
+            np.roll(triangles, -1, axis=1).astype(np.int64).reshape(-1),
+        )
+        sides = np.minimum(tails, heads) * count + np.maximum(tails, heads)
+        keys = np.sort(self._edges, axis=1).astype(np.int64) @ (count, 1)
+        diagonals = np.setdiff1d(sides, keys)
+        ends = np.concatenate([self._edges, np.stack([diagonals // count, diagonals % count], axis=1)]).astype(np.int64)
+        keys = np.concatenate([keys, diagonals])
+        order = np.argsort(keys)
+        number = order[np.searchsorted(keys[order], sides)]
+        dart = 2 * number + (tails != ends[number, 0])
+        leaves = ends.reshape(-1)
+        # On the left of a dart lies a triangle, and behind that the next dart around its tail: the last side, backwards.
+        behind = np.full(len(leaves), -1, dtype=np.int64)
+        behind[dart] = np.roll(dart.reshape(-1, 3), 1, axis=1).reshape(-1) ^ 1
+
+        first = np.ones(len(leaves), dtype=np.bool_)
+        first[behind[behind >= 0]] = False
+        firsts = np.bincount(leaves[first], minlength=count)
+        self._on_border = firsts > 0
+        start = np.full(count, -1, dtype=np.int64)
+        start[leaves] = np.arange(len(leaves))
+        start[leaves[first]] = np.flatnonzero(first)
+
+        degree = np.bincount(leaves, minlength=count)
+        self._place = np.zeros(len(self._tails), dtype=np.int64)
+        self._valence = np.zeros(count, dtype=np.int64)
+        passed = np.zeros(count, dtype=np.int64)
+        at = start.copy()
+        turning = np.flatnonzero(start >= 0)
+        while len(turning):
+            here = at[turning]
+            is_edge = here < len(self._tails)
+            self._place[here[is_edge]] = self._valence[turning[is_edge]]
+            self._valence[turning[is_edge]] += 1
+            passed[turning] += 1
+            at[turning] = behind[here]
+            goes_on = (at[turning] >= 0) & (at[turning] != start[turning]) & (passed[turning] < degree[turning])
+            turning = turning[goes_on]
+        # Several fans, edges with more than two triangles or none, triangles turned inside out: nothing to turn around.
+        self._sound = (passed == degree) & (firsts <= 1)
+        self._sound[leaves[np.bincount(dart, minlength=len(leaves)) > 1]] = False
+        self._valence = np.bincount(self._tails, minlength=count)
+        self._begin = np.concatenate([[0], np.cumsum(self._valence)])
+        self._order = np.zeros(len(self._tails), dtype=np.int64)
+        whole = np.flatnonzero(self._sound[self._tails])
+        self._order[self._begin[self._tails[whole]] + self._place[whole]] = whole
+
+
+def _moved(wire: Wire, to: dict[int, int], points: NDArray[np.float64]) -> Wire:
+    """Return a wire where its vertices are at another place."""
+    vertices = tuple(to[vertex] for vertex in wire.vertices)
+    around = [*vertices, *vertices[:1]] if wire.closed else list(vertices)
+
+    def pick(old: Pick, end: int) -> Pick:
+        if isinstance(old, tuple) and set(old) <= to.keys():
+            return to[old[0]], to[old[1]]
+        return end
+
+    start, end = pick(wire.start, vertices[0]), pick(wire.end, vertices[-1])
+    through = None if wire.through is None else pick(wire.through, -1)
+    ends = sorted(through) if isinstance(through, tuple) else None
+    # Mirrored places are found as others are.
+    kept = replace(wire, alternatives=(), offers=(), heading=None, mirror=())
+    return kept.anew(
+        vertices=vertices,
+        points=points[around],
+        start=start,
+        end=end,
+        kind=wire.kind if ends else None,
+        through=(ends[0], ends[1]) if ends else None,
+    )

@@ -1,0 +1,232 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Strokes on the surface that wires near them follow, or keep from; Section 5 of the paper."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from ..base import native
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+ActsOn = Literal["both", "min", "max", "concave", "euclidean"]
+"""Which of `FOLLOWS` a stroke acts on; "both": on all of them. Files have these words; "euclidean" is for the library only."""
+
+_OFF_MESH = 0.05
+"""How far from its triangle a point may be, as part of the mesh's longest side: what the library takes."""
+_STEP = 2.5e-4
+"""Points nearer to each other than this part of the longest side are left out: triangles are larger in any mesh."""
+_SMOOTHINGS = 2
+
+_ids = itertools.count()
+
+
+@dataclass(frozen=True, eq=False)
+class Scribble:
+    """A stroke.
+
+    Parameters
+    ----------
+    points
+        (n, 3), in drawing order, as the mesh's points are given.
+    corners
+        (n, 3) the vertices of the triangle that each point lies in; three times the same: the vertex it is at.
+    faces
+        (n,) the triangles' numbers; -1: the point is at a vertex, or the triangle is to be found by `on_mesh`.
+    attracts
+        Whether wires follow it; else they keep from it: crossing it is short, following it long.
+    acts_on
+        Which of the wires it is meant for.
+    eta
+        The eigenvalues of the metric along it are eta and 1 / eta.
+    rings
+        How many rings of vertices around it it reaches.
+    radius
+        How far it reaches instead, in the points' units.
+    id
+        Its own number.
+    """
+
+    points: NDArray[np.float64]
+    corners: NDArray[np.int32]
+    faces: NDArray[np.int32]
+    attracts: bool = True
+    acts_on: ActsOn = "both"
+    eta: float = 20.0
+    rings: int = 10
+    radius: float | None = None
+    id: int = field(default_factory=_ids.__next__)
+
+    @property
+    def vertices(self) -> NDArray[np.int32]:
+        """(n,) the vertex that each point is at; -1: it lies in a triangle."""
+        return np.where(self.faces >= 0, -1, self.corners[:, 0]).astype(np.int32)
+
+
+class OffMeshError(ValueError):
+    """A stroke cannot be drawn; the text is a sentence for the artist."""
+
+
+def drawn(
+    points: ArrayLike, faces: ArrayLike, mesh: NDArray[np.float64], triangles: NDArray[np.int32]
+) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
+    """Return a stroke as a hand drew it, smoothed a little: its points, their triangles' corners and numbers.
+
+    Parameters
+    ----------
+    points
+        (n, 3), in drawing order.
+    faces
+        (n,) the triangle that each lies in.
+    mesh
+        (k, 3) vertices.
+    triangles
+        (m, 3) the mesh's triangles.
+
+    Raises
+    ------
+    OffMeshError
+        Where it has no length, or a point is not in its triangle, nor near.
+    """
+    path = np.array(points, dtype=np.float64).reshape(-1, 3)
+    numbers = np.array(faces, dtype=np.int32).reshape(-1)
+    if len(path) != len(numbers) or not np.isfinite(path).all():
+        raise OffMeshError("The stroke is damaged: it needs a place and a face for each of its points")
+    if ((numbers < 0) | (numbers >= len(triangles))).any():
+        raise OffMeshError("The stroke leaves the visible part of the mesh")
+    size = longest_side(mesh)
+    rows = _thinned(path, _STEP * size)
+    path, numbers = path[rows], numbers[rows]
+    closed = len(path) > 3 and bool(np.array_equal(path[0], path[-1]))
+    if closed:
+        numbers[-1] = numbers[0]
+    corners = triangles[numbers]
+    inside = into_triangles(path, mesh[corners])
+    if (np.linalg.norm(inside - path, axis=1) > _OFF_MESH * size).any():
+        raise OffMeshError("The stroke leaves the mesh")
+    _check_length(inside, size)
+    for _ in range(_SMOOTHINGS):
+        before, after = np.roll(inside, 1, axis=0), np.roll(inside, -1, axis=0)
+        if closed:
+            before[0], after[-1] = inside[-2], inside[1]
+        smooth = 0.25 * (before + 2.0 * inside + after)
+        if not closed:
+            smooth[[0, -1]] = inside[[0, -1]]
+        # Each point stays in its triangle: what zigzags less than that changes no edge's direction.
+        inside = into_triangles(smooth, mesh[corners])
+    return inside, corners.astype(np.int32), numbers
+
+
+def through_vertices(
+    vertices: ArrayLike, mesh: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
+    """Return a stroke through vertices: its points, three times the vertex of each, and -1 for each.
+
+    Raises
+    ------
+    OffMeshError
+        Where it has no length, or a vertex is not there.
+    """
+    numbers = np.array(vertices, dtype=np.int64).reshape(-1)
+    missing = numbers[(numbers < 0) | (numbers >= len(mesh))]
+    if len(missing):
+        raise OffMeshError(f"There is no vertex {missing[0]} for the stroke: the mesh has {len(mesh)}, numbered from 0")
+    path = mesh[numbers]
+    _check_length(path, longest_side(mesh))
+    corners = np.repeat(numbers[:, None], 3, axis=1).astype(np.int32)
+    return path, corners, np.full(len(numbers), -1, dtype=np.int32)
+
+
+def longest_side(mesh: NDArray[np.float64]) -> float:
+    """Return how long the mesh is in that of the axes' directions where it is longest."""
+    return max((float(np.ptp(column)) for column in mesh.T), default=0.0)  # column by column: ten times as fast
+
+
+def _thinned(path: NDArray[np.float64], step: float) -> NDArray[np.int64]:
+    """Return the points of a stroke that are at least a step from those before, and its ends."""
+    if len(path) < 2 or not step > 0.0:
+        return np.arange(len(path))
+    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
+    rows = np.unique(np.floor(along / step), return_index=True)[1]
+    return np.union1d(rows, [len(path) - 1])
+
+
+def _check_length(path: NDArray[np.float64], size: float) -> None:
+    length = float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum()) if len(path) > 1 else 0.0
+    if not length > _STEP * size:
+        raise OffMeshError("A stroke needs a direction: drag along the surface")
+
+
+def into_triangles(places: NDArray[np.float64], triangles: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return (n, 3) places moved into their (n, 3, 3) triangles: one that lies in its own stays where it is."""
+    origin = triangles[:, 0]
+    u, v, w = triangles[:, 1] - origin, triangles[:, 2] - origin, places - origin
+    uu, uv, vv = (np.einsum("ij,ij->i", a, b) for a, b in ((u, u), (u, v), (v, v)))
+    uw, vw = np.einsum("ij,ij->i", u, w), np.einsum("ij,ij->i", v, w)
+    area = uu * vv - uv * uv
+    flat = area <= 1e-24 * np.maximum(uu * vv, 1e-300)  # of a triangle without an area, the first corner will do
+    divisor = np.where(flat, 1.0, area)
+    weights = np.stack([(vv * uw - uv * vw) / divisor, (uu * vw - uv * uw) / divisor], axis=1)
+    weights = np.maximum(np.column_stack([1.0 - weights.sum(axis=1), weights]), 0.0)
+    weights[flat] = [1.0, 0.0, 0.0]
+    weights /= weights.sum(axis=1, keepdims=True)
+    return np.einsum("ij,ijk->ik", weights, triangles)
+
+
+def on_mesh(scribble: Scribble, mesh: NDArray[np.float64], triangles: NDArray[np.int32] | None) -> Scribble:
+    """Return a stroke with its points in the triangles between its corners, or else at the nearest of those.
+
+    Parameters
+    ----------
+    scribble
+        Of vertices below k.
+    mesh
+        (k, 3) vertices.
+    triangles
+        (m, 3) the mesh's triangles; None: not known.
+    """
+    corners = np.sort(scribble.corners, axis=1)
+    at_vertex = corners[:, 0] == corners[:, 2]
+    number_of: dict[tuple[int, ...], int] = {}
+    if triangles is not None and not at_vertex.all():
+        touched = np.zeros(len(mesh), dtype=bool)
+        touched[corners[~at_vertex]] = True
+        rows = np.flatnonzero(touched[triangles].all(axis=1))
+        number_of = dict(zip(map(tuple, np.sort(triangles[rows], axis=1).tolist()), rows.tolist(), strict=True))
+    faces = np.array([number_of.get(tuple(triple), -1) for triple in corners.tolist()], dtype=np.int32)
+    points = into_triangles(scribble.points, mesh[corners])
+    lost = faces < 0
+    gaps = np.linalg.norm(mesh[corners[lost]] - points[lost, None], axis=2)
+    nearest = np.take_along_axis(corners[lost], gaps.argmin(axis=1)[:, None], axis=1)
+    corners[lost] = nearest
+    points[lost] = mesh[nearest[:, 0]]
+    return Scribble(
+        points,
+        corners.astype(np.int32),
+        faces,
+        scribble.attracts,
+        scribble.acts_on,
+        scribble.eta,
+        scribble.rings,
+        scribble.radius,
+        scribble.id,
+    )
+
+
+def for_library(scribble: Scribble) -> object:
+    """Return a stroke as the library takes it."""
+    return native.load().Scribble(
+        scribble.points,
+        faces=scribble.faces,
+        vertices=scribble.vertices,
+        eta=scribble.eta,
+        rings=scribble.rings,
+        radius=scribble.radius,
+        attracts=scribble.attracts,
+        acts_on=scribble.acts_on,
+    )

@@ -1,0 +1,282 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Edge loops: what one click on an edge offers, closed loops, strips, and more."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..network.network import Wire, undirected
+from ..network.stops import ranked
+from ..network.symmetry import among
+from .offers import Offers
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Mapping, Sequence
+
+    from numpy.typing import NDArray
+
+    from ..network.network import Edge, LoopKind, Network, Pick
+    from ..network.stops import Stops
+    from ..solver.solver import Engines, LiveWire
+    from .flat_regions import FlatRegions
+
+
+_BY_KIND: Mapping[LoopKind, float] = {"CLOSED": 0.0, "PAST": 0.2, "STRIP": 0.5, "WHOLE": 0.7, "FLAT": 0.8}
+_LOOP_CROSSES = 0.7
+_STRIP_CROSSES = 0.2
+"""How unlikely an offer is, in corners of a loop; being of another kind than what was taken last counts as a corner, too.
+Fitted to what artists' seams consist of, see docs/method.md."""
+_MOST_CORNERS, _MOST_CROSSINGS = 3, 4
+"""More than these say no more."""
+_CORNER_COSINE = 0.5
+_MOST_PIECES = 64
+"""Straight pieces of a loop that are looked at: over triangles it may have as many as edges."""
+
+
+class LoopOffers(Offers):
+    """What one click on the edge under the cursor may take, while that is asked for.
+
+    Parameters
+    ----------
+    engines
+        Find it.
+    stops
+        Where strips end.
+    points
+        (n, 3) vertices of the mesh.
+    flat
+        Finds the borders of flat regions; None: they are not offered.
+    """
+
+    SINGLE = "Nothing else runs through this edge"
+
+    def __init__(
+        self, engines: Engines, stops: Stops, points: NDArray[np.float64], flat: FlatRegions | None = None
+    ) -> None:
+        super().__init__()
+        self._engines = engines
+        self._stops = stops
+        self._points = points
+        self._flat = flat
+
+    def takes(self, pick: Pick) -> bool:
+        """Whether it is an edge."""
+        return isinstance(pick, tuple)
+
+    def flat_border(self, edge: Edge) -> set[Edge]:
+        """Return the likeliest border of a flat region beside an edge, by its edges; empty: there is none."""
+        border = next(self._flat.borders(edge), ()) if self._flat is not None else ()
+        return {undirected(pair) for pair in zip(border, border[1:] + border[:1], strict=True)}
+
+    def find(self, pick: Pick, network: Network, kept: Wire | None = None) -> tuple[Wire, ...]:
+        """Return what a click on an edge may take; nothing, too, while it is computed, see `final`.
+
+        Parameters
+        ----------
+        pick
+            The edge; a vertex has no offers.
+        network
+            The wires that there are.
+        kept
+            The one of them that such a click took, which comes first then; None: the newest one that did.
+
+        Raises
+        ------
+        ValueError
+            Where the edge is not part of the surface.
+        """
+        self.final = True
+        if not isinstance(pick, tuple):
+            return ()
+        own = kept or network.taken_through(pick)
+        if own is not None and own.offers:
+            return own.all_offers()
+        # Wires that were stored have lost their offers: they are those of a click made without them.
+        if own is not None:
+            network = network.without(own)
+        # An edge that is taken already stops itself: what remains to be offered there is more than that.
+        stops = None if self._stops.taken(network, pick) else self._stops.of(network, None, pick)
+        offers, self.final = find_offers(
+            self._engines.get("EDGES"),
+            pick,
+            stops,
+            self._points,
+            self._engines.strengths["EDGES"],
+            kept=self._stops.kept(network),
+            last=next((wire.kind for wire in reversed(network.wires) if wire.kind is not None), None),
+            flat=self._flat,
+        )
+        return offers if own is None or not self.final else (replace(own, offers=()), *others(own, offers))
+
+
+def taken(offers: tuple[Wire, ...], choice: int, marks: bool) -> Wire:
+    """Return an offer as a wire to be kept, with the others in their order, the next one first."""
+    return offers[choice].anew(marks=marks, offers=offers[choice + 1 :] + offers[:choice])
+
+
+def others(kept: Wire, offers: tuple[Wire, ...]) -> tuple[Wire, ...]:
+    """Return what else is offered where a wire is kept, in order: what comes after its kind first."""
+    at = next((i for i, offer in enumerate(offers) if offer.kind == kept.kind), -1)
+    edges = set(kept.edges())
+    return tuple(offer for offer in offers[at + 1 :] + offers[: max(at, 0)] if set(offer.edges()) != edges)
+
+
+def find_offers(
+    live: LiveWire,
+    edge: Edge,
+    stops: NDArray[np.int64] | Sequence[int] | None,
+    points: NDArray[np.float64],
+    strength: float,
+    kept: NDArray[np.int64] | Collection[int] = (),
+    last: LoopKind | None = None,
+    flat: FlatRegions | None = None,
+) -> tuple[tuple[Wire, ...], bool]:
+    """Return what one click on an edge may take, the likeliest first, and whether that is computed; until then nothing.
+
+    Parameters
+    ----------
+    live
+        Of the way along edges.
+    edge
+        Strips run in its direction.
+    stops
+        The vertices where a strip and the way past poles end, before the offer without stops; None: that alone is
+        offered.
+    points
+        (n, 3) vertices of the mesh.
+    strength
+        The metric's largest anisotropy.
+    kept
+        The vertices of seams and kept wires: what leads across them is less likely.
+    last
+        What was taken last: that is likely to be taken again; None: nothing yet.
+    flat
+        Finds the borders of flat regions beside the edge; None: they are not offered.
+
+    Raises
+    ------
+    ValueError
+        Where the edge is not part of the surface.
+    """
+    loop = live.loop(edge)
+    is_flat_known = flat is None or flat.ready()
+    if not (loop.final and is_flat_known):
+        return (), False
+    found = [_wire("CLOSED", loop.vertices, True, edge, points, strength)]
+    if stops is not None:
+        strip = live.edge_loop(edge, stops)
+        found.append(_wire("STRIP", strip.vertices, strip.closed, edge, points))
+        found.append(_wire("PAST", *past_poles(live, edge, stops), edge, points))
+    chain = live.edge_loop(edge, ())
+    found.append(_wire("WHOLE", chain.vertices, chain.closed, edge, points))
+    if flat is not None:
+        found += [_wire("FLAT", border, True, edge, points, strength) for border in flat.borders(edge)]
+    # Of those that run along the same edges the first.
+    different = {frozenset(wire.edges()): wire for wire in reversed(found) if wire is not None}
+    offers = [wire for wire in found if wire in different.values()]
+    if len(offers) > 1:
+        kept = ranked(kept)
+        offers.sort(key=lambda wire: _unlikeliness(live, wire, points, kept, last or "CLOSED"))
+    return tuple(offers), True
+
+
+def _unlikeliness(
+    live: LiveWire, wire: Wire, points: NDArray[np.float64], kept: NDArray[np.int64], last: LoopKind
+) -> float:
+    """Return how unlikely an offer is to be what the artist wants, in corners of a loop."""
+    assert wire.kind is not None
+    inner = wire.vertices if wire.closed else wire.vertices[1:-1]
+    crossings = min(int(among(np.array(inner, dtype=np.int64), kept).sum()), _MOST_CROSSINGS)
+    cost = _BY_KIND[wire.kind] + (wire.kind != last)
+    if wire.kind in {"CLOSED", "FLAT"}:
+        return cost + _LOOP_CROSSES * crossings + min(corners(live, wire.vertices, points), _MOST_CORNERS)
+    return cost + _STRIP_CROSSES * crossings
+
+
+def corners(live: LiveWire, loop: Sequence[int], points: NDArray[np.float64]) -> int:
+    """Count the vertices where a closed chain turns off by 60 degrees or more, though straight ways go on there.
+
+    From neither side does the straight way follow the chain at such a vertex. Where both lead into the same third edge,
+    three edges meet, and no way is straight.
+
+    Parameters
+    ----------
+    live
+        Of the way along edges.
+    loop
+        The vertices of the chain, the first one not repeated.
+    points
+        (n, 3) vertices of the mesh.
+    """
+    forth = _straight_on(live, loop)
+    ahead = np.roll(loop, -1)
+    at = np.flatnonzero((forth >= 0) & (forth != ahead))
+    if not len(at):
+        return 0
+    back = _straight_on(live, loop[::-1])[::-1]
+    before = np.roll(loop, 1)
+    at = at[(back[at] >= 0) & (back[at] != before[at]) & (back[at] != forth[at])]
+    middle = points[np.asarray(loop)[at]]
+
+    def turned(one: NDArray[np.int64], two: NDArray[np.int64]) -> NDArray[np.bool_]:
+        to_one, to_two = points[one[at]] - middle, points[two[at]] - middle
+        lengths = np.linalg.norm(to_one, axis=1) * np.linalg.norm(to_two, axis=1)
+        return np.einsum("ij,ij->i", to_one, to_two) <= _CORNER_COSINE * lengths
+
+    return int((turned(forth, ahead) & turned(back, before)).sum())
+
+
+def _straight_on(live: LiveWire, loop: Sequence[int]) -> NDArray[np.int64]:
+    """Return for each vertex of a closed chain the one after it if the chain went straight on there; -1: there is none."""
+    after = np.full(len(loop), -1, dtype=np.int64)
+    at = 0
+    for _ in range(_MOST_PIECES):
+        if at >= len(loop):
+            break
+        # As far as the chain follows it, one way tells of all vertices.
+        way = np.asarray(live.extend_straight((loop[at - 1], loop[at]), ()).vertices, dtype=np.int64)[
+            1 : len(loop) - at + 1
+        ]
+        follows = way[:-1] == np.asarray(loop[at + 1 : at + len(way)])
+        count = len(way) if follows.all() else int(np.argmin(follows)) + 1
+        after[at : at + count] = way[:count]
+        at += max(count, 1)
+    return after
+
+
+def past_poles(live: LiveWire, edge: Edge, stops: NDArray[np.int64] | Sequence[int]) -> tuple[tuple[int, ...], bool]:
+    """Return the way that runs on from both ends of an edge, and whether it is closed; no vertices: it meets itself."""
+
+    def way(first: int, second: int) -> tuple[int, ...]:
+        if second in stops:
+            return (second,)
+        return tuple(int(vertex) for vertex in live.extend_straight((first, second), stops).vertices)
+
+    forth = way(*edge)
+    if len(forth) > 2 and forth[-1] == edge[0]:
+        return (edge[0], *forth[:-1]), True
+    back = way(edge[1], edge[0])
+    chain = (*back[::-1], *forth)
+    return (chain if len(set(chain)) == len(chain) else ()), False
+
+
+def _wire(
+    kind: LoopKind,
+    chain: Sequence[int] | NDArray[np.int32],
+    closed: bool,
+    edge: Edge,
+    points: NDArray[np.float64],
+    strength: float = 0.0,
+) -> Wire | None:
+    vertices = tuple(int(vertex) for vertex in chain)
+    if len(vertices) < (3 if closed else 2):
+        return None
+    around = [*vertices, vertices[0]] if closed else list(vertices)
+    start, end = (edge, edge) if closed else (vertices[0], vertices[-1])
+    pair = (min(edge), max(edge))
+    return Wire(
+        "EDGES", vertices, points[around], start, end, closed=closed, strength=strength, kind=kind, through=pair
+    )

@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Seams that become wires: with the fewest seeds whose wires run as they do, edge for edge, or with seeds that are given."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Generator, Iterable, Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..network.network import Wire
+from ..solver.solver import by_number
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..network.network import Edge
+    from ..solver.solver import LiveWire
+
+_MISSES = 24
+"""How many vertices in a row of a seam no wire has to reach along it before it is given up that one reaches further."""
+_SLICE = 0.005
+"""Seconds; wires to vertices near the seed are there long before those to all others."""
+
+
+def seam_chains(seams: NDArray[np.int32], seeds: Collection[int] = ()) -> list[list[int]]:
+    """Return seams as chains of vertices between those where they end or more than two meet; closed ones end where they begin.
+
+    Parameters
+    ----------
+    seams
+        (k, 2) edges, each once.
+    seeds
+        Vertices where chains end as well.
+    """
+    around: dict[int, list[int]] = {}
+    for one, two in seams.tolist():
+        around.setdefault(one, []).append(two)
+        around.setdefault(two, []).append(one)
+    unused = {frozenset(pair) for pair in seams.tolist()}
+
+    ends = {vertex for vertex, near in around.items() if len(near) != 2}.union(seeds)
+
+    def follow(first: int, second: int) -> list[int]:
+        chain = [first, second]
+        unused.discard(frozenset(chain))
+        while chain[-1] != first and chain[-1] not in ends:
+            one, two = around[chain[-1]]
+            chain.append(two if one == chain[-2] else one)
+            unused.discard(frozenset(chain[-2:]))
+        return chain
+
+    chains = []
+    for vertex in (*(ends & around.keys()), *around):  # what is left after the ends are circles
+        chains += [follow(vertex, other) for other in around[vertex] if frozenset((vertex, other)) in unused]
+    return chains
+
+
+def wires_between(seams: NDArray[np.int32], seeds: Collection[int], points: NDArray[np.float64]) -> Iterator[Wire]:
+    """Yield one wire for each chain of seams between seeds, junctions and ends; a circle is halved.
+
+    Parameters
+    ----------
+    seams, seeds
+        As those of `seam_chains`.
+    points
+        (n, 3) vertices of the mesh.
+    """
+    for chain in seam_chains(seams, seeds):
+        middle = len(chain) // 2
+        for part in (chain[: middle + 1], chain[middle:]) if chain[0] == chain[-1] else (chain,):
+            yield Wire("EDGES", tuple(part), points[part], part[0], part[-1])
+
+
+def wires_along(
+    live: LiveWire, chain: list[int], points: NDArray[np.float64], strength: float, before: Edge | None = None
+) -> Iterator[Wire | None]:
+    """Yield wires that run along a chain of edges, each as far as one does, and going on from the one before.
+
+    Parameters
+    ----------
+    live
+        Those along edges; seeded anew.
+    chain
+        Vertices; where the last is the first, there are two wires at least.
+    points
+        (n, 3) vertices of the mesh.
+    strength
+        That of the metric of `live`.
+    before
+        The directed edge of a wire that the first one may go on from.
+
+    Yields
+    ------
+    Wire or None
+        None: the live wires are not that far yet; go on when they may be.
+
+    Raises
+    ------
+    ValueError
+        Where the chain is not part of the surface.
+    """
+    begin = 0
+    while begin < len(chain) - 1:
+        end, follow, heading = yield from _reach(live, chain, begin, before)
+        vertices = tuple(chain[begin : end + 1])
+        yield Wire(
+            "EDGES", vertices, points[list(vertices)], vertices[0], vertices[-1],
+            heading=heading, follow=follow, strength=strength,
+        )  # fmt: skip
+        begin, before = end, (vertices[-2], vertices[-1])
+
+
+def waiting(live: LiveWire, wires: Iterable[Wire | None]) -> Iterator[Wire]:
+    """Yield the wires of `wires_along`, waiting for each."""
+    for wire in wires:
+        if wire is None:
+            live.wait(_SLICE)
+        else:
+            yield wire
+
+
+def _reach(
+    live: LiveWire, chain: list[int], begin: int, before: Edge | None
+) -> Generator[None, None, tuple[int, int, Edge | None]]:
+    """Return how far a wire from a place of a chain runs along it, which of them does, and what it goes on from.
+
+    Going on from the last edge before, it may turn less there than one that begins anew. One edge at least: where no wire
+    runs along that, it is one all the same, until a seed of it is moved. Yields while it has to wait.
+    """
+    best: tuple[int, int, Edge | None] = (begin, 0, None)
+    for heading in (None,) if before is None else (before, None):
+        live.seed(chain[begin] if heading is None else heading, forward=heading is not None)
+        end, follow = yield from _run(live, chain, begin, 0 if heading is None else 1)
+        if end > best[0]:
+            best = end, follow, heading
+        if end == len(chain) - 1:
+            break
+    return best
+
+
+def _run(live: LiveWire, chain: list[int], begin: int, skipped: int) -> Generator[None, None, tuple[int, int]]:
+    """Return how far a wire from the seed, without the edges before it, runs along a chain, and which of them does."""
+    reached = begin + 1, 0
+    # A wire does not end where it begins: around a circle there are two.
+    last = len(chain) - (1 if begin == 0 and chain[0] == chain[-1] else 0)
+    for end in range(begin + 1, last):
+        if end > reached[0] + _MISSES:
+            break
+        found = live.wires(chain[end])
+        while not found.final:
+            yield
+            found = live.wires(chain[end])
+        ways = [candidate.vertices[skipped:].tolist() for candidate in by_number(found)[0]]
+        wanted = chain[begin : end + 1]
+        if wanted in ways:
+            reached = end, ways.index(wanted)
+    return reached

@@ -1,0 +1,219 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where the vertices of a snapped chain of edges slide to, so that the edges lie on the curve they were snapped from.
+
+Each vertex moves within the faces around it, as far as no face turns over or gets thin; those on features of the shape, on the
+border and where the caller says so stay. Knows neither Blender nor the library.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..base.geometry import barycentric, nearest_on_segments
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterable, Sequence
+
+    from numpy.typing import NDArray
+
+    from .cut import Faces
+
+FEATURE_ANGLE = 30.0
+"""Degrees: a vertex of an edge where triangles meet at more lies on a feature."""
+_ON = 1e-3
+"""How far a curve's point may be from the triangle that it lies in, as part of its longest edge: stored curves are rounded."""
+_SMOOTHINGS = 4
+"""Rounds in which places along a curve are moved apart: at a step of a staircase two nearest ones nearly are the same."""
+_ROUNDS = 12
+"""Times that a vertex is put onto each of several curves in turn, until it lies where they cross."""
+_HALVINGS = 4
+"""Times that a move is halved before it is given up."""
+_TURNED = 0.5
+"""The least cosine between a triangle's normal before and after."""
+_THINNER = 0.25
+"""The least part of its height over its longest edge that a triangle keeps."""
+
+Course = tuple["Sequence[int]", "NDArray[np.float64]"]
+"""The vertices of a snapped chain, and the points, (k, 3), of its curve."""
+
+
+@dataclass(frozen=True)
+class Move:
+    """Where a vertex goes.
+
+    Parameters
+    ----------
+    polygon
+        One around the vertex, that the place lies in.
+    corners
+        Some of its vertices.
+    weights
+        Of each of these, 0 or more; their sum is 1.
+    """
+
+    polygon: int
+    corners: tuple[int, ...]
+    weights: tuple[float, ...]
+
+
+def plan(faces: Faces, courses: Iterable[Course], fixed: Collection[int] = ()) -> dict[int, Move]:
+    """Find where vertices go.
+
+    Parameters
+    ----------
+    faces
+        The mesh.
+    courses
+        The ends of a chain stay, for there are seeds.
+    fixed
+        Other vertices that stay.
+    """
+    curves: dict[int, list[NDArray[np.float64]]] = defaultdict(list)
+    evenly: dict[int, NDArray[np.float64]] = {}
+    staying: set[int] = set(fixed)
+    for chain, curve in courses:
+        staying |= {chain[0], chain[-1]}
+        evenly.update(zip(chain, _spread(faces.points[list(chain)], curve), strict=True))
+        for vertex in chain:
+            curves[vertex].append(curve)
+    moves = {}
+    for vertex in curves.keys() - staying:
+        if _is_on_feature(faces, vertex):
+            continue
+        move = _to(faces, vertex, evenly[vertex]) if len(curves[vertex]) == 1 else None
+        move = move or _onto(faces, vertex, curves[vertex])
+        if move is not None:
+            moves[vertex] = move
+    return _without_damage(faces, moves)
+
+
+def places(points: NDArray[np.float64], moves: Iterable[Move]) -> NDArray[np.float64]:
+    """Return where moves lead, (k, 3)."""
+    return np.array([np.array(move.weights) @ points[list(move.corners)] for move in moves]).reshape(-1, 3)
+
+
+def _is_on_feature(faces: Faces, vertex: int) -> bool:
+    """Whether a vertex lies on a sharp edge, on the border or where sheets meet."""
+    beside: dict[int, list[NDArray[np.float64]]] = defaultdict(list)
+    for polygon in faces.polygons_at(vertex):
+        triples = _corner_triples(faces.corners(polygon))
+        normal = _normals(faces.points[np.array(triples)]).sum(axis=0)
+        normal /= max(float(np.linalg.norm(normal)), 1e-300)
+        for before, at, after in triples:
+            if at == vertex:
+                beside[before].append(normal)
+                beside[after].append(normal)
+    least = np.cos(np.radians(FEATURE_ANGLE))
+    return any(len(normals) != 2 or normals[0] @ normals[1] < least for normals in beside.values())
+
+
+def _corner_triples(rim: Sequence[int]) -> list[tuple[int, int, int]]:
+    """Return each corner of a polygon with those before and after it."""
+    return [(rim[at - 1], rim[at], rim[(at + 1) % len(rim)]) for at in range(len(rim))]
+
+
+def _normals(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the unit normals of triangles, (k, 3, 3); zero where one has no area."""
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    return np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0.0)
+
+
+def _spread(chain: NDArray[np.float64], curve: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return a place on a curve for each vertex of its chain: near the nearest one, and not too near those of its neighbors."""
+    steps = np.linalg.norm(np.diff(curve, axis=0), axis=1)
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    at = np.empty(len(chain))
+    for number, place in enumerate(chain):
+        part, gap = nearest_on_segments(place, curve[:-1], curve[1:])
+        nearest = int(np.argmin(gap))
+        at[number] = along[nearest] + part[nearest, 0] * steps[nearest]
+    at[0], at[-1] = 0.0, along[-1]
+    for _ in range(_SMOOTHINGS):
+        at[1:-1] = 0.5 * at[1:-1] + 0.25 * (at[:-2] + at[2:])
+    return np.stack([np.interp(at, along, curve[:, axis]) for axis in range(3)], axis=1)
+
+
+def _to(faces: Faces, vertex: int, place: NDArray[np.float64]) -> Move | None:
+    """Return the move of a vertex to a place on the faces around it; None where it does not lie there."""
+    owners = [(polygon, row) for polygon in faces.polygons_at(vertex) for row in faces.rows_of(polygon)]
+    triangles = faces.triangles[[row for _, row in owners]]
+    weights, off = barycentric(faces.points[triangles], place)
+    best = int(np.argmin(off))
+    if off[best] > _ON:
+        return None
+    return Move(owners[best][0], tuple(triangles[best].tolist()), tuple(weights[best].tolist()))
+
+
+def _onto(faces: Faces, vertex: int, curves: Sequence[NDArray[np.float64]]) -> Move | None:
+    """Return the move of a vertex to the nearest point of its curve within the faces around it, or to where its curves cross."""
+    owners = [(polygon, row) for polygon in faces.polygons_at(vertex) for row in faces.rows_of(polygon)]
+    triangles = faces.triangles[[row for _, row in owners]]
+    corners, place, move = faces.points[triangles], faces.points[vertex], None
+    for curve in list(curves) * (1 if len(curves) == 1 else _ROUNDS):
+        found = _nearest_within(corners, place, curve)
+        if found is None:
+            return None
+        row, weights = found
+        place = weights @ corners[row]
+        move = Move(owners[row][0], tuple(triangles[row].tolist()), tuple(weights.tolist()))
+    return move
+
+
+def _nearest_within(
+    corners: NDArray[np.float64], place: NDArray[np.float64], curve: NDArray[np.float64]
+) -> tuple[int, NDArray[np.float64]] | None:
+    """Return the point of a curve nearest to a place among those in some triangles, (k, 3, 3), as triangle and weights."""
+    part, gap = nearest_on_segments(place, curve[:-1], curve[1:])
+    reach = float(np.linalg.norm(corners - place, axis=2).max())
+    near = np.flatnonzero(gap <= reach)
+    for segment in near[np.argsort(gap[near], kind="stable")]:
+        on_curve = curve[segment] + part[segment] * (curve[segment + 1] - curve[segment])
+        weights, off = barycentric(corners, on_curve)
+        best = int(np.argmin(off))
+        if off[best] <= _ON:
+            return best, weights[best]
+    return None
+
+
+def _without_damage(faces: Faces, moves: dict[int, Move]) -> dict[int, Move]:
+    """Make moves shorter, or leave them out, until no corner of a face turns over or gets thin."""
+    touched = {polygon for vertex in moves for polygon in faces.polygons_at(vertex)}
+    triples = [triple for polygon in sorted(touched) for triple in _corner_triples(faces.corners(polygon))]
+    triangles = np.array(triples, dtype=np.int64).reshape(-1, 3)
+    normals, heights = _normals(faces.points[triangles]), _heights(faces.points[triangles])
+    halved: dict[int, int] = defaultdict(int)
+    moved = faces.points.copy()
+    while moves:
+        moved[list(moves)] = places(faces.points, moves.values())
+        now = moved[triangles]
+        cosines = np.einsum("ij,ij->i", normals, _normals(now))
+        bad = ((cosines < _TURNED) | (_heights(now) < _THINNER * heights)) & (heights > 0.0)
+        guilty = {vertex for vertex in triangles[bad].ravel().tolist() if vertex in moves}
+        if not guilty:
+            break
+        for vertex in guilty:
+            halved[vertex] += 1
+            move = moves.pop(vertex)
+            moved[vertex] = faces.points[vertex]
+            if halved[vertex] <= _HALVINGS:
+                moves[vertex] = _half_way(move, vertex)
+    return moves
+
+
+def _half_way(move: Move, vertex: int) -> Move:
+    """Return a move of a vertex half as far."""
+    weights = {corner: 0.5 * weight for corner, weight in zip(move.corners, move.weights, strict=True)}
+    weights[vertex] = weights.get(vertex, 0.0) + 0.5
+    return Move(move.polygon, tuple(weights), tuple(weights.values()))
+
+
+def _heights(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the smallest height of each triangle, (k, 3, 3), over its longest edge."""
+    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    return np.divide(areas, longest**2, out=np.zeros_like(areas), where=longest > 0.0)

@@ -1,0 +1,239 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Seams that the library plans, as wires of a network: what it is asked for, and what it answers. Knows no Blender.
+
+Interfaces speak of the *stretch* s of a UV map, the library of its symmetric Dirichlet energy E_d. A triangle that is 1 + s times as long
+one way, and as many times as short the other way, has E_d = 2 ((1 + s)^2 + (1 + s)^-2) (Smith and Schaefer, Bijective parameterization
+with free boundaries, 2015, Section 3.1).
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..network.network import FOLLOWS, Wire
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Sequence
+
+    import seamwire_core
+    from numpy.typing import NDArray
+
+    from ..network.network import Along, Finish
+    from ..network.strokes import Scribble
+
+STRETCH = 0.17
+"""The stretch that a map may have on average, unless another one is asked for: E_d = 4.2."""
+CRUMB = 0.004
+"""An island with a smaller part of the mesh's area becomes part of a larger one after wires were cut into the faces."""
+_ISOMETRY = 4.0
+"""E_d where nothing is stretched."""
+_DENSE = 5_000
+"""A mesh with at least so many triangles counts as a scan or a sculpt."""
+_STROKE_RINGS = 3
+"""How many rings of vertices a stroke without a radius reaches."""
+_UNDER = 0.75
+"""A vertex lies under a stroke without a radius if it is nearer than this part of the length of the edges there."""
+_STROKE_STRENGTH = 8.0
+"""By how much a stroke makes seams under it cheaper or more expensive."""
+
+
+def energy_of(stretch: float) -> float:
+    """Return the energy E_d of a map that stretches by `stretch` (0.17: 17 %) everywhere."""
+    square = (1.0 + stretch) ** 2
+    return 2.0 * (square + 1.0 / square)
+
+
+def stretch_of(energy: float) -> float:
+    """Return the stretch whose energy is E_d, the inverse of `energy_of`; infinite where the energy is."""
+    if not math.isfinite(energy):
+        return math.inf
+    return math.exp(0.5 * math.acosh(max(energy, _ISOMETRY) / _ISOMETRY)) - 1.0
+
+
+def stretch_of_ratio(ratio: float) -> float:
+    """Return the stretch of faces that are `ratio` times as long one way as the other, and keep their area."""
+    return math.sqrt(max(ratio, 1.0)) - 1.0
+
+
+def best_along(polygons: NDArray[np.int32]) -> Along:
+    """Return how wires had best run: along edges where most faces are quads or larger.
+
+    Parameters
+    ----------
+    polygons
+        (m,) the face that each triangle is part of.
+    """
+    return "EDGES" if _most_are_quads(polygons) else "SURFACE"
+
+
+def best_finish(polygons: NDArray[np.int32]) -> Finish:
+    """Return the best finish of wires across the surface: cut dense triangle meshes, because nobody placed their edges.
+
+    Parameters
+    ----------
+    polygons
+        As those of `best_along`.
+    """
+    return "CUT" if len(polygons) >= _DENSE and not _most_are_quads(polygons) else "SNAP"
+
+
+def _most_are_quads(polygons: NDArray[np.int32]) -> bool:
+    _, triangles = np.unique(polygons, return_counts=True)
+    return bool((triangles > 1).sum() > 0.5 * len(triangles))
+
+
+@dataclass(frozen=True)
+class Request:
+    """Requirements for a plan.
+
+    Parameters
+    ----------
+    distortion
+        The largest E_d of the map; infinite: only what makes every island a disc.
+    islands
+        The least number of islands among those that are planned; 0: as few as possible.
+    parts
+        Whether limbs become separate islands.
+    """
+
+    distortion: float = energy_of(STRETCH)
+    islands: int = 0
+    parts: bool = False
+
+
+def planned_wires(
+    plan: seamwire_core.SeamPlan, along: Along, strength: float, from_object: NDArray[np.float64]
+) -> list[Wire]:
+    """Return the wires of a plan.
+
+    Parameters
+    ----------
+    plan
+        Of a mesh in object coordinates.
+    along, strength
+        How the wires run, and how strongly they follow the shape when they are drawn again.
+    from_object
+        (3, 3) takes object coordinates to those of the session.
+    """
+    return [
+        Wire(
+            along, tuple(wire.vertices.tolist()), np.asarray(wire.points) @ from_object.T, *wire.seeds,
+            follow=FOLLOWS.index(wire.follow), strength=strength,
+        )
+        for wire in plan.wires
+    ]  # fmt: skip
+
+
+def seam_length(plan: seamwire_core.SeamPlan, to_scene: NDArray[np.float64]) -> float:
+    """Return the length of a plan's wires.
+
+    Parameters
+    ----------
+    plan
+        Of a mesh in object coordinates.
+    to_scene
+        (3, 3) takes these to the coordinates in which lengths are measured.
+    """
+    steps = (np.diff(wire.points, axis=0) @ to_scene.T for wire in plan.wires)
+    return float(sum(np.linalg.norm(step, axis=1).sum() for step in steps))
+
+
+def cut_edges(plan: seamwire_core.SeamPlan, seams: NDArray[np.int32]) -> NDArray[np.int32]:
+    """Return the edges, (k, 2), that are seams, and those that the wires of a plan run along."""
+    chains = [np.stack([wire.vertices[:-1], wire.vertices[1:]], axis=1) for wire in plan.wires]
+    return np.concatenate([seams, *chains]).astype(np.int32)
+
+
+def keep_out(triangles: NDArray[np.int32], is_planned: NDArray[np.bool_], count: int) -> NDArray[np.float64]:
+    """Return weights that keep wires out of some triangles.
+
+    Parameters
+    ----------
+    triangles
+        (m, 3) vertices.
+    is_planned
+        (m,) whether wires may come to a triangle.
+    count
+        The number of vertices, n.
+
+    Returns
+    -------
+    (n,) array
+        1, and infinity at vertices that no such triangle has.
+    """
+    weights = np.full(count, np.inf)
+    weights[triangles[is_planned]] = 1.0
+    return weights
+
+
+def stroke_weights(
+    points: NDArray[np.float64], edges: NDArray[np.int32], strokes: Collection[Scribble]
+) -> NDArray[np.float64]:
+    """Return how strokes weigh the cost of wires: guide strokes make it smaller, avoid strokes larger.
+
+    The weight fades, in equal factors, from the stroke to the end of its reach. Where strokes overlap, weights are multiplied.
+
+    Parameters
+    ----------
+    points
+        (n, 3) vertices, in the coordinates of the strokes.
+    edges
+        (e, 2) the mesh's edges; a stroke without a radius reaches along these.
+    strokes
+        The network's strokes.
+
+    Returns
+    -------
+    (n,) array
+        Positive factors, 1 away from the strokes.
+    """
+    logarithms = np.zeros(len(points))
+    for stroke in strokes:
+        near = np.zeros(len(points))
+        near[stroke.corners] = 1.0
+        if stroke.radius is None:
+            beside = edges[(near[edges] > 0.0).any(axis=1)]
+            length = float(np.linalg.norm(np.diff(points[beside], axis=1), axis=2).mean()) if len(beside) else 0.0
+            near[_distances(points, stroke.points, _UNDER * length) < _UNDER * length] = 1.0
+            near = _faded_by_rings(near, edges)
+        else:
+            near = np.maximum(near, 1.0 - _distances(points, stroke.points, stroke.radius) / stroke.radius)
+        logarithms += -near if stroke.attracts else near
+    return _STROKE_STRENGTH**logarithms
+
+
+def _faded_by_rings(near: NDArray[np.float64], edges: NDArray[np.int32]) -> NDArray[np.float64]:
+    """Return (n,) values that are 1 at some vertices and 0 elsewhere with less than 1 on the rings of vertices around these."""
+    near = near.copy()
+    for ring in range(1, _STROKE_RINGS):
+        reached = near[edges] > 0.0
+        border = np.unique(edges[reached.any(axis=1) & ~reached.all(axis=1)])
+        near[border[near[border] == 0.0]] = 1.0 - ring / _STROKE_RINGS
+    return near
+
+
+def _distances(points: NDArray[np.float64], line: NDArray[np.float64], most: float) -> NDArray[np.float64]:
+    """Return how far points, (n, 3), are from a line through places, (k, 3); not more than `most`, (n,)."""
+    found = np.full(len(points), most)
+    for start, end in itertools.pairwise(line):
+        low, high = np.minimum(start, end) - most, np.maximum(start, end) + most
+        rows = np.flatnonzero(((points >= low) & (points <= high)).all(axis=1))
+        along = end - start
+        square = float(along @ along)
+        part = np.clip((points[rows] - start) @ along / square, 0.0, 1.0) if square > 0.0 else np.zeros(len(rows))
+        gaps = np.linalg.norm(start + part[:, None] * along - points[rows], axis=1)
+        found[rows] = np.minimum(found[rows], gaps)
+    return found
+
+
+def mean_stretch(energies: Sequence[float], areas: Sequence[float]) -> float:
+    """Return the stretch of several maps together, from the energy of each and the area of its surface."""
+    total = sum(areas)
+    if total <= 0.0:
+        return 0.0
+    return stretch_of(sum(energy * area for energy, area in zip(energies, areas, strict=True)) / total)

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The library's live wires on a mesh that is given as arrays."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+from ..base import native
+from .defaults import CLAMP_PERCENTILE, STRENGTHS
+
+if TYPE_CHECKING:
+    import numpy as np
+    import seamwire_core
+    from numpy.typing import NDArray
+
+    from ..network.network import Along
+    from .solver import LiveWire
+
+
+class Triangulated(Protocol):
+    """A mesh as the library takes it: (n, 3) points, (m, 3) triangles, and (e, 2) edges that wires may run along."""
+
+    points: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+    edges: NDArray[np.int32]
+
+
+class LiveMaker:
+    """Makes the library's live wires on a mesh, on one surface, which they build on threads of their own.
+
+    Parameters
+    ----------
+    mesh
+        What they run on.
+    """
+
+    def __init__(self, mesh: Triangulated) -> None:
+        self._core = native.load()
+        self._mesh = mesh
+        self._first: seamwire_core.LiveWire | None = None
+
+    def __call__(self, along: Along) -> LiveWire:
+        """Return live wires for one way of running."""
+        if self._first is not None:
+            return self._first.sibling(**_options(along))
+        mesh = self._mesh
+        self._first = self._core.LiveWire(mesh.points, mesh.triangles, mesh.edges, **_options(along))
+        return self._first
+
+    def wait(self) -> seamwire_core.Surface:
+        """Wait for the surface, once there are live wires, and return it; any thread may.
+
+        Raises
+        ------
+        ValueError
+            Where the mesh is none that wires can run on.
+        """
+        assert self._first is not None
+        self._first.wait_for_surface()
+        return self._first.surface
+
+    def face_segments(self, cuts: NDArray[np.int32]) -> NDArray[np.int32]:
+        """Return the island of each triangle where edges are cut; it waits for the surface."""
+        return self._core.face_segments(self.wait(), cuts)
+
+    def missing_cuts(self, cuts: NDArray[np.int32], islands: NDArray[np.int32]) -> NDArray[np.int32]:
+        """Return how many more cuts each island needs to become a disc; it waits for the surface."""
+        return self._core.missing_cuts(self.wait(), cuts, islands)
+
+
+def _options(along: Along) -> dict[str, object]:
+    return {"along": along.lower(), "max_anisotropy": STRENGTHS[along], "clamp_percentile": CLAMP_PERCENTILE}

@@ -1,0 +1,291 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What computes wires: the library's live wires, one for each way of running, with the metric they share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Literal, Protocol, get_args
+
+from ..network.network import FOLLOWS, FacePoint
+from .defaults import CLAMP_PERCENTILE, STRENGTHS
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+    from seamwire_core import Surface
+
+    from ..network.network import Along, Edge, Pick
+    from ..network.strokes import Scribble
+
+MetricName = Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"]
+"""What draws wires to features, as the library calls it."""
+
+Kind = Literal["min", "max", "concave", "euclidean"]
+"""What a wire follows, as the library calls it: a direction of curvature, concave creases, or nothing."""
+_KINDS: tuple[Kind, ...] = get_args(Kind)
+_KINDS_OF: Mapping[MetricName, tuple[Kind, ...]] = {"concave": ("concave", "euclidean"), "euclidean": ("euclidean",)}
+
+
+def kinds_of(metric: MetricName) -> tuple[Kind, ...]:
+    """Return what the wires of a metric follow, by `Wire.follow`."""
+    return _KINDS_OF.get(metric, ("min", "max", "concave"))
+
+
+class Candidate(Protocol):
+    """One of the wires from the seed to a target, as the library gives it."""
+
+    follow: Kind
+    points: NDArray[np.float64]
+    vertices: NDArray[np.int32]
+    length: float
+    final: bool
+
+
+class Candidates(Protocol):
+    """The wires, one for each metric; which of them leads, and whether that will stay so."""
+
+    wires: Sequence[Candidate]
+    active: int
+    settled: bool
+    solved: bool
+    """Whether each is the shortest: across the surface they may become more exact until they are `final`."""
+    final: bool
+
+
+def by_number(found: Candidates) -> tuple[tuple[Candidate, ...], int]:
+    """Return the wires by `Wire.follow`, and the number of the one that leads."""
+    order = sorted(range(len(found.wires)), key=lambda at: _KINDS.index(found.wires[at].follow))
+    return tuple(found.wires[at] for at in order), order.index(found.active)
+
+
+def _meant_for(stroke: Scribble, kinds: tuple[Kind, ...]) -> Scribble | None:
+    """Return a stroke for one of the wires as the library names that wire; None if there is no such wire."""
+    if stroke.acts_on == "both":
+        return stroke
+    number = FOLLOWS.index(stroke.acts_on)
+    return replace(stroke, acts_on=kinds[number]) if number < len(kinds) else None
+
+
+class Chain(Protocol):
+    """A chain of edges."""
+
+    vertices: NDArray[np.int32]
+
+
+class Loop(Chain, Protocol):
+    """A closed chain of edges; no vertices where there is none, or where it is not `final` yet."""
+
+    final: bool
+
+
+class EdgeLoop(Chain, Protocol):
+    """A straight chain of edges; no vertices where it cannot be told yet."""
+
+    closed: bool
+
+
+class Piece(Chain, Protocol):
+    """A piece of a closed cut, and the chain of edges that it snaps to."""
+
+    points: NDArray[np.float64]
+
+
+class ClosedCut(Protocol):
+    """A closed cut across the surface: pieces from a point around to it, and where each but the last ends."""
+
+    pieces: Sequence[Piece]
+    joints: Sequence[int | tuple[int, Sequence[float]]]
+    separates: bool
+    id: tuple[int, int]
+    """The number of its metric and its number in that, for `LiveWire.bent_wire`."""
+
+
+class ClosedCuts(Protocol):
+    """The closed cuts through a point, best first; none where nothing suggests one, or where they are not `final` yet."""
+
+    cuts: Sequence[ClosedCut]
+    final: bool
+
+
+class FittedChain(Chain, Protocol):
+    """The chain of edges that fits a line; no vertices where none does, or where it cannot be told yet."""
+
+    places: NDArray[np.float64]
+
+
+class EmbeddingReport(Protocol):
+    """What the library says of a mesh that wires run across."""
+
+    invalid_left: int
+
+
+End = int | tuple[int, int] | tuple[int, tuple[float, float, float]]
+"""A vertex, an edge by its two vertices, or a triangle and barycentric coordinates in it."""
+
+
+def for_live(pick: Pick, along: Along) -> End:
+    """Return a pick as live wires take it that run one way: along edges, of a point inside a triangle, its nearest vertex."""
+    if not isinstance(pick, FacePoint):
+        return pick
+    return pick.vertex if along == "EDGES" else (pick.triangle, pick.weights)
+
+
+class LiveWire(Protocol):
+    """What a session asks of ``seamwire_core.LiveWire``.
+
+    Only `wait` waits. Until the library has built its surface, the others answer that nothing is there yet and nothing
+    final; where it cannot be built, all raise ValueError.
+    """
+
+    def seed(self, pick: End, forward: bool = False) -> None:
+        """Start the wires from a pick."""
+
+    def wires(self, target: End) -> Candidates:
+        """Return the wires to a target, as far as they are computed."""
+
+    def loop(self, edge: Edge) -> Loop:
+        """Return the closed chain through an edge, as far as it is computed."""
+
+    def closed_wires(self, through: End) -> ClosedCuts:
+        """Return the closed cuts across the surface through a point, as far as they are computed."""
+
+    def bent_wire(self, through: End, second: End, cut: tuple[int, int]) -> ClosedCuts:
+        """Return one of these cuts, by its id, bent to a second point, as far as it is computed."""
+
+    def extend_straight(self, edge: Edge, stops: Iterable[int]) -> Chain:
+        """Return the straight way on from the end of a directed edge until a stop, a boundary or itself."""
+
+    def edge_loop(self, edge: Edge, stops: Iterable[int]) -> EdgeLoop:
+        """Return the straight chain through an edge, both ways, until a stop, a pole, a boundary or itself."""
+
+    def fit_chain(
+        self, points: ArrayLike, faces: ArrayLike, begin: int | None = None, end: int | None = None
+    ) -> FittedChain:
+        """Return the chain of edges that fits a line; along edges only."""
+
+    def fork(self) -> LiveWire:
+        """Return live wires with a seed of their own and the same metric."""
+
+    def set_metric(
+        self, metric: MetricName, *, max_anisotropy: float | None = None, clamp_percentile: float | None = None
+    ) -> None:
+        """Compute with another metric from here on; the seed stays, and so do the wires until there are new ones."""
+
+    def set_scribbles(self, scribbles: Sequence[object]) -> None:
+        """Compute with these strokes instead of those before; the rest as `set_metric`."""
+
+    def feature_strength(self) -> NDArray[np.float64] | None:
+        """Return how strong the features are at the vertices; None as long as that is computed."""
+
+    def embeddings(self) -> Sequence[EmbeddingReport | None]:
+        """Return what became of the metrics' embeddings; None where there is none, or not yet."""
+
+    @property
+    def surface(self) -> Surface | None:
+        """The library's surface; None: it is not built yet."""
+
+    def progress(self) -> float:
+        """Fraction of the running work that is done."""
+
+    def wait(self, seconds: float | None = None) -> bool:
+        """Wait for the running work."""
+
+
+class Engines:
+    """Live wires, each made when it is first asked for.
+
+    Parameters
+    ----------
+    make
+        Makes those of one way, with that way's strength of `STRENGTHS` and `CLAMP_PERCENTILE`.
+    strengths
+        Largest anisotropy of the metric, where it is to be another one.
+    make_scribble
+        Makes of a stroke what the live wires take.
+    """
+
+    def __init__(
+        self,
+        make: Callable[[Along], LiveWire],
+        strengths: Mapping[Along, float],
+        make_scribble: Callable[[Scribble], object],
+    ) -> None:
+        self._make = make
+        self._lives: dict[Along, LiveWire] = {}
+        self._cuts: LiveWire | None = None
+        self.strengths: dict[Along, float] = {**STRENGTHS, **strengths}
+        self.metric: MetricName = "feature"
+        self.clamp = CLAMP_PERCENTILE
+        self._make_scribble = make_scribble
+        self._strokes: tuple[Scribble, ...] = ()
+        self._made: dict[MetricName, list[object]] = {}
+        self._told: int = 0
+
+    def get(self, along: Along) -> LiveWire:
+        """Return the live wires of one way."""
+        if along not in self._lives:
+            self._lives[along] = self._make(along)
+            if (self.metric, self.strengths[along], self.clamp) != ("feature", STRENGTHS[along], CLAMP_PERCENTILE):
+                self._tell_metric(along)
+            if self._strokes:
+                self._lives[along].set_scribbles(self._scribbles(self.metric))
+        return self._lives[along]
+
+    def cuts(self) -> LiveWire:
+        """Return the live wires that find closed cuts across the surface: in the metric of concave creases, whatever wires are."""
+        if self._cuts is None:
+            self._cuts = self._make("SURFACE")
+            self._tell_cuts()
+            if self._strokes:
+                self._cuts.set_scribbles(self._scribbles("concave"))
+        return self._cuts
+
+    def use(self, metric: MetricName, strengths: Mapping[Along, float], clamp: float) -> None:
+        """Compute with another metric from here on; forks that were made before keep theirs."""
+        before = self.metric, self.strengths, self.clamp
+        self.metric, self.strengths, self.clamp = metric, dict(strengths), clamp
+        for along in self._lives:
+            if (metric, strengths[along], clamp) != (before[0], before[1][along], before[2]):
+                self._tell_metric(along)
+                if self._strokes and kinds_of(metric) != kinds_of(before[0]):
+                    self._lives[along].set_scribbles(self._scribbles(metric))
+        if strengths["SURFACE"] != before[1]["SURFACE"]:
+            self._tell_cuts()
+
+    def follow(self, scribbles: Sequence[Scribble]) -> None:
+        """Compute with other strokes from here on; forks that were made before keep theirs."""
+        self._strokes, self._made = tuple(scribbles), {}
+        for live in self._lives.values():
+            live.set_scribbles(self._scribbles(self.metric))
+        if self._cuts is not None:
+            self._cuts.set_scribbles(self._scribbles("concave"))
+
+    @property
+    def scribbles(self) -> tuple[object, ...]:
+        """What live wires are told of strokes now: the same objects as long as the strokes are."""
+        return tuple(self._scribbles(self.metric))
+
+    def _scribbles(self, metric: MetricName) -> list[object]:
+        """Return the strokes as live wires with a metric take them: without those for a wire that it does not have."""
+        if metric not in self._made:
+            meant = (_meant_for(stroke, kinds_of(metric)) for stroke in self._strokes)
+            self._made[metric] = [self._make_scribble(stroke) for stroke in meant if stroke is not None]
+        return self._made[metric]
+
+    def warning(self, along: Along) -> str:
+        """Return that wires which run one way have to lead around triangles; empty where they have not, or it was said."""
+        reports = (report for report in self.get(along).embeddings() if report is not None)
+        count = max((report.invalid_left for report in reports), default=0)
+        if count <= self._told:
+            return ""
+        self._told = count
+        what = "1 triangle" if count == 1 else f"{count} triangles"
+        return f"{what} could not be made valid: wires lead around {'it' if count == 1 else 'them'}"
+
+    def _tell_cuts(self) -> None:
+        if self._cuts is not None:
+            self._cuts.set_metric("concave", max_anisotropy=self.strengths["SURFACE"])
+
+    def _tell_metric(self, along: Along) -> None:
+        self._lives[along].set_metric(self.metric, max_anisotropy=self.strengths[along], clamp_percentile=self.clamp)

@@ -1,0 +1,428 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Networks as files: JSON, one seed, wire or stroke a line; docs/network-format.md and network.schema.json say what is in them.
+
+A wire and a stroke are there as the mesh itself keeps them, see `serialization`, with numbers in place of what is packed there, and
+with what it takes to find them on another mesh: where their vertices are, what way the surface faces there, how sharp it is.
+"""
+
+from __future__ import annotations
+
+import itertools
+import json
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, get_args
+
+import numpy as np
+
+from ..base.geometry import Moments, creases, vertex_normals
+from ..network.network import FacePoint, place_of, undirected
+from ..solver.defaults import CLAMP_PERCENTILE
+from ..solver.solver import MetricName
+from . import serialization
+from .serialization import Record
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..network.network import Edge, Network, Pick, Wire
+    from ..network.strokes import Scribble
+
+FORMAT = "seamwire-network"
+VERSION = 1
+
+
+class NetworkFileError(ValueError):
+    """A file cannot be used; the text is a sentence for the artist."""
+
+
+@dataclass(frozen=True)
+class Origin:
+    """The mesh that a network was drawn on.
+
+    Parameters
+    ----------
+    name
+        How it was called.
+    vertices, edges, triangles
+        How many it had; edges and triangles that were hidden are not counted.
+    moments
+        Where its surface lies, in object coordinates.
+    """
+
+    name: str
+    vertices: int
+    edges: int
+    triangles: int
+    moments: Moments
+
+
+@dataclass(frozen=True)
+class SeedPlace:
+    """A seed and where it is.
+
+    Parameters
+    ----------
+    pick
+        A vertex, an edge, or a point in a triangle, of which `FacePoint.triangle` is -1: the file has its corners.
+    place, normal
+        (3,) in object coordinates.
+    """
+
+    pick: Pick
+    place: NDArray[np.float64]
+    normal: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Course:
+    """Where a wire runs, to be found on another mesh.
+
+    Parameters
+    ----------
+    record
+        The wire, see `serialization.wire_record`.
+    places, normals
+        (k, 3) of its vertices, in object coordinates; the first one does not come again in a closed wire.
+    creases
+        (k,) the largest angle between triangles at each, in degrees.
+    """
+
+    record: Record
+    places: NDArray[np.float64]
+    normals: NDArray[np.float64]
+    creases: NDArray[np.float64]
+
+    @property
+    def name(self) -> str:
+        """How it is called in messages: by its seeds."""
+        record = self.record
+        if record["closed"]:
+            return f"loop at vertex {record['vertices'][0]}"
+        return f"wire {_text_of(record['start'])} to {_text_of(record['end'])}"
+
+
+@dataclass(frozen=True)
+class NetworkFile:
+    """What a file holds.
+
+    Parameters
+    ----------
+    origin
+        The mesh it was drawn on.
+    metric, clamp
+        What wires are drawn by, and the percentile of feature strengths that counts as the strongest.
+    seeds
+        In the order in which they were placed.
+    courses
+        The wires, oldest first.
+    strokes
+        Records of strokes, see `serialization.stroke_record`.
+    """
+
+    origin: Origin
+    metric: MetricName
+    clamp: float
+    seeds: tuple[SeedPlace, ...]
+    courses: tuple[Course, ...]
+    strokes: tuple[Record, ...]
+
+    @classmethod
+    def of(
+        cls,
+        network: Network,
+        points: NDArray[np.float64],
+        triangles: NDArray[np.int32],
+        edges: NDArray[np.int32],
+        *,
+        name: str = "",
+        metric: MetricName = "feature",
+        clamp: float = CLAMP_PERCENTILE,
+        to_object: NDArray[np.float64] | None = None,
+    ) -> NetworkFile:
+        """Return what there is to keep of a network; wires that clear seams are not.
+
+        Parameters
+        ----------
+        network
+            Drawn on the mesh.
+        points
+            (n, 3) vertices as the session had them.
+        triangles
+            (m, 3)
+        edges
+            (e, 2)
+        name
+            Of the mesh.
+        metric, clamp
+            See the class.
+        to_object
+            (3, 3) takes `points` to object coordinates, ``points @ to_object.T``; None: they are such.
+        """
+        matrix = np.eye(3) if to_object is None else to_object
+        places = points @ matrix.T
+        normals, angles = vertex_normals(places, triangles), creases(places, triangles)
+
+        def facing(pick: Pick) -> NDArray[np.float64]:
+            normal = place_of(pick, normals)
+            return normal / max(float(np.linalg.norm(normal)), 1e-300)
+
+        kept = replace(network, wires=tuple(wire for wire in network.wires if wire.marks))
+        courses = []
+        for wire in kept.wires:
+            record = serialization.wire_record(wire, places, matrix)
+            chain = list(wire.vertices)
+            courses.append(Course(record, places[chain], normals[chain], angles[chain]))
+        return cls(
+            Origin(name, len(points), len(edges), len(triangles), Moments.of(places, triangles)),
+            metric,
+            clamp,
+            tuple(SeedPlace(pick, place_of(pick, places), facing(pick)) for pick in kept.seeds()),
+            tuple(courses),
+            tuple(
+                serialization.stroke_record(stroke, places, matrix, order)
+                for order, stroke in enumerate(network.scribbles)
+            ),
+        )
+
+    # As text
+
+    def text(self) -> str:
+        """Write it, the same text for the same network."""
+        origin = self.origin
+        head = {
+            "format": FORMAT,
+            "version": VERSION,
+            "mesh": {
+                "name": origin.name,
+                "vertices": origin.vertices,
+                "edges": origin.edges,
+                "triangles": origin.triangles,
+                "middle": _rounded(origin.moments.middle),
+                "axes": _rounded(origin.moments.axes),
+            },
+            "metric": self.metric,
+            "clamp": round(float(self.clamp), 4),
+        }
+        lists = {
+            "seeds": [
+                {"pick": _written(seed.pick), "place": _rounded(seed.place), "normal": _rounded(seed.normal, 3)}
+                for seed in self.seeds
+            ],
+            "wires": [_wire_row(course) for course in self.courses],
+            "strokes": [_stroke_row(record) for record in self.strokes],
+        }
+        parts = [f"{json.dumps(key)}: {_line(value)}" for key, value in head.items()]
+        for key, rows in lists.items():
+            body = ",\n".join(_line(row) for row in rows)
+            parts.append(f"{json.dumps(key)}: [\n{body}\n]" if rows else f"{json.dumps(key)}: []")
+        return "{\n" + ",\n".join(parts) + "\n}\n"
+
+    @classmethod
+    def parse(cls, text: str) -> NetworkFile:
+        """Read what `text` wrote.
+
+        Raises
+        ------
+        NetworkFileError
+            Where it is none, was written by a later version, or is damaged: it says where.
+        """
+        try:
+            data = json.loads(text)
+        except (ValueError, RecursionError) as error:
+            where = f", line {error.lineno}" if isinstance(error, json.JSONDecodeError) else ""
+            raise NetworkFileError(f"The file is damaged: it is no JSON{where}") from error
+        if not isinstance(data, dict) or data.get("format") != FORMAT:
+            raise NetworkFileError("The file holds no Seamwire network")
+        version = data.get("version")
+        if type(version) is not int or version < 1:
+            raise NetworkFileError("The file is damaged: its version is no number")
+        if version > VERSION:
+            raise NetworkFileError(
+                f"The file was written by a newer Seamwire: it is of version {version}, and this one reads {VERSION}"
+            )
+        try:
+            where = "mesh"
+            mesh = data["mesh"]
+            counts = [_count(mesh[key]) for key in ("vertices", "edges", "triangles")]
+            moments = Moments(_point(mesh["middle"]), _points(mesh["axes"], 3))
+            origin = Origin(str(mesh["name"]), *counts, moments)
+            where = "metric"
+            metric, clamp = data["metric"], float(data["clamp"])
+            if metric not in get_args(MetricName) or not 0.0 < clamp <= 100.0:
+                raise ValueError
+            seeds, courses, strokes = [], [], []
+            for number, row in enumerate(data["seeds"], start=1):
+                where = f"seed {number}"
+                seeds.append(SeedPlace(_read_pick(row["pick"]), _point(row["place"]), _point(row["normal"])))
+            for number, row in enumerate(data["wires"], start=1):
+                where = f"wire {number}"
+                courses.append(_course(row, origin.vertices))
+            for number, row in enumerate(data.get("strokes", []), start=1):
+                where = f"stroke {number}"
+                strokes.append(_stroke_record(row, origin.vertices))
+        except serialization.DAMAGED as error:
+            raise NetworkFileError(f"The file is damaged: {where}") from error
+        return cls(origin, metric, clamp, tuple(seeds), tuple(courses), tuple(strokes))
+
+    # On the same mesh
+
+    def problem_with(self, count: int, edges: NDArray[np.int32]) -> str:
+        """Say in words why a mesh is not the one that it was drawn on, by its numbers; empty where it is.
+
+        Parameters
+        ----------
+        count
+            How many vertices the mesh has.
+        edges
+            (e, 2) its edges.
+        """
+        if count != self.origin.vertices:
+            return f"The network is of a mesh with {self.origin.vertices} vertices, and this one has {count}"
+        there = {undirected((one, two)) for one, two in edges.tolist()}
+        for course in self.courses:
+            for edge in _edges_of(course.record):
+                if edge not in there:
+                    return f"The network is of a mesh with other edges: there is no edge {edge[0]}-{edge[1]} here"
+        return ""
+
+    def wires(self, points: NDArray[np.float64], to_object: NDArray[np.float64]) -> list[Wire]:
+        """Return its wires on the mesh that it was drawn on, by their numbers; see `problem_with`.
+
+        Parameters
+        ----------
+        points
+            (n, 3) vertices as the session has them.
+        to_object
+            (3, 3) takes them to object coordinates.
+        """
+        return [serialization.wire_of(course.record, points, to_object) for course in self.courses]
+
+    def strokes_on(self, points: NDArray[np.float64], to_object: NDArray[np.float64]) -> list[Scribble]:
+        """Return its strokes on the mesh that it was drawn on, by numbers; parameters as those of `wires`."""
+        places = points @ to_object.T
+        found = (
+            serialization.stored_stroke(record, places, to_object, [tuple(record["corners"][0][:2])])
+            for record in self.strokes
+        )
+        return [stroke for stroke in found if stroke is not None]
+
+
+def _edges_of(record: Record) -> Iterable[Edge]:
+    around = [*record["vertices"], *(record["vertices"][:1] if record["closed"] else ())]
+    return (undirected(pair) for pair in itertools.pairwise(around))
+
+
+def _line(value: object) -> str:
+    return json.dumps(value, ensure_ascii=False, allow_nan=False)
+
+
+def _rounded(values: NDArray[np.float64], digits: int | None = None) -> list:
+    """Return numbers as lists: as short as single precision can be written, or with so many digits."""
+
+    def short(value: object) -> object:
+        if isinstance(value, list):
+            return [short(one) for one in value]
+        number = round(float(value), digits) if digits is not None else float(str(np.float32(value)))
+        return int(number) if number.is_integer() and abs(number) < 1e9 else number
+
+    return short(np.asarray(values, dtype=np.float64).tolist())
+
+
+def _written(pick: Pick) -> object:
+    if isinstance(pick, FacePoint):
+        return {"corners": list(pick.corners), "weights": _rounded(np.array(pick.weights))}
+    return list(pick) if isinstance(pick, tuple) else pick
+
+
+def _read_pick(stored: object) -> Pick:
+    if not isinstance(stored, dict):
+        return serialization.pick_of(_numbers(stored))
+    corners, weights = _numbers(stored["corners"]), np.array(stored["weights"], dtype=np.float64)
+    if len(corners) != 3 or weights.shape != (3,) or not (weights >= 0.0).all() or not 0.9 < weights.sum() < 1.1:
+        raise ValueError
+    a, b, c = (weights / weights.sum()).tolist()
+    return FacePoint(-1, tuple(corners), (a, b, c))
+
+
+def _text_of(stored: int | list[int]) -> str:
+    return "-".join(map(str, stored)) if isinstance(stored, list) else str(stored)
+
+
+def _numbers(stored: Any) -> Any:  # noqa: ANN401 - what a file holds
+    """Return vertex numbers; raises ValueError where something else is there."""
+    for one in stored if isinstance(stored, list) else [stored]:
+        _count(one)
+    return stored
+
+
+def _count(stored: object) -> int:
+    if type(stored) is not int or not 0 <= stored < 1 << 31:
+        raise ValueError
+    return stored
+
+
+def _points(stored: object, count: int) -> NDArray[np.float64]:
+    points = np.array(stored, dtype=np.float64)
+    if points.shape != (count, 3) or not np.isfinite(points).all():
+        raise ValueError
+    return points
+
+
+def _point(stored: object) -> NDArray[np.float64]:
+    return _points([stored], 1)[0]
+
+
+_PACKED = ("curve", "places", "ends")
+"""What a wire's record has that its row in a file writes in another way, or that follows from the rest."""
+
+
+def _wire_row(course: Course) -> Mapping[str, object]:
+    record = course.record
+    row = {name: value for name, value in record.items() if name not in _PACKED}
+    if "curve" in record:
+        row["curve"] = _rounded(serialization.unpacked(record["curve"]))
+    row["places"] = _rounded(course.places)
+    row["normals"] = _rounded(course.normals, 3)
+    row["creases"] = _rounded(course.creases, 0)
+    return row
+
+
+def _course(row: Mapping[str, Any], count: int) -> Course:
+    vertices = _numbers(row["vertices"])
+    if not isinstance(vertices, list) or not vertices:
+        raise ValueError
+    places, normals = (_points(row[name], len(vertices)) for name in ("places", "normals"))
+    angles = np.array(row["creases"], dtype=np.float64)
+    if angles.shape != (len(vertices),) or not np.isfinite(angles).all():
+        raise ValueError
+    record = {name: value for name, value in row.items() if name not in {"places", "normals", "creases"}}
+    for name in ("start", "end", *(("heading",) if row["heading"] is not None else ())):
+        _numbers(record[name])
+    record["ends"] = [places[0].tolist(), places[1 if row["closed"] is True else -1].tolist()]
+    if row["along"] == "SURFACE":
+        curve = np.array(row["curve"], dtype=np.float64)
+        if curve.ndim != 2 or curve.shape[1] != 3:
+            raise ValueError
+        record["curve"], record["places"] = serialization.packed(curve), serialization.packed(places)
+    picks = [record["start"], record["end"], record["heading"] or [], record.get("through") or []]
+    flat = [one for pick in (*picks, vertices) for one in (pick if isinstance(pick, list) else [pick])]
+    if any(number >= count for number in flat):
+        raise ValueError
+    return Course(serialization.checked_wire(record), places, normals, angles)
+
+
+def _stroke_row(record: Record) -> Mapping[str, object]:
+    points = {name: _rounded(serialization.unpacked(record[name])) for name in ("points", "places")}
+    return {**record, **points, "radius": None if record["radius"] is None else _rounded(record["radius"])}
+
+
+def _stroke_record(row: Mapping[str, Any], count: int) -> Record:
+    corners, vertices = row["corners"], _numbers(row["vertices"])
+    if not corners or any(len(_numbers(triple)) != 3 or not set(triple) <= set(vertices) for triple in corners):
+        raise ValueError
+    if row["vertex_count"] != count or max(vertices) >= count or not math.isfinite(row["eta"]):
+        raise ValueError
+    points = {"points": _points(row["points"], len(corners)), "places": _points(row["places"], len(vertices))}
+    return {**row, **{name: serialization.packed(values) for name, values in points.items()}}

@@ -1,0 +1,538 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a mesh keeps of its wires and strokes, as text: records that the labels of its edges call by their numbers.
+
+Which wires a mesh has, its edges say, see `wire_labels`: their labels come and go with Blender's undo. What each wire is, a
+record says. A record never changes, and its number follows from what it says: records of different times and meshes go
+together, and one that nothing calls any more does no harm.
+"""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import hashlib
+import json
+import zlib
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..base.spatial_hash import SpatialHash
+from ..network.network import FOLLOWS, LOOP_NAMES, FacePoint, Network, Wire, undirected
+from ..network.strokes import Scribble
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..network.network import Edge, Pick
+    from ..network.strokes import ActsOn
+
+FORMAT = "seamwire"
+VERSION = 2
+WAS_SEAM = 1
+"""A member of a label: the edge was a seam before a wire ran along it."""
+_FIRST_NUMBER = 16
+_TOLERANCE = 1e-4
+"""How far a vertex may have moved and still be found by its place, as part of the mesh's size."""
+
+Record = dict[str, Any]
+
+
+DAMAGED = (
+    ValueError,
+    TypeError,
+    KeyError,
+    IndexError,
+    AttributeError,
+    OverflowError,
+    RecursionError,
+    zlib.error,
+    binascii.Error,
+)
+"""What reading raises where a text is not what it should be."""
+
+
+class UnreadableError(ValueError):
+    """A mesh's text cannot be read; the text is a sentence for the artist."""
+
+
+class NewerError(UnreadableError):
+    """It was written by a later version: it must stay as it is."""
+
+
+class Archive:
+    """Records of wires and strokes, and which of them each label of an edge stands for, all by their numbers.
+
+    A label stands for its members: the number of a wire that runs along the edge, the same negative for an image of that
+    wire, the number of a stroke that begins there, `WAS_SEAM`. One with a single member is that number itself.
+    """
+
+    def __init__(self) -> None:
+        self.wires: dict[int, Record] = {}
+        self.strokes: dict[int, Record] = {}
+        self._sets: dict[int, tuple[int, ...]] = {}
+
+    @classmethod
+    def parse(cls, text: str) -> Archive:
+        """Read what `text` wrote.
+
+        Raises
+        ------
+        NewerError, UnreadableError
+            Where it was written by a later version, or is none.
+        """
+        archive = cls()
+        if not text:
+            return archive
+        try:
+            name, version, *rest = text.split(maxsplit=2)
+            if name != FORMAT:
+                raise ValueError
+            if version != str(VERSION):
+                raise NewerError("The wires of this mesh were drawn with a newer Seamwire: they stay as they are")
+            (body,) = rest
+            data = json.loads(zlib.decompress(base64.b64decode(body, validate=True)))
+            archive.wires = {_number(number): checked_wire(record) for number, record in data["wires"].items()}
+            archive.strokes = {_number(number): dict(record) for number, record in data["strokes"].items()}
+            archive._sets = {_number(label): tuple(map(int, members)) for label, members in data["sets"].items()}
+        except NewerError:
+            raise
+        except DAMAGED as error:
+            raise UnreadableError("The wires stored with this mesh cannot be read; its seams are untouched") from error
+        return archive
+
+    def text(self, labels: Iterable[int]) -> str:
+        """Write what some labels stand for; an empty string where they stand for nothing."""
+        used = set(labels)
+        members = {abs(member) for label in used for member in self.members(label)}
+        data = {
+            "wires": {number: self.wires[number] for number in sorted(members & self.wires.keys())},
+            "strokes": {number: self.strokes[number] for number in sorted(members & self.strokes.keys())},
+            "sets": {label: self._sets[label] for label in sorted(used & self._sets.keys())},
+        }
+        if not any(data.values()):
+            return ""
+        body = json.dumps(data, separators=(",", ":")).encode()
+        return f"{FORMAT} {VERSION} {base64.b64encode(zlib.compress(body, 9)).decode()}"
+
+    def merge(self, other: Archive) -> None:
+        """Take in the records of another archive."""
+        self.wires.update(other.wires)
+        self.strokes.update(other.strokes)
+        self._sets.update(other._sets)
+
+    def knows(self, label: int) -> bool:
+        """Whether what a label stands for is here."""
+        return all(
+            member == WAS_SEAM or abs(member) in self.wires or abs(member) in self.strokes
+            for member in self.members(label)
+        )
+
+    def members(self, label: int) -> tuple[int, ...]:
+        """Return what a label stands for."""
+        return self._sets.get(label, (label,))
+
+    def label_of(self, members: Iterable[int]) -> int:
+        """Return the label that stands for some members; 0: for none."""
+        wanted = tuple(sorted(set(members)))
+        if len(wanted) < 2:
+            return wanted[0] if wanted else 0
+        return self._add(self._sets, wanted)
+
+    def add_wire(self, record: Record) -> int:
+        """Add a wire's record and return its number."""
+        return self._add(self.wires, record)
+
+    def add_stroke(self, record: Record) -> int:
+        """Add a stroke's record and return its number."""
+        return self._add(self.strokes, record)
+
+    def _add(self, where: dict[int, Any], what: object) -> int:
+        digest = hashlib.blake2b(json.dumps(what, sort_keys=True).encode(), digest_size=4).digest()
+        number = max(int.from_bytes(digest, "big") & 0x7FFFFFFF, _FIRST_NUMBER)
+        kinds = (self.wires, self.strokes, self._sets)
+        while any(number in kind and (kind is not where or kind[number] != what) for kind in kinds):
+            number = max((number + 1) & 0x7FFFFFFF, _FIRST_NUMBER)
+        where[number] = what
+        return number
+
+
+def _number(text: str) -> int:
+    """Return the number of a record; raises ValueError where it is none."""
+    number = int(text)
+    if not _FIRST_NUMBER <= number <= 0x7FFFFFFF:
+        raise ValueError
+    return number
+
+
+# Wires
+
+
+def wire_record(wire: Wire, places: NDArray[np.float64], to_object: NDArray[np.float64]) -> Record:
+    """Return what there is to keep of a wire that is not closed or is, by the numbers its vertices have now.
+
+    Parameters
+    ----------
+    wire
+        Of vertices below n.
+    places
+        (n, 3) the vertices in object coordinates.
+    to_object
+        (3, 3) takes the wire's points there.
+    """
+    chain = list(wire.vertices)
+    record: Record = {
+        "along": wire.along,
+        "vertices": chain,
+        "ends": places[[chain[0], chain[1] if wire.closed else chain[-1]]].astype(np.float32).tolist(),
+        "start": _stored(wire.start),
+        "end": _stored(wire.end),
+        "closed": wire.closed,
+        "heading": wire.heading,
+        "follow": wire.follow,
+        "strength": wire.strength,
+        "mirror": list(wire.mirror),
+    }
+    if wire.kind is not None:
+        record["kind"], record["through"] = wire.kind, wire.through
+    if wire.finish != "SNAP":
+        record["finish"] = wire.finish
+    if wire.along == "SURFACE":
+        record["curve"] = packed(wire.points @ to_object.T)
+        record["places"] = packed(places[chain])
+    return json.loads(json.dumps(record))  # tuples become lists, as they will be when it is read again
+
+
+def checked_wire(record: Record) -> Record:
+    """Return a record that was read, where nothing in it can be misunderstood; raises ValueError, TypeError, KeyError."""
+    vertices = record["vertices"]
+    ends = np.array(record["ends"], dtype=np.float64)
+    sound = (
+        type(record["closed"]) is bool
+        and all(type(vertex) is int and vertex >= 0 for vertex in vertices)
+        and len(vertices) >= (3 if record["closed"] else 2)
+        and ends.shape == (2, 3)
+        and np.isfinite(ends).all()
+        and record["along"] in ("EDGES", "SURFACE")
+        and record["follow"] in range(len(FOLLOWS))
+        and np.isfinite(float(record["strength"]))
+        and all(axis in (0, 1, 2) for axis in record["mirror"])
+        and record.get("finish", "SNAP") in ("SNAP", "SLIDE", "CUT")
+        and (record["heading"] is None or isinstance(pick_of(record["heading"]), tuple))
+    )
+    if not sound:
+        raise ValueError
+    for name in ("start", "end"):
+        pick_of(record[name])
+    if record.get("kind") is not None and not (
+        isinstance(record["kind"], str) and isinstance(pick_of(record["through"]), tuple)
+    ):
+        raise ValueError
+    if record["along"] == "SURFACE" and (
+        len(unpacked(record["curve"])) < 2 or len(unpacked(record["places"])) != len(vertices)
+    ):
+        raise ValueError
+    return record
+
+
+def _stored(pick: Pick) -> int | tuple[int, int]:
+    """Return a pick as it is stored: seams end at vertices, so a point inside a triangle is known only until they are marked."""
+    return pick.vertex if isinstance(pick, FacePoint) else pick
+
+
+def pick_of(stored: int | list[int]) -> Pick:
+    """Return a pick as it was stored."""
+    if isinstance(stored, list):
+        one, two = stored
+        return int(one), int(two)
+    return int(stored)
+
+
+def tolerance(places: NDArray[np.float64]) -> float:
+    """Return how far vertices of a mesh may be from where they were and count as unmoved."""
+    return max(_TOLERANCE * float(np.ptp(places, axis=0).max(initial=0.0)), 1e-12)
+
+
+def stored_curve(
+    record: Record, vertices: tuple[int, ...], places: NDArray[np.float64], to_object: NDArray[np.float64]
+) -> NDArray[np.float64] | None:
+    """Return the curve of a wire across the surface where its vertices have not moved, as `Wire.points` are; else None."""
+    if record["along"] != "SURFACE":
+        return None
+    before = unpacked(record["places"])
+    now = places[list(vertices)]
+    if before.shape != now.shape or len(now) == 0:
+        return None
+    if np.abs(before - now).max() > tolerance(places):
+        return None
+    return unpacked(record["curve"]) @ np.linalg.inv(to_object).T
+
+
+def wire_of(record: Record, points: NDArray[np.float64], to_object: NDArray[np.float64]) -> Wire:
+    """Return the wire of a record on the mesh that it was made on, by its numbers; its mirror images are to be found.
+
+    Parameters
+    ----------
+    record
+        That was checked.
+    points
+        (n, 3) vertices as the session has them.
+    to_object
+        (3, 3) takes them to object coordinates.
+    """
+    vertices, closed = tuple(record["vertices"]), record["closed"]
+    curve = stored_curve(record, vertices, points @ to_object.T, to_object)
+    through = undirected(pick_of(record["through"])) if record.get("kind") in LOOP_NAMES else None
+    heading = None if record["heading"] is None else pick_of(record["heading"])
+    return Wire(
+        record["along"],
+        vertices,
+        points[list(vertices + vertices[:1] if closed else vertices)] if curve is None else curve,
+        pick_of(record["start"]),
+        pick_of(record["end"]),
+        closed=closed,
+        mirror=tuple(record["mirror"]),
+        heading=heading if isinstance(heading, tuple) else None,
+        follow=record["follow"],
+        strength=float(record["strength"]),
+        finish=record.get("finish", "SNAP"),
+        kind=record["kind"] if isinstance(through, tuple) else None,
+        through=through if isinstance(through, tuple) else None,
+    )
+
+
+def packed(points: NDArray[np.float64]) -> str:
+    """Write (k, 3) points in single precision."""
+    return base64.b64encode(np.ascontiguousarray(points, dtype="<f4").tobytes()).decode()
+
+
+def unpacked(text: str) -> NDArray[np.float64]:
+    """Read what `packed` wrote; raises ValueError where it is something else."""
+    points = np.frombuffer(base64.b64decode(text, validate=True), dtype="<f4").reshape(-1, 3).astype(np.float64)
+    if not np.isfinite(points).all():
+        raise ValueError
+    return points
+
+
+# Strokes
+
+
+def stroke_record(stroke: Scribble, places: NDArray[np.float64], to_object: NDArray[np.float64], order: int) -> Record:
+    """Return what there is to keep of a stroke; parameters as those of `wire_record`, and how many strokes came before."""
+    numbers = np.unique(stroke.corners)
+    return {
+        "points": packed(stroke.points @ to_object.T),
+        "corners": stroke.corners.tolist(),
+        "vertices": numbers.tolist(),
+        "places": packed(places[numbers]),
+        "vertex_count": len(places),
+        "attracts": stroke.attracts,
+        "acts_on": stroke.acts_on,
+        "eta": stroke.eta,
+        "rings": stroke.rings,
+        "radius": stroke.radius,
+        "order": order,
+    }
+
+
+def order_of(record: Record) -> int:
+    """Return how many strokes came before that of a record: where strokes cross, the later one counts."""
+    order = record.get("order")
+    return order if type(order) is int else 0
+
+
+def stored_stroke(
+    record: Record, places: NDArray[np.float64], to_object: NDArray[np.float64], begins: Iterable[Edge]
+) -> Scribble | None:
+    """Return as much of a stroke in one piece as the mesh has now; None: nothing of it, or it is damaged.
+
+    Its corners alone say where it lies, see `strokes.on_mesh`.
+
+    Parameters
+    ----------
+    record
+        What `stroke_record` made.
+    places, to_object
+        As those of `wire_record`.
+    begins
+        The edges that its number stands on: they show whether vertices have the numbers that they had.
+    """
+    try:
+        numbers = np.array(record["vertices"], dtype=np.int64)
+        corner = set(record["corners"][0])
+        shared = 2 if len(corner) > 1 else 1
+        same_numbers = int(record["vertex_count"]) == len(places) and any(
+            len(corner.intersection(edge)) >= shared for edge in begins
+        )
+        mapped, _ = matched(numbers, unpacked(record["places"]), places, same_numbers)
+        number_of = dict(zip(numbers.tolist(), mapped.tolist(), strict=True))
+        points = unpacked(record["points"]) @ np.linalg.inv(to_object).T
+        return stroke_of(record, points, number_of)
+    except DAMAGED:
+        return None
+
+
+def stroke_of(item: Mapping[str, Any], points: NDArray[np.float64], number_of: Mapping[int, int]) -> Scribble | None:
+    """Return a stroke through those of its points whose vertices are there, as much of it as is in one piece.
+
+    Raises
+    ------
+    ValueError, TypeError, KeyError
+        Where it is damaged.
+    """
+    stored = np.array(item["corners"], dtype=np.int64).reshape(len(points), 3)
+    acts_on: ActsOn = item["acts_on"]
+    eta, rings = float(item["eta"]), int(item["rings"])
+    radius = None if item["radius"] is None else float(item["radius"])
+    sound = np.isfinite(points).all() and 1.0 <= eta < np.inf and rings >= 1 and (radius is None or 0 < radius < np.inf)
+    if not sound or acts_on not in {"both", *FOLLOWS}:
+        raise ValueError
+    corners = np.array([[number_of[vertex] for vertex in triple] for triple in stored.tolist()], dtype=np.int32)
+    corners = corners.reshape(-1, 3)
+    there = (corners >= 0).all(axis=1)
+    borders = np.flatnonzero(np.diff(np.concatenate([[False], there, [False]]).astype(np.int8)))
+    begin, end = max(zip(borders[::2], borders[1::2], strict=True), key=lambda run: run[1] - run[0], default=(0, 0))
+    if end - begin < 2:
+        return None
+    faces = np.full(end - begin, -1, dtype=np.int32)
+    return Scribble(points[begin:end], corners[begin:end], faces, bool(item["attracts"]), acts_on, eta, rings, radius)
+
+
+def matched(
+    numbers: NDArray[np.int64], places: NDArray[np.float64], points: NDArray[np.float64], same_numbers: bool
+) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    """Return each stored vertex's number now, -1 where there is none, and whether it is where it was.
+
+    With `same_numbers` they count more than places: a mesh that was moved by a cell of its own pattern has other vertices in
+    the old places.
+    """
+    if not len(numbers) or not len(points) or not np.isfinite(places).all():
+        return np.full(len(numbers), -1), np.zeros(len(numbers), dtype=bool)
+    near = tolerance(points)
+    known = (numbers >= 0) & (numbers < len(points))
+    here = points[np.where(known, numbers, 0)]
+    stayed = known & (np.linalg.norm(here - places, axis=1) <= near)
+    if same_numbers and known.all():
+        return numbers.copy(), stayed
+    mapped = np.where(stayed, numbers, -1)
+    if not stayed.all():
+        mapped[~stayed] = SpatialHash(points, near).nearest(places[~stayed])
+        stayed = mapped >= 0
+    return mapped, stayed
+
+
+# The first version, which knew no labels: a network as one text, found again by numbers and places
+
+
+def load_first_version(
+    text: str, points: NDArray[np.float64], edges: NDArray[np.int32], seams: NDArray[np.int32]
+) -> tuple[Network, str]:
+    """Read a network of version 1.
+
+    Parameters
+    ----------
+    text
+        What that wrote.
+    points
+        (n, 3) vertices, stretched as the object's matrix stretches them.
+    edges
+        (e, 2) visible edges.
+    seams
+        (k, 2) those that are seams: a wire whose edges are not all seams is none.
+
+    Returns
+    -------
+    network
+        The wires and strokes that are there.
+    problem
+        In words, what could not be found; an empty string: nothing is missing.
+    """
+    try:
+        data = json.loads(text)
+        if data["format"] != "seamwire network" or int(data["version"]) != 1:
+            raise ValueError
+        reader = _FirstVersion(data, points, edges, seams)
+        # Where the mesh has as many vertices as before, numbers or places may be what has changed: seams tell.
+        same_count = int(data["vertex_count"]) == len(points)
+        tries = [reader.network(same_numbers) for same_numbers in ((True, False) if same_count else (False,))]
+        network = max(tries, key=lambda one: len(one.wires))
+        stored = sum(bool(item["marks"]) for item in data["wires"])
+    except DAMAGED:
+        return Network(), "The wires stored with this mesh cannot be read; its seams are untouched"
+    missing = stored - len(network.wires)
+    return network, f"{missing} of {stored} stored wires are seams no more, or hidden" if missing else ""
+
+
+class _FirstVersion:
+    """A network of version 1, to be found on a mesh; anything of `DAMAGED` is raised where it is none."""
+
+    def __init__(
+        self, data: Record, points: NDArray[np.float64], edges: NDArray[np.int32], seams: NDArray[np.int32]
+    ) -> None:
+        self._data = data
+        self._points = points
+        self._edges = {(min(pair), max(pair)) for pair in np.asarray(edges).tolist()}
+        self._seams = {(min(pair), max(pair)) for pair in np.asarray(seams).tolist()}
+        self._mirror = tuple(sorted({axis for axis in map(int, data["mirror"]) if 0 <= axis <= 2}))
+        self._number_of: dict[int, int] = {}
+        self._unmoved: set[int] = set()
+
+    def network(self, same_numbers: bool) -> Network:
+        """Return what is there, by numbers or by places."""
+        data = self._data
+        numbers = np.array(data["vertices"], dtype=np.int64).reshape(-1)
+        places = np.array(data["coordinates"], dtype=np.float64).reshape(len(numbers), 3)
+        mapped, stayed = matched(numbers, places, self._points, same_numbers)
+        self._number_of = dict(zip(numbers.tolist(), mapped.tolist(), strict=True))
+        self._unmoved = set(numbers[stayed].tolist())
+        wires = [self._wire(item) for item in data["wires"]]
+        strokes = [
+            stroke_of(item, np.array(item["points"], dtype=np.float64).reshape(-1, 3), self._number_of)
+            for item in data.get("scribbles", [])
+        ]
+        return Network(
+            tuple(wire for wire in wires if wire is not None),
+            scribbles=tuple(stroke for stroke in strokes if stroke is not None),
+        )
+
+    def _pick(self, stored: int | list[int]) -> Pick | None:
+        """Return a pick with the numbers of now; None where it is not there."""
+        pick = pick_of(stored)
+        if not isinstance(pick, tuple):
+            found = self._number_of[pick]
+            return None if found < 0 else found
+        edge = self._number_of[pick[0]], self._number_of[pick[1]]
+        return edge if undirected(edge) in self._edges else None
+
+    def _wire(self, item: Record) -> Wire | None:
+        stored = [int(vertex) for vertex in item["vertices"]]
+        closed = bool(item["closed"])
+        if item["along"] not in {"EDGES", "SURFACE"} or len(stored) < (3 if closed else 2):
+            raise ValueError
+        vertices = tuple(self._number_of[vertex] for vertex in stored)
+        kind = item.get("kind")
+        # A click offers other things now than it did.
+        through = undirected(self._pick(item["through"])) if kind in LOOP_NAMES else None
+        heading = None if item["heading"] is None else self._pick(item["heading"])
+        start, end = self._pick(item["start"]), self._pick(item["end"])
+        curve = np.array(item["curve"], dtype=np.float64).reshape(-1, 3) if "curve" in item else None
+        if curve is not None and (len(curve) < 2 or not np.isfinite(curve).all()):
+            raise ValueError
+        around = list(vertices + vertices[:1] if closed else vertices)
+        wire = Wire(
+            item["along"],
+            vertices,
+            self._points[around] if curve is None or not self._unmoved.issuperset(stored) else curve,
+            vertices[0] if start is None else start,
+            vertices[0 if closed else -1] if end is None else end,
+            closed=closed,
+            mirror=self._mirror,
+            heading=heading if isinstance(heading, tuple) else None,
+            follow=1 if item["follow"] else 0,
+            strength=float(item["strength"]),
+            kind=kind if isinstance(through, tuple) else None,
+            through=through if isinstance(through, tuple) else None,
+        )
+        there = bool(item["marks"]) and min(vertices) >= 0 and self._seams.issuperset(wire.edges())
+        return wire if there else None

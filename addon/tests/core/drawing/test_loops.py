@@ -1,0 +1,446 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What one click on an edge offers: the closed loop, the strip, the whole strip."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from fake_live import grid_edges, grid_points
+from seamwire.core.drawing.session import Intent, Session
+from seamwire.core.network.network import Network, Snap, Wire
+from seamwire.core.network.stops import Stops
+from seamwire.core.network.symmetry import Symmetry
+from table import SIZE, Table, chain, paper
+
+ROW = (12, 13, 14, 15, 16, 17)
+COLUMN = (2, 8, 14, 20, 26, 32)
+LOOP = (14, 15, 21, 27, 26, 20)
+"""On the grid, edges along x have a closed loop, edges along y have none."""
+
+
+def shown(session: Session) -> tuple[int, ...]:
+    return session.loop_preview.vertices
+
+
+def test_the_closed_loop_comes_first_then_the_strip() -> None:
+    session = Table().session
+    session.hover((14, 15), loop=True)
+    assert session.loop_offers == ("CLOSED", "STRIP"), "the strip without stops is the strip"
+    assert session.loop_choice == "CLOSED"
+    assert shown(session) == LOOP
+    assert session.intent is Intent.LOOP
+
+
+def first_offer(edge: tuple[int, int], *before: tuple[tuple[int, int], str], **options: object) -> str:
+    """Return what is offered first for an edge after offers of other edges were taken."""
+    session = Table(**options).session
+    for other, kind in before:
+        session.hover(other, loop=True)
+        while session.loop_choice != kind:
+            assert session.toggle()
+        assert session.loop(other)
+    session.hover(edge, loop=True)
+    return session.loop_choice
+
+
+def test_a_loop_with_corners_comes_after_what_goes_straight_on() -> None:
+    assert first_offer((14, 15)) == "CLOSED"
+    assert first_offer((14, 15), boxes=True) == "STRIP"
+    assert first_offer((14, 15), ((0, 1), "CLOSED"), boxes=True) == "STRIP"
+
+
+def test_what_was_taken_last_comes_first_again() -> None:
+    assert first_offer((14, 15), ((30, 31), "STRIP")) == "STRIP"
+    assert first_offer((14, 15), ((30, 31), "STRIP"), ((6, 7), "CLOSED")) == "CLOSED"
+    assert first_offer((14, 15), ((30, 31), "CLOSED")) == "CLOSED"
+
+
+def test_a_loop_across_wires_or_seams_comes_later() -> None:
+    assert first_offer((14, 15), seams=[(21, 22)]) == "CLOSED", "across one"
+    seams = [(21, 22), (27, 28), (20, 19), (26, 25)]
+    assert first_offer((14, 15), seams=seams) == "PAST", "the way that ends at the first seam on each side"
+    assert first_offer((14, 15), seams=seams, boxes=True) == "STRIP"
+
+
+def test_where_there_is_no_closed_loop_the_strip_is_taken() -> None:
+    session = Table().session
+    session.hover((14, 20), loop=True)
+    assert session.loop_offers == ("STRIP",)
+    assert session.loop((14, 20))
+    (wire,) = session.wires
+    assert wire.vertices == COLUMN
+    assert not wire.closed
+    assert (wire.start, wire.end) == (2, 32)
+    assert session.edges_to_mark() == chain(*COLUMN)
+    assert session.seeds() == [2, 32]
+    assert session.message == ""
+
+
+def test_a_strip_ends_at_seams_and_the_whole_one_is_offered_next() -> None:
+    session = Table(seams=[(8, 9), (26, 25)]).session
+    session.hover((14, 20), loop=True)
+    assert session.loop_offers == ("STRIP", "WHOLE")
+    assert shown(session) == (8, 14, 20, 26)
+    assert session.toggle()
+    assert shown(session) == COLUMN
+
+
+def test_a_strip_ends_where_its_own_edge_meets_a_seam() -> None:
+    session = Table(seams=[(14, 15)]).session
+    session.loop((14, 20))
+    assert session.wires[0].vertices == (14, 20, 26, 32)
+
+
+def test_a_strip_ends_at_kept_wires_and_their_images() -> None:
+    session = Table(centred=True).session
+    session.set_mirror([1])  # what is drawn on row 1 is on row 4 as well
+    session.click(7)
+    session.click(10)
+    session.end_chain()
+    session.loop((14, 20))
+    assert session.wires[-1].vertices == (8, 14, 20, 26)
+
+
+def test_a_strip_ends_on_the_mirrors_plane_unless_it_runs_along_it() -> None:
+    table = Table()
+    table.points[:, 0] -= 2.0
+    session = Session(table.session._engines._make, table.points, edges=grid_edges(SIZE))
+    session.set_mirror([0])
+    session.hover((15, 16), loop=True)
+    session.toggle()
+    assert session.loop_choice == "STRIP"
+    assert shown(session) == (14, 15, 16, 17)
+    session.hover((14, 20), loop=True)
+    assert shown(session) == COLUMN
+
+
+def test_of_an_edge_that_is_a_seam_already_the_whole_strip_is_offered() -> None:
+    session = Table(seams=[(14, 20)]).session
+    session.hover((14, 20), loop=True)
+    assert session.loop_offers == ("WHOLE",)
+
+
+def test_toggling_goes_around_and_stays_while_the_edge_is_the_same() -> None:
+    session = Table().session
+    session.hover((14, 15), loop=True)
+    kinds = []
+    for _ in range(4):
+        kinds.append(session.loop_choice)
+        before = session.revision
+        assert session.toggle()
+        assert session.revision > before
+        session.hover((15, 14), loop=True)
+    assert kinds == ["CLOSED", "STRIP", "CLOSED", "STRIP"]
+    assert session.loop_choice == "CLOSED"
+    session.toggle()
+    session.hover((15, 16), loop=True)
+    assert session.loop_choice == "CLOSED", "another edge begins with its default"
+
+
+@pytest.mark.parametrize("keep", ["click", "loop"])
+def test_what_is_chosen_is_kept(keep: str) -> None:
+    session = Table().session
+    session.hover((14, 15), loop=True)
+    session.toggle()
+    assert getattr(session, keep)((14, 15))
+    assert session.wires[0].vertices == ROW
+    assert session.wires[0].kind == "STRIP"
+
+
+def test_a_single_offer_has_no_next() -> None:
+    session = Table().session
+    session.hover((14, 20), loop=True)
+    assert session.loop_offers == ("STRIP",)
+    assert not session.toggle()
+    assert "Nothing else" in session.message
+    session.hover(None)
+    assert session.loop_offers == ()
+    assert session.loop_choice is None
+
+
+def test_between_two_seams_the_strip_is_the_edge_alone() -> None:
+    session = Table(seams=[(14, 15), (20, 21)]).session
+    session.hover((14, 20), loop=True)
+    assert session.loop_offers == ("STRIP", "WHOLE")
+    assert shown(session) == (14, 20)
+
+
+def test_a_kept_loop_takes_its_next_offer_in_place() -> None:
+    session = Table().session
+    session.loop((14, 15))
+    number = session.wires[0].id
+    courses = []
+    for _ in range(3):
+        assert session.toggle_kept(session.wires[0])
+        courses.append(session.wires[0].vertices)
+        assert session.wires[0].id == number
+    assert courses == [ROW, LOOP, ROW]
+    assert session.undo()
+    assert session.wires[0].vertices == LOOP
+    assert session.undo()
+    assert session.wires[0].vertices == ROW
+    assert session.undo()
+    assert session.wires[0].vertices == LOOP
+    assert session.undo()
+    assert session.wires == ()
+    assert session.redo()
+    assert session.toggle_kept(session.wires[0])
+    assert session.wires[0].vertices == ROW
+
+
+def test_over_a_kept_loops_edge_the_cursor_finds_its_offers_and_a_click_replaces_it() -> None:
+    session = Table().session
+    session.loop((14, 15))
+    session.hover((14, 15), loop=True)
+    assert shown(session) == LOOP
+    assert session.loop((14, 15)), "the same again, as the second press of a double click"
+    assert len(session.wires) == 1
+    session.hover((14, 15), loop=True)
+    session.toggle()
+    session.loop((14, 15))
+    assert [wire.vertices for wire in session.wires] == [ROW]
+
+
+def test_clearing_takes_the_same_strip_away() -> None:
+    session = Table().session
+    session.loop((14, 20))
+    session.toggle_marking()
+    session.loop((14, 20))
+    assert session.edges_to_mark() == []
+    assert session.edges_to_clear() == chain(*COLUMN)
+
+
+def test_a_double_click_without_a_closed_loop_takes_the_strip() -> None:
+    session = Table().session
+    session.click(0)
+    session.click((14, 20))
+    assert session.loop((14, 20))
+    assert [wire.vertices for wire in session.wires] == [COLUMN]
+    assert session.seed == 0
+    assert session.undo()
+    assert session.wires == ()
+    assert session.seed == 0
+
+
+def test_a_double_click_waits_for_the_loop() -> None:
+    table = Table(ready=(False, False))
+    session = table.session
+    session.click((14, 20))
+    session.loop((14, 20))
+    assert session.seed is None
+    assert session.waiting_clicks == 1
+    assert session.computing
+    table.compute()
+    assert [wire.vertices for wire in session.wires] == [COLUMN]
+    assert not session.computing
+
+
+def test_while_the_loop_is_computed_nothing_is_offered_yet() -> None:
+    table = Table(ready=(False, False))
+    session = table.session
+    session.hover((14, 15), loop=True)
+    assert session.loop_preview is None
+    assert session.computing
+    assert not session.toggle()
+    assert "no loop yet" in session.message
+    table.compute()
+    assert shown(session) == LOOP
+
+
+def test_a_strips_ends_are_seeds_that_can_be_moved_and_gone_on_from() -> None:
+    table = Table()
+    session = table.session
+    session.loop((14, 20))
+    session.drag(32)
+    session.drag_to(33)
+    assert session.drag_end()
+    (wire,) = session.wires
+    assert (wire.vertices[0], wire.vertices[-1]) == (2, 33)
+    assert wire.kind is None
+    assert wire.offers == ()
+    session.undo()
+    session.click(Snap(32, "SEED"))
+    assert table.lives["EDGES"].seeded == ((26, 32), True)
+
+
+def test_what_goes_on_from_a_strip_stays_when_that_takes_its_next_offer() -> None:
+    session = Table(seams=[(8, 9), (26, 25)]).session
+    session.loop((14, 20))
+    session.click(Snap(26, "SEED"))
+    session.click(28)
+    session.end_chain()
+    assert session.wires[1].heading == (20, 26)
+    session.toggle_kept(session.wires[0])
+    assert session.wires[0].vertices == COLUMN
+    assert session.wires[1].vertices == (26, 27, 28)
+    assert session.wires[1].heading is None
+
+
+def test_a_seed_in_a_strip_makes_two_ordinary_wires_of_it() -> None:
+    session = Table().session
+    session.loop((14, 20))
+    assert session.insert(session.wires[0], 14)
+    assert [wire.vertices for wire in session.wires] == [(2, 8, 14), (14, 20, 26, 32)]
+    assert [wire.offers for wire in session.wires] == [(), ()]
+
+
+def test_strips_are_stored_and_found_again() -> None:
+    table = Table()
+    table.session.loop((14, 20))
+    mesh = paper()
+    mesh.write(table.session)
+    again = Table().session
+    mesh.open(again)
+    assert again.edges_to_mark() == chain(*COLUMN)
+    assert again.seeds() == [2, 32]
+    again.drag(2)
+    assert again.drag_to(3)
+
+
+def test_an_edge_that_is_none_is_refused_in_words() -> None:
+    class NoEdge:
+        def __getattr__(self, name: str) -> object:
+            return getattr(live, name)
+
+        def loop(self, edge: object) -> object:
+            raise ValueError("there is no edge between the vertices 0 and 20")
+
+    table = Table()
+    live = table.lives["EDGES"]
+    session = Session(lambda _: NoEdge(), table.points)
+    assert not session.loop((0, 20))
+    assert "no edge" in session.message
+    session.hover((0, 20), loop=True)
+    assert session.loop_preview is None
+
+
+@pytest.mark.parametrize("order", [range(SIZE**2), range(SIZE**2)[::-1]])
+@pytest.mark.parametrize("steps", [0, 1])
+def test_a_stored_loop_or_strip_goes_through_the_same_offers_again(order: range, steps: int) -> None:
+    table = Table()
+    table.session.loop((14, 15))
+    for _ in range(steps):
+        table.session.toggle_kept(table.session.wires[0])
+    mesh = paper()
+    mesh.write(table.session)
+    where = mesh.renumber(order)
+    assert mesh.read().network.wires[0].through == tuple(sorted(where[[14, 15]].tolist()))
+    mesh.renumber(where)
+    again = Table().session
+    mesh.open(again)
+    kept = again.wires[0]
+    number = again.wires[0].id
+    for _ in range(3):
+        assert table.session.toggle_kept(table.session.wires[0])
+        assert again.toggle_kept(again.wires[0])
+        assert again.wires[0].vertices == table.session.wires[0].vertices
+        assert again.wires[0].kind == table.session.wires[0].kind
+        assert again.wires[0].id == number
+    for _ in range(3):
+        assert again.undo()
+    assert again.wires[0] is kept
+
+
+def test_a_loop_that_waits_does_not_keep_a_click_before_it_waiting() -> None:
+    table = Table(ready=(False, False), islands=(21,))
+    session = table.session
+    session.click(0)
+    session.click(21)
+    session.loop((14, 15))
+    session.click(3)
+    assert session.waiting_clicks == 3
+    table.compute()
+    assert session.waiting_clicks == 0
+    assert not session.computing
+    assert [wire.vertices for wire in session.wires] == [LOOP, (0, 1, 2, 3)], "no wire reaches 21"
+
+
+def test_a_stored_loop_is_previewed_with_its_offers() -> None:
+    table = Table()
+    table.session.loop((14, 15))
+    mesh = paper()
+    mesh.write(table.session)
+    session = Table().session
+    mesh.open(session)
+    session.hover((15, 14), loop=True)
+    assert session.loop_offers == ("CLOSED", "STRIP")
+    assert session.toggle()
+    assert session.loop((15, 14))
+    assert [wire.vertices for wire in session.wires] == [ROW], "in place, not beside it"
+
+
+def test_a_stored_loops_offers_wait_until_they_are_computed() -> None:
+    table = Table()
+    table.session.loop((14, 15))
+    mesh = paper()
+    mesh.write(table.session)
+    again = Table("SURFACE", ready=(False, False))
+    session = again.session
+    mesh.open(session)
+    assert session.toggle_kept(session.wires[0])
+    assert session.waiting_clicks == 1
+    assert session.computing
+    again.compute()
+    assert session.waiting_clicks == 0
+    assert not session.computing
+    assert session.wires[0].vertices == ROW
+    assert session.undo()
+    assert session.wires[0].vertices == LOOP
+
+
+def test_a_stored_loops_offers_are_waited_for_across_the_surface_too() -> None:
+    table = Table()
+    table.session.loop((14, 15))
+    mesh = paper()
+    mesh.write(table.session)
+    session = Table("SURFACE", ready=(False, False)).session
+    mesh.open(session)
+    session.toggle_kept(session.wires[0])
+    session.wait()
+    assert session.wires[0].vertices == ROW
+
+
+@pytest.mark.parametrize("axes", [(), (0,), (0, 1)])
+def test_stops_are_the_vertices_of_seams_wires_and_their_images(axes: tuple[int, ...]) -> None:
+    points = grid_points(7) - [3.0, 3.0, 0.0]
+    edges = grid_edges(7)
+    symmetry = Symmetry(points, edges)
+    generator = np.random.default_rng(6)
+    seams = generator.permutation(edges)[:8][:, ::-1]
+
+    def images(*chain: int) -> list[tuple[int, ...]]:
+        """Return the mirror images of a chain; vertex 7 y + x has the images 7 y + 6 - x, 7 (6 - y) + x and 48 - v."""
+        across_x, across_y, across_both = (
+            [tuple(image(*divmod(v, 7)) for v in chain)]
+            for image in (lambda y, x: 7 * y + 6 - x, lambda y, x: 7 * (6 - y) + x, lambda y, x: 48 - 7 * y - x)
+        )
+        return {(): [], (0,): across_x, (0, 1): across_x + across_y + across_both}[axes]
+
+    def wire(*chain: int) -> Wire:
+        return Wire("EDGES", chain, points[list(chain)], chain[0], chain[-1])
+
+    def pairs_of(chains: list[tuple[int, ...]]) -> set[tuple[int, int]]:
+        return {(min(pair), max(pair)) for one in chains for pair in itertools.pairwise(one)}
+
+    kept_chains, live = [(1, 2, 9), (43, 36, 35)], (14, 15, 16)
+    kept = tuple(replace(wire(*one), images=tuple(sorted(pairs_of(images(*one))))) for one in kept_chains)
+    network = Network(kept, mirror=axes)
+    stops = Stops(seams, symmetry)
+
+    chains = [one for own in kept_chains for one in (own, *images(*own))]
+    pairs = {tuple(sorted(pair)) for pair in seams.tolist()} | pairs_of(chains)
+    expected = {vertex for pair in pairs for vertex in pair}
+    middle_column, middle_row = {3, 10, 17, 24, 31, 38, 45}, {21, 22, 23, 24, 25, 26, 27}
+    plane = {(): set(), (0,): middle_column, (0, 1): middle_column | middle_row}[axes]
+    assert stops.kept(network).tolist() == sorted(expected)
+    assert stops.of(network, None, (0, 1)).tolist() == sorted(expected | plane)
+    assert stops.of(network, None, (17, 24)).tolist() == sorted(expected), "along the plane"
+    assert not any((expected | plane).issuperset(one) for one in (live, *images(*live))), "each one adds stops"
+    both = expected.union(live, *images(*live))
+    assert stops.of(network, wire(*live), (0, 1)).tolist() == sorted(both | plane)
+    for edge in edges.tolist():
+        assert stops.taken(network, tuple(edge[::-1])) == (tuple(edge) in pairs)
+    assert Stops([], symmetry).of(Network(), None, (0, 1)).tolist() == []

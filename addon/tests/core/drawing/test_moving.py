@@ -1,0 +1,214 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Seeds that are moved, and the wires that follow them."""
+
+from __future__ import annotations
+
+from seamwire.core.drawing.session import Intent
+from seamwire.core.network.network import Snap
+from table import Table, corner, courses
+
+
+def test_a_dragged_seeds_wires_follow_on_both_sides() -> None:
+    table = corner()
+    session = table.session
+    assert session.drag(3)
+    assert session.dragging
+    assert session.intent is Intent.MOVE
+    assert session.drag_to(4)
+    assert courses(session) == [(0, 1, 2, 3, 4), (4, 10, 16, 22, 21)]
+    assert set(session.moved) == set(session.wires)
+    assert session.network_revision == 2
+    assert session.drag_to(2)
+    assert session.drag_end()
+    assert not session.dragging
+    assert session.seeds() == [0, 2, 21]
+    assert session.wires[1].heading == session.wires[0].last_edge
+    assert len(table.lives["EDGES"].forks) == 2, "a live wire for each"
+    assert session.network_revision == 3
+    assert session.undo()
+    assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
+    assert session.redo()
+    assert session.seeds() == [0, 2, 21]
+
+
+def test_wires_arrive_and_leave_as_their_neighbours_do() -> None:
+    table = corner()
+    session = table.session
+    session.click(23)
+    session.drag(21)
+    assert [fork.seeded for fork in table.lives["EDGES"].forks] == [((2, 3), True), (23, False)]
+    session.drag_cancel()
+    session.drag(3)
+    assert [fork.seeded for fork in table.lives["EDGES"].forks[2:]] == [(0, False), ((22, 21), True)]
+    session.drag_to(9)
+    assert courses(session) == [(0, 1, 2, 3, 9), (9, 15, 21), (21, 22, 23)]
+
+
+def test_around_an_edge_seed_wires_keep_their_direction() -> None:
+    table = Table()
+    session = table.session
+    for pick in (0, (2, 3), 21):
+        session.click(pick)
+    assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
+    session.drag(0)
+    assert table.lives["EDGES"].forks[0].seeded == ((3, 2), True), "the wire after it leaves over 3"
+    session.drag_to(1)
+    assert courses(session) == [(1, 2, 3), (3, 9, 15, 21)]
+    session.drag_cancel()
+    session.drag((3, 2))
+    session.drag_to((8, 9))
+    assert courses(session) == [(0, 1, 2, 8, 9), (9, 15, 21)], "the second leaves the edge where the first led over it"
+    assert session.drag_end()
+    assert session.wires[1].heading == (8, 9)
+    assert session.seeds() == [0, (8, 9), 21]
+
+
+def test_the_seed_of_the_live_wire_moves_with_its_wire() -> None:
+    table = corner()
+    session = table.session
+    session.drag(21)
+    session.drag_to(22)
+    session.drag_end()
+    assert courses(session)[-1] == (3, 4, 10, 16, 22)
+    assert session.seed == (16, 22)
+    assert table.lives["EDGES"].seeded == ((16, 22), True)
+    session.click(23)
+    assert courses(session)[-1] == (22, 23)
+
+
+def test_a_seed_without_wires_can_be_moved() -> None:
+    session = Table().session
+    session.click(0)
+    session.drag(0)
+    session.drag_to(7)
+    session.drag_end()
+    assert session.seed == 7
+    assert session.seeds() == [7]
+    session.undo()
+    assert session.seed == 0
+
+
+def test_the_first_seed_of_a_chain_can_be_moved_and_still_closes_it() -> None:
+    session = corner().session
+    session.drag(0)
+    session.drag_to(1)
+    session.drag_end()
+    assert session.closing_point == 1
+    session.close()
+    assert session.wires[-1].end == 1
+
+
+def test_a_seed_dragged_onto_another_one_becomes_one_with_it() -> None:
+    session = corner().session
+    session.start(30)
+    session.click(33)
+    session.end_chain()
+    session.drag(33)
+    session.drag_to(Snap(21, "SEED"))
+    session.drag_end()
+    assert session.seeds() == [0, 3, 21, 30]
+    assert session.wires[-1].vertices[-1] == 21
+    session.drag(21)
+    session.drag_to(22)
+    assert len(session.moved) == 2, "from then on they move together"
+
+
+def test_a_seed_dragged_onto_its_neighbour_takes_the_wire_between_away() -> None:
+    session = corner().session
+    session.drag(3)
+    session.drag_to(Snap(0, "SEED"))
+    session.drag_end()
+    assert courses(session) == [(0, 6, 12, 18, 19, 20, 21)]
+    assert session.seeds() == [0, 21]
+
+
+def test_an_only_wire_is_not_dragged_to_nothing() -> None:
+    session = Table().session
+    session.click(0)
+    session.click(3)
+    session.end_chain()
+    session.drag(3)
+    assert not session.drag_to(Snap(0, "SEED"))
+    assert "drop it instead" in session.message
+    assert courses(session) == [(0, 1, 2, 3)]
+    assert not session.drag_end()
+    assert courses(session) == [(0, 1, 2, 3)]
+    assert not session.dragging
+
+
+def test_a_seed_dragged_to_where_no_wire_leads_stays() -> None:
+    session = corner(islands=(35,)).session
+    session.drag(3)
+    session.drag_to(4)
+    assert not session.drag_to(35)
+    assert session.message == "No wire from vertex 0 reaches vertex 35"
+    session.drag_end()
+    assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
+
+
+def test_undo_during_a_drag_takes_back_the_drag_alone() -> None:
+    session = corner().session
+    session.drag(3)
+    session.drag_to(4)
+    assert session.can_undo
+    assert session.undo()
+    assert not session.dragging
+    assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
+    assert not session.can_redo
+
+
+def test_a_drag_that_is_not_computed_is_done_when_it_is() -> None:
+    table = corner(fork_ready=(False, False))
+    session = table.session
+    session.drag(3)
+    assert not session.drag_to(4)
+    assert session.computing
+    assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
+    assert session.drag_end()
+    assert session.dragging, "it waits"
+    table.compute()
+    assert not session.dragging
+    assert courses(session) == [(0, 1, 2, 3, 4), (4, 10, 16, 22, 21)]
+
+
+def test_dragging_a_wire_puts_a_seed_there_in_one_step() -> None:
+    session = corner().session
+    session.end_chain()
+    session.drag(Snap(2, "WIRE", session.wires[0]))
+    session.drag_to(8)
+    session.drag_end()
+    assert courses(session) == [(0, 1, 2, 8), (8, 2, 3), (3, 9, 15, 21)]
+    session.undo()
+    assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
+
+
+def test_there_must_be_a_seed_to_drag() -> None:
+    session = corner().session
+    assert not session.drag(20)
+    assert not session.drag_to(21)
+    assert not session.drag_end()
+    assert not session.drag_cancel()
+
+
+def test_surface_wires_follow_to_vertices_only() -> None:
+    session = Table("SURFACE").session
+    for pick in (0, 3, 21):
+        session.click(pick)
+    session.drag(3)
+    assert not session.drag_to((3, 4))
+    assert "vertices" in session.message
+    assert session.drag_to(4)
+    assert session.wires[1].points[0].tolist() == [4.0, 0.0, 0.0], "the curve runs from its start"
+    session.drag_end()
+    assert session.seeds() == [0, 4, 21]
+
+
+def test_while_a_seed_is_dragged_a_toggled_wire_stays_with_its_metric() -> None:
+    session = Table().session
+    session.click(0)
+    session.click(7)
+    session.toggle_kept(session.wires[0])
+    session.drag(7)
+    session.drag_to(8)
+    assert courses(session) == [(0, 6, 7, 8)]
+    assert session.wires[0].alternatives[0].vertices == (0, 1, 2, 8)

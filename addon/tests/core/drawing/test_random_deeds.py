@@ -1,0 +1,225 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A session stays sound whatever is done to it, and undo brings back where it began."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from fake_live import grid_edges, grid_points, grid_triangles
+from numpy.typing import NDArray
+from paper_mesh import PaperMesh
+from seamwire.core.drawing.session import CLAMP_PERCENTILE, STRENGTHS, Intent, Session
+from seamwire.core.network.network import Edge, Network, Pick, Snap
+from seamwire.core.storage.wire_labels import Plan
+
+core = pytest.importorskip("seamwire_core")
+
+SIZE = 12
+EDGES = grid_edges(SIZE)
+PAIRS = {tuple(sorted(pair)) for pair in EDGES.tolist()}
+
+
+def hills() -> NDArray[np.float64]:
+    points = grid_points(SIZE)
+    points[:, :2] -= (SIZE - 1) / 2
+    points[:, 2] = np.cos(points[:, 0]) * np.sin(points[:, 1])
+    return points
+
+
+class Monkey:
+    """Does things at random to a session on a grid."""
+
+    def __init__(self, seed: int) -> None:
+        self.dice = random.Random(seed)
+        self.points = hills()
+
+        def live(along: str) -> object:
+            mesh = self.points, grid_triangles(SIZE), EDGES
+            return core.LiveWire(
+                *mesh, along=along.lower(), max_anisotropy=STRENGTHS[along], clamp_percentile=CLAMP_PERCENTILE
+            )
+
+        self.session = Session(
+            live,
+            self.points,
+            edges=EDGES,
+            seams=[(40, 41), (41, 53)],
+            triangles=grid_triangles(SIZE),
+        )
+        self.mesh = PaperMesh(self.points, EDGES, triangles=grid_triangles(SIZE), seams={(40, 41), (41, 53)})
+        self.plain: set[Edge] = set(self.mesh.seams)
+        """What is to be a seam whether wires run along it or not."""
+        self.begun = Network()
+        """What the session goes back to when all is undone."""
+        self.saved = [(self.mesh.snapshot(), set(self.plain))]
+        session = self.session
+        self.deeds: list[Callable[[], object]] = [
+            *[lambda: session.click(self.snap())] * 6,
+            *[lambda: session.hover(self.snap(), loop=self.dice.random() < 0.3)] * 6,
+            *[lambda: session.loop(self.snap())] * 3,
+            *[self.stroke] * 3,
+            *[session.toggle, session.poll, session.undo] * 3,
+            *[session.redo, session.wait] * 2,
+            lambda: session.start(self.snap()),
+            lambda: session.drag(self.snap()),
+            lambda: session.drag_to(self.snap()),
+            session.drag_end,
+            session.drag_cancel,
+            lambda: session.line_begin(self.snap()),
+            *[self.line_on] * 3,
+            *[session.line_end] * 2,
+            session.line_cancel,
+            session.end_chain,
+            session.close,
+            lambda: session.run_to_end(preview=self.dice.random() < 0.5),
+            lambda: session.switch(self.dice.choice(["EDGES", "EDGES", "SURFACE"])),
+            lambda: session.change_strength(self.dice.choice([-1, 1])),
+            lambda: session.set_metric(self.dice.choice(["feature", "campen", "euclidean"])),
+            lambda: session.set_mirror(self.dice.choice([(), (0,), (0, 1)])),
+            session.toggle_marking,
+            self.with_wire(session.toggle_kept),
+            self.with_wire(session.drop),
+            self.with_wire(lambda wire: session.insert(wire, self.dice.choice(wire.vertices))),
+            self.erase,
+            *[self.store] * 2,
+            self.undo_in_mesh,
+        ]
+
+    def snap(self) -> Snap:
+        session, dice = self.session, self.dice
+        kind = dice.random()
+        if kind < 0.2 and session.seeds():
+            return Snap(dice.choice(session.seeds()), "SEED")
+        if kind < 0.4 and session.wires:
+            wire = dice.choice(session.wires)
+            return Snap(dice.choice([*wire.vertices, *wire.edges()]), "WIRE", wire)
+        pick: Pick = dice.randrange(SIZE**2)
+        return Snap(tuple(dice.choice(EDGES.tolist())) if dice.random() < 0.6 else pick)
+
+    def with_wire(self, deed: Callable[[object], object]) -> Callable[[], object]:
+        return lambda: deed(self.dice.choice(self.session.wires)) if self.session.wires else None
+
+    def stroke(self) -> None:
+        attracts = self.dice.random() < 0.7
+        if self.dice.random() < 0.3:
+            vertices = [self.dice.randrange(SIZE**2) for _ in range(self.dice.randrange(1, 5))]
+            self.session.scribble(vertices=vertices, attracts=attracts)
+            return
+        faces = [self.dice.randrange(2 * (SIZE - 1) ** 2) for _ in range(self.dice.randrange(1, 20))]
+        middles = self.points[grid_triangles(SIZE)[faces]].mean(axis=1)
+        self.session.scribble(middles, faces, attracts=attracts)
+
+    def line_on(self) -> None:
+        start, step = self.dice.randrange(2 * (SIZE - 1) ** 2), self.dice.choice([1, 2, 2 * (SIZE - 1)])
+        faces = np.arange(start, 2 * (SIZE - 1) ** 2, step, dtype=np.int32)[: self.dice.randrange(1, 20)]
+        middles = self.points[grid_triangles(SIZE)[faces]].mean(axis=1)
+        self.session.line_to(middles, faces, self.snap() if self.dice.random() < 0.5 else None)
+
+    def erase(self) -> None:
+        if self.session.scribbles:
+            self.session.erase(self.dice.choice(self.session.scribbles))
+
+    def store(self) -> None:
+        session, mesh = self.session, self.mesh
+        if session.dragging:
+            return
+        cleared = set(session.edges_to_clear())
+        self.plain -= cleared
+        for wire in session.wires:
+            if wire.marks and not cleared.isdisjoint(wire.edges()):
+                self.plain |= set(wire.claims()) - cleared
+        plan = mesh.write(session)
+        assert mesh.seams == self.plain | set(session.edges_to_mark())
+        again = mesh.write(session)
+        assert (again.mark, again.clear, again.labels) == ([], [], {}), "done once, it is done"
+        self.check_stored(plan)
+        if self.dice.random() < 0.3:
+            self.open()
+            self.saved.append((mesh.snapshot(), set(self.plain)))
+
+    def check_stored(self, plan: Plan) -> None:
+        """Whether a Blender that was just started finds in the mesh what there is."""
+        mesh, expected = self.mesh, plan.network
+        found = mesh.read()
+        assert found.known == plan.known
+        assert (found.broken, found.unknown) == (set(), 0)
+        assert looks(found.network) == looks(expected)
+        assert len(found.network.scribbles) == len(expected.scribbles)
+        marked = {edge for wire in found.network.wires for edge in wire.claims()}
+        assert mesh.plain_seams() == mesh.seams - marked
+        assert marked <= mesh.seams
+        assert self.plain | marked == mesh.seams
+
+    def open(self) -> None:
+        self.mesh.open(self.session, self.mesh.archive)
+        self.begun = self.session.network
+        assert not self.session.can_undo
+
+    def undo_in_mesh(self) -> None:
+        """Let Blender take back what was written, while no chain is drawn."""
+        if self.session.seed is not None or self.dice.random() < 0.5:
+            return
+        snapshot, plain = self.dice.choice(self.saved)
+        self.mesh.undo(snapshot)
+        self.plain = set(plain)
+        self.mesh.open(self.session, self.mesh.archive)
+        self.begun = self.session.network
+        assert self.mesh.found.unknown == 0
+        assert self.mesh.seams == self.plain | set(self.session.edges_to_mark())
+
+    def check(self) -> None:
+        session = self.session
+        assert set(session.edges_to_mark()).isdisjoint(session.edges_to_clear())
+        for wire in session.wires:
+            assert PAIRS.issuperset(wire.edges())
+            assert wire.leaves_trace
+            if wire.along == "EDGES":
+                around = [*wire.vertices, *wire.vertices[:1]] if wire.closed else list(wire.vertices)
+                assert np.array_equal(wire.points, self.points[around])
+        assert (session.loop_choice is None) == (session.loop_offers == ())
+        offers = session._loops.offers
+        assert len({frozenset(offer.edges()) for offer in offers}) == len(offers)
+        assert (session.intent is Intent.MOVE) == session.dragging
+
+
+def looks(network: Network) -> set[tuple[object, ...]]:
+    """Return what there is to be seen of wires; of several that are the same, one is."""
+    return {
+        (wire.along, wire.vertices, wire.closed, wire.follow, wire.mirror, frozenset(wire.images or ()))
+        for wire in network.wires
+    }
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_whatever_is_done_the_network_is_sound_and_undo_leads_back(seed: int) -> None:
+    monkey = Monkey(seed)
+    session = monkey.session
+    for _ in range(400):
+        monkey.dice.choice(monkey.deeds)()
+        monkey.check()
+    session.drag_cancel()
+    session.end_chain()
+    session.wait()
+    left = 1000
+    while session.can_undo and left:
+        session.undo()
+        left -= 1
+    assert left
+    assert looks(session.network) == looks(monkey.begun)
+    assert [one.id for one in session.scribbles] == [one.id for one in monkey.begun.scribbles]
+    for scribble in session.scribbles:
+        session.erase(scribble)
+    session.switch("EDGES")
+    session.set_metric("feature")
+    session.set_strength("EDGES", STRENGTHS["EDGES"])
+    session.start(0)
+    session.hover(SIZE**2 - 1)
+    session.wait()
+    fresh = Monkey(seed).session
+    fresh.start(0)
+    fresh.hover(SIZE**2 - 1)
+    fresh.wait()
+    assert session.active.vertices == fresh.active.vertices, "the strokes left no trace"

@@ -1,0 +1,236 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A session with the library's own live wires."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from fake_live import grid_edges
+from numpy.typing import NDArray
+from paper_mesh import PaperMesh
+from seamwire.core.drawing.session import CLAMP_PERCENTILE, STRENGTHS, Session
+from seamwire.core.network.network import Along, Snap
+
+core = pytest.importorskip("seamwire_core")
+
+SIZE = 21
+
+
+def ridge() -> NDArray[np.float64]:
+    """Return a grid with a ridge along y, over x = 0; vertex y * SIZE + x."""
+    x, y = np.meshgrid(np.linspace(-1.0, 1.0, SIZE), np.linspace(-1.0, 1.0, SIZE))
+    return np.stack([x.ravel(), y.ravel(), np.exp(-20.0 * x.ravel() ** 2)], axis=1)
+
+
+def triangles() -> NDArray[np.int32]:
+    numbers = np.arange(SIZE * SIZE).reshape(SIZE, SIZE)
+    a, b, c, d = numbers[:-1, :-1].ravel(), numbers[:-1, 1:].ravel(), numbers[1:, 1:].ravel(), numbers[1:, :-1].ravel()
+    return np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)]).astype(np.int32)
+
+
+def at(x: int, y: int) -> int:
+    """Return the vertex `x` and `y` steps from the middle."""
+    return (y + SIZE // 2) * SIZE + x + SIZE // 2
+
+
+def draw(along: Along = "EDGES", ready: bool = True) -> Session:
+    """Return a session on the ridge; not `ready`: its live wires build their surfaces themselves."""
+    points = ridge()
+
+    def make(way: Along) -> object:
+        mesh = points, triangles(), grid_edges(SIZE)
+        on = (core.Surface(*mesh),) if ready else mesh
+        return core.LiveWire(*on, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE)
+
+    return Session(make, points, along, edges=grid_edges(SIZE))
+
+
+def straight(x: int, y0: int, y1: int) -> tuple[int, ...]:
+    return tuple(at(x, y) for y in range(y0, y1 + 1))
+
+
+def click(session: Session, *picks: object) -> None:
+    for pick in picks:
+        session.click(pick)
+        session.wait()
+
+
+@pytest.mark.parametrize("ready", [False, True])
+def test_a_wire_along_the_ridge_is_kept(ready: bool) -> None:
+    session = draw(ready=ready)
+    session.click(at(0, -8))
+    session.click(at(0, 8))
+    session.wait()
+    assert [wire.vertices for wire in session.wires] == [straight(0, -8, 8)]
+
+
+def test_a_dragged_seed_leads_its_wires() -> None:
+    session = draw()
+    click(session, at(-6, -6), at(0, 0), at(6, 6))
+    before = session.edges_to_mark()
+    assert session.drag(at(0, 0))
+    session.drag_to(at(0, 2))
+    session.wait()
+    assert all(at(0, 2) in wire.vertices for wire in session.moved)
+    assert session.moved[0].vertices[-1] == session.moved[1].vertices[0] == at(0, 2)
+    assert session.drag_end()
+    session.wait()
+    assert session.seeds() == [at(-6, -6), at(0, 2), at(6, 6)]
+    assert session.wires[1].heading == session.wires[0].last_edge
+    for wire in session.wires:
+        assert len(set(wire.vertices)) == len(wire.vertices)
+    session.undo()
+    assert session.edges_to_mark() == before
+
+
+def test_a_wire_dragged_back_is_what_it_was() -> None:
+    session = draw()
+    click(session, at(0, -8), at(0, 0), at(0, 8))
+    before = [wire.vertices for wire in session.wires]
+    session.drag(at(0, 0))
+    for place in (at(1, 1), at(2, 0), at(0, 0)):
+        session.drag_to(place)
+        session.wait()
+    session.drag_end()
+    assert [wire.vertices for wire in session.wires] == before
+
+
+def test_an_edge_seed_is_passed_in_one_direction_wherever_it_is_dragged() -> None:
+    session = draw()
+    click(session, at(-8, 0), (at(0, 0), at(1, 0)), at(8, 0))
+    session.drag((at(0, 0), at(1, 0)))
+    for y in range(-4, 5):
+        for edge in ((at(0, y), at(1, y)), (at(1, y), at(0, y)), (at(0, y), at(0, y + 1))):
+            session.drag_to(edge)
+            session.wait()
+            one, two = session.wires
+            assert one.vertices[-1] == two.vertices[0]
+            assert set(one.last_edge) == set(edge)
+            assert not set(one.edges()) & set(two.edges())
+
+
+def test_a_seed_put_into_a_wire_and_moved_bends_it() -> None:
+    session = draw()
+    click(session, at(0, -8), at(0, 8))
+    session.drag(Snap(at(0, 0), "WIRE", session.wires[0]))
+    session.drag_to(at(5, 0))
+    session.wait()
+    session.drag_end()
+    assert session.seeds() == [at(0, -8), at(5, 0), at(0, 8)]
+    session.undo()
+    assert [wire.vertices for wire in session.wires] == [straight(0, -8, 8)]
+
+
+def test_across_the_surface_curves_follow_the_dragged_seed() -> None:
+    session = draw("SURFACE")
+    click(session, at(-6, -6), at(0, 0), at(6, 6))
+    session.drag(at(0, 0))
+    session.drag_to(at(2, -2))
+    session.wait()
+    session.drag_end()
+    first, second = session.wires
+    assert np.allclose(first.points[-1], ridge()[at(2, -2)])
+    assert np.allclose(second.points[0], ridge()[at(2, -2)])
+    assert np.allclose(second.points[-1], ridge()[at(6, 6)])
+
+
+def test_another_strength_is_computed_in_the_background() -> None:
+    session = draw()
+    click(session, at(-4, -8))
+    session.hover(at(-4, 8))
+    session.wait()
+    weak = session.active
+    session.change_strength(-20)
+    assert session.strength == 1.0
+    session.wait()
+    assert session.active.vertices == straight(-4, -8, 8), "without a pull the straight way is the shortest"
+    assert weak.vertices
+    session.set_metric("euclidean")
+    session.wait()
+    session.click(at(-4, 8))
+    assert session.wires[0].vertices == straight(-4, -8, 8)
+
+
+def test_a_wire_runs_on_over_the_ridge_to_the_boundary() -> None:
+    session = draw()
+    click(session, at(0, -8))
+    session.hover(at(0, -4))
+    session.wait()
+    assert session.run_to_end(preview=True)
+    assert session.end_preview.vertices == straight(0, -8, 10)
+    assert session.run_to_end()
+    assert session.wires[0].vertices == straight(0, -8, 10)
+
+
+def test_loops_are_found_in_the_background() -> None:
+    x = np.arange(24) * 2.0 * np.pi / 24
+    rings = [np.stack([np.cos(x), np.sin(x), np.full(24, z)], axis=1) for z in np.linspace(-2.0, 2.0, 17)]
+    points = np.concatenate(rings)
+    around = np.roll(np.arange(24), -1)
+    quads = np.concatenate(
+        [np.stack([np.arange(24), around, around + 24, np.arange(24) + 24], axis=1) + 24 * ring for ring in range(16)]
+    )
+    edges = np.unique(np.sort(np.concatenate([quads[:, [0, 1]], quads[:, [1, 2]], quads[:, [2, 3]]]), axis=1), axis=0)
+    surface = core.Surface(points, np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]), edges)
+    session = Session(lambda _: core.LiveWire(surface, along="edges"), points, edges=edges)
+    session.hover((24 * 8, 24 * 8 + 1), loop=True)
+    session.wait()
+    assert sorted(session.loop_preview.vertices) == list(range(24 * 8, 24 * 9))
+    session.hover(None)
+    assert not session.computing
+    session.loop((24 * 4, 24 * 4 + 1))
+    session.wait()
+    assert sorted(session.wires[0].vertices) == list(range(24 * 4, 24 * 5))
+    session.insert(session.wires[0], 24 * 4)
+    session.drag(24 * 4)
+    session.drag_to(24 * 6)
+    session.wait()
+    session.drag_end()
+    assert 24 * 6 in session.seeds()
+
+
+def test_mirrored_wires_lie_on_the_other_side_of_the_ridge() -> None:
+    session = draw()
+    assert 0 in session.symmetric_axes
+    session.set_mirror((0,))
+    click(session, at(3, -5), at(7, 5))
+    assert len(session.edges_to_mark()) == 2 * len(session.wires[0].edges())
+    session.start(at(0, -8))
+    session.wait()
+    click(session, at(0, 8))
+    assert session.mirrored(session.wires[1]) == []
+
+
+def test_wires_of_the_library_come_back_from_the_mesh_and_can_be_dragged() -> None:
+    session = draw()
+    mesh = PaperMesh(ridge(), grid_edges(SIZE))
+    click(session, at(0, -8), at(0, 8))
+    session.switch("SURFACE")
+    session.start(at(-6, -6))
+    click(session, at(7, -4))
+    mesh.write(session, adopt=True)
+    mesh.hide((at(0, 0), at(0, 1)))
+    again = draw()
+    mesh.open(again)
+    assert [wire.along for wire in again.wires] == ["SURFACE"], "the other one is not there while it is hidden"
+    assert again.wires[0].vertices == session.wires[1].vertices
+    assert np.allclose(again.wires[0].points, session.wires[1].points, atol=1e-5)
+    mesh.hidden.clear()
+    mesh.open(again)
+    assert sorted(wire.vertices for wire in again.wires) == sorted(wire.vertices for wire in session.wires)
+    assert again.drag(at(0, 8))
+    again.drag_to(at(2, 8))
+    again.wait()
+    assert again.drag_end()
+    assert at(2, 8) in again.seeds()
+    mesh.write(again)
+    assert mesh.seams == set(again.edges_to_mark())
+
+
+def test_a_seed_off_the_surface_is_refused_in_words() -> None:
+    session = draw()
+    assert not session.click(SIZE * SIZE)
+    assert str(SIZE * SIZE) in session.message
+    click(session, at(0, 0))
+    assert not session.click(SIZE * SIZE)
+    assert session.message

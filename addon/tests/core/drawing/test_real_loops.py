@@ -1,0 +1,425 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Loops, strips and strokes with the library's own live wires, on a cylinder, around poles, on triangles."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+from fake_live import grid_edges, grid_points, grid_triangles
+from numpy.typing import NDArray
+from paper_mesh import PaperMesh
+from seamwire.core.drawing.session import CLAMP_PERCENTILE, STRENGTHS, Session
+from seamwire.core.network.network import Along
+from seamwire.core.offers.edge_loops import corners
+
+core = pytest.importorskip("seamwire_core")
+
+AROUND = 16
+RINGS = 9
+"""Rings of the tube and of the ball; vertex ring * AROUND + i."""
+
+
+def session_on(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    edges: NDArray[np.int32] | None = None,
+    ready: bool = True,
+    **options: object,
+) -> Session:
+    surface = core.Surface(points, triangles, edges)
+
+    def make(way: Along) -> object:
+        on = (surface,) if ready else (points, triangles, edges)
+        return core.LiveWire(*on, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE)
+
+    return Session(make, points, edges=surface.edges if edges is None else edges, triangles=triangles, **options)
+
+
+def quads_between_rings() -> NDArray[np.int32]:
+    start = np.arange(AROUND)
+    after = np.roll(start, -1)
+    square = np.stack([start, after, after + AROUND, start + AROUND], axis=1)
+    return np.concatenate([square + ring * AROUND for ring in range(RINGS - 1)]).astype(np.int32)
+
+
+def halves(quads: NDArray[np.int32]) -> NDArray[np.int32]:
+    return np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+
+
+def sides(faces: NDArray[np.int32]) -> NDArray[np.int32]:
+    pairs = np.concatenate(
+        [np.stack([faces[:, i], np.roll(faces, -1, axis=1)[:, i]], axis=1) for i in range(faces.shape[1])]
+    )
+    return np.unique(np.sort(pairs, axis=1), axis=0)
+
+
+def circles(heights: NDArray[np.float64], radii: NDArray[np.float64]) -> NDArray[np.float64]:
+    angles = np.arange(AROUND) * 2.0 * np.pi / AROUND
+    return np.concatenate(
+        [
+            np.stack([r * np.cos(angles), r * np.sin(angles), np.full(AROUND, z)], axis=1)
+            for z, r in zip(heights, radii, strict=True)
+        ]
+    )
+
+
+def tube(**options: object) -> Session:
+    points = circles(np.linspace(-2.0, 2.0, RINGS), np.ones(RINGS))
+    quads = quads_between_rings()
+    return session_on(points, halves(quads), sides(quads), **options)
+
+
+def ball(**options: object) -> Session:
+    """Return a session on a sphere of RINGS rings and two poles."""
+    angles = np.linspace(0.0, np.pi, RINGS + 2)[1:-1]
+    points = np.vstack([circles(-np.cos(angles), np.sin(angles)), [0.0, 0.0, -1.0], [0.0, 0.0, 1.0]])
+    quads = quads_between_rings()
+    first = np.arange(AROUND)
+    low = np.stack([np.roll(first, -1), first, np.full(AROUND, AROUND * RINGS)], axis=1)
+    top = first + AROUND * (RINGS - 1)
+    high = np.stack([top, np.roll(top, -1), np.full(AROUND, AROUND * RINGS + 1)], axis=1)
+    caps = np.concatenate([low, high]).astype(np.int32)
+    edges = np.unique(np.concatenate([sides(quads), sides(caps)]), axis=0)
+    return session_on(points, np.concatenate([halves(quads), caps]), edges, **options)
+
+
+def meridian(at: int) -> list[int]:
+    return [ring * AROUND + at for ring in range(RINGS)]
+
+
+def hovered(session: Session, edge: tuple[int, int]) -> list[tuple[str, list[int]]]:
+    session.hover(edge, loop=True)
+    session.wait()
+    found = []
+    for _ in session.loop_offers:
+        found.append((session.loop_choice, sorted(session.loop_preview.vertices)))
+        session.toggle()
+    return found
+
+
+def test_around_a_tube_loop_and_strip_are_one() -> None:
+    ring = list(range(4 * AROUND, 5 * AROUND))
+    edge = (ring[0], ring[1])
+    session = tube()
+    assert hovered(session, edge) == [("CLOSED", ring)]
+    assert session.loop(edge)
+    assert session.wires[0].closed
+
+
+def test_along_a_limb_the_strip_comes_first_and_a_loop_with_corners_last() -> None:
+    session = tube()
+    kinds = [kind for kind, _ in hovered(session, (3 * AROUND + 2, 4 * AROUND + 2))]
+    assert kinds == ["STRIP", "FLAT", "FLAT", "CLOSED"], "the faces in a row on either side are flat"
+    session.loop((3 * AROUND + 2, 4 * AROUND + 2))
+    assert sorted(session.wires[0].vertices) == meridian(2)
+
+
+def test_corners_are_where_straight_ways_leave_a_loop() -> None:
+    session = tube()
+    live, points = session._engines.get("EDGES"), session._points
+    live.wait()
+    ring = list(range(4 * AROUND, 5 * AROUND))
+    assert corners(live, ring, points) == 0
+    assert corners(live, ring[::-1], points) == 0
+    low, high = 3 * AROUND, 5 * AROUND
+    box = [*range(low, low + 5), low + AROUND + 4, *range(high + 4, high - 1, -1), low + AROUND]
+    assert corners(live, box, points) == 4
+    face = [low, low + 1, low + AROUND + 1, low + AROUND]
+    assert corners(live, face, points) == 4
+    rim = [*range(5), *range(AROUND + 4, AROUND - 1, -1)]
+    assert corners(live, rim, points) == 2, "at the rim no way goes on straight across it"
+
+
+def test_where_three_edges_meet_a_loop_has_no_corner() -> None:
+    quads = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
+    quads = np.array(quads, dtype=np.int32)
+    square = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
+    points = np.concatenate([square, square + np.array([0.0, 0.0, 1.0])])
+    points += np.random.default_rng(1).normal(0.0, 0.1, points.shape)
+    session = session_on(points, halves(quads), sides(quads))
+    live = session._engines.get("EDGES")
+    live.wait()
+    assert [corners(live, quad[::turn].tolist(), points) for quad in quads for turn in (1, -1)] == [0] * 12
+
+
+def test_along_a_tube_the_strip_runs_from_rim_to_rim() -> None:
+    session = tube()
+    edge = (3 * AROUND + 2, 4 * AROUND + 2)
+    offers = dict(hovered(session, edge))
+    assert offers["STRIP"] == meridian(2)
+    session.wait()
+    assert not session.computing
+
+
+@pytest.mark.parametrize("ready", [False, True])
+def test_a_double_click_on_a_ball_takes_the_meridian_between_the_poles(ready: bool) -> None:
+    session = ball(ready=ready)
+    edge = (3 * AROUND + 2, 4 * AROUND + 2)
+    session.click(edge)
+    session.loop(edge)
+    session.wait()
+    (wire,) = session.wires
+    while wire.kind == "CLOSED":  # a great circle through both poles is a loop, where the metric says so
+        session.toggle_kept(wire)
+        (wire,) = session.wires
+    assert not wire.closed
+    assert sorted(wire.vertices) == [*meridian(2), AROUND * RINGS, AROUND * RINGS + 1]
+    assert {wire.start, wire.end} == {AROUND * RINGS, AROUND * RINGS + 1}
+    assert session.seed is None
+
+
+def test_strips_end_at_seams_of_the_mesh() -> None:
+    ring = [(4 * AROUND + i, 4 * AROUND + (i + 1) % AROUND) for i in range(AROUND)]
+    session = ball(seams=ring)
+    offers = dict(hovered(session, (2 * AROUND, 3 * AROUND)))
+    assert offers["STRIP"] == sorted([*meridian(0)[:5], AROUND * RINGS])
+    assert offers["WHOLE"] == sorted([*meridian(0), AROUND * RINGS, AROUND * RINGS + 1])
+
+
+def test_a_way_past_poles_goes_straight_on_there_up_to_seams() -> None:
+    ring = [(4 * AROUND + i, 4 * AROUND + (i + 1) % AROUND) for i in range(AROUND)]
+    offers = dict(hovered(ball(seams=ring), (2 * AROUND, 3 * AROUND)))
+    assert offers["PAST"] == sorted([*meridian(0)[:5], AROUND * RINGS, *meridian(AROUND // 2)[:5]])
+
+
+def test_a_way_past_poles_that_meets_no_seam_closes_around_the_ball() -> None:
+    session = ball()
+    session.hover((2 * AROUND, 3 * AROUND), loop=True)
+    session.wait()
+    great_circle = {*meridian(0), *meridian(AROUND // 2), AROUND * RINGS, AROUND * RINGS + 1}
+    shown = []
+    for _ in session.loop_offers:
+        shown.append((session.loop_preview.closed, set(session.loop_preview.vertices)))
+        session.toggle()
+    assert (True, great_circle) in shown
+
+
+def test_a_kept_ring_ends_the_next_strip() -> None:
+    session = ball()
+    session.loop((4 * AROUND, 4 * AROUND + 1))
+    session.wait()
+    assert session.wires[0].closed
+    offers = dict(hovered(session, (2 * AROUND, 3 * AROUND)))
+    assert offers["STRIP"] == sorted([*meridian(0)[:5], AROUND * RINGS])
+
+
+def test_on_a_sheet_the_strip_comes_before_the_way_around_a_face() -> None:
+    session = grid()
+    middle = SIZE // 2 * SIZE + SIZE // 2
+    assert [kind for kind, _ in hovered(session, (middle, middle + 1))] == ["STRIP", "CLOSED"]
+    session.loop((middle, middle + 1))
+    assert len(session.wires[0].vertices) == SIZE
+
+
+def test_a_ring_of_four_edges_around_a_limb_comes_first() -> None:
+    corners = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    points = np.concatenate([np.column_stack([corners, np.full(4, z)]) for z in np.arange(6.0)])
+    start = np.arange(4)
+    square = np.stack([start, np.roll(start, -1), np.roll(start, -1) + 4, start + 4], axis=1)
+    walls = np.concatenate([square + 4 * ring for ring in range(5)])
+    quads = np.concatenate([walls, [[3, 2, 1, 0], [20, 21, 22, 23]]]).astype(np.int32)
+    session = session_on(points, halves(quads), sides(quads))
+    assert hovered(session, (8, 9)) == [("CLOSED", [8, 9, 10, 11])]
+    assert hovered(session, (20, 21))[0] == ("CLOSED", [20, 21, 22, 23]), "around the end, where no strip runs"
+
+
+def test_on_triangles_strips_run_straight() -> None:
+    size = 9
+    points, triangles = grid_points(size), grid_triangles(size)
+    session = session_on(points, triangles, edges=None)
+    middle = size // 2 * size + size // 2
+    offers = dict(hovered(session, (middle, middle + 1)))
+    assert offers["STRIP"] == list(range(size // 2 * size, size // 2 * size + size))
+    diagonal = dict(hovered(session, (middle, middle + size + 1)))
+    assert diagonal["STRIP"] == [i * (size + 1) for i in range(size)]
+
+
+def test_the_strip_of_a_stored_network_can_be_moved() -> None:
+    session = tube()
+    edge = (3 * AROUND + 2, 4 * AROUND + 2)
+    hovered(session, edge)
+    while session.loop_choice != "STRIP":
+        session.toggle()
+    session.loop(edge)
+    points = session._points
+    mesh = PaperMesh(points, session._symmetry._edges)
+    mesh.write(session)
+    again = tube()
+    mesh.open(again)
+    assert again.drag(again.seeds()[0])
+    again.drag_to(4)
+    again.wait()
+    assert again.drag_end()
+    assert 4 in again.seeds()
+
+
+# Strokes
+
+SIZE = 31
+"""Side of the flat grid that strokes are drawn on, in vertices."""
+
+
+def grid(**options: object) -> Session:
+    return session_on(grid_points(SIZE), grid_triangles(SIZE), grid_edges(SIZE), **options)
+
+
+def faces_under(points: NDArray[np.float64]) -> NDArray[np.int32]:
+    cells = np.minimum(np.floor(points[:, :2]).astype(int), SIZE - 2)
+    above = (points[:, 1] - cells[:, 1]) > (points[:, 0] - cells[:, 0])
+    return (2 * (cells[:, 1] * (SIZE - 1) + cells[:, 0]) + above).astype(np.int32)
+
+
+def bow() -> NDArray[np.float64]:
+    """Return a half circle of radius 10 around the middle."""
+    angles = np.linspace(np.pi, 0.0, 80)
+    return np.column_stack([15.0 + 10.0 * np.cos(angles), 15.0 + 10.0 * np.sin(angles), np.zeros(80)])
+
+
+def gate() -> NDArray[np.float64]:
+    """Return a stroke up, across and down again along the grid's edges, from left to right of the middle."""
+    corners = [(5.0, 15.0), (5.0, 23.0), (25.0, 23.0), (25.0, 15.0)]
+    legs = [np.linspace(a, b, 40) for a, b in itertools.pairwise(corners)]
+    return np.column_stack([np.concatenate(legs) + np.array([0.01, 0.02]), np.zeros(120)])
+
+
+GATE = {(x, y) for x in (5, 25) for y in range(15, 24)} | {(x, 23) for x in range(5, 26)}
+LEFT, RIGHT = 15 * SIZE + 5, 15 * SIZE + 25
+
+
+def wire_between(session: Session, along: Along) -> NDArray[np.float64]:
+    session.switch(along)
+    session.start(LEFT)
+    session.hover(RIGHT)
+    session.wait()
+    points = session.active.points.copy()
+    session.end_chain()
+    return points
+
+
+@pytest.mark.parametrize("ready", [False, True])
+def test_a_wire_follows_a_stroke_and_is_what_it_was_without(ready: bool) -> None:
+    session = grid(ready=ready)
+    before = wire_between(session, "SURFACE")
+    assert np.abs(before[:, 1] - 15.0).max() < 1e-6
+    assert session.scribble(bow(), faces_under(bow()))
+    followed = wire_between(session, "SURFACE")
+    # Away from the ends, where the wire has found the stroke, within half an edge of the circle.
+    inner = np.abs(followed[:, 0] - 15.0) < 8.0
+    assert np.abs(np.hypot(*(followed[inner, :2] - 15.0).T) - 10.0).max() < 0.5
+    assert session.undo()
+    after = wire_between(session, "SURFACE")
+    assert np.array_equal(after, before)
+
+
+@pytest.mark.parametrize("ready", [False, True])
+def test_along_edges_a_wire_follows_a_stroke_that_edges_can_follow(ready: bool) -> None:
+    session = grid(ready=ready)
+    session.scribble(gate(), faces_under(gate()))
+    assert set(map(tuple, wire_between(session, "EDGES")[:, :2])) == GATE
+
+
+def test_along_edges_a_wire_follows_a_stroke_that_runs_askew_to_them() -> None:
+    session = grid()
+    session.scribble(bow(), faces_under(bow()))
+    wire = wire_between(session, "EDGES")
+    gaps = np.linalg.norm(wire[:, None] - bow()[None], axis=2)
+    assert gaps.min(axis=1).max() < 1.0, "there is a vertex within .71 of an edge everywhere"
+    assert gaps.min(axis=0).max() < 1.0, "from end to end"
+
+
+def test_a_repelled_line_is_not_followed() -> None:
+    session = grid()
+    straight = np.column_stack([np.linspace(3.0, 27.0, 60), np.full(60, 15.2), np.zeros(60)])
+    assert session.scribble(straight, faces_under(straight), attracts=False)
+    wire = wire_between(session, "SURFACE")
+    assert np.abs(wire[:, 1] - 15.0).max() > 1.5
+
+
+def test_the_live_wire_follows_a_stroke_while_it_is_live() -> None:
+    session = grid()
+    session.click(LEFT)
+    session.hover(RIGHT)
+    session.wait()
+    session.scribble(gate(), faces_under(gate()))
+    session.wait()
+    assert set(map(tuple, session.active.points[:, :2])) == GATE
+    session.undo()
+    session.wait()
+    assert session.active.points[:, 1].max() == 15.0
+
+
+def test_strokes_reach_wires_whose_seeds_are_moved() -> None:
+    session = grid()
+    session.click(LEFT)
+    session.click(RIGHT - 4)
+    session.wait()
+    session.end_chain()
+    session.scribble(gate(), faces_under(gate()))
+    assert session.wires[0].points[:, 1].max() == 15.0, "a kept wire stays"
+    session.drag(RIGHT - 4)
+    session.drag_to(RIGHT)
+    session.wait()
+    session.drag_end()
+    session.wait()
+    assert set(map(tuple, session.wires[0].points[:, :2])) == GATE
+
+
+def test_a_stored_stroke_draws_the_same_wire() -> None:
+    session = grid()
+    session.scribble(bow(), faces_under(bow()))
+    before = wire_between(session, "EDGES")
+    mesh = PaperMesh(grid_points(SIZE), grid_edges(SIZE), triangles=grid_triangles(SIZE))
+    mesh.write(session)
+    again = grid()
+    mesh.open(again)
+    assert np.array_equal(wire_between(again, "EDGES"), before)
+
+
+@pytest.mark.parametrize(
+    "points",
+    [
+        np.repeat(bow(), 130, axis=0)[:10_000] + np.array([1e-3, 0.0, 0.0]) * np.sin(np.arange(10_000))[:, None],
+        np.vstack([bow(), bow()[::-1]]),
+        np.vstack([bow(), bow()[:, [1, 0, 2]]]),
+        np.array([[0.0, 0.0, 0.0], [30.0, 30.0, 0.0]]),
+        np.array([[0.0, 0.1, 0.0], [30.0, 0.1, 0.0], [30.0, 30.0, 0.0], [0.0, 0.1, 0.0]]),
+    ],
+    ids=[
+        "ten thousand points",
+        "there and back",
+        "crossing itself",
+        "two points far apart",
+        "closed along the boundary",
+    ],
+)
+def test_any_stroke_on_the_mesh_leaves_wires_that_can_be_drawn(points: NDArray[np.float64]) -> None:
+    session = grid()
+    assert session.scribble(points, faces_under(points))
+    for along in ("EDGES", "SURFACE"):
+        assert len(wire_between(session, along)) > 2
+    assert session.message == ""
+
+
+@pytest.mark.parametrize("ready", [False, True])
+def test_what_the_library_refuses_is_said_and_undone_without_a_loss(ready: bool) -> None:
+    def off_mesh(scribble: object) -> object:
+        return core.Scribble(scribble.points + np.array([0.0, 0.0, 40.0]), faces=scribble.faces)
+
+    session = grid(ready=ready, make_scribble=off_mesh)
+    session.click(LEFT)
+    session.click(RIGHT)
+    session.wait()
+    session.hover(LEFT + 3 * SIZE)
+    session.scribble(gate(), faces_under(gate()))
+    session.wait()
+    assert "off the mesh" in session.message
+    assert not session.computing
+    assert not session.click(LEFT + 3 * SIZE)
+    assert len(session.wires) == 1
+    assert session.undo()
+    session.wait()
+    assert session.message == ""
+    assert session.active is not None
+    assert session.click(LEFT + 3 * SIZE)

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Closed cuts across the surface with the library's own live wires, around a limb with a waist."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from seamwire.core.drawing.session import CLAMP_PERCENTILE, STRENGTHS, Session
+from seamwire.core.network.network import Along, Edge, FacePoint, Snap
+from seamwire.core.offers.surface_loops import SurfaceLoops
+
+core = pytest.importorskip("seamwire_core")
+
+AROUND, ROWS = 24, 41
+WAIST = 20 * AROUND
+"""A vertex of the waist, in the middle of the rows; the last two vertices are the tips."""
+
+
+@pytest.fixture
+def triangles() -> NDArray[np.int32]:
+    i, j = np.meshgrid(np.arange(AROUND), np.arange(ROWS - 1))
+    a, b = (j * AROUND + i).ravel(), (j * AROUND + (i + 1) % AROUND).ravel()
+    ends, last = np.arange(AROUND), (ROWS - 1) * AROUND
+    after = np.roll(ends, -1)
+    tips = AROUND * ROWS + np.repeat([[0], [1]], AROUND, axis=1)
+    return np.concatenate(
+        [
+            np.stack([a, b, b + AROUND], axis=1),
+            np.stack([a, b + AROUND, a + AROUND], axis=1),
+            np.stack([tips[0], after, ends], axis=1),
+            np.stack([tips[1], last + ends, last + after], axis=1),
+        ]
+    ).astype(np.int32)
+
+
+@pytest.fixture
+def session(triangles: NDArray[np.int32]) -> Session:
+    along = np.linspace(-1.0, 1.0, ROWS)
+    radius = 0.3 - 0.1 * np.exp(-((along / 0.25) ** 2))
+    angle = 2.0 * np.pi * np.arange(AROUND) / AROUND
+    rows = [np.outer(radius, np.cos(angle)), np.outer(radius, np.sin(angle)), np.repeat(along[:, None], AROUND, axis=1)]
+    points = np.concatenate([np.stack(rows, axis=-1).reshape(-1, 3), [[0.0, 0.0, -1.15], [0.0, 0.0, 1.15]]])
+    surface = core.Surface(points, triangles)
+
+    def make(way: Along) -> object:
+        return core.LiveWire(
+            surface, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE
+        )
+
+    return Session(make, points, "SURFACE", edges=surface.edges, triangles=triangles)
+
+
+def is_closed(edges: list[Edge]) -> bool:
+    return bool(edges) and set(Counter(vertex for edge in edges for vertex in edge).values()) == {2}
+
+
+def islands(session: Session, triangles: NDArray[np.int32]) -> int:
+    cuts = np.array(session.edges_to_mark(), dtype=np.int32)
+    surface = core.Surface(session._points, triangles)
+    return len(np.unique(core.face_segments(surface, cuts)))
+
+
+def test_one_click_cuts_the_limb_in_two(session: Session, triangles: NDArray[np.int32]) -> None:
+    session.hover(WAIST, loop=True)
+    session.wait()
+    assert session.loop_offers[0] == "ACROSS"
+    preview = session.loop_preview
+    assert np.abs(preview.points[:, 2]).max() < 0.06
+    assert session.click(WAIST)
+    assert session.edges_to_mark() == sorted(preview.edges())
+    assert is_closed(session.edges_to_mark())
+    assert islands(session, triangles) == 2
+    assert len(session.seeds()) == 3
+
+
+@pytest.mark.parametrize("vertex", range(4 * AROUND, 36 * AROUND, 3 * AROUND + 7))
+def test_wherever_the_limb_is_clicked_it_falls_in_two(
+    session: Session, triangles: NDArray[np.int32], vertex: int
+) -> None:
+    assert session.loop(vertex)
+    session.wait()
+    assert islands(session, triangles) == 2
+
+
+def test_a_click_within_a_face_does_so_too(session: Session, triangles: NDArray[np.int32]) -> None:
+    triangle = 2 * AROUND * 10 + 3
+    place = FacePoint(triangle, tuple(triangles[triangle].tolist()), (0.2, 0.3, 0.5))
+    assert session.loop(place)
+    session.wait()
+    assert session.wires[0].start == session.wires[-1].end == place
+    assert islands(session, triangles) == 2
+
+
+def test_its_seeds_can_be_dragged(session: Session, triangles: NDArray[np.int32]) -> None:
+    session.loop(WAIST)
+    session.wait()
+    assert session.drag(Snap(WAIST, "SEED"))
+    to = WAIST + 3 * AROUND
+    session.drag_to(to)
+    session.drag_end()
+    session.wait()
+    assert to in session.seeds()
+    assert WAIST not in session.seeds()
+    assert islands(session, triangles) == 2
+
+
+def test_from_a_tip_nothing_is_suggested(session: Session) -> None:
+    tip = AROUND * ROWS
+    session.hover(tip, loop=True)
+    session.wait()
+    assert session.message == SurfaceLoops.NONE
+
+
+def test_bent_to_a_second_point_it_parts_the_limb_all_the_same(session: Session, triangles: NDArray[np.int32]) -> None:
+    session.loop(WAIST)
+    session.wait()
+    for second in (WAIST + 5 * AROUND + 12, WAIST - 4 * AROUND + 7):
+        assert session.bend(second)
+        session.wait()
+        assert session.wires[0].start == session.wires[-1].end == WAIST
+        assert second in session.seeds()
+        assert len(session.wires) == 4
+        assert islands(session, triangles) == 2
+    assert session.undo()
+    assert session.undo()
+    assert session.undo()
+    assert session.wires == ()
+
+
+def test_a_bent_cut_is_dragged_by_its_second_point(session: Session, triangles: NDArray[np.int32]) -> None:
+    second, to = WAIST + 3 * AROUND + 12, WAIST + 5 * AROUND + 12
+    session.loop(WAIST)
+    session.wait()
+    session.bend(second)
+    session.wait()
+    assert session.drag(Snap(second, "SEED"))
+    session.drag_to(to)
+    session.drag_end()
+    session.wait()
+    assert to in session.seeds()
+    assert islands(session, triangles) == 2
+
+
+def test_w_on_a_piece_of_a_cut_takes_its_other_paths_between_the_same_seeds(
+    session: Session, triangles: NDArray[np.int32]
+) -> None:
+    session.loop(WAIST)
+    session.wait()
+    session.bend(WAIST + 4 * AROUND + 12)
+    session.wait()
+    before = session.wires
+    paths = set()
+    for _ in range(4):
+        session.toggle_kept(session.wires[1])
+        session.wait()
+        paths.add(session.wires[1].vertices)
+        ends = [(wire.start, wire.end) for wire in session.wires]
+        assert ends == [(wire.start, wire.end) for wire in before], "seeds stay"
+        assert islands(session, triangles) == 2
+    assert session.wires[0] is before[0], "the other pieces stay"
+    while session.wires[1] is not before[1]:
+        assert session.undo()
+
+
+def test_x_on_a_piece_of_a_cut_removes_that_piece(session: Session) -> None:
+    session.loop(WAIST)
+    session.wait()
+    session.bend(WAIST + 4 * AROUND + 12)
+    session.wait()
+    session.drop(session.wires[1])
+    assert len(session.wires) == 3
+    assert not is_closed(session.edges_to_mark())
+    assert session.undo()
+    assert is_closed(session.edges_to_mark())

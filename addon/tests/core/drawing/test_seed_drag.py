@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A seed that is dragged, and the wires that follow it."""
+
+from __future__ import annotations
+
+import pytest
+from grid import POINTS, Grid, wire
+from seamwire.core.drawing.seed_drag import SeedDrag
+from seamwire.core.network.network import Network, Snap
+
+CORNER = wire(0, 1, 7)
+
+
+def test_a_dragged_seed_takes_its_wires_along_once_they_are_computed() -> None:
+    grid = Grid(fork_ready=(False, False))
+    drag = SeedDrag(grid.engines, Network((CORNER,)), 7, POINTS)
+    assert not drag.to(Snap(2))
+    assert not drag.final
+    assert not drag.poll()
+    drag.lives()[0].wait()
+    assert drag.poll()
+    assert [one.vertices for one in drag.moved] == [(0, 1, 2)]
+    assert not drag.poll(), "nothing new"
+
+
+def test_only_a_seed_is_dragged() -> None:
+    with pytest.raises(ValueError, match="There is no seed to move at vertex 3"):
+        SeedDrag(Grid().engines, Network((CORNER,)), 3, POINTS)

@@ -1,0 +1,456 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a drawing session does, without Blender and without the library."""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import pkgutil
+
+import pytest
+from blender_refusal import BlenderRefusal
+from seamwire import core
+from table import Table
+
+
+@pytest.mark.parametrize("name", [module.name for module in pkgutil.walk_packages(core.__path__, "seamwire.core.")])
+def test_no_module_asks_for_blender(name: str, blender_refusal: BlenderRefusal) -> None:
+    # What functions ask for when they are called is noticed in all other tests, too.
+    importlib.import_module(name)
+    assert blender_refusal.asked == []
+
+
+def test_who_asks_for_blender_is_noticed_even_if_that_may_fail(blender_refusal: BlenderRefusal) -> None:
+    with contextlib.suppress(ImportError):
+        importlib.import_module("bpy.types")
+    assert blender_refusal.asked == ["bpy"]
+    blender_refusal.asked.clear()
+
+
+def test_a_click_without_a_seed_places_one() -> None:
+    session = Table().session
+    assert session.click(0)
+    assert session.seed == 0
+    assert session.seeds() == [0]
+    assert session.wires == ()
+
+
+def test_hovering_shows_both_wires_and_the_shorter_is_active() -> None:
+    session = Table(shorter=1).session
+    session.click(0)
+    session.hover(7)
+    assert session.active.vertices == (0, 6, 7)
+    assert session.others[0].vertices == (0, 1, 7)
+
+
+def test_a_click_does_not_wait_for_wires_that_do_not_lead() -> None:
+    table = Table(ready=(False, False, True))
+    session = table.session
+    session.click(0)
+    session.click(14)
+    assert session.waiting_clicks == 0
+    assert session.wires[0].follow == 2
+    assert session.wires[0].alternatives == (), "they are found when they are asked for"
+
+
+def test_a_stroke_is_for_the_wire_that_leads_and_another_metrics_wires_are_others() -> None:
+    table = Table(ready=(True, True, True))
+    session = table.session
+    session.click(0)
+    session.hover(14)
+    session.scribble(vertices=(1, 2, 3))
+    assert session.scribbles[-1].acts_on == "concave"
+    assert session.active.follow == 2
+    table.lives["EDGES"].metric_ready = (True, True)
+    session.hover(None)
+    session.set_metric("campen")
+    session.scribble(vertices=(1, 2, 3))
+    assert session.scribbles[-1].acts_on == "min"
+
+
+def test_toggling_makes_the_other_active_until_a_wire_is_kept() -> None:
+    session = Table().session
+    session.click(0)
+    session.hover(7)
+    assert session.toggle()
+    assert session.active.vertices == (0, 6, 7)
+    session.hover(8)
+    assert session.active.vertices == (0, 6, 7, 8), "the choice holds while the cursor moves"
+    assert session.toggle()
+    assert session.active.vertices == (0, 1, 2, 8)
+    session.toggle()
+    session.click(8)
+    assert session.wires[0].vertices == (0, 6, 7, 8)
+    session.hover(15)
+    assert session.active.vertices == (8, 9, 15), "the next wire is the shorter one again"
+
+
+def test_a_kept_wire_says_what_wires_lead_around() -> None:
+    table = Table(along="SURFACE", holes=(0, 2))
+    table.session.click(0)
+    table.session.hover(7)
+    table.session.click(7)
+    assert table.session.message.startswith("2 triangles could not be made valid")
+
+
+def test_where_both_wires_agree_there_is_nothing_to_toggle() -> None:
+    session = Table().session
+    session.click(0)
+    session.hover(3)
+    assert not session.others
+    assert not session.toggle()
+    assert "same edges" in session.message
+
+
+def test_a_click_keeps_the_active_wire_and_goes_on_along_its_last_edge() -> None:
+    table = Table()
+    session = table.session
+    session.click(0)
+    session.click(8)
+    assert [wire.vertices for wire in session.wires] == [(0, 1, 2, 8)]
+    assert table.lives["EDGES"].seeded == ((2, 8), True)
+    session.click(20)
+    assert session.wires[1].vertices == (8, 14, 20), "the edge before the seed is the first wire's"
+    assert session.edges_to_mark() == [(0, 1), (1, 2), (2, 8), (8, 14), (14, 20)]
+    assert session.seeds() == [0, 8, 20]
+
+
+def test_picked_edges_are_part_of_the_wire_and_shown_as_its_seeds() -> None:
+    session = Table().session
+    session.click((0, 1))
+    session.click((3, 4))
+    assert session.edges_to_mark() == [(0, 1), (1, 2), (2, 3), (3, 4)]
+    assert session.seeds() == [(0, 1), (3, 4)]
+
+
+def test_clicking_the_seed_again_keeps_nothing() -> None:
+    session = Table().session
+    session.click(0)
+    assert not session.click(0)
+    assert session.wires == ()
+    session.click(3)
+    assert not session.click(3)
+    assert len(session.wires) == 1
+    assert "somewhere else" in session.message
+
+
+def test_clicking_the_seeds_own_edge_again_keeps_nothing() -> None:
+    session = Table().session
+    session.click((0, 1))
+    assert not session.click((1, 0))
+    session.click((3, 4))
+    assert not session.click((3, 4))
+    assert not session.click(4), "the wire's end"
+    assert len(session.wires) == 1
+
+
+def test_ending_a_chain_leaves_the_kept_wires_and_no_live_one() -> None:
+    session = Table().session
+    session.click(0)
+    session.click(3)
+    session.hover(9)
+    session.end_chain()
+    assert session.seed is None
+    assert session.active is None
+    assert len(session.wires) == 1
+    session.click(30)
+    assert session.seed == 30
+    assert len(session.wires) == 1, "the click began a new chain"
+
+
+def test_starting_a_chain_lets_go_of_the_live_wire() -> None:
+    session = Table().session
+    session.click(0)
+    session.click(3)
+    session.start(20)
+    session.click(22)
+    assert [wire.vertices for wire in session.wires] == [(0, 1, 2, 3), (20, 21, 22)]
+
+
+def test_undo_takes_back_wires_then_seeds_and_redo_brings_them_again() -> None:
+    session = Table().session
+    session.click(0)
+    session.click(2)
+    session.click(4)
+    assert session.undo()
+    assert [wire.end for wire in session.wires] == [2]
+    session.hover(10)
+    assert session.active.vertices == (2, 3, 4, 10), "the live wire begins where the lost one did"
+    assert session.undo()
+    assert session.wires == ()
+    assert session.seed == 0
+    assert session.undo()
+    assert session.seed is None
+    assert not session.can_undo
+    assert not session.undo()
+    assert session.redo()
+    assert session.redo()
+    assert session.redo()
+    assert [wire.end for wire in session.wires] == [2, 4]
+    assert not session.redo()
+
+
+def test_undo_after_the_end_of_a_chain_takes_its_last_wire() -> None:
+    session = Table().session
+    session.click(0)
+    session.click(2)
+    session.end_chain()
+    assert session.undo()
+    assert session.wires == ()
+    assert session.seed == 0
+
+
+def test_undo_skips_a_seed_that_was_let_go() -> None:
+    session = Table().session
+    session.click(0)
+    session.click(2)
+    session.end_chain()
+    session.click(20)
+    session.end_chain()
+    session.undo()
+    assert session.wires == ()
+
+
+def test_a_new_wire_forgets_what_redo_would_bring() -> None:
+    session = Table().session
+    session.click(0)
+    session.click(2)
+    session.undo()
+    session.click(3)
+    assert not session.can_redo
+
+
+def test_a_loop_is_kept_beside_the_chain() -> None:
+    session = Table().session
+    session.click(0)
+    assert session.loop((14, 15))
+    assert session.wires[0].closed
+    assert session.wires[0].edges() == [(14, 15), (15, 21), (21, 27), (26, 27), (20, 26), (14, 20)]
+    assert session.seed == 0
+    assert session.seeds() == [0]
+    assert (session.wires[0].points[0] == session.wires[0].points[-1]).all()
+
+
+def test_a_double_click_takes_back_the_click_it_began_with() -> None:
+    session = Table().session
+    session.click(0)
+    session.click(2)
+    session.click((14, 15))  # the first press of the two
+    assert len(session.wires) == 2
+    session.loop((14, 15))
+    assert [wire.closed for wire in session.wires] == [False, True]
+    assert session.seed == (1, 2), "the chain goes on from where it was"
+    assert session.undo()
+    assert [wire.closed for wire in session.wires] == [False]
+
+
+def test_a_double_click_where_nothing_was_seeded_leaves_no_seed() -> None:
+    session = Table().session
+    session.click((14, 15))
+    session.loop((14, 15))
+    assert session.seed is None
+    assert session.seeds() == []
+
+
+def test_a_double_click_may_find_its_edge_the_other_way_round() -> None:
+    session = Table().session
+    session.click((15, 14))
+    session.loop((14, 15))  # by now a seed is under the cursor
+    assert session.seed is None
+    assert session.loop((15, 14))
+    assert len(session.wires) == 1
+
+
+def test_the_same_loop_is_not_taken_twice_in_a_row() -> None:
+    session = Table().session
+    session.loop((14, 15))
+    assert session.loop((14, 15))
+    assert len(session.wires) == 1
+
+
+def test_the_loop_is_shown_only_while_asked_for() -> None:
+    session = Table().session
+    session.hover((14, 15), loop=True)
+    assert session.loop_preview.closed
+    session.hover((15, 16), loop=True)
+    assert session.loop_preview.start == (15, 16)
+    session.hover((15, 16))
+    assert session.loop_preview is None
+    session.hover(15, loop=True)
+    assert session.loop_preview is None, "a vertex has no loop"
+
+
+def test_across_the_surface_picks_are_vertices() -> None:
+    table = Table("SURFACE")
+    session = table.session
+    assert not session.click((0, 1))
+    assert "vertices" in session.message
+    session.click(0)
+    session.click(8)
+    assert table.lives["SURFACE"].seeded == (8, False)
+    assert session.wires[0].along == "SURFACE"
+    assert len(session.wires[0].points) == 4
+
+
+def test_switching_goes_on_from_the_same_seed_the_other_way() -> None:
+    table = Table()
+    session = table.session
+    session.click((0, 1))
+    session.click((3, 4))
+    assert session.switch("SURFACE")
+    assert table.lives["SURFACE"].seeded == (4, False)
+    assert session.seed == 4
+    session.click(16)
+    assert session.switch("EDGES")
+    assert table.lives["EDGES"].seeded == (16, False)
+    assert [wire.along for wire in session.wires] == ["EDGES", "SURFACE"]
+
+
+def test_switching_forth_and_back_keeps_the_direction() -> None:
+    table = Table()
+    session = table.session
+    session.click(0)
+    session.click(2)
+    session.switch("SURFACE")
+    session.switch("EDGES")
+    assert table.lives["EDGES"].seeded == ((1, 2), True)
+
+
+def test_a_wire_that_is_not_computed_is_not_shown_and_then_is() -> None:
+    table = Table(ready=(False, False))
+    session = table.session
+    session.click(0)
+    session.hover(7)
+    assert session.active is None
+    assert session.computing
+    table.lives["EDGES"].ready = (False, True)
+    assert session.poll()
+    assert session.active.vertices == (0, 6, 7), "the one there is, though it may be the longer"
+    table.lives["EDGES"].ready = (True, True)
+    session.poll()
+    assert session.active.vertices == (0, 1, 7)
+    assert not session.computing
+    assert not session.poll(), "nothing is new"
+
+
+def test_waiting_shows_nothing_new_until_there_is_a_wire() -> None:
+    table = Table(ready=(False, False))
+    session = table.session
+    session.click(0)
+    session.hover(7)
+    before = session.revision
+    for _ in range(5):
+        session.poll()
+    assert session.revision == before
+    session.click(7)
+    before = session.revision
+    for _ in range(5):
+        session.poll()
+    assert session.revision == before
+    table.lives["EDGES"].ready = (True, True)
+    session.poll()
+    assert session.revision > before
+
+
+def test_clicks_wait_for_their_wires_in_order() -> None:
+    table = Table(ready=(False, False))
+    session = table.session
+    for pick in (0, 2, 14):
+        session.click(pick)
+    assert session.wires == ()
+    assert session.waiting_clicks == 2
+    session.hover(30)
+    assert session.target.pick == 2, "what is shown is what the first of them asks for"
+    table.lives["EDGES"].ready = (True, True)
+    session.poll()
+    assert [wire.vertices for wire in session.wires] == [(0, 1, 2), (2, 8, 14)]
+    assert session.waiting_clicks == 0
+
+
+def test_a_click_before_anything_is_seen_waits_until_it_is_known_which_wire_is_shorter() -> None:
+    table = Table(ready=(False, False))
+    session = table.session
+    session.click(0)
+    session.click(7)
+    table.lives["EDGES"].ready = (False, True)
+    session.poll()
+    assert session.wires == ()
+    table.lives["EDGES"].ready = (True, True)
+    session.poll()
+    assert [wire.vertices for wire in session.wires] == [(0, 1, 7)]
+
+
+def test_a_click_keeps_the_wire_that_is_seen_though_the_other_one_is_not_computed() -> None:
+    table = Table(ready=(False, True))
+    session = table.session
+    session.click(0)
+    session.hover(7)
+    session.click(7)
+    assert [wire.vertices for wire in session.wires] == [(0, 6, 7)]
+
+
+def test_undo_takes_back_waiting_clicks_first() -> None:
+    table = Table(ready=(False, False))
+    session = table.session
+    session.click(0)
+    session.click(2)
+    session.undo()
+    assert session.waiting_clicks == 0
+    assert session.seed == 0
+
+
+def test_a_loop_waits_for_the_metric() -> None:
+    table = Table(ready=(False, False))
+    session = table.session
+    session.click((14, 15))
+    session.loop((14, 15))
+    assert session.wires == ()
+    table.lives["EDGES"].ready = (True, True)
+    session.poll()
+    assert [wire.closed for wire in session.wires] == [True]
+    assert session.seed is None
+
+
+def test_what_no_wire_reaches_is_said() -> None:
+    session = Table(islands=(35,)).session
+    session.click(0)
+    assert not session.click(35)
+    assert session.message == "No wire reaches vertex 35"
+    assert session.seed == 0
+    session.hover(3)
+    assert session.message == ""
+
+
+def test_a_refused_seed_leaves_the_one_before() -> None:
+    table = Table()
+    session = table.session
+    session.click(0)
+    assert not session.start(99)
+    assert "99" in session.message
+    assert table.lives["EDGES"].seeded == (0, False)
+    session.click(2)
+    assert session.wires[0].vertices == (0, 1, 2)
+
+
+def test_every_change_of_what_is_seen_counts_the_revision_up() -> None:
+    session = Table().session
+    actions = [
+        lambda: session.click(0),
+        lambda: session.hover(7),
+        session.toggle,
+        lambda: session.click(7),
+        lambda: session.loop((14, 15)),
+        lambda: session.hover((14, 15), loop=True),
+        session.undo,
+        session.redo,
+        lambda: session.switch("SURFACE"),
+        session.end_chain,
+    ]
+    for action in actions:
+        before = session.revision
+        action()
+        assert session.revision > before
+    before = session.revision
+    session.hover(None)
+    session.hover(None)
+    assert session.revision <= before + 1

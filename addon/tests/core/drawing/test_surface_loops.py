@@ -1,0 +1,404 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Closed cuts across the surface: what one click on a point offers."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from fake_live import FakeCuts, FakeLive, grid_edges
+from seamwire.core.drawing.session import Intent, Session
+from seamwire.core.network.network import FacePoint
+from seamwire.core.offers.surface_loops import NOTHING_TO_BEND, SurfaceLoops
+from table import SIZE, Table, chain
+
+RIGHT = (8, 9, 10, 16, 22, 21, 20, 14)
+LEFT = (8, 7, 6, 12, 18, 19, 20, 14)
+"""The squares through vertex 8."""
+
+
+def table(**options: object) -> Table:
+    return Table("SURFACE", **options)
+
+
+def edges(*ring: int) -> list[tuple[int, int]]:
+    return chain(*ring, ring[0])
+
+
+def test_the_best_cut_is_shown_and_toggling_goes_through_the_others() -> None:
+    session = table().session
+    session.hover(8, loop=True)
+    assert session.loop_offers == ("ACROSS", "HANDLE")
+    preview = session.loop_preview
+    assert preview.vertices == RIGHT
+    assert preview.closed
+    np.testing.assert_array_equal(preview.points[0], preview.points[-1])
+    assert session.intent is Intent.LOOP
+    assert session.toggle()
+    assert (session.loop_preview.vertices, session.loop_choice) == (LEFT, "HANDLE")
+    assert session.toggle()
+    assert session.loop_preview.vertices == RIGHT
+    session.hover(8)
+    assert session.loop_preview is None
+
+
+@pytest.mark.parametrize("keep", ["click", "loop"])
+def test_the_cut_that_is_shown_is_kept_as_a_closed_chain_of_wires(keep: str) -> None:
+    session = table().session
+    session.finish = "CUT"
+    session.hover(8, loop=True)
+    session.toggle()
+    assert getattr(session, keep)(8)
+    assert session.edges_to_mark() == edges(*LEFT)
+    wires = session.wires
+    assert len(wires) == 3
+    assert [wire.start for wire in wires] == [wires[-1].end, wires[0].end, wires[1].end]
+    assert wires[0].start == 8
+    assert all(isinstance(wire.end, FacePoint) for wire in wires[:2])
+    assert {(wire.along, wire.finish, wire.closed, wire.kind) for wire in wires} == {("SURFACE", "CUT", False, None)}
+    assert len(session.seeds()) == 3
+    assert session.undo()
+    assert session.wires == (), "one step"
+
+
+def test_of_cuts_along_the_same_edges_one_is_offered(monkeypatch: pytest.MonkeyPatch) -> None:
+    squares = FakeLive.closed_wires
+
+    def first_twice(self: FakeLive, through: object) -> FakeCuts:
+        found = squares(self, through)
+        return FakeCuts([*found.cuts[:1], *found.cuts], found.final)
+
+    monkeypatch.setattr(FakeLive, "closed_wires", first_twice)
+    session = table().session
+    session.hover(8, loop=True)
+    assert session.loop_offers == ("ACROSS", "HANDLE")
+    session.toggle()
+    session.click(8)
+    assert session.edges_to_mark() == edges(*LEFT)
+
+
+@pytest.mark.parametrize(("finish", "count"), [("SNAP", 2), ("SLIDE", 2), ("CUT", 3)])
+def test_cuts_that_run_apart_along_the_same_edges_are_two_where_they_are_to_be_cut(
+    monkeypatch: pytest.MonkeyPatch, finish: str, count: int
+) -> None:
+    squares = FakeLive.closed_wires
+
+    def one_beside_it(self: FakeLive, through: object) -> FakeCuts:
+        found = squares(self, through)
+        first = found.cuts[0]
+        pieces = [replace(piece, points=piece.points + 0.1) for piece in first.pieces]
+        return FakeCuts([first, replace(first, pieces=pieces), *found.cuts], found.final)
+
+    monkeypatch.setattr(FakeLive, "closed_wires", one_beside_it)
+    session = table().session
+    session.finish = finish
+    session.hover(8, loop=True)
+    assert len(session.loop_offers) == count
+    session.toggle()
+    shown = session.loop_preview
+    session.click(8)
+    np.testing.assert_array_equal(session.wires[0].points[0], shown.points[0])
+
+
+def test_after_it_was_taken_it_is_not_offered_again_until_another_point() -> None:
+    session = table().session
+    session.hover(8, loop=True)
+    session.click(8)
+    session.hover(8, loop=True)
+    session.poll()
+    assert session.loop_preview is None
+    session.hover(9, loop=True)
+    assert session.loop_preview is not None
+    session.hover(8, loop=True)
+    assert session.loop_preview is not None
+
+
+def test_where_nothing_suggests_one_it_says_so_until_it_is_not_asked_for_any_more() -> None:
+    session = table(islands=(8,)).session
+    session.hover(8, loop=True)
+    assert session.loop_preview is None
+    assert session.message == SurfaceLoops.NONE
+    revision = session.revision
+    session.hover(8, loop=True)
+    session.poll()
+    assert session.revision == revision, "nothing new to be seen"
+    session.hover(9, loop=True)
+    assert session.message == ""
+    session.hover(8, loop=True)
+    session.hover(8)
+    assert session.message == ""
+    assert not session.loop(8)
+    assert session.message == SurfaceLoops.NONE
+
+
+def test_until_it_is_computed_nothing_is_shown_and_a_click_waits() -> None:
+    it = table(metric_ready=(False, False))
+    session = it.session
+    session.hover(8, loop=True)
+    assert session.loop_preview is None
+    assert session.message == ""
+    assert session.computing
+    assert session.loop(8)
+    assert session.waiting_clicks == 1
+    it.compute()
+    assert session.waiting_clicks == 0
+    assert session.edges_to_mark() == edges(*RIGHT)
+
+
+def test_what_is_there_early_is_shown_and_refined_while_the_cursor_rests() -> None:
+    it = table(metric_ready=(False, False), early=True)
+    session = it.session
+    session.hover(8, loop=True)
+    assert session.loop_preview.vertices == LEFT
+    assert session.computing
+    revision = session.revision
+    session.poll()
+    assert session.revision == revision, "the same is not drawn anew"
+    it.compute()
+    assert session.loop_preview.vertices == RIGHT
+    assert not session.computing
+
+
+def test_a_click_on_what_is_not_final_waits() -> None:
+    it = table(metric_ready=(False, False), early=True)
+    session = it.session
+    session.hover(8, loop=True)
+    assert session.click(8)
+    assert session.wires == (), "what is not final is not kept"
+    it.compute()
+    assert session.edges_to_mark() == edges(*RIGHT)
+    assert not session.computing
+
+
+@pytest.mark.parametrize("clicks_early", [False, True])
+def test_the_cut_that_was_chosen_stays_the_one_though_another_comes_before_it(
+    monkeypatch: pytest.MonkeyPatch, clicks_early: bool
+) -> None:
+    def later_one_more(self: FakeLive, through: object) -> FakeCuts:
+        first, last = self._square(through, 1), self._square(through, -1)
+        if not all(self.ready):
+            return FakeCuts([first, last], False)
+        return FakeCuts([first, *self.bent_wire(through, 28, 3).cuts, last], True)
+
+    monkeypatch.setattr(FakeLive, "closed_wires", later_one_more)
+    it = table(metric_ready=(False, False))
+    session = it.session
+    session.hover(8, loop=True)
+    session.toggle()
+    assert session.loop_preview.vertices == LEFT
+    if clicks_early:
+        session.click(8)
+    it.compute()
+    if not clicks_early:
+        assert session.loop_offers == ("ACROSS", "HANDLE", "HANDLE")
+        assert session.loop_preview.vertices == LEFT
+        session.click(8)
+    assert session.edges_to_mark() == edges(*LEFT)
+
+
+def test_a_cut_that_meets_no_edge_is_kept_only_where_it_is_to_be_cut(monkeypatch: pytest.MonkeyPatch) -> None:
+    squares = FakeLive.closed_wires
+
+    def within_faces(self: FakeLive, through: object) -> FakeCuts:
+        found = squares(self, through)
+        for cut in found.cuts:
+            cut.pieces[:] = [replace(piece, vertices=piece.vertices[:1]) for piece in cut.pieces]
+        return found
+
+    monkeypatch.setattr(FakeLive, "closed_wires", within_faces)
+    session = table().session
+    assert not session.loop(8)
+    assert session.message == "The cut meets no edge that could be a seam"
+    assert session.wires == ()
+    assert not session.can_undo
+    assert not session.can_bend
+    session.finish = "CUT"
+    assert session.loop(8)
+    assert len(session.wires) == 3
+    assert session.can_bend
+
+
+@pytest.mark.parametrize("drawn", ["marking", "clearing", "cutting", "mirroring"])
+def test_a_bent_cut_does_to_the_mesh_what_the_cut_did(drawn: str) -> None:
+    session = table(centred=True).session
+
+    def switch() -> None:
+        if drawn == "clearing":
+            session.toggle_marking()
+        elif drawn == "cutting":
+            session.finish = "SNAP" if session.finish == "CUT" else "CUT"
+        elif drawn == "mirroring":
+            session.set_mirror(() if session.mirror_axes else (0,))
+
+    switch()
+    assert session.loop(8)
+    before = session.wires[0]
+    switch()
+    if drawn == "marking":
+        session.toggle_marking()
+    assert session.bend(28)
+    assert {(wire.marks, wire.finish, wire.mirror) for wire in session.wires} == {
+        (before.marks, before.finish, before.mirror)
+    }
+
+
+def test_cuts_are_found_in_the_concave_metric_whatever_wires_are() -> None:
+    it = table()
+    it.session.set_metric("campen")
+    it.session.hover(8, loop=True)
+    assert it.lives["SURFACE"].metrics == [("concave", 20.0, None)]
+    it.session.set_strength("SURFACE", 40.0)
+    assert it.lives["SURFACE"].metrics[-1] == ("concave", 40.0, None)
+
+
+def test_a_cut_clears_seams_where_wires_do() -> None:
+    session = table(seams=edges(*RIGHT)).session
+    session.toggle_marking()
+    session.loop(8)
+    assert session.edges_to_clear() == edges(*RIGHT)
+
+
+def test_edges_have_none_across_the_surface_and_points_none_along_edges() -> None:
+    session = table().session
+    assert not session.loop((8, 9))
+    assert "not through edge 8-9" in session.message
+    session.switch("EDGES")
+    assert not session.loop(8)
+    assert "not through vertex 8" in session.message
+
+
+def test_without_triangles_there_is_none() -> None:
+    made = table()
+    session = Session(made.session._engines._make, made.points, "SURFACE", edges=grid_edges(SIZE))
+    session.hover(8, loop=True)
+    assert session.loop_preview is None
+
+
+BOX = (8, 9, 10, 16, 22, 21, 20, 14)
+"""The square between vertices 8 and 22, which a cut through 8 is bent to."""
+
+
+def taken_at_8() -> Table:
+    it = table()
+    it.session.hover(8, loop=True)
+    it.session.click(8)
+    return it
+
+
+def test_a_cut_that_was_taken_is_shown_bent_and_a_click_keeps_it_in_place_of_the_other() -> None:
+    it = taken_at_8()
+    session = it.session
+    session.finish = "CUT"
+    session.hover(28, bend=True)
+    assert session.bending
+    assert session.loop_preview.vertices == (8, 9, 10, 16, 22, 28, 27, 26, 20, 14)
+    assert session.loop_choice == "ACROSS"
+    assert session.edges_to_mark() == edges(*RIGHT), "until the click"
+    assert session.click(28)
+    assert session.edges_to_mark() == edges(8, 9, 10, 16, 22, 28, 27, 26, 20, 14)
+    assert [(wire.start, wire.end) for wire in session.wires] == [(8, 28), (28, 8)]
+    assert session.seeds() == [8, 28]
+    assert it.lives["SURFACE"].bent[-1] == (8, 28, (0, 0))
+    session.hover(28)
+    assert not session.bending
+    assert session.loop_preview is None
+
+
+def test_undo_brings_back_the_cut_as_it_was_and_it_can_be_bent_elsewhere() -> None:
+    session = taken_at_8().session
+    assert session.bend(28)
+    assert session.undo()
+    assert session.edges_to_mark() == edges(*RIGHT)
+    assert session.redo()
+    assert session.undo()
+    assert session.bend(22)
+    assert session.edges_to_mark() == edges(*BOX)
+    assert session.undo()
+    assert session.undo()
+    assert session.wires == ()
+
+
+def test_bent_once_more_its_second_point_moves() -> None:
+    it = taken_at_8()
+    session = it.session
+    session.bend(28)
+    assert session.bend(22)
+    assert session.edges_to_mark() == edges(*BOX)
+    assert session.seeds() == [8, 22]
+    assert it.lives["SURFACE"].bent[-1] == (8, 22, (0, 0))
+
+
+def test_the_one_of_several_cuts_that_was_taken_is_the_one_that_is_bent() -> None:
+    it = table()
+    session = it.session
+    session.hover(8, loop=True)
+    session.toggle()
+    session.click(8)
+    session.bend(22)
+    assert it.lives["SURFACE"].bent[-1] == (8, 22, (1, 1)), "by what the library calls it"
+
+
+def test_what_is_not_there_as_it_was_taken_is_not_bent() -> None:
+    session = table().session
+    assert not session.bend(28)
+    assert session.message == NOTHING_TO_BEND
+    session = taken_at_8().session
+    assert session.can_bend
+    session.drop(session.wires[1])
+    assert not session.can_bend
+    session.hover(28, bend=True)
+    assert session.loop_preview is None
+    assert session.message == NOTHING_TO_BEND
+    session.undo()
+    assert session.can_bend, "it is there again"
+    session.set_strength("SURFACE", 40.0)
+    assert not session.can_bend, "other cuts would be found by now"
+
+
+def test_where_none_leads_it_says_so_and_the_cut_stays() -> None:
+    session = taken_at_8().session
+    session.hover(11, bend=True)
+    assert session.message == "No closed cut leads through both points"
+    revision = session.revision
+    session.poll()
+    assert session.revision == revision, "nothing new to be seen"
+    assert not session.bend(11)
+    assert session.edges_to_mark() == edges(*RIGHT)
+    session.hover(16)
+    assert session.message == ""
+
+
+def test_what_is_said_of_bending_goes_with_it_where_a_wire_is_live() -> None:
+    session = table().session
+    session.click(8)
+    session.hover(28)
+    session.hover(28, bend=True)
+    assert session.message == NOTHING_TO_BEND
+    revision = session.revision
+    session.hover(28)
+    assert session.message == ""
+    assert session.revision > revision
+
+
+def test_bending_waits_until_it_is_computed() -> None:
+    it = taken_at_8()
+    session = it.session
+    it.lives["SURFACE"].ready = (False, False)
+    session.hover(28, bend=True)
+    assert session.loop_preview is None
+    assert session.bend(28)
+    assert session.waiting_clicks == 1
+    assert session.edges_to_mark() == edges(*RIGHT)
+    it.compute()
+    assert session.waiting_clicks == 0
+    assert session.seeds() == [8, 28]
+
+
+def test_edges_are_not_bent_to_and_along_edges_nothing_is() -> None:
+    session = taken_at_8().session
+    assert not session.bend((27, 28))
+    session.switch("EDGES")
+    assert not session.bend(28)
+    assert not session.can_bend
+    assert session.edges_to_mark() == edges(*RIGHT)

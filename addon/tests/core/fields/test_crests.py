@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Ridges and valleys: what is near to them, and what they are worth at vertices."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from seamwire.core.fields.crests import Crests
+from seamwire.core.fields.metric_fields import FieldMaker, Request
+from seamwire.core.network.network import FacePoint
+
+sw = pytest.importorskip("seamwire_core")
+
+
+def waves(n: int = 40) -> tuple[np.ndarray, np.ndarray]:
+    """Return the vertices and triangles of a sheet with a top at x = .5 and bottoms at .25 and .75."""
+    x, y = (part.ravel() for part in np.meshgrid(np.arange(n + 1), np.arange(n + 1)))
+    points = np.stack([x / n, y / n, 0.04 * np.cos(4 * np.pi * x / n)], axis=1)
+    i, j = (part.ravel() for part in np.meshgrid(np.arange(n), np.arange(n)))
+    a, b, c, d = j * (n + 1) + i, j * (n + 1) + i + 1, (j + 1) * (n + 1) + i, (j + 1) * (n + 1) + i + 1
+    return points, np.stack([a, b, d, a, d, c], axis=1).reshape(-1, 3)
+
+
+@pytest.fixture(scope="module")
+def crests() -> Crests:
+    made = FieldMaker(sw, lambda: sw.Surface(*waves())).make(Request(frozenset({"CRESTS"})))
+    assert made.strength is None
+    assert made.crests is not None
+    return made.crests
+
+
+def line_near(crests: Crests, x: float) -> int:
+    """Return the line that runs at some x."""
+    middles = [crests.line(number)[0][:, 0].mean() for number in range(len(crests))]
+    (found,) = np.flatnonzero(np.abs(np.array(middles) - x) < 0.02)
+    return int(found)
+
+
+def test_tops_are_ridges_and_bottoms_valleys(crests: Crests) -> None:
+    assert crests.ridges[line_near(crests, 0.5)]
+    assert not crests.ridges[line_near(crests, 0.25)]
+    assert not crests.ridges[line_near(crests, 0.75)]
+
+
+def test_pieces_are_those_of_lines_and_of_no_two(crests: Crests) -> None:
+    assert len(crests.pieces) == len(crests.points) - len(crests)
+    assert np.linalg.norm(np.diff(crests.segments, axis=1), axis=2).max() < 0.06
+    for number in range(len(crests)):
+        points, triangles = crests.line(number)
+        assert len(points) == len(triangles)
+        mesh, faces = waves()
+        corners = mesh[faces[triangles]]
+        assert (points >= corners.min(axis=1) - 1e-9).all()
+        assert (points <= corners.max(axis=1) + 1e-9).all()
+
+
+def test_the_line_at_a_pick_is_the_one_that_crosses_there(crests: Crests) -> None:
+    line = line_near(crests, 0.5)
+    mine = slice(crests.starts[line] + 5, crests.starts[line + 1] - 5)
+    for (a, b), face in zip(crests.edges[mine].tolist(), crests.faces[mine].tolist(), strict=True):
+        assert crests.line_at((a, b)) == crests.line_at((b, a)) == line
+        assert crests.line_at(a) == line
+        assert crests.line_at(FacePoint(face, (0, 1, 2), (1.0, 0.0, 0.0))) == line
+    # In the middle between top and bottom there is none.
+    assert crests.line_at(20 * 41 + 15) is None
+    assert crests.line_at((20 * 41 + 15, 20 * 41 + 16)) is None
+
+
+def test_the_nearest_place_of_a_piece_lies_on_it_and_its_vertex_beside(crests: Crests) -> None:
+    points, triangles = waves()
+    for piece in range(0, len(crests.pieces), 7):
+        ends = crests.segments[piece]
+        for part, off in ((0.3, 0.0), (0.8, 0.01), (-1.0, 0.0), (2.0, 0.0)):
+            place, triangle, vertex = crests.place_at(piece, ends[0] + part * (ends[1] - ends[0]) + (0.0, 0.0, off))
+            assert np.linalg.norm(np.cross(place - ends[0], ends[1] - ends[0])) < 1e-9
+            assert (place >= ends.min(axis=0) - 1e-9).all()
+            assert (place <= ends.max(axis=0) + 1e-9).all()
+            assert triangle == crests.faces[crests.pieces[piece]]
+            assert vertex in triangles[triangle]
+            assert np.linalg.norm(points[vertex] - place) < 0.05
+
+
+def test_vertices_beside_lines_have_their_strengths_and_others_none(crests: Crests) -> None:
+    points, _ = waves()
+    values = crests.at_vertices(len(points))
+    top = np.abs(points[:, 0] - 0.5) < 0.03
+    assert values[top].max() == crests.strengths[line_near(crests, 0.5)]
+    assert values[top].min() == 0.0
+    bottom = np.abs(points[:, 0] - 0.25) < 0.03
+    assert values[bottom].min() == -crests.strengths[line_near(crests, 0.25)]
+    assert (values[np.abs(points[:, 0] - 0.375) < 0.05] == 0.0).all()
+
+
+def test_a_sphere_has_none() -> None:
+    rings, around = 20, 40
+    polar, turn = np.meshgrid(np.pi * (np.arange(rings) + 0.5) / rings, 2 * np.pi * np.arange(around) / around)
+    points = np.stack([np.sin(polar) * np.cos(turn), np.sin(polar) * np.sin(turn), np.cos(polar)], -1).reshape(-1, 3)
+    i, j = (part.ravel() for part in np.meshgrid(np.arange(rings - 1), np.arange(around)))
+    a, b = j * rings + i, (j + 1) % around * rings + i
+    triangles = np.stack([a, a + 1, b + 1, a, b + 1, b], axis=1).reshape(-1, 3)
+    none = Crests.of(
+        sw.crest_lines(sw.Surface(points, triangles), sw.principal_curvatures(sw.Surface(points, triangles)))
+    )
+    assert len(none) == len(none.segments) == 0
+    assert none.line_at(3) is None
+    assert not none.at_vertices(len(points)).any()
+
+
+def crossed() -> Crests:
+    """Return two lines that pass one vertex, 5, the second a valley."""
+    return Crests(
+        points=np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [0, 2, 0]]),
+        edges=np.array([[4, 5], [5, 6], [6, 7], [5, 8], [8, 9]], dtype=np.int32),
+        parts=np.array([0.9, 0.1, 0.4, 0.0, 1.0]),
+        faces=np.array([0, 1, -1, 2, -1], dtype=np.int32),
+        curvatures=np.array([2.0, 2.0, 2.0, -1.0, -1.0]),
+        starts=np.array([0, 3, 5], dtype=np.int32),
+        strengths=np.array([4.0, 1.5]),
+    )
+
+
+def test_where_lines_pass_one_vertex_the_stronger_counts() -> None:
+    assert crossed().at_vertices(11).tolist() == [0, 0, 0, 0, 0, 4.0, 4.0, 0, 0, -1.5, 0]
+    assert crossed().line_at(5) == 0
+
+
+def test_an_edge_that_only_leads_away_from_a_line_has_none() -> None:
+    # 5 and 6 lie beside the ridge, 9 beside the valley, and 10 beside neither.
+    assert crossed().line_at((6, 5)) == 0
+    assert crossed().line_at((9, 5)) == 1
+    assert crossed().line_at((6, 9)) is None
+    assert crossed().line_at((5, 10)) is None

@@ -1,0 +1,217 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the metric sees of a mesh, made by the library."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from seamwire.core.fields import color_maps
+from seamwire.core.fields.metric_fields import ELLIPSES, PATHS, FieldMaker, Paths, Request, band_levels, spread
+from seamwire.core.solver.solver import by_number
+
+sw = pytest.importorskip("seamwire_core")
+
+ALL = frozenset({"STRENGTH", "CONCAVITY", "ELLIPSES", "DISTANCE", "PATHS", "ISOLINES", "INVALID"})
+
+
+def torus(nu: int = 40, nv: int = 24) -> tuple[np.ndarray, np.ndarray]:
+    u, v = np.meshgrid(2 * np.pi * np.arange(nu) / nu, 2 * np.pi * np.arange(nv) / nv)
+    ring = 0.35 + 0.15 * np.cos(v)
+    points = np.stack([ring * np.cos(u), ring * np.sin(u), 0.15 * np.sin(v)], -1).reshape(-1, 3)
+    i, j = (part.ravel() for part in np.meshgrid(np.arange(nu), np.arange(nv)))
+    a, b = j * nu + i, j * nu + (i + 1) % nu
+    c, d = (j + 1) % nv * nu + i, (j + 1) % nv * nu + (i + 1) % nu
+    return points, np.stack([a, b, d, a, d, c], 1).reshape(-1, 3)
+
+
+def maker(*mesh: np.ndarray) -> FieldMaker:
+    return FieldMaker(sw, lambda: sw.Surface(*(mesh or torus())))
+
+
+def test_all_that_is_shown_is_of_the_mesh_that_it_is_asked_for() -> None:
+    points, _ = torus()
+    made = maker().make(Request(ALL, strength=20.0, follow="max", source=3))
+    assert made.strength.shape == made.concavity.shape == made.distance.shape == (len(points),)
+    # Of the unit cube, which the torus fills: convex outside, k1 is 1 / r everywhere.
+    assert made.concavity == pytest.approx(np.full(len(points), 1 / 0.15), rel=0.05)
+    assert made.distance[3] == 0.0
+    assert made.invalid.before > 0
+    assert len(made.invalid.split) == made.invalid.before
+    assert len(made.invalid.left) == len(made.invalid.repaired) == 0
+    assert made.ellipses.anisotropy.max() == pytest.approx(20.0, rel=1e-6)
+    sizes = np.linalg.norm(made.ellipses.axes, axis=2)
+    assert sizes[:, 0] / sizes[:, 1] == pytest.approx(made.ellipses.anisotropy)
+    assert np.median(np.sqrt(sizes.prod(axis=1))) <= 0.34 * made.ellipses.spacing
+    assert sizes.max() <= 1.5001 * made.ellipses.spacing
+    bands = np.linalg.norm(made.isolines.segments[:, 0] - made.isolines.segments[:, 1], axis=1)
+    assert bands.max() < 0.1
+    assert made.paths.lengths.max() == pytest.approx(made.distance.max(), rel=0.2)
+
+
+@pytest.mark.parametrize("eye", [(0.0, 0.0, 1.0, 0.0), (3.0, 1.0, 2.0, 1.0), (0.1, -0.2, -5.0, 1.0)])
+def test_a_silhouette_is_where_normals_are_square_to_the_view(eye: tuple[float, ...]) -> None:
+    made = maker(*torus(160, 96)).make(Request(frozenset({"SILHOUETTE"})))
+    pieces = made.silhouette.seen_from(np.array(eye))
+    assert len(pieces) > 100
+    middles = pieces.mean(axis=1)
+    ring = np.hypot(middles[:, 0], middles[:, 1])
+    normals = np.stack([middles[:, 0] * (1 - 0.35 / ring), middles[:, 1] * (1 - 0.35 / ring), middles[:, 2]], axis=1)
+    towards = np.array(eye[:3]) - eye[3] * middles
+    cosines = np.einsum("ij,ij->i", normals, towards)
+    cosines /= np.linalg.norm(normals, axis=1) * np.linalg.norm(towards, axis=1)
+    assert np.abs(cosines).max() < 0.01
+    # Of a closed surface it is closed: each end is that of another piece.
+    _, counts = np.unique(np.round(pieces.reshape(-1, 3), 12), axis=0, return_counts=True)
+    assert (counts % 2 == 0).all()
+
+
+def test_without_a_source_nothing_of_distances_is_made() -> None:
+    made = maker().make(Request(ALL))
+    assert made.distance is made.paths is made.isolines is None
+    assert made.strength is not None
+
+
+def test_what_is_asked_for_again_in_another_way_is_made_of_what_is_there() -> None:
+    calls: list[str] = []
+
+    class Counting:
+        Cancelled = sw.Cancelled
+
+        def __getattr__(self, name: str) -> object:
+            calls.append(name)
+            return getattr(sw, name)
+
+    fields = FieldMaker(Counting(), lambda: sw.Surface(*torus()))
+    first = Request(frozenset({"STRENGTH"}), source=3)
+    fields.make(first)
+    fields.make(replace(first, parts=frozenset({"PATHS"})))
+    fields.make(replace(first, parts=frozenset({"PATHS", "ISOLINES"})))
+    made = {name: calls.count(name) for name in ("principal_curvatures", "embed", "distance_field")}
+    assert set(made.values()) == {1}
+    fields.make(replace(first, parts=frozenset({"PATHS"}), source=4))
+    fields.make(replace(first, parts=frozenset({"PATHS"}), strength=5.0))
+    assert (calls.count("embed"), calls.count("distance_field")) == (2, 3)
+
+
+@pytest.mark.parametrize("metric", ["feature", "campen", "pottmann_kovacs", "concave", "euclidean"])
+@pytest.mark.parametrize("follow", ["min", "max"])
+def test_distances_are_as_long_as_the_wires_of_the_same_settings(metric: str, follow: str) -> None:
+    points, triangles = torus()
+    live = sw.LiveWire(points, triangles, max_anisotropy=8.0, clamp_percentile=95.0, metric=metric, along="surface")
+    live.seed(3)
+    live.wait()
+    wires, _ = by_number(live.wires(250))
+    if follow == "max" and len(wires) == 1:
+        pytest.skip("such a metric has one wire alone")
+    wire = wires[("min", "max").index(follow)]
+    made = maker().make(Request(frozenset({"DISTANCE"}), metric, 8.0, 95.0, follow, 3))
+    assert made.distance[250] == pytest.approx(wire.length, rel=1e-9)
+
+
+def test_strokes_are_part_of_the_metric_as_they_are_of_wires() -> None:
+    points, triangles = torus()
+    stroke = sw.Scribble(points[[83, 84, 85, 86]], vertices=[83, 84, 85, 86], rings=3)
+    live = sw.LiveWire(points, triangles, max_anisotropy=8.0, along="surface")
+    live.set_scribbles([stroke])
+    live.seed(3)
+    live.wait()
+    wire = next(wire for wire in live.wires(250).wires if wire.follow == "min")
+    plain = Request(frozenset({"DISTANCE"}), "feature", 8.0, 100.0, "min", 3)
+    fields = maker()
+    assert fields.make(replace(plain, scribbles=(stroke,))).distance[250] == pytest.approx(wire.length, rel=1e-9)
+    assert fields.make(plain).distance[250] != pytest.approx(wire.length, rel=1e-9)
+
+
+def test_distances_are_from_points_of_triangles_and_from_edges_too() -> None:
+    _, triangles = torus()
+    middle = maker().make(Request(frozenset({"DISTANCE"}), source=(7, (0.2, 0.3, 0.5)))).distance
+    assert 0.0 < middle[triangles[7]].min() < 0.1
+    edge = maker().make(Request(frozenset({"DISTANCE"}), source=(0, 1))).distance
+    assert edge[0] == edge[1] == 0.0
+
+
+def test_the_newest_request_wins_and_a_thread_computes_it() -> None:
+    fields = maker(*torus(120, 80))
+    for source in range(6):
+        fields.want(Request(frozenset({"DISTANCE"}), source=source))
+    end = time.monotonic() + 30.0
+    while fields.busy and time.monotonic() < end:
+        time.sleep(0.01)
+    assert fields.newest.request.source == 5
+    assert fields.newest.distance[5] == 0.0
+    fields.close()
+    fields.want(Request(frozenset({"DISTANCE"}), source=9))
+    assert not fields.busy
+
+
+def test_what_goes_wrong_on_the_thread_is_raised_where_it_is_looked_at() -> None:
+    fields = FieldMaker(sw, lambda: sw.Surface(np.zeros((2, 3)), np.zeros((0, 3), dtype=int)))
+    fields.want(Request(frozenset({"STRENGTH"})))
+    end = time.monotonic() + 30.0
+    while fields.busy and time.monotonic() < end:
+        time.sleep(0.01)
+    with pytest.raises(ValueError, match="edge"):
+        _ = fields.newest
+
+
+def test_paths_in_pieces_join_no_two_paths() -> None:
+    points = np.arange(21.0).reshape(7, 3)
+    paths = Paths(points, np.array([0, 3, 3, 7]), np.array([1.0, np.inf, 2.0]))
+    pieces, lengths = paths.segments()
+    assert pieces.tolist() == [[points[i].tolist(), points[i + 1].tolist()] for i in (0, 1, 3, 4, 5)]
+    assert lengths.tolist() == [1.0, 1.0, 2.0, 2.0, 2.0]
+
+
+def test_chosen_points_are_few_and_spread_over_all() -> None:
+    rng = np.random.default_rng(1)
+    points = rng.normal(size=(20_000, 3))
+    points /= np.linalg.norm(points, axis=1, keepdims=True)
+    for count in (1, 10, PATHS, ELLIPSES):
+        chosen, side = spread(points, count)
+        assert 0 < len(chosen) <= count
+        assert len(chosen) > 0.5 * count
+        assert len(np.unique(chosen)) == len(chosen)
+        # Nothing is farther from a chosen one than across a cube.
+        far = np.linalg.norm(points[:500, None] - points[chosen], axis=2).min(axis=1)
+        assert far.max() <= np.sqrt(3) * side
+    every, side = spread(points[:50], 50)
+    assert (len(every), side) == (50, 0.0)
+    flat = np.zeros((100, 3))
+    assert len(spread(flat, 5)[0]) == 1
+
+
+@pytest.mark.parametrize(("largest", "step"), [(1.0, 0.05), (3.7, 0.2), (0.021, 0.001), (800.0, 50.0)])
+def test_bands_are_evenly_spaced_at_round_numbers(largest: float, step: float) -> None:
+    levels = band_levels(largest)
+    assert levels[0] == pytest.approx(step)
+    assert np.diff(levels) == pytest.approx(np.full(len(levels) - 1, step))
+    assert levels[-1] <= largest < levels[-1] + 1.001 * step
+    assert len(band_levels(0.0)) == 0
+
+
+@pytest.mark.parametrize("name", ["VIRIDIS", "PLASMA"])
+def test_unsigned_maps_rise_in_brightness_evenly(name: str) -> None:
+    lightness = _lightness(color_maps.colors(np.linspace(0, 1, 33), getattr(color_maps, name)))
+    rises = np.diff(lightness)
+    assert rises.min() > 0.3 * rises.mean()
+    assert rises.max() < 2.0 * rises.mean()
+
+
+def test_the_signed_map_is_light_in_the_middle_and_as_dark_at_both_ends() -> None:
+    lightness = _lightness(color_maps.colors(np.linspace(0, 1, 41), color_maps.PURPLE_ORANGE))
+    assert lightness.argmax() == 20
+    assert (np.diff(lightness)[:20] > 0).all()
+    assert (np.diff(lightness)[20:] < 0).all()
+    red, blue = color_maps.colors(np.array([0.8, 0.2]), color_maps.PURPLE_ORANGE)[:, [0, 2]].T
+    assert red[0] > blue[0]
+    assert red[1] < blue[1]
+
+
+def _lightness(colors: np.ndarray) -> np.ndarray:
+    """CIE 1976 L* of sRGB."""
+    linear = np.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
+    y = linear @ (0.2126, 0.7152, 0.0722)
+    return np.where(y > 0.008856, 116 * np.cbrt(y) - 16, 903.3 * y)

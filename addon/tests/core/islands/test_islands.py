@@ -1,0 +1,243 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Islands: their pieces, their hues, and the thread they are made on."""
+
+import threading
+import time
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from seamwire.core.islands.islands import IslandMaker, choose_hues, neighbours, places_of
+
+
+def strip(count: int) -> NDArray[np.int32]:
+    """Return the triangles of a strip of squares; square i has vertices i, i + 1 below and the same above."""
+    low, high = np.arange(count), np.arange(count) + count + 1
+    one = np.stack([low, low + 1, high + 1], axis=1)
+    two = np.stack([low, high + 1, high], axis=1)
+    return np.stack([one, two], axis=1).reshape(-1, 3).astype(np.int32)
+
+
+def cut_at(count: int, *columns: int) -> NDArray[np.int32]:
+    return np.array([(c, c + count + 1) for c in columns], dtype=np.int32)
+
+
+def labelled(count: int) -> object:
+    def label(cuts: NDArray[np.int32]) -> NDArray[np.int32]:
+        square = np.repeat(np.arange(count), 2)
+        return np.searchsorted(np.sort(cuts[:, 0]), square, side="right").astype(np.int32)
+
+    return label
+
+
+def finished(maker: IslandMaker) -> None:
+    end = time.monotonic() + 20.0
+    while maker.busy:
+        assert time.monotonic() < end
+        time.sleep(0.005)
+
+
+def test_pieces_are_all_triangles_once() -> None:
+    triangles = strip(30)
+    maker = IslandMaker(triangles, labelled(30))
+    maker.want("a", cut_at(30, 4, 11, 20))
+    found = maker.newest
+    assert found.key == "a"
+    assert found.count == 4
+    assert found.cut
+    together = np.concatenate([piece for _, piece in found.pieces])
+    assert sorted(map(tuple, together.tolist())) == sorted(map(tuple, triangles.tolist()))
+    for hue, piece in found.pieces:
+        for triangle in piece.tolist():
+            row = triangles.tolist().index(triangle)
+            assert found.hues[found.labels[row]] == hue
+
+
+def test_neighbours_are_those_that_meet_at_a_cut() -> None:
+    triangles = strip(6)
+    cuts = cut_at(6, 2, 4)
+    pairs = neighbours(triangles, labelled(6)(cuts), cuts)
+    assert pairs.tolist() == [[0, 1], [1, 2]]
+
+
+def test_a_cut_inside_one_island_has_no_neighbours() -> None:
+    triangles = strip(6)
+    pairs = neighbours(triangles, np.zeros(12, dtype=np.int32), cut_at(6, 3))
+    assert pairs.shape == (0, 2)
+
+
+ANY = -1
+PLACES = np.array(places_of(12))
+
+
+def test_the_cuts_that_islands_need_are_counted_by_what_is_given_for_that() -> None:
+    def count(cuts: NDArray[np.int32], labels: NDArray[np.int32]) -> NDArray[np.int32]:
+        return 10 * len(cuts) + np.arange(labels.max() + 1, dtype=np.int32)
+
+    maker = IslandMaker(strip(30), labelled(30), count=count)
+    maker.want("a", cut_at(30, 4, 11))
+    assert maker.newest.missing.tolist() == [20, 21, 22]
+    maker = IslandMaker(strip(30), labelled(30))
+    maker.want("a", cut_at(30, 4, 11))
+    assert maker.newest.missing.tolist() == [0, 0, 0]
+
+
+def gaps(hues: NDArray[np.uint8], pairs: NDArray[np.int32]) -> NDArray[np.int64]:
+    return np.abs(PLACES[hues[pairs[:, 0]]] - PLACES[hues[pairs[:, 1]]])
+
+
+def honeycomb(size: int) -> NDArray[np.int32]:
+    """Return the pairs of neighbors among size x size cells, up to six each: as islands most often meet, by threes."""
+    numbers = np.arange(size * size).reshape(size, size)
+    ways = (numbers[:, :-1], numbers[:, 1:]), (numbers[:-1], numbers[1:]), (numbers[:-1, 1:], numbers[1:, :-1])
+    return np.sort(np.concatenate([np.stack([a.ravel(), b.ravel()], axis=1) for a, b in ways]), axis=1).astype(np.int32)
+
+
+@pytest.mark.parametrize("size", [2, 5, 20, 60])
+def test_neighbors_have_hues_that_are_far_apart(size: int) -> None:
+    numbers = np.random.default_rng(size).permutation(size * size)
+    pairs = np.sort(numbers[honeycomb(size)], axis=1).astype(np.int32)
+    hues = choose_hues(np.full(size * size, ANY), pairs, 12)
+    assert gaps(hues, pairs).min() >= 3
+
+
+@pytest.mark.parametrize("count", [7, 60])
+def test_neighbors_have_different_hues_however_many_there_are(count: int) -> None:
+    rng = np.random.default_rng(count)
+    pairs = np.unique(np.sort(rng.integers(0, count, (2 * count, 2)), axis=1), axis=0).astype(np.int32)
+    pairs = pairs[pairs[:, 0] != pairs[:, 1]]
+    assert gaps(choose_hues(np.full(count, ANY), pairs, 12), pairs).min() >= 2
+
+
+def test_more_neighbours_than_hues_are_no_error() -> None:
+    pairs = np.array([(i, j) for i in range(20) for j in range(i + 1, 20)], dtype=np.int32)
+    assert choose_hues(np.full(20, ANY), pairs, 12).max() < 12
+    assert choose_hues(np.full(20, ANY), pairs, 2).max() < 2
+
+
+def test_few_islands_have_each_a_hue_of_their_own() -> None:
+    none = np.empty((0, 2), dtype=np.int32)
+    assert len(set(choose_hues(np.full(12, ANY), none, 12).tolist())) == 12
+
+
+def test_of_neighbors_with_hues_too_much_alike_the_larger_keeps_its_own() -> None:
+    close = np.flatnonzero(np.abs(PLACES - PLACES[0]) == 1)[0]
+    pairs = np.array([[0, 1], [1, 2]], dtype=np.int32)
+    hues = choose_hues(np.array([0, close, 7]), pairs, 12)
+    assert hues[[0, 2]].tolist() == [0, 7]
+    assert gaps(hues, pairs).min() >= 3
+
+
+def tinted(maker: IslandMaker, key: object, cuts: NDArray[np.int32]) -> NDArray[np.uint8]:
+    """Return the hue of each triangle."""
+    maker.want(key, cuts)
+    return maker.newest.hues[maker.newest.labels]
+
+
+def test_a_new_cut_recolors_only_what_it_cuts_off_and_dropping_it_nothing_else() -> None:
+    maker = IslandMaker(strip(30), labelled(30))
+    first = tinted(maker, 1, cut_at(30, 10))
+    second = tinted(maker, 2, cut_at(30, 10, 25))
+    assert (first[:50] == second[:50]).all()
+    assert (first[50:] != second[50:]).all()
+    assert (tinted(maker, 3, cut_at(30, 10)) == first).all()
+
+
+def test_hues_stay_whatever_is_cut_and_dropped_elsewhere() -> None:
+    count = 200
+    maker = IslandMaker(strip(count), labelled(count))
+    rng = np.random.default_rng(8)
+    cuts = set(rng.choice(np.arange(5, count), 25, replace=False).tolist())
+    before = tinted(maker, 0, cut_at(count, *sorted(cuts)))
+    for step in range(60):
+        # Add one, or drop one.
+        at = int(rng.integers(5, count))
+        at = at if at not in cuts and step % 2 == 0 else int(rng.choice(sorted(cuts)))
+        cuts ^= {at}
+        after = tinted(maker, step + 1, cut_at(count, *sorted(cuts)))
+        bounds = np.array([0, *sorted(cuts - {at}), count])
+        here = np.searchsorted(bounds, at, side="right")
+        touched = np.zeros(2 * count, dtype=bool)
+        touched[2 * bounds[here - 1] : 2 * bounds[here]] = True
+        left, right = 2 * bounds[here - 1], 2 * bounds[here]
+        assert (after[:left] == before[:left]).all() or len(set(after[left:right])) == 1
+        changed = (after != before) & ~touched
+        # Where two islands have become one, its neighbor may have a hue too much like it: that alone gives way.
+        assert len(np.unique(np.searchsorted(sorted(cuts), np.flatnonzero(changed) // 2, side="right"))) <= 1
+        newest = maker.newest
+        pairs = neighbours(strip(count), newest.labels, cut_at(count, *sorted(cuts)))
+        assert gaps(newest.hues, pairs).min() >= 3
+        before = after
+
+
+def test_of_what_a_cut_leaves_the_largest_keeps_the_hue() -> None:
+    maker = IslandMaker(strip(30), labelled(30))
+    whole = tinted(maker, 0, cut_at(30))
+    ring = tinted(maker, 1, cut_at(30, 5, 11))
+    assert (ring[22:] == whole[22:]).all()
+    assert len({int(ring[0]), int(ring[15]), int(ring[40])}) == 3, "also what lies beyond it"
+
+
+def test_a_large_mesh_is_done_on_a_thread_and_the_newest_request_wins() -> None:
+    count = 15_000
+    go = threading.Event()
+    asked, threads = [], set()
+    inner = labelled(count)
+
+    def slow(cuts: NDArray[np.int32]) -> NDArray[np.int32]:
+        asked.append(len(cuts))
+        threads.add(threading.get_ident())
+        assert go.wait(20.0)
+        return inner(cuts)
+
+    maker = IslandMaker(strip(count), slow)
+    for number in range(1, 6):
+        maker.want(number, cut_at(count, *range(100, 100 + number)))
+        assert maker.busy
+    assert maker.newest is None
+    go.set()
+    finished(maker)
+    assert maker.newest.key == 5
+    assert maker.newest.count == 6
+    assert len(asked) <= 2
+    assert threading.get_ident() not in threads
+
+
+def test_what_goes_wrong_on_the_thread_comes_out() -> None:
+    def fail(_: NDArray[np.int32]) -> NDArray[np.int32]:
+        raise RuntimeError("as the test wants it")
+
+    maker = IslandMaker(strip(15_000), fail)
+    maker.want(1, cut_at(15_000, 3))
+    finished(maker)
+    with pytest.raises(RuntimeError, match="as the test wants it"):
+        _ = maker.newest
+
+
+def test_nothing_comes_after_the_end() -> None:
+    count = 15_000
+    go = threading.Event()
+
+    def slow(cuts: NDArray[np.int32]) -> NDArray[np.int32]:
+        assert go.wait(20.0)
+        return labelled(count)(cuts)
+
+    maker = IslandMaker(strip(count), slow)
+    maker.want(1, cut_at(count, 5))
+    maker.close()
+    go.set()
+    finished(maker)
+    assert maker.newest is None
+
+
+def test_a_wrong_number_of_labels_is_refused() -> None:
+    maker = IslandMaker(strip(4), lambda _: np.zeros(3, dtype=np.int32))
+    with pytest.raises(ValueError, match="labels"):
+        maker.want(1, cut_at(4, 2))
+
+
+def test_no_triangles_are_no_segments() -> None:
+    maker = IslandMaker(np.empty((0, 3), dtype=np.int32), lambda _: np.empty(0, dtype=np.int32))
+    maker.want(1, [])
+    assert maker.newest.count == 0
+    assert maker.newest.pieces == ()

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The steps that undo and redo go back and forth."""
+
+from __future__ import annotations
+
+from grid import wire
+from seamwire.core.network.history import History
+from seamwire.core.network.network import Network
+
+EMPTY = Network()
+ONE = Network((wire(0, 1),))
+TWO = Network((*ONE.wires, wire(1, 2)))
+
+
+def test_steps_are_taken_back_and_done_again() -> None:
+    history = History()
+    history.step(EMPTY)
+    history.step(ONE)
+    assert history.steps == 2
+    assert history.back(TWO) == ONE
+    assert history.back(ONE) == EMPTY
+    assert history.back(EMPTY) is None
+    assert history.forth(EMPTY) == ONE
+    assert history.forth(ONE) == TWO
+    assert not history.can_redo
+
+
+def test_a_step_that_changed_nothing_is_passed_over() -> None:
+    history = History()
+    history.step(EMPTY)
+    history.step(ONE)
+    assert history.back(ONE) == EMPTY
+    history.forget()
+    history.step(ONE)
+    assert not history.can_undo(ONE)
+
+
+def test_a_new_step_ends_what_was_taken_back() -> None:
+    history = History()
+    history.step(EMPTY)
+    history.back(ONE)
+    assert history.can_redo
+    history.step(EMPTY)
+    assert not history.can_redo
+
+
+def test_the_mirror_is_no_step() -> None:
+    history = History()
+    history.step(EMPTY)
+    assert not history.can_undo(Network(mirror=(0,)))
+    mirrored = Network(ONE.wires, mirror=(0,))
+    assert history.back(mirrored) == Network(mirror=(0,)), "the mirror stays"
+    assert history.forth(EMPTY) == ONE

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The images of a network's wires, and what they mark."""
+
+from __future__ import annotations
+
+from grid import symmetry, wire
+from seamwire.core.network.mirror_images import MirrorImages
+from seamwire.core.network.network import Network
+
+
+def test_a_wire_is_mirrored_as_it_was_when_it_was_kept() -> None:
+    images = MirrorImages(symmetry())
+    kept, live = wire(0, 1, mirror=()), wire(6, 7)
+    network = Network((kept,), mirror=(0,))
+    assert images.of(kept, network) == []
+    assert [image.edges() for image in images.of(live, network)] == [[(10, 11)]]
+
+
+def test_wires_and_images_mark_and_clear_and_the_last_one_counts() -> None:
+    images = MirrorImages(symmetry())
+    network = images.complete(Network((wire(0, 1, mirror=(0,)), wire(4, 5, marks=False))))
+    assert network.wires[0].images == ((4, 5),)
+    assert images.net_effect(network) == ([(0, 1)], [(4, 5)])
+    assert images.complete(network) is network, "they are found once"
+
+
+def test_images_that_are_found_late_have_only_edges_that_are_seams() -> None:
+    images = MirrorImages(symmetry())
+    network = images.complete(Network((wire(0, 1, 2, mirror=(0,)),)), seams=[(5, 4)])
+    assert network.wires[0].images == ((4, 5),)
+
+
+def test_a_wire_that_stays_alone_is_told_of_once() -> None:
+    images = MirrorImages(symmetry())
+    alone = wire(0, 7, mirror=(0,))  # no such edge on the other side
+    assert images.warning(Network((wire(0, 1, mirror=(0,)),))) == ""
+    assert images.warning(Network((alone,))).startswith("Part of this wire has no mirror image")
+    assert images.warning(Network((alone,))) == ""

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a click on an edge offers, and what of it is shown."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import replace
+
+from fake_live import grid_edges, grid_triangles
+from grid import POINTS, SIZE, Grid, symmetry
+from seamwire.core.network.network import Network, undirected
+from seamwire.core.network.stops import Stops
+from seamwire.core.offers.edge_loops import LoopOffers, taken
+from seamwire.core.offers.flat_regions import FlatRegions
+
+EDGE = (14, 15)
+
+
+def loops(grid: Grid) -> LoopOffers:
+    return LoopOffers(grid.engines, Stops([], symmetry()), POINTS)
+
+
+def test_each_offer_is_shown_in_turn() -> None:
+    offers = loops(Grid())
+    assert offers.swap() == "There is no loop yet"
+    offers.aim(EDGE)
+    assert offers.missing
+    assert offers.show(EDGE, offers.find(EDGE, Network()))
+    first = offers.wire
+    assert set(offers.kinds) >= {"CLOSED", "STRIP"}
+    assert offers.swap() == ""
+    assert offers.wire is not first
+    for _ in offers.offers[1:]:
+        offers.swap()
+    assert offers.wire is first
+
+
+def test_another_edge_or_none_lets_them_vanish() -> None:
+    offers = loops(Grid())
+    offers.aim(EDGE)
+    offers.show(EDGE, offers.find(EDGE, Network()))
+    assert not offers.aim(EDGE[::-1]), "the same edge"
+    assert offers.wire is not None
+    assert offers.aim(None)
+    assert offers.wire is None
+    assert not offers.missing
+
+
+def test_borders_of_flat_regions_are_offered_last() -> None:
+    edge = (0, 1)
+    without = loops(Grid()).find(edge, Network())
+    flat = FlatRegions(POINTS, grid_triangles(SIZE), grid_edges(SIZE))
+    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, flat)
+    found = offers.find(edge, Network())
+    assert [one.kind for one in found] == [*(one.kind for one in without), "FLAT"], (
+        "once, though the same at each angle"
+    )
+    rows = range(SIZE)
+    sides = {(x, y) for x in rows for y in rows if {x, y} & {0, SIZE - 1}}
+    assert {(vertex % SIZE, vertex // SIZE) for vertex in found[-1].vertices} == sides
+    assert found[-1].closed
+    assert set(found[-1].edges()) == offers.flat_border(edge[::-1])
+
+
+def test_until_all_triangles_are_looked_at_nothing_is_offered() -> None:
+    flat = FlatRegions(POINTS, grid_triangles(SIZE), grid_edges(SIZE))
+    go_on = threading.Event()
+    flat._thread = threading.Thread(target=go_on.wait)
+    flat._thread.start()
+    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, flat)
+    offers.aim(EDGE)
+    assert offers.find(EDGE, Network()) == ()
+    offers.stop_waiting()
+    assert not offers.final
+    go_on.set()
+    flat._thread.join()
+    assert offers.find(EDGE, Network())
+    assert offers.final
+
+
+def test_nothing_is_offered_until_it_is_computed() -> None:
+    grid = Grid(ready=(False, False))
+    offers = loops(grid)
+    offers.aim(EDGE)
+    assert offers.find(EDGE, Network()) == ()
+    assert not offers.final
+    offers.stop_waiting()
+    assert not offers.final, "it is asked for still"
+    offers.aim(None)
+    offers.stop_waiting()
+    assert offers.final
+    grid.lives["EDGES"].wait()
+    assert offers.find(EDGE, Network())
+
+
+def test_a_kept_loop_comes_first_and_what_else_there_is_after_it() -> None:
+    offers = loops(Grid())
+    found = offers.find(EDGE, Network())
+    kept = taken(found, 0, marks=True)
+    network = Network((kept,))
+    assert network.taken_through(EDGE[::-1]) is kept
+    assert kept.through == undirected(EDGE)
+    assert [one.kind for one in offers.find(EDGE, network)] == [one.kind for one in found]
+    stored = replace(kept, offers=())
+    again = offers.find(EDGE, Network((stored,)))
+    assert again[0].kind == kept.kind
+    assert kept.kind not in {one.kind for one in again[1:]}

@@ -1,0 +1,430 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a mesh keeps as text: records in an archive, texts of every version, damaged ones."""
+
+from __future__ import annotations
+
+import base64
+import json
+import zlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from fake_live import grid_edges
+from paper_mesh import PaperMesh
+from seamwire.core.network.network import Network, Wire
+from seamwire.core.storage.serialization import (
+    FORMAT,
+    VERSION,
+    WAS_SEAM,
+    Archive,
+    NewerError,
+    UnreadableError,
+    load_first_version,
+)
+from seamwire.core.storage.wire_labels import Found
+from table import SIZE, Table, chain, paper
+
+EDGES = grid_edges(SIZE)
+FIXTURES = Path(__file__).parent / "fixtures"
+FIRST = (FIXTURES / "network_v1.json").read_text()
+"""Drawn on the grid from its middle, mirrored over x."""
+FIRST_SEAMS = {
+    *chain(0, 6, 7, 13, 14, 15, 21, 27, 26, 20, 14),
+    *chain(30, 31, 32),
+    *chain(24, 25, 26),
+    *chain(5, 4, 3, 9),
+    *chain(5, 11, 10, 16, 15),
+    *chain(20, 14),
+    *chain(35, 34, 33),
+    *chain(27, 28, 29),
+    *chain(0, 1, 2, 8),
+}
+"""What the first version left as seams: its wires and their images; 22-23 and 18-19 it cleared."""
+
+
+def drawn(**options: object) -> PaperMesh:
+    """Return a mesh with a chain of two wires, a loop, a wire across the surface and a stroke."""
+    table = Table(**options)
+    session = table.session
+    for pick in (0, 3, 21):
+        session.click(pick)
+    session.end_chain()
+    session.loop((25, 26))
+    session.switch("SURFACE")
+    for pick in (30, 32):
+        session.click(pick)
+    session.scribble(vertices=[1, 8, 20], attracts=False)
+    mesh = paper()
+    mesh.write(session)
+    return mesh
+
+
+def body(text: str) -> dict[str, Any]:
+    return json.loads(zlib.decompress(base64.b64decode(text.split(" ")[2])))
+
+
+def text_of(data: object, version: object = VERSION) -> str:
+    return f"{FORMAT} {version} {base64.b64encode(zlib.compress(json.dumps(data).encode())).decode()}"
+
+
+# The archive
+
+
+def test_a_records_number_follows_from_what_it_says() -> None:
+    one, other = Archive(), Archive()
+    record = {"along": "EDGES"}
+    other.add_wire({"along": "SURFACE"})
+    assert one.add_wire(record) == other.add_wire(dict(record))
+    assert one.add_stroke({"along": "EDGES"}) != one.add_wire(record), "else a label could mean both"
+
+
+def test_a_label_stands_for_its_members_in_any_order() -> None:
+    archive = Archive()
+    assert archive.label_of([]) == 0
+    assert archive.label_of([77]) == 77
+    label = archive.label_of([77, -78, WAS_SEAM])
+    assert archive.label_of([WAS_SEAM, 77, -78]) == label
+    assert set(archive.members(label)) == {77, -78, WAS_SEAM}
+    assert archive.members(123) == (123,), "one of an unknown set is taken for a number"
+
+
+def test_the_text_holds_what_labels_call_and_no_more() -> None:
+    archive = Archive()
+    table = Table()
+    table.session.click(0)
+    table.session.click(3)
+    mesh = paper()
+    mesh.write(table.session)
+    (number,) = set(mesh.labels.values())
+    other = mesh.archive.add_wire({**mesh.archive.wires[number], "follow": 1})
+    assert set(body(mesh.archive.text([number]))["wires"]) == {str(number)}
+    assert set(body(mesh.archive.text([number, other, 12345]))["wires"]) == {str(number), str(other)}
+    assert archive.text([12345]) == ""
+    both = mesh.archive.label_of([number, -other])
+    assert Archive.parse(mesh.archive.text([both])).members(both) == mesh.archive.members(both)
+
+
+def test_what_a_label_stands_for_is_kept_though_its_records_are_unknown() -> None:
+    archive = Archive()
+    label = archive.label_of([WAS_SEAM, 4711])
+    assert set(Archive.parse(archive.text([label])).members(label)) == {WAS_SEAM, 4711}
+
+
+def test_a_text_stays_small() -> None:
+    side = 100
+    dice = np.random.default_rng(1)
+    mesh = PaperMesh(np.array([[x, y, 0.0] for y in range(side) for x in range(side)]), grid_edges(side))
+
+    def wire(row: int, turn: int) -> Wire:
+        steps = [row * side + x for x in range(turn)] + [y * side + turn for y in range(row, side)]
+        return Wire("EDGES", tuple(steps), mesh.points[steps], steps[0], steps[-1], strength=10.0)
+
+    wires = [wire(*pair) for pair in dice.integers(1, side, (100, 2)).tolist()]
+    mesh.write(Network(tuple(wires)))
+    vertices = sum(len(wire.vertices) for wire in wires)
+    assert len(mesh.text) < 100 * 100 + 4 * vertices, f"{len(mesh.text)} bytes of 100 wires, {vertices} vertices"
+
+
+# Texts that are none
+
+
+@pytest.mark.parametrize("version", [3, 10, "2.1", "x"])
+def test_a_newer_text_is_told_from_a_damaged_one(version: object) -> None:
+    with pytest.raises(NewerError, match="newer"):
+        Archive.parse(text_of({}, version))
+    with pytest.raises(NewerError):
+        Archive.parse(f"{FORMAT} {version}")
+
+
+def test_no_text_is_an_empty_archive() -> None:
+    assert Archive.parse("").wires == {}
+
+
+def spoiled(change: Callable[[dict[str, Any]], object]) -> str:
+    """Return the text of a network whose last wire, a loop, was changed."""
+    data = body(drawn().text)
+    number = next(number for number, record in data["wires"].items() if record["closed"])
+    change(data["wires"][number])
+    return text_of(data)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "{",
+        "null",
+        "seamwire",
+        "seamwire 2",
+        "seamwire 2 !",
+        "a shopping list",
+        "seamwire 2 " + base64.b64encode(b"no zlib").decode(),
+        text_of([]),
+        text_of(None),
+        text_of({}),
+        text_of({"wires": [], "strokes": {}, "sets": {}}),
+        text_of({"wires": {"77": 3}, "strokes": {}, "sets": {}}),
+        text_of({"wires": {"77": {}}, "strokes": {}, "sets": {}}),
+        text_of({"wires": {}, "strokes": {"77": 3}, "sets": {}}),
+        text_of({"wires": {}, "strokes": {}, "sets": {"77": 3}}),
+        text_of({"wires": {}, "strokes": {}, "sets": {"77": [float("inf")]}}),
+        text_of({"wires": {}, "strokes": {}, "sets": {"1": [20, 30]}}),
+        drawn().text[:-40],
+        *map(
+            spoiled,
+            [
+                lambda wire: wire.update(along=["EDGES"]),
+                lambda wire: wire.update(along="UNDER"),
+                lambda wire: wire.update(vertices=[27, 28]),
+                lambda wire: wire.update(vertices=["27", 28, 29]),
+                lambda wire: wire.update(vertices=[-1, 28, 29]),
+                lambda wire: wire.update(vertices=3),
+                lambda wire: wire.update(ends=[[0.0, 0.0, 0.0]]),
+                lambda wire: wire.update(ends=[[0.0, 0.0, float("nan")]] * 2),
+                lambda wire: wire.update(start=None),
+                lambda wire: wire.update(start=[1, 2, 3]),
+                lambda wire: wire.update(start=float("inf")),
+                lambda wire: wire.update(through=27),
+                lambda wire: wire.update(through=[27]),
+                lambda wire: wire.update(kind=["CLOSED"]),
+                lambda wire: wire.update(strength="much"),
+                lambda wire: wire.update(strength=float("nan")),
+                lambda wire: wire.update(mirror=1),
+                lambda wire: wire.update(mirror=[3]),
+                lambda wire: wire.update(heading=3),
+                lambda wire: wire.pop("follow"),
+                lambda wire: wire.update(follow=3),
+                lambda wire: wire.pop("heading"),
+                lambda wire: wire.pop("closed"),
+                lambda wire: wire.update(along="SURFACE"),
+                lambda wire: wire.update(along="SURFACE", curve="!", places="!"),
+            ],
+        ),
+    ],
+)
+def test_what_is_no_text_of_ours_is_told_in_words(text: str) -> None:
+    with pytest.raises(UnreadableError, match="cannot be read") as caught:
+        Archive.parse(text)
+    assert not isinstance(caught.value, NewerError)
+
+
+def test_what_a_click_offered_in_another_version_does_not_matter() -> None:
+    archive = Archive.parse(spoiled(lambda wire: wire.update(kind="SPIRAL")))
+    mesh = drawn()
+    mesh.text = ""
+    loops = [wire for wire in mesh.read(archive).network.wires if wire.closed]
+    assert [(wire.kind, wire.through) for wire in loops] == [(None, None)]
+
+
+@pytest.mark.parametrize("follow", [0, 1, 2])
+def test_which_of_the_wires_one_is_and_what_a_stroke_is_for_are_kept(follow: int) -> None:
+    table = Table(ready=(True, True, True))
+    session = table.session
+    session.switch("SURFACE")
+    session.click(0)
+    session.hover(14)
+    while session.active.follow != follow:
+        session.toggle()
+    session.scribble(vertices=[1, 2, 3])
+    session.click(14)
+    mesh = paper()
+    mesh.write(session)
+    network = mesh.read().network
+    assert [wire.follow for wire in network.wires] == [follow]
+    assert [stroke.acts_on for stroke in network.scribbles] == [("min", "max", "concave")[follow]]
+
+
+# The second version, as it was stored once
+
+
+def second() -> PaperMesh:
+    """Return the mesh of the fixture."""
+    data = json.loads((FIXTURES / "network_v2.json").read_text())
+    mesh = paper(centred=True)
+    mesh.text = data["text"]
+    mesh.seams = {(one, two) for one, two in data["seams"]}
+    mesh.labels = {(one, two): label for one, two, label in data["labels"]}
+    return mesh
+
+
+def test_a_text_of_version_2_is_read_for_ever() -> None:
+    mesh = second()
+    found = mesh.read()
+    assert (found.unknown, found.broken) == (0, frozenset())
+    wires = {wire.vertices: wire for wire in found.network.wires}
+    assert sorted(wires) == [
+        (0, 6, 7, 13, 14),
+        (5, 4, 3, 9),
+        (14, 15, 21),
+        (14, 15, 21, 27, 26, 20),
+        (24, 25, 26),
+        (30, 31, 32),
+    ]
+    chained, curve, loop, strip = wires[14, 15, 21], wires[5, 4, 3, 9], wires[14, 15, 21, 27, 26, 20], wires[24, 25, 26]
+    assert (chained.start, chained.end, chained.heading) == ((13, 14), 21, (13, 14))
+    assert wires[0, 6, 7, 13, 14].start == (0, 6)
+    assert (loop.closed, loop.kind, loop.through, loop.start) == (True, "CLOSED", (14, 15), (14, 15))
+    assert (strip.kind, strip.through) == ("STRIP", (24, 25))
+    assert curve.along == "SURFACE"
+    assert np.allclose(curve.points[:, 1], [0.0, 0.125, 0.125, 1.125]), "its curve is that which was stored"
+    assert all(wire.mirror == (0,) for wire in wires.values())
+    assert all(wire.follow == 0 for wire in wires.values())
+    assert sorted(curve.images) == chain(0, 1, 2, 8)
+    assert all(wire.strength == 10.0 for wire in wires.values() if wire.along == "EDGES" and not wire.kind)
+    assert [(one.attracts, one.radius, len(one.points)) for one in found.network.scribbles] == [
+        (True, 0.5, 12),
+        (False, None, 3),
+    ]
+    session = Table(centred=True).session
+    mesh.open(session)
+    assert set(session.edges_to_mark()) == mesh.seams - {(17, 23)}, "which was a seam before"
+    mesh.write(Network(), adopt=False)
+    assert mesh.seams == {(17, 23), (2, 8)}, "and so was an edge under a wire"
+    assert mesh.labels == {}
+
+
+# The first version
+
+
+def first(seams: set[tuple[int, int]] = FIRST_SEAMS, mesh: PaperMesh | None = None) -> tuple[Network, str]:
+    mesh = mesh or paper(centred=True)
+    return load_first_version(FIRST, mesh.points, mesh.edges, np.array(sorted(seams)).reshape(-1, 2))
+
+
+def test_a_text_of_version_1_is_read_for_ever() -> None:
+    network, problem = first()
+    assert problem == ""
+    assert [(wire.along, wire.vertices, wire.start, wire.end, wire.kind) for wire in network.wires] == [
+        ("EDGES", (0, 6, 7, 13, 14), (0, 6), (13, 14), None),
+        ("EDGES", (14, 15, 21), (13, 14), 21, None),
+        ("EDGES", (30, 31, 32), 30, 32, None),
+        ("EDGES", (14, 15, 21, 27, 26, 20), (14, 15), (14, 15), "CLOSED"),
+        ("EDGES", (24, 25, 26), 24, 26, "STRIP"),
+        ("SURFACE", (5, 4, 3, 9), 5, 9, None),
+    ]
+    assert network.wires[1].heading == (13, 14)
+    assert network.wires[3].through == (14, 15)
+    assert all(wire.mirror == (0,) for wire in network.wires)
+    assert network.wires[5].points[:, 1].tolist() == [0.0, 0.125, 0.125, 1.125], "its curve is that which was stored"
+    assert [(one.attracts, one.radius, len(one.points)) for one in network.scribbles] == [
+        (True, 0.5, 12),
+        (False, None, 3),
+    ]
+
+
+def test_wires_of_the_first_version_go_over_to_labels_with_their_images() -> None:
+    mesh = paper(centred=True, seams={*FIRST_SEAMS, (17, 23)})
+    session = Table(centred=True).session
+    network, _ = first()
+    session.adopt(network, sorted(mesh.seams))
+    assert set(session.edges_to_mark()) == FIRST_SEAMS
+    mesh.found = Found(session.network)
+    plan = mesh.write(session, adopt=True)
+    assert (plan.mark, plan.clear) == ([], [])
+    again = Table(centred=True).session
+    mesh.open(again)
+    assert set(again.edges_to_mark()) == FIRST_SEAMS
+    for wire in again.wires:
+        again.drop(wire)
+    mesh.write(again)
+    assert mesh.seams == {(17, 23)}, "what wires were is no seam that was there before"
+
+
+def test_images_of_the_first_version_that_are_no_seams_are_none() -> None:
+    network, problem = first(FIRST_SEAMS - {(1, 2)})
+    assert problem == ""
+    session = Table(centred=True).session
+    session.adopt(network, sorted(FIRST_SEAMS - {(1, 2)}))
+    assert set(session.edges_to_mark()) == FIRST_SEAMS - {(1, 2)}
+
+
+def test_a_wire_of_the_first_version_whose_edges_are_seams_no_more_is_none() -> None:
+    network, problem = first(FIRST_SEAMS - {(30, 31)})
+    assert problem == "1 of 6 stored wires are seams no more, or hidden"
+    assert (30, 31, 32) not in [wire.vertices for wire in network.wires]
+    assert len(network.wires) == 5
+
+
+def test_the_first_version_is_found_by_places_where_numbers_have_changed() -> None:
+    mesh = paper(centred=True, seams=set(FIRST_SEAMS))
+    where = mesh.renumber(np.random.default_rng(3).permutation(SIZE**2))
+    network, problem = first(mesh.seams, mesh)
+    assert problem == ""
+    assert network.wires[1].vertices == tuple(where[[14, 15, 21]].tolist())
+    assert network.wires[1].start == tuple(where[[13, 14]].tolist())
+
+
+def test_the_first_version_is_found_by_numbers_where_the_mesh_was_moved_by_a_cell() -> None:
+    mesh = paper(centred=True)
+    mesh.places[:, 0] += 1.0
+    network, problem = first(FIRST_SEAMS, mesh)
+    assert problem == ""
+    assert network.wires[0].vertices == (0, 6, 7, 13, 14)
+
+
+def test_the_first_version_on_a_part_of_the_mesh_has_seeds_that_are_there() -> None:
+    mesh = paper(centred=True, seams=set(FIRST_SEAMS))
+    where = mesh.delete_vertices([13])
+    network, problem = first(mesh.seams, mesh)
+    assert problem == "1 of 6 stored wires are seams no more, or hidden"
+    wire = next(wire for wire in network.wires if wire.vertices == tuple(where[[14, 15, 21]].tolist()))
+    assert (wire.start, wire.heading) == (where[14], None), "the edge that it began on is gone"
+
+
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        lambda text: "",
+        lambda text: "{",
+        lambda text: "[]",
+        lambda text: "null",
+        lambda text: "{}",
+        lambda text: "[" * 100_000,
+        lambda text: text[: len(text) // 2],
+        lambda text: text.replace("seamwire network", "a shopping list"),
+        lambda text: text.replace('"version":1', '"version":"one"'),
+        lambda text: text.replace('"version":1', '"version":2'),
+        lambda text: text.replace('"coordinates":[[', '"coordinates":[[7,'),
+        lambda text: text.replace('"vertices":[0', '"vertices":["x"'),
+        lambda text: text.replace('"vertices":[0', '"vertices":[1e400'),
+        lambda text: text.replace('"vertices":[0', f'"vertices":[{10**30}'),
+        lambda text: text.replace('"start":30', '"start":77'),
+        lambda text: text.replace('"start":30', '"start":[1,2,3]'),
+        lambda text: text.replace('"start":30', '"start":null'),
+        lambda text: text.replace('"along":"EDGES"', '"along":["EDGES"]'),
+        lambda text: text.replace('"along":"EDGES"', '"along":"UNDER"'),
+        lambda text: text.replace('"wires":[', '"wires":[3,'),
+        lambda text: text.replace('"mirror":[0]', '"mirror":1'),
+        lambda text: text.replace('"strength":10.0', '"strength":"much"'),
+        lambda text: text.replace('"kind":"CLOSED"', '"kind":["CLOSED"]'),
+        lambda text: text.replace('"through":[14,15]', '"through":[14,77]'),
+        lambda text: text.replace('"through":[14,15]', '"through":[14]'),
+        lambda text: text.replace('"vertices":[30,31,32],"start"', '"vertices":[30],"start"'),
+        lambda text: text.replace('"curve":[[', '"curve":[[7,'),
+        lambda text: text.replace('"eta":20.0', '"eta":0.5'),
+    ],
+)
+def test_what_is_no_network_of_the_first_version_is_told_in_words(spoil: Callable[[str], str]) -> None:
+    text = spoil(FIRST)
+    assert text != FIRST
+    mesh = paper(centred=True)
+    network, problem = load_first_version(text, mesh.points, mesh.edges, np.array(sorted(FIRST_SEAMS)))
+    assert network == Network()
+    assert "cannot be read" in problem
+
+
+def test_on_an_empty_mesh_nothing_is_found() -> None:
+    network, problem = load_first_version(
+        FIRST, np.empty((0, 3)), np.empty((0, 2), np.int32), np.empty((0, 2), np.int32)
+    )
+    assert network.wires == ()
+    assert problem
+
+
+def test_places_that_are_no_numbers_match_nothing() -> None:
+    data = json.loads(FIRST)
+    data["coordinates"] = np.full((len(data["vertices"]), 3), np.nan).tolist()
+    mesh = paper(centred=True)
+    assert load_first_version(json.dumps(data), mesh.points, mesh.edges, np.array(sorted(FIRST_SEAMS)))[0].wires == ()
