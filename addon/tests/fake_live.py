@@ -129,7 +129,7 @@ class FakeLive:
     rings: dict[tuple[int, int], int] = field(default_factory=dict)
     forks: list[FakeLive] = field(default_factory=list)
     metrics: list[tuple[str, float | None, float | None]] = field(default_factory=list)
-    scribbles: list[tuple[object, ...]] = field(default_factory=list)
+    strokes: list[tuple[object, ...]] = field(default_factory=list)
 
     def seed(self, pick: object, forward: bool = False) -> None:
         for vertex in pick if isinstance(pick, tuple) else (pick,):
@@ -302,8 +302,8 @@ class FakeLive:
         self.stale = self.stale or all(self.ready)
         self.ready = self.metric_ready or (True,) * len(self.ready)
 
-    def set_scribbles(self, scribbles: list[object]) -> None:
-        self.scribbles.append(tuple(scribbles))
+    def set_scribbles(self, strokes: list[object]) -> None:
+        self.strokes.append(tuple(strokes))
         self.stale = self.stale or all(self.ready)
         self.ready = self.metric_ready or (True,) * len(self.ready)
 

@@ -101,8 +101,8 @@ class PaperMesh:
         """Let a session go on with what the mesh has now; without an archive, in a Blender that was just started."""
         self.archive = Archive() if archive is None else archive
         self.found = found = self.read(self.archive)
-        strokes = tuple(on_mesh(one, self.points, self.triangles) for one in found.network.scribbles)
-        session.adopt(replace(found.network, scribbles=strokes), sorted(self.plain_seams()))
+        strokes = tuple(on_mesh(one, self.points, self.triangles) for one in found.network.strokes)
+        session.adopt(replace(found.network, strokes=strokes), sorted(self.plain_seams()))
         return found
 
     def write(self, session: Session | Network, adopt: bool = False) -> Plan:

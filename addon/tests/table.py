@@ -35,7 +35,7 @@ class Table:
             edges=grid_edges(SIZE),
             seams=seams,
             triangles=grid_triangles(SIZE),
-            make_scribble=lambda one: one,
+            make_stroke=lambda one: one,
         )
 
     def compute(self) -> None:

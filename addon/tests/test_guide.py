@@ -3,7 +3,7 @@
 
 from pathlib import Path
 
-from seamwire.operators.bindings import Bindings
+from seamwire.words.keys import Bindings
 
 GUIDE = (Path(__file__).resolve().parents[2] / "docs/guide.md").read_text(encoding="utf-8")
 

@@ -316,15 +316,15 @@ def test_strokes_stay_with_the_mesh_and_go_when_removed(
     grid: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     mesh = session_on(grid)
-    assert mesh.session.scribble(vertices=[38, 42], attracts=True, acts_on="both")
+    assert mesh.session.draw_stroke(vertices=[38, 42], attracts=True, acts_on="both")
     write(mesh)
     assert seams(grid) == []
     forget(monkeypatch)
     again = session_on(grid)
-    assert len(again.session.scribbles) == 1
-    np.testing.assert_allclose(again.session.scribbles[0].points, mesh.session.scribbles[0].points, atol=1e-6)
-    again.session.erase(again.session.scribbles[0])
+    assert len(again.session.strokes) == 1
+    np.testing.assert_allclose(again.session.strokes[0].points, mesh.session.strokes[0].points, atol=1e-6)
+    again.session.erase(again.session.strokes[0])
     write(again)
-    assert session_on(grid).session.scribbles == ()
+    assert session_on(grid).session.strokes == ()
     assert not has_labels(grid)
     assert grid.data.seamwire_wires == ""

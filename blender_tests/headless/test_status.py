@@ -7,8 +7,8 @@ from scene import add_grid, edit
 from seamwire.core.drawing.session import Session
 from seamwire.core.solver.live_maker import LiveMaker
 from seamwire.mesh import edit_mesh
-from seamwire.operators.bindings import Bindings
-from seamwire.ui.status_bar import Status, hints
+from seamwire.words.hints import Status, hints
+from seamwire.words.keys import Bindings
 
 pytestmark = pytest.mark.every_blender
 

@@ -400,14 +400,14 @@ def test_wires_of_the_first_version_are_taken_over(monkeypatch: pytest.MonkeyPat
     mesh = session_on(obj)
     assert mesh.problem == ""
     assert chains(obj) == [COLUMN, ROW[:5], ROW[4:]]
-    assert len(mesh.session.scribbles) == 1
+    assert len(mesh.session.strokes) == 1
     assert agree(obj)
     write(mesh)
     assert "seamwire" not in obj.data.keys()  # noqa: SIM118
     assert obj.data.seamwire_wires.startswith("seamwire 2 ")
     forget(monkeypatch)
     assert chains(obj) == [COLUMN, ROW[:5], ROW[4:]]
-    assert len(session_on(obj).session.scribbles) == 1
+    assert len(session_on(obj).session.strokes) == 1
     mesh = session_on(obj)
     mesh.session.drop(next(wire for wire in mesh.session.wires if wire.vertices == COLUMN))
     write(mesh)
@@ -431,7 +431,7 @@ def test_wires_of_the_second_version_are_read(monkeypatch: pytest.MonkeyPatch) -
     assert session_on(obj).problem == ""
     assert chains(obj) == [column, ROW[:5], ROW[4:]]
     assert sorted(session_on(obj).session.seeds()) == [4, 31, 36, 40, 44]
-    assert len(session_on(obj).session.scribbles) == 1
+    assert len(session_on(obj).session.strokes) == 1
     assert agree(obj)
 
 

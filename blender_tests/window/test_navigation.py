@@ -10,7 +10,7 @@ import ui as driver
 from desk import Desk, choose
 from keymaps import KEYMAPS, Gesture, as_event, gestures, using
 from scene import chain, seams
-from seamwire.operators import bindings
+from seamwire.words.keys import KEYS, Key
 
 
 def begin(desk: Desk) -> None:
@@ -221,11 +221,11 @@ def test_every_gesture_of_a_keymap_moves_the_view_within_a_chain(keymap: str, de
     desk.choose()
     begin(desk)
     # A chain's keys come before those of the keymap, not so its buttons.
-    ours = {(key.type, key.modifiers) for _, key in bindings.KEYS if not key.type.endswith("MOUSE")}
+    ours = {(key.type, key.modifiers) for _, key in KEYS if not key.type.endswith("MOUSE")}
     still = []
     for gesture in gestures(buttons):
         kind, _, _, held = gesture
-        if (kind, bindings.Key(kind, **dict.fromkeys(held, 1)).modifiers) in ours:
+        if (kind, Key(kind, **dict.fromkeys(held, 1)).modifiers) in ours:
             continue
         if not do(desk, *gesture):
             still.append(gesture)

@@ -67,7 +67,7 @@ class Said:
     preliminary: bool = False
     straight_active: bool = False
     mirror_axes: tuple[int, ...] = ()
-    scribbles: tuple[Drawn, ...] = ()
+    strokes: tuple[Drawn, ...] = ()
     loop_offers: tuple[str, ...] = ()
     loop_choice: str | None = None
     loop_number: int = 0
@@ -433,20 +433,20 @@ def test_strokes_are_soft_bands_and_those_that_repel_are_barred(sight: Sight) ->
     def changed(seen: NDArray[np.float32]) -> NDArray[np.bool_]:
         return np.abs(profile(seen - empty, *ends)).max(axis=1) > 0.04
 
-    attracting = sight.pixels(scribbles=(Drawn(line),))
+    attracting = sight.pixels(strokes=(Drawn(line),))
     assert changed(attracting).mean() > 0.95, "one band"
     across = np.abs(profile(attracting - empty, *crossing(sight, 39, 40))).max(axis=1)
     assert np.count_nonzero(across > 0.04) >= 10, "wide"
     middle, side = across[len(across) // 2], across[len(across) // 2 - 6]
     assert 0.0 < side < 0.8 * middle, "fading towards its sides"
-    repelling = sight.pixels(scribbles=(Drawn(line, attracts=False),))
+    repelling = sight.pixels(strokes=(Drawn(line, attracts=False),))
     bars = changed(repelling)
     assert np.count_nonzero(bars[:-1] & ~bars[1:]) >= 5, "told apart without colors"
     (angle, _), (other, _) = (
         hue_and_strength(profile(seen - empty + 0.3, *ends).max(axis=0)[None]) for seen in (attracting, repelling)
     )
     assert abs(float(angle[0]) - float(other[0])) > 60.0, "and by them"
-    gone = sight.pixels(scribbles=())
+    gone = sight.pixels(strokes=())
     assert not changed(gone).any()
 
 
@@ -458,7 +458,7 @@ def test_a_stroke_is_seen_while_it_is_drawn_and_lies_under_the_wires(sight: Sigh
     assert np.abs(around(drawn, at, 1) - around(empty, at, 1)).max() > 0.08
     sight.overlay.stroke = None
     assert np.abs(around(sight.pixels(), at, 1) - around(empty, at, 1)).max() < 0.02
-    over = sight.pixels(scribbles=(Drawn(stroke_over(sight)),), active=sight.wire(*range(36, 45)))
+    over = sight.pixels(strokes=(Drawn(stroke_over(sight)),), active=sight.wire(*range(36, 45)))
     assert has(over, at, "orange"), "the wire is on top"
 
 

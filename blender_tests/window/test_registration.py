@@ -7,6 +7,7 @@ import traces
 import ui as driver
 from desk import Desk
 from seamwire.operators import bindings
+from seamwire.words.keys import NUMBERS, Action, Bindings
 
 
 @pytest.mark.smoke
@@ -37,9 +38,9 @@ def test_disabled_while_drawing_it_ends_and_leaves_nothing_behind(desk: Desk) ->
 @pytest.mark.smoke
 def test_the_users_keys_are_the_add_ons_in_the_same_order(ui: driver.Ui) -> None:
     ui.wait()
-    of_user, defaults = bindings.of_user(bpy.context.window_manager), bindings.Bindings()
+    of_user, defaults = bindings.of_user(bpy.context.window_manager), Bindings()
     assert of_user.rows() == defaults.rows()
-    for action in bindings.Action:
+    for action in Action:
         assert of_user.keys_of(action) == defaults.keys_of(action), action
         assert of_user.icon(action) == defaults.icon(action), action
 
@@ -55,16 +56,16 @@ def test_a_changed_key_is_the_actions_first(ui: driver.Ui) -> None:
 
     try:
         bind("NUMPAD_ENTER", "P")
-        assert bindings.of_user(manager).keys_of(bindings.Action.END)[0].type == "P"
+        assert bindings.of_user(manager).keys_of(Action.END)[0].type == "P"
     finally:
         bind("P", "NUMPAD_ENTER")
-    assert bindings.of_user(manager).rows() == bindings.Bindings().rows()
+    assert bindings.of_user(manager).rows() == Bindings().rows()
 
 
 def test_an_actions_number_in_a_users_keys_is_its_own(ui: driver.Ui) -> None:
     ui.wait()
     items = bindings.items_of(bindings.user_keymap(bpy.context.window_manager), bindings.ACTION_OPERATOR)
     for item in items:
-        action = bindings.Action[item.properties.action]
-        assert item.properties["action"] == bindings.NUMBERS[action], "stored as that, wherever it stands in the table"
-    assert len(set(bindings.NUMBERS.values())) == len(bindings.Action)
+        action = Action[item.properties.action]
+        assert item.properties["action"] == NUMBERS[action], "stored as that, wherever it stands in the table"
+    assert len(set(NUMBERS.values())) == len(Action)

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.network.network import Along, Edge, Finish, Network, Pick, Wire
-    from ..core.network.strokes import Scribble
+    from ..core.network.strokes import Stroke
     from ..core.offers.closed_cuts import TakenCut
     from ..core.seams.cut import CutPlan
     from .settings import SeamwireSettings
@@ -286,9 +286,9 @@ class ObjectSession:
             network, self.problem = serialization.load_first_version(
                 stored, self.arrays.points, self.arrays.edges, self.arrays.seams
             )
-        strokes = tuple(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in network.scribbles)
+        strokes = tuple(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in network.strokes)
         self._set_seams(self.arrays.seams, labels)
-        self.session.adopt(replace(network, scribbles=strokes), self.plain_seams)
+        self.session.adopt(replace(network, strokes=strokes), self.plain_seams)
         if network is not self._found.network:
             # It did not tell which edges were seams before: those of its wires are taken for theirs.
             self._found = Found(self.session.network)
@@ -384,12 +384,12 @@ class ObjectSession:
             _taken_cuts.keep(self.session.taken_cuts, self.session.network, self.places)
         return written
 
-    def add(self, wires: Iterable[Wire], strokes: Iterable[Scribble] = ()) -> None:
+    def add(self, wires: Iterable[Wire], strokes: Iterable[Stroke] = ()) -> None:
         """Go on with more wires and strokes, found elsewhere; `write` marks their edges."""
         session = self.session
         drawn = (*session.wires, *wires)
-        scribbles = (*session.scribbles, *(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in strokes))
-        session.adopt(replace(session.network, wires=drawn, scribbles=scribbles, seed=None), self.plain_seams)
+        strokes = (*session.strokes, *(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in strokes))
+        session.adopt(replace(session.network, wires=drawn, strokes=strokes, seed=None), self.plain_seams)
 
     def network_file(self, settings: SeamwireSettings, more: Iterable[Wire] = ()) -> NetworkFile:
         """Return the network, and more wires, as they are saved to a file."""

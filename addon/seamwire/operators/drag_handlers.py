@@ -289,7 +289,7 @@ class StrokeHold:
         near = math.dist(self._first.cursor, trail.last.cursor) <= self._reach
         if near and not trail.left and self._farthest > CLOSE_LENGTH * self._reach and len(points) > 2:
             points, triangles = [*points, points[0]], [*triangles, triangles[0]]
-        self._view.session.scribble(
+        self._view.session.draw_stroke(
             np.array(points), np.array(triangles), attracts=self._attracts, radius=self._view.stroke_radius
         )
 

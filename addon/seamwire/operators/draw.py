@@ -10,7 +10,7 @@ import bpy
 
 from ..core.base.native import NativeError
 from ..mesh.settings import ALONG_ITEMS, settings
-from .bindings import Action, Key
+from ..words.keys import Action, Key
 from .navigation import takes
 from .report import in_edit_mode, running
 

@@ -76,7 +76,7 @@ class MESH_OT_seamwire_close_gaps(bpy.types.Operator):
 
     def _close(self, mesh: ObjectSession, gaps: list[Gap]) -> int:
         """Draw a wire over each gap that none before has closed, mirrored too; return how many there are."""
-        from . import seed_text
+        from ..words import seed_text
 
         mesh.make_live.wait()
         session, closed = mesh.session, 0

@@ -15,7 +15,7 @@ from .slide import slide_wires
 if TYPE_CHECKING:
     from ..core.network.network import Pick, Wire
     from ..mesh.object_session import ObjectSession
-    from .seed_text import Stroke
+    from ..words.seed_text import VertexStroke
 
 
 class MESH_OT_seamwire_mark(bpy.types.Operator):
@@ -156,7 +156,7 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
         """
         from ..mesh.edit_mesh import NothingVisibleError
         from ..mesh.object_session import ObjectSession
-        from . import seed_text
+        from ..words import seed_text
 
         try:
             mesh = ObjectSession(obj, self.along)
@@ -181,16 +181,16 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
         take = None if self.take == "FIRST" else self.take
         problems = [
             *([mesh.problem] if mesh.problem else []),
-            *seed_text.draw_scribbles(session, strokes),
+            *seed_text.draw_strokes(session, strokes),
             *seed_text.draw_chains(session, seeds),
             *seed_text.draw_loops(session, loops, take),
         ]
         return mesh, [f"{prefix}{problem}" for problem in problems]
 
-    def _read(self, mesh: ObjectSession) -> tuple[list[list[Pick]], list[Pick], list[Stroke]]:
+    def _read(self, mesh: ObjectSession) -> tuple[list[list[Pick]], list[Pick], list[VertexStroke]]:
         """Return chains, loops and strokes; raises ValueError where they cannot be drawn."""
         from ..core.network.network import FacePoint
-        from . import seed_text
+        from ..words import seed_text
 
         if self.finish == "CUT" and self.clear and self.along == "SURFACE":
             raise ValueError("A cut makes seams: it cannot clear them")
@@ -198,7 +198,7 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
         loops: list[Pick] = []
         loops += seed_text.parse_points(self.loops, mesh.finder()) if across else seed_text.parse_edges(self.loops)
         seeds = [] if loops and not self.chains.strip() else seed_text.parse_chains(self.chains, mesh.finder())
-        strokes = seed_text.parse_scribbles(self.strokes)
+        strokes = seed_text.parse_strokes(self.strokes)
         through = [stroke.vertices for stroke in strokes]
         problem = mesh.cage.problem_with(pick for chain in (*seeds, loops, *through) for pick in chain)
         if problem:

@@ -14,8 +14,8 @@ from ..core.network.network import Network
 from ..mesh import settings as chosen
 from ..view.edited_objects import edited
 from ..view.viewport import Place, place_of
+from ..words.keys import WHEEL, Action, DoubleClicks, Key, drag_threshold
 from . import bindings, navigation, undo_steps
-from .bindings import Action, Key
 from .cut import gaps, left_out
 from .drag_handlers import Hold, LineHold, SeedHold, StrokeHold
 from .navigation import Meaning
@@ -64,7 +64,7 @@ class Chain:
         self._manager = context.window_manager
         self._timer: bpy.types.Timer | None = None
         self._cursor = ""
-        self._clicks = bindings.DoubleClicks()
+        self._clicks = DoubleClicks()
         self._shown: tuple[object, ...] | None = None
         self._hold: Hold | None = None
         self._drawn: ObjectView | None = None
@@ -281,7 +281,7 @@ class Chain:
         if action is Action.REMOVE:
             done = self._remove(place)
         elif action is Action.NEXT:
-            done = self._next_kept(place)
+            done = self._retrace(place)
         elif action is Action.BEND and not self._bends:
             done = False
         else:
@@ -339,7 +339,7 @@ class Chain:
         moves = {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"} if isinstance(self._hold, StrokeHold) else {"MOUSEMOVE"}
         if self._hold is not None and event.type in moves:
             hold = self._hold
-            if not hold.move(place, bindings.drag_threshold(event, context.preferences)) and self._hold is hold:
+            if not hold.move(place, drag_threshold(event, context.preferences)) and self._hold is hold:
                 self._hold = None
             self._after()
             return False
@@ -354,7 +354,7 @@ class Chain:
         """Whether the wheel is turned that was given to the candidates, alone or with Ctrl."""
         alone = not (event.shift or event.alt or event.oskey)
         given = chosen.preferences(context).wheel_switches and self.session.seed is not None
-        return given and alone and event.type in bindings.WHEEL
+        return given and alone and event.type in WHEEL
 
     def _key(self, context: bpy.types.Context, place: Place, event: bpy.types.Event, double: bool) -> bool:
         if self._turns_wheel(context, event):
@@ -530,9 +530,9 @@ class Chain:
         session, settings = self.session, chosen.settings()
         if action is Action.NEXT:
             if session.seed is None and session.hovered_wire is not None:
-                session.toggle_kept(session.hovered_wire)
+                session.retrace(session.hovered_wire)
             else:
-                session.toggle()
+                session.next_candidate()
         elif action in {Action.STRONGER, Action.WEAKER}:
             if session.change_strength(1 if action is Action.STRONGER else -1):
                 self.message = f"Strength {session.strength:.3g}"
@@ -580,15 +580,15 @@ class Chain:
         self._rehover(place)
         return True
 
-    def _next_kept(self, place: Place) -> bool:
+    def _retrace(self, place: Place) -> bool:
         """Let the wire under the cursor take its other path; return whether there was one."""
         view, snap = edited.find(place)
         if view is None or snap is None or snap.to != "WIRE" or snap.wire is None:
             return False
         self._draw_on(view)
         view.session.hover(snap)
-        view.session.toggle_kept(snap.wire)
-        self._note(undo_steps.SWAP_PATH)
+        view.session.retrace(snap.wire)
+        self._note(undo_steps.RETRACE)
         return True
 
     def _cycle_mirror(self) -> None:
@@ -682,7 +682,7 @@ class Chain:
 
 
 def _differs(now: Network, before: Network) -> bool:
-    return now.wires != before.wires or now.scribbles != before.scribbles
+    return now.wires != before.wires or now.strokes != before.strokes
 
 
 def _in_tool_settings(window: bpy.types.Window, event: bpy.types.Event) -> bool:

@@ -10,7 +10,7 @@ import bpy
 
 if TYPE_CHECKING:
     from ..view.viewport import Place
-    from .bindings import Key
+    from ..words.keys import Key
 
 _KEYMAPS = ("Mesh", "3D View Generic", "3D View", "Object Non-modal", "Frames", "Screen", "Screen Editing", "Window")
 """Those that have a say over a 3D view in edit mode, first the one that is asked first."""

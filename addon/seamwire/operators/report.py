@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypeVar
 
+from ..words.names import count
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -73,11 +75,6 @@ def open_mesh(operator: bpy.types.Operator, obj: bpy.types.Object, along: Along 
 def open_meshes(operator: bpy.types.Operator, context: bpy.types.Context) -> list[ObjectSession]:
     """Read the objects in edit mode as `open_mesh` does, see `for_each_object`."""
     return list(for_each_object(operator, context, lambda obj: open_mesh(operator, obj)).values())
-
-
-def count(number: int, what: str, several: str = "") -> str:
-    """Return a number with what it counts."""
-    return f"{number} {what if number == 1 else several or what + 's'}"
 
 
 def summary(wires: int, marked: int, cleared: int, touched: int = 0) -> str:

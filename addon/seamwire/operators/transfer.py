@@ -117,7 +117,7 @@ class MESH_OT_seamwire_transfer(bpy.types.Operator):
         """Read the source, and write its seams to the active mesh."""
         from ..core.base.native import NativeError
         from ..mesh import transfer
-        from .seed_text import parse_pairs
+        from ..words.seed_text import parse_pairs
 
         target = context.active_object
         try:

@@ -17,7 +17,7 @@ DRAW_LINE = "Draw Line"
 ADD_LOOP = "Add Loop"
 BEND_CUT = "Bend Closed Cut"
 MOVE_SEED = "Move Seed"
-SWAP_PATH = "Swap Path"
+RETRACE = "Swap Path"
 REMOVE_WIRE = "Remove Wire"
 GUIDE_STROKE = "Draw Guide Stroke"
 AVOID_STROKE = "Draw Avoid Stroke"
@@ -30,7 +30,7 @@ _TITLES = (
     ADD_LOOP,
     BEND_CUT,
     MOVE_SEED,
-    SWAP_PATH,
+    RETRACE,
     REMOVE_WIRE,
     GUIDE_STROKE,
     AVOID_STROKE,

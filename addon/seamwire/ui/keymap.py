@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..mesh.settings import TOOL
-from ..operators.bindings import ACTION_OPERATOR, KEYS, NAME, NUMBERS
+from ..operators.bindings import ACTION_OPERATOR, NAME
+from ..words.keys import KEYS, NUMBERS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -7,7 +7,7 @@ import bpy
 
 from ..mesh.settings import ADDON, SeamwireSettings
 from ..operators import bindings, worst_island
-from ..operators.bindings import Action
+from ..words.keys import Action
 from . import toolbar
 
 

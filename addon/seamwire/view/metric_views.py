@@ -82,7 +82,7 @@ class MetricViews:
         settings: SeamwireSettings,
         along: str,
         source: Source | None,
-        scribbles: tuple[object, ...] = (),
+        strokes: tuple[object, ...] = (),
         crests: bool = False,
     ) -> None:
         """Show what the settings ask for.
@@ -95,7 +95,7 @@ class MetricViews:
             How wires run: it has a strength of its own.
         source
             Where distances are from; None: nowhere.
-        scribbles
+        strokes
             The library's strokes.
         crests
             Whether `crests` are wanted, seen or not.
@@ -120,7 +120,7 @@ class MetricViews:
             settings.clamp,
             settings.shown_metric.lower(),
             source if far else None,
-            scribbles,
+            strokes,
         )
         if wanted:
             self._maker.want(self._request)

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from ..core.drawing.session import Session
     from ..core.fields.metric_fields import Source
     from ..core.network.network import Pick, Snap
-    from ..core.network.strokes import Scribble
+    from ..core.network.strokes import Stroke
     from .text_overlay import Row
     from .viewport import View
 
@@ -148,7 +148,7 @@ class ObjectView:
         session = self.session
         settings = chosen.settings()
         crests = settings.snap or session.wants_crests
-        self.views.follow(settings, session.along, self._source(), session.metric_scribbles, crests)
+        self.views.follow(settings, session.along, self._source(), session.metric_strokes, crests)
         session.use_crests(self.views.crests, settings.show_crests)
 
     def _source(self) -> Source | None:
@@ -225,11 +225,11 @@ class ObjectView:
         """How far strokes reach; None: as many rings as the library takes."""
         return chosen.settings().stroke_radius or None
 
-    def stroke_at(self, view: View, cursor: tuple[float, float]) -> Scribble | None:
+    def stroke_at(self, view: View, cursor: tuple[float, float]) -> Stroke | None:
         """Return the stroke under the cursor."""
         matrix = self.obj.matrix_world
         return stroke_at(
-            self.session.scribbles,
+            self.session.strokes,
             view,
             matrix,
             self.mesh.arrays.to_object,

@@ -257,7 +257,7 @@ class Overlay:
 
     def _bands_sheet(self) -> _Sheet:
         """Return the strokes, the one that is being drawn among them."""
-        strokes = [(stroke.points, stroke.attracts) for stroke in self._session.scribbles]
+        strokes = [(stroke.points, stroke.attracts) for stroke in self._session.strokes]
         if self.stroke is not None:
             strokes.append(self.stroke)
         # The points themselves are held: their numbers alone could come again.

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from ..core.drawing.session import Session
     from ..core.fields.crests import Crests
     from ..core.network.network import Pick, Wire
-    from ..core.network.strokes import Scribble
+    from ..core.network.strokes import Stroke
     from .viewport import View
 
 VERTEX_RADIUS = 12.0
@@ -667,14 +667,14 @@ class Picker:
 
 
 def stroke_at(
-    strokes: Sequence[Scribble],
+    strokes: Sequence[Stroke],
     view: View,
     matrix: Matrix,
     to_object: NDArray[np.float64],
     cursor: tuple[float, float],
     scale: float,
     sees: Callable[[NDArray[np.float64]], bool],
-) -> Scribble | None:
+) -> Stroke | None:
     """Return the stroke nearest to the cursor, of equal ones the newest.
 
     Parameters
@@ -693,7 +693,7 @@ def stroke_at(
         Whether a place, in object coordinates, is to be looked at.
     """
     world = np.array(matrix, dtype=np.float64)
-    best: tuple[float, Scribble | None] = (STROKE_REACH * scale, None)
+    best: tuple[float, Stroke | None] = (STROKE_REACH * scale, None)
     for stroke in strokes:
         places = np.asarray(stroke.points) @ to_object.T
         pixels = view.to_pixels(places @ world[:3, :3].T + world[:3, 3])

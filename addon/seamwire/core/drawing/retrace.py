@@ -99,4 +99,4 @@ def retraced(network: Network, own: Wire, others: tuple[Wire, ...]) -> Network:
         other = replace(other, vertices=other.vertices[:-1], points=other.points[:-1])
         if len(other.vertices) < 2:
             raise ValueError("There is no other way to this seed")
-    return network.with_courses({own.id: replace(own, alternatives=(other, *rest)).toggled()})
+    return network.with_courses({own.id: replace(own, alternatives=(other, *rest)).retraced()})

@@ -18,7 +18,7 @@ from ..network.history import History
 from ..network.mirror_images import MirrorImages
 from ..network.network import FOLLOWS, FacePoint, Network, Seed, Snap, Wire, name, undirected
 from ..network.stops import Stops
-from ..network.strokes import OffMeshError, Scribble, drawn, for_library, through_vertices
+from ..network.strokes import OffMeshError, Stroke, drawn, for_library, through_vertices
 from ..network.symmetry import Symmetry
 from ..offers.edge_loops import LoopOffers, taken
 from ..offers.flat_regions import FlatRegions
@@ -85,7 +85,7 @@ class Session:
         (3, 3) takes `points` to object coordinates, where mirroring happens; None: they are such.
     triangles
         (m, 3) those that the surface was made of; None: strokes run through vertices only.
-    make_scribble
+    make_stroke
         Makes of a stroke what the live wires take.
     topology
         Whether what is mirrored to what is found by how the mesh hangs together, see `Symmetry`.
@@ -112,7 +112,7 @@ class Session:
         strength: Mapping[Along, float] | None = None,
         to_object: NDArray[np.float64] | None = None,
         triangles: NDArray[np.int32] | None = None,
-        make_scribble: Callable[[Scribble], object] = for_library,
+        make_stroke: Callable[[Stroke], object] = for_library,
         topology: bool = False,
     ) -> None:
         self._points = points
@@ -120,7 +120,7 @@ class Session:
         self._symmetry = Symmetry(points, edges, to_object, topology, triangles)
         self._images = MirrorImages(self._symmetry)
         self._stops = Stops(seams, self._symmetry)
-        self._engines = Engines(make_live, strength or {}, make_scribble)
+        self._engines = Engines(make_live, strength or {}, make_stroke)
         self._network = Network()
         self._history = History()
         self._candidates = CandidateWires(self._engines, points)
@@ -241,7 +241,7 @@ class Session:
         own = self._network.taken_through(edge)
         if own is not None and own.marks == self.marking:
             # Of a double click, the first press took it already.
-            return not choice or self._next_kept(own, choice)
+            return not choice or self._retrace_offer(own, choice)
         offers = self._find_offers(edge)
         if not offers:
             if self.computing:
@@ -302,10 +302,10 @@ class Session:
         self._crest_taken = undirected(pick)
         return self._finish_line(DrawnLine(line, Snap(begin), False, apart=True))
 
-    def toggle(self) -> bool:
+    def next_candidate(self) -> bool:
         """Make the next of the wires the active one, until it is kept; of what is offered for an edge, the next."""
         part = self._loops if self._loops.wanted else self._candidates
-        why = part.swap()
+        why = part.advance()
         if why:
             return self._refuse(why)
         self.message = ""
@@ -371,18 +371,18 @@ class Session:
 
     # Changing kept wires
 
-    def toggle_kept(self, wire: Wire) -> bool:
+    def retrace(self, wire: Wire) -> bool:
         """Let a kept wire take its next way, that of another metric; one from a click on an edge, what is next there."""
         self._calm()
         own = self._network.find(wire)
         if own is None:
             return self._refuse("This wire is not there any more")
         if own.through is not None:
-            return self._next_kept(own)
+            return self._retrace_offer(own)
         if own.closed:
             return self._refuse("A loop has no other way")
         if own.alternatives:
-            return self._retrace(own, own.alternatives)
+            return self._take_way(own, own.alternatives)
         try:
             self._retraces.add(self._network, own.uncut())
         except ValueError as error:
@@ -685,7 +685,7 @@ class Session:
             self._set(replace(self._network, mirror=mirror))
         return True
 
-    def scribble(
+    def draw_stroke(
         self,
         points: ArrayLike | None = None,
         faces: ArrayLike | None = None,
@@ -728,17 +728,17 @@ class Session:
             # The wire that the stroke is for stays the active one, even where another is shorter now.
             chosen = self._candidates.active_index
             acts_on = FOLLOWS[chosen]
-        scribble = Scribble(*stroke, attracts=attracts, acts_on=acts_on or "both", radius=radius)
-        return self._scribbled((*self._network.scribbles, scribble), chosen)
+        stroke = Stroke(*stroke, attracts=attracts, acts_on=acts_on or "both", radius=radius)
+        return self._with_strokes((*self._network.strokes, stroke), chosen)
 
-    def erase(self, scribble: Scribble) -> bool:
+    def erase(self, stroke: Stroke) -> bool:
         """Remove a stroke."""
-        rest = tuple(own for own in self._network.scribbles if own.id != scribble.id)
-        if len(rest) == len(self._network.scribbles):
+        rest = tuple(own for own in self._network.strokes if own.id != stroke.id)
+        if len(rest) == len(self._network.strokes):
             return self._refuse("This stroke is not there any more")
         self._last_click = None
         self.drag_cancel()
-        return self._scribbled(rest, self._candidates.chosen)
+        return self._with_strokes(rest, self._candidates.chosen)
 
     # Undo and redo
 
@@ -1044,14 +1044,14 @@ class Session:
         return self._engines.metric
 
     @property
-    def scribbles(self) -> tuple[Scribble, ...]:
+    def strokes(self) -> tuple[Stroke, ...]:
         """The strokes that live wires follow or keep from, oldest first."""
-        return self.network.scribbles
+        return self.network.strokes
 
     @property
-    def metric_scribbles(self) -> tuple[object, ...]:
+    def metric_strokes(self) -> tuple[object, ...]:
         """Those strokes as the library has them."""
-        return self._engines.scribbles
+        return self._engines.strokes
 
     @property
     def mirror_axes(self) -> tuple[int, ...]:
@@ -1137,8 +1137,8 @@ class Session:
     def _set(self, network: Network) -> None:
         """Go on to a new network, without a step for undo."""
         before, self._network = self._network, network
-        if before.scribbles != network.scribbles:
-            self._engines.follow(network.scribbles)
+        if before.strokes != network.strokes:
+            self._engines.follow(network.strokes)
             self._read_progress()
         self.revision += 1
         self.network_revision += before.wires != network.wires or before.mirror != network.mirror
@@ -1156,8 +1156,8 @@ class Session:
         self.message = self._images.warning(self._network) or gone or self.message
         return True
 
-    def _scribbled(self, scribbles: tuple[Scribble, ...], chosen: int | None) -> bool:
-        self._change(replace(self._network, scribbles=scribbles))
+    def _with_strokes(self, strokes: tuple[Stroke, ...], chosen: int | None) -> bool:
+        self._change(replace(self._network, strokes=strokes))
         self._candidates.chosen = chosen
         return True
 
@@ -1165,7 +1165,7 @@ class Session:
         """Go back or on to a network that there was."""
         if network.seed is not None and network.seed != self._network.seed:
             self._sow(network.seed)
-        back = [stroke.acts_on for stroke in network.scribbles if stroke not in self._network.scribbles]
+        back = [stroke.acts_on for stroke in network.strokes if stroke not in self._network.strokes]
         self._set(network)
         self._last_click, self._crest_taken = None, None
         self._settle()
@@ -1321,7 +1321,7 @@ class Session:
                 self.message = loops.NONE if none else ""
         self.revision += before != self.message
 
-    def _next_kept(self, own: Wire, steps: int = 1) -> bool:
+    def _retrace_offer(self, own: Wire, steps: int = 1) -> bool:
         """Let a wire that a click on an edge took be what that offers next, or some steps on."""
         assert own.through is not None
         if not own.offers:
@@ -1364,9 +1364,9 @@ class Session:
             if isinstance(courses, ValueError):
                 self._refuse(str(courses))
             elif own is not None:  # else it was dropped in the meantime
-                self._retrace(own, courses.others(own))
+                self._take_way(own, courses.others(own))
 
-    def _retrace(self, own: Wire, others: tuple[Wire, ...]) -> bool:
+    def _take_way(self, own: Wire, others: tuple[Wire, ...]) -> bool:
         try:
             network = retraced(self._network, own, others)
         except ValueError as error:
@@ -1412,7 +1412,7 @@ class Session:
         elif head.kind == "bend":
             self.bend(head.snap)
         elif head.kind == "offer" and head.snap.wire is not None:
-            self.toggle_kept(head.snap.wire)
+            self.retrace(head.snap.wire)
         else:
             self.click(head.snap)
         self._queue += rest

@@ -126,7 +126,7 @@ class CandidateWires:
         begin = for_live(seed.begins(along), along)
         self._engines.get(along).seed(begin, forward=seed.forward and along == "EDGES")
 
-    def swap(self) -> str:
+    def advance(self) -> str:
         """Bring the next wire forward; return why that cannot be, else nothing."""
         others = self.others
         if not others:

@@ -54,7 +54,7 @@ class Request:
         Which of both wires' metrics.
     source
         Where distances are from; None: there is no such place, and nothing of them is computed.
-    scribbles
+    strokes
         The library's strokes that wires follow or keep from.
     """
 
@@ -64,12 +64,12 @@ class Request:
     clamp: float = 99.0
     follow: Literal["min", "max"] = "min"
     source: Source | None = None
-    scribbles: tuple[object, ...] = ()
+    strokes: tuple[object, ...] = ()
 
     @property
     def metric_key(self) -> tuple[object, ...]:
         """The same where the metric is."""
-        return self.metric, self.strength, self.clamp, self.follow, self.scribbles
+        return self.metric, self.strength, self.clamp, self.follow, self.strokes
 
 
 @dataclass(frozen=True)
@@ -353,11 +353,11 @@ class FieldMaker:
 
         def make() -> seamwire_core.Metric:
             plain = self._plain_metric(request)
-            if not request.scribbles:
+            if not request.strokes:
                 return plain
-            scribbles = list(request.scribbles)
+            strokes = list(request.strokes)
             kind = self._spec(request).kind
-            return self._core.apply_scribbles(self.surface(), plain, scribbles, kind, progress=self._go_on)
+            return self._core.apply_scribbles(self.surface(), plain, strokes, kind, progress=self._go_on)
 
         return self._once("metric", request.metric_key, make)
 

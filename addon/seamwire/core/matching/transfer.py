@@ -17,7 +17,7 @@ import numpy as np
 from ..base.geometry import Moments, nearest_on_segments
 from ..network.mirror_images import MirrorImages
 from ..network.network import LOOP_NAMES, Network, Wire
-from ..network.strokes import Scribble, for_library, on_mesh
+from ..network.strokes import Stroke, for_library, on_mesh
 from ..network.symmetry import Symmetry
 from ..solver.defaults import CLAMP_PERCENTILE, STRENGTHS
 from ..solver.live_maker import LiveMaker
@@ -99,7 +99,7 @@ class Transfer:
     """
 
     wires: list[Wire] = field(default_factory=list)
-    strokes: list[Scribble] = field(default_factory=list)
+    strokes: list[Stroke] = field(default_factory=list)
     seeds: list[Seed] = field(default_factory=list)
     lost: list[str] = field(default_factory=list)
     doubts: list[str] = field(default_factory=list)
@@ -299,7 +299,7 @@ class _Tracing:
         self._stray = stray
         self._lives: dict[tuple[Along, float], LiveWire] = {}
         self._result = Transfer()
-        self._scribbles: list[object] = []
+        self._library_strokes: list[object] = []
         self._vertex_of: dict[Key, int | None] = {}
 
     def run(
@@ -316,7 +316,7 @@ class _Tracing:
                 result.lost.append(f"stroke {number}: nothing of it has a place")
             else:
                 result.strokes.append(stroke)
-        self._scribbles = [for_library(stroke) for stroke in result.strokes]
+        self._library_strokes = [for_library(stroke) for stroke in result.strokes]
         runs = [(course, axes) for course in self._file.courses for axes in _images(course.record["mirror"])]
         placed = [place(*run) for run in runs]
         if place_on is not None:
@@ -546,12 +546,12 @@ class _Tracing:
             metric = self._file.metric, key[1] or STRENGTHS[key[0]], self._file.clamp
             if metric != ("feature", STRENGTHS[key[0]], CLAMP_PERCENTILE):
                 live.set_metric(metric[0], max_anisotropy=metric[1], clamp_percentile=metric[2])
-            if self._scribbles:
-                live.set_scribbles(self._scribbles)
+            if self._library_strokes:
+                live.set_scribbles(self._library_strokes)
             self._lives[key] = live
         return self._lives[key]
 
-    def _stroke(self, record: dict, placed: Placed) -> Scribble | None:
+    def _stroke(self, record: dict, placed: Placed) -> Stroke | None:
         rows = np.flatnonzero(placed.confidence >= DOUBTFUL)
         if len(rows) < 2:
             return None
@@ -564,7 +564,7 @@ class _Tracing:
         if shape.to_object is not None:
             points = points @ np.linalg.inv(shape.to_object).T
         triangles = placed.triangles[rows]
-        stroke = Scribble(
+        stroke = Stroke(
             points, shape.triangles[triangles], triangles.astype(np.int32), bool(record["attracts"]), record["acts_on"],
             float(record["eta"]), int(record["rings"]), None if record["radius"] is None else float(record["radius"]),
         )  # fmt: skip

@@ -18,7 +18,7 @@ from ..base.geometry import barycentric, nearest_on_segments
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .strokes import Scribble
+    from .strokes import Stroke
 
 Along = Literal["EDGES", "SURFACE"]
 """Where wires run: along the mesh's edges, or across its surface."""
@@ -287,7 +287,7 @@ class Wire:
             return self.vertices == other.vertices
         return self.points.shape == other.points.shape and bool(np.allclose(self.points, other.points, rtol=1e-6))
 
-    def toggled(self) -> Wire:
+    def retraced(self) -> Wire:
         """Return its next alternative in its place, itself as the last one after that. There must be one."""
         following, *rest = self.alternatives
         back = replace(self, alternatives=())
@@ -335,7 +335,7 @@ class Network:
         Where the live wire begins; None between chains.
     mirror
         The axes, 0 to 2, that wires are mirrored over which are kept from here on.
-    scribbles
+    strokes
         The strokes that live wires follow or keep from; where they cross, the later one counts. Kept wires stay as they
         are.
     """
@@ -343,7 +343,7 @@ class Network:
     wires: tuple[Wire, ...] = ()
     seed: Seed | None = None
     mirror: tuple[int, ...] = ()
-    scribbles: tuple[Scribble, ...] = ()
+    strokes: tuple[Stroke, ...] = ()
 
     def find(self, wire: Wire | None) -> Wire | None:
         """Return the wire with another's number, as it runs in this network."""

@@ -27,7 +27,7 @@ _ids = itertools.count()
 
 
 @dataclass(frozen=True, eq=False)
-class Scribble:
+class Stroke:
     """A stroke.
 
     Parameters
@@ -178,19 +178,19 @@ def into_triangles(places: NDArray[np.float64], triangles: NDArray[np.float64]) 
     return np.einsum("ij,ijk->ik", weights, triangles)
 
 
-def on_mesh(scribble: Scribble, mesh: NDArray[np.float64], triangles: NDArray[np.int32] | None) -> Scribble:
+def on_mesh(stroke: Stroke, mesh: NDArray[np.float64], triangles: NDArray[np.int32] | None) -> Stroke:
     """Return a stroke with its points in the triangles between its corners, or else at the nearest of those.
 
     Parameters
     ----------
-    scribble
+    stroke
         Of vertices below k.
     mesh
         (k, 3) vertices.
     triangles
         (m, 3) the mesh's triangles; None: not known.
     """
-    corners = np.sort(scribble.corners, axis=1)
+    corners = np.sort(stroke.corners, axis=1)
     at_vertex = corners[:, 0] == corners[:, 2]
     number_of: dict[tuple[int, ...], int] = {}
     if triangles is not None and not at_vertex.all():
@@ -199,34 +199,34 @@ def on_mesh(scribble: Scribble, mesh: NDArray[np.float64], triangles: NDArray[np
         rows = np.flatnonzero(touched[triangles].all(axis=1))
         number_of = dict(zip(map(tuple, np.sort(triangles[rows], axis=1).tolist()), rows.tolist(), strict=True))
     faces = np.array([number_of.get(tuple(triple), -1) for triple in corners.tolist()], dtype=np.int32)
-    points = into_triangles(scribble.points, mesh[corners])
+    points = into_triangles(stroke.points, mesh[corners])
     lost = faces < 0
     gaps = np.linalg.norm(mesh[corners[lost]] - points[lost, None], axis=2)
     nearest = np.take_along_axis(corners[lost], gaps.argmin(axis=1)[:, None], axis=1)
     corners[lost] = nearest
     points[lost] = mesh[nearest[:, 0]]
-    return Scribble(
+    return Stroke(
         points,
         corners.astype(np.int32),
         faces,
-        scribble.attracts,
-        scribble.acts_on,
-        scribble.eta,
-        scribble.rings,
-        scribble.radius,
-        scribble.id,
+        stroke.attracts,
+        stroke.acts_on,
+        stroke.eta,
+        stroke.rings,
+        stroke.radius,
+        stroke.id,
     )
 
 
-def for_library(scribble: Scribble) -> object:
+def for_library(stroke: Stroke) -> object:
     """Return a stroke as the library takes it."""
     return native.load().Scribble(
-        scribble.points,
-        faces=scribble.faces,
-        vertices=scribble.vertices,
-        eta=scribble.eta,
-        rings=scribble.rings,
-        radius=scribble.radius,
-        attracts=scribble.attracts,
-        acts_on=scribble.acts_on,
+        stroke.points,
+        faces=stroke.faces,
+        vertices=stroke.vertices,
+        eta=stroke.eta,
+        rings=stroke.rings,
+        radius=stroke.radius,
+        attracts=stroke.attracts,
+        acts_on=stroke.acts_on,
     )

@@ -89,7 +89,7 @@ class Offers:
         alike = (place for place, offer in enumerate(offers) if offer.like(self.wire))
         return next(alike, min(self.choice, max(len(offers) - 1, 0)))
 
-    def swap(self) -> str:
+    def advance(self) -> str:
         """Show the next offer; return why that cannot be, else nothing."""
         if not self.offers:
             return "There is no loop yet"

@@ -143,7 +143,7 @@ class SurfaceLoops(Offers):
 
     @property
     def _metric(self) -> tuple[object, ...]:
-        return self._engines.strengths["SURFACE"], self._engines.scribbles
+        return self._engines.strengths["SURFACE"], self._engines.strokes
 
     def aim(self, pick: Pick | None) -> bool:
         """Ask for the offers for a pick, or for none; where a cut was taken just now, there are none until another pick."""

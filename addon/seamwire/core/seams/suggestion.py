@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..network.network import Along, Finish
-    from ..network.strokes import Scribble
+    from ..network.strokes import Stroke
 
 STRETCH = 0.17
 """The stretch that a map may have on average, unless another one is asked for: E_d = 4.2."""
@@ -172,7 +172,7 @@ def keep_out(triangles: NDArray[np.int32], is_planned: NDArray[np.bool_], count:
 
 
 def stroke_weights(
-    points: NDArray[np.float64], edges: NDArray[np.int32], strokes: Collection[Scribble]
+    points: NDArray[np.float64], edges: NDArray[np.int32], strokes: Collection[Stroke]
 ) -> NDArray[np.float64]:
     """Return how strokes weigh the cost of wires: guide strokes make it smaller, avoid strokes larger.
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from seamwire_core import Surface
 
     from ..network.network import Along, Edge, Pick
-    from ..network.strokes import Scribble
+    from ..network.strokes import Stroke
 
 MetricName = Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"]
 """What draws wires to features, as the library calls it."""
@@ -59,7 +59,7 @@ def by_number(found: Candidates) -> tuple[tuple[Candidate, ...], int]:
     return tuple(found.wires[at] for at in order), order.index(found.active)
 
 
-def _meant_for(stroke: Scribble, kinds: tuple[Kind, ...]) -> Scribble | None:
+def _meant_for(stroke: Stroke, kinds: tuple[Kind, ...]) -> Stroke | None:
     """Return a stroke for one of the wires as the library names that wire; None if there is no such wire."""
     if stroke.acts_on == "both":
         return stroke
@@ -172,7 +172,7 @@ class LiveWire(Protocol):
     ) -> None:
         """Compute with another metric from here on; the seed stays, and so do the wires until there are new ones."""
 
-    def set_scribbles(self, scribbles: Sequence[object]) -> None:
+    def set_scribbles(self, strokes: Sequence[object]) -> None:
         """Compute with these strokes instead of those before; the rest as `set_metric`."""
 
     def feature_strength(self) -> NDArray[np.float64] | None:
@@ -201,7 +201,7 @@ class Engines:
         Makes those of one way, with that way's strength of `STRENGTHS` and `CLAMP_PERCENTILE`.
     strengths
         Largest anisotropy of the metric, where it is to be another one.
-    make_scribble
+    make_stroke
         Makes of a stroke what the live wires take.
     """
 
@@ -209,7 +209,7 @@ class Engines:
         self,
         make: Callable[[Along], LiveWire],
         strengths: Mapping[Along, float],
-        make_scribble: Callable[[Scribble], object],
+        make_stroke: Callable[[Stroke], object],
     ) -> None:
         self._make = make
         self._lives: dict[Along, LiveWire] = {}
@@ -217,8 +217,8 @@ class Engines:
         self.strengths: dict[Along, float] = {**STRENGTHS, **strengths}
         self.metric: MetricName = "feature"
         self.clamp = CLAMP_PERCENTILE
-        self._make_scribble = make_scribble
-        self._strokes: tuple[Scribble, ...] = ()
+        self._make_stroke = make_stroke
+        self._strokes: tuple[Stroke, ...] = ()
         self._made: dict[MetricName, list[object]] = {}
         self._told: int = 0
 
@@ -229,7 +229,7 @@ class Engines:
             if (self.metric, self.strengths[along], self.clamp) != ("feature", STRENGTHS[along], CLAMP_PERCENTILE):
                 self._tell_metric(along)
             if self._strokes:
-                self._lives[along].set_scribbles(self._scribbles(self.metric))
+                self._lives[along].set_scribbles(self._library_strokes(self.metric))
         return self._lives[along]
 
     def cuts(self) -> LiveWire:
@@ -238,7 +238,7 @@ class Engines:
             self._cuts = self._make("SURFACE")
             self._tell_cuts()
             if self._strokes:
-                self._cuts.set_scribbles(self._scribbles("concave"))
+                self._cuts.set_scribbles(self._library_strokes("concave"))
         return self._cuts
 
     def use(self, metric: MetricName, strengths: Mapping[Along, float], clamp: float) -> None:
@@ -249,28 +249,28 @@ class Engines:
             if (metric, strengths[along], clamp) != (before[0], before[1][along], before[2]):
                 self._tell_metric(along)
                 if self._strokes and kinds_of(metric) != kinds_of(before[0]):
-                    self._lives[along].set_scribbles(self._scribbles(metric))
+                    self._lives[along].set_scribbles(self._library_strokes(metric))
         if strengths["SURFACE"] != before[1]["SURFACE"]:
             self._tell_cuts()
 
-    def follow(self, scribbles: Sequence[Scribble]) -> None:
+    def follow(self, strokes: Sequence[Stroke]) -> None:
         """Compute with other strokes from here on; forks that were made before keep theirs."""
-        self._strokes, self._made = tuple(scribbles), {}
+        self._strokes, self._made = tuple(strokes), {}
         for live in self._lives.values():
-            live.set_scribbles(self._scribbles(self.metric))
+            live.set_scribbles(self._library_strokes(self.metric))
         if self._cuts is not None:
-            self._cuts.set_scribbles(self._scribbles("concave"))
+            self._cuts.set_scribbles(self._library_strokes("concave"))
 
     @property
-    def scribbles(self) -> tuple[object, ...]:
+    def strokes(self) -> tuple[object, ...]:
         """What live wires are told of strokes now: the same objects as long as the strokes are."""
-        return tuple(self._scribbles(self.metric))
+        return tuple(self._library_strokes(self.metric))
 
-    def _scribbles(self, metric: MetricName) -> list[object]:
+    def _library_strokes(self, metric: MetricName) -> list[object]:
         """Return the strokes as live wires with a metric take them: without those for a wire that it does not have."""
         if metric not in self._made:
             meant = (_meant_for(stroke, kinds_of(metric)) for stroke in self._strokes)
-            self._made[metric] = [self._make_scribble(stroke) for stroke in meant if stroke is not None]
+            self._made[metric] = [self._make_stroke(stroke) for stroke in meant if stroke is not None]
         return self._made[metric]
 
     def warning(self, along: Along) -> str:

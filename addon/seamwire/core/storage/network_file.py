@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..network.network import Edge, Network, Pick, Wire
-    from ..network.strokes import Scribble
+    from ..network.strokes import Stroke
 
 FORMAT = "seamwire-network"
 VERSION = 1
@@ -182,7 +182,7 @@ class NetworkFile:
             tuple(courses),
             tuple(
                 serialization.stroke_record(stroke, places, matrix, order)
-                for order, stroke in enumerate(network.scribbles)
+                for order, stroke in enumerate(network.strokes)
             ),
         )
 
@@ -299,7 +299,7 @@ class NetworkFile:
         """
         return [serialization.wire_of(course.record, points, to_object) for course in self.courses]
 
-    def strokes_on(self, points: NDArray[np.float64], to_object: NDArray[np.float64]) -> list[Scribble]:
+    def strokes_on(self, points: NDArray[np.float64], to_object: NDArray[np.float64]) -> list[Stroke]:
         """Return its strokes on the mesh that it was drawn on, by numbers; parameters as those of `wires`."""
         places = points @ to_object.T
         found = (

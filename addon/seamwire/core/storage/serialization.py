@@ -20,7 +20,7 @@ import numpy as np
 
 from ..base.spatial_hash import SpatialHash
 from ..network.network import FOLLOWS, LOOP_NAMES, FacePoint, Network, Wire, undirected
-from ..network.strokes import Scribble
+from ..network.strokes import Stroke
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -318,7 +318,7 @@ def unpacked(text: str) -> NDArray[np.float64]:
 # Strokes
 
 
-def stroke_record(stroke: Scribble, places: NDArray[np.float64], to_object: NDArray[np.float64], order: int) -> Record:
+def stroke_record(stroke: Stroke, places: NDArray[np.float64], to_object: NDArray[np.float64], order: int) -> Record:
     """Return what there is to keep of a stroke; parameters as those of `wire_record`, and how many strokes came before."""
     numbers = np.unique(stroke.corners)
     return {
@@ -344,7 +344,7 @@ def order_of(record: Record) -> int:
 
 def stored_stroke(
     record: Record, places: NDArray[np.float64], to_object: NDArray[np.float64], begins: Iterable[Edge]
-) -> Scribble | None:
+) -> Stroke | None:
     """Return as much of a stroke in one piece as the mesh has now; None: nothing of it, or it is damaged.
 
     Its corners alone say where it lies, see `strokes.on_mesh`.
@@ -373,7 +373,7 @@ def stored_stroke(
         return None
 
 
-def stroke_of(item: Mapping[str, Any], points: NDArray[np.float64], number_of: Mapping[int, int]) -> Scribble | None:
+def stroke_of(item: Mapping[str, Any], points: NDArray[np.float64], number_of: Mapping[int, int]) -> Stroke | None:
     """Return a stroke through those of its points whose vertices are there, as much of it as is in one piece.
 
     Raises
@@ -396,7 +396,7 @@ def stroke_of(item: Mapping[str, Any], points: NDArray[np.float64], number_of: M
     if end - begin < 2:
         return None
     faces = np.full(end - begin, -1, dtype=np.int32)
-    return Scribble(points[begin:end], corners[begin:end], faces, bool(item["attracts"]), acts_on, eta, rings, radius)
+    return Stroke(points[begin:end], corners[begin:end], faces, bool(item["attracts"]), acts_on, eta, rings, radius)
 
 
 def matched(
@@ -493,7 +493,7 @@ class _FirstVersion:
         ]
         return Network(
             tuple(wire for wire in wires if wire is not None),
-            scribbles=tuple(stroke for stroke in strokes if stroke is not None),
+            strokes=tuple(stroke for stroke in strokes if stroke is not None),
         )
 
     def _pick(self, stored: int | list[int]) -> Pick | None:

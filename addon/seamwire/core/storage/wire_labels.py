@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..network.network import Edge, End, Pick
-    from ..network.strokes import Scribble
+    from ..network.strokes import Stroke
 
 
 Claim = tuple["Edge", int]
@@ -167,7 +167,7 @@ def read(marks: EdgeLabels, archive: Archive, places: Places) -> Found:
         if stroke is not None:
             strokes.append(stroke)
     wires = _Wires(pieces, set(edges), places, in_object).all()
-    return Found(Network(wires, scribbles=tuple(strokes)), frozenset(known), frozenset(broken), unknown)
+    return Found(Network(wires, strokes=tuple(strokes)), frozenset(known), frozenset(broken), unknown)
 
 
 def _edge(pair: Iterable[int]) -> Edge:
@@ -486,7 +486,7 @@ def plan(
         for edge in images:
             after.setdefault(edge, set()).add(-number)
         wires.append(replace(wire, stored=number, images=images))
-    for order, stroke in enumerate(network.scribbles):
+    for order, stroke in enumerate(network.strokes):
         number = archive.add_stroke(serialization.stroke_record(stroke, in_object, places.to_object, order))
         for edge in _beginning(stroke, edges):
             after.setdefault(edge, set()).add(number)
@@ -564,7 +564,7 @@ class _Change:
             (result.mark if wanted else result.clear).append(self.edge)
 
 
-def _beginning(stroke: Scribble, edges: NDArray[np.int32]) -> Iterator[Edge]:
+def _beginning(stroke: Stroke, edges: NDArray[np.int32]) -> Iterator[Edge]:
     """Yield an edge or several where a stroke begins."""
     corners = set(stroke.corners[0].tolist())
     near = edges[np.isin(edges, list(corners)).any(axis=1)]

@@ -152,7 +152,7 @@ def test_a_loop_that_is_kept_does_not_become_a_ridge() -> None:
     # Stored, it has lost what else was offered: that is found anew.
     session.adopt(replace(session.kept, wires=tuple(replace(wire, offers=()) for wire in session.wires)), [])
     for _ in range(4):
-        session.toggle_kept(session.wires[0])
+        session.retrace(session.wires[0])
         session.wait()
         (wire,) = session.wires
         assert not {offer.kind for offer in wire.all_offers()} & {"RIDGE", "VALLEY"}
@@ -173,7 +173,7 @@ def test_toggling_goes_through_what_is_offered_beside_a_ridge(steps: int, kept: 
     assert len(kinds) > 2
     assert kinds[0] == "RIDGE"
     for _ in range(steps):
-        session.toggle()
+        session.next_candidate()
     shown = session.loop_preview
     assert session.loop_choice == kinds[steps]
     assert session.click(sheet.pick())

@@ -116,7 +116,7 @@ def test_a_chain_of_one_wire_is_not_closed_by_going_back_along_it() -> None:
     assert len(session.wires) == 1
     session.undo()
     session.click(9)
-    assert session.toggle() is False
+    assert session.next_candidate() is False
     assert session.close(), "where it comes back another way it is"
     assert courses(session) == [(0, 1, 2, 3, 9), (9, 8, 7, 6, 0)]
 
@@ -221,10 +221,10 @@ def test_a_kept_wire_takes_its_other_way_and_back() -> None:
     session = Table().session
     session.click(0)
     session.click(7)
-    assert session.toggle_kept(session.wires[0])
+    assert session.retrace(session.wires[0])
     assert courses(session) == [(0, 6, 7)]
     assert session.seed == (6, 7), "the chain goes on from the other way's last edge"
-    assert session.toggle_kept(session.wires[0])
+    assert session.retrace(session.wires[0])
     assert courses(session) == [(0, 1, 7)]
     assert session.undo()
     assert courses(session) == [(0, 6, 7)]
@@ -237,7 +237,7 @@ def test_of_three_a_kept_wire_takes_its_ways_in_turn() -> None:
     seen = []
     for _ in range(4):
         seen.append((session.wires[0].follow, session.wires[0].vertices))
-        assert session.toggle_kept(session.wires[0])
+        assert session.retrace(session.wires[0])
     assert seen[:3] == [(2, (0, 1, 7, 8, 14)), (0, (0, 1, 2, 8, 14)), (1, (0, 6, 12, 13, 14))]
     assert seen[3] == seen[0]
 
@@ -250,7 +250,7 @@ def test_of_three_the_ways_of_half_a_wire_are_computed_and_come_in_the_same_orde
     assert courses(session) == [(0, 1, 7, 8, 14, 15, 21)]
     session.insert(session.wires[0], 14)
     for expected in [(0, 1, 2, 8, 14), (0, 6, 12, 13, 14), (0, 1, 7, 8, 14)]:
-        assert session.toggle_kept(session.wires[0])
+        assert session.retrace(session.wires[0])
         table.compute()
         assert courses(session) == [expected, (14, 15, 21)]
 
@@ -260,18 +260,18 @@ def test_after_the_second_way_of_half_a_wire_the_third_is_computed() -> None:
     session.click(0)
     session.hover(21)
     while session.active.follow != 1:
-        session.toggle()
+        session.next_candidate()
     session.click(21)
     assert courses(session) == [(0, 6, 12, 18, 19, 20, 21)]
     session.insert(session.wires[0], 20)
-    assert session.toggle_kept(session.wires[0])
+    assert session.retrace(session.wires[0])
     assert session.wires[0].follow == 2
     assert courses(session) == [(0, 1, 7, 8, 14, 20), (20, 21)]
 
 
 def test_a_straight_wire_has_no_other_way() -> None:
     session = corner().session
-    assert not session.toggle_kept(session.wires[0])
+    assert not session.retrace(session.wires[0])
     assert "same edges" in session.message
 
 
@@ -282,7 +282,7 @@ def test_the_other_way_of_half_a_wire_is_computed() -> None:
     session.click(20)
     assert courses(session) == [(0, 1, 2, 8, 14, 20)]
     session.insert(session.wires[0], 8)
-    assert session.toggle_kept(session.wires[0])
+    assert session.retrace(session.wires[0])
     assert session.computing
     assert courses(session) == [(0, 1, 2, 8), (8, 14, 20)]
     table.compute()
@@ -298,7 +298,7 @@ def test_dropping_waits_for_nothing_that_was_asked_of_the_wire() -> None:
     session.click(0)
     session.click(21)
     session.insert(session.wires[0], 9)
-    session.toggle_kept(session.wires[0])
+    session.retrace(session.wires[0])
     assert session.waiting_clicks == 1
     session.drop(session.wires[0])
     table.compute()
@@ -312,7 +312,7 @@ def test_undo_takes_back_what_waits_for_a_wires_other_way() -> None:
     session.click(0)
     session.click(21)
     session.insert(session.wires[0], 9)
-    session.toggle_kept(session.wires[0])
+    session.retrace(session.wires[0])
     assert session.undo()
     assert session.waiting_clicks == 0
     table.compute()
@@ -328,7 +328,7 @@ def test_a_stored_loop_that_no_click_took_has_no_other_way() -> None:
     mesh.write(Network((drawn,)))
     session = Table().session
     mesh.open(session)
-    assert not session.toggle_kept(session.wires[0])
+    assert not session.retrace(session.wires[0])
     assert "loop" in session.message
 
 

@@ -40,7 +40,7 @@ def first_offer(edge: tuple[int, int], *before: tuple[tuple[int, int], str], **o
     for other, kind in before:
         session.hover(other, loop=True)
         while session.loop_choice != kind:
-            assert session.toggle()
+            assert session.next_candidate()
         assert session.loop(other)
     session.hover(edge, loop=True)
     return session.loop_choice
@@ -84,7 +84,7 @@ def test_a_strip_ends_at_seams_and_the_whole_one_is_offered_next() -> None:
     session.hover((14, 20), loop=True)
     assert session.loop_offers == ("STRIP", "WHOLE")
     assert shown(session) == (8, 14, 20, 26)
-    assert session.toggle()
+    assert session.next_candidate()
     assert shown(session) == COLUMN
 
 
@@ -110,7 +110,7 @@ def test_a_strip_ends_on_the_mirrors_plane_unless_it_runs_along_it() -> None:
     session = Session(table.session._engines._make, table.points, edges=grid_edges(SIZE))
     session.set_mirror([0])
     session.hover((15, 16), loop=True)
-    session.toggle()
+    session.next_candidate()
     assert session.loop_choice == "STRIP"
     assert shown(session) == (14, 15, 16, 17)
     session.hover((14, 20), loop=True)
@@ -130,12 +130,12 @@ def test_toggling_goes_around_and_stays_while_the_edge_is_the_same() -> None:
     for _ in range(4):
         kinds.append(session.loop_choice)
         before = session.revision
-        assert session.toggle()
+        assert session.next_candidate()
         assert session.revision > before
         session.hover((15, 14), loop=True)
     assert kinds == ["CLOSED", "STRIP", "CLOSED", "STRIP"]
     assert session.loop_choice == "CLOSED"
-    session.toggle()
+    session.next_candidate()
     session.hover((15, 16), loop=True)
     assert session.loop_choice == "CLOSED", "another edge begins with its default"
 
@@ -144,7 +144,7 @@ def test_toggling_goes_around_and_stays_while_the_edge_is_the_same() -> None:
 def test_what_is_chosen_is_kept(keep: str) -> None:
     session = Table().session
     session.hover((14, 15), loop=True)
-    session.toggle()
+    session.next_candidate()
     assert getattr(session, keep)((14, 15))
     assert session.wires[0].vertices == ROW
     assert session.wires[0].kind == "STRIP"
@@ -154,7 +154,7 @@ def test_a_single_offer_has_no_next() -> None:
     session = Table().session
     session.hover((14, 20), loop=True)
     assert session.loop_offers == ("STRIP",)
-    assert not session.toggle()
+    assert not session.next_candidate()
     assert "Nothing else" in session.message
     session.hover(None)
     assert session.loop_offers == ()
@@ -174,7 +174,7 @@ def test_a_kept_loop_takes_its_next_offer_in_place() -> None:
     number = session.wires[0].id
     courses = []
     for _ in range(3):
-        assert session.toggle_kept(session.wires[0])
+        assert session.retrace(session.wires[0])
         courses.append(session.wires[0].vertices)
         assert session.wires[0].id == number
     assert courses == [ROW, LOOP, ROW]
@@ -187,7 +187,7 @@ def test_a_kept_loop_takes_its_next_offer_in_place() -> None:
     assert session.undo()
     assert session.wires == ()
     assert session.redo()
-    assert session.toggle_kept(session.wires[0])
+    assert session.retrace(session.wires[0])
     assert session.wires[0].vertices == ROW
 
 
@@ -199,7 +199,7 @@ def test_over_a_kept_loops_edge_the_cursor_finds_its_offers_and_a_click_replaces
     assert session.loop((14, 15)), "the same again, as the second press of a double click"
     assert len(session.wires) == 1
     session.hover((14, 15), loop=True)
-    session.toggle()
+    session.next_candidate()
     session.loop((14, 15))
     assert [wire.vertices for wire in session.wires] == [ROW]
 
@@ -244,7 +244,7 @@ def test_while_the_loop_is_computed_nothing_is_offered_yet() -> None:
     session.hover((14, 15), loop=True)
     assert session.loop_preview is None
     assert session.computing
-    assert not session.toggle()
+    assert not session.next_candidate()
     assert "no loop yet" in session.message
     table.compute()
     assert shown(session) == LOOP
@@ -273,7 +273,7 @@ def test_what_goes_on_from_a_strip_stays_when_that_takes_its_next_offer() -> Non
     session.click(28)
     session.end_chain()
     assert session.wires[1].heading == (20, 26)
-    session.toggle_kept(session.wires[0])
+    session.retrace(session.wires[0])
     assert session.wires[0].vertices == COLUMN
     assert session.wires[1].vertices == (26, 27, 28)
     assert session.wires[1].heading is None
@@ -323,7 +323,7 @@ def test_a_stored_loop_or_strip_goes_through_the_same_offers_again(order: range,
     table = Table()
     table.session.loop((14, 15))
     for _ in range(steps):
-        table.session.toggle_kept(table.session.wires[0])
+        table.session.retrace(table.session.wires[0])
     mesh = paper()
     mesh.write(table.session)
     where = mesh.renumber(order)
@@ -334,8 +334,8 @@ def test_a_stored_loop_or_strip_goes_through_the_same_offers_again(order: range,
     kept = again.wires[0]
     number = again.wires[0].id
     for _ in range(3):
-        assert table.session.toggle_kept(table.session.wires[0])
-        assert again.toggle_kept(again.wires[0])
+        assert table.session.retrace(table.session.wires[0])
+        assert again.retrace(again.wires[0])
         assert again.wires[0].vertices == table.session.wires[0].vertices
         assert again.wires[0].kind == table.session.wires[0].kind
         assert again.wires[0].id == number
@@ -367,7 +367,7 @@ def test_a_stored_loop_is_previewed_with_its_offers() -> None:
     mesh.open(session)
     session.hover((15, 14), loop=True)
     assert session.loop_offers == ("CLOSED", "STRIP")
-    assert session.toggle()
+    assert session.next_candidate()
     assert session.loop((15, 14))
     assert [wire.vertices for wire in session.wires] == [ROW], "in place, not beside it"
 
@@ -380,7 +380,7 @@ def test_a_stored_loops_offers_wait_until_they_are_computed() -> None:
     again = Table("SURFACE", ready=(False, False))
     session = again.session
     mesh.open(session)
-    assert session.toggle_kept(session.wires[0])
+    assert session.retrace(session.wires[0])
     assert session.waiting_clicks == 1
     assert session.computing
     again.compute()
@@ -398,7 +398,7 @@ def test_a_stored_loops_offers_are_waited_for_across_the_surface_too() -> None:
     mesh.write(table.session)
     session = Table("SURFACE", ready=(False, False)).session
     mesh.open(session)
-    session.toggle_kept(session.wires[0])
+    session.retrace(session.wires[0])
     session.wait()
     assert session.wires[0].vertices == ROW
 

@@ -207,7 +207,7 @@ def test_while_a_seed_is_dragged_a_toggled_wire_stays_with_its_metric() -> None:
     session = Table().session
     session.click(0)
     session.click(7)
-    session.toggle_kept(session.wires[0])
+    session.retrace(session.wires[0])
     session.drag(7)
     session.drag_to(8)
     assert courses(session) == [(0, 6, 7, 8)]

@@ -61,7 +61,7 @@ class Monkey:
             *[lambda: session.hover(self.snap(), loop=self.dice.random() < 0.3)] * 6,
             *[lambda: session.loop(self.snap())] * 3,
             *[self.stroke] * 3,
-            *[session.toggle, session.poll, session.undo] * 3,
+            *[session.next_candidate, session.poll, session.undo] * 3,
             *[session.redo, session.wait] * 2,
             lambda: session.start(self.snap()),
             lambda: session.drag(self.snap()),
@@ -80,7 +80,7 @@ class Monkey:
             lambda: session.set_metric(self.dice.choice(["feature", "campen", "euclidean"])),
             lambda: session.set_mirror(self.dice.choice([(), (0,), (0, 1)])),
             session.toggle_marking,
-            self.with_wire(session.toggle_kept),
+            self.with_wire(session.retrace),
             self.with_wire(session.drop),
             self.with_wire(lambda wire: session.insert(wire, self.dice.choice(wire.vertices))),
             self.erase,
@@ -106,11 +106,11 @@ class Monkey:
         attracts = self.dice.random() < 0.7
         if self.dice.random() < 0.3:
             vertices = [self.dice.randrange(SIZE**2) for _ in range(self.dice.randrange(1, 5))]
-            self.session.scribble(vertices=vertices, attracts=attracts)
+            self.session.draw_stroke(vertices=vertices, attracts=attracts)
             return
         faces = [self.dice.randrange(2 * (SIZE - 1) ** 2) for _ in range(self.dice.randrange(1, 20))]
         middles = self.points[grid_triangles(SIZE)[faces]].mean(axis=1)
-        self.session.scribble(middles, faces, attracts=attracts)
+        self.session.draw_stroke(middles, faces, attracts=attracts)
 
     def line_on(self) -> None:
         start, step = self.dice.randrange(2 * (SIZE - 1) ** 2), self.dice.choice([1, 2, 2 * (SIZE - 1)])
@@ -119,8 +119,8 @@ class Monkey:
         self.session.line_to(middles, faces, self.snap() if self.dice.random() < 0.5 else None)
 
     def erase(self) -> None:
-        if self.session.scribbles:
-            self.session.erase(self.dice.choice(self.session.scribbles))
+        if self.session.strokes:
+            self.session.erase(self.dice.choice(self.session.strokes))
 
     def store(self) -> None:
         session, mesh = self.session, self.mesh
@@ -147,7 +147,7 @@ class Monkey:
         assert found.known == plan.known
         assert (found.broken, found.unknown) == (set(), 0)
         assert looks(found.network) == looks(expected)
-        assert len(found.network.scribbles) == len(expected.scribbles)
+        assert len(found.network.strokes) == len(expected.strokes)
         marked = {edge for wire in found.network.wires for edge in wire.claims()}
         assert mesh.plain_seams() == mesh.seams - marked
         assert marked <= mesh.seams
@@ -209,9 +209,9 @@ def test_whatever_is_done_the_network_is_sound_and_undo_leads_back(seed: int) ->
         left -= 1
     assert left
     assert looks(session.network) == looks(monkey.begun)
-    assert [one.id for one in session.scribbles] == [one.id for one in monkey.begun.scribbles]
-    for scribble in session.scribbles:
-        session.erase(scribble)
+    assert [one.id for one in session.strokes] == [one.id for one in monkey.begun.strokes]
+    for stroke in session.strokes:
+        session.erase(stroke)
     session.switch("EDGES")
     session.set_metric("feature")
     session.set_strength("EDGES", STRENGTHS["EDGES"])

@@ -95,7 +95,7 @@ def hovered(session: Session, edge: tuple[int, int]) -> list[tuple[str, list[int
     found = []
     for _ in session.loop_offers:
         found.append((session.loop_choice, sorted(session.loop_preview.vertices)))
-        session.toggle()
+        session.next_candidate()
     return found
 
 
@@ -162,7 +162,7 @@ def test_a_double_click_on_a_ball_takes_the_meridian_between_the_poles(ready: bo
     session.wait()
     (wire,) = session.wires
     while wire.kind == "CLOSED":  # a great circle through both poles is a loop, where the metric says so
-        session.toggle_kept(wire)
+        session.retrace(wire)
         (wire,) = session.wires
     assert not wire.closed
     assert sorted(wire.vertices) == [*meridian(2), AROUND * RINGS, AROUND * RINGS + 1]
@@ -192,7 +192,7 @@ def test_a_way_past_poles_that_meets_no_seam_closes_around_the_ball() -> None:
     shown = []
     for _ in session.loop_offers:
         shown.append((session.loop_preview.closed, set(session.loop_preview.vertices)))
-        session.toggle()
+        session.next_candidate()
     assert (True, great_circle) in shown
 
 
@@ -241,7 +241,7 @@ def test_the_strip_of_a_stored_network_can_be_moved() -> None:
     edge = (3 * AROUND + 2, 4 * AROUND + 2)
     hovered(session, edge)
     while session.loop_choice != "STRIP":
-        session.toggle()
+        session.next_candidate()
     session.loop(edge)
     points = session._points
     mesh = PaperMesh(points, session._symmetry._edges)
@@ -303,7 +303,7 @@ def test_a_wire_follows_a_stroke_and_is_what_it_was_without(ready: bool) -> None
     session = grid(ready=ready)
     before = wire_between(session, "SURFACE")
     assert np.abs(before[:, 1] - 15.0).max() < 1e-6
-    assert session.scribble(bow(), faces_under(bow()))
+    assert session.draw_stroke(bow(), faces_under(bow()))
     followed = wire_between(session, "SURFACE")
     # Away from the ends, where the wire has found the stroke, within half an edge of the circle.
     inner = np.abs(followed[:, 0] - 15.0) < 8.0
@@ -316,13 +316,13 @@ def test_a_wire_follows_a_stroke_and_is_what_it_was_without(ready: bool) -> None
 @pytest.mark.parametrize("ready", [False, True])
 def test_along_edges_a_wire_follows_a_stroke_that_edges_can_follow(ready: bool) -> None:
     session = grid(ready=ready)
-    session.scribble(gate(), faces_under(gate()))
+    session.draw_stroke(gate(), faces_under(gate()))
     assert set(map(tuple, wire_between(session, "EDGES")[:, :2])) == GATE
 
 
 def test_along_edges_a_wire_follows_a_stroke_that_runs_askew_to_them() -> None:
     session = grid()
-    session.scribble(bow(), faces_under(bow()))
+    session.draw_stroke(bow(), faces_under(bow()))
     wire = wire_between(session, "EDGES")
     gaps = np.linalg.norm(wire[:, None] - bow()[None], axis=2)
     assert gaps.min(axis=1).max() < 1.0, "there is a vertex within .71 of an edge everywhere"
@@ -332,7 +332,7 @@ def test_along_edges_a_wire_follows_a_stroke_that_runs_askew_to_them() -> None:
 def test_a_repelled_line_is_not_followed() -> None:
     session = grid()
     straight = np.column_stack([np.linspace(3.0, 27.0, 60), np.full(60, 15.2), np.zeros(60)])
-    assert session.scribble(straight, faces_under(straight), attracts=False)
+    assert session.draw_stroke(straight, faces_under(straight), attracts=False)
     wire = wire_between(session, "SURFACE")
     assert np.abs(wire[:, 1] - 15.0).max() > 1.5
 
@@ -342,7 +342,7 @@ def test_the_live_wire_follows_a_stroke_while_it_is_live() -> None:
     session.click(LEFT)
     session.hover(RIGHT)
     session.wait()
-    session.scribble(gate(), faces_under(gate()))
+    session.draw_stroke(gate(), faces_under(gate()))
     session.wait()
     assert set(map(tuple, session.active.points[:, :2])) == GATE
     session.undo()
@@ -356,7 +356,7 @@ def test_strokes_reach_wires_whose_seeds_are_moved() -> None:
     session.click(RIGHT - 4)
     session.wait()
     session.end_chain()
-    session.scribble(gate(), faces_under(gate()))
+    session.draw_stroke(gate(), faces_under(gate()))
     assert session.wires[0].points[:, 1].max() == 15.0, "a kept wire stays"
     session.drag(RIGHT - 4)
     session.drag_to(RIGHT)
@@ -368,7 +368,7 @@ def test_strokes_reach_wires_whose_seeds_are_moved() -> None:
 
 def test_a_stored_stroke_draws_the_same_wire() -> None:
     session = grid()
-    session.scribble(bow(), faces_under(bow()))
+    session.draw_stroke(bow(), faces_under(bow()))
     before = wire_between(session, "EDGES")
     mesh = PaperMesh(grid_points(SIZE), grid_edges(SIZE), triangles=grid_triangles(SIZE))
     mesh.write(session)
@@ -396,7 +396,7 @@ def test_a_stored_stroke_draws_the_same_wire() -> None:
 )
 def test_any_stroke_on_the_mesh_leaves_wires_that_can_be_drawn(points: NDArray[np.float64]) -> None:
     session = grid()
-    assert session.scribble(points, faces_under(points))
+    assert session.draw_stroke(points, faces_under(points))
     for along in ("EDGES", "SURFACE"):
         assert len(wire_between(session, along)) > 2
     assert session.message == ""
@@ -404,15 +404,15 @@ def test_any_stroke_on_the_mesh_leaves_wires_that_can_be_drawn(points: NDArray[n
 
 @pytest.mark.parametrize("ready", [False, True])
 def test_what_the_library_refuses_is_said_and_undone_without_a_loss(ready: bool) -> None:
-    def off_mesh(scribble: object) -> object:
-        return core.Scribble(scribble.points + np.array([0.0, 0.0, 40.0]), faces=scribble.faces)
+    def off_mesh(stroke: object) -> object:
+        return core.Scribble(stroke.points + np.array([0.0, 0.0, 40.0]), faces=stroke.faces)
 
-    session = grid(ready=ready, make_scribble=off_mesh)
+    session = grid(ready=ready, make_stroke=off_mesh)
     session.click(LEFT)
     session.click(RIGHT)
     session.wait()
     session.hover(LEFT + 3 * SIZE)
-    session.scribble(gate(), faces_under(gate()))
+    session.draw_stroke(gate(), faces_under(gate()))
     session.wait()
     assert "off the mesh" in session.message
     assert not session.computing

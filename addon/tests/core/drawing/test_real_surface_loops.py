@@ -154,7 +154,7 @@ def test_w_on_a_piece_of_a_cut_takes_its_other_paths_between_the_same_seeds(
     before = session.wires
     paths = set()
     for _ in range(4):
-        session.toggle_kept(session.wires[1])
+        session.retrace(session.wires[1])
         session.wait()
         paths.add(session.wires[1].vertices)
         ends = [(wire.start, wire.end) for wire in session.wires]

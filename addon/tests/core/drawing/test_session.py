@@ -58,27 +58,27 @@ def test_a_stroke_is_for_the_wire_that_leads_and_another_metrics_wires_are_other
     session = table.session
     session.click(0)
     session.hover(14)
-    session.scribble(vertices=(1, 2, 3))
-    assert session.scribbles[-1].acts_on == "concave"
+    session.draw_stroke(vertices=(1, 2, 3))
+    assert session.strokes[-1].acts_on == "concave"
     assert session.active.follow == 2
     table.lives["EDGES"].metric_ready = (True, True)
     session.hover(None)
     session.set_metric("campen")
-    session.scribble(vertices=(1, 2, 3))
-    assert session.scribbles[-1].acts_on == "min"
+    session.draw_stroke(vertices=(1, 2, 3))
+    assert session.strokes[-1].acts_on == "min"
 
 
 def test_toggling_makes_the_other_active_until_a_wire_is_kept() -> None:
     session = Table().session
     session.click(0)
     session.hover(7)
-    assert session.toggle()
+    assert session.next_candidate()
     assert session.active.vertices == (0, 6, 7)
     session.hover(8)
     assert session.active.vertices == (0, 6, 7, 8), "the choice holds while the cursor moves"
-    assert session.toggle()
+    assert session.next_candidate()
     assert session.active.vertices == (0, 1, 2, 8)
-    session.toggle()
+    session.next_candidate()
     session.click(8)
     assert session.wires[0].vertices == (0, 6, 7, 8)
     session.hover(15)
@@ -98,7 +98,7 @@ def test_where_both_wires_agree_there_is_nothing_to_toggle() -> None:
     session.click(0)
     session.hover(3)
     assert not session.others
-    assert not session.toggle()
+    assert not session.next_candidate()
     assert "same edges" in session.message
 
 
@@ -437,7 +437,7 @@ def test_every_change_of_what_is_seen_counts_the_revision_up() -> None:
     actions = [
         lambda: session.click(0),
         lambda: session.hover(7),
-        session.toggle,
+        session.next_candidate,
         lambda: session.click(7),
         lambda: session.loop((14, 15)),
         lambda: session.hover((14, 15), loop=True),

@@ -92,10 +92,10 @@ def test_the_wheel_goes_on_to_the_others_and_round(session: Session) -> None:
     aim(session)
     ways = [session.active]
     for _ in range(len(session.others)):
-        assert session.toggle()
+        assert session.next_candidate()
         ways.append(session.active)
     assert not session.straight_active
-    assert session.toggle()
+    assert session.next_candidate()
     assert session.straight_active
     assert len({way.points.tobytes() for way in ways}) == len(ways)
 
@@ -115,8 +115,8 @@ def test_moved_it_becomes_a_wire_of_the_metric(session: Session) -> None:
 
 def test_a_stroke_beside_it_is_for_all_wires(session: Session) -> None:
     aim(session)
-    assert session.scribble(vertices=[START, START + SIDE, START + 2 * SIDE])
-    assert session.scribbles[-1].acts_on == "both"
+    assert session.draw_stroke(vertices=[START, START + SIDE, START + 2 * SIDE])
+    assert session.strokes[-1].acts_on == "both"
 
 
 def test_it_follows_the_view(session: Session) -> None:

@@ -35,9 +35,9 @@ def test_the_best_cut_is_shown_and_toggling_goes_through_the_others() -> None:
     assert preview.closed
     np.testing.assert_array_equal(preview.points[0], preview.points[-1])
     assert session.intent is Intent.LOOP
-    assert session.toggle()
+    assert session.next_candidate()
     assert (session.loop_preview.vertices, session.loop_choice) == (LEFT, "HANDLE")
-    assert session.toggle()
+    assert session.next_candidate()
     assert session.loop_preview.vertices == RIGHT
     session.hover(8)
     assert session.loop_preview is None
@@ -48,7 +48,7 @@ def test_the_cut_that_is_shown_is_kept_as_a_closed_chain_of_wires(keep: str) -> 
     session = table().session
     session.finish = "CUT"
     session.hover(8, loop=True)
-    session.toggle()
+    session.next_candidate()
     assert getattr(session, keep)(8)
     assert session.edges_to_mark() == edges(*LEFT)
     wires = session.wires
@@ -73,7 +73,7 @@ def test_of_cuts_along_the_same_edges_one_is_offered(monkeypatch: pytest.MonkeyP
     session = table().session
     session.hover(8, loop=True)
     assert session.loop_offers == ("ACROSS", "HANDLE")
-    session.toggle()
+    session.next_candidate()
     session.click(8)
     assert session.edges_to_mark() == edges(*LEFT)
 
@@ -95,7 +95,7 @@ def test_cuts_that_run_apart_along_the_same_edges_are_two_where_they_are_to_be_c
     session.finish = finish
     session.hover(8, loop=True)
     assert len(session.loop_offers) == count
-    session.toggle()
+    session.next_candidate()
     shown = session.loop_preview
     session.click(8)
     np.testing.assert_array_equal(session.wires[0].points[0], shown.points[0])
@@ -185,7 +185,7 @@ def test_the_cut_that_was_chosen_stays_the_one_though_another_comes_before_it(
     it = table(metric_ready=(False, False))
     session = it.session
     session.hover(8, loop=True)
-    session.toggle()
+    session.next_candidate()
     assert session.loop_preview.vertices == LEFT
     if clicks_early:
         session.click(8)
@@ -333,7 +333,7 @@ def test_the_one_of_several_cuts_that_was_taken_is_the_one_that_is_bent() -> Non
     it = table()
     session = it.session
     session.hover(8, loop=True)
-    session.toggle()
+    session.next_candidate()
     session.click(8)
     session.bend(22)
     assert it.lives["SURFACE"].bent[-1] == (8, 22, (1, 1)), "by what the library calls it"

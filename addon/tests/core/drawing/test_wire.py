@@ -19,14 +19,14 @@ def aimed(at: int, **options: object) -> tuple[CandidateWires, str]:
 def test_the_shorter_one_is_active_until_the_other_is_brought_forward() -> None:
     candidates, _ = aimed(8, shorter=1)
     assert candidates.active.vertices == (0, 6, 7, 8)
-    assert candidates.swap() == ""
+    assert candidates.advance() == ""
     assert candidates.active.vertices == (0, 1, 2, 8)
     assert candidates.others[0].vertices == (0, 6, 7, 8)
 
 
 def test_there_is_no_other_where_both_run_alike_or_nothing_is_computed() -> None:
-    assert aimed(3)[0].swap() == "All wires run along the same edges here"
-    assert aimed(8, ready=(False, False))[0].swap() == "There is no next candidate yet"
+    assert aimed(3)[0].advance() == "All wires run along the same edges here"
+    assert aimed(8, ready=(False, False))[0].advance() == "There is no next candidate yet"
 
 
 def test_the_one_that_is_there_is_shown_while_the_other_is_computed() -> None:
@@ -59,7 +59,7 @@ def test_of_three_the_leading_one_is_active_and_the_others_come_forward_in_turn(
         assert len(candidates.others) == 2
         seen.append(candidates.active.follow)
         assert candidates.others[0].follow == (seen[-1] + 1) % 3
-        assert candidates.swap() == ""
+        assert candidates.advance() == ""
     assert seen == [2, 0, 1]
     assert candidates.active.follow == 2
 
@@ -67,9 +67,9 @@ def test_of_three_the_leading_one_is_active_and_the_others_come_forward_in_turn(
 def test_a_wire_that_runs_as_an_earlier_one_is_passed_over() -> None:
     candidates, _ = aimed(7, ready=THREE)  # one step each way: the third runs as the first
     assert [wire.follow for wire in candidates.others] == [1]
-    candidates.swap()
+    candidates.advance()
     assert candidates.active.follow == 1
-    candidates.swap()
+    candidates.advance()
     assert candidates.active.vertices == (0, 1, 7)
     assert candidates.number == 0
 
@@ -81,7 +81,7 @@ def test_the_leading_one_is_taken_as_soon_as_it_is_there_and_the_others_only_if_
     candidates, _ = aimed(14, ready=(True, True, False))
     assert candidates.active.follow == 0
     assert not candidates.decided, "the leading one is not there yet"
-    candidates.swap()
+    candidates.advance()
     assert candidates.active.follow == 1
     assert candidates.decided
 

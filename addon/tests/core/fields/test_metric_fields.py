@@ -121,7 +121,7 @@ def test_strokes_are_part_of_the_metric_as_they_are_of_wires() -> None:
     wire = next(wire for wire in live.wires(250).wires if wire.follow == "min")
     plain = Request(frozenset({"DISTANCE"}), "feature", 8.0, 100.0, "min", 3)
     fields = maker()
-    assert fields.make(replace(plain, scribbles=(stroke,))).distance[250] == pytest.approx(wire.length, rel=1e-9)
+    assert fields.make(replace(plain, strokes=(stroke,))).distance[250] == pytest.approx(wire.length, rel=1e-9)
     assert fields.make(plain).distance[250] != pytest.approx(wire.length, rel=1e-9)
 
 

@@ -13,7 +13,7 @@ from seamwire.core.matching import transfer
 from seamwire.core.matching.placing import Aligned, Landmarks, Shape, Similarity, Surface
 from seamwire.core.matching.transfer import by_landmarks, by_numbers, by_surface, transferred_seams
 from seamwire.core.network.network import Network, Wire
-from seamwire.core.network.strokes import Scribble
+from seamwire.core.network.strokes import Stroke
 from seamwire.core.storage.network_file import NetworkFile, NetworkFileError
 
 pytest.importorskip("seamwire_core")
@@ -316,11 +316,11 @@ def test_arrays_in_arrays_out(file: NetworkFile) -> None:
 
 def test_strokes_come_too() -> None:
     rows = np.array([8 * 16, 9 * 16, 10 * 16, 11 * 16])
-    stroke = Scribble(
+    stroke = Stroke(
         SOURCE.points[rows], np.repeat(rows[:, None], 3, 1).astype(np.int32), np.full(4, -1), attracts=False
     )
     drawn = NetworkFile.of(
-        Network((wire(SOURCE, ACROSS),), scribbles=(stroke,)), SOURCE.points, SOURCE.triangles, SOURCE.edges
+        Network((wire(SOURCE, ACROSS),), strokes=(stroke,)), SOURCE.points, SOURCE.triangles, SOURCE.edges
     )
     found = by_surface(drawn, tube(23, 60))
     (there,) = found.strokes

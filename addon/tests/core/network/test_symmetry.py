@@ -502,7 +502,7 @@ def test_a_wires_images_are_those_of_when_it_was_kept_and_follow_its_course() ->
     (wire,) = session.wires
     assert wire.mirror == (0,)
     assert sorted(wire.images) == chain(5, 4, 3, 9)
-    assert session.toggle_kept(wire)
+    assert session.retrace(wire)
     assert sorted(session.wires[0].images) == chain(5, 11, 10, 9)
     assert session.insert(session.wires[0], 6)
     assert [sorted(one.images) for one in session.wires] == [chain(5, 11), chain(11, 10, 9)]

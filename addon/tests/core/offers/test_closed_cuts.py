@@ -22,7 +22,7 @@ def taken(left: bool = False) -> Session:
     session = Table("SURFACE").session
     session.hover(8, loop=True)
     if left:
-        session.toggle()
+        session.next_candidate()
     session.click(8)
     return session
 

@@ -51,7 +51,7 @@ def redrawn(session: Session, wires: list[Wire]) -> list[list[int]]:
         session.hover(wire.end)
         session.wait()
         if session.active.vertices != wire.vertices:
-            session.toggle()
+            session.next_candidate()
         session.click(wire.end)
         session.wait()
     session.end_chain()

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from seamwire.core.network.strokes import Scribble, through_vertices
+from seamwire.core.network.strokes import Stroke, through_vertices
 from seamwire.core.seams.suggestion import (
     STRETCH,
     best_along,
@@ -108,8 +108,8 @@ def test_wires_are_kept_out_of_all_but_the_planned_triangles() -> None:
     assert (weights[np.isfinite(weights)] == 1.0).all()
 
 
-def stroke(*vertices: int, **options: object) -> Scribble:
-    return Scribble(*through_vertices(vertices, grid()[0]), **options)
+def stroke(*vertices: int, **options: object) -> Stroke:
+    return Stroke(*through_vertices(vertices, grid()[0]), **options)
 
 
 def test_strokes_fade_ring_by_ring() -> None:

@@ -8,7 +8,7 @@ from typing import get_args
 import pytest
 from fake_live import FakeLive, grid_points
 from seamwire.core.network.network import Along
-from seamwire.core.network.strokes import ActsOn, Scribble, through_vertices
+from seamwire.core.network.strokes import ActsOn, Stroke, through_vertices
 from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
 from seamwire.core.solver.solver import Engines, MetricName
 from table import SIZE
@@ -19,15 +19,15 @@ class Made:
 
     def __init__(self, strengths: dict[Along, float] | None = None) -> None:
         self.lives: list[FakeLive] = []
-        self.engines = Engines(self._make, strengths or {}, lambda scribble: ("stroke", scribble))
+        self.engines = Engines(self._make, strengths or {}, lambda stroke: ("stroke", stroke))
 
     def _make(self, along: Along) -> FakeLive:
         self.lives.append(FakeLive(SIZE, along))
         return self.lives[-1]
 
 
-def stroke(acts_on: ActsOn) -> Scribble:
-    return Scribble(*through_vertices([0, 1], grid_points(SIZE)), acts_on=acts_on)
+def stroke(acts_on: ActsOn) -> Stroke:
+    return Stroke(*through_vertices([0, 1], grid_points(SIZE)), acts_on=acts_on)
 
 
 def test_live_wires_are_made_once_for_each_way_when_they_are_asked_for() -> None:
@@ -45,7 +45,7 @@ def test_what_they_are_made_with_is_not_told_again() -> None:
     made.engines.get("EDGES")
     made.engines.use("feature", STRENGTHS, CLAMP_PERCENTILE)
     assert made.lives[0].metrics == []
-    assert made.lives[0].scribbles == []
+    assert made.lives[0].strokes == []
 
 
 def test_those_that_are_made_later_hear_of_metric_and_strokes() -> None:
@@ -55,7 +55,7 @@ def test_those_that_are_made_later_hear_of_metric_and_strokes() -> None:
     made.engines.follow([one, two])
     made.engines.get("SURFACE")
     assert [live.metrics for live in made.lives] == [[], [("feature", 7.0, CLAMP_PERCENTILE)]]
-    assert [live.scribbles for live in made.lives] == [[(("stroke", one), ("stroke", two))]] * 2
+    assert [live.strokes for live in made.lives] == [[(("stroke", one), ("stroke", two))]] * 2
 
 
 def test_another_strength_is_told_to_those_that_it_is_for() -> None:
@@ -85,7 +85,7 @@ def test_triangles_that_wires_lead_around_are_told_of_once() -> None:
 
 def told(made: Made) -> list[list[str]]:
     """Return for each live wire which metrics the strokes act on that it was told last."""
-    return [[stroke.acts_on for _, stroke in live.scribbles[-1]] for live in made.lives]
+    return [[stroke.acts_on for _, stroke in live.strokes[-1]] for live in made.lives]
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points
 from seamwire.core.network.network import FacePoint, Network, Wire
-from seamwire.core.network.strokes import Scribble
+from seamwire.core.network.strokes import Stroke
 from seamwire.core.storage import network_file
 from seamwire.core.storage.network_file import NetworkFile, NetworkFileError
 
@@ -47,7 +47,7 @@ def network() -> Network:
             Wire("SURFACE", (30, 24, 25, 26), curve, 30, FacePoint(3, (26, 27, 33), (0.5, 0.25, 0.25)), finish="CUT"),
             wire(28, 29, marks=False),
         ),
-        scribbles=(Scribble(POINTS[[0, 6]], np.array([[0] * 3, [6] * 3], np.int32), np.array([-1, -1]), radius=0.3),),
+        strokes=(Stroke(POINTS[[0, 6]], np.array([[0] * 3, [6] * 3], np.int32), np.array([-1, -1]), radius=0.3),),
     )
 
 

@@ -56,7 +56,7 @@ def drawn(**options: object) -> PaperMesh:
     session.switch("SURFACE")
     for pick in (30, 32):
         session.click(pick)
-    session.scribble(vertices=[1, 8, 20], attracts=False)
+    session.draw_stroke(vertices=[1, 8, 20], attracts=False)
     mesh = paper()
     mesh.write(session)
     return mesh
@@ -226,14 +226,14 @@ def test_which_of_the_wires_one_is_and_what_a_stroke_is_for_are_kept(follow: int
     session.click(0)
     session.hover(14)
     while session.active.follow != follow:
-        session.toggle()
-    session.scribble(vertices=[1, 2, 3])
+        session.next_candidate()
+    session.draw_stroke(vertices=[1, 2, 3])
     session.click(14)
     mesh = paper()
     mesh.write(session)
     network = mesh.read().network
     assert [wire.follow for wire in network.wires] == [follow]
-    assert [stroke.acts_on for stroke in network.scribbles] == [("min", "max", "concave")[follow]]
+    assert [stroke.acts_on for stroke in network.strokes] == [("min", "max", "concave")[follow]]
 
 
 # The second version, as it was stored once
@@ -273,7 +273,7 @@ def test_a_text_of_version_2_is_read_for_ever() -> None:
     assert all(wire.follow == 0 for wire in wires.values())
     assert sorted(curve.images) == chain(0, 1, 2, 8)
     assert all(wire.strength == 10.0 for wire in wires.values() if wire.along == "EDGES" and not wire.kind)
-    assert [(one.attracts, one.radius, len(one.points)) for one in found.network.scribbles] == [
+    assert [(one.attracts, one.radius, len(one.points)) for one in found.network.strokes] == [
         (True, 0.5, 12),
         (False, None, 3),
     ]
@@ -308,7 +308,7 @@ def test_a_text_of_version_1_is_read_for_ever() -> None:
     assert network.wires[3].through == (14, 15)
     assert all(wire.mirror == (0,) for wire in network.wires)
     assert network.wires[5].points[:, 1].tolist() == [0.0, 0.125, 0.125, 1.125], "its curve is that which was stored"
-    assert [(one.attracts, one.radius, len(one.points)) for one in network.scribbles] == [
+    assert [(one.attracts, one.radius, len(one.points)) for one in network.strokes] == [
         (True, 0.5, 12),
         (False, None, 3),
     ]

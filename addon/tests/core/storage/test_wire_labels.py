@@ -659,7 +659,7 @@ def test_an_objects_scale_does_not_matter(stretch: np.ndarray) -> None:
     session = Table("SURFACE").session
     session.click(0)
     session.click(9)
-    session.scribble(vertices=[1, 8, 20])
+    session.draw_stroke(vertices=[1, 8, 20])
     session.switch("EDGES")
     session.start(30)
     session.click(33)
@@ -671,7 +671,7 @@ def test_an_objects_scale_does_not_matter(stretch: np.ndarray) -> None:
     wire = next(wire for wire in found_now.network.wires if wire.along == "SURFACE")
     assert wire.vertices == tuple(where[list(session.wires[0].vertices)].tolist())
     assert np.allclose(wire.points, curve @ stretch, atol=1e-5)
-    assert np.allclose(found_now.network.scribbles[0].points, session.scribbles[0].points @ stretch, atol=1e-5)
+    assert np.allclose(found_now.network.strokes[0].points, session.strokes[0].points @ stretch, atol=1e-5)
     mesh.found, mesh.archive = found_now, Archive.parse(mesh.text)
     plan = mesh.write(found_now.network)
     assert (plan.mark, plan.clear) == ([], [])
@@ -699,21 +699,21 @@ def test_strokes_come_back_in_their_order() -> None:
     session = Table().session
     strokes = [[0, 7], [1, 8], [2, 9], [3, 10], [4, 11]]
     for vertices in strokes:
-        session.scribble(vertices=vertices)
+        session.draw_stroke(vertices=vertices)
     mesh = paper()
     mesh.write(session)
-    assert [one.vertices.tolist() for one in opened(mesh).scribbles] == strokes
+    assert [one.vertices.tolist() for one in opened(mesh).strokes] == strokes
     assert mesh.seams == set()
 
 
 def test_a_stroke_whose_ground_is_gone_is_none() -> None:
     session = Table().session
-    session.scribble(vertices=[0, 7])
+    session.draw_stroke(vertices=[0, 7])
     mesh = paper()
     mesh.write(session)
     mesh.delete_vertices([7])
     session = opened(mesh)
-    assert session.scribbles == ()
+    assert session.strokes == ()
     mesh.write(session)
     assert mesh.labels == {}
 

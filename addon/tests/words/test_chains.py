@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import pytest
-from seamwire.operators.seed_text import draw_chains, parse_chains
+from seamwire.words.seed_text import draw_chains, parse_chains
 from table import Table
 
 

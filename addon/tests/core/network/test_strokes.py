@@ -10,7 +10,7 @@ import pytest
 from fake_live import grid_points, grid_triangles
 from numpy.typing import NDArray
 from seamwire.core.network.strokes import OffMeshError, drawn, into_triangles, on_mesh, through_vertices
-from seamwire.operators.seed_text import draw_scribbles, parse_scribbles
+from seamwire.words.seed_text import draw_strokes, parse_strokes
 from table import SIZE, Table, paper
 
 MESH, TRIANGLES = grid_points(SIZE), grid_triangles(SIZE)
@@ -30,7 +30,7 @@ def faces_under(points: NDArray[np.float64]) -> NDArray[np.int32]:
 
 def stroke(session: object, *ends: tuple[float, float], **how: object) -> bool:
     points = line(*ends)
-    return session.scribble(points, faces_under(points), **how)
+    return session.draw_stroke(points, faces_under(points), **how)
 
 
 # As the hand draws them
@@ -99,9 +99,9 @@ def test_what_is_no_stroke_is_refused_in_words(points: list, faces: list, why: s
         drawn(points, faces, MESH, TRIANGLES)
     session = Table().session
     revision = session.revision
-    assert not session.scribble(points, faces)
+    assert not session.draw_stroke(points, faces)
     assert why in session.message
-    assert session.scribbles == ()
+    assert session.strokes == ()
     assert not session.can_undo
     assert session.revision > revision
 
@@ -120,24 +120,24 @@ def test_a_stroke_is_a_step() -> None:
     live = table.lives["EDGES"]
     before = session.revision, session.network_revision
     assert stroke(session, (0.5, 0.2), (4.5, 0.2))
-    (one,) = session.scribbles
-    assert live.scribbles == [(one,)]
+    (one,) = session.strokes
+    assert live.strokes == [(one,)]
     assert one.attracts
     assert one.acts_on == "both"
     assert session.revision > before[0]
     assert session.network_revision == before[1], "no kept wire changed"
     assert stroke(session, (0.5, 1.2), (4.5, 1.2), attracts=False)
-    two = session.scribbles[1]
+    two = session.strokes[1]
     assert not two.attracts
-    assert live.scribbles[-1] == (one, two)
+    assert live.strokes[-1] == (one, two)
     assert session.undo()
-    assert live.scribbles[-1] == (one,)
+    assert live.strokes[-1] == (one,)
     assert session.undo()
-    assert live.scribbles[-1] == ()
+    assert live.strokes[-1] == ()
     assert not session.can_undo
     assert session.redo()
     assert session.redo()
-    assert live.scribbles[-1] == (one, two)
+    assert live.strokes[-1] == (one, two)
 
 
 def test_other_steps_leave_the_strokes_alone() -> None:
@@ -151,8 +151,8 @@ def test_other_steps_leave_the_strokes_alone() -> None:
     session.drag_to(4)
     session.drag_end()
     session.undo()
-    assert len(table.lives["EDGES"].scribbles) == 1
-    assert len(session.scribbles) == 1
+    assert len(table.lives["EDGES"].strokes) == 1
+    assert len(session.strokes) == 1
 
 
 def test_an_erased_stroke_is_gone_until_undo() -> None:
@@ -160,14 +160,14 @@ def test_an_erased_stroke_is_gone_until_undo() -> None:
     session = table.session
     stroke(session, (0.5, 0.2), (4.5, 0.2))
     stroke(session, (0.5, 1.2), (4.5, 1.2))
-    one, two = session.scribbles
+    one, two = session.strokes
     assert session.erase(one)
-    assert session.scribbles == (two,)
-    assert table.lives["EDGES"].scribbles[-1] == (two,)
+    assert session.strokes == (two,)
+    assert table.lives["EDGES"].strokes[-1] == (two,)
     assert not session.erase(one)
     assert "not there" in session.message
     assert session.undo()
-    assert session.scribbles == (one, two)
+    assert session.strokes == (one, two)
 
 
 def test_a_stroke_is_for_the_active_wire_while_one_is_live() -> None:
@@ -175,26 +175,26 @@ def test_a_stroke_is_for_the_active_wire_while_one_is_live() -> None:
     session.click(0)
     session.hover(7)
     stroke(session, (0.5, 0.2), (4.5, 0.2))
-    session.toggle()
+    session.next_candidate()
     stroke(session, (0.5, 0.2), (4.5, 0.2))
-    assert [one.acts_on for one in session.scribbles] == ["min", "max"]
+    assert [one.acts_on for one in session.strokes] == ["min", "max"]
     assert session.active.vertices == (0, 6, 7), "the wire that it is for stays the active one"
     session.end_chain()
     stroke(session, (0.5, 0.2), (4.5, 0.2))
-    assert session.scribbles[-1].acts_on == "both"
+    assert session.strokes[-1].acts_on == "both"
 
 
 def test_a_stroke_that_comes_back_brings_its_wire_forward() -> None:
     session = Table().session
     session.click(0)
     session.hover(7)
-    session.toggle()
+    session.next_candidate()
     stroke(session, (0.5, 0.2), (4.5, 0.2))
     session.undo()
     session.redo()
     assert session.active.vertices == (0, 6, 7), "as when it was drawn"
-    session.erase(session.scribbles[0])
-    session.toggle()
+    session.erase(session.strokes[0])
+    session.next_candidate()
     assert session.active.vertices == (0, 1, 7)
     session.undo()
     assert session.active.vertices == (0, 6, 7)
@@ -227,7 +227,7 @@ def test_a_waiting_click_goes_on_waiting_while_a_stroke_is_drawn() -> None:
     assert session.waiting_clicks == 1
     table.compute()
     assert [wire.vertices for wire in session.wires] == [(0, 1, 2, 3)]
-    assert len(session.scribbles) == 1
+    assert len(session.strokes) == 1
 
 
 def test_live_wires_made_later_know_the_strokes() -> None:
@@ -235,7 +235,7 @@ def test_live_wires_made_later_know_the_strokes() -> None:
     session = table.session
     stroke(session, (0.5, 0.2), (4.5, 0.2))
     session.switch("SURFACE")
-    assert table.lives["SURFACE"].scribbles == [session.scribbles]
+    assert table.lives["SURFACE"].strokes == [session.strokes]
 
 
 # As they are stored
@@ -244,20 +244,20 @@ def test_live_wires_made_later_know_the_strokes() -> None:
 def test_strokes_are_stored_and_found_again() -> None:
     session = Table().session
     stroke(session, (0.5, 0.2), (4.5, 3.2), radius=0.5)
-    session.scribble(vertices=[1, 8, 20], attracts=False)
+    session.draw_stroke(vertices=[1, 8, 20], attracts=False)
     mesh = paper()
     mesh.write(session)
     again = Table().session
     mesh.open(again)
-    for before, after in zip(session.scribbles, again.scribbles, strict=True):
+    for before, after in zip(session.strokes, again.strokes, strict=True):
         assert np.allclose(before.points, after.points, atol=1e-6)
         assert (before.faces == after.faces).all()
         assert (before.vertices == after.vertices).all()
         assert (before.attracts, before.acts_on, before.radius) == (after.attracts, after.acts_on, after.radius)
     assert not again.can_undo
-    assert again.erase(again.scribbles[0])
+    assert again.erase(again.strokes[0])
     mesh.write(again)
-    assert len(mesh.read().network.scribbles) == 1
+    assert len(mesh.read().network.strokes) == 1
 
 
 def test_strokes_on_renumbered_vertices_are_found_by_their_places() -> None:
@@ -266,9 +266,9 @@ def test_strokes_on_renumbered_vertices_are_found_by_their_places() -> None:
     mesh = paper()
     mesh.write(session)
     mesh.renumber(np.random.default_rng(2).permutation(len(MESH)))
-    found = on_mesh(mesh.read().network.scribbles[0], mesh.points, mesh.triangles)
-    assert np.allclose(found.points, session.scribbles[0].points, atol=1e-6)
-    assert (found.faces == session.scribbles[0].faces).all()
+    found = on_mesh(mesh.read().network.strokes[0], mesh.points, mesh.triangles)
+    assert np.allclose(found.points, session.strokes[0].points, atol=1e-6)
+    assert (found.faces == session.strokes[0].faces).all()
 
 
 def test_of_a_stroke_over_what_is_gone_the_longest_part_stays() -> None:
@@ -278,7 +278,7 @@ def test_of_a_stroke_over_what_is_gone_the_longest_part_stays() -> None:
     mesh.write(session)
     mesh.delete_vertices([35])
     mesh.places[[1, 7]] += 0.4
-    (left,) = mesh.read().network.scribbles
+    (left,) = mesh.read().network.strokes
     assert (left.points[:, 0] >= 2.0).all(), "the first two squares are no more what they were"
     assert len(left.points) > 10
 
@@ -290,7 +290,7 @@ def test_a_stroke_whose_triangles_are_gone_runs_through_vertices() -> None:
     flipped[0::2, 2], flipped[1::2, 0] = TRIANGLES[1::2, 2], TRIANGLES[0::2, 1]
     mesh = paper()
     mesh.write(session)
-    found = on_mesh(mesh.read().network.scribbles[0], MESH, flipped)
+    found = on_mesh(mesh.read().network.strokes[0], MESH, flipped)
     assert (found.faces == -1).all()
     assert (found.points == MESH[found.vertices]).all()
     assert set(found.vertices.tolist()) == {0, 1, 2, 3, 4, 5}
@@ -302,8 +302,8 @@ def test_a_stroke_on_a_mesh_that_moved_by_a_cell_goes_with_its_vertices() -> Non
     mesh = paper()
     mesh.write(session)
     mesh.places[:, 0] -= 1.0
-    (found,) = mesh.read().network.scribbles
-    assert (found.corners == session.scribbles[0].corners).all()
+    (found,) = mesh.read().network.strokes
+    assert (found.corners == session.strokes[0].corners).all()
 
 
 @pytest.mark.parametrize(
@@ -334,7 +334,7 @@ def test_damaged_strokes_raise_nothing_and_are_no_strokes(spoil: Callable[[dict[
     spoil(next(iter(mesh.archive.strokes.values())))
     mesh.text = mesh.archive.text(mesh.labels.values())
     found = mesh.read()
-    assert found.network.scribbles == ()
+    assert found.network.strokes == ()
     assert len(found.network.wires) == 1
 
 
@@ -342,9 +342,9 @@ def test_damaged_strokes_raise_nothing_and_are_no_strokes(spoil: Callable[[dict[
 
 
 def test_strokes_are_read_from_text() -> None:
-    strokes = parse_scribbles(" 0 5 9,12; ~3 4 8 ;")
+    strokes = parse_strokes(" 0 5 9,12; ~3 4 8 ;")
     assert [(one.vertices, one.attracts) for one in strokes] == [([0, 5, 9, 12], True), ([3, 4, 8], False)]
-    assert parse_scribbles("") == []
+    assert parse_strokes("") == []
 
 
 @pytest.mark.parametrize(
@@ -352,13 +352,13 @@ def test_strokes_are_read_from_text() -> None:
 )
 def test_what_is_no_stroke_is_named(text: str, why: str) -> None:
     with pytest.raises(ValueError, match=why):
-        parse_scribbles(text)
+        parse_strokes(text)
 
 
 def test_strokes_are_drawn_without_a_hand() -> None:
     session = Table().session
-    problems = draw_scribbles(session, parse_scribbles("0 3; ~4 4; 0 99"))
-    assert [one.vertices.tolist() for one in session.scribbles] == [[0, 3]]
+    problems = draw_strokes(session, parse_strokes("0 3; ~4 4; 0 99"))
+    assert [one.vertices.tolist() for one in session.strokes] == [[0, 3]]
     assert len(problems) == 2
     assert "Stroke 2" in problems[0]
     assert "no vertex 99" in problems[1]

@@ -6,8 +6,8 @@ from polygon_meshes import arrays_of, grid_places, grid_polygons
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
 from seamwire.core.solver.live_maker import LiveMaker
-from seamwire.operators.bindings import Action, Bindings, Key
-from seamwire.ui.status_bar import Status, hints
+from seamwire.words.hints import Status, hints
+from seamwire.words.keys import Action, Bindings, Key
 
 pytest.importorskip("seamwire_core")
 

@@ -169,7 +169,7 @@ def _turn_to(session: Session, edge: Edge, kind: LoopKind) -> bool:
     for _ in session.loop_offers:
         if session.loop_preview is not None and session.loop_choice is not None:
             edges[session.loop_choice] = set(session.loop_preview.edges())
-        session.toggle()
+        session.next_candidate()
     wanted: LoopKind | None = kind
     if kind == "FLAT" and kind not in edges:
         border = session.flat_border(edge)
@@ -181,7 +181,7 @@ def _turn_to(session: Session, edge: Edge, kind: LoopKind) -> bool:
         else:
             wanted = "CLOSED" if strip is None or strip <= closed else "STRIP"
     while wanted in edges and session.loop_choice != wanted:
-        session.toggle()
+        session.next_candidate()
     return wanted in edges
 
 
@@ -206,14 +206,14 @@ def draw_chains(session: Session, chains: Iterable[Sequence[Pick]]) -> list[str]
 
 
 @dataclass(frozen=True)
-class Stroke:
+class VertexStroke:
     """A stroke through vertices, that wires follow where it `attracts`, else keep from."""
 
     vertices: list[int]
     attracts: bool = True
 
 
-def parse_scribbles(text: str) -> list[Stroke]:
+def parse_strokes(text: str) -> list[VertexStroke]:
     """Read strokes, such as ``"0 5 9 12; ~3 4 8"``.
 
     Parameters
@@ -236,14 +236,14 @@ def parse_scribbles(text: str) -> list[Stroke]:
             raise ValueError(f"Stroke {number}: '{wrong}' is not a vertex number")
         if len(tokens) < 2:
             raise ValueError(f"Stroke {number}: a stroke runs through at least two vertices, not only '{part}'")
-        strokes.append(Stroke([int(token) for token in tokens], attracts=not part.startswith("~")))
+        strokes.append(VertexStroke([int(token) for token in tokens], attracts=not part.startswith("~")))
     return strokes
 
 
-def draw_scribbles(session: Session, strokes: Iterable[Stroke]) -> list[str]:
+def draw_strokes(session: Session, strokes: Iterable[VertexStroke]) -> list[str]:
     """Draw strokes without a hand; return what could not be done, in words. Wires drawn after that heed them."""
     problems = []
     for number, stroke in enumerate(strokes, start=1):
-        if not session.scribble(vertices=stroke.vertices, attracts=stroke.attracts, acts_on="both"):
+        if not session.draw_stroke(vertices=stroke.vertices, attracts=stroke.attracts, acts_on="both"):
             problems.append(f"Stroke {number}: {session.message}")
     return problems

@@ -1,0 +1,326 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The keys of a chain: one table of what each does, and what an event means by it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import Enum
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+
+class Event(Protocol):
+    """What is read of Blender's events."""
+
+    type: str
+    value: str
+    ctrl: bool
+    shift: bool
+    alt: bool
+    oskey: bool
+    mouse_x: int
+    mouse_y: int
+    is_tablet: bool
+
+
+class Preferences(Protocol):
+    """What is read of Blender's preferences."""
+
+    inputs: Any
+    system: Any
+
+
+class Action(Enum):
+    """What the artist asks for; the value is what the preferences and the table of keys call it."""
+
+    CLICK = "Add Seed, Keep Wire, Join (drag: Draw Line, Move Seed)"
+    NEW_CHAIN = "New Chain"
+    LOOP = "Add Loop"
+    BEND = "Bend Closed Cut"
+    REMOVE = "Remove Wire or Stroke"
+    GUIDE = "Draw Guide Stroke (drag)"
+    AVOID = "Draw Avoid Stroke (drag)"
+    END = "End Chain"
+    CANCEL = "Cancel Wire"
+    NEXT = "Next Candidate"
+    STRONGER = "Follow Shape More"
+    WEAKER = "Follow Shape Less"
+    CLOSE = "Close Chain"
+    EXTEND = "Extend to End"
+    CLEAR = "Mark or Clear Seams"
+    XRAY = "X-Ray"
+    MIRROR = "Mirror"
+    SWITCH = "Along Edges or Across Surface"
+    SNAP = "Snap to Features"
+    KEYS = "Show Keys"
+    UNDO = "Undo in Chain"
+    REDO = "Redo in Chain"
+
+
+NUMBERS = {
+    Action.CLICK: 1,
+    Action.NEW_CHAIN: 2,
+    Action.LOOP: 3,
+    Action.REMOVE: 4,
+    Action.GUIDE: 5,
+    Action.AVOID: 6,
+    Action.END: 7,
+    Action.NEXT: 8,
+    Action.STRONGER: 9,
+    Action.WEAKER: 10,
+    Action.CLOSE: 11,
+    Action.EXTEND: 12,
+    Action.CLEAR: 13,
+    Action.XRAY: 14,
+    Action.MIRROR: 15,
+    Action.SWITCH: 16,
+    Action.SNAP: 17,
+    Action.KEYS: 18,
+    Action.UNDO: 19,
+    Action.REDO: 20,
+    Action.CANCEL: 21,
+    Action.BEND: 22,
+}
+"""What Blender stores of an action with the keys that a user has changed: a number is never given to another action."""
+
+
+@dataclass(frozen=True)
+class Key:
+    """A key or a button with its modifiers: 1 held, 0 not held, -1 either."""
+
+    type: str
+    value: str = "PRESS"
+    ctrl: int = 0
+    shift: int = 0
+    alt: int = 0
+    oskey: int = 0
+
+    @classmethod
+    def of(cls, event: Event) -> Key:
+        """Return what an event presses."""
+        return cls(event.type, event.value, *(int(getattr(event, name)) for name in ("ctrl", "shift", "alt", "oskey")))
+
+    def matches(self, event: Event, value: str) -> bool:
+        """Whether an event is this key, taken for one of another value."""
+        pressed = "PRESS" if self.value in {"ANY", "CLICK"} else self.value
+        return event.type == self.type and value == pressed and self.held(event)
+
+    def held(self, event: Event) -> bool:
+        """Whether its modifiers are as it wants them. The command key of other systems counts as Ctrl."""
+        ctrl = event.ctrl if self.oskey == 1 else event.ctrl or event.oskey
+        wanted = ((self.ctrl, ctrl), (self.shift, event.shift), (self.alt, event.alt))
+        if self.oskey == 1 and not event.oskey:
+            return False
+        return all(want == -1 or bool(want) == bool(is_held) for want, is_held in wanted)
+
+    @property
+    def modifiers(self) -> str:
+        """The modifiers that must be held, as Blender writes them."""
+        names = (("Shift", self.shift), ("Ctrl", self.ctrl), ("Alt", self.alt), ("Cmd", self.oskey))
+        return " ".join(name for name, want in names if want == 1)
+
+    @property
+    def text(self) -> str:
+        """The key in words."""
+        double = "Double-" if self.value == "DOUBLE_CLICK" else ""
+        name = double + _NAMES.get(self.type, self.type.replace("_", " ").title())
+        return f"{self.modifiers} {name}".strip()
+
+    @property
+    def icon(self) -> str:
+        """Blender's icon of the key without its modifiers; an empty string where there is none."""
+        if self.type in _ICONS:
+            return _ICONS[self.type]
+        letter = len(self.type) == 1 and self.type.isalpha()
+        function = self.type[:1] == "F" and self.type[1:].isdigit() and int(self.type[1:]) <= 12
+        return f"EVENT_{self.type}" if letter or function else ""
+
+
+_ANY = {"ctrl": -1, "shift": -1, "alt": -1, "oskey": -1}
+
+KEYS: tuple[tuple[Action, Key], ...] = (
+    (Action.LOOP, Key("LEFTMOUSE", "DOUBLE_CLICK")),
+    (Action.LOOP, Key("LEFTMOUSE", alt=1)),
+    (Action.BEND, Key("LEFTMOUSE", shift=1, alt=1)),
+    (Action.NEW_CHAIN, Key("LEFTMOUSE", ctrl=1)),
+    (Action.GUIDE, Key("LEFTMOUSE", shift=1)),
+    (Action.AVOID, Key("LEFTMOUSE", ctrl=1, shift=1)),
+    (Action.CLICK, Key("LEFTMOUSE")),
+    (Action.END, Key("RIGHTMOUSE")),
+    (Action.END, Key("RET")),
+    (Action.END, Key("NUMPAD_ENTER")),
+    (Action.CANCEL, Key("ESC", **_ANY)),
+    (Action.NEXT, Key("W")),
+    (Action.NEXT, Key("W", alt=1)),
+    (Action.NEXT, Key("WHEELUPMOUSE", alt=1)),
+    (Action.NEXT, Key("WHEELDOWNMOUSE", alt=1)),
+    (Action.STRONGER, Key("WHEELUPMOUSE", shift=1)),
+    (Action.WEAKER, Key("WHEELDOWNMOUSE", shift=1)),
+    (Action.REMOVE, Key("X")),
+    (Action.REMOVE, Key("DEL")),
+    (Action.CLOSE, Key("C")),
+    (Action.EXTEND, Key("F")),
+    (Action.CLEAR, Key("S")),
+    (Action.XRAY, Key("V")),
+    (Action.MIRROR, Key("M")),
+    (Action.SWITCH, Key("E")),
+    (Action.SNAP, Key("TAB", shift=1)),
+    (Action.KEYS, Key("F1")),
+    (Action.UNDO, Key("Z", ctrl=1)),
+    (Action.UNDO, Key("BACK_SPACE")),
+    (Action.REDO, Key("Z", ctrl=1, shift=1)),
+)
+"""The first that matches counts."""
+
+_NAMES = {
+    "LEFTMOUSE": "Click",
+    "RIGHTMOUSE": "Right Click",
+    "MIDDLEMOUSE": "Middle Click",
+    "WHEELUPMOUSE": "Wheel Up",
+    "WHEELDOWNMOUSE": "Wheel Down",
+    "RET": "Enter",
+    "NUMPAD_ENTER": "Numpad Enter",
+    "ESC": "Esc",
+    "DEL": "Delete",
+    "BACK_SPACE": "Backspace",
+    "ACCENT_GRAVE": "`",
+    "COMMA": ",",
+    "PERIOD": ".",
+    "ONE": "1",
+    "TWO": "2",
+    "THREE": "3",
+    "FOUR": "4",
+    "FIVE": "5",
+    "SIX": "6",
+    "SEVEN": "7",
+    "EIGHT": "8",
+    "NINE": "9",
+    "ZERO": "0",
+}
+_ICONS = {
+    "LEFTMOUSE": "MOUSE_LMB",
+    "RIGHTMOUSE": "MOUSE_RMB",
+    "MIDDLEMOUSE": "MOUSE_MMB",
+    "WHEELUPMOUSE": "MOUSE_MMB",
+    "WHEELDOWNMOUSE": "MOUSE_MMB",
+    "RET": "EVENT_RETURN",
+    "ESC": "EVENT_ESC",
+    "SPACE": "EVENT_SPACEKEY",
+    "TAB": "EVENT_TAB",
+}
+WHEEL = ("WHEELUPMOUSE", "WHEELDOWNMOUSE")
+
+
+class Bindings:
+    """What each key does now.
+
+    Parameters
+    ----------
+    keys
+        Actions and their keys; the first that matches counts.
+    """
+
+    def __init__(self, keys: Sequence[tuple[Action, Key]] = KEYS) -> None:
+        # A double click is a press as well: those who want two come first.
+        self._keys = sorted(keys, key=lambda pair: pair[1].value != "DOUBLE_CLICK")
+
+    def without(self, taken: Callable[[Key], bool]) -> Bindings:
+        """Return them without the keys that somebody else takes first."""
+        return Bindings([(action, key) for action, key in self._keys if not taken(key)])
+
+    def decode(self, event: Event, double: bool = False) -> Action | None:
+        """Return what an event asks for; `double`: it is the second press of a double click."""
+        values = ("DOUBLE_CLICK", event.value) if double else (event.value,)
+        return next((action for value in values for action, key in self._keys if key.matches(event, value)), None)
+
+    def keys_of(self, action: Action) -> list[Key]:
+        """Return the keys of an action."""
+        return [key for of, key in self._keys if of is action]
+
+    def previews(self, action: Action, event: Event) -> bool:
+        """Whether the modifiers are held with which a click would take a loop, or bend a cut, as the action says."""
+        keys = self.keys_of(action)
+        return any(key.modifiers and key.value != "DOUBLE_CLICK" and key.held(event) for key in keys)
+
+    def text(self, action: Action) -> str:
+        """Return the keys of an action in words; an empty string where it has none."""
+        keys = self.keys_of(action)
+        merged = list(keys)
+        # Both ways of the wheel are one thing to say.
+        for key in keys:
+            if key.type == WHEEL[0] and replace(key, type=WHEEL[1]) in keys:
+                merged[merged.index(key)] = replace(key, type="WHEEL")
+                merged.remove(replace(key, type=WHEEL[1]))
+        return ", ".join(key.text for key in merged)
+
+    def icon(self, action: Action, single: bool = True) -> tuple[str, str]:
+        """Return the icon of the first key of an action, and what must be written before what it does.
+
+        Parameters
+        ----------
+        action
+            What the key does.
+        single
+            Prefer a key to a double click.
+        """
+        keys = self.keys_of(action)
+        if not keys:
+            return "", ""
+        key = next((key for key in keys if not single or key.value != "DOUBLE_CLICK"), keys[0])
+        if not key.icon:
+            return "", key.text
+        wheel = "Wheel" if key.type in WHEEL else ""
+        return key.icon, f"{key.modifiers} {wheel}".strip()
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Return each action with its keys, in words, for a table."""
+        return [(self.text(action), action.value) for action in Action if self.keys_of(action)]
+
+
+class DoubleClicks:
+    """Finds double clicks: Blender hands modal operators the second press as any other.
+
+    The time that counts is that from the first release to the second press, as they are handled: where a redraw comes
+    between the two presses, however long it takes, the release has waited as well.
+    """
+
+    def __init__(self) -> None:
+        self._pressed: tuple[int, int] | None = None
+        self._released: tuple[str, float, int, int] | None = None
+
+    def is_second(self, event: Event, now: float, preferences: Preferences) -> bool:
+        """Whether an event is the second press of a double click. To be asked of every event of the mouse's buttons.
+
+        Parameters
+        ----------
+        event
+            Any; only the buttons of the mouse count.
+        now
+            Seconds, from any beginning.
+        preferences
+            For what counts as a double click and as the same place.
+        """
+        if not event.type.endswith("MOUSE") or event.type.startswith("WHEEL"):
+            return False
+        pressed, self._pressed = self._pressed, (event.mouse_x, event.mouse_y) if event.value == "PRESS" else None
+        if event.value == "RELEASE":
+            # What was dragged is no first click.
+            moved = max(abs(event.mouse_x - pressed[0]), abs(event.mouse_y - pressed[1])) if pressed else 0
+            here = (event.type, now, event.mouse_x, event.mouse_y)
+            self._released = here if moved <= drag_threshold(event, preferences) else None
+            return False
+        released, self._released = self._released, None
+        if released is None or event.value != "PRESS" or released[0] != event.type:
+            return False
+        soon = (now - released[1]) * 1000.0 < preferences.inputs.mouse_double_click_time
+        away = max(abs(event.mouse_x - released[2]), abs(event.mouse_y - released[3]))
+        return soon and away <= drag_threshold(event, preferences)
+
+
+def drag_threshold(event: Event, preferences: Preferences) -> float:
+    """Return how many pixels a button must be moved to drag: as Blender counts, more on a display of larger scale."""
+    inputs = preferences.inputs
+    threshold = inputs.drag_threshold_tablet if event.is_tablet else inputs.drag_threshold_mouse
+    return threshold * preferences.system.ui_scale
