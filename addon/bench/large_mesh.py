@@ -16,7 +16,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [os.environ["SEAMWIRE_BLENDER_PACKAGES"], str(ROOT / "blender_tests")]
+sys.path[:0] = [os.environ["SEAMWIRE_BLENDER_PACKAGES"], str(ROOT / "blender_tests"), str(ROOT / "addon/bench")]
 
 import addon_utils
 import bmesh
@@ -24,11 +24,14 @@ import bpy
 import numpy as np
 import ui as driver
 from mathutils import Euler
+from measures import Laps, Memory, Pictures
 from numpy.typing import NDArray
 from turns import play_strictly
 
 MOVES = 24
 SECONDS = 120.0
+SAMPLES = 10
+"""Turns in which Blender has drawn a picture to its end: it smooths with eight samples, one in each turn."""
 HELD = 0.1
 """Seconds from which on a stop of the interface is told of."""
 
@@ -69,7 +72,7 @@ class Holds:
             self.watch(Chain, name, "start")
         for name in ("handle", "trouble", "finish"):
             self.watch(Chain, name, "event")
-        for name in ("hover", "on_update", "_tick"):
+        for name in ("hover", "on_update", "tick"):
             self.watch(EditedObjects, name, "event")
         self.watch(EditedObjects, "_draw", "draw")
 
@@ -91,10 +94,38 @@ class Holds:
             yield doing, what, took
 
 
-def memory() -> int:
-    """Return what of this process is in memory, in bytes."""
-    pages = int(Path("/proc/self/statm").read_text().split()[1])
-    return pages * os.sysconf("SC_PAGE_SIZE")
+def lives_made() -> int:
+    """Return how many live wires the library was asked for."""
+    return _made[0]
+
+
+_made = [0]
+
+
+def count_lives() -> None:
+    """Count the calls that make live wires."""
+    from seamwire.core.live_maker import LiveMaker
+
+    make = LiveMaker.__call__
+
+    def counted(maker: LiveMaker, along: str) -> object:
+        _made[0] += 1
+        return make(maker, along)
+
+    LiveMaker.__call__ = counted
+
+
+def settle(ui: driver.Ui) -> None:
+    """Wait until nothing is computed and Blender has drawn its last picture."""
+    ui.wait_until(lambda: not (session() is not None and session().computing) and not overlay_busy(), SECONDS)
+    ui.wait(SAMPLES)
+
+
+def leave(ui: driver.Ui) -> None:
+    """End what is being drawn without keeping it."""
+    ui.key("ESC")
+    ui.key("ESC")
+    ui.wait_until(lambda: session() is None, SECONDS)
 
 
 def session() -> object | None:
@@ -120,6 +151,7 @@ def stage(ui: driver.Ui, levels: int) -> bpy.types.Object:
         bpy.ops.object.mode_set(mode="EDIT")
         bpy.ops.mesh.select_mode(type="EDGE")
         bpy.ops.mesh.select_all(action="DESELECT")
+        bpy.ops.wm.tool_set_by_id(name=TOOL)
     ui.view.view_perspective = "PERSP"
     ui.view.view_rotation = Euler((1.24, 0.0, 0.46)).to_quaternion()
     ui.view.view_location = (0.08, 0.0, -0.02)
@@ -166,11 +198,43 @@ def path(ui: driver.Ui) -> NDArray[np.float64]:
 
 
 def measure(ui: driver.Ui, along: str, holds: Holds) -> dict[str, object]:
-    """Start the tool, draw, and leave; return what was measured, seconds and bytes."""
+    """Start the tool, draw, and leave; return what was measured: seconds, bytes and counts."""
     found: dict[str, object] = {"empty redraw": np.median(redraws(ui, 3))}
-    before = memory()
+    before = Memory.now()
     places = path(ui)
     ui.move(tuple(places[0]))
+    measure_first_chain(ui, along, holds, places, found)
+    found["memory"] = Memory.now() - before
+    with holds.during("second seed"):
+        measure_second_seed(ui, places, found)
+    with holds.during("move"):
+        found["move"], found["move, ours"] = moves(ui, places, holds)
+    # The tint draws all faces once more: by the processor here, elsewhere by the graphics card.
+    own = bpy.context.preferences.addons["seamwire"].preferences
+    own.tint, before_tint = 0.0, own.tint
+    with holds.during("move, no tint"):
+        _, found["move, ours, no tint"] = moves(ui, places[: MOVES // 2], holds)
+    own.tint = before_tint
+    found["memory at the end"] = Memory.now() - before
+    with holds.during("end"):
+        measure_end(ui, holds, places, found)
+    with holds.during("second chain"):
+        measure_second_chain(ui, places, found)
+    with holds.during("another tool's edit"):
+        change(bpy.context.edit_object)
+        settle(ui)
+        start = time.perf_counter()
+        with ui.override():
+            assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", along=along) == {"RUNNING_MODAL"}
+        found["start after an edit"] = time.perf_counter() - start
+        leave(ui)
+    return found
+
+
+def measure_first_chain(
+    ui: driver.Ui, along: str, holds: Holds, places: NDArray[np.float64], found: dict[str, object]
+) -> None:
+    """From the start of the tool to the wires of its first seed."""
     start = time.perf_counter()
     with holds.during("start"), ui.override():
         assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", along=along) == {"RUNNING_MODAL"}
@@ -186,54 +250,58 @@ def measure(ui: driver.Ui, along: str, holds: Holds) -> dict[str, object]:
         found["first wire final"] = time.perf_counter() - start
         ui.wait_until(lambda: not session().computing, SECONDS)
         found["both wires"] = time.perf_counter() - start
-    found["memory"] = memory() - before
-    with holds.during("second seed"):
-        ui.event("LEFTMOUSE", "PRESS", tuple(places[MOVES // 2]), ticks=1)
-        clicked = time.perf_counter()
-        ui.event("LEFTMOUSE", "RELEASE", tuple(places[MOVES // 2]), ticks=1)
-        ui.event("MOUSEMOVE", "NOTHING", tuple(places[MOVES // 4]), ticks=1)
-        ui.wait_until(lambda: session().active is not None, SECONDS)
-        found["next wire shown"] = time.perf_counter() - clicked
-        ui.wait_until(lambda: session().active is not None and not session().preliminary, SECONDS)
-        found["next wire final"] = time.perf_counter() - clicked
-        ui.wait_until(lambda: not session().computing and not overlay_busy(), SECONDS)
-        ui.wait(4, redraw=True)
-    with holds.during("move"):
-        found["move"], found["move, ours"] = moves(ui, places, holds)
-    # The tint draws all faces once more: by the processor here, elsewhere by the graphics card.
-    own = bpy.context.preferences.addons["seamwire"].preferences
-    own.tint, before_tint = 0.0, own.tint
-    with holds.during("move, no tint"):
-        _, found["move, ours, no tint"] = moves(ui, places[: MOVES // 2], holds)
-    own.tint = before_tint
-    found["memory at the end"] = memory() - before
-    with holds.during("keep and end"):
-        ui.click(tuple(places[3 * MOVES // 4]))
+
+
+def measure_second_seed(ui: driver.Ui, places: NDArray[np.float64], found: dict[str, object]) -> None:
+    """From the click that keeps a wire to the next one."""
+    ui.event("LEFTMOUSE", "PRESS", tuple(places[MOVES // 2]), ticks=1)
+    clicked = time.perf_counter()
+    ui.event("LEFTMOUSE", "RELEASE", tuple(places[MOVES // 2]), ticks=1)
+    ui.event("MOUSEMOVE", "NOTHING", tuple(places[MOVES // 4]), ticks=1)
+    ui.wait_until(lambda: session().active is not None, SECONDS)
+    found["next wire shown"] = time.perf_counter() - clicked
+    ui.wait_until(lambda: session().active is not None and not session().preliminary, SECONDS)
+    found["next wire final"] = time.perf_counter() - clicked
+    settle(ui)
+
+
+def measure_end(ui: driver.Ui, holds: Holds, places: NDArray[np.float64], found: dict[str, object]) -> None:
+    """From the key that ends a chain to the first picture in which nothing of it is left to be done."""
+    from seamwire.operators import undo_steps
+
+    ui.click(tuple(places[3 * MOVES // 4]))
+    settle(ui)
+    pushed, first = Laps(undo_steps, "push"), len(holds.calls)
+    with pushed, Pictures() as pictures:
         start = time.perf_counter()
-        ui.key("RET")
-        ui.wait_until(lambda: session() is None and not overlay_busy(), SECONDS)
-        found["end"] = time.perf_counter() - start
-    with holds.during("second chain"), ui.override():
+        ui.event("RET", "PRESS", ticks=0)
+        ui.event("RET", "RELEASE", ticks=0)
+        ui.wait_until(lambda: pictures.first(lambda: session() is None and not overlay_busy()) is not None, SECONDS)
+        found["end"] = pictures.moment - start
+        found["end, redraws"] = pictures.count
+    found["end, ours"] = sum(spent for _, what, spent in holds.calls[first:] if what != "draw") - pushed.seconds
+    found["end, Blender's undo step"] = pushed.seconds
+    settle(ui)
+
+
+def measure_second_chain(ui: driver.Ui, places: NDArray[np.float64], found: dict[str, object]) -> None:
+    """From the click of the tool that begins a chain to the first picture of its wire; nothing has changed since the last chain."""
+    lives = lives_made()
+    at, then = tuple(places[MOVES // 8]), tuple(places[MOVES // 4])
+    ui.move(at)
+    settle(ui)
+    with Pictures() as pictures:
         start = time.perf_counter()
-        assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", along=along) == {"RUNNING_MODAL"}
-        ui.event("LEFTMOUSE", "PRESS", tuple(places[MOVES // 8]), ticks=1)
-        ui.event("LEFTMOUSE", "RELEASE", tuple(places[MOVES // 8]), ticks=1)
-        ui.event("MOUSEMOVE", "NOTHING", tuple(places[MOVES // 4]), ticks=1)
-        ui.wait_until(lambda: session().active is not None, SECONDS)
-        found["second chain, first wire"] = time.perf_counter() - start
-        ui.key("ESC")
-        ui.key("ESC")
-        ui.wait_until(lambda: session() is None, SECONDS)
-    with holds.during("another tool's edit"):
-        change(bpy.context.edit_object)
-        ui.wait(4, redraw=True)
-        start = time.perf_counter()
-        with ui.override():
-            assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", along=along) == {"RUNNING_MODAL"}
-        found["start after an edit"] = time.perf_counter() - start
-        ui.key("ESC")
-        ui.wait_until(lambda: session() is None, SECONDS)
-    return found
+        ui.event("LEFTMOUSE", "PRESS", at, ticks=0)
+        ui.event("LEFTMOUSE", "RELEASE", at, ticks=0)
+        ui.event("MOUSEMOVE", "NOTHING", then, ticks=0)
+        ui.wait_until(lambda: session() is not None and session().active is not None, SECONDS)
+        found["second chain, wire computed"] = time.perf_counter() - start
+        found["second chain, redraws before"] = pictures.count
+        ui.wait_until(lambda: pictures.first(lambda: session().active is not None) is not None, SECONDS)
+        found["second chain, wire shown"] = pictures.moment - start
+    found["second chain, live wires made"] = lives_made() - lives
+    leave(ui)
 
 
 def change(obj: bpy.types.Object) -> None:
@@ -265,19 +333,25 @@ def overlay_busy() -> bool:
     return any(view.busy for view in edited.views())
 
 
-def report(along: str, found: dict[str, object], holds: Holds) -> None:
-    """Print what was measured."""
+def report(along: str, found: dict[str, object], holds: Holds, triangles: int) -> None:
+    """Print what was measured, memory for each of some triangles too."""
     for name, value in found.items():
-        if name.startswith("memory"):
-            print(f"{along:8} {name:22} {value / 1e6:8.0f} MB", flush=True)
+        if isinstance(value, Memory):
+            for what, held in (("resident", value.resident), ("allocated", value.allocated)):
+                kilobytes = held / triangles / 1e3
+                print(
+                    f"{along:8} {f'{name}, {what}':32} {held / 1e6:8.0f} MB, {kilobytes:.2f} kB a triangle", flush=True
+                )
+        elif isinstance(value, int):
+            print(f"{along:8} {name:32} {value:8}", flush=True)
         elif isinstance(value, np.ndarray):
             middle, high = np.percentile(1e3 * value, (50, 95))
             print(
-                f"{along:8} {name:22} {middle:8.1f} ms median, {high:.1f} ms 95 %, {1e3 * value.max():.1f} ms most",
+                f"{along:8} {name:32} {middle:8.1f} ms median, {high:.1f} ms 95 %, {1e3 * value.max():.1f} ms most",
                 flush=True,
             )
         else:
-            print(f"{along:8} {name:22} {1e3 * value:8.1f} ms", flush=True)
+            print(f"{along:8} {name:32} {1e3 * value:8.1f} ms", flush=True)
     for doing, what, took in holds.longest():
         if took >= HELD or doing == "move":
             print(f"{along:8} held during {doing:20} by our {what:6} {1e3 * took:8.1f} ms", flush=True)
@@ -292,13 +366,17 @@ def main(levels: int) -> None:
     ui = driver.Ui()
     holds = Holds()
     holds.watch_events()
+    count_lives()
     for along in ("EDGES", "SURFACE"):
         obj = stage(ui, levels)
         print(f"{obj.name}: {len(obj.data.polygons)} faces, {len(obj.data.vertices)} vertices", flush=True)
-        report(along, measure(ui, along, holds), holds)
+        triangles = len(obj.data.loops) - 2 * len(obj.data.polygons)
+        report(along, measure(ui, along, holds), holds, triangles)
         holds.calls.clear()
 
 
 addon_utils.enable("seamwire", default_set=True)
+from seamwire.mesh.settings import TOOL
+
 levels = int(sys.argv[sys.argv.index("--") + 1])
 play_strictly(lambda: main(levels))

@@ -16,11 +16,8 @@ ROOMS = ("base", "network", "solver", "storage", "matching", "seams", "islands",
 FLOORS = (*(f"core.{room}" for room in ROOMS), "words", "mesh", "view", "operators", "ui")
 KNOWN_CYCLES = {
     ("operators.report", "operators.modal"): {
-        "operators.cut",
         "operators.modal",
         "operators.report",
-        "operators.slide",
-        "operators.unwrap",
     },
 }
 """Imports of types that lead back to the module itself, and all modules on the way."""

@@ -188,7 +188,7 @@ class Run:
             with _editing(obj):
                 self._mark(obj)
                 unwrap()
-                bpy.ops.mesh.seamwire_store_islands(kind="ATTRIBUTE")
+                bpy.ops.mesh.seamwire_store(what="ATTRIBUTE")
         numbers = self._measured(objects)
         self._save_networks(objects)
         write_asset(self._folder / job["output"])

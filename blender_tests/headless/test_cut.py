@@ -399,10 +399,10 @@ def test_a_cut_that_ends_on_an_error_leaves_every_mesh_as_it_was(
     before = [(snapshot(obj), seams(obj), obj.data.seamwire_wires) for obj in objects]
     refuse(monkeypatch, 12)  # the first mesh is planned by then
     with pytest.raises(RuntimeError, match="refused on purpose"):
-        bpy.ops.mesh.seamwire_cut() if kept else cut("0 44", objects="*")
+        bpy.ops.mesh.seamwire_finish(finish="CUT") if kept else cut("0 44", objects="*")
     assert [(snapshot(obj), seams(obj), obj.data.seamwire_wires) for obj in objects] == before
     monkeypatch.undo()
-    assert (bpy.ops.mesh.seamwire_cut() if kept else cut("0 44", objects="*")) == {"FINISHED"}
+    assert (bpy.ops.mesh.seamwire_finish(finish="CUT") if kept else cut("0 44", objects="*")) == {"FINISHED"}
 
 
 def select_some(obj: bpy.types.Object, mode: str) -> None:
@@ -544,7 +544,7 @@ def test_slid_wires_can_be_cut(chains: str) -> None:
     bpy.ops.mesh.seamwire_mark(chains=chains, along="SURFACE", finish="SLIDE")
     (wire,) = session_on(obj).session.wires
     length = float(np.linalg.norm(np.diff(wire.points, axis=0), axis=1).sum())
-    assert bpy.ops.mesh.seamwire_cut() == {"FINISHED"}
+    assert bpy.ops.mesh.seamwire_finish(finish="CUT") == {"FINISHED"}
     assert wire.end in joined(obj, wire.start)
     cuts = sum(edge.calc_length() for edge in bmesh.from_edit_mesh(obj.data).edges if edge.seam)
     assert cuts == pytest.approx(length, rel=0.01)
@@ -663,12 +663,12 @@ def test_kept_wires_are_cut_and_their_snapped_seams_are_gone() -> None:
     bpy.ops.mesh.seamwire_mark(chains="0 3 70", along="SURFACE")
     bpy.ops.mesh.seamwire_mark(chains="400 900", along="EDGES")
     snapped = set(seams(obj))
-    assert bpy.ops.mesh.seamwire_cut() == {"FINISHED"}
+    assert bpy.ops.mesh.seamwire_finish(finish="CUT") == {"FINISHED"}
     assert {3, 70} <= joined(obj, 0)
     assert 900 in joined(obj, 400), "wires along edges stay"
     assert len(snapped - set(seams(obj))) > 5, "the staircase is gone"
     with pytest.raises(RuntimeError, match="No kept wire runs across the surface"):
-        bpy.ops.mesh.seamwire_cut()
+        bpy.ops.mesh.seamwire_finish(finish="CUT")
 
 
 def test_an_object_that_shows_nothing_is_in_nobodys_way() -> None:
@@ -679,7 +679,7 @@ def test_an_object_that_shows_nothing_is_in_nobodys_way() -> None:
         face.hide_set(True)
     bmesh.update_edit_mesh(hidden.data)
     bpy.ops.mesh.seamwire_mark(chains="0 44", along="SURFACE")
-    assert bpy.ops.mesh.seamwire_cut() == {"FINISHED"}
+    assert bpy.ops.mesh.seamwire_finish(finish="CUT") == {"FINISHED"}
     assert len(seams(obj)) == 8
 
 

@@ -33,7 +33,7 @@ def test_a_wire_closes_it_and_what_is_marked_stays(nearly: bpy.types.Object) -> 
 
 def test_two_islands_are_three_then(nearly: bpy.types.Object) -> None:
     def islands() -> int:
-        assert bpy.ops.mesh.seamwire_store_islands(kind="ATTRIBUTE") == {"FINISHED"}
+        assert bpy.ops.mesh.seamwire_store(what="ATTRIBUTE") == {"FINISHED"}
         layer = bmesh.from_edit_mesh(nearly.data).faces.layers.int["island"]
         return len({face[layer] for face in bmesh.from_edit_mesh(nearly.data).faces})
 

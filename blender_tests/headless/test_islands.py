@@ -2,6 +2,7 @@
 """Islands that seams make: those that are no discs are selected, all are stored."""
 
 import math
+from functools import partial
 
 import bmesh
 import bpy
@@ -47,11 +48,11 @@ def test_islands_that_are_no_discs_are_selected_until_they_are_cut() -> None:
     sheet, tube = add_grid(5), add_tube()
     sheet.select_set(True)
     edit()
-    assert bpy.ops.mesh.seamwire_select_islands_to_cut() == {"FINISHED"}
+    assert bpy.ops.mesh.seamwire_select_islands(which="TO_CUT") == {"FINISHED"}
     assert (selected(sheet), selected(tube)) == (0, 8)
     mark(tube, lambda a, b: a.y > 0.99 and b.y > 0.99 and abs(a.z - b.z) > 1.0)
     assert len(seams(tube)) == 1
-    assert bpy.ops.mesh.seamwire_select_islands_to_cut() == {"FINISHED"}
+    assert bpy.ops.mesh.seamwire_select_islands(which="TO_CUT") == {"FINISHED"}
     assert selected(tube) == 0
 
 
@@ -76,13 +77,13 @@ def test_islands_are_stored_as_an_attribute_and_nothing_else_changes() -> None:
     edit()
     mark(obj, halves)
     before = snapshot(obj)
-    assert bpy.ops.mesh.seamwire_store_islands(kind="ATTRIBUTE") == {"FINISHED"}
+    assert bpy.ops.mesh.seamwire_store(what="ATTRIBUTE") == {"FINISHED"}
     stored = numbers(obj, "island")
     assert {number for number, _ in stored} == {0, 1}
     assert len(set(stored)) == 2, "one number on either side"
     after = snapshot(obj)
     assert {name: after[name] for name in before} == before
-    assert bpy.ops.mesh.seamwire_store_islands(kind="ATTRIBUTE") == {"FINISHED"}, "again, into the same"
+    assert bpy.ops.mesh.seamwire_store(what="ATTRIBUTE") == {"FINISHED"}, "again, into the same"
     assert numbers(obj, "island") == stored
 
 
@@ -92,7 +93,7 @@ def test_islands_are_stored_as_materials_beside_those_that_are_there() -> None:
     edit()
     mark(obj, halves)
     for _ in range(2):
-        assert bpy.ops.mesh.seamwire_store_islands(kind="MATERIALS") == {"FINISHED"}
+        assert bpy.ops.mesh.seamwire_store(what="MATERIALS") == {"FINISHED"}
         assert [slot.name == "Own" for slot in obj.data.materials] == [True, False, False]
         sides = {
             (face.material_index, face.calc_center_median().x < 0) for face in bmesh.from_edit_mesh(obj.data).faces
@@ -106,10 +107,10 @@ def test_islands_are_stored_as_face_sets() -> None:
     edit()
     mark(obj, halves)
     if bpy.app.version < (3, 6, 0):
-        with pytest.raises(RuntimeError, match="Face sets can be stored"):
-            bpy.ops.mesh.seamwire_store_islands(kind="FACE_SETS")
+        with pytest.raises(RuntimeError, match="Storing face sets needs"):
+            bpy.ops.mesh.seamwire_store(what="FACE_SETS")
         return
-    assert bpy.ops.mesh.seamwire_store_islands(kind="FACE_SETS") == {"FINISHED"}
+    assert bpy.ops.mesh.seamwire_store(what="FACE_SETS") == {"FINISHED"}
     assert {number for number, _ in numbers(obj, SETS)} == {1, 2}
     assert len(set(numbers(obj, SETS))) == 2
 
@@ -123,12 +124,12 @@ def test_hidden_faces_keep_what_they_have_and_nothing_visible_is_said() -> None:
     bm.faces[0][layer] = 7
     bm.faces[0].hide_set(True)
     bmesh.update_edit_mesh(obj.data)
-    bpy.ops.mesh.seamwire_store_islands(kind="ATTRIBUTE")
+    bpy.ops.mesh.seamwire_store(what="ATTRIBUTE")
     assert sorted({number for number, _ in numbers(obj, "island")}) == [0, 7]
     bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.mesh.hide()
     with pytest.raises(RuntimeError, match="No face is visible"):
-        bpy.ops.mesh.seamwire_store_islands(kind="ATTRIBUTE")
+        bpy.ops.mesh.seamwire_store(what="ATTRIBUTE")
 
 
 def test_hidden_faces_that_have_nothing_yet_become_no_island() -> None:
@@ -139,15 +140,15 @@ def test_hidden_faces_that_have_nothing_yet_become_no_island() -> None:
     bm.faces.ensure_lookup_table()
     bm.faces[0].hide_set(True)
     bmesh.update_edit_mesh(obj.data)
-    assert bpy.ops.mesh.seamwire_store_islands(kind="ATTRIBUTE") == {"FINISHED"}
+    assert bpy.ops.mesh.seamwire_store(what="ATTRIBUTE") == {"FINISHED"}
     assert {number for number, _ in numbers(obj, "island")} == {-1, 0, 1}
-    assert bpy.ops.mesh.seamwire_store_islands(kind="MATERIALS") == {"FINISHED"}
+    assert bpy.ops.mesh.seamwire_store(what="MATERIALS") == {"FINISHED"}
     bm = bmesh.from_edit_mesh(obj.data)
     bm.faces.ensure_lookup_table()
     assert {slot is None for slot in obj.data.materials} == {True, False}
     assert [obj.data.materials[face.material_index] is None for face in bm.faces] == [True] + [False] * 63
     if bpy.app.version >= (3, 6, 0):
-        assert bpy.ops.mesh.seamwire_store_islands(kind="FACE_SETS") == {"FINISHED"}
+        assert bpy.ops.mesh.seamwire_store(what="FACE_SETS") == {"FINISHED"}
         assert sorted({number for number, _ in numbers(obj, SETS)}) == [1, 2, 3]
 
 
@@ -158,15 +159,15 @@ def test_an_attribute_of_the_users_is_not_taken_for_that_of_the_islands(domain: 
     edit()
     before = snapshot(obj)
     with pytest.raises(RuntimeError, match="has an attribute 'island' of another kind"):
-        bpy.ops.mesh.seamwire_store_islands(kind="ATTRIBUTE")
+        bpy.ops.mesh.seamwire_store(what="ATTRIBUTE")
     assert snapshot(obj) == before
 
 
 def test_what_cannot_be_read_is_said() -> None:
     operators = (
-        bpy.ops.mesh.seamwire_store_islands,
-        bpy.ops.mesh.seamwire_select_islands_to_cut,
-        bpy.ops.mesh.seamwire_worst_island,
+        bpy.ops.mesh.seamwire_store,
+        bpy.ops.mesh.seamwire_select_islands,
+        partial(bpy.ops.mesh.seamwire_select_islands, which="WORST"),
         bpy.ops.mesh.seamwire_suggest,
     )
     for x, faces, words in ((1.0, [], "No face is visible"), (math.nan, [(0, 1, 2)], "not finite")):

@@ -79,6 +79,32 @@ def test_what_wires_cannot_run_on_is_said(grid: bpy.types.Object) -> None:
 # What is written
 
 
+def test_a_write_knows_the_labels_of_the_mesh_without_looking_at_all_edges(
+    grid: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    mesh = session_on(grid)
+    looked_at: list[object] = []
+    labels = edit_mesh.Cage.labels
+
+    def noting(cage: edit_mesh.Cage, among: object = None) -> object:
+        looked_at.append(among)
+        return labels(cage, among)
+
+    monkeypatch.setattr(edit_mesh.Cage, "labels", noting)
+    draw(mesh, 44, 36)  # against the order of the edges
+    draw(mesh, 4, 76)
+    mesh.session.drop(mesh.session.wires[0])
+    write(mesh)
+    assert len(looked_at) == 3
+    assert all(among is not None and len(among) <= 32 for among in looked_at)
+    assert mesh._labels.same_as(labels(mesh.cage))
+    assert len(mesh._labels.labels) == 8
+    mesh.session.drop(mesh.session.wires[0])
+    write(mesh)
+    assert mesh._labels.same_as(labels(mesh.cage))
+    assert not has_labels(grid), "the last wire takes the layer away"
+
+
 @pytest.mark.every_blender
 def test_a_mesh_without_wires_stays_untouched(grid: bpy.types.Object) -> None:
     before = snapshot(grid)

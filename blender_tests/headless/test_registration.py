@@ -3,6 +3,7 @@
 
 import pytest
 import traces
+from seamwire.ui import menus
 
 pytestmark = pytest.mark.every_blender
 
@@ -13,7 +14,7 @@ def test_enabled_and_disabled_many_times_it_leaves_nothing_behind() -> None:
     enabled = traces.traces()
     assert any("MESH_OT_seamwire_draw" in one for one in traces.ours(enabled))
     assert any("mesh.seamwire_mark" in one for one in traces.ours(enabled))
-    for menu in ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "VIEW3D_MT_edit_mesh_context_menu", "IMAGE_MT_uvs"):
+    for menu in (*menus.MENUS, menus.CONTEXT_MENU):
         assert sum(f"entries: {menu}:" in one for one in traces.ours(enabled)) == 1, menu
     traces.disable()
     try:

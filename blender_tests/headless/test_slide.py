@@ -49,7 +49,7 @@ def test_the_seam_lies_on_the_wire_and_nothing_else_changes() -> None:
     snapped = seams(obj)
     chain = list(session_on(obj).session.wires[0].vertices)
     assert off_line(places(obj)[chain]).max() > 0.02
-    assert bpy.ops.mesh.seamwire_slide() == {"FINISHED"}
+    assert bpy.ops.mesh.seamwire_finish(finish="SLIDE") == {"FINISHED"}
     assert seams(obj) == snapped
     after = places(obj)
     assert off_line(after[chain]).max() < 1e-6
@@ -70,7 +70,7 @@ def test_at_once_is_the_same_as_afterwards() -> None:
         obj = add_quads()
         mark("SLIDE" if at_once else "SNAP")
         if not at_once:
-            bpy.ops.mesh.seamwire_slide()
+            bpy.ops.mesh.seamwire_finish(finish="SLIDE")
         found.append((places(obj), seams(obj)))
         bpy.ops.object.mode_set(mode="OBJECT")
         bpy.data.objects.remove(obj)
@@ -82,7 +82,7 @@ def test_sliding_again_changes_nothing() -> None:
     obj = add_triangles()
     mark()
     once = places(obj)
-    bpy.ops.mesh.seamwire_slide()
+    bpy.ops.mesh.seamwire_finish(finish="SLIDE")
     assert np.allclose(places(obj), once, atol=0.02), "apart from spreading along the wire"
 
 
@@ -216,7 +216,7 @@ def test_mirror_images_slide_too() -> None:
 def test_without_wires_across_the_surface_there_is_an_error() -> None:
     add_quads()
     with pytest.raises(RuntimeError, match="No kept wire runs across the surface"):
-        bpy.ops.mesh.seamwire_slide()
+        bpy.ops.mesh.seamwire_finish(finish="SLIDE")
 
 
 def test_a_dragged_wire_is_known_to_slide() -> None:

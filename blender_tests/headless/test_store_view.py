@@ -41,7 +41,7 @@ def test_strengths_and_concavity_are_stored_as_the_library_has_them(mode: str) -
         ("CONCAVITY", "concavity", smoothed.k1),
     ):
         for _ in range(2):  # again: over what is there
-            assert bpy.ops.mesh.seamwire_store_view(view=view) == {"FINISHED"}
+            assert bpy.ops.mesh.seamwire_store(what=view) == {"FINISHED"}
             assert stored(obj, name) == pytest.approx(values.astype(np.float32), rel=1e-6)
     assert smoothed.k1.min() < 0.0 < smoothed.k1.max()
 
@@ -52,7 +52,7 @@ def test_ridges_and_valleys_are_stored_beside_them_with_their_strength(mode: str
     bpy.ops.object.mode_set(mode=mode)
     surface, curvature = expected(obj)
     lines = native.load().crest_lines(surface, native.load().smoothed_curvatures(surface, curvature))
-    assert bpy.ops.mesh.seamwire_store_view(view="CRESTS") == {"FINISHED"}
+    assert bpy.ops.mesh.seamwire_store(what="CRESTS") == {"FINISHED"}
     found = stored(obj, "ridges_and_valleys")
     assert found.max() == pytest.approx(lines.strengths[lines.curvatures[lines.starts[:-1]] > 0.0].max())
     assert found.min() == pytest.approx(-lines.strengths[lines.curvatures[lines.starts[:-1]] < 0.0].max())
@@ -68,11 +68,11 @@ def test_distances_are_from_the_selected_vertex_and_minus_one_where_nothing_lead
     bpy.ops.mesh.select_all(action="DESELECT")
     bpy.ops.object.mode_set(mode="OBJECT")
     with pytest.raises(RuntimeError, match="Select the vertex"):
-        bpy.ops.mesh.seamwire_store_view(view="DISTANCE")
+        bpy.ops.mesh.seamwire_store(what="DISTANCE")
     assert "metric_distance" not in obj.data.attributes
     obj.data.vertices[1].select = True
     bpy.ops.object.mode_set(mode=mode)
-    assert bpy.ops.mesh.seamwire_store_view(view="DISTANCE") == {"FINISHED"}
+    assert bpy.ops.mesh.seamwire_store(what="DISTANCE") == {"FINISHED"}
     values = stored(obj, "metric_distance")
     assert values == pytest.approx([1 / 6, 0, 1 / 6, 2**0.5 / 6, -1, -1, -1], abs=1e-6)
 
@@ -95,10 +95,10 @@ def test_an_attribute_of_that_name_and_another_kind_is_left_alone() -> None:
     obj = add_suzanne()
     obj.data.attributes.new("concavity", "INT", "FACE")
     with pytest.raises(RuntimeError, match="another attribute 'concavity'"):
-        bpy.ops.mesh.seamwire_store_view(view="CONCAVITY")
+        bpy.ops.mesh.seamwire_store(what="CONCAVITY")
     bpy.ops.object.mode_set(mode="EDIT")
     with pytest.raises(RuntimeError, match="another attribute 'concavity'"):
-        bpy.ops.mesh.seamwire_store_view(view="CONCAVITY")
+        bpy.ops.mesh.seamwire_store(what="CONCAVITY")
     bpy.ops.object.mode_set(mode="OBJECT")
     assert obj.data.attributes["concavity"].data_type == "INT"
 
@@ -106,5 +106,5 @@ def test_an_attribute_of_that_name_and_another_kind_is_left_alone() -> None:
 def test_a_mesh_without_edges_is_refused() -> None:
     obj = add_object([(0, 0, 0)], [])
     with pytest.raises(RuntimeError, match="nothing to draw on"):
-        bpy.ops.mesh.seamwire_store_view(view="STRENGTH")
+        bpy.ops.mesh.seamwire_store(what="STRENGTH")
     assert not [name for name in obj.data.attributes.keys() if name == "feature_strength"]  # noqa: SIM118

@@ -537,12 +537,12 @@ def test_the_worst_island_is_selected(mode: str) -> None:
             loop[layer].uv.x *= 4.0
     bmesh.update_edit_mesh(objects[0].data)
     before = uvs(objects[0])
-    assert bpy.ops.mesh.seamwire_worst_island() == {"FINISHED"}
+    assert bpy.ops.mesh.seamwire_select_islands(which="WORST") == {"FINISHED"}
     assert selected(objects[0]) == list(range(32, 64))
     assert selected(objects[1]) == []
     assert np.array_equal(uvs(objects[0]), before)
     move(objects[1], slice(0, 32), (0.0, 0.0), 9.0)
-    assert bpy.ops.mesh.seamwire_worst_island(kind="AREA") == {"FINISHED"}
+    assert bpy.ops.mesh.seamwire_select_islands(which="WORST", kind="AREA") == {"FINISHED"}
     assert selected(objects[1]) == list(range(32, 64)), "it is far smaller than the mean"
     bpy.ops.mesh.select_mode(type="VERT")
 
@@ -552,5 +552,5 @@ def test_without_uvs_there_is_no_worst_island() -> None:
     edit()
     before = snapshot(obj)
     with pytest.raises(RuntimeError, match="unwrap first"):
-        bpy.ops.mesh.seamwire_worst_island()
+        bpy.ops.mesh.seamwire_select_islands(which="WORST")
     assert snapshot(obj) == before

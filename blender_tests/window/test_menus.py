@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender's menus show the add-on's entries without an error."""
+"""Blender's menus show the add-on's entries and its submenu without an error."""
 
+from collections.abc import Callable
 from types import SimpleNamespace
 
 import bpy
@@ -8,48 +9,96 @@ import pytest
 from desk import Desk
 from seamwire.ui import menus
 
+TOP = [
+    "wm.tool_set_by_id",
+    "mesh.seamwire_suggest",
+    "mesh.seamwire_close_gaps",
+    "mesh.seamwire_unwrap",
+    "VIEW3D_MT_seamwire_finish",
+    "VIEW3D_MT_seamwire_network",
+    "VIEW3D_MT_seamwire_islands",
+    "VIEW3D_MT_seamwire_views",
+]
+BLENDERS = {
+    "VIEW3D_MT_edit_mesh_edges": ["VIEW3D_MT_seamwire"],
+    "VIEW3D_MT_uv_map": ["VIEW3D_MT_seamwire"],
+    "VIEW3D_MT_edit_mesh_context_menu": ["wm.tool_set_by_id"],
+    "TOPBAR_MT_file_import": ["mesh.seamwire_load_network"],
+    "TOPBAR_MT_file_export": ["mesh.seamwire_save_network"],
+}
+
 
 @pytest.mark.smoke
 @pytest.mark.every_blender
-def test_menus_draw_their_entries_and_each_entry_is_an_operator(desk: Desk) -> None:
-    for name in ("VIEW3D_MT_edit_mesh_edges", "TOPBAR_MT_file_import", "TOPBAR_MT_file_export"):
-        entries = entries_of(desk, name)
-        assert any(entry.startswith("mesh.seamwire_") for entry in entries)
-        for entry in entries:
-            group, operator = entry.split(".")
-            assert getattr(getattr(bpy.ops, group), operator).get_rna_type(), entry
-
-
-def entries_of(desk: Desk, name: str) -> list[str]:
-    """Open a menu and return the operators that the add-on draws in it."""
-    drawn: list[str] = []
+@pytest.mark.parametrize("name", BLENDERS)
+def test_blenders_menus_have_one_entry_of_ours(desk: Desk, name: str) -> None:
     functions = getattr(bpy.types, name).draw._draw_funcs
     (ours,) = (i for i, function in enumerate(functions) if function.__module__ == menus.__name__)
+    drawn: list[str] = []
     draw = functions[ours]
+    functions[ours] = noting(draw, drawn)
+    try:
+        open_menu(desk, name, drawn)
+    finally:
+        functions[ours] = draw
+    assert drawn == BLENDERS[name]
+
+
+@pytest.mark.smoke
+@pytest.mark.every_blender
+@pytest.mark.parametrize(
+    "menu",
+    [menus.VIEW3D_MT_seamwire, *menus.SUBMENUS, menus.VIEW3D_MT_seamwire_store_view],
+    ids=lambda menu: menu.bl_label,
+)
+def test_each_entry_of_our_menus_is_an_operator_a_menu_or_a_setting(
+    desk: Desk, menu: type[bpy.types.Menu], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn: list[str] = []
+    monkeypatch.setattr(menu, "draw", noting(menu.draw, drawn))
+    open_menu(desk, menu.bl_idname, drawn)
+    for entry in drawn:
+        if isinstance(entry, str) and "." in entry:
+            group, operator = entry.split(".")
+            assert getattr(getattr(bpy.ops, group), operator).get_rna_type(), entry
+    if menu is menus.VIEW3D_MT_seamwire:
+        assert drawn == TOP
+
+
+def noting(draw: Callable, drawn: list[str]) -> Callable:
+    """Return what draws the same and notes the names of operators and menus, and the settings that it shows."""
 
     class Layout:
-        """The menu's layout, which also notes the operators."""
+        """The menu's layout."""
 
         def __init__(self, layout: bpy.types.UILayout) -> None:
-            self.layout = layout
+            object.__setattr__(self, "layout", layout)
+
+        def __setattr__(self, name: str, value: object) -> None:
+            setattr(self.layout, name, value)
 
         def __getattr__(self, kind: str) -> object:
             method = getattr(self.layout, kind)
 
-            def noting(*arguments: str, **options: object) -> object:
+            def call(*arguments: str, **options: object) -> object:
                 result = method(*arguments, **options)
                 drawn.extend(arguments[:1])
                 return result
 
-            return noting
+            return call
 
-    functions[ours] = lambda menu, context: draw(SimpleNamespace(layout=Layout(menu.layout)), context)
-    try:
-        desk.ui.move(desk.at(40))
-        with desk.ui.override():
-            bpy.ops.wm.call_menu(name=name)
-        desk.ui.wait_until(lambda: bool(drawn))
-        desk.ui.key("ESC")
-    finally:
-        functions[ours] = draw
-    return drawn
+    def draw_and_note(menu: bpy.types.Menu, context: bpy.types.Context) -> None:
+        drawn.clear()  # Blender draws a menu again when the mouse moves
+        draw(SimpleNamespace(layout=Layout(menu.layout)), context)
+
+    return draw_and_note
+
+
+def open_menu(desk: Desk, name: str, drawn: list[str]) -> None:
+    """Open a menu, wait until something was drawn, and close it."""
+    desk.ui.move(desk.at(40))
+    with desk.ui.override():
+        bpy.ops.wm.call_menu(name=name)
+    desk.ui.wait_until(lambda: bool(drawn))
+    desk.ui.key("ESC")
+    desk.ui.wait(2)

@@ -171,6 +171,6 @@ def test_a_face_that_surrounds_another_one_can_be_cut_and_unwrapped(desk: Desk) 
             "FINISHED"
         }
         assert bpy.ops.mesh.seamwire_unwrap() == {"FINISHED"}
-        bpy.ops.mesh.seamwire_select_islands_to_cut()
+        bpy.ops.mesh.seamwire_select_islands(which="TO_CUT")
     desk.obj.update_from_editmode()
     assert not desk.obj.data.copy().validate()

@@ -115,12 +115,12 @@ def test_islands_are_selected_and_stored(desk: Desk, monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(bpy.context.tool_settings, "mesh_select_mode", (False, False, True))
     view_selected(desk)
     with desk.ui.override():
-        bpy.ops.mesh.seamwire_select_islands_to_cut()
+        bpy.ops.mesh.seamwire_select_islands(which="TO_CUT")
     chosen = [face.select for face in bmesh.from_edit_mesh(desk.obj.data).faces]
     assert chosen == [row < 4 and (row, column) != (1, 3) for row in range(8) for column in range(8)]
     view_selected(desk)
     with desk.ui.override():
-        bpy.ops.mesh.seamwire_store_islands(kind="ATTRIBUTE")
+        bpy.ops.mesh.seamwire_store(what="ATTRIBUTE")
     bm = bmesh.from_edit_mesh(desk.obj.data)
     layer = bm.faces.layers.int["island"]
     assert [sum(face[layer] == island for face in bm.faces) for island in range(3)] == [32, 31, 1]

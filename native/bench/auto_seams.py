@@ -2,7 +2,7 @@
 """Automatic seams beside an artist's and those of other methods, measured on the same models.
 
     python native/bench/auto_seams.py --models FOLDER [--peers FOLDER] [--maps FOLDER] [--only NAME...] [--along edges|surface]
-        [--measure-only] [--json FILE] [--page FILE] [--sheets FOLDER [--blind]]
+        [--measure-only] [--json FILE] [--page FILE...] [--sheets FOLDER [--blind]]
 
 uv_maps.py describes the files of models and maps, and uv_measures.py the numbers. The folder of --peers has the maps of other methods,
 NAME.METHOD.npz. The library plans and flattens our maps, each model in a separate process, and the program writes them to the folder of
@@ -20,7 +20,7 @@ These methods are ours:
 "artist as published" is the artist's own map.
 
 The program prints Markdown tables: our maps of each model, the seams of each model and method, the medians of all methods, and the goals
-beside what was reached. --page replaces the tables of a Markdown page, between comments "begin NAME" and "end NAME".
+beside what was reached. --page replaces the tables of Markdown pages, between comments "begin NAME" and "end NAME".
 
 --sheets draws a picture of each model with a row for each of the methods ours, artist, xatlas and optcuts. With --blind the rows are
 shuffled and have letters instead of names. The file key.json in the same folder has the names. The program needs numpy, scipy, and
@@ -37,7 +37,17 @@ from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 
 import seam_planning
-from auto_seams_report import Result, comparison_table, goal_table, median_table, model_table, with_tables
+from auto_seams_report import (
+    COMPARED,
+    SECTIONS,
+    Result,
+    comparison_table,
+    goal_table,
+    median_table,
+    model_table,
+    tables_on,
+    with_tables,
+)
 from seam_planning import ARTIST, OURS, in_own_process
 from uv_maps import Model, UvMap, read_frames
 from uv_measures import Reference, measure
@@ -80,16 +90,18 @@ def main() -> None:
             draw(model, maps, options.sheets, blind=options.blind)
     made = tables(results)
     print(*made.values(), sep="\n\n")
-    if options.page:
-        options.page.write_text(with_tables(options.page.read_text(encoding="utf-8"), made), encoding="utf-8")
+    for page in options.page:
+        text = page.read_text(encoding="utf-8")
+        page.write_text(with_tables(text, {name: made[name] for name in tables_on(text)}), encoding="utf-8")
 
 
 def tables(results: list[Result]) -> dict[str, str]:
     """Return all tables of the results, by the names that pages have for them."""
     return {
-        "models": model_table(results, OURS),
-        "comparison": comparison_table(results),
-        "methods": median_table(results),
+        **{f"models-{section}": model_table(results, OURS, section) for section in SECTIONS},
+        **{f"comparison-{name}": comparison_table(results, name) for name in COMPARED},
+        **{f"methods-{section}": median_table(results, section) for section in SECTIONS},
+        **{f"former-{section}": median_table(results, section, former=True) for section in SECTIONS},
         "goals": goal_table(results),
     }
 
@@ -104,7 +116,7 @@ def parsed_options() -> argparse.Namespace:
     parser.add_argument("--along", choices=("edges", "surface"), default="edges")
     parser.add_argument("--measure-only", action="store_true", help="plan nothing")
     parser.add_argument("--json", type=Path, help="file for all numbers")
-    parser.add_argument("--page", type=Path, help="Markdown page whose tables are renewed")
+    parser.add_argument("--page", type=Path, nargs="+", default=[], help="Markdown pages whose tables are renewed")
     parser.add_argument("--sheets", type=Path, help="folder for pictures")
     parser.add_argument("--blind", action="store_true", help="hide the methods' names in pictures")
     return parser.parse_args()

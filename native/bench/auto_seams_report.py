@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -96,37 +97,69 @@ def markdown(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
-def model_table(results: Sequence[Result], method: str) -> str:
+SECTIONS = {
+    "length": ("islands", "seam", "E_d", "density 5 %", "visible"),
+    "place": ("mirrored", "lift", "sharp", "tiny", "loose ends"),
+    "cost": ("overlapping", "flips", "packing", "first s", "s", "MB"),
+}
+"""Titles of the columns that stand in one table, by the table's name. No table has more than seven columns."""
+_LONGEST = 5
+"""Columns up to which a table also has the number of triangles or models."""
+_COUNTED = {"tiny", "overlapping", "flips"}
+FORMER = ("before", "before stretch")
+"""Maps of the planner that the present one replaced. They have separate tables."""
+
+
+def columns_of(section: str) -> list[Column]:
+    """Return the columns of a section's table."""
+    return [next(column for column in COLUMNS if column.title == title) for title in SECTIONS[section]]
+
+
+def model_table(results: Sequence[Result], method: str, section: str) -> str:
     """Return a table of the maps of one method, a row for each model, and their medians."""
+    columns = columns_of(section)
+    has_size = len(columns) <= _LONGEST
     chosen = [result for result in results if result.method == method]
     rows = [
-        [r.model, str(r.triangles), *(shown(column.value(r), column.decimals) for column in COLUMNS)] for r in chosen
+        [r.model, *([str(r.triangles)] if has_size else []), *(shown(c.value(r), c.decimals) for c in columns)]
+        for r in chosen
     ]
-    last = ["median", "", *(shown(median(map(column.value, chosen)), column.decimals) for column in COLUMNS)]
-    return markdown([f"{method}: model", "triangles", *(column.title for column in COLUMNS)], [*rows, last])
+    medians = [shown(median(map(column.value, chosen)), column.decimals) for column in columns]
+    size = ["triangles"] if has_size else []
+    head = [f"{method}: model", *size, *(column.title for column in columns)]
+    return markdown(head, [*rows, ["median", *("" for _ in size), *medians]])
 
 
-def median_table(results: Sequence[Result]) -> str:
+def median_table(results: Sequence[Result], section: str, *, former: bool = False) -> str:
     """Return a table of the medians of each method over the models that it has a map of.
 
-    Tiny islands, overlapping islands and flips are the numbers of models that have any.
+    Tiny islands, overlapping islands and flips are the numbers of models that have any. With ``former`` the rows are the
+    former planner's, otherwise those of all other methods.
     """
-    counted = {"tiny", "overlapping", "flips"}
+    columns = columns_of(section)
+    has_size = len(columns) <= _LONGEST
     rows = []
     for method in dict.fromkeys(result.method for result in results):
+        if (method in FORMER) != former:
+            continue
         chosen = [result for result in results if result.method == method]
-        row = [method, str(len(chosen))]
-        for column in COLUMNS:
-            values = [column.value(result) for result in chosen]
-            if column.title in counted:
-                row.append(str(sum(value is not None and value > 0 for value in values)))
-            else:
-                row.append(
-                    shown(median(values), max(column.decimals, 1) if column.title == "islands" else column.decimals)
-                )
-        rows.append(row)
-    titles = [f"models: {column.title}" if column.title in counted else column.title for column in COLUMNS]
-    return markdown(["method", "models", *titles], rows)
+        size = [str(len(chosen))] if has_size else []
+        rows.append([method, *size, *(typical(column, chosen) for column in columns)])
+    titles = [f"models: {column.title}" if column.title in _COUNTED else column.title for column in columns]
+    return markdown(["method", *(["models"] if has_size else []), *titles], rows)
+
+
+def typical(column: Column, results: Sequence[Result]) -> str:
+    """Return the median of a column over the results, or the number of results that have any of what it counts."""
+    values = [column.value(result) for result in results]
+    if column.title in _COUNTED:
+        return str(sum(value is not None and value > 0 for value in values))
+    return shown(median(values), max(column.decimals, 1) if column.title == "islands" else column.decimals)
+
+
+def tables_on(page: str) -> list[str]:
+    """Return the names of the tables that a page has a place for."""
+    return re.findall(r"<!-- begin ([\w-]+) -->", page)
 
 
 def with_tables(page: str, tables: dict[str, str]) -> str:
@@ -144,25 +177,18 @@ def with_tables(page: str, tables: dict[str, str]) -> str:
     return page
 
 
-COMPARED = (
-    "ours",
-    "tree",
-    "ours 4.1",
-    "ours as artist",
-    "ours as artist flattened",
-    "artist",
-    "artist as published",
-    "optcuts",
-    "xatlas",
-    "before",
-)
-"""Methods whose seams are shown model by model."""
+COMPARED = {
+    "artists": ("ours", "ours as artist", "ours as artist flattened", "artist", "artist as published"),
+    "programs": ("ours", "tree", "ours 4.1", "optcuts", "xatlas"),
+    "former": ("ours", "before"),
+}
+"""Methods whose seams are shown model by model, by the table's name."""
 
 
-def comparison_table(results: Sequence[Result]) -> str:
+def comparison_table(results: Sequence[Result], name: str) -> str:
     """Return a table of the seam's length and, in parentheses, E_d of each model and method."""
     cells = {(r.model, r.method): f"{shown(SEAM(r))} ({shown(ENERGY(r))})" for r in results}
-    methods = [method for method in COMPARED if any(r.method == method for r in results)]
+    methods = [method for method in COMPARED[name] if any(r.method == method for r in results)]
     models = dict.fromkeys(r.model for r in results)
     return markdown(
         ["seam (E_d)", *methods],

@@ -127,7 +127,7 @@ Cancelled
 
 References
 ----------
-docs/method.md, Section 7.
+docs/method/edges.md.
 )");
 }
 

@@ -239,7 +239,7 @@ Cancelled
 
 References
 ----------
-docs/method.md, Section 6.
+docs/method/closed-cuts.md.
 )");
   field.def("bend", &bend, py::arg("cut"), py::arg("progress") = py::none(),
             R"(Prepare a closed wire of the field, so that it can be bent to a second point.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Memory for large arrays, in large pages where Linux has them (madvise(2), MADV_HUGEPAGE). The system provides memory
-// page by page, when a page is first used. With pages of 4 KiB this takes half of the time in which a mesh of a million
-// triangles is prepared (docs/benchmarks.md). Only the module replaces operator new, and only for itself (module.map).
+// page by page, when a page is first used. Fewer and larger pages take less time, which docs/notebook/geodesics.md
+// measures. Only the module replaces operator new, and only for itself (module.map).
 // A library must not do so to the programs it is linked into. malloc and free are used, so any code may free this
 // memory.
 #include <sys/mman.h>

@@ -309,15 +309,16 @@ void bind_seed_and_wires(LiveWireClass& live_wire) {
 Parameters
 ----------
 pick : int, (int, int) or (int, (3,) array_like)
-    A vertex. Along edges, it may be an edge by its two vertices. Across the surface, it may be a face and three
-    barycentric coordinates, each 0 or more, with the sum 1.
+    A vertex. Along edges, it may also be an edge, by its two vertices. Across the surface, it may also be a face and
+    three barycentric coordinates, each 0 or more, with the sum 1.
 forward : bool
     As for `edge_wires`.
 
 Raises
 ------
 ValueError
-    If the pick is not part of the surface. Before the surface is built, an edge is checked later, by `wires`.
+    If the pick is not part of the surface, or if it is a point in a face and wires run along edges. Before the
+    surface is built, an edge is checked later, by `wires`.
 )");
   live_wire.def("wires", &wires, py::arg("target"), R"(Return the wires to a target, as far as they are computed.
 
@@ -337,7 +338,7 @@ LiveWires
 Raises
 ------
 ValueError
-    If the target or the seed is not part of the surface, or there is no seed.
+    If the target or the seed is not part of the surface, or there is no seed. As for `seed` otherwise.
 )");
 }
 

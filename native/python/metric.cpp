@@ -329,7 +329,7 @@ Cancelled
 
 References
 ----------
-docs/method.md, Section 3.
+docs/method/metric.md.
 )");
   module.def("euclidean_metric", &make_euclidean_metric, py::arg("surface"), py::arg("curvature"),
              py::arg("progress") = py::none(), R"(Make the metric in which lengths are those of space.

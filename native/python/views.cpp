@@ -81,7 +81,7 @@ Cancelled
 References
 ----------
 Yoshizawa, Belyaev, Seidel, "Fast and robust detection of crest lines on meshes" (2005), with derivatives of curvature
-as in Rusinkiewicz (2004). docs/method.md, Section 2, describes the differences.
+as in Rusinkiewicz (2004). docs/method/curvature.md describes the differences.
 )");
 }
 

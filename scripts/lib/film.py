@@ -11,6 +11,7 @@ import struct
 import subprocess
 import sys
 import zlib
+from functools import partial
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -461,7 +462,7 @@ def cut(film: Film) -> None:
         bpy.ops.mesh.seamwire_mark(chains=" ".join(map(str, seeds)), along="SURFACE")
     film.at = (60.0, 60.0)
     film.ui.move(film.at)
-    for name, what in (("snapped", None), ("cut", bpy.ops.mesh.seamwire_cut)):
+    for name, what in (("snapped", None), ("cut", partial(bpy.ops.mesh.seamwire_finish, finish="CUT"))):
         if what is not None:
             with film.ui.override():
                 what()

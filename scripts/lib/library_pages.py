@@ -53,12 +53,6 @@ def example_snippets(source: Path) -> dict[str, str]:
     return {found.group(1): textwrap.dedent(found.group(2)) for found in pattern.finditer(source.read_text())}
 
 
-def links(page: Path) -> list[str]:
-    """Return the targets of the page's links and pictures that are files of the project."""
-    found = re.findall(r"\]\(([^)\s]+)\)", page.read_text())
-    return [target for target in found if not target.startswith(("http", "#"))]
-
-
 if __name__ == "__main__":
     path = Path(sys.argv[1]).resolve()
     run_python(path, {} if path == FIRST else first_program())

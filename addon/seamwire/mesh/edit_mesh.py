@@ -113,13 +113,20 @@ class Cage:
         edge = _edge(self.bm, pair)
         return edge is not None and edge.seam
 
-    def labels(self) -> EdgeLabels:
-        """Return the edges that have a label."""
+    def labels(self, among: Iterable[tuple[int, int]] | None = None) -> EdgeLabels:
+        """Return the edges that have a label, in the order of their numbers.
+
+        Parameters
+        ----------
+        among
+            Edges that include all with a label. None: every edge of the mesh is looked at.
+        """
         bm = self.bm
         layer = bm.edges.layers.int.get(LABELS)
         if layer is None:
             return EdgeLabels.none()
-        found = [(label, edge) for edge in bm.edges if (label := edge[layer])]
+        edges = bm.edges if among is None else self._in_order(among)
+        found = [(label, edge) for edge in edges if (label := edge[layer])]
         return EdgeLabels(
             np.array([[v.index for v in edge.verts] for _, edge in found], dtype=np.int64).reshape(-1, 2),
             np.array([label for label, _ in found], dtype=np.int64),
@@ -158,7 +165,7 @@ class Cage:
         if layer is not None:
             for edge, label in zip(self._found(labels), labels.values(), strict=True):
                 edge[layer] = label
-            if labels and not any(edge[layer] for edge in self.bm.edges):
+            if labels and not any(labels.values()) and not any(edge[layer] for edge in self.bm.edges):
                 self.bm.edges.layers.int.remove(layer)
         if new or old or labels:
             _numbered(self._bm)  # a layer that comes or goes takes the numbers away
@@ -168,6 +175,12 @@ class Cage:
     def _label_layer(self) -> bmesh.types.BMLayerItem:
         layers = self.bm.edges.layers.int
         return layers.get(LABELS) or layers.new(LABELS)
+
+    def _in_order(self, pairs: Iterable[tuple[int, int]]) -> list[bmesh.types.BMEdge]:
+        """Return the edges that there are between pairs of vertices, each once, in the order of their numbers."""
+        bm = self.bm
+        found = {edge.index: edge for pair in pairs if (edge := _edge(bm, pair)) is not None}
+        return [found[number] for number in sorted(found)]
 
     def _found(self, pairs: Iterable[tuple[int, int]]) -> list[bmesh.types.BMEdge]:
         found, bm = [], self.bm
@@ -212,7 +225,7 @@ class StoredMesh:
         row = self._row(pair)
         return row is not None and self.mesh.edges[row].use_seam
 
-    def labels(self) -> EdgeLabels:
+    def labels(self, among: Iterable[tuple[int, int]] | None = None) -> EdgeLabels:
         """As `Cage.labels`."""
         attribute = self.mesh.attributes.get(LABELS)
         if attribute is None:

@@ -373,8 +373,10 @@ class ObjectSession:
         """
         if self._renumbered:
             raise ValueError("The mesh has other vertices now")
-        written = self.cage.write(plan.mark, plan.clear, {} if self._newer else plan.labels)
-        self._labels = self.cage.labels()
+        labels = {} if self._newer else plan.labels
+        written = self.cage.write(plan.mark, plan.clear, labels)
+        # Any other edge has no label, as before.
+        self._labels = self.cage.labels((*map(tuple, self._labels.pairs.tolist()), *labels))
         self._found = Found(plan.network, plan.known)
         seams = edges_after(self.arrays.seams, plan.mark, plan.clear)
         self._set_seams(seams, self._labels)

@@ -48,6 +48,8 @@ METRIC_ITEMS = (
     ),
     ("euclidean", "Shortest Path", "Run as short as possible, whatever the shape", 3),
 )
+TOOL_METRIC_ITEMS = tuple(item for item in METRIC_ITEMS if item[0] in {"feature", "concave", "euclidean"})
+"""The metrics that the tool offers. Scripts can use all of them."""
 STRETCH_ITEMS = (
     ("ANGLE", "Angle", "How much longer faces are one way than the other in the UV map than on the model", 1),
     ("AREA", "Area", "How much larger or smaller faces are in the UV map than the mean of the mesh", 2),
@@ -110,7 +112,7 @@ class SeamwireSettings(bpy.types.PropertyGroup):
         update=_changed,
     )
     metric: bpy.props.EnumProperty(
-        name="Metric", description="What draws wires to features", items=METRIC_ITEMS, update=_changed
+        name="Metric", description="What draws wires to features", items=TOOL_METRIC_ITEMS, update=_changed
     )
     clamp: bpy.props.FloatProperty(
         name="Feature Percentile",
@@ -210,6 +212,18 @@ def preferences(context: bpy.types.Context | None = None) -> bpy.types.AddonPref
 def settings(context: bpy.types.Context | None = None) -> SeamwireSettings:
     """Return the tool's settings."""
     return preferences(context).tool
+
+
+notices: list[str] = []
+"""Messages that the next chain reports."""
+
+
+def replace_removed_metric() -> None:
+    """Replace a stored metric that the tool no longer offers, and leave a notice."""
+    chosen = settings()
+    if not chosen.metric:
+        chosen.property_unset("metric")
+        notices.append("The tool no longer offers the metric in your preferences: wires follow Features instead")
 
 
 def tool_is_active(context: bpy.types.Context) -> bool:

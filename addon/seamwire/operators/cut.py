@@ -1,40 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operator that cuts kept wires into the mesh."""
+"""Cuts wires into the mesh, and says what was done."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import bpy
-
-from .report import count, in_edit_mode
-from .slide import wires_across
+from ..words.names import count
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    import bpy
+
     from ..core.network.network import Wire
     from ..mesh.object_session import ObjectSession
-
-
-class MESH_OT_seamwire_cut(bpy.types.Operator):
-    """Cut the kept wires that run across the surface into the faces, so that the seams run where the wires do"""  # noqa: D400 - a tooltip
-
-    bl_idname = "mesh.seamwire_cut"
-    bl_label = "Cut Seamwires"
-    bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether a mesh is in edit mode."""
-        return in_edit_mode(cls, context)
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Take the snapped seams of the wires away, and cut along them."""
-        wires = wires_across(self, context)
-        if not wires:
-            return {"CANCELLED"}
-        return cut_wires(self, context, wires, kept=True)
 
 
 def cut_wires(
@@ -105,13 +84,3 @@ def left_out(number: int) -> str:
     """Say that wires or their mirror images were not cut."""
     why = "it does not run over the mesh" if number == 1 else "they do not run over the mesh"
     return f"{count(number, 'wire or mirror image', 'wires or mirror images')} not cut: {why}"
-
-
-def register() -> None:
-    """Add the operator."""
-    bpy.utils.register_class(MESH_OT_seamwire_cut)
-
-
-def unregister() -> None:
-    """Remove it."""
-    bpy.utils.unregister_class(MESH_OT_seamwire_cut)

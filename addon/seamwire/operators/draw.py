@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..core.base.native import NativeError
-from ..mesh.settings import ALONG_ITEMS, settings
+from ..mesh.settings import ALONG_ITEMS, notices, settings
 from ..words.keys import Action, Key
+from .edit_mesh_operator import NeedsEditMode
 from .navigation import takes
-from .report import in_edit_mode, running
+from .report import running
 
 if TYPE_CHECKING:
     from .modal import Chain
@@ -32,7 +33,7 @@ _FOR_BLENDER = {"REMOVE", "NEXT", "PEEK", "BEND"}
 """Where these find nothing to do, the key has Blender's meaning."""
 
 
-class MESH_OT_seamwire_draw(bpy.types.Operator):
+class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
     """Draw seams with live wires that follow the shape of the mesh"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_draw"
@@ -53,7 +54,7 @@ class MESH_OT_seamwire_draw(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Whether a mesh is in edit mode, and no chain being drawn."""
-        if not in_edit_mode(cls, context):
+        if not super().poll(context):
             return False
         if running:
             cls.poll_message_set("A chain is being drawn already")
@@ -123,6 +124,8 @@ class MESH_OT_seamwire_draw(bpy.types.Operator):
 
     def _tell_problem(self, chain: Chain) -> None:
         """Say once what there is to say of the wires that came with the mesh."""
+        while notices:
+            self.report({"WARNING"}, notices.pop(0))
         mesh = chain.view.mesh
         if mesh.problem:
             self.report({"WARNING"}, mesh.problem)

@@ -5,15 +5,15 @@ from __future__ import annotations
 
 import bpy
 
-from .report import count, in_edit_mode
+from ..words.names import count
+from .edit_mesh_operator import EditMeshOperator
 
 
-class MESH_OT_seamwire_mark_seams_as(bpy.types.Operator):
+class MESH_OT_seamwire_mark_seams_as(EditMeshOperator, bpy.types.Operator):
     """Mark the visible seams as something else too; they stay seams"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_mark_seams_as"
     bl_label = "Mark Seams As"
-    bl_options = {"REGISTER", "UNDO"}
 
     kind: bpy.props.EnumProperty(
         name="As",
@@ -26,12 +26,7 @@ class MESH_OT_seamwire_mark_seams_as(bpy.types.Operator):
         ),
     )
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether a mesh is in edit mode."""
-        return in_edit_mode(cls, context)
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> set[str]:
         """Mark those of all objects in edit mode."""
         from ..mesh.edge_marks import copy_seams
 
@@ -43,11 +38,4 @@ class MESH_OT_seamwire_mark_seams_as(bpy.types.Operator):
         return {"FINISHED"}
 
 
-def register() -> None:
-    """Add the operator."""
-    bpy.utils.register_class(MESH_OT_seamwire_mark_seams_as)
-
-
-def unregister() -> None:
-    """Remove it."""
-    bpy.utils.unregister_class(MESH_OT_seamwire_mark_seams_as)
+register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_mark_seams_as,))

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from .report import count, in_edit_mode, open_meshes
+from ..words.names import count
+from .edit_mesh_operator import EditMeshOperator
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -16,12 +17,11 @@ if TYPE_CHECKING:
     from ..mesh.object_session import ObjectSession
 
 
-class MESH_OT_seamwire_close_gaps(bpy.types.Operator):
+class MESH_OT_seamwire_close_gaps(EditMeshOperator, bpy.types.Operator):
     """Draw wires from the ends of seams that just miss another seam, or the border, and so keep two islands from separating"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_close_gaps"
     bl_label = "Close Gaps in Seams"
-    bl_options = {"REGISTER", "UNDO"}
 
     longest: bpy.props.FloatProperty(
         name="Longest Gap",
@@ -31,28 +31,18 @@ class MESH_OT_seamwire_close_gaps(bpy.types.Operator):
         soft_max=2.0,
     )
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether a mesh is in edit mode."""
-        return in_edit_mode(cls, context)
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> set[str]:
         """Draw wires over the gaps of all objects in edit mode, then write them: where one object fails, none is changed."""
-        from ..core.base.native import NativeError
         from ..mesh import edit_mesh
 
-        meshes = open_meshes(self, context)
+        meshes = self.open_meshes(context)
         if not meshes:
             return {"CANCELLED"}
-        try:
-            found = self._find(meshes)
-            if not found:
-                self.report({"INFO"}, "No seam ends just before another one, or before the border")
-                return {"CANCELLED"}
-            closed = sum(self._close(mesh, gaps) for mesh, gaps in found.items())
-        except (ValueError, NativeError) as error:
-            self.report({"ERROR"}, str(error))
+        found = self._find(meshes)
+        if not found:
+            self.report({"INFO"}, "No seam ends just before another one, or before the border")
             return {"CANCELLED"}
+        closed = sum(self._close(mesh, gaps) for mesh, gaps in found.items())
         if not closed:
             self.report({"ERROR"}, "No gap could be closed")
             return {"CANCELLED"}
@@ -91,11 +81,4 @@ class MESH_OT_seamwire_close_gaps(bpy.types.Operator):
         return closed
 
 
-def register() -> None:
-    """Add the operator."""
-    bpy.utils.register_class(MESH_OT_seamwire_close_gaps)
-
-
-def unregister() -> None:
-    """Remove it."""
-    bpy.utils.unregister_class(MESH_OT_seamwire_close_gaps)
+register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_close_gaps,))

@@ -91,13 +91,4 @@ class SEAMWIRE_GGT_hover(bpy.types.GizmoGroup):
 _CLASSES = (MESH_OT_seamwire_hover, SEAMWIRE_GT_hover, SEAMWIRE_GGT_hover)
 
 
-def register() -> None:
-    """Add the gizmo's types."""
-    for cls in _CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister() -> None:
-    """Remove them."""
-    for cls in reversed(_CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(_CLASSES)

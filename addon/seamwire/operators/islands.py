@@ -1,31 +1,37 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Operators on the islands that seams make: select those that do not unwrap yet, store all of them."""
+"""The operator that selects islands: those that need another cut, or the one that is stretched most."""
 
 from __future__ import annotations
 
+import math
+from typing import TYPE_CHECKING
+
 import bpy
+from mathutils import Vector
 
-from .report import count, for_each_object, in_edit_mode
+from ..mesh.settings import STRETCH_ITEMS, settings
+from ..words.names import count
+from .edit_mesh_operator import EditMeshOperator
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+OPERATOR = "mesh.seamwire_select_islands"
+_SEEN = math.radians(60.0)
+"""An island that is turned less from the viewer is seen well enough."""
+_FACES = 0.2
+"""Below this length of the mean normal, an island has no clear front. A closed island has length 0."""
 
 
-class MESH_OT_seamwire_select_islands_to_cut(bpy.types.Operator):
-    """Select the islands that are no discs: they do not unwrap without another cut"""  # noqa: D400 - a tooltip
+class SelectingIslands(EditMeshOperator):
+    """Gives an operator the selecting of islands in all objects in Edit Mode."""
 
-    bl_idname = "mesh.seamwire_select_islands_to_cut"
-    bl_label = "Select Islands to Cut"
-    bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether a mesh is in edit mode."""
-        return in_edit_mode(cls, context)
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Select their faces, and nothing else."""
+    def select_islands_to_cut(self, context: bpy.types.Context) -> set[str]:
+        """Select the faces of the islands that are not discs, and nothing else."""
         from ..mesh import edit_mesh
         from ..mesh.seam_islands import faces_to_cut
 
-        found = for_each_object(self, context, faces_to_cut)
+        found = self.for_each_object(context, faces_to_cut)
         if not found:
             return {"CANCELLED"}
         bpy.ops.mesh.select_all(action="DESELECT")
@@ -38,50 +44,95 @@ class MESH_OT_seamwire_select_islands_to_cut(bpy.types.Operator):
             self.report({"INFO"}, "All islands are discs")
         return {"FINISHED"}
 
+    def select_worst_island(self, context: bpy.types.Context, kind: str) -> set[str]:
+        """Select the island that is stretched most, and turn the view to it.
 
-class MESH_OT_seamwire_store_islands(bpy.types.Operator):
-    """Store the islands that seams make as a face attribute, face sets or materials"""  # noqa: D400 - a tooltip
+        Parameters
+        ----------
+        context
+            Tells which view to turn.
+        kind
+            An item of `STRETCH_ITEMS`.
+        """
+        from ..mesh import edit_mesh
+        from ..mesh.seam_islands import worst_island
 
-    bl_idname = "mesh.seamwire_store_islands"
-    bl_label = "Store Islands"
-    bl_options = {"REGISTER", "UNDO"}
-
-    kind: bpy.props.EnumProperty(
-        name="As",
-        description="What islands are stored as",
-        items=(
-            ("ATTRIBUTE", "Face Attribute", "Numbers from 0, the largest island first, in the attribute 'island'"),
-            ("FACE_SETS", "Face Sets", "Those of Sculpt Mode"),
-            ("MATERIALS", "Materials", "Up to twelve, so that neighbors differ, in new slots"),
-        ),
-    )
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether a mesh is in edit mode."""
-        return in_edit_mode(cls, context)
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Store those of all objects in edit mode."""
-        from ..mesh.seam_islands import store
-
-        if self.kind == "FACE_SETS" and bpy.app.version < (3, 6, 0):
-            self.report({"ERROR"}, "Face sets can be stored from Blender 3.6 on")
-            return {"CANCELLED"}
-        found = for_each_object(self, context, lambda obj: store(obj, self.kind))
+        found = self.for_each_object(context, lambda obj: worst_island(obj, kind))
         if not found:
             return {"CANCELLED"}
-        self.report({"INFO"}, f"{count(sum(found.values()), 'island')} stored")
+        with_uvs = {obj: worst for obj, worst in found.items() if worst is not None}
+        if not with_uvs:
+            raise ValueError("No visible face has UVs: unwrap first")
+        obj, worst = max(with_uvs.items(), key=lambda one: one[1].value)
+        bpy.ops.mesh.select_all(action="DESELECT")
+        edit_mesh.select_faces(obj, worst.faces)
+        if context.area is not None and context.area.type == "VIEW_3D" and context.region.type == "WINDOW":
+            _turn(context.region_data, obj, worst.facing)
+            bpy.ops.view3d.view_selected("INVOKE_DEFAULT")
+        self.report({"INFO"}, f"{obj.name}: stretched {2.0**worst.value:.2f} times, worst of {worst.count} islands")
         return {"FINISHED"}
 
+    def stretch_kind(self, context: bpy.types.Context) -> str:
+        """Return the kind of stretch: the operator's own if it was given, otherwise the one that the tool shows."""
+        is_given = self.properties.is_property_set("kind")
+        return "AREA" if not is_given and settings(context).heat == "AREA" else self.kind
 
-def register() -> None:
-    """Add the operators."""
-    bpy.utils.register_class(MESH_OT_seamwire_select_islands_to_cut)
-    bpy.utils.register_class(MESH_OT_seamwire_store_islands)
+
+def kind_property() -> object:
+    """Return the property for the kind of stretch."""
+    return bpy.props.EnumProperty(
+        name="Stretch",
+        description="Kind of stretch; if not given, the one that the tool shows, or angles",
+        items=STRETCH_ITEMS,
+        options={"SKIP_SAVE"},
+    )
 
 
-def unregister() -> None:
-    """Remove them."""
-    bpy.utils.unregister_class(MESH_OT_seamwire_store_islands)
-    bpy.utils.unregister_class(MESH_OT_seamwire_select_islands_to_cut)
+class MESH_OT_seamwire_select_islands(SelectingIslands, bpy.types.Operator):
+    """Select the islands that need work"""  # noqa: D400 - a tooltip
+
+    bl_idname = OPERATOR
+    bl_label = "Select Islands"
+
+    which: bpy.props.EnumProperty(
+        name="Which",
+        description="Islands to select",
+        items=(
+            ("TO_CUT", "Islands to Cut", "Islands that are not discs and cannot unwrap without another cut"),
+            ("WORST", "Worst Stretched Island", "The island that the UV map stretches most. The view turns to it"),
+        ),
+    )
+    kind: kind_property()
+
+    @classmethod
+    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
+        """Return the tooltip of a menu entry."""
+        return properties.bl_rna.properties["which"].enum_items[properties.which].description
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Show the settings that count."""
+        layout = self.layout
+        layout.use_property_split = True
+        layout.prop(self, "which")
+        if self.which == "WORST":
+            layout.prop(self, "kind")
+
+    def run(self, context: bpy.types.Context) -> set[str]:
+        """Select them."""
+        if self.which == "TO_CUT":
+            return self.select_islands_to_cut(context)
+        self.kind = self.stretch_kind(context)
+        return self.select_worst_island(context, self.kind)
+
+
+def _turn(view: bpy.types.RegionView3D, obj: bpy.types.Object, facing: Sequence[float]) -> None:
+    """Turn a view towards faces, unless they are seen well already or face in all directions alike."""
+    normal = obj.matrix_world.to_3x3().inverted_safe().transposed() @ Vector(facing)
+    if view.lock_rotation or Vector(facing).length < _FACES or normal.length == 0.0:
+        return
+    if normal.angle(view.view_rotation @ Vector((0.0, 0.0, 1.0))) > _SEEN:
+        view.is_orthographic_side_view = False
+        view.view_rotation = normal.to_track_quat("Z", "Y")
+
+
+register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_select_islands,))

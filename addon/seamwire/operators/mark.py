@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import bpy
 
 from ..mesh.settings import ALONG_ITEMS, FINISH_ITEMS, METRIC_ITEMS
 from .cut import cut_wires
-from .report import in_edit_mode, summary
+from .edit_mesh_operator import EditMeshOperator
+from .report import summary
 from .slide import slide_wires
 
 if TYPE_CHECKING:
@@ -18,12 +19,12 @@ if TYPE_CHECKING:
     from ..words.seed_text import VertexStroke
 
 
-class MESH_OT_seamwire_mark(bpy.types.Operator):
+class MESH_OT_seamwire_mark(EditMeshOperator, bpy.types.Operator):
     """Mark the seams of wires between given vertices or edges"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_mark"
     bl_label = "Mark Seamwires"
-    bl_options = {"REGISTER", "UNDO"}
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO", "INTERNAL"}  # for scripts: the search does not find it
 
     chains: bpy.props.StringProperty(
         name="Chains",
@@ -87,26 +88,16 @@ class MESH_OT_seamwire_mark(bpy.types.Operator):
         description="Names of objects in Edit Mode, separated by semicolons, or an asterisk for all; empty: the active one",
     )
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether a mesh is in edit mode."""
-        return in_edit_mode(cls, context)
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> set[str]:
         """Draw the chains and loops, and mark or clear what they run along."""
-        from ..core.base.native import NativeError
         from ..mesh import edit_mesh
 
         self._before: dict[str, tuple[Wire, ...]] = {}
-        try:
-            chosen = self._chosen(context)
-            # Nothing is written before all is drawn: where one object fails, none is changed.
-            drawn = list(filter(None, (self._draw(obj, "" if len(chosen) == 1 else f"{obj.name}: ") for obj in chosen)))
-            if not drawn:
-                raise ValueError("Nothing is visible of any of the objects")
-        except (ValueError, NativeError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        chosen = self._chosen(context)
+        # Draw on all objects before writing to any, so that an error leaves all of them unchanged.
+        drawn = list(filter(None, (self._draw(obj, "" if len(chosen) == 1 else f"{obj.name}: ") for obj in chosen)))
+        if not drawn:
+            raise ValueError("Nothing is visible of any of the objects")
         problems = [problem for _, found in drawn for problem in found]
         for problem in problems:
             self.report({"WARNING"}, problem)
@@ -218,11 +209,4 @@ def _new_wires(wires: tuple[Wire, ...], before: tuple[Wire, ...]) -> list[Wire]:
     return [wire for wire in wires if wire not in known]
 
 
-def register() -> None:
-    """Add the operator."""
-    bpy.utils.register_class(MESH_OT_seamwire_mark)
-
-
-def unregister() -> None:
-    """Remove it."""
-    bpy.utils.unregister_class(MESH_OT_seamwire_mark)
+register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_mark,))

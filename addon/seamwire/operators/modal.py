@@ -65,7 +65,7 @@ class Chain:
         self._timer: bpy.types.Timer | None = None
         self._cursor = ""
         self._clicks = DoubleClicks()
-        self._shown: tuple[object, ...] | None = None
+        self._shown: tuple[tuple[object, ...], tuple[object, ...]] | None = None
         self._hold: Hold | None = None
         self._drawn: ObjectView | None = None
         self._before = Network()
@@ -645,20 +645,23 @@ class Chain:
     def show(self) -> None:
         """Show the sessions as they are now."""
         session = self.session
-        state = (
+        picture = (
             id(self.view),
             tuple((view.session.revision, view.overlay.pointed_island) for view in edited.views()),
+            self._keys,
+        )
+        words = (
             round(100.0 * session.progress),
             session.computing,
             session.waiting_clicks,
             self.view.mesh.symmetric,
             self.message,
-            self._keys,
         )
-        before, self._shown = self._shown, state
-        if state != before:
+        before, self._shown = self._shown, (picture, words)
+        if before is None or picture != before[0]:
             edited.show(self.keys.rows() if self._keys else None)
             edited.redraw()
+        if self._shown != before:
             for make in status_makers:
                 self._workspace.status_text_set(make(self))
         # Last: what is shown may ask for more to be computed.

@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import bpy
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 from ..mesh.settings import settings
-from .report import count, in_edit_mode, open_mesh
+from ..words.names import count
+from .edit_mesh_operator import EditMeshOperator
 from .transfer import ALIGN, MIRROR_ITEMS, PLACE_ITEMS, axis_of, write_and_report
 
 if TYPE_CHECKING:
@@ -19,30 +20,19 @@ if TYPE_CHECKING:
 SUFFIX = ".json"
 
 
-class MESH_OT_seamwire_save_network(bpy.types.Operator, ExportHelper):
+class MESH_OT_seamwire_save_network(EditMeshOperator, bpy.types.Operator, ExportHelper):
     """Save the wires and strokes of the active mesh as a file that other meshes can load"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_save_network"
     bl_label = "Save Seamwire Network"
+    bl_options: ClassVar[set[str]] = set()
 
     filename_ext = SUFFIX
     filter_glob: bpy.props.StringProperty(default=f"*{SUFFIX}", options={"HIDDEN"})
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether a mesh is in edit mode."""
-        return in_edit_mode(cls, context)
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> set[str]:
         """Write the file, whole or not at all."""
-        from ..core.base.native import NativeError
-
-        try:
-            mesh = open_mesh(self, context.active_object)
-            network = mesh.network_file(settings(context))
-        except (ValueError, NativeError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        network = self.open_mesh(context.active_object).network_file(settings(context))
         if not network.courses and not network.strokes:
             self.report({"ERROR"}, "The mesh has no wires to save: Take Over Seams makes wires of its seams")
             return {"CANCELLED"}
@@ -76,12 +66,11 @@ def read_network(path: str) -> NetworkFile:
     return NetworkFile.parse(text)
 
 
-class MESH_OT_seamwire_load_network(bpy.types.Operator, ImportHelper):
+class MESH_OT_seamwire_load_network(EditMeshOperator, bpy.types.Operator, ImportHelper):
     """Draw the wires of a saved network on the active mesh"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_load_network"
     bl_label = "Load Seamwire Network"
-    bl_options = {"REGISTER", "UNDO"}
 
     filename_ext = SUFFIX
     filter_glob: bpy.props.StringProperty(default=f"*{SUFFIX}", options={"HIDDEN"})
@@ -94,36 +83,17 @@ class MESH_OT_seamwire_load_network(bpy.types.Operator, ImportHelper):
     )
     align: bpy.props.BoolProperty(name="Align", description=ALIGN, default=True)
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether a mesh is in edit mode."""
-        return in_edit_mode(cls, context)
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> set[str]:
         """Read the file, and write its wires to the mesh."""
-        from ..core.base.native import NativeError
         from ..mesh.transfer import carry_over
 
-        try:
-            network = read_network(self.filepath)
-            mesh = open_mesh(self, context.active_object)
-            found = carry_over(mesh, network, place=self.place, mirror=axis_of(self.mirror), align=self.align)
-        except (ValueError, NativeError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        network = read_network(self.filepath)
+        mesh = self.open_mesh(context.active_object)
+        found = carry_over(mesh, network, place=self.place, mirror=axis_of(self.mirror), align=self.align)
         return write_and_report(self, context, mesh, found)
 
 
 CLASSES = (MESH_OT_seamwire_save_network, MESH_OT_seamwire_load_network)
 
 
-def register() -> None:
-    """Add the operators."""
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister() -> None:
-    """Remove them."""
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

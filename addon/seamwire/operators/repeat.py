@@ -7,40 +7,30 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from .report import count, in_edit_mode, open_mesh
+from ..words.names import count
+from .edit_mesh_operator import EditMeshOperator
 
 if TYPE_CHECKING:
     from ..core.network.network import Wire
     from ..mesh.object_session import ObjectSession
 
 
-class MESH_OT_seamwire_repeat(bpy.types.Operator):
+class MESH_OT_seamwire_repeat(EditMeshOperator, bpy.types.Operator):
     """Draw the wires drawn last, and those that hang together with them, wherever the mesh has the same edges again"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_repeat"
     bl_label = "Repeat Seamwires"
-    bl_options = {"REGISTER", "UNDO"}
 
     selected: bpy.props.BoolProperty(
         name="Selected", description="Repeat the wires that have selected edges, not those drawn last", default=False
     )
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether a mesh is in edit mode."""
-        return in_edit_mode(cls, context)
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> set[str]:
         """Find the repeats on the active object, and write what is new."""
-        from ..core.base.native import NativeError
         from ..core.matching.repeats import Repeats
         from ..mesh import edit_mesh
 
-        try:
-            mesh = open_mesh(self, context.active_object)
-        except (ValueError, NativeError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        mesh = self.open_mesh(context.active_object)
         groups = self._groups(mesh)
         if not groups:
             self.report({"ERROR"}, f"There is no {'selected wire' if self.selected else 'wire'} along edges")
@@ -89,11 +79,4 @@ class MESH_OT_seamwire_repeat(bpy.types.Operator):
         return groups
 
 
-def register() -> None:
-    """Add the operator."""
-    bpy.utils.register_class(MESH_OT_seamwire_repeat)
-
-
-def unregister() -> None:
-    """Remove it."""
-    bpy.utils.unregister_class(MESH_OT_seamwire_repeat)
+register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_repeat,))

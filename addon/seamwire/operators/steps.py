@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     Progress = Callable[[float], bool]
     """Is told the fraction done; returns whether to go on."""
 
+running: list[Stepwise] = []
+"""The operators that take steps beside the interface at the moment."""
 _PERIOD = 0.05
 """Seconds between two looks at whether a step has ended."""
 _CONSOLE_PERIOD = 5.0
@@ -110,6 +112,7 @@ class Stepwise:
         self._work: Future[None] | None = None
         self._thread = ThreadPoolExecutor(1, "seamwire steps")
         self._timer = context.window_manager.event_timer_add(_PERIOD, window=context.window)
+        running.append(self)
         result = self._advance(context)
         if result == {"RUNNING_MODAL"}:
             context.window_manager.modal_handler_add(self)
@@ -174,6 +177,7 @@ class Stepwise:
         self._workspace.status_text_set("    ".join([*parts, "Esc: Cancel"]))
 
     def _end(self, context: bpy.types.Context) -> None:
+        running.remove(self)
         self._thread.shutdown()
         self._steps.close()
         context.window_manager.event_timer_remove(self._timer)

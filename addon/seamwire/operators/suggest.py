@@ -11,8 +11,9 @@ import bpy
 from mathutils import Vector
 
 from ..mesh.settings import ALONG_ITEMS, AUTO_FINISH_ITEMS
+from ..words.names import count
 from .cut import cut_wires
-from .report import count, in_edit_mode
+from .edit_mesh_operator import EditMeshOperator
 from .slide import slide_wires
 from .steps import Step, Stepwise
 
@@ -35,12 +36,11 @@ _BLENDERS_FRONT = (0.0, -1.0, 0.0)
 """The direction towards the viewer in Blender's front view."""
 
 
-class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
+class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
     """Mark a few hidden seams so that the mesh unwraps with little stretch. They are wires that you can move or drop. Existing seams stay"""  # noqa: D400, E501 - a tooltip
 
     bl_idname = "mesh.seamwire_suggest"
     bl_label = "Suggest Seamwires"
-    bl_options = {"REGISTER", "UNDO"}
 
     limit: bpy.props.EnumProperty(
         name="Limit",
@@ -129,11 +129,6 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         min=1.02,
         options={"HIDDEN", "SKIP_SAVE"},
     )
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether a mesh is in edit mode."""
-        return in_edit_mode(cls, context)
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Show the settings that count."""
@@ -441,11 +436,4 @@ def _towards_viewer(context: bpy.types.Context) -> tuple[float, float, float]:
     return tuple(view.view_rotation @ Vector((0.0, 0.0, 1.0)))
 
 
-def register() -> None:
-    """Add the operator."""
-    bpy.utils.register_class(MESH_OT_seamwire_suggest)
-
-
-def unregister() -> None:
-    """Remove it."""
-    bpy.utils.unregister_class(MESH_OT_seamwire_suggest)
+register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_suggest,))

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from .report import count, in_edit_mode, open_meshes
+from ..words.names import count
+from .edit_mesh_operator import EditMeshOperator
 
 if TYPE_CHECKING:
     import numpy as np
@@ -17,26 +18,20 @@ if TYPE_CHECKING:
     from ..mesh.object_session import ObjectSession
 
 
-class MESH_OT_seamwire_take_over(bpy.types.Operator):
+class MESH_OT_seamwire_take_over(EditMeshOperator, bpy.types.Operator):
     """Make wires of the seams that the mesh has, with as few seeds as reproduce them, so that they can be dragged"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_take_over"
     bl_label = "Seams to Seamwires"
-    bl_options = {"REGISTER", "UNDO"}
 
     selected: bpy.props.BoolProperty(
         name="Selected Only", description="Only seams whose edges are selected", default=False
     )
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether a mesh is in edit mode."""
-        return in_edit_mode(cls, context)
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> set[str]:
         """Find the wires of all objects in edit mode, then write them: the seams stay as they are."""
         found: dict[ObjectSession, list[Wire]] = {}
-        meshes = open_meshes(self, context)
+        meshes = self.open_meshes(context)
         if not meshes:
             return {"CANCELLED"}
         for mesh in meshes:
@@ -76,11 +71,4 @@ class MESH_OT_seamwire_take_over(bpy.types.Operator):
         return wires
 
 
-def register() -> None:
-    """Add the operator."""
-    bpy.utils.register_class(MESH_OT_seamwire_take_over)
-
-
-def unregister() -> None:
-    """Remove it."""
-    bpy.utils.unregister_class(MESH_OT_seamwire_take_over)
+register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_take_over,))

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..mesh.settings import settings
-from .report import count, in_edit_mode, open_mesh
+from ..words.names import count
+from .edit_mesh_operator import EditMeshOperator
 
 if TYPE_CHECKING:
     from ..core.matching.transfer import Transfer
@@ -62,12 +63,11 @@ def write_and_report(
     return {"FINISHED"}
 
 
-class MESH_OT_seamwire_transfer(bpy.types.Operator):
+class MESH_OT_seamwire_transfer(EditMeshOperator, bpy.types.Operator):
     """Draw the seams of another object on the active mesh, whatever its topology, and say how sure each seed is"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_transfer"
     bl_label = "Transfer Seamwires"
-    bl_options = {"REGISTER", "UNDO"}
 
     source: bpy.props.StringProperty(
         name="Source", description="The object that has the seams; empty: the other one that is selected"
@@ -94,11 +94,6 @@ class MESH_OT_seamwire_transfer(bpy.types.Operator):
     )
     align: bpy.props.BoolProperty(name="Align", description=ALIGN, default=True)
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether a mesh is in edit mode."""
-        return in_edit_mode(cls, context)
-
     def draw(self, _context: bpy.types.Context) -> None:
         """Show what there is to choose."""
         layout = self.layout
@@ -113,38 +108,33 @@ class MESH_OT_seamwire_transfer(bpy.types.Operator):
         surface.prop(self, "mirror")
         surface.prop(self, "align")
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> set[str]:
         """Read the source, and write its seams to the active mesh."""
-        from ..core.base.native import NativeError
         from ..mesh import transfer
         from ..words.seed_text import parse_pairs
 
         target = context.active_object
-        try:
-            source = self._source(context)
-            pairs = parse_pairs(self.pairs)
-            if not pairs and self.place == "PAIRS":
-                target.update_from_editmode()
-                pairs = transfer.pairs_of_groups(source, target)
-                if len(pairs) < 3:
-                    raise ValueError(
-                        f"Give three pairs of vertices at least: the objects have {count(len(pairs), 'vertex group')} in common"
-                    )
-            drawn = open_mesh(self, source)
-            network = transfer.network_of(drawn, settings(context))
-            mesh = open_mesh(self, target)
-            found = transfer.carry_over(
-                mesh,
-                network,
-                place=self.place,
-                mirror=axis_of(self.mirror),
-                align=self.align,
-                source=transfer.shape_of(drawn.arrays),
-                pairs=pairs,
-            )
-        except (ValueError, NativeError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        source = self._source(context)
+        pairs = parse_pairs(self.pairs)
+        if not pairs and self.place == "PAIRS":
+            target.update_from_editmode()
+            pairs = transfer.pairs_of_groups(source, target)
+            if len(pairs) < 3:
+                raise ValueError(
+                    f"Give three pairs of vertices at least: the objects have {count(len(pairs), 'vertex group')} in common"
+                )
+        drawn = self.open_mesh(source)
+        network = transfer.network_of(drawn, settings(context))
+        mesh = self.open_mesh(target)
+        found = transfer.carry_over(
+            mesh,
+            network,
+            place=self.place,
+            mirror=axis_of(self.mirror),
+            align=self.align,
+            source=transfer.shape_of(drawn.arrays),
+            pairs=pairs,
+        )
         return write_and_report(self, context, mesh, found)
 
     def _source(self, context: bpy.types.Context) -> bpy.types.Object:
@@ -162,11 +152,4 @@ class MESH_OT_seamwire_transfer(bpy.types.Operator):
         return found[0]
 
 
-def register() -> None:
-    """Add the operator."""
-    bpy.utils.register_class(MESH_OT_seamwire_transfer)
-
-
-def unregister() -> None:
-    """Remove it."""
-    bpy.utils.unregister_class(MESH_OT_seamwire_transfer)
+register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_transfer,))

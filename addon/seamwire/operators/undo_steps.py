@@ -73,13 +73,4 @@ def push(title: str) -> None:
     getattr(bpy.ops.mesh, _name(title))("INVOKE_DEFAULT", True)
 
 
-def register() -> None:
-    """Add the operators."""
-    for cls in _CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister() -> None:
-    """Remove them."""
-    for cls in reversed(_CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(_CLASSES)

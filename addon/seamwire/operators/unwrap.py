@@ -6,15 +6,15 @@ from __future__ import annotations
 import bpy
 
 from ..mesh.settings import settings
-from .report import count, in_edit_mode
+from ..words.names import count
+from .edit_mesh_operator import EditMeshOperator
 
 
-class MESH_OT_seamwire_unwrap(bpy.types.Operator):
+class MESH_OT_seamwire_unwrap(EditMeshOperator, bpy.types.Operator):
     """Unwrap the islands whose seams have changed since they were unwrapped; all other UVs stay as they are"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_unwrap"
     bl_label = "Unwrap Changed Islands"
-    bl_options = {"REGISTER", "UNDO"}
 
     method: bpy.props.EnumProperty(
         name="Method",
@@ -33,21 +33,11 @@ class MESH_OT_seamwire_unwrap(bpy.types.Operator):
         name="Changed Only", description="Keep the UVs of islands whose seams have not changed", default=True
     )
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether a mesh is in edit mode."""
-        return in_edit_mode(cls, context)
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> set[str]:
         """Unwrap, and say how many islands."""
-        from ..core.base.native import NativeError
         from ..mesh.unwrap import unwrap_changed
 
-        try:
-            done = unwrap_changed(context, method=self.method, every=not self.changed_only)
-        except (ValueError, NativeError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        done = unwrap_changed(context, method=self.method, every=not self.changed_only)
         if not done.islands:
             self.report({"INFO"}, "No island has changed since it was unwrapped")
             return {"CANCELLED"}
@@ -72,11 +62,4 @@ def unwrap_after_chain(context: bpy.types.Context) -> str:
     return ""
 
 
-def register() -> None:
-    """Add the operator."""
-    bpy.utils.register_class(MESH_OT_seamwire_unwrap)
-
-
-def unregister() -> None:
-    """Remove it."""
-    bpy.utils.unregister_class(MESH_OT_seamwire_unwrap)
+register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_unwrap,))

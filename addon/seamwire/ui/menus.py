@@ -1,34 +1,137 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Menu entries: choose the tool; what else is done to wires, their files, UV maps and islands."""
+"""The Seamwire submenu in Blender's Edge and UV menus, and single entries elsewhere."""
 
 from __future__ import annotations
 
 import bpy
 
-from ..mesh.settings import TOOL
+from ..mesh.settings import TOOL, settings
+from ..operators.store import ISLAND_ITEMS, VIEW_ITEMS
+from .properties import VIEWS
 
-MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "VIEW3D_MT_edit_mesh_context_menu", "IMAGE_MT_uvs")
+MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "IMAGE_MT_uvs")
+"""Blender's menus that have the submenu."""
+CONTEXT_MENU = "VIEW3D_MT_edit_mesh_context_menu"
+"""Blender's menu that has only the entry for the tool."""
 
 
-def _draw_menu(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
-    menu.layout.separator()
-    entry = menu.layout.operator("wm.tool_set_by_id", text="Draw Seamwires")
+class VIEW3D_MT_seamwire(bpy.types.Menu):
+    """Draw UV seams, or let Seamwire suggest them"""  # noqa: D400 - a tooltip
+
+    bl_idname = "VIEW3D_MT_seamwire"
+    bl_label = "Seamwire"
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Show what artists need most, and the submenus for everything else."""
+        layout = self.layout
+        _draw_tool(layout)
+        layout.operator("mesh.seamwire_suggest")
+        layout.operator("mesh.seamwire_close_gaps")
+        layout.operator("mesh.seamwire_unwrap")
+        layout.separator()
+        for menu in SUBMENUS:
+            layout.menu(menu.bl_idname)
+
+
+class VIEW3D_MT_seamwire_finish(bpy.types.Menu):
+    """Make seams run exactly where wires across the surface run"""  # noqa: D400 - a tooltip
+
+    bl_idname = "VIEW3D_MT_seamwire_finish"
+    bl_label = "Finish"
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Show the finishes."""
+        self.layout.operator_enum("mesh.seamwire_finish", "finish")
+
+
+class VIEW3D_MT_seamwire_network(bpy.types.Menu):
+    """Save wires, load them, or draw them on other meshes"""  # noqa: D400 - a tooltip
+
+    bl_idname = "VIEW3D_MT_seamwire_network"
+    bl_label = "Network"
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Show what is done with all wires of a mesh."""
+        layout = self.layout
+        layout.operator_context = "INVOKE_DEFAULT"
+        layout.operator("mesh.seamwire_load_network", text="Load...")
+        layout.operator("mesh.seamwire_save_network", text="Save...")
+        layout.separator()
+        layout.operator("mesh.seamwire_transfer", text="Transfer")
+        layout.operator("mesh.seamwire_repeat", text="Repeat")
+        layout.operator("mesh.seamwire_take_over", text="From Seams")
+
+
+class VIEW3D_MT_seamwire_islands(bpy.types.Menu):
+    """Select or store the islands that seams make"""  # noqa: D400 - a tooltip
+
+    bl_idname = "VIEW3D_MT_seamwire_islands"
+    bl_label = "Islands"
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Show what is done with islands, and with the seams between them."""
+        layout = self.layout
+        for which, text in (("TO_CUT", "Select Islands to Cut"), ("WORST", "Select Worst Stretched Island")):
+            layout.operator("mesh.seamwire_select_islands", text=text).which = which
+        layout.separator()
+        for what, name, *_ in ISLAND_ITEMS:
+            layout.operator("mesh.seamwire_store", text=f"Store as {name}").what = what
+        layout.separator()
+        layout.operator_menu_enum("mesh.seamwire_mark_seams_as", "kind")
+
+
+class VIEW3D_MT_seamwire_views(bpy.types.Menu):
+    """Show on the mesh what wires follow"""  # noqa: D400 - a tooltip
+
+    bl_idname = "VIEW3D_MT_seamwire_views"
+    bl_label = "Views"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Show the views as toggles, and those that can be stored."""
+        layout, chosen = self.layout, settings(context)
+        layout.prop_menu_enum(chosen, "heat")
+        for name in VIEWS:
+            layout.prop(chosen, name)
+        layout.separator()
+        layout.menu(VIEW3D_MT_seamwire_store_view.bl_idname)
+
+
+class VIEW3D_MT_seamwire_store_view(bpy.types.Menu):
+    """Store a view as an attribute of the vertices"""  # noqa: D400 - a tooltip
+
+    bl_idname = "VIEW3D_MT_seamwire_store_view"
+    bl_label = "Store View as Attribute"
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Show the views that can be stored."""
+        for what, name, *_ in VIEW_ITEMS:
+            self.layout.operator("mesh.seamwire_store", text=name).what = what
+
+
+SUBMENUS = (
+    VIEW3D_MT_seamwire_finish,
+    VIEW3D_MT_seamwire_network,
+    VIEW3D_MT_seamwire_islands,
+    VIEW3D_MT_seamwire_views,
+)
+_register_classes, _unregister_classes = bpy.utils.register_classes_factory(
+    (VIEW3D_MT_seamwire, *SUBMENUS, VIEW3D_MT_seamwire_store_view)
+)
+
+
+def _draw_tool(layout: bpy.types.UILayout) -> None:
+    entry = layout.operator("wm.tool_set_by_id", text="Draw Seamwires")
     entry.name, entry.space_type = TOOL, "VIEW_3D"
-    menu.layout.operator("mesh.seamwire_suggest")
-    menu.layout.operator("mesh.seamwire_take_over")
-    menu.layout.operator("mesh.seamwire_repeat")
-    menu.layout.operator("mesh.seamwire_close_gaps")
-    menu.layout.operator("mesh.seamwire_transfer")
-    menu.layout.operator("mesh.seamwire_load_network")
-    menu.layout.operator("mesh.seamwire_save_network")
-    menu.layout.operator("mesh.seamwire_cut")
-    menu.layout.operator("mesh.seamwire_slide")
-    menu.layout.operator("mesh.seamwire_unwrap")
-    menu.layout.operator("mesh.seamwire_worst_island")
-    menu.layout.operator_menu_enum("mesh.seamwire_store_view", "view")
-    menu.layout.operator("mesh.seamwire_select_islands_to_cut")
-    menu.layout.operator_menu_enum("mesh.seamwire_store_islands", "kind")
-    menu.layout.operator_menu_enum("mesh.seamwire_mark_seams_as", "kind")
+
+
+def _draw_submenu(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
+    menu.layout.separator()
+    menu.layout.menu(VIEW3D_MT_seamwire.bl_idname)
+
+
+def _draw_entry(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
+    menu.layout.separator()
+    _draw_tool(menu.layout)
 
 
 def _draw_import(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
@@ -39,17 +142,23 @@ def _draw_export(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
     menu.layout.operator("mesh.seamwire_save_network", text="Seamwire Network (.json)")
 
 
+_ENTRIES = (
+    *((name, _draw_submenu) for name in MENUS),
+    (CONTEXT_MENU, _draw_entry),
+    ("TOPBAR_MT_file_import", _draw_import),
+    ("TOPBAR_MT_file_export", _draw_export),
+)
+
+
 def register() -> None:
-    """Add the menu entries."""
-    for name in MENUS:
-        getattr(bpy.types, name).append(_draw_menu)
-    bpy.types.TOPBAR_MT_file_import.append(_draw_import)
-    bpy.types.TOPBAR_MT_file_export.append(_draw_export)
+    """Add the menus and the entries in Blender's."""
+    _register_classes()
+    for name, draw in _ENTRIES:
+        getattr(bpy.types, name).append(draw)
 
 
 def unregister() -> None:
     """Remove them."""
-    bpy.types.TOPBAR_MT_file_export.remove(_draw_export)
-    bpy.types.TOPBAR_MT_file_import.remove(_draw_import)
-    for name in MENUS:
-        getattr(bpy.types, name).remove(_draw_menu)
+    for name, draw in reversed(_ENTRIES):
+        getattr(bpy.types, name).remove(draw)
+    _unregister_classes()

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import bpy
 
-from ..mesh.settings import ADDON, SeamwireSettings
-from ..operators import bindings, worst_island
+from ..mesh.settings import ADDON, SeamwireSettings, replace_removed_metric
+from ..operators import bindings, islands
 from ..words.keys import Action
 from . import toolbar
 
@@ -91,8 +91,8 @@ def draw_keys(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     keys = configuration.keymaps.get(toolbar.KEYMAP) if configuration is not None else None
     for item in bindings.items_of(keys, toolbar.OPERATOR) if keys is not None else ():
         _draw_key(box, keys, item, item.properties.bl_rna.properties["first"].enum_items[item.properties.first].name)
-    for item in bindings.items_of(keys, worst_island.OPERATOR) if keys is not None else ():
-        _draw_key(box, keys, item, "Select Worst Stretched Island")
+    for item in bindings.items_of(keys, islands.OPERATOR) if keys is not None else ():
+        _draw_key(box, keys, item, item.properties.bl_rna.properties["which"].enum_items[item.properties.which].name)
     keys = bindings.user_keymap(context.window_manager)
     if keys is None:
         box.label(text="There are no keymaps here")
@@ -140,6 +140,7 @@ def register() -> None:
     bpy.types.WindowManager.seamwire_preferences = bpy.props.PointerProperty(
         type=SeamwireSessionPreferences, options={"HIDDEN"}
     )
+    replace_removed_metric()
 
 
 def unregister() -> None:

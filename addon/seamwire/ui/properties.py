@@ -1,82 +1,146 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tool's settings, shown in its header and in the sidebar."""
+"""The tool's settings: the most important ones in its header, all of them in the sidebar and in the Properties editor."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import bpy
 
-from ..mesh.settings import settings
+from ..mesh.settings import SeamwireSettings, settings, tool_is_active
 
-if TYPE_CHECKING:
-    import bpy
-
-    from ..mesh.settings import SeamwireSettings
-
-
-VIEWS = (
-    ("show_crests", "MOD_OUTLINE"),
-    ("show_silhouette", "GHOST_ENABLED"),
-    ("show_ellipses", "MESH_CIRCLE"),
-    ("show_paths", "PARTICLE_PATH"),
-    ("show_bands", "PHYSICS"),
-    ("show_invalid", "MOD_TRIANGULATE"),
-)
-"""Toggles of what the metric sees, with their icons."""
+VIEWS = ("show_crests", "show_silhouette", "show_ellipses", "show_paths", "show_bands", "show_invalid")
+"""The toggles of views that are lines on the mesh."""
 
 
 def draw_views(chosen: SeamwireSettings, layout: bpy.types.UILayout) -> None:
-    """Show what can be seen of the metric, in a column."""
+    """Show the views of the metric in a column."""
     layout.prop(chosen, "heat")
     column = layout.column(heading="Show")
-    for name, _ in VIEWS:
+    for name in VIEWS:
         column.prop(chosen, name)
     sub = layout.column()
-    sub.active = any(getattr(chosen, name) for name, _ in VIEWS) or chosen.heat == "DISTANCE"
+    sub.active = any(getattr(chosen, name) for name in VIEWS) or chosen.heat == "DISTANCE"
     sub.prop(chosen, "shown_metric")
 
 
-def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
-    """Show the settings, in a row in headers and in a column elsewhere."""
+def draw_header(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
+    """Show at most six controls in a row. Blender shows the mirror of the mesh beside them."""
     chosen = settings(context)
-    wide = context.region is not None and context.region.type in {"TOOL_HEADER", "HEADER"}
-    strength = "strength_edges" if chosen.along == "EDGES" else "strength_surface"
-    obj = context.edit_object
-    if wide:
-        row = layout.row(align=True)
-        row.prop(chosen, "along", expand=True)
-        layout.prop(chosen, strength)
-        if chosen.along == "SURFACE":
-            layout.row(align=True).prop(chosen, "finish", expand=True)
-            layout.prop(chosen, "straight", text="", icon="IPO_LINEAR")
-        layout.prop(chosen, "clear", toggle=True)
-        layout.prop(chosen, "snap", text="", icon="SNAP_ON" if chosen.snap else "SNAP_OFF")
-        layout.prop(chosen, "xray", text="", icon="XRAY")
-        layout.prop(chosen, "heat", text="Heat")
-        row = layout.row(align=True)
-        for name, icon in VIEWS:
-            row.prop(chosen, name, text="", icon=icon)
-        return  # Blender shows the mirror of the mesh right beside
-    layout.use_property_split = True
-    layout.use_property_decorate = False
+    layout.row(align=True).prop(chosen, "along", expand=True)
+    if chosen.along == "SURFACE":
+        layout.prop(chosen, "finish")
+    layout.prop(chosen, _strength(chosen))
+    if chosen.along == "SURFACE":
+        layout.prop(chosen, "straight", toggle=True)
+    layout.prop(chosen, "clear", toggle=True)
+    layout.popover(VIEW3D_PT_seamwire_overlays.bl_idname, text="Views", icon="OVERLAY")
+
+
+def _strength(chosen: SeamwireSettings) -> str:
+    return "strength_edges" if chosen.along == "EDGES" else "strength_surface"
+
+
+def draw_drawing(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
+    """Show how wires are drawn."""
+    chosen, obj = settings(context), context.edit_object
     layout.prop(chosen, "along")
-    layout.prop(chosen, strength)
-    column = layout.column()
-    column.active = chosen.along == "SURFACE"
-    column.row().prop(chosen, "finish", expand=True)
-    column.prop(chosen, "straight")
-    layout.prop(chosen, "clear")
-    layout.prop(chosen, "stroke_radius")
-    column = layout.column(heading="Snap")
-    column.prop(chosen, "snap", text="Features")
-    layout.prop(chosen, "xray")
-    draw_views(chosen, layout)
-    layout.prop(chosen, "unwrap")
+    layout.prop(chosen, _strength(chosen))
+    column = layout.column(heading="Wires")
+    straight = column.row()
+    straight.active = chosen.along == "SURFACE"
+    straight.prop(chosen, "straight")
+    column.prop(chosen, "clear")
+    column.prop(chosen, "snap")
+    column.prop(chosen, "xray")
     if obj is not None and obj.type == "MESH":
         row = layout.row(align=True, heading="Mirror")
         for axis in "xyz":
             row.prop(obj.data, f"use_mirror_{axis}", text=axis.upper(), toggle=True)
-    column = layout.column(heading="Advanced")
-    column.prop(chosen, "metric")
-    sub = column.column()
-    sub.active = chosen.metric != "euclidean"
-    sub.prop(chosen, "clamp", slider=True)
+
+
+def draw_finish(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
+    """Show how wires across the surface become seams."""
+    chosen = settings(context)
+    layout.active = chosen.along == "SURFACE"
+    layout.prop(chosen, "finish")
+
+
+def draw_islands(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
+    """Show what happens to the islands that seams make."""
+    layout.column(heading="Unwrap").prop(settings(context), "unwrap", text="After Each Chain")
+
+
+def draw_advanced(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
+    """Show what artists seldom need."""
+    chosen = settings(context)
+    layout.prop(chosen, "metric")
+    percentile = layout.column()
+    percentile.active = chosen.metric != "euclidean"
+    percentile.prop(chosen, "clamp", slider=True)
+    layout.prop(chosen, "stroke_radius")
+
+
+GROUPS = (("Drawing", draw_drawing), ("Finish", draw_finish), ("Islands", draw_islands), ("Advanced", draw_advanced))
+"""The groups of settings, with what draws each."""
+
+
+def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
+    """Show the settings where Blender shows those of the active tool. In the sidebar, panels of our own do."""
+    region = context.region.type if context.region is not None else ""
+    if region in {"TOOL_HEADER", "HEADER"}:
+        draw_header(context, layout)
+    elif region != "UI":
+        for name, draw in GROUPS:
+            box = layout.box()
+            box.label(text=name)
+            draw(context, _split(box.column()))
+
+
+def _split(layout: bpy.types.UILayout) -> bpy.types.UILayout:
+    """Return the layout, with names at the left and values at the right."""
+    layout.use_property_split = True
+    layout.use_property_decorate = False
+    return layout
+
+
+class VIEW3D_PT_seamwire_overlays(bpy.types.Panel):
+    """Views of what wires follow"""  # noqa: D400 - a tooltip
+
+    bl_idname = "VIEW3D_PT_seamwire_overlays"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "HEADER"
+    bl_label = "Seamwire Views"
+    bl_ui_units_x = 13
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Show the views, as Blender shows its overlays."""
+        self.layout.label(text="Seamwire Views")
+        draw_views(settings(context), _split(self.layout))
+
+
+def _panel(name: str) -> type[bpy.types.Panel]:
+    """Return the panel of a group in the sidebar, below the active tool."""
+    draw_group = dict(GROUPS)[name]
+
+    def poll(_cls: type, context: bpy.types.Context) -> bool:
+        return tool_is_active(context)
+
+    def draw(self: bpy.types.Panel, context: bpy.types.Context) -> None:
+        draw_group(context, _split(self.layout))
+
+    body = {
+        "__doc__": f"Settings of the Seamwire tool: {name}",
+        "bl_space_type": "VIEW_3D",
+        "bl_region_type": "UI",
+        "bl_category": "Tool",
+        "bl_label": name,
+        "bl_parent_id": "VIEW3D_PT_active_tool",
+        "bl_options": {"DEFAULT_CLOSED"} if name == "Advanced" else set(),
+        "poll": classmethod(poll),
+        "draw": draw,
+    }
+    return type(f"VIEW3D_PT_seamwire_{name.lower()}", (bpy.types.Panel,), body)
+
+
+register, unregister = bpy.utils.register_classes_factory(
+    (VIEW3D_PT_seamwire_overlays, *(_panel(name) for name, _ in GROUPS))
+)

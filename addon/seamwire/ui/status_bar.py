@@ -1,15 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shows hints in Blender's status bar while a chain is drawn."""
+"""Shows hints in Blender's status bar: what the tool can do, and while a chain is drawn, what each key does."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..operators.report import status_makers
-from ..words.hints import Status, hints
+from bl_ui.space_statusbar import STATUSBAR_HT_header
+
+from ..mesh.settings import tool_is_active
+from ..operators import bindings, steps
+from ..operators.report import running, status_makers
+from ..words.hints import Hint, Status, hints, idle_hints
+from . import toolbar
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
     import bpy
 
@@ -17,35 +22,67 @@ if TYPE_CHECKING:
 
 
 def status_of(chain: Chain) -> Status:
-    """Return what there is to tell of a chain."""
+    """Return the state of a chain."""
     symmetric = chain.view.mesh.symmetric
     offers = symmetric if symmetric and not chain.session.mirror_axes else ()
     return Status(chain.session, chain.keys, chain.message, "".join("XYZ"[axis] for axis in offers))
 
 
 def status_drawer(status: Status) -> Callable[[bpy.types.Header, bpy.types.Context], None]:
-    """Return what draws the hints in the status bar.
+    """Return a function that draws the hints for a chain in the status bar.
 
-    A plain function: Blender makes it a method of its header class, and crashes on a bound method.
+    It is a plain function, because Blender makes it a method of its header class and crashes on a bound method.
     """
 
     def draw(header: bpy.types.Header, _context: bpy.types.Context) -> None:
-        row = header.layout.row(align=False)
-        for icon, text in hints(status):
-            row.label(text=text, icon=icon)
+        _draw_hints(header, hints(status))
 
     return draw
 
 
-def register() -> None:
-    """Let chains tell the status bar what each key does."""
-    status_makers.append(_drawer_of)
+def draw_idle(header: bpy.types.Header, context: bpy.types.Context) -> None:
+    """Draw what the tool can do, before Blender's own hints. Draw nothing while another tool or operator has the mouse."""
+    if tool_is_active(context) and not is_busy(context):
+        _draw_hints(header, idle_hints(tool_keys(context.window_manager)))
 
 
-def unregister() -> None:
-    """Let them tell it nothing any more."""
-    status_makers.remove(_drawer_of)
+def tool_keys(manager: bpy.types.WindowManager) -> dict[str, bindings.Key]:
+    """Return the keys of the tool as the user has set them, by the names of what they begin with."""
+    configuration = manager.keyconfigs.user
+    keymap = configuration.keymaps.get(toolbar.KEYMAP) if configuration is not None else None
+    items = bindings.items_of(keymap, toolbar.OPERATOR) if keymap is not None else []
+    found: dict[str, bindings.Key] = {}
+    for item in items:
+        if item.active:
+            found.setdefault(item.properties.first, bindings.key_of(item))
+    return found
+
+
+def is_busy(context: bpy.types.Context) -> bool:
+    """Return whether an operator is running. Before Blender 4.2, only those of this add-on are known."""
+    return bool(running or steps.running or getattr(context.window, "modal_operators", ()))
+
+
+def _draw_hints(header: bpy.types.Header, shown: Iterable[Hint]) -> None:
+    row = header.layout.row(align=False)
+    for icon, text in shown:
+        row.label(text=text, icon=icon)
 
 
 def _drawer_of(chain: Chain) -> Callable[[bpy.types.Header, bpy.types.Context], None]:
     return status_drawer(status_of(chain))
+
+
+def register() -> None:
+    """Add the hints."""
+    status_makers.append(_drawer_of)
+    STATUSBAR_HT_header.prepend(draw_idle)
+    if hasattr(STATUSBAR_HT_header, "_draw_orig"):
+        # An add-on has shown its own status before. Blender goes back to this function after each such status.
+        STATUSBAR_HT_header._draw_orig = STATUSBAR_HT_header.draw
+
+
+def unregister() -> None:
+    """Remove the hints."""
+    STATUSBAR_HT_header.remove(draw_idle)
+    status_makers.remove(_drawer_of)

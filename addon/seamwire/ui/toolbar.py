@@ -8,7 +8,7 @@ from pathlib import Path
 import bpy
 
 from ..mesh.settings import TOOL
-from ..operators import hover, worst_island
+from ..operators import hover, islands
 from ..operators.bindings import NAME
 from . import keymap, properties
 
@@ -50,7 +50,11 @@ class SeamwireTool(bpy.types.WorkSpaceTool):
         # Whether the key that is pressed counts as held is not the same everywhere.
         _key("PEEK", "LEFT_SHIFT", alt=True),
         _key("PEEK", "LEFT_SHIFT", alt=True, shift=True),
-        (worst_island.OPERATOR, {"type": "W", "value": "PRESS", "shift": True, "ctrl": True}, None),
+        (
+            islands.OPERATOR,
+            {"type": "W", "value": "PRESS", "shift": True, "ctrl": True},
+            {"properties": [("which", "WORST")]},
+        ),
         (hover.OPERATOR, {"type": "MOUSEMOVE", "value": "ANY", "any": True}, None),
     )
 

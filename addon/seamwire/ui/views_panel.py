@@ -39,7 +39,7 @@ class VIEW3D_PT_seamwire_views(bpy.types.Panel):
         layout.prop(settings, "along")
         layout.prop(settings, "strength_edges" if settings.along == "EDGES" else "strength_surface")
         layout.prop(settings, "metric")
-        layout.operator_menu_enum("mesh.seamwire_store_view", "view")
+        layout.menu("VIEW3D_MT_seamwire_store_view")
 
 
 def _follow() -> None:

@@ -287,10 +287,7 @@ class EditedObjects:
         """Show the sessions as they are now, where that is something new."""
         for view in self.views():
             view.show(front=view is self.front, help_rows=help_rows)
-        state = [
-            (id(view), view.session.revision, view.session.progress, view.overlay.pointed_island)
-            for view in self.views()
-        ]
+        state = [(id(view), view.session.revision, view.overlay.pointed_island) for view in self.views()]
         state.append((id(self.front), bool(help_rows)))
         if state != self._shown:
             self._shown = state

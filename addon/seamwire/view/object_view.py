@@ -170,7 +170,10 @@ class ObjectView:
         self.mesh.poll()
         told = self.views.poll()
         self.session.use_crests(self.views.crests, chosen.settings().show_crests)
-        return any((self.session.poll(), self.overlay.poll(), told))
+        # Progress is told by the status bar: the picture stays.
+        seen = self.session.revision
+        self.session.poll()
+        return any((self.session.revision != seen, self.overlay.poll(), told))
 
     def shows(self, update: bpy.types.DepsgraphUpdate) -> bool:
         """Whether an update of Blender's tells of a change of the mesh, whichever it is."""

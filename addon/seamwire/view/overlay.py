@@ -128,6 +128,8 @@ class Overlay:
         self._faces: Faces | None = None
         self._tinted: object = None
         self._asked: object = None
+        self._cuts: NDArray[np.int32] | None = None
+        self._told: object = None
         self._seams_read = 0
         self.xray = False
         self.features = False
@@ -157,20 +159,25 @@ class Overlay:
         return self._asked != (self._session.network_revision, self._seams_read)
 
     def poll(self) -> bool:
-        """Ask for the islands of a network that has changed.
+        """Ask for the islands of a network whose cuts have changed.
 
         Returns
         -------
         bool
-            Whether there are new ones to be seen.
+            Whether there are islands to be seen that no call before told of.
         """
         if self._islands is None:
             return False
         if self._stale:
             self._asked = (self._session.network_revision, self._seams_read)
-            self._islands.want(self._asked, cuts(self._session, self._seams))
+            wanted = cuts(self._session, self._seams)
+            # A chain that ends turns cuts of wires into seams: the islands stay the same.
+            if self._cuts is None or not np.array_equal(wanted, self._cuts):
+                self._cuts = wanted
+                self._islands.want(self._asked, wanted)
         newest = self._islands.newest
-        return newest is not None and newest.key != self._tinted
+        before, self._told = self._told, None if newest is None else newest.key
+        return self._told != before
 
     @property
     def pointed_island(self) -> int | None:

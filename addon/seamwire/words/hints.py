@@ -1,24 +1,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What each button and key would do now, in words."""
+"""Hints for the status bar: what each button and key does at the moment."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from .keys import Action, Bindings
+from .keys import Action, Bindings, Key
 from .names import count
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from ..core.drawing.session import Session
     from ..core.network.network import LoopKind
 
 Hint = tuple[str, str]
-"""An icon of Blender's, and what it stands for now."""
+"""The name of one of Blender's icons, and a text."""
 Deed = tuple[Action, str]
-"""What can be asked for, and what it would do now."""
+"""An action, and what it would do at the moment."""
+MOST = 8
+"""The largest number of hints at once, so that a status bar shows all of them."""
 
 _CLICKS = {
     "SEED": "Add Seed, Drag: Draw Line",
@@ -32,23 +34,30 @@ _CLICKS = {
     "MOVE": "Release to Confirm",
     "DRAW": "Release to Keep Line",
 }
-"""What a click does, by the session's intent."""
+"""The text for a click, by the session's intent."""
+_IDLE = (
+    ("CLICK", "Begin Wire", False),
+    ("CLICK", "Draw Line", True),
+    ("LOOP", "Add Loop", False),
+    ("GUIDE", "Draw Stroke", True),
+)
+"""What the tool does between chains: the name of its key, the text, and whether the mouse is dragged."""
 
 
 @dataclass(frozen=True)
 class Status:
-    """What the status bar tells of.
+    """The state of a chain, as far as the status bar describes it.
 
     Parameters
     ----------
     session
-        Of the object pointed at.
+        The session of the object under the mouse.
     keys
-        What each key does.
+        The action of each key.
     message
-        What there is to say about the last key.
+        The result of the last key.
     mirror_offer
-        The axes that the mesh is symmetric over and not mirrored, as letters.
+        The letters of the axes that the mesh is symmetric over and that are not mirrored.
     """
 
     session: Session
@@ -57,12 +66,28 @@ class Status:
     mirror_offer: str = ""
 
 
-def hints(status: Status) -> list[Hint]:
-    """Return what each button and key would do now, after what there is to say.
+def idle_hints(keys: Mapping[str, Key]) -> list[Hint]:
+    """Return what a newcomer can do before the first click.
 
-    Where the status bar is narrow its end is cut off: what a click does comes first, then how to get out and where all
-    keys are told, then the rest, what is needed oftenest first.
+    Parameters
+    ----------
+    keys
+        The keys of the tool by the names of what they begin with. Keys that are missing give no hint.
     """
+    found: list[Hint] = []
+    for name, text, is_drag in _IDLE:
+        key = keys.get(name)
+        if key is None:
+            continue
+        icon = f"{key.icon}_DRAG" if is_drag and key.icon == "MOUSE_LMB" else key.icon
+        before = key.modifiers if icon else key.text
+        found.append((icon or "NONE", f"{before}: {text}" if before else text))
+    found.append(("SHADERFX", "Find All Seams: Edge > Seamwire > Suggest Seamwires"))
+    return found
+
+
+def hints(status: Status) -> list[Hint]:
+    """Return at most `MOST` hints: first messages, then what a click does and how to end, then other keys by their usefulness."""
     session, keys = status.session, status.keys
     found: list[Hint] = []
     if session.computing:
@@ -83,11 +108,11 @@ def hints(status: Status) -> list[Hint]:
         icon, before = keys.icon(action)
         if icon or before:
             found.append((icon or "NONE", f"{before}: {text}" if before else text))
-    return found
+    return found[:MOST]
 
 
 def _click(session: Session) -> Iterator[Deed]:
-    """Yield what a click does, and what it would do after toggling."""
+    """Yield what a click does, and what it does after W."""
     offers, offer = session.loop_offers, session.loop_choice
     if offer is not None and session.bending:
         yield Action.BEND, "Bend Closed Cut"
@@ -114,7 +139,7 @@ def _offer(kind: LoopKind) -> str:
 
 
 def _wires(session: Session) -> Iterator[Deed]:
-    """Yield what else can be done about wires."""
+    """Yield what other keys do to wires."""
     if session.seed is not None:
         if session.closing_point is not None:
             yield Action.CLOSE, "Close"
@@ -135,16 +160,16 @@ def _wires(session: Session) -> Iterator[Deed]:
 
 
 def _guides(status: Status) -> Iterator[Deed]:
-    """Yield what wires can be led by."""
+    """Yield the keys for settings and strokes."""
     session = status.session
+    if status.mirror_offer and not session.mirror_axes:
+        yield Action.MIRROR, f"Mirror? Symmetric on {status.mirror_offer}"
     if session.metric != "euclidean":
         yield Action.STRONGER, f"Strength {session.strength:.3g}"
     yield Action.CLEAR, "Switch to Clear" if session.marking else "Switch to Mark"
+    yield Action.SWITCH, "Across Surface" if session.along == "EDGES" else "Along Edges"
     if session.target is not None:
         yield Action.GUIDE, "Guide Stroke"
         yield Action.AVOID, "Avoid Stroke"
-    yield Action.SWITCH, "Across Surface" if session.along == "EDGES" else "Along Edges"
     if session.mirror_axes:
         yield Action.MIRROR, f"Mirror {''.join('XYZ'[axis] for axis in session.mirror_axes)}"
-    elif status.mirror_offer:
-        yield Action.MIRROR, f"Mirror? Symmetric on {status.mirror_offer}"

@@ -6,7 +6,7 @@ from polygon_meshes import arrays_of, grid_places, grid_polygons
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
 from seamwire.core.solver.live_maker import LiveMaker
-from seamwire.words.hints import Status, hints
+from seamwire.words.hints import MOST, Status, hints, idle_hints
 from seamwire.words.keys import Action, Bindings, Key
 
 pytest.importorskip("seamwire_core")
@@ -58,6 +58,7 @@ def test_the_hints_follow_what_is_going_on(session: Session) -> None:
     assert "Switch to Clear" in said(session)
     session.toggle_marking()
     assert "Switch to Mark" in said(session)
+    session.hover(None)
     assert "Across Surface" in said(session)
     session.switch("SURFACE")
     session.wait()
@@ -66,9 +67,43 @@ def test_the_hints_follow_what_is_going_on(session: Session) -> None:
 
 
 def test_the_mirror_is_offered_and_told(session: Session) -> None:
-    assert said(session, mirror_offer="XY").endswith("Mirror? Symmetric on XY")
+    assert "Mirror? Symmetric on XY" in said(session, mirror_offer="XY")
     session.set_mirror((0,))
-    assert said(session).endswith("Mirror X")
+    assert said(session, mirror_offer="XY").endswith("Mirror X")
+
+
+def test_there_are_at_most_eight_hints_and_the_mirror_is_offered_among_them(session: Session) -> None:
+    session.click(36)
+    session.wait()
+    session.click(44)
+    session.wait()
+    session.hover(76)
+    shown = first(session, mirror_offer="X", message="Something was done")
+    assert len(shown) == MOST == 8
+    assert "Mirror? Symmetric on X" in shown
+
+
+def test_before_the_first_click_the_hints_teach_the_gestures() -> None:
+    keys = {
+        "CLICK": Key("LEFTMOUSE"),
+        "LOOP": Key("LEFTMOUSE", alt=1),
+        "GUIDE": Key("LEFTMOUSE", shift=1),
+        "REMOVE": Key("X"),
+    }
+    assert idle_hints(keys) == [
+        ("MOUSE_LMB", "Begin Wire"),
+        ("MOUSE_LMB_DRAG", "Draw Line"),
+        ("MOUSE_LMB", "Alt: Add Loop"),
+        ("MOUSE_LMB_DRAG", "Shift: Draw Stroke"),
+        ("SHADERFX", "Find All Seams: Edge > Seamwire > Suggest Seamwires"),
+    ]
+
+
+def test_before_the_first_click_the_hints_name_the_keys_as_they_are_bound() -> None:
+    assert idle_hints({"LOOP": Key("J", ctrl=1), "GUIDE": Key("PEN")})[:2] == [
+        ("EVENT_J", "Ctrl: Add Loop"),
+        ("NONE", "Pen: Draw Stroke"),
+    ]
 
 
 def test_the_hints_name_the_keys_as_they_are_bound(session: Session) -> None:

@@ -142,8 +142,21 @@ def test_what_is_no_point_of_a_face_is_refused(surface: sw.Surface) -> None:
     live.seed((5, (0.5, 0.2, 0.3)))
     with pytest.raises(ValueError, match="target: face -1 is out of range"):
         live.wires((-1, (1, 0, 0)))
-    with pytest.raises(ValueError, match="along edges wires lead from vertices and edges"):
+    with pytest.raises(ValueError, match="along edges, wires connect vertices and edges"):
         sw.LiveWire(surface, along="edges").seed((5, (0.5, 0.2, 0.3)))
+
+
+def test_along_edges_wires_connect_vertices_and_edges_only(surface: sw.Surface) -> None:
+    live = sw.LiveWire(surface, along="edges")
+    live.seed(3)
+    live.wait()
+    assert live.wires(40).wires[0].vertices[0] == 3
+    for place in ((5, (0.5, 0.2, 0.3)), (5, (1, 0, 0))):
+        with pytest.raises(ValueError, match="target: along edges, wires connect vertices and edges"):
+            live.wires(place)
+        with pytest.raises(ValueError, match="seed: along edges, wires connect vertices and edges"):
+            live.seed(place)
+    assert live.wires(40).wires[0].vertices[0] == 3
 
 
 def test_tells_what_became_of_its_embeddings(surface: sw.Surface, curvature: sw.Curvature) -> None:

@@ -51,7 +51,7 @@ EmbeddedSurface::EmbeddedSurface(const SurfaceContext& context, std::shared_ptr<
 
 EmbeddedSurface::EmbeddedSurface(const SurfaceContext& context, std::shared_ptr<const Metric> metric,
                                  Embedding embedding)
-    : data_(std::make_shared<Data>(context, std::move(metric), EmbedOptions{}, Task{})) {
+    : data_(std::make_shared<Data>(context, std::move(metric), embedding.options, Task{})) {
   if (data_->metric->size() != data_->surface->vertex_count()) {
     throw InvalidInput("metric of " + std::to_string(data_->metric->size()) + " vertices for a surface of " +
                        std::to_string(data_->surface->vertex_count()));

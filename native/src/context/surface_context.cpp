@@ -4,6 +4,8 @@
 #include <exception>
 #include <utility>
 
+#include "detail/poll.hpp"
+
 namespace seamwire {
 
 using namespace detail;
@@ -14,6 +16,14 @@ namespace {
 constexpr double kSmoothingRadius = 0.01;
 /// The maximum anisotropy that goes with a strength of 1 of the concave metric.
 constexpr double kAnisotropyOfConcave = 20.0;
+/// Of the work for what needs the curvature, or the surface: the part that these take.
+constexpr double kBefore = 0.8;
+/// Of the work for the curvature: the part that the surface takes.
+constexpr double kSurface = 0.5;
+
+/// The parts of a task for what comes first, and for the work itself.
+Task first_part(const Task& task) { return part_of(task, 0.0, kBefore); }
+Task last_part(const Task& task) { return part_of(task, kBefore, 1.0); }
 
 double concave_strength(const Strength& strength) {
   return strength.parameter ? *strength.parameter : (*strength.max_anisotropy - 1.0) / (kAnisotropyOfConcave - 1.0);
@@ -48,8 +58,8 @@ std::shared_ptr<const Surface> SurfaceContext::surface(const Task& task) const {
 
 std::shared_ptr<const SurfaceContext::Data::Curvatures> SurfaceContext::Data::curvatures(const SurfaceContext& context,
                                                                                          const Task& task) {
-  const std::shared_ptr<const Surface> on = context.surface(task);
-  return made_curvatures.get(task, [&](const Task& own) {
+  const std::shared_ptr<const Surface> on = context.surface(part_of(task, 0.0, kSurface));
+  return made_curvatures.get(part_of(task, kSurface, 1.0), [&](const Task& own) {
     Curvatures made{.curvature = principal_curvatures(*on, own), .difference = {}};
     made.difference = made.curvature.difference();
     return made;
@@ -67,20 +77,20 @@ std::shared_ptr<const std::vector<double>> SurfaceContext::feature_strength(cons
 }
 
 std::shared_ptr<const Curvature> SurfaceContext::smoothed_curvature(const Task& task) const {
-  const std::shared_ptr<const Surface> on = surface(task);
-  const std::shared_ptr<const Curvature> from = curvature(task);
+  const std::shared_ptr<const Curvature> from = curvature(first_part(task));
+  const std::shared_ptr<const Surface> on = surface();
   return data_->smoothed_curvature.get(
-      task, [&](const Task& own) { return smoothed_curvatures(*on, *from, kSmoothingRadius, own); });
+      last_part(task), [&](const Task& own) { return smoothed_curvatures(*on, *from, kSmoothingRadius, own); });
 }
 
 std::shared_ptr<const EdgeAdjacency> SurfaceContext::edge_adjacency(const Task& task) const {
-  const std::shared_ptr<const Surface> on = surface(task);
-  return *data_->edge_adjacency.get(task, [&](const Task& own) { return make_edge_adjacency(*on, own); });
+  const std::shared_ptr<const Surface> on = surface(first_part(task));
+  return *data_->edge_adjacency.get(last_part(task), [&](const Task& own) { return make_edge_adjacency(*on, own); });
 }
 
 std::shared_ptr<const SnapGraph> SurfaceContext::snap_graph(const Task& task) const {
-  const std::shared_ptr<const Surface> on = surface(task);
-  return data_->snap_graph.get(task, [&](const Task& own) { return SnapGraph(*on, own); });
+  const std::shared_ptr<const Surface> on = surface(first_part(task));
+  return data_->snap_graph.get(last_part(task), [&](const Task& own) { return SnapGraph(*on, own); });
 }
 
 std::shared_ptr<const Surface> SurfaceContext::peek_surface() const {
@@ -106,21 +116,24 @@ bool SurfaceContext::wait_for_surface(double seconds) const {
 
 Metric make_metric(const SurfaceContext& context, const MetricSpec& spec, const Task& task) {
   check_metric(spec);
-  const std::shared_ptr<const Surface> surface = context.surface(task);
-  const std::shared_ptr<const Curvature> curvature = context.curvature(task);
+  const bool is_smoothed = spec.family == MetricFamily::kConcave;
+  const Task first = first_part(task), last = last_part(task);
+  const std::shared_ptr<const Curvature> curvature =
+      is_smoothed ? context.smoothed_curvature(first) : context.curvature(first);
+  const std::shared_ptr<const Surface> surface = context.surface();
   switch (spec.family) {
     case MetricFamily::kFeature:
-      return feature_metric(*surface, *curvature, *spec.follow, spec.strength, task);
+      return feature_metric(*surface, *curvature, *spec.follow, spec.strength, last);
     case MetricFamily::kCampen:
-      return campen_metric(*surface, *curvature, *spec.follow, spec.strength, task);
+      return campen_metric(*surface, *curvature, *spec.follow, spec.strength, last);
     case MetricFamily::kPottmannKovacs:
-      return pottmann_kovacs_metric(*surface, *curvature, *spec.follow, spec.strength, task);
+      return pottmann_kovacs_metric(*surface, *curvature, *spec.follow, spec.strength, last);
     case MetricFamily::kConcave:
-      return concave_metric(*surface, *context.smoothed_curvature(task), concave_strength(spec.strength), task);
+      return concave_metric(*surface, *curvature, concave_strength(spec.strength), last);
     case MetricFamily::kEuclidean:
       break;
   }
-  return euclidean_metric(*surface, *curvature, task);
+  return euclidean_metric(*surface, *curvature, last);
 }
 
 }  // namespace seamwire

@@ -15,6 +15,11 @@ class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
 
+  /// Adds the next number, as a set of its own, and returns it.
+  std::int32_t add() {
+    parent_.push_back(static_cast<std::int32_t>(parent_.size()));
+    return parent_.back();
+  }
   /// The name of the set that has `i`.
   std::int32_t find(std::int32_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];

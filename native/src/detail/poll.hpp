@@ -39,6 +39,31 @@ class Poll {
   std::size_t steps_ = 0;
 };
 
+/// The task for a part of the work, which counts from 0 to 1 itself. `task` must outlive it.
+inline Task part_of(const Task& task, double begin, double end) {
+  if (!task.progress) return task;
+  return {.stop = task.stop,
+          .progress = [&task, begin, end](double fraction) { return task.progress(begin + (end - begin) * fraction); }};
+}
+
+/// A task for parts of work that count from 0 each: it reports the largest fraction so far. The task given must
+/// outlive it.
+class RisingProgress {
+ public:
+  explicit RisingProgress(const Task& task) : task_{.stop = task.stop, .progress = {}} {
+    if (!task.progress) return;
+    task_.progress = [this, &task](double fraction) { return task.progress(most_ = std::max(most_, fraction)); };
+  }
+  RisingProgress(const RisingProgress&) = delete;
+  RisingProgress& operator=(const RisingProgress&) = delete;
+
+  const Task& task() const { return task_; }
+
+ private:
+  Task task_;
+  double most_ = 0.0;
+};
+
 /// The system hands out memory page by page when it is first written, some milliseconds for 16 MB; so, between looks at
 /// the task, vector.resize(size).
 template <class T>

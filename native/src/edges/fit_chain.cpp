@@ -21,7 +21,7 @@ using namespace detail;
 
 namespace {
 
-// The cost, and how far a step goes along the line: measured on artists' seams (docs/method.md).
+// The cost, and how far a step goes along the line: measured on artists' seams (docs/method/drawn-lines.md).
 constexpr double kOffLine = 32.0;
 constexpr double kTurning = 0.25;
 constexpr double kBack = 1.0, kBackOfEdge = 0.5, kAhead = 2.0, kAheadOfEdge = 1.5;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "detail/poll.hpp"
@@ -20,19 +21,7 @@ using OpenMesh::HalfedgeHandle;
 // Faces whose corners memory is asked for in advance.
 constexpr std::size_t kAhead = 8;
 
-// OpenMesh's half-edges, but for those of deleted faces, in the order of faces, each from its first corner on, as
-// OpenMesh lists them.
-std::vector<HalfedgeHandle> half_edges_of_faces(const HalfEdgeMesh& mesh) {
-  std::vector<HalfedgeHandle> half_edges;
-  half_edges.reserve(3 * mesh.n_faces());
-  for (const FaceHandle f : mesh.faces()) {
-    const HalfedgeHandle last = mesh.halfedge_handle(f), first = mesh.next_halfedge_handle(last);
-    half_edges.insert(half_edges.end(), {first, mesh.next_halfedge_handle(first), last});
-  }
-  return half_edges;
-}
-
-// Their numbers, -1 for those without a face.
+// The numbers of half-edges, -1 for those without a face.
 std::vector<std::int32_t> numbers_of(const std::vector<HalfedgeHandle>& half_edges, std::size_t count) {
   std::vector<std::int32_t> numbers(count, -1);
   for (std::size_t h = 0; h < half_edges.size(); ++h) numbers[half_edges[h].idx()] = static_cast<std::int32_t>(h);
@@ -121,10 +110,17 @@ void BisectedMesh::take_faces(const EmbeddingInput& input, const Task& task, dou
   is_cleaned_ = clean.has_value();
   if (clean) {
     flatten(clean->mesh, *this);
-    if (!surface.siblings().empty()) relink_siblings(clean->mesh);
+    cleaned_vertex_of_fan_ = std::move(clean->vertex_of_fan);
+    vertex_of_fan_ = cleaned_vertex_of_fan_;
+    if (!clean->names.empty()) relink_siblings(*clean);
     origins = std::move(clean->origins);
     merged_ = std::move(clean->merged);
-    degenerate_faces_removed = clean->removed;
+    const auto is_embedded = [&](std::int32_t f) {
+      return !input.faces || std::ranges::binary_search(*input.faces, f);
+    };
+    const auto removed =
+        std::ranges::count_if(zero_area, is_embedded) - std::ranges::count_if(clean->degenerate, is_embedded);
+    degenerate_faces_removed = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, removed));
     if (!input.faces) return;
     std::vector<std::int32_t> selected;
     for (std::int32_t f = 0; index(f) < origins.size(); ++f) {
@@ -144,32 +140,24 @@ void BisectedMesh::take_faces(const EmbeddingInput& input, const Task& task, dou
   }
 }
 
-// Siblings are the half-edges of one edge that are left. Half-edges that got other ends are those of other edges.
-void BisectedMesh::relink_siblings(const HalfEdgeMesh& cleaned) {
-  const std::vector<HalfedgeHandle> before = half_edges_of_faces(surface.half_edges());
-  const std::vector<std::int32_t> numbers = numbers_of(half_edges_of_faces(cleaned), cleaned.n_halfedges());
-  siblings.assign(twins.size(), -1);
-  const auto ends = [&](std::int32_t h) {
+// Siblings are the half-edges of one edge that are left, if they still have the same ends.
+void BisectedMesh::relink_siblings(const CleanMesh& clean) {
+  using Key = std::tuple<std::int32_t, Edge, std::int32_t>;  // name, ends, half-edge
+  std::vector<Key> open;
+  const std::vector<HalfedgeHandle> half_edges = half_edges_of_faces(clean.mesh);
+  for (std::int32_t h = 0; index(h) < twins.size(); ++h) {
+    if (twins[h] >= 0) continue;
     const auto [a, b] = std::minmax({vertex_of_fan_[tail(h)], vertex_of_fan_[tip(h)]});
-    return Edge{a, b};
-  };
-  const std::vector<std::int32_t>& next = surface.siblings();
-  for (std::int32_t h = 0; index(h) < next.size(); ++h) {
-    if (next[h] < 0) continue;
+    open.emplace_back(clean.names[half_edges[h].idx() / 2], Edge{a, b}, h);
+  }
+  std::ranges::sort(open);
+  siblings.assign(twins.size(), -1);
+  const auto edge = [](const Key& key) { return std::pair(std::get<0>(key), std::get<1>(key)); };
+  for (auto from = open.begin(); from != open.end();) {
+    const auto to = std::find_if(from, open.end(), [&](const Key& key) { return edge(key) != edge(*from); });
     std::vector<std::int32_t> cycle;
-    std::int32_t other = h, lowest = h;
-    do {
-      lowest = std::min(lowest, other);
-      if (const std::int32_t left = numbers[before[other].idx()]; left >= 0 && twins[left] < 0) cycle.push_back(left);
-      other = next[other];
-    } while (other != h);
-    if (lowest < h) continue;
-    std::ranges::stable_sort(cycle, {}, ends);
-    for (auto from = cycle.begin(); from != cycle.end();) {
-      const auto to = std::find_if(from, cycle.end(), [&](std::int32_t i) { return ends(i) != ends(*from); });
-      link({from, to});
-      from = to;
-    }
+    for (; from != to; ++from) cycle.push_back(std::get<2>(*from));
+    link(cycle);
   }
 }
 
@@ -212,7 +200,7 @@ void BisectedMesh::select(const std::vector<Triangle>& all_corners, const std::v
       }
     }
   }
-  for (const std::int32_t fan : selected_fans_) vertex_of_selected_.push_back(surface.vertex_of_fan()[fan]);
+  for (const std::int32_t fan : selected_fans_) vertex_of_selected_.push_back(vertex_of_fan_[fan]);
   vertex_of_fan_ = vertex_of_selected_;
 }
 

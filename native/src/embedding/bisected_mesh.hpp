@@ -21,6 +21,8 @@
 
 namespace seamwire::detail {
 
+struct CleanMesh;
+
 /// Whether vertices and faces have the same numbers in the half-edge mesh as in the surface.
 bool keeps_numbers(const Surface& surface);
 
@@ -168,7 +170,7 @@ class BisectedMesh {
   double norm_in_middle(std::int32_t h, const Vector& e) const;
   Vector normal(std::int32_t v) const;
   TensorAt midpoint(std::int32_t h) const;
-  void relink_siblings(const HalfEdgeMesh& cleaned);
+  void relink_siblings(const CleanMesh& clean);
   void bisect_siblings(std::int32_t h);
   void link(const std::vector<std::int32_t>& cycle);
   void make_twins_of_pairs();
@@ -184,6 +186,7 @@ class BisectedMesh {
   std::optional<std::vector<std::int32_t>> callers_faces_;  // that are embedded, ascending; nullopt: all
   std::vector<std::int32_t> selected_fans_;                 // then: the surface's corner fans that they have, ascending
   std::vector<std::int32_t> vertex_of_selected_;            // and the vertices of these
+  std::vector<std::int32_t> cleaned_vertex_of_fan_;         // see CleanMesh
   std::span<const std::int32_t> vertex_of_fan_;
   std::size_t fans_ = 0;
   std::size_t given_faces_ = 0;

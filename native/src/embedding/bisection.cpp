@@ -242,6 +242,7 @@ Embedding Bisection::to_embedding() && {
   out.invalid_before = invalid_before_;
   out.hit_cap = hit_cap_;
   out.newest_bisections = newest_bisections_;
+  out.options = options_;
   return out;
 }
 

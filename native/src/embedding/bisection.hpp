@@ -12,7 +12,7 @@
 
 namespace seamwire::detail {
 
-/// Which triangles are bisected, and at which edge (docs/method.md, Section 4).
+/// Which triangles are bisected, and at which edge (docs/method/embedding.md).
 enum class Scheme {
   /// Longest-edge bisection, as in the paper: an invalid triangle and the neighbor behind its longest edge.
   kLongestEdge,

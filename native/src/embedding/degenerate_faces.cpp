@@ -4,9 +4,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <map>
 #include <numeric>
 #include <utility>
 
+#include "detail/disjoint_sets.hpp"
+#include "detail/index.hpp"
 #include "surface/face_height.hpp"
 
 namespace seamwire::detail {
@@ -27,8 +30,16 @@ constexpr int kMostPasses = 64;
 class DegenerateFaces {
  public:
   DegenerateFaces(const Surface& surface, const Metric& metric)
-      : surface_(surface), metric_(metric), mesh_(surface.half_edges()), origins_(mesh_.n_faces()) {
+      : surface_(surface),
+        metric_(metric),
+        mesh_(surface.half_edges()),
+        origins_(mesh_.n_faces()),
+        vertex_of_fan_(surface.vertex_of_fan()),
+        names_(surface.siblings().empty() ? 0 : mesh_.n_edges()),
+        same_edges_(names_.size()) {
     std::iota(origins_.begin(), origins_.end(), 0);
+    std::iota(names_.begin(), names_.end(), 0);
+    join_siblings();
   }
 
   /// The faces given, in ascending order, and others that become degenerate.
@@ -36,9 +47,16 @@ class DegenerateFaces {
 
  private:
   std::array<HalfedgeHandle, 3> sides(FaceHandle f) const;
+  std::int32_t vertex(VertexHandle fan) const { return vertex_of_fan_[fan.idx()]; }
+  std::vector<VertexHandle> fans_of(std::int32_t vertex) const;
   Vector vector(HalfedgeHandle h) const;
   bool is_degenerate(FaceHandle f) const;
   bool is_removed(FaceHandle f) const { return has_collapsed_ && mesh_.status(f).deleted(); }
+  void join_siblings();
+  std::vector<HalfedgeHandle> edges_between(std::int32_t from, std::int32_t to) const;
+  bool can_collapse(HalfedgeHandle h);
+  bool merge(std::int32_t from, std::int32_t to);
+  void collapse(HalfedgeHandle h);
   bool collapse_needle(FaceHandle f);
   FaceHandle flip_cap(FaceHandle f);
 
@@ -46,14 +64,17 @@ class DegenerateFaces {
   const Metric& metric_;
   HalfEdgeMesh mesh_;
   std::vector<std::int32_t> origins_;
+  std::vector<std::int32_t> vertex_of_fan_;
+  std::map<std::int32_t, std::vector<VertexHandle>> fans_merged_;  // those that a vertex has from others
+  std::vector<std::int32_t> names_;                                // per edge: a number in the sets; empty: no siblings
+  DisjointSets same_edges_;
   std::vector<LooseEdge> merged_;
   bool has_collapsed_ = false;
 };
 
 CleanMesh DegenerateFaces::remove(std::vector<FaceHandle> degenerate) {
   const auto is_done = [&](FaceHandle f) { return is_removed(f) || !is_degenerate(f); };
-  const std::size_t before = degenerate.size();
-  bool progress = before > 0;
+  bool progress = !degenerate.empty();
   for (int pass = 0; progress && pass < kMostPasses; ++pass) {
     progress = false;
     for (std::size_t i = 0, count = degenerate.size(); i < count; ++i) {
@@ -71,8 +92,12 @@ CleanMesh DegenerateFaces::remove(std::vector<FaceHandle> degenerate) {
   }
   CleanMesh clean;
   for (const FaceHandle f : mesh_.faces()) clean.origins.push_back(origins_[f.idx()]);
+  for (const FaceHandle f : degenerate) clean.degenerate.push_back(origins_[f.idx()]);
+  std::ranges::sort(clean.degenerate);
+  for (std::int32_t& name : names_) name = same_edges_.find(name);
+  clean.names = std::move(names_);
   clean.merged = std::move(merged_);
-  clean.removed = before - std::min(before, degenerate.size());
+  clean.vertex_of_fan = std::move(vertex_of_fan_);
   clean.mesh = std::move(mesh_);
   return clean;
 }
@@ -93,6 +118,78 @@ bool DegenerateFaces::is_degenerate(FaceHandle f) const {
   return !has_area(vector(a), vector(b), vector(c));
 }
 
+// The corner fans of a vertex that have faces.
+std::vector<VertexHandle> DegenerateFaces::fans_of(std::int32_t vertex) const {
+  std::vector<VertexHandle> fans;
+  const auto add = [&](VertexHandle fan) {
+    const bool is_left = !mesh_.status(fan).deleted() && !mesh_.is_isolated(fan);
+    if (is_left && this->vertex(fan) == vertex) fans.push_back(fan);
+  };
+  const auto [begin, end] = std::ranges::equal_range(surface_.vertex_of_fan(), vertex);
+  for (auto at = begin; at != end; ++at) add(VertexHandle(static_cast<int>(at - surface_.vertex_of_fan().begin())));
+  if (const auto more = fans_merged_.find(vertex); more != fans_merged_.end()) std::ranges::for_each(more->second, add);
+  return fans;
+}
+
+// The edges of all faces at one edge of the surface are one.
+void DegenerateFaces::join_siblings() {
+  if (names_.empty()) return;
+  const std::vector<HalfedgeHandle> half_edges = half_edges_of_faces(mesh_);
+  const std::vector<std::int32_t>& siblings = surface_.siblings();
+  for (std::size_t h = 0; h < siblings.size(); ++h) {
+    if (siblings[h] >= 0) same_edges_.join(half_edges[h].idx() / 2, half_edges[index(siblings[h])].idx() / 2);
+  }
+}
+
+// The half-edges from the corner fans of one vertex to those of another.
+std::vector<HalfedgeHandle> DegenerateFaces::edges_between(std::int32_t from, std::int32_t to) const {
+  std::vector<HalfedgeHandle> edges;
+  for (const VertexHandle fan : fans_of(from)) {
+    for (const HalfedgeHandle h : mesh_.voh_range(fan)) {
+      if (vertex(mesh_.to_vertex_handle(h)) == to) edges.push_back(h);
+    }
+  }
+  return edges;
+}
+
+bool DegenerateFaces::can_collapse(HalfedgeHandle h) {
+  if (!mesh_.is_collapse_ok(h)) return false;
+  // A second edge between the two would become a loop.
+  return std::ranges::count(mesh_.vv_range(mesh_.from_vertex_handle(h)), mesh_.to_vertex_handle(h)) == 1;
+}
+
+// Collapses a half-edge. The two other sides of each face at it become one edge.
+void DegenerateFaces::collapse(HalfedgeHandle h) {
+  for (const HalfedgeHandle side : {h, mesh_.opposite_halfedge_handle(h)}) {
+    if (names_.empty() || mesh_.is_boundary(side)) continue;
+    const HalfedgeHandle next = mesh_.next_halfedge_handle(side), last = mesh_.next_halfedge_handle(next);
+    same_edges_.join(names_[next.idx() / 2], names_[last.idx() / 2]);
+  }
+  mesh_.collapse(h);
+}
+
+// Merges a vertex into another one at its place, with all its corner fans: in those that have an edge to the other one,
+// by collapsing that edge. False where that is impossible.
+bool DegenerateFaces::merge(std::int32_t from, std::int32_t to) {
+  if (from == to) return false;
+  const std::vector<HalfedgeHandle> edges = edges_between(from, to);
+  if (!std::ranges::all_of(edges, [&](HalfedgeHandle h) { return can_collapse(h); })) return false;
+  merged_.push_back({from, to, edge_length(surface_, metric_, from, to)});
+  // What has been collapsed may make a later edge impossible to collapse: then its fan keeps its vertex.
+  for (const HalfedgeHandle h : edges) {
+    if (can_collapse(h)) collapse(h);
+  }
+  const std::vector<VertexHandle> fans_left = fans_of(from);
+  for (const VertexHandle fan : fans_left) {
+    const auto is_to = [&](VertexHandle neighbor) { return vertex(neighbor) == to; };
+    if (std::ranges::any_of(mesh_.vv_range(fan), is_to)) continue;
+    vertex_of_fan_[fan.idx()] = to;
+    mesh_.set_point(fan, surface_.points()[to]);
+    fans_merged_[to].push_back(fan);
+  }
+  return true;
+}
+
 // Collapses the shortest edge of a needle; false for other faces, and where that is impossible.
 bool DegenerateFaces::collapse_needle(FaceHandle f) {
   const auto by_length = [&](HalfedgeHandle a, HalfedgeHandle b) {
@@ -108,16 +205,9 @@ bool DegenerateFaces::collapse_needle(FaceHandle f) {
     mesh_.request_face_status();
     has_collapsed_ = true;
   }
-  for (const HalfedgeHandle h : {*shortest, mesh_.opposite_halfedge_handle(*shortest)}) {
-    const VertexHandle from = mesh_.from_vertex_handle(h), to = mesh_.to_vertex_handle(h);
-    // A second edge between the two would become a loop.
-    if (std::ranges::count(mesh_.vv_range(from), to) != 1 || !mesh_.is_collapse_ok(h)) continue;
-    const std::int32_t a = surface_.vertex_of_fan()[from.idx()], b = surface_.vertex_of_fan()[to.idx()];
-    merged_.push_back({a, b, edge_length(surface_, metric_, a, b)});
-    mesh_.collapse(h);
-    return true;
-  }
-  return false;
+  const HalfedgeHandle h = *shortest;
+  const std::int32_t a = vertex(mesh_.from_vertex_handle(h)), b = vertex(mesh_.to_vertex_handle(h));
+  return merge(a, b) || merge(b, a);
 }
 
 // Flips the longest edge of a cap if that leaves fewer degenerate faces, or shorter edges. Returns the face that was
@@ -137,11 +227,22 @@ FaceHandle DegenerateFaces::flip_cap(FaceHandle f) {
   const double flipped = (apex(opposite) - apex(h)).norm() * surface_.scale();
   if (is_degenerate(beyond) && !(flipped < vector(h).norm() * (1 - kEqual))) return FaceHandle();
   mesh_.flip(e);
+  if (!names_.empty()) names_[e.idx()] = same_edges_.add();
   origins_[f.idx()] = origins_[beyond.idx()];
   return beyond;
 }
 
 }  // namespace
+
+std::vector<HalfedgeHandle> half_edges_of_faces(const HalfEdgeMesh& mesh) {
+  std::vector<HalfedgeHandle> half_edges;
+  half_edges.reserve(3 * mesh.n_faces());
+  for (const FaceHandle f : mesh.faces()) {
+    const HalfedgeHandle last = mesh.halfedge_handle(f), first = mesh.next_halfedge_handle(last);
+    half_edges.insert(half_edges.end(), {first, mesh.next_halfedge_handle(first), last});
+  }
+  return half_edges;
+}
 
 std::optional<CleanMesh> remove_degenerate_faces(const Surface& surface, const Metric& metric) {
   std::vector<FaceHandle> degenerate;

@@ -14,18 +14,27 @@
 
 namespace seamwire::detail {
 
+/// OpenMesh's half-edges, but for those of deleted faces, in the order of faces, each from its first corner on, as
+/// OpenMesh lists them.
+std::vector<HalfEdgeMesh::HalfedgeHandle> half_edges_of_faces(const HalfEdgeMesh& mesh);
+
 /// A surface's half-edge mesh without those degenerate faces that could be removed.
 struct CleanMesh {
   HalfEdgeMesh mesh;
   std::vector<std::int32_t> origins;  ///< the surface's half-edge face of each face left, in the order of the faces
   /// Between vertices at one place that were merged: faces have the second one only.
   std::vector<LooseEdge> merged;
-  std::size_t removed = 0;  ///< how many fewer degenerate faces there are
+  std::vector<std::int32_t> vertex_of_fan;  ///< as Surface::vertex_of_fan(), with the second one of merged vertices
+  /// Per edge of the mesh: half-edges with equal numbers and ends are of one edge of the surface, as its siblings are,
+  /// or of two that a needle has joined. Empty if the surface has no siblings.
+  std::vector<std::int32_t> names;
+  std::vector<std::int32_t> degenerate;  ///< the origins of the degenerate faces left, ascending
 };
 
 /// Removes degenerate faces, which have no area (SurfaceReport::zero_area_faces), so no path could go across them, on a
 /// copy of the half-edge mesh: needles, whose shortest edge has no length, by collapsing that edge; caps by flipping
-/// their longest edge. Faces of which neither is possible stay. Nothing where the surface has no degenerate face.
+/// their longest edge. An edge is collapsed in all corner fans of the vertex that goes, so edges of three or more faces
+/// stay joined. Faces of which neither is possible stay. Nothing where the surface has no degenerate face.
 std::optional<CleanMesh> remove_degenerate_faces(const Surface& surface, const Metric& metric);
 
 }  // namespace seamwire::detail

@@ -9,7 +9,7 @@
 
 namespace seamwire::detail {
 
-/// A triangle's score per unit of relative error that it causes in distances on average (docs/method.md, Section 4).
+/// A triangle's score per unit of relative error that it causes in distances on average (docs/method/embedding.md).
 inline constexpr double kScorePerError = 10.0;
 
 /// How much a valid triangle adds to the error of the paths that cross it: its deviation times its size. The deviation

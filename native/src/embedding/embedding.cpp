@@ -179,15 +179,20 @@ Embedding re_embed(const Surface& surface, const Metric& former, const Metric& m
        old.mesh.face_count() + old.invalid_left >= surface.face_fans().size() + old.faces_added &&
        std::ranges::all_of(old.source_face, [&](std::int32_t f) { return f >= 0 && index(f) < faces; }));
   if (!is_of_surface) throw InvalidInput("the former embedding is of another surface");
-  EmbedOptions same_size = options;
-  if (same_size.mean_edge_length == 0) same_size.mean_edge_length = old.mean_edge_length;
+  const auto embedded_anew = [&, mean_edge_length = old.mean_edge_length] {
+    EmbedOptions same_size = options;
+    if (same_size.mean_edge_length == 0) same_size.mean_edge_length = mean_edge_length;
+    Embedding out = embed(surface, metric, same_size, task);
+    out.options = options;
+    return out;
+  };
   if (!old.is_local || options.faces || options.max_error > 0 || former.normals != metric.normals) {
-    return embed(surface, metric, same_size, task);
+    return embedded_anew();
   }
   task.check(0);
   const std::size_t most = std::min(budget(faces), options.max_faces_added);
   std::optional<Embedding> out = re_embed_locally(surface, former, metric, std::move(old), options, task, most);
-  if (!out) return embed(surface, metric, same_size, task);
+  if (!out) return embedded_anew();
   task.check(1);
   return std::move(*out);
 }

@@ -25,7 +25,7 @@ bool needs_length_repair(const BisectedMesh& mesh, const EmbedOptions& options, 
 std::size_t count_needing_repair(const BisectedMesh& mesh, const EmbedOptions& options);
 
 /// Bisects each triangle that needs it once more, at its longest edge, and clamps the lengths of the new edges so that
-/// its parts are valid: docs/method.md, Section 4, "Why it ends". Throws Cancelled.
+/// its parts are valid: docs/method/embedding.md, "Why it ends". Throws Cancelled.
 LengthRepair repair_lengths(BisectedMesh& mesh, const EmbedOptions& options, const Task& task, double progress);
 
 }  // namespace seamwire::detail

@@ -167,6 +167,16 @@ double foot(double base, double left, double right) {
 /// the number of vertices is still far below 2^128, where single precision ends.
 constexpr int kMostHopExponent = 80;
 
+/// What lengths are multiplied by to give those of hops: a power of two; 1, unless sums of them might leave the range
+/// of single precision.
+double unit_of_hops(const IntrinsicMesh& mesh) {
+  double longest = mesh.lengths.empty() ? 0.0 : *std::ranges::max_element(mesh.lengths);
+  for (const LooseEdge& edge : mesh.loose_edges) longest = std::max(longest, edge.length);
+  if (longest == 0.0) return 1.0;
+  const int exponent = std::ilogb(longest);
+  return std::abs(exponent) > kMostHopExponent ? std::ldexp(1.0, -exponent) : 1.0;
+}
+
 /// Where more than one in so many faces has changed, building anew is no slower than patching.
 constexpr std::size_t kFacesPerChange = 4;
 
@@ -202,7 +212,7 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh, const Task& task) {
   set_siblings(mesh);
   out_ = leaving(vertex_count(), corners, task);
   list_loose_edges(mesh);
-  list_hops(task);
+  list_hops(mesh, task);
   find_pseudo_sources(task);
 }
 
@@ -270,17 +280,6 @@ Csr<std::int32_t> GeodesicMesh::leaving(std::size_t vertex_count, const std::vec
   });
 }
 
-/// What lengths are multiplied by to give those of hops: a power of two; 1, unless sums of them might leave the range
-/// of single precision.
-double GeodesicMesh::unit_of_hops() const {
-  double longest = 0.0;
-  for (std::size_t h = 0; h < half_edges_.size(); ++h) longest = std::max(longest, half_edges_[h].length);
-  for (const Loose& edge : loose_.items()) longest = std::max(longest, edge.length);
-  if (longest == 0.0) return 1.0;
-  const int exponent = std::ilogb(longest);
-  return std::abs(exponent) > kMostHopExponent ? std::ldexp(1.0, -exponent) : 1.0;
-}
-
 /// Calls add(to, length) for each hop from a vertex.
 template <class Add>
 void GeodesicMesh::each_hop(std::int32_t vertex, const Add& add) const {
@@ -313,9 +312,9 @@ void GeodesicMesh::each_hop(std::int32_t vertex, const Add& add) const {
   for (const auto& [to, length] : loose(vertex)) add(to, length);
 }
 
-void GeodesicMesh::list_hops(const Task& task) {
+void GeodesicMesh::list_hops(const IntrinsicMesh& mesh, const Task& task) {
   hops_.reserve(vertex_count(), 2 * half_edges_.size() + loose_.items().size());
-  hop_unit_ = unit_of_hops();
+  hop_unit_ = unit_of_hops(mesh);
   const auto add = [&](std::int32_t to, double length) { hops_.push({to, static_cast<float>(length * hop_unit_)}); };
   const Poll poll(task, 0.7, 0.9, vertex_count());
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(vertex_count()); ++v) {

@@ -130,10 +130,9 @@ class GeodesicMesh {
                                    const Task& task = {});
   void set_face(const IntrinsicMesh& mesh, std::int32_t external);
   void list_loose_edges(const IntrinsicMesh& mesh);
-  double unit_of_hops() const;
   template <class Add>
   void each_hop(std::int32_t vertex, const Add& add) const;
-  void list_hops(const Task& task);
+  void list_hops(const IntrinsicMesh& mesh, const Task& task);
   /// Finds the mean and the longest of all hops.
   void measure_hops();
   void patch_rows(const GeodesicMesh& former, const std::vector<std::int32_t>& faces,

@@ -44,7 +44,7 @@ void check_end(const Surface* surface, const SurfaceContext& context, Along alon
                const std::string& what) {
   if (const auto* pick = std::get_if<Pick>(&end)) return check_pick(surface, context.vertex_count(), along, *pick);
   if (along == Along::kEdges) {
-    throw InvalidInput(what + ": along edges wires lead from vertices and edges, not from other points");
+    throw InvalidInput(what + ": along edges, wires connect vertices and edges, not points in faces");
   }
   const auto& point = std::get<SurfacePoint>(end);
   check_index(point.face, context.face_count(), what + ": face", "faces");

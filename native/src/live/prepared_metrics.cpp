@@ -37,6 +37,8 @@ MetricSet::MetricSet(LiveMetrics of, std::vector<Scribble> after)
     : metrics(std::move(of)), scribbles(std::move(after)), fractions(count()), former_(count()) {
   prepared.reserve(count());
   for (std::size_t i = 0; i < count(); ++i) prepared.push_back(std::make_shared<ComputedOnce<Prepared>>());
+  for (std::shared_ptr<std::atomic<double>>& fraction : fractions)
+    fraction = std::make_shared<std::atomic<double>>(0.0);
 }
 
 MetricSet::MetricSet(LiveMetrics of, std::vector<Scribble> after, const MetricSet& former)
@@ -49,7 +51,10 @@ MetricSet::MetricSet(LiveMetrics of, std::vector<Scribble> after, const MetricSe
     // In this order: what is former is forgotten only when the metric is prepared.
     std::shared_ptr<const Prepared> from = former.former(at);
     if (std::shared_ptr<const Prepared> made = former.peek(at)) from = std::move(made);
-    if (are_same_for(spec.kind(), scribbles, former.scribbles)) prepared[i] = former.prepared[at];
+    if (are_same_for(spec.kind(), scribbles, former.scribbles)) {
+      prepared[i] = former.prepared[at];
+      fractions[i] = former.fractions[at];
+    }
     const MutexLock lock(mutex_);
     former_[i] = std::move(from);
   }
@@ -65,7 +70,7 @@ std::shared_ptr<const Prepared> MetricSet::peek(std::size_t metric) const {
 }
 
 double MetricSet::fraction(std::size_t metric) const {
-  return metric < count() ? std::clamp(fractions[metric].load(), 0.0, 1.0) : 0.0;
+  return metric < count() ? std::clamp(fractions[metric]->load(), 0.0, 1.0) : 0.0;
 }
 
 bool MetricSet::shares(const MetricSet& other, std::size_t metric) const {
@@ -89,7 +94,7 @@ Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics,
   const bool on_surface = along == Along::kSurface;
   const Task silent{.stop = stop, .progress = {}};
   const std::shared_ptr<const Surface> surface = context.surface(silent);
-  std::atomic<double>& fraction = metrics.fractions[which];
+  std::atomic<double>& fraction = *metrics.fractions[which];
   Prepared prepared{
       .spec = spec, .surface = surface, .embedded = std::nullopt, .snap_graph = nullptr, .graph = nullptr};
   std::shared_ptr<const EdgeAdjacency> adjacency;

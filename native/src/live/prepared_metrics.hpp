@@ -57,7 +57,7 @@ class MetricSet {
   const LiveMetrics metrics;
   const std::vector<Scribble> scribbles;
   std::vector<std::shared_ptr<ComputedOnce<Prepared>>> prepared;
-  std::vector<std::atomic<double>> fractions;  // of the preparation
+  std::vector<std::shared_ptr<std::atomic<double>>> fractions;  // of the preparation, shared as it is
 
  private:
   mutable Mutex mutex_;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "context/interactive_embedding.hpp"
+#include "detail/poll.hpp"
 #include "detail/run_on_threads.hpp"
 #include "seamwire/geodesics/corridor_paths.hpp"
 #include "seamwire/wires/snap.hpp"
@@ -16,15 +17,11 @@ namespace seamwire::detail {
 CandidateWires::CandidateWires(const SurfaceContext& context, const Strength& strength, const Task& task)
     : context_(context) {
   constexpr double kEmbeddingBegins = 0.2;
-  const auto part = [&task](double begin, double end) {
-    return Task{.stop = task.stop, .progress = [&task, begin, end](double done) {
-                  return !task.progress || task.progress(begin + (end - begin) * done);
-                }};
-  };
-  context_.curvature(part(0.0, kEmbeddingBegins));  // both metrics need it
+  context_.curvature(part_of(task, 0.0, kEmbeddingBegins));  // both metrics need it
   std::array<std::atomic<double>, 2> fractions = {};
   run_on_threads(
-      metrics_.size(), part(kEmbeddingBegins, 1.0), [&](std::size_t) { return 0.5 * (fractions[0] + fractions[1]); },
+      metrics_.size(), part_of(task, kEmbeddingBegins, 1.0),
+      [&](std::size_t) { return 0.5 * (fractions[0] + fractions[1]); },
       [&](std::size_t i, const Task& own) {
         const Task embedding{.stop = own.stop, .progress = [&, i](double done) {
                                fractions[i] = done;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
 #include "seams/carried_slits.hpp"
 #include "seams/neck_rings.hpp"
 #include "seams/planned_wires.hpp"
@@ -238,9 +239,10 @@ SeamPlanner::SeamPlanner(std::shared_ptr<const Surface> surface, const SeamPlann
     : SeamPlanner(SurfaceContext(std::move(surface)), options, task) {}
 
 SeamPlanner::SeamPlanner(const SurfaceContext& context, const SeamPlannerOptions& options, const Task& task) {
-  auto impl = std::make_shared<Impl>(context, options, task);
+  const RisingProgress rising(task);
+  auto impl = std::make_shared<Impl>(context, options, rising.task());
   check_options(*impl->surface, options);
-  impl->prepare(task);
+  impl->prepare(rising.task());
   impl_ = std::move(impl);
 }
 
@@ -346,7 +348,8 @@ SeamPlan SeamPlanner::plan(const SeamGoal& goal, const std::function<void(const 
   if (!(goal.distortion > 4.0)) {
     throw InvalidInput("distortion is " + std::to_string(goal.distortion) + ", not above 4, that of an isometry");
   }
-  return Planning(*impl_, goal, found, task).run();
+  const RisingProgress rising(task);  // each round of the search counts from 0
+  return Planning(*impl_, goal, found, rising.task()).run();
 }
 
 }  // namespace seamwire

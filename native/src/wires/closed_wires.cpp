@@ -74,6 +74,13 @@ struct CutEdge {
   bool separates;
 };
 
+/// An edge that is not in the tree of the vertices, and the faces at it. It closes a loop of that tree.
+struct Closing {
+  std::uint64_t key;  // the longest first
+  std::int32_t half_edge;
+  std::int32_t a, b;
+};
+
 class CutLocus {
  public:
   CutLocus(const Surface& surface, const Embedding& embedding, const DistanceField& field, const Task& task)
@@ -95,6 +102,9 @@ class CutLocus {
 
   Vector normal_at(const SurfacePoint& seed) const;
   double distance(std::int32_t vertex) const { return field_.distances()[vertex]; }
+  double length_over(std::int32_t half_edge) const;
+  template <class FaceOf>
+  std::vector<Closing> closing_edges(const MeshEdges& edges, const FaceOf& face_of) const;
   std::vector<CutEdge> find() const;
   Vector span(std::int32_t face) const;
   std::vector<Vector> line(const IntrinsicPath& path) const;
@@ -171,105 +181,143 @@ DisjointSets joined_over_siblings(const IntrinsicMesh& mesh, std::size_t count) 
 /// The tree of the faces joins the faces of each part over edges that are not in the tree of the vertices. It is the
 /// spanning tree whose L are largest. Each of its edges, and each edge that is in neither tree, closes a loop of the
 /// tree of the vertices. The faces on one side of that loop are those below the edge in the tree of the faces. If an
-/// edge of neither tree leads from one side to the other, the loop does not separate. No loop closes over an edge with
-/// siblings, and faces at such an edge count as one; loop() finds out whether what it offers does separate.
-std::vector<CutEdge> CutLocus::find() const {
-  const MeshEdges edges(mesh_, task_);
-  const std::vector<std::uint8_t> is_in_tree = vertex_tree(mesh_, edges, field_.distances(), task_);
+/// edge of neither tree leads from one side to the other, the loop does not separate.
+class FaceTree {
+ public:
+  /// The edges must be sorted by their keys, and outlive the tree. Areas are those of the faces.
+  FaceTree(const std::vector<double>& areas, const std::vector<Closing>& closing);
 
-  struct Side {
-    std::int32_t a, b;
+  /// Calls visit(i, separates) for each edge i that closes a loop with enough area on both sides, or a loop that does
+  /// not separate.
+  template <class Visit>
+  void for_each_loop(const Visit& visit);
+
+ private:
+  // Edges of the tree are found from its leaves on: a leaf has one, the sum (bit by bit) of all its edges.
+  struct Face {
+    double area = 0.0;
+    std::uint64_t crossing = 0;
+    std::int32_t degree = 0, edges = 0;
   };
-  struct Closing {
-    std::uint64_t key;  // the longest first
-    std::int32_t half_edge;
-    Side faces;
+  struct Cut {
+    std::int32_t edge, hanging;
   };
+  std::vector<Cut> take_leaves();
+  std::vector<double> whole_areas();
+
+  const std::vector<Closing>& closing_;
+  std::vector<Face> faces_;
+  DisjointSets parts_;
+  std::vector<std::int32_t> left_over_;
+};
+
+FaceTree::FaceTree(const std::vector<double>& areas, const std::vector<Closing>& closing)
+    : closing_(closing), faces_(areas.size()), parts_(areas.size()) {
+  for (std::size_t f = 0; f < areas.size(); ++f) faces_[f].area = areas[f];
+  for (std::size_t i = 0; i < closing.size(); ++i) {
+    const std::int32_t a = closing[i].a, b = closing[i].b;
+    const auto number = static_cast<std::int32_t>(i);
+    if (parts_.join(a, b)) {
+      for (const std::int32_t f : {a, b}) {
+        ++faces_[f].degree;
+        faces_[f].edges ^= number;
+      }
+    } else {
+      left_over_.push_back(number);
+      const std::uint64_t hash = scattered(i);
+      faces_[a].crossing ^= hash;
+      faces_[b].crossing ^= hash;
+    }
+  }
+}
+
+/// The edges of the tree, each with the face that hangs on it. Faces then have the areas of all below them.
+std::vector<FaceTree::Cut> FaceTree::take_leaves() {
+  std::vector<Cut> cuts;
+  cuts.reserve(faces_.size());
+  for (std::int32_t leaf = 0; index(leaf) < faces_.size(); ++leaf) {
+    for (std::int32_t f = leaf; faces_[f].degree == 1;) {
+      const std::int32_t edge = faces_[f].edges;
+      const std::int32_t other = closing_[edge].a == f ? closing_[edge].b : closing_[edge].a;
+      cuts.push_back({edge, f});
+      faces_[f].degree = 0;
+      --faces_[other].degree;
+      faces_[other].edges ^= edge;
+      faces_[other].area += faces_[f].area;
+      faces_[other].crossing ^= faces_[f].crossing;
+      f = other;
+    }
+  }
+  return cuts;
+}
+
+/// For each part: what is left of it is a face that has the area of all.
+std::vector<double> FaceTree::whole_areas() {
+  std::vector<double> whole(faces_.size(), 0.0);
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    double& of = whole[parts_.find(static_cast<std::int32_t>(f))];
+    of = std::max(of, faces_[f].area);
+  }
+  return whole;
+}
+
+template <class Visit>
+void FaceTree::for_each_loop(const Visit& visit) {
+  const std::vector<Cut> cuts = take_leaves();
+  const std::vector<double> whole = whole_areas();
+  for (const auto& [edge, hanging] : cuts) {
+    const bool separates = faces_[hanging].crossing == 0;
+    const double all = whole[parts_.find(hanging)], side = std::min(faces_[hanging].area, all - faces_[hanging].area);
+    if (!separates || side >= kLeastArea * all) visit(edge, separates);
+  }
+  for (const std::int32_t edge : left_over_) visit(edge, false);
+}
+
+double CutLocus::length_over(std::int32_t half_edge) const {
+  return distance(mesh_.tail(half_edge)) + distance(mesh_.tip(half_edge)) + mesh_.lengths[half_edge];
+}
+
+/// The edges that close loops, the longest first. `face_of` names the one that a face counts as.
+template <class FaceOf>
+std::vector<Closing> CutLocus::closing_edges(const MeshEdges& edges, const FaceOf& face_of) const {
+  const std::vector<std::uint8_t> is_in_tree = vertex_tree(mesh_, edges, field_.distances(), task_);
   std::vector<Closing> closing;
   closing.reserve(edges.count());
-  DisjointSets joined = joined_over_siblings(mesh_, edges.face_count + edges.hole_count);
-  const auto one_of = [&](std::int32_t face) { return mesh_.siblings.empty() ? face : joined.find(face); };
   std::size_t holes_seen = 0;
   for (std::size_t e = 0; e < edges.count(); ++e) {
     const std::int32_t h = edges.half_edges[e], twin = mesh_.twins[h];
     if (mesh_.has_siblings(h)) continue;
     const std::int32_t other = twin < 0 ? edges.holes[holes_seen++] : twin / 3;
     if (is_in_tree[e] != 0) continue;
-    const double length = distance(mesh_.tail(h)) + distance(mesh_.tip(h)) + mesh_.lengths[h];
     // Numbers that are not negative are ordered as their bits are. Half of them is more than enough.
-    const std::uint64_t bits = std::bit_cast<std::uint64_t>(length) >> 32U;
-    closing.push_back({(~bits << 32U) | e, h, {one_of(h / 3), one_of(other)}});
+    const std::uint64_t bits = std::bit_cast<std::uint64_t>(length_over(h)) >> 32U;
+    closing.push_back({(~bits << 32U) | e, h, face_of(h / 3), face_of(other)});
   }
   task_.check(0.3);
   std::ranges::sort(closing, {}, &Closing::key);
+  return closing;
+}
+
+/// The loops that the edges of neither tree, and those of the tree of the faces, close. No loop closes over an edge
+/// with siblings, and faces at such an edge count as one; loop() finds out whether what it offers does separate.
+std::vector<CutEdge> CutLocus::find() const {
+  const MeshEdges edges(mesh_, task_);
+  const std::size_t face_count = edges.face_count + edges.hole_count;
+  DisjointSets joined = joined_over_siblings(mesh_, face_count);
+  const auto face_of = [&](std::int32_t face) { return mesh_.siblings.empty() ? face : joined.find(face); };
+  const std::vector<Closing> closing = closing_edges(edges, face_of);
   task_.check(0.45);
-
-  // Edges of the tree of the faces are found from its leaves on: a leaf has one, the sum (bit by bit) of all its edges.
-  struct Face {
-    double area = 0.0;
-    std::uint64_t crossing = 0;
-    std::int32_t degree = 0, edges = 0;
-  };
-  std::vector<Face> faces(edges.face_count + edges.hole_count);
-  for (std::int32_t f = 0; index(f) < edges.face_count; ++f) faces[one_of(f)].area += span(f).norm();
-  DisjointSets parts(faces.size());
-  std::vector<std::int32_t> left_over;
-  for (std::size_t i = 0; i < closing.size(); ++i) {
-    const auto [a, b] = closing[i].faces;
-    const auto number = static_cast<std::int32_t>(i);
-    if (parts.join(a, b)) {
-      for (const std::int32_t f : {a, b}) {
-        ++faces[f].degree;
-        faces[f].edges ^= number;
-      }
-    } else {
-      left_over.push_back(number);
-      const std::uint64_t hash = scattered(i);
-      faces[a].crossing ^= hash;
-      faces[b].crossing ^= hash;
-    }
-  }
+  std::vector<double> areas(face_count, 0.0);
+  for (std::int32_t f = 0; index(f) < edges.face_count; ++f) areas[face_of(f)] += span(f).norm();
+  FaceTree tree(areas, closing);
   task_.check(0.55);
-
-  struct Cut {
-    std::int32_t edge, hanging;
-  };
-  std::vector<Cut> cuts;
-  cuts.reserve(faces.size());
-  for (std::int32_t leaf = 0; index(leaf) < faces.size(); ++leaf) {
-    for (std::int32_t f = leaf; faces[f].degree == 1;) {
-      const std::int32_t edge = faces[f].edges;
-      const auto [a, b] = closing[edge].faces;
-      const std::int32_t other = a == f ? b : a;
-      cuts.push_back({edge, f});
-      faces[f].degree = 0;
-      --faces[other].degree;
-      faces[other].edges ^= edge;
-      faces[other].area += faces[f].area;
-      faces[other].crossing ^= faces[f].crossing;
-      f = other;
-    }
-  }
-  // What is left of each part is a face that has the area of all.
-  std::vector<double> whole(faces.size(), 0.0);
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    double& of = whole[parts.find(static_cast<std::int32_t>(f))];
-    of = std::max(of, faces[f].area);
-  }
-  task_.check(0.6);
-
   std::vector<CutEdge> found;
-  const auto add = [&](std::int32_t edge, bool separates) {
-    const std::int32_t h = closing[edge].half_edge;
-    const double length = distance(mesh_.tail(h)) + distance(mesh_.tip(h)) + mesh_.lengths[h];
+  tree.for_each_loop([&](std::int32_t i, bool separates) {
+    const std::int32_t h = closing[i].half_edge;
+    const double length = length_over(h);
     if (std::isfinite(length)) found.push_back({h, length, separates});
-  };
-  for (const auto& [edge, hanging] : cuts) {
-    const bool separates = faces[hanging].crossing == 0;
-    const double all = whole[parts.find(hanging)], side = std::min(faces[hanging].area, all - faces[hanging].area);
-    if (!separates || side >= kLeastArea * all) add(edge, separates);
-  }
-  for (const std::int32_t edge : left_over) add(edge, false);
+  });
+  task_.check(0.6);
   return found;
 }
 
@@ -513,7 +561,8 @@ std::vector<ClosedWire> closed_wires(const Surface& surface, const Embedding& em
     throw InvalidInput("closed wires lead through one seed: the field has " + std::to_string(field.sources().size()));
   }
   if (count == 0) return {};
-  std::vector<ClosedWire> best = CutLocus(surface, embedding, field, task).best(count);
+  const RisingProgress rising(task);
+  std::vector<ClosedWire> best = CutLocus(surface, embedding, field, rising.task()).best(count);
   for (ClosedWire& cut : best) cut.mesh = field.mesh();
   return best;
 }

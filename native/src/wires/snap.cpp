@@ -172,7 +172,7 @@ class Band {
   std::size_t widened_ = 0;  // edges whose surroundings are there
 };
 
-/// What a turn costs in 1 - its cosine and in the lengths of the edges on both sides of it: see docs/method.md.
+/// What a turn costs in 1 - its cosine and in the lengths of the edges on both sides of it: see docs/method/wires.md.
 constexpr double kTurning = 0.5;
 
 /// Dijkstra's algorithm over the directed edges of a band, since a turn belongs to two edges.

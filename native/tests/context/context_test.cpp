@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -304,6 +305,27 @@ TEST(EmbeddedSurface, InAnotherMetricIsTheOneMadeAnew) {
   EXPECT_FALSE(changed.spec());
   EXPECT_EQ(changed.embedding().mesh.face_count(), fresh.embedding().mesh.face_count());
   EXPECT_NEAR(changed.field(0).distances().distances()[333], fresh.field(0).distances().distances()[333], 1e-12);
+}
+
+TEST(EmbeddedSurface, OfAnExistingEmbeddingKeepsItsOptions) {
+  const auto surface = bumpy_torus();
+  const SurfaceContext context(surface);
+  const auto metric =
+      std::make_shared<const Metric>(make_metric(context, MetricSpec::feature(Follow::kMin, {.max_anisotropy = 20.0})));
+  Scribble stroke{.points = {surface->points()[7], surface->points()[8]}, .faces = {}, .vertices = {7, 8}, .rings = 3};
+  const auto drawn = std::make_shared<const Metric>(apply_scribbles(*surface, *metric, std::vector{stroke}));
+  std::vector<std::int32_t> half(surface->face_count() / 2);
+  std::iota(half.begin(), half.end(), 0);
+  for (const EmbedOptions& options :
+       {EmbedOptions{.max_error = 0.02}, EmbedOptions{.faces = half}, EmbedOptions{.max_faces_added = 7}}) {
+    const EmbeddedSurface made(context, metric, options);
+    EXPECT_EQ(made.embedding().options, options);
+    const EmbeddedSurface given(context, metric, Embedding(made.embedding()));
+    const EmbeddedSurface expected = made.with_metric(drawn), again = given.with_metric(drawn);
+    EXPECT_EQ(again.embedding().options, options);
+    EXPECT_EQ(again.embedding().mesh.triangles, expected.embedding().mesh.triangles);
+    EXPECT_EQ(again.embedding().mesh.lengths, expected.embedding().mesh.lengths);
+  }
 }
 
 TEST(EmbeddedSurface, RefusesWhatIsNotPartOfIt) {

@@ -379,6 +379,33 @@ TEST(Embed, MergesVerticesAtTheSamePlace) {
   expect_sound(surface, embedding);
 }
 
+TEST(Embed, CountsOnlyFacesWithoutAnAreaThatItIsAskedFor) {
+  // Two squares with a needle between their triangles, and a triangle between the squares.
+  Mesh mesh;
+  for (std::int32_t i = 0; i < 2; ++i) {
+    const std::int32_t first = 5 * i;
+    const double x = 2 * i;
+    mesh.points.insert(mesh.points.end(), {{x, 0, 0}, {x + 1, 0, 0}, {x + 1, 1, 0}, {x, 1, 0}, {x, 0, 0}});
+    mesh.triangles.insert(
+        mesh.triangles.end(),
+        {{first, first + 1, first + 2}, {first, first + 2, first + 4}, {first + 4, first + 2, first + 3}});
+  }
+  mesh.triangles.push_back({1, 5, 2});
+  const Surface surface = mesh.surface();
+  ASSERT_EQ(surface.report().zero_area_faces, (std::vector<std::int32_t>{1, 4}));
+  const auto invalid = [&](const std::vector<std::int32_t>& faces) {
+    const Embedding embedding = embed(surface, identity_metric(surface), {.faces = faces});
+    EXPECT_EQ(embedding.invalid_left, 0U);
+    return embedding.invalid_before;
+  };
+  EXPECT_EQ(embed(surface, identity_metric(surface)).invalid_before, 2U);
+  EXPECT_EQ(invalid({0, 1, 2, 3, 4, 5, 6}), 2U);
+  EXPECT_EQ(invalid({0, 1, 2}), 1U);
+  EXPECT_EQ(invalid({1, 6}), 1U);
+  EXPECT_EQ(invalid({3, 5, 6}), 0U);
+  EXPECT_EQ(invalid({1, 4}), 2U);
+}
+
 TEST(Embed, MendsManyFacesWithoutAnAreaAtOnce) {
   // A row of vertices on the long edge of one triangle, joined to it by a fan without an area, with faces below.
   Mesh mesh;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "detail/disjoint_sets.hpp"
+#include "embeddings.hpp"
 #include "inserted_point.hpp"
 #include "intrinsic.hpp"
 #include "paths.hpp"
@@ -140,6 +141,94 @@ TEST(TriangleComplexes, PathsOverTheSpineOfABookAreStraightLines) {
         EXPECT_NEAR(paths::length_of(mesh, field.trace(point)), expected, 1e-11);
       }
     }
+  }
+}
+
+/// Splits a vertex on the spine into two at one place, with a needle in each page between the faces below and above.
+void split_in_all_pages(Book& book, std::int32_t vertex) {
+  const auto added = static_cast<std::int32_t>(book.places.size());
+  const Book::Place place = book.places[index(vertex)];
+  book.mesh.points.push_back(book.mesh.points[index(vertex)]);
+  book.places.push_back(place);
+  std::map<std::int32_t, int> below_or_above;  // of a face at the vertex each other corner; a corner of both: 3
+  for (Triangle& triangle : book.mesh.triangles) {
+    const auto corner = std::ranges::find(triangle, vertex);
+    if (corner == triangle.end()) continue;
+    double y = 0.0;
+    for (const std::int32_t v : triangle) y += book.places[index(v)].y / 3.0;
+    for (const std::int32_t v : triangle) below_or_above[v] |= y > place.y ? 1 : 2;
+    if (y > place.y) *corner = added;
+  }
+  for (const auto& [other, sides] : below_or_above) {
+    if (other != vertex && sides == 3) book.mesh.triangles.push_back({vertex, other, added});
+  }
+}
+
+/// Gives one face at the spine another vertex at the place of one on the spine, with a needle on each side.
+void split_in_one_face(Book& book, std::size_t face) {
+  Triangle& triangle = book.mesh.triangles[face];
+  std::ranges::sort(triangle, {}, [&](std::int32_t v) { return book.places[index(v)].x; });
+  const auto [vertex, other, apex] = triangle;
+  ASSERT_TRUE(book.places[index(other)].page < 0 && book.places[index(apex)].page >= 0);
+  const auto added = static_cast<std::int32_t>(book.places.size());
+  book.mesh.points.push_back(book.mesh.points[index(vertex)]);
+  book.places.push_back(Book::Place(book.places[index(vertex)]));
+  triangle[0] = added;
+  book.mesh.triangles.push_back({vertex, added, other});
+  book.mesh.triangles.push_back({apex, vertex, added});
+}
+
+/// Which vertices and faces there are with needles: all of them are removed, and all distances stay.
+void expect_no_needle_matters(const Book& book, std::size_t needles) {
+  const Surface surface = book.mesh.surface();
+  ASSERT_EQ(surface.report().zero_area_faces.size(), needles);
+  ASSERT_FALSE(surface.report().nonmanifold_edges.empty());
+  const Embedding embedding = embed(surface, embeddings::identity_metric(surface));
+  ASSERT_EQ(embedding.invalid_left, 0U);
+  EXPECT_EQ(embedding.invalid_before, needles);
+  EXPECT_EQ(embedding.mesh.face_count(), book.mesh.triangles.size() - needles);
+  const ExactGeodesics geodesics(embedding.mesh);
+  for (std::int32_t seed = 0; seed < embedding.mesh.vertex_count; seed += 7) {
+    const DistanceField field = geodesics.solve(seed);
+    for (std::int32_t v = 0; v < embedding.mesh.vertex_count; ++v) {
+      const double expected = book.distance(SurfacePoint::at_vertex(seed), SurfacePoint::at_vertex(v));
+      ASSERT_NEAR(field.distances()[index(v)] / surface.scale(), expected, kExact) << seed << " to " << v;
+    }
+  }
+}
+
+TEST(TriangleComplexes, NeedlesInAllPagesOpenNoSpine) {
+  for (const int pages : {3, 4, 5}) {
+    Book book(pages, 4, 0.3);
+    const std::vector<Book::Place> places = book.places;
+    std::size_t splits = 0;
+    for (std::int32_t v = 0; index(v) < places.size(); ++v) {
+      if (places[index(v)].page >= 0 || places[index(v)].y == 0.0 || places[index(v)].y == 2.0) continue;
+      split_in_all_pages(book, v);
+      ++splits;
+      turn_some_faces(book.mesh, static_cast<unsigned>(v));
+      SCOPED_TRACE(std::to_string(pages) + " pages, " + std::to_string(splits) + " vertices");
+      expect_no_needle_matters(book, splits * static_cast<std::size_t>(pages));
+    }
+    EXPECT_EQ(splits, 7U);
+  }
+}
+
+TEST(TriangleComplexes, NeedlesInOnePageOpenNoSpine) {
+  for (const int pages : {3, 4}) {
+    Book book(pages, 4, 0.3);
+    const std::size_t faces = book.mesh.triangles.size();
+    std::size_t splits = 0;
+    for (std::size_t f = 0; f < faces; ++f) {
+      const auto is_on_spine = [&](std::int32_t v) { return book.places[index(v)].page < 0; };
+      if (std::ranges::count_if(book.mesh.triangles[f], is_on_spine) != 2) continue;
+      split_in_one_face(book, f);
+      ++splits;
+      turn_some_faces(book.mesh, static_cast<unsigned>(f));
+      SCOPED_TRACE(std::to_string(pages) + " pages, " + std::to_string(splits) + " faces");
+      expect_no_needle_matters(book, 2 * splits);
+    }
+    EXPECT_EQ(splits, 8U * static_cast<std::size_t>(pages));
   }
 }
 

@@ -3,6 +3,7 @@
 // Who calls Task::progress, and what becomes of an exception that it throws.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <stdexcept>
@@ -35,14 +36,27 @@ std::vector<Work> all_work() {
   const SurfaceContext context(surface);
   const auto metric = std::make_shared<const Metric>(make_metric(context, MetricSpec::concave()));
   const EmbeddedSurface embedded(context, metric);
+  shapes::Mesh with_fin = mesh;  // one more triangle at an edge
+  with_fin.points.push_back(1.3 * mesh.points[0]);
+  with_fin.triangles.push_back({0, 1, static_cast<std::int32_t>(mesh.points.size())});
+  const SurfaceContext complex(std::make_shared<const Surface>(with_fin.points, with_fin.triangles));
+  const EmbeddedSurface embedded_complex(complex, MetricSpec::euclidean());
   return {
       {"Surface", [=](const Task& task) { Surface(mesh.points, mesh.triangles, std::nullopt, task); }},
       {"SurfaceContext",
        [=](const Task& task) { SurfaceContext(mesh.points, mesh.triangles).smoothed_curvature(task); }},
+      {"SurfaceContext's snap graph",
+       [=](const Task& task) { SurfaceContext(mesh.points, mesh.triangles).snap_graph(task); }},
+      {"make_metric on a new surface",
+       [=](const Task& task) {
+         make_metric(SurfaceContext(mesh.points, mesh.triangles), MetricSpec::concave(), task);
+       }},
       {"make_metric", [=](const Task& task) { make_metric(context, MetricSpec::concave(), task); }},
       {"EmbeddedSurface", [=](const Task& task) { EmbeddedSurface(context, metric, {}, task); }},
       {"its field", [=](const Task& task) { embedded.field(0, task); }},
       {"its closed wires", [=](const Task& task) { embedded.field(0).closed_wires(3, task); }},
+      {"closed wires over an edge of three faces",
+       [=](const Task& task) { embedded_complex.field(300).closed_wires(3, task); }},
       {"EdgeWires", [=](const Task& task) { edge_wires(make_edge_graph(*surface, *metric), {0}, 3.0, false, task); }},
       {"flatten", [=](const Task& task) { flatten(*surface, {}, {}, task); }},
       {"SeamPlanner", [=](const Task& task) { SeamPlanner(context, {}, task); }},
@@ -70,6 +84,18 @@ TEST(Progress, IsReportedOnTheThreadThatCalls) {
             return true;
           }});
     EXPECT_GT(calls, 0);
+  }
+}
+
+TEST(Progress, NeverFalls) {
+  for (const auto& [name, work] : all_work()) {
+    SCOPED_TRACE(name);
+    double most = 0.0;
+    work({.stop = {}, .progress = [&](double fraction) {
+            EXPECT_GE(fraction, most);
+            most = std::max(most, fraction);
+            return true;
+          }});
   }
 }
 

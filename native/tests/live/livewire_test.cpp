@@ -220,6 +220,35 @@ TEST(LiveWire, FromPointsOfFacesGivesTheGeodesicsBetweenThem) {
   expect_equal(live.wires({100}), fresh_wires(surface, kPlain, {7}, {100}));
 }
 
+TEST(LiveWire, AlongEdgesAPointAtAVertexIsThatVertex) {
+  const auto surface = shared(shapes::torus(8, 6));
+  LiveWire live(surface, kAlongEdges);
+  live.seed_at(SurfacePoint::at_vertex(3));
+  ASSERT_TRUE(live.wait());
+  const LiveWires there = live.wires_to(SurfacePoint::at_vertex(20));
+  ASSERT_FALSE(there.wires[0].vertices.empty());
+  EXPECT_EQ(there.wires[0].vertices.front(), 3);
+  EXPECT_EQ(there.wires[0].vertices.back(), 20);
+  expect_equal(there, fresh_wires(surface, kAlongEdges, {3}, {20}));
+  EXPECT_THROW(live.seed_at(SurfacePoint::at_vertex(48)), InvalidInput);
+  EXPECT_THROW(live.wires_to(SurfacePoint::at_vertex(48)), InvalidInput);
+  EXPECT_THROW(live.wires_to({.face = 3, .barycentric = {1.0, 0.0, 0.0}}), InvalidInput);
+}
+
+TEST(LiveWire, MetricsThatStayKeepTheirProgress) {
+  const std::vector<MetricSpec> specs{MetricSpec::euclidean(), MetricSpec::concave()};
+  const MetricSet former({.wires = specs}, {});
+  *former.fractions[0] = 0.25;
+  *former.fractions[1] = 0.75;
+  const MetricSet later({.wires = {specs[1], MetricSpec::feature(Follow::kMin, {.parameter = 0.1}), specs[0]}}, {},
+                        former);
+  EXPECT_EQ(later.fraction(0), 0.75);
+  EXPECT_EQ(later.fraction(1), 0.0);
+  EXPECT_EQ(later.fraction(2), 0.25);
+  *later.fractions[0] = 0.875;
+  EXPECT_EQ(former.fraction(1), 0.875) << "the work is that of both";
+}
+
 TEST(LiveWire, PointsThatAreNoneAreRefused) {
   const auto surface = shared(shapes::torus(8, 6));  // 96 triangles
   LiveWire live(surface, kPlain), along_edges(surface, kAlongEdges);

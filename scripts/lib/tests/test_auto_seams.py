@@ -13,7 +13,17 @@ from numpy.typing import NDArray
 
 sys.path.insert(0, str(Path(__file__).parents[3] / "native/bench"))
 from auto_seams import maps_of
-from auto_seams_report import Result, comparison_table, goal_table, median_table, model_table, with_tables
+from auto_seams_report import (
+    COLUMNS,
+    SECTIONS,
+    Result,
+    comparison_table,
+    goal_table,
+    median_table,
+    model_table,
+    tables_on,
+    with_tables,
+)
 from seam_planning import artist_map, in_own_process, peak_memory, planned_maps
 from uv_maps import Frame, Model, UvMap, read_frames
 from uv_measures import Measures, Reference, front_views, measure, symmetric_dirichlet_energy
@@ -304,17 +314,39 @@ def test_tables_compare_models_that_both_methods_have() -> None:
     assert "| loose ends, more than the artist | <= 0 | - | 0 of 0 | - |" in lines
     assert "| 4,000 to 14,000 triangles: seconds to the end | <= 10 | 3.00 | 1 of 1 | yes |" in lines
     assert "| on sharp edges, hard surface | >= 0.6 | - | 0 of 0 | - |" in lines
-    assert model_table(results, "ours").splitlines()[2].startswith("| a | 9000 | 1 | 0.25 | 4.00 |")
+    assert model_table(results, "ours", "length").splitlines()[2].startswith("| a | 9000 | 1 | 0.25 | 4.00 |")
     missed = [Result("a", "ours 4.1", 9000, False, short, {"bound": 3.9}), *results[2:]]
     assert "| seam at E_d 4.1 / OptCuts | <= 0.9 | inf | 0 of 1 | no |" in goal_table(missed).splitlines()
-    assert comparison_table(results).splitlines()[-1] == "| b | - | - | 0.25 (4.00) |"
-    assert median_table(results).splitlines()[-1].startswith("| optcuts | 2 | 1.0 | 0.44 |")
+    assert comparison_table(results, "programs").splitlines()[-1] == "| b | - | - | 0.25 (4.00) |"
+    assert median_table(results, "length").splitlines()[-1].startswith("| optcuts | 2 | 1.0 | 0.44 |")
+
+
+def test_the_former_planner_has_separate_tables() -> None:
+    model = model_of(*grid(8, 8))
+    measures = measured(model, slit_map(model, [4 * 9 + x for x in range(4)]))
+    results = [Result("a", method, 9000, False, measures, {}) for method in ("ours", "before", "before stretch")]
+    for section in SECTIONS:
+        present, former = (median_table(results, section, former=former).splitlines() for former in (False, True))
+        assert [line.split(" | ")[0] for line in present[2:]] == ["| ours"]
+        assert [line.split(" | ")[0] for line in former[2:]] == ["| before", "| before stretch"]
+        assert present[0] == former[0]
+
+
+def test_every_column_is_in_one_section_and_no_table_has_more_than_seven() -> None:
+    assert sorted(title for titles in SECTIONS.values() for title in titles) == sorted(c.title for c in COLUMNS)
+    model = model_of(*grid(8, 8))
+    measures = measured(model, slit_map(model, [4 * 9 + x for x in range(4)]))
+    results = [Result("a", "ours", 9000, False, measures, {})]
+    for section in SECTIONS:
+        for table in (model_table(results, "ours", section), median_table(results, section)):
+            assert all(line.count(" | ") < 7 for line in table.splitlines())
 
 
 def test_tables_of_a_page_are_renewed() -> None:
     page = "One\n<!-- begin a -->\nold\n<!-- end a -->\nTwo\n<!-- begin b -->\n<!-- end b -->\nThree\n"
     new = with_tables(page, {"b": "| 2 |", "a": "| 1 |"})
     assert "old" not in new
+    assert tables_on(new) == ["a", "b"]
     assert new.split() == with_tables(new, {"a": "| 1 |", "b": "| 2 |"}).split()
     assert new.index("| 1 |") < new.index("Two") < new.index("| 2 |") < new.index("Three")
     with pytest.raises(ValueError, match="no place for the table c"):

@@ -22,7 +22,7 @@ _ELSEWHERE = 0.1
 """As part of the mesh's size: what lies that far off lies elsewhere."""
 _RIVAL = 2.0
 """How many times farther off something may lie elsewhere for it to be as likely: on artists' models, moved and with another topology,
-it is 1.06 where the wrong one is nearest, and 2.6 at least where only one is right (docs/benchmarks.md)."""
+it is 1.06 where the wrong one is nearest, and 2.6 at least where only one is right (docs/benchmarks/clicks.md)."""
 _TURNED = 5.0
 """Degrees: what is turned by less than that lies elsewhere because it is moved."""
 _SAMPLE = 100

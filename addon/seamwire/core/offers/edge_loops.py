@@ -28,7 +28,7 @@ _BY_KIND: Mapping[LoopKind, float] = {"CLOSED": 0.0, "PAST": 0.2, "STRIP": 0.5, 
 _LOOP_CROSSES = 0.7
 _STRIP_CROSSES = 0.2
 """How unlikely an offer is, in corners of a loop; being of another kind than what was taken last counts as a corner, too.
-Fitted to what artists' seams consist of, see docs/method.md."""
+Fitted to what artists' seams consist of, see docs/method/edges.md."""
 _MOST_CORNERS, _MOST_CROSSINGS = 3, 4
 """More than these say no more."""
 _CORNER_COSINE = 0.5

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from ..network.network import Along
 
 STRENGTHS: Mapping[Along, float] = {"EDGES": 10.0, "SURFACE": 20.0}
-"""The metric's largest anisotropy to begin with: how strongly wires are drawn to features; docs/method.md says why."""
+"""The metric's largest anisotropy to begin with: how strongly wires are drawn to features; docs/method/defaults.md says why."""
 CLAMP_PERCENTILE = 99.0
 """The percentile of feature strengths that counts as the strongest, to begin with."""
 CLAMP_RANGE = (50.0, 100.0)

@@ -37,8 +37,8 @@ class EmbeddedSurface {
   /// Embeds a surface in any metric. Throws what embed() throws; Cancelled.
   EmbeddedSurface(const SurfaceContext& context, std::shared_ptr<const Metric> metric, const EmbedOptions& options = {},
                   const Task& task = {});
-  /// A surface with an existing embedding. Throws InvalidInput if metric or embedding are not of the
-  /// surface, as far as their sizes tell.
+  /// A surface with an existing embedding, and with its options. Throws InvalidInput if metric or embedding are not of
+  /// the surface, as far as their sizes tell.
   EmbeddedSurface(const SurfaceContext& context, std::shared_ptr<const Metric> metric, Embedding embedding);
 
   /// The surface in another metric, made from this one by re_embed() and in less time where the metrics agree. Throws

@@ -29,7 +29,8 @@ struct EmbedOptions {
   /// Resolution).
   double max_error = 0.0;
   /// The caller's faces to embed, in any order; all others are left out, as if the surface ended there. Edges without a
-  /// face stay. nullopt: all faces.
+  /// face stay. nullopt: all faces. The work is proportional to these faces, but all points are copied, because
+  /// vertices keep their numbers. If one of the faces has no area, the work is that for all faces.
   std::optional<std::vector<std::int32_t>> faces = std::nullopt;
   /// The length in the metric that `max_error` compares the sizes of triangles with. Give that of another embedding
   /// (Embedding::mean_edge_length) to refine a part of the surface, or the surface in a changed metric, in the same
@@ -45,7 +46,7 @@ struct EmbedOptions {
 /// corners.
 struct Resolution {
   /// The EmbedOptions::max_error that the worst triangle meets. Measured, not proved: the mean error of distances was
-  /// at most about this on the models of docs/benchmarks.md.
+  /// at most about this on the models of docs/benchmarks/exactness.md.
   double estimated_error = 0.0;
   /// Triangles that miss the max_error, because they are 14 bisections deep, or because as many triangles were added
   /// as the budget or the cap allows.
@@ -81,7 +82,8 @@ struct Embedding {
   std::vector<std::int32_t> hole_faces;      ///< the caller's faces in which holes lie, ascending
   std::vector<std::int32_t> repaired_faces;  ///< those with an edge that length repair gave another length, ascending
   std::vector<std::int32_t>
-      unreachable;  ///< the caller's vertices in a face, but in no valid triangle and on no edge to run along
+      unreachable;       ///< the caller's vertices in a face, but in no valid triangle and on no edge to run along
+  EmbedOptions options;  ///< those it was made with
 };
 
 /// Embeds a surface in a metric (Section 4.1 of the paper).
@@ -94,7 +96,7 @@ struct Embedding {
 /// If that takes more than four times the surface's triangles, and 20 000, or the cap, it begins anew with schemes that
 /// end: longest-edge propagation, newest-vertex bisection deep below a face, and length repair. Length repair bisects
 /// an invalid triangle once more and gives its new edges lengths that make the parts valid. The result has at most one
-/// and a half times the triangles of the first scheme if that ends (docs/method.md, Section 4).
+/// and a half times the triangles of the first scheme if that ends (docs/method/embedding.md).
 ///
 /// With a `max_error`, longest-edge propagation also bisects valid triangles that do not resolve the metric, and edges
 /// are measured with their middles. If the cap does not allow all triangles to become valid, the schemes above follow.

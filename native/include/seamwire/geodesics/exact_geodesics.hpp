@@ -52,8 +52,7 @@ class ExactGeodesics {
                       const Task& task = {}) const;
 
   /// The same as from a seed, with at most `windows` > 0 windows of a list going on: those around the shortest way to
-  /// the apex, stretched over what the others covered. The more windows, the longer it takes and the nearer it comes
-  /// (docs/benchmarks.md).
+  /// the apex, stretched over what the others covered. The more windows, the longer it takes and the nearer it comes.
   DistanceField solve_bounded(std::int32_t seed, std::uint32_t windows, const Task& task = {}) const;
 
  private:

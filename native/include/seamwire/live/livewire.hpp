@@ -169,8 +169,11 @@ class LiveWire {
   /// `forward` as in edge_wires(). Throws InvalidInput where the pick is not part of the surface; an edge that is given
   /// before the surface is there is refused by wires().
   void seed(const Pick& pick, bool forward = false);
-  /// Starts the wires from any point of the surface, across the surface only. Throws InvalidInput where the point is
-  /// none. Where the metric's embedding has a hole, or the face no area, no wire begins.
+  /// Starts the wires from any point of the surface; along edges only from a vertex (SurfacePoint::at_vertex()).
+  ///
+  /// A vertex is the same as seed({vertex}). Where the metric's embedding has a hole, or the face has no area, no wire
+  /// begins. Throws InvalidInput if the point is not part of the surface, or if it lies in a face and wires run along
+  /// edges.
   void seed_at(const SurfacePoint& point);
   /// Returns the wires from the seed to a target, as far as they are computed. Ask again until they are final.
   ///
@@ -181,7 +184,8 @@ class LiveWire {
   ///
   /// Throws InvalidInput if the target is not part of the surface, or if no seed on the surface is set.
   LiveWires wires(const Pick& target) const;
-  /// To any point of the surface, across the surface only.
+  /// Returns the wires to any point of the surface; along edges only to a vertex. As wires() otherwise, and throws as
+  /// seed_at() does.
   LiveWires wires_to(const SurfacePoint& target) const;
 
   /// The closed chain through an edge, the cheapest of the metrics'; along edges only. The first call for an edge

@@ -38,7 +38,7 @@ struct CrestLines {
 /// each face (Rusinkiewicz 2004, Section 4), averaged over the faces around a vertex by their areas; lines from its
 /// signs in each triangle as in Hildebrandt, Polthier, Wardetzky, "Smooth feature lines on surface meshes" (2005).
 /// Ridges have k1 > 0, valleys k1 < 0. Their strength is the paper's integral of curvature; the paper's second
-/// threshold, by how far the surface is from a cyclide of Dupin, is least_drop here (docs/method.md).
+/// threshold, by how far the surface is from a cyclide of Dupin, is least_drop here (docs/method/curvature.md).
 ///
 /// `curvature`: of principal_curvatures(), or better smoothed. Throws InvalidInput for curvatures of another size and
 /// options out of range; Cancelled.

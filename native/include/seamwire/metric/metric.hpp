@@ -61,7 +61,7 @@ Metric campen_metric(const Surface& surface, const Curvature& curvature, Follow 
 Metric pottmann_kovacs_metric(const Surface& surface, const Curvature& curvature, Follow follow,
                               const Strength& strength, const Task& task = {});
 /// Short along concave creases and, less so, ridges: the metric whose single wires come nearest to the cuts that people
-/// make (docs/method.md, Section 3). With s = |k1| - |k2|, halved where k1 > 0 (convex), l1 = 1 + 0.03 t s, l2 = 1 / l1
+/// make (docs/method/metric.md). With s = |k1| - |k2|, halved where k1 > 0 (convex), l1 = 1 + 0.03 t s, l2 = 1 / l1
 /// and c(k) = 1 / (1 + t (1 / (0.3 + 0.7 exp(-max(0, -k) / 16)) - 1)): M = l1 c(k2)^2 d1 d1^T + l2 c(k1)^2 d2 d2^T.
 /// Normals must point outwards; curvatures are best those of smoothed_curvatures() with a radius of 0.01. `strength`:
 /// t, 0 is the Euclidean metric, 1 what was measured; InvalidInput where it is negative or not finite, as above for the
@@ -71,7 +71,7 @@ Metric concave_metric(const Surface& surface, const Curvature& curvature, double
 Metric euclidean_metric(const Surface& surface, const Curvature& curvature, const Task& task = {});
 
 /// A tensor with its normal, and the norm it gives to any vector: g(e)^2 = e^T M e + sqrt(l1 l2) (n.e)^2, the "ambient"
-/// reading of the norm of an edge, which need not be tangent (docs/method.md says why).
+/// reading of the norm of an edge, which need not be tangent (docs/method/metric.md says why).
 struct TensorAt {
   Vector normal;           ///< unit, or zero
   Eigen::Matrix3d tensor;  ///< as Metric::tensors

@@ -16,7 +16,7 @@ struct BentWire {
 };
 
 /// Bends a closed cut, so that it leads through a second point as well. The result is the shortest closed wire through
-/// both points that runs around the same thing as the cut. docs/method.md, Section 6.
+/// both points that runs around the same thing as the cut. docs/method/closed-cuts.md.
 ///
 /// The place deepest on each side of the cut, a face or a hole, is removed, and a line joins the two places. The rest
 /// has a double cover: a closed wire ends on the sheet that it began on if it crosses the line an even number of times.

@@ -22,7 +22,7 @@ struct ClosedWire {
 };
 
 /// Finds the closed cuts through the seed of a field over `embedding` that the surface suggests, at most `count`, best
-/// first. docs/method.md, Section 6, has the equations.
+/// first. docs/method/closed-cuts.md has the equations.
 ///
 /// Each cut consists of two shortest wires from the seed that meet on its cut locus. There, shortest wires that leave
 /// the seed on different sides meet. A cut is better if it is short and turns little at the seed. A tree of the

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The base of all operators that work on the meshes in Edit Mode."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypeVar
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import bpy
+
+    from ..core.network.network import Along
+    from ..mesh.object_session import ObjectSession
+
+_Found = TypeVar("_Found")
+
+
+class NeedsEditMode:
+    """Gives an operator its poll: a mesh must be in Edit Mode."""
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether a mesh is in Edit Mode. If not, the tooltip of a disabled button says so."""
+        obj = context.active_object
+        if context.mode == "EDIT_MESH" and obj is not None and obj.type == "MESH":
+            return True
+        cls.poll_message_set("Needs a mesh in Edit Mode")
+        return False
+
+
+class EditMeshOperator(NeedsEditMode):
+    """Gives an operator its poll, its options and a way to report what went wrong. The operator has `run`."""
+
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Run, and report what cannot be done as an error."""
+        from ..core.base.native import NativeError
+
+        try:
+            return self.run(context)
+        except (ValueError, NativeError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+
+    def run(self, context: bpy.types.Context) -> set[str]:
+        """Do the work, and return the result that Blender expects.
+
+        Raises
+        ------
+        ValueError, native.NativeError
+            If it cannot be done. The message is a sentence for the artist.
+        """
+        raise NotImplementedError
+
+    def for_each_object(
+        self, context: bpy.types.Context, work: Callable[[bpy.types.Object], _Found]
+    ) -> dict[bpy.types.Object, _Found]:
+        """Do the work for each object in Edit Mode that has something visible.
+
+        Parameters
+        ----------
+        context
+            Tells which objects are in Edit Mode.
+        work
+            Takes an object. Its ValueErrors are reported, and the other objects are still worked on.
+
+        Returns
+        -------
+        dict
+            The result for each object. It is empty if there is none, and the reason is reported.
+        """
+        from ..core.base.native import NativeError
+        from ..mesh.edit_mesh import NothingVisibleError
+
+        found, problems = {}, []
+        for obj in context.objects_in_mode_unique_data:
+            try:
+                found[obj] = work(obj)
+            except NativeError as error:
+                self.report({"ERROR"}, str(error))
+                return {}
+            except NothingVisibleError:
+                continue
+            except ValueError as error:
+                problems.append(str(error))
+        for problem in problems if found else problems[:1] or ["No face is visible"]:
+            self.report({"WARNING"} if found else {"ERROR"}, problem)
+        return found
+
+    def open_mesh(self, obj: bpy.types.Object, along: Along = "EDGES") -> ObjectSession:
+        """Read an object to draw on, and report problems with the wires that are stored with it.
+
+        Raises
+        ------
+        ValueError, native.NativeError
+            If nothing is visible, or the compiled part is missing.
+        """
+        from ..mesh.object_session import ObjectSession
+
+        mesh = ObjectSession(obj, along)
+        if mesh.problem:
+            self.report({"WARNING"}, mesh.problem)
+        return mesh
+
+    def open_meshes(self, context: bpy.types.Context) -> list[ObjectSession]:
+        """Read all objects in Edit Mode as `open_mesh` does. See `for_each_object`."""
+        return list(self.for_each_object(context, self.open_mesh).values())

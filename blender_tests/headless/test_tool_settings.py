@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which settings the tool shows where, and what becomes of those that it no longer has."""
+
+from types import SimpleNamespace
+
+import bpy
+import pytest
+from scene import add_grid, edit
+from seamwire.mesh import settings as chosen
+from seamwire.ui import properties
+
+pytestmark = pytest.mark.every_blender
+
+
+class Layout:
+    """Takes the place of Blender's layout, and notes the controls."""
+
+    def __init__(self, shown: list[str]) -> None:
+        self.shown = shown
+
+    def prop(self, owner: object, name: str, **_options: object) -> None:
+        """Note a property that there is."""
+        assert hasattr(owner, name)
+        self.shown.append(name)
+
+    def popover(self, panel: str, **_options: object) -> None:
+        """Note a popover that there is."""
+        assert hasattr(bpy.types, panel)
+        self.shown.append(panel)
+
+    def label(self, **_options: object) -> None:
+        """Show text."""
+
+    def _part(self, **_options: object) -> "Layout":
+        return Layout(self.shown)
+
+    row = column = box = _part
+
+
+@pytest.fixture
+def tool() -> chosen.SeamwireSettings:
+    """The settings, with a mesh in Edit Mode; put back afterwards."""
+    add_grid(3)
+    edit()
+    yield chosen.settings()
+    for name in ("along", "metric"):
+        chosen.settings().property_unset(name)
+
+
+def shown_in(region: str) -> list[str]:
+    """Return the controls in a kind of region."""
+    shown: list[str] = []
+    context = SimpleNamespace(
+        region=SimpleNamespace(type=region), preferences=bpy.context.preferences, edit_object=bpy.context.edit_object
+    )
+    properties.draw_settings(context, Layout(shown))
+    return shown
+
+
+@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
+def test_the_header_has_at_most_six_controls(tool: chosen.SeamwireSettings, along: str) -> None:
+    tool.along = along
+    shown = shown_in("TOOL_HEADER")
+    assert 3 < len(shown) <= 6
+    assert {"along", "clear", "VIEW3D_PT_seamwire_overlays"} <= set(shown)
+
+
+@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
+def test_every_setting_is_shown_once_outside_the_header(tool: chosen.SeamwireSettings, along: str) -> None:
+    tool.along = along
+    shown = shown_in("WINDOW")
+    properties.VIEW3D_PT_seamwire_overlays.draw(
+        SimpleNamespace(layout=Layout(shown)), SimpleNamespace(preferences=bpy.context.preferences)
+    )
+    of_mesh = {"use_mirror_x", "use_mirror_y", "use_mirror_z"}
+    of_panel = {"views_in_object_mode"}
+    other = "strength_surface" if along == "EDGES" else "strength_edges"
+    names = {prop.identifier for prop in tool.bl_rna.properties} - {"rna_type", "name", other}
+    assert sorted(shown) == sorted((names | of_mesh) - of_panel)
+
+
+def test_the_sidebar_has_a_panel_for_each_group(tool: chosen.SeamwireSettings) -> None:
+    assert shown_in("UI") == []
+    for name, _ in properties.GROUPS:
+        panel = getattr(bpy.types, f"VIEW3D_PT_seamwire_{name.lower()}")
+        assert (panel.bl_region_type, panel.bl_parent_id) == ("UI", "VIEW3D_PT_active_tool")
+
+
+def test_a_stored_metric_that_the_tool_no_longer_has_becomes_features_and_is_told(
+    tool: chosen.SeamwireSettings,
+) -> None:
+    stored = tool.bl_system_properties_get(do_create=True) if bpy.app.version >= (5, 0, 0) else tool
+    stored["metric"] = 1  # the number of Campen's metric
+    chosen.replace_removed_metric()
+    assert tool.metric == "feature"
+    assert len(chosen.notices) == 1
+    assert "wires follow Features" in chosen.notices.pop()
+
+
+@pytest.mark.parametrize("metric", ["feature", "concave", "euclidean"])
+def test_a_stored_metric_that_the_tool_has_stays(tool: chosen.SeamwireSettings, metric: str) -> None:
+    tool.metric = metric
+    chosen.replace_removed_metric()
+    assert tool.metric == metric
+    assert chosen.notices == []
+
+
+def test_scripts_can_use_every_metric() -> None:
+    add_grid(5)
+    edit()
+    for metric in ("campen", "pottmann_kovacs"):
+        assert bpy.ops.mesh.seamwire_mark(chains="0 12", metric=metric, objects="*") == {"FINISHED"}
+        bpy.ops.mesh.mark_seam(clear=True)

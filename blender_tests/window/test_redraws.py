@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a chain asks of Blender's window and of the library: no picture and no computation more than it needs."""
+
+from collections import Counter
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+import bpy
+import pytest
+from desk import Desk, draw
+from seamwire.core import islands
+from seamwire.core.islands import IslandMaker
+from seamwire.core.live_maker import LiveMaker
+from seamwire.mesh import edit_mesh
+from seamwire.view.edited_objects import EditedObjects, edited
+
+
+@pytest.fixture
+def calls(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
+    """Count the calls that read the mesh, make live wires, ask for islands and ask for redraws."""
+    found: Counter[str] = Counter()
+
+    def count(owner: object, name: str) -> None:
+        function = getattr(owner, name)
+
+        def counted(*arguments: object, **options: object) -> object:
+            found[name] += 1
+            return function(*arguments, **options)
+
+        monkeypatch.setattr(owner, name, staticmethod(counted) if name == "redraw" else counted)
+
+    for owner, name in (
+        (edit_mesh, "read"),
+        (LiveMaker, "__call__"),
+        (IslandMaker, "want"),
+        (EditedObjects, "redraw"),
+    ):
+        count(owner, name)
+    return found
+
+
+@pytest.fixture
+def on_threads(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let islands be computed on a thread, as those of a large mesh are."""
+    monkeypatch.setattr(islands, "AT_ONCE", 0)
+
+
+def settled() -> bool:
+    """Whether nothing is left to be computed."""
+    return not any(view.busy for view in edited.views())
+
+
+@contextmanager
+def pictures(tell: Callable[[], object]) -> Iterator[list[object]]:
+    """Collect what a function tells at each picture of the viewport, when it is drawn."""
+    told: list[object] = []
+    handle = bpy.types.SpaceView3D.draw_handler_add(lambda: told.append(tell()), (), "WINDOW", "POST_PIXEL")
+    try:
+        yield told
+    finally:
+        bpy.types.SpaceView3D.draw_handler_remove(handle, "WINDOW")
+
+
+@pytest.mark.smoke
+@pytest.mark.usefixtures("on_threads")
+def test_the_first_picture_after_a_chain_shows_all_of_its_end(desk: Desk, calls: Counter[str]) -> None:
+    session, ui = desk.choose(), desk.ui
+    ui.click(desk.at(36))
+    ui.click(desk.at(44))
+    ui.wait_until(lambda: len(session.wires) == 1 and settled())
+    assert edited.front.overlay._islands.newest.count == 2
+    wanted = calls["want"]
+    with pictures(lambda: (desk.running, settled())) as told:
+        ui.key("RET")
+        ui.wait_until(lambda: (False, True) in told)
+    after = [is_settled for is_running, is_settled in told if not is_running]
+    assert after[0], "no other picture is needed"
+    assert calls["want"] == wanted, "the seams cut what the wires cut before"
+    assert edited.front.overlay._islands.newest.count == 2
+
+
+def test_the_second_chain_goes_on_with_what_the_first_one_prepared(desk: Desk, calls: Counter[str]) -> None:
+    desk.choose()
+    draw(desk, 36, 44)
+    made = calls["__call__"]
+    assert made == 1
+    read = calls["read"]
+    session = draw(desk, 4, 22)
+    assert len(session.wires) == 2
+    assert calls["__call__"] == made
+    assert calls["read"] == read
+
+
+def test_progress_is_told_without_a_picture(desk: Desk, calls: Counter[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    session, ui = desk.choose(), desk.ui
+    ui.click(desk.at(36))
+    ui.wait_until(lambda: not session.computing and settled())
+    ui.wait(2)
+    told: list[float] = []
+    monkeypatch.setattr("seamwire.operators.modal.status_makers", [lambda chain: told.append(chain.session.progress)])
+    redraws = calls["redraw"]
+    for percent in (10, 20, 30):
+        monkeypatch.setattr(session, "_progress", percent / 100.0)
+        desk.chain.show()
+        desk.chain.show()
+    assert told == [0.1, 0.2, 0.3]
+    assert calls["redraw"] == redraws
+    session.hover(None)
+    desk.chain.show()
+    assert calls["redraw"] > redraws, "what is under the mouse is to be seen"
+    monkeypatch.undo()
+
+
+def test_islands_are_told_of_once_where_nothing_tints_them(desk: Desk) -> None:
+    desk.choose()
+    own = bpy.context.preferences.addons["seamwire"].preferences
+    own.tint, before = 0.0, own.tint
+    try:
+        draw(desk, 36, 44)
+        view = edited.front
+        desk.ui.wait_until(settled)
+        edited.poll()
+        assert not view.poll(), "nothing is new"
+    finally:
+        own.tint = before
