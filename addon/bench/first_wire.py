@@ -3,10 +3,10 @@
 
 A mesh is a file, or ``suzanne+N``: Blender's monkey subdivided N times.
 
-One line a mesh and a way of running: what the tool does before its first wire, step by step, in milliseconds (medians), and their sum;
-then what of each step is processor time of Blender's own thread, during which the interface stands, and what memory was taken in all.
-The steps are those of the tool in the viewport, its wait between two looks at running work included, but for the overlay and Blender's
-own redraw.
+Each mesh and each way of running gives one line. It has the milliseconds (medians) of each step of the tool before its first wire, and
+their sum. It also has the part that is processor time of Blender's own thread, which blocks the interface, and the total memory. The
+steps are those of
+the tool in the viewport, including the wait between two looks at running work, but without the overlay and Blender's redraw.
 """
 
 import os
@@ -48,10 +48,11 @@ def memory() -> float:
 def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, float]]:
     """Do what the tool does from its start to the first wire; return the milliseconds of each step.
 
-    Reading the mesh; beginning all that is computed beside; that it is ready for a seed; from the click to the first wire that is
-    shown; to both final ones; and from a move of the cursor to the next wire.
+    Reading the mesh; starting the computation in other threads; being ready for a seed; from the click to the first wire; to both final
+    wires; and from a move of the cursor to the next wire.
     """
     from seamwire.core.drawing import session
+    from seamwire.core.drawing.options import Options
     from seamwire.core.solver.live_maker import LiveMaker
     from seamwire.mesh import edit_mesh
     from seamwire.operators.modal import TICK
@@ -62,7 +63,7 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     edit_mesh.Cage(obj)  # as the tool does
     arrays = edit_mesh.read(obj)
     steps["read"] = watch.lap()
-    wires = session.Session(LiveMaker(arrays), arrays.points, along)
+    wires = session.Session(LiveMaker(arrays), arrays.points, Options(along=along))
     picking.Picker(arrays).depth(viewport.View(1.0, 1.0, np.eye(4)), obj.matrix_world, (0.5, 0.5))
     steps["begun"] = watch.lap()
     wires.wait()
@@ -72,7 +73,7 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     watch.lap()
     wires.start(top)
     wires.hover(bottom)
-    while wires.active is None and wires.computing:
+    while wires.picture.active is None and wires.computing:
         time.sleep(TICK)  # as the tool waits
         wires.poll()
     steps["shown"] = watch.lap()
@@ -80,7 +81,7 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     steps["final"] = watch.lap()
     wires.hover(beside)
     steps["next"] = watch.lap()
-    if wires.active is None:
+    if wires.picture.active is None:
         sys.exit(f"No wire leads from the top of {obj.name} to its bottom")
     return steps
 

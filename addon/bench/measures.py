@@ -79,14 +79,14 @@ class Pictures:
 
 @dataclass(frozen=True)
 class Memory:
-    """What this process holds, in bytes.
+    """The memory of this process, in bytes.
 
     Parameters
     ----------
     resident
         What of it is in memory.
     allocated
-        What was asked of the allocator and not given back; 0 where the allocator does not tell (it is not jemalloc).
+        Memory that was allocated and not freed. 0 if the allocator does not tell, because it is not jemalloc.
     """
 
     resident: int

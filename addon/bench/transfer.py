@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Seams of artists, transferred to the same models with another topology: ``scripts/bench MODELS SEAMS transfer`` runs this in Blender.
 
-Each model of the folder, as ``native/bench/seam_clicks.py`` wants it, gets its seams as a network, which goes to the model decimated to
-a half and to a quarter of its triangles, remeshed with voxels, subdivided, and to the first of these once more moved, turned and
-scaled, and once more bent by a sixth of a circle, with eight pairs of vertices. A line each: the share of marked edges whose middles
-lie within one edge of the artist's seams, and the share of the artist's within one edge of what was marked, an edge being the longer
-one of the target's there and the artist's on average; how many wires have no place; seconds.
+Each model of the folder, as ``native/bench/seam_clicks.py`` expects it, gets its seams as a network. The network goes to variants of the
+model: decimated to a half and to a quarter of its triangles, remeshed with voxels, and subdivided. The first variant is also tried
+moved, rotated and scaled, and bent by a sixth of a circle, with eight pairs of vertices.
+
+Each line has the share of marked edges whose middles lie within one edge of the artist's seams, the share of the artist's edges within
+one edge of the marked ones, the number of wires without a place, and the seconds. "One edge" is the longer of the target's edge there
+and the artist's mean edge.
 """
 
 import itertools

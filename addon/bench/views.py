@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Times of the views of the metric in Blender's window: ``scripts/bench-blender --views LEVELS`` runs this.
 
-Suzanne, subdivided so many times (4: 126,000 faces). Of each view: until it is computed, on its thread; what our code holds the
-interface for when it is switched on then, and what drawing it takes from then on, both in processor time of Blender's thread; and a
-redraw of the viewport as it passes, beside one without the view in the same run. Medians of nine.
+Suzanne, subdivided several times (4: 126,000 faces). For each view: the time to compute it in its thread; the processor time of Blender's
+thread to switch it on and to draw it; and the elapsed time of a redraw, with and without the view in the same run. Medians of nine.
 """
 
 from __future__ import annotations

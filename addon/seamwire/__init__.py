@@ -14,7 +14,7 @@ bl_info = {
     "category": "UV",
 }
 
-# Blender reloads this file alone when another version was installed over this one: the parts must be read anew too.
+# After an update Blender reloads only this file. The parts must be imported again as well.
 for _name in [name for name in sys.modules if name.startswith(f"{__name__}.")]:
     del sys.modules[_name]
 
@@ -53,7 +53,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Remove them, and forget what was prepared."""
+    """Remove all of them, and drop prepared meshes."""
     for part in reversed(_PARTS):
         import_module(f".{part}", __package__).unregister()
     objects = sys.modules.get(f"{__package__}.view.edited_objects")

@@ -22,7 +22,7 @@ class Grid:
             self.lives[way] = FakeLive(SIZE, way, **options)
             return self.lives[way]
 
-        self.engines = Engines(make, {}, lambda stroke: stroke)
+        self.engines = Engines(make, lambda stroke: stroke)
 
 
 def wire(*vertices: int, **options: object) -> Wire:

@@ -38,9 +38,9 @@ class PaperMesh:
     seams, labels, hidden, text
         As Blender keeps them.
     archive
-        What one Blender remembers: texts of other times and meshes.
+        The stored texts of other times and meshes.
     found
-        What the session began with.
+        The network at the start of the session.
     """
 
     places: NDArray[np.float64]
@@ -93,7 +93,7 @@ class PaperMesh:
         return wire_labels.read(self.marks(), archive, self.where)
 
     def plain_seams(self) -> set[Edge]:
-        """Return the visible seams that are no wires."""
+        """Return the visible seams without a wire."""
         seams = np.array(sorted(self.seams - self.hidden), dtype=np.int32).reshape(-1, 2)
         return set(undirected(wire_labels.seams_beside(seams, self.marks(), self.archive, self.found.known).tolist()))
 

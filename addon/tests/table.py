@@ -7,6 +7,7 @@ import itertools
 
 from fake_live import FakeLive, grid_edges, grid_points, grid_triangles
 from paper_mesh import PaperMesh
+from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Along
 
@@ -31,7 +32,7 @@ class Table:
         self.session = Session(
             make,
             self.points,
-            along,
+            Options(along=along),
             edges=grid_edges(SIZE),
             seams=seams,
             triangles=grid_triangles(SIZE),

@@ -4,11 +4,14 @@
 from __future__ import annotations
 
 import ast
+import re
+from collections.abc import Iterator
 from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
 from blender_refusal import BLENDERS
+from seamwire.words.messages import SENTENCES
 
 ROOT = Path(__file__).parent.parent / "seamwire"
 ROOMS = ("base", "network", "solver", "storage", "matching", "seams", "islands", "fields", "offers", "drawing")
@@ -96,3 +99,49 @@ def test_no_modules_need_each_other_but_the_known_ones() -> None:
     for module, other in KNOWN_CYCLES:
         graph[module].remove(other)
     TopologicalSorter(graph).prepare()  # raises CycleError
+
+
+def strings(tree: ast.Module) -> Iterator[ast.Constant]:
+    """Yield the strings of a module except its docstrings."""
+    docs = {
+        id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+    }
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in docs:
+            yield node
+
+
+def test_the_core_holds_no_sentence_for_artists() -> None:
+    found = [
+        f"{name_of(path)}:{node.lineno}: {node.value}"
+        for path in modules()
+        if name_of(path).startswith("core.") and path.stem not in {"color_maps", "messages"}
+        for node in strings(ast.parse(path.read_text(encoding="utf-8")))
+        if node.value.strip().count(" ") >= 2
+    ]
+    # What only programmers read: arguments that do not fit each other.
+    assert [one for one in found if "labels for" not in one and "neither points nor" not in one] == []
+
+
+def sent(tree: ast.Module) -> Iterator[str]:
+    """Yield the codes of the messages that a module sends."""
+    for node in strings(tree):
+        if re.fullmatch(r"[a-z]+(-[a-z]+)+", node.value):
+            yield node.value
+
+
+def test_each_message_has_words_and_all_words_are_used() -> None:
+    trees = [ast.parse(path.read_text(encoding="utf-8")) for path in modules() if path.stem != "messages"]
+    codes = {code for tree in trees for code in sent(tree)}
+    called = {
+        node.args[0].value
+        for tree in trees
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call)
+        and getattr(node.func, "attr", getattr(node.func, "id", ""))
+        in {"_refuse", "Refused", "NativeError", "CutError"}
+        and node.args
+        and isinstance(node.args[0], ast.Constant)
+    }
+    assert called - SENTENCES.keys() == set()
+    assert SENTENCES.keys() - codes - {"library"} == set()

@@ -262,7 +262,7 @@ class Run:
             pairs=pairs,
         )
         self.warnings += [f"{obj.name}: {text}" for text in (*found.doubts, *found.lost)]
-        self.warnings += [f"{obj.name}: {seed.text}" for seed in found.seeds if seed.confidence < 0.6]
+        self.warnings += [f"{obj.name}: {seed.message}" for seed in found.seeds if seed.confidence < 0.6]
         if not found.wires:
             raise AssetError(f"{obj.name}: no wire has a place on this mesh")
         write(mesh, found)

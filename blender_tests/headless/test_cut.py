@@ -24,8 +24,10 @@ from scene import (
     seams,
     snapshot,
 )
+from seamwire.core.drawing.change import Change
 from seamwire.core.network.network import Network
 from seamwire.mesh import cut as mesh_cut
+from seamwire.mesh import finish
 from seamwire.mesh.cut import CUTS
 from seamwire.mesh.edit_mesh import LABELS
 from seamwire.mesh.object_session import ObjectSession
@@ -302,7 +304,7 @@ def test_an_object_that_cannot_be_cut_is_named_and_the_others_are_cut(capfd: pyt
     edit()
     assert cut("(-0.4 -0.3 0) (0.3 -0.4 0) (0.9 0.9 0)", objects="*") == {"FINISHED"}
     said = capfd.readouterr().out
-    assert "First: No wire leaves the face that it begins in; no wire was added" in said
+    assert "First: Nothing to cut: every wire stays inside one face; no wire was added" in said
     assert "Second: " not in said
     assert seams(first) == [] and session_on(first).session.wires == ()
     assert seams(second) and agree(second)
@@ -557,9 +559,9 @@ def test_a_wire_that_left_the_mesh_keeps_no_other_from_being_cut() -> None:
     bpy.ops.mesh.seamwire_mark(chains="0 16; 64 79", along="SURFACE")
     mesh = session_on(obj)
     wires = [wire if wire.start == 64 else replace(wire, points=wire.points * 3.0) for wire in mesh.session.wires]
-    plan = mesh.plan_cut(wires)
+    plan = finish.plan_cut(mesh, wires)
     assert [wires[number].start for number in plan.left_out] == [0]
-    assert mesh.cut(plan, wires, kept=True).wires == 1
+    assert finish.cut(mesh, plan, wires, kept=True)[1].wires == 1
     kept = session_on(obj).session.wires
     assert sorted((wire.along, wire.start) for wire in kept) == [("EDGES", 64), ("SURFACE", 0)]
     assert agree(obj)
@@ -575,7 +577,7 @@ def test_the_tool_tells_of_a_wire_that_is_not_cut() -> None:
     wires = [replace(wire, finish="CUT", stored=0) for wire in before.wires]
     wires[0] = replace(wires[0], points=wires[0].points * 3.0)
     mesh.session.adopt(replace(before, wires=tuple(wires)), mesh.plain_seams)
-    done = mesh.finish_wires(before, {wire.id for wire in wires})
+    _, done = finish.apply(mesh, Change(before, mesh.session.network))
     assert (done.cut, done.left_out, done.problem) == (1, 1, "")
     assert 79 in joined(obj, 64) and 16 in joined(obj, 0), "the other stays snapped"
 
@@ -583,7 +585,7 @@ def test_the_tool_tells_of_a_wire_that_is_not_cut() -> None:
 def test_a_wire_that_leaves_the_mesh_where_a_cut_was_taken_back_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
     obj = add_grid(9)
     edit()
-    mesh, before, changed = with_a_cut_to_take_back()
+    mesh, change = with_a_cut_to_take_back()
     plan, calls = mesh_cut.plan, []
 
     def astray(cage: object, arrays: object, curves: list[tuple], *more: object) -> object:
@@ -593,7 +595,7 @@ def test_a_wire_that_leaves_the_mesh_where_a_cut_was_taken_back_is_kept(monkeypa
         return plan(cage, arrays, curves, *more)
 
     monkeypatch.setattr(mesh_cut, "plan", astray)
-    done = mesh.finish_wires(before, changed)
+    _, done = finish.apply(mesh, change)
     assert len(calls) == 2
     assert (done.cut, done.left_out, done.problem) == (1, 1, "")
     kept = session_on(obj).session.wires
@@ -607,39 +609,37 @@ def test_a_wire_that_leaves_the_mesh_where_a_cut_was_taken_back_is_kept(monkeypa
 def test_a_cut_that_ends_after_another_was_taken_back_says_so(failing: str, monkeypatch: pytest.MonkeyPatch) -> None:
     obj = add_grid(9)
     edit()
-    mesh, before, changed = with_a_cut_to_take_back()
-    plan = mesh.plan_cut
+    mesh, change = with_a_cut_to_take_back()
+    plan = finish.plan_cut
 
     def refuse_place(*_: object) -> object:
         raise ValueError("too far away")
 
-    def refuse_plan(self: ObjectSession, wires: list) -> object:
-        if self is mesh:
-            return plan(wires)
+    def refuse_plan(own: ObjectSession, wires: list) -> object:
+        if own is mesh:
+            return plan(own, wires)
         raise ValueError("too far away")
 
-    monkeypatch.setattr(ObjectSession, "plan_cut", refuse_plan)
+    monkeypatch.setattr(finish, "plan_cut", refuse_plan)
     if failing == "finder":
-        monkeypatch.setattr(ObjectSession, "_placed", refuse_place)
-    done = mesh.finish_wires(before, changed)
-    assert (done.cut, done.problem) == (0, "too far away; what was cut before is taken back, undo brings it again")
+        monkeypatch.setattr(finish, "_placed", refuse_place)
+    _, done = finish.apply(mesh, change)
+    assert (done.cut, done.problem) == (0, "too far away. The old cut was removed: undo restores it")
     kept = sorted((wire.along, wire.start, wire.end) for wire in session_on(obj).session.wires)
     assert kept == ([] if failing == "finder" else [("SURFACE", 8, 36), ("SURFACE", 64, 79)])
     assert agree(obj)
     assert is_sound(obj)
 
 
-def with_a_cut_to_take_back() -> tuple[ObjectSession, Network, set[int]]:
+def with_a_cut_to_take_back() -> tuple[ObjectSession, Change]:
     """Cut a wire into the active grid of 9 x 9 vertices, drop it, and draw two others that are to be cut.
 
     Returns
     -------
     ObjectSession
         What has the two wires; so has the mesh.
-    Network
-        The network with the cut wire.
-    set of int
-        The numbers of the two wires.
+    Change
+        From the network with the cut wire to this one.
     """
     obj = bpy.context.active_object
     cut("0 44")
@@ -653,7 +653,7 @@ def with_a_cut_to_take_back() -> tuple[ObjectSession, Network, set[int]]:
     wires = [replace(wire, finish="CUT", stored=0) for wire in drawn.wires]
     mesh.session.adopt(replace(drawn, wires=tuple(wires)), mesh.plain_seams)
     write(mesh)
-    return mesh, before, {wire.id for wire in mesh.session.wires}
+    return mesh, Change(before, mesh.session.network)
 
 
 @pytest.mark.every_blender
@@ -767,7 +767,7 @@ def test_from_corner_to_corner_over_a_place_inside_the_only_face() -> None:
 def test_a_wire_that_stays_inside_a_face_cuts_nothing_and_says_so() -> None:
     obj = add_grid(2)
     edit()
-    with pytest.raises(RuntimeError, match="No wire leaves the face that it begins in"):
+    with pytest.raises(RuntimeError, match="Nothing to cut: every wire stays inside one face"):
         cut("(-0.5 0 0) (0.2 0.3 0)")
     assert len(obj.data.polygons) == 1 and seams(obj) == []
 
@@ -829,10 +829,9 @@ def drag(obj: bpy.types.Object, seed: int, to: int) -> None:
 
 
 def _finish(mesh: ObjectSession, before: Network) -> None:
-    same = set(map(id, before.wires))
-    changed = {wire.id for wire in mesh.session.network.wires if id(wire) not in same}
+    change = Change(before, mesh.session.network)
     write(mesh)
-    mesh.finish_wires(before, changed)
+    finish.apply(mesh, change)
 
 
 def content(obj: bpy.types.Object) -> dict[str, object]:
@@ -984,7 +983,7 @@ def lines(obj: bpy.types.Object, *ends: tuple[tuple[float, float], tuple[float, 
 
 def cut_with(mesh: ObjectSession, crumb: float) -> None:
     wires = mesh.session.wires
-    mesh.cut(mesh.plan_cut(wires), wires, kept=True, crumb=crumb)
+    finish.cut(mesh, finish.plan_cut(mesh, wires), wires, kept=True, crumb=crumb)
 
 
 @pytest.mark.parametrize(("crumb", "islands"), [(0.0, 7), (5e-4, 7), (1e-3, 6)])

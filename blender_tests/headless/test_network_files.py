@@ -60,7 +60,7 @@ def test_another_mesh_is_refused_and_stays_as_it_is(drawn: tuple[bpy.types.Objec
     grid = add_grid(9)
     edit()
     before = snapshot(grid)
-    with pytest.raises(RuntimeError, match="of a mesh with 507 vertices, and this one has 81"):
+    with pytest.raises(RuntimeError, match="to a mesh with 507 vertices, but this one has 81"):
         bpy.ops.mesh.seamwire_load_network(filepath=str(drawn[1]), place="NUMBERS")
     assert snapshot(grid) == before
 

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One object that is drawn on: how its session, its seams and what its mesh keeps go together."""
 
+import gc
 import math
+import weakref
+from dataclasses import replace
 
 import bmesh
 import bpy
@@ -12,6 +15,7 @@ from scene import add_grid, add_layers, chain, edit, seams, snapshot
 from seamwire.core.solver.live_maker import LiveMaker
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.object_session import ObjectSession
+from seamwire.view.edited_objects import edited
 from stored import agree, chains, forget, session_on, wired, write
 
 ROW = tuple(range(36, 45))
@@ -29,7 +33,7 @@ def grid() -> bpy.types.Object:
 
 def draw(mesh: ObjectSession, *picks: int) -> None:
     for pick in picks:
-        assert mesh.session.click(pick), mesh.session.message
+        assert mesh.session.click(pick), str(mesh.session.message)
         mesh.session.wait()
     write(mesh)
 
@@ -74,6 +78,24 @@ def test_what_wires_cannot_run_on_is_said(grid: bpy.types.Object) -> None:
         live.progress()
     with pytest.raises(RuntimeError, match="vertex 7"):
         bpy.ops.mesh.seamwire_mark(chains="0 8")
+
+
+def test_what_was_prepared_for_a_mesh_that_changed_is_freed_at_once(grid: bpy.types.Object) -> None:
+    view = edited.of(grid)
+    while view.busy:
+        view.poll()
+    held = view, view.mesh.session, view.mesh.make_live, view.views, view.overlay
+    gone = [weakref.ref(one) for one in held]
+    del held
+    gc.collect()
+    gc.disable()
+    try:
+        edited.forget(view)
+        del view
+        assert [one() for one in gone] == [None] * len(gone)
+    finally:
+        gc.enable()
+        edited.clear()
 
 
 # What is written
@@ -122,7 +144,7 @@ def test_wires_drawn_moved_and_removed_change_seams_and_nothing_else(grid: bpy.t
     before = snapshot(grid)
     rest = snapshot(grid, with_seams=False)
     mesh = session_on(grid)
-    mesh.session.switch(along)
+    mesh.session.follow(replace(mesh.session.options, along=along))
     draw(mesh, 36, 40, 44)
     assert seams(grid) == chain(*ROW)
     assert snapshot(grid, with_seams=False) == rest, "drawn"
@@ -171,7 +193,7 @@ def test_an_edge_of_two_wires_stays_a_seam_until_both_are_gone(grid: bpy.types.O
 def test_of_a_wire_that_is_cleared_in_part_the_rest_stays_as_plain_seams(grid: bpy.types.Object) -> None:
     draw(session_on(grid), 36, 44)
     mesh = session_on(grid)
-    mesh.session.toggle_marking()
+    mesh.session.follow(replace(mesh.session.options, clear=not mesh.session.options.clear))
     draw(mesh, 38, 42)
     rest = sorted(chain(36, 37, 38) + chain(42, 43, 44))
     assert seams(grid) == rest
@@ -205,7 +227,7 @@ def test_wires_are_found_again_with_their_seeds(grid: bpy.types.Object, monkeypa
     assert sorted(again.session.seeds()) == [36, 40, 44]
     assert [(wire.start, wire.end) for wire in again.session.wires] == [(36, 40), (40, 44)]
     assert len(again.plain_seams) == 0
-    assert not again.session.can_undo, "what was done before is Blender's to undo"
+    assert not again.session.picture.can_undo, "what was done before is Blender's to undo"
 
 
 def test_reading_a_mesh_writes_nothing(grid: bpy.types.Object, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -323,7 +345,7 @@ def test_wires_do_not_mind_the_objects_scale(
     grid: bpy.types.Object, along: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     mesh = session_on(grid)
-    mesh.session.switch(along)
+    mesh.session.follow(replace(mesh.session.options, along=along))
     draw(mesh, 36, 40, 44)
     curves = {wire.vertices: wire.points @ mesh.arrays.to_object.T for wire in mesh.session.wires}
     grid.matrix_world = Matrix.Diagonal((1.0, 4.0, 0.5, 1.0))

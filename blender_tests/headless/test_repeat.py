@@ -62,14 +62,14 @@ def test_selected_wires_are_repeated_instead(bolts: bpy.types.Object) -> None:
     bpy.ops.mesh.seamwire_mark(chains="0 1")
     bpy.ops.mesh.seamwire_mark(chains="16 18")
     bpy.ops.mesh.select_all(action="DESELECT")
-    with pytest.raises(RuntimeError, match="There is no selected wire along edges"):
+    with pytest.raises(RuntimeError, match="No selected wire along edges"):
         bpy.ops.mesh.seamwire_repeat(selected=True)
 
 
 def test_without_a_wire_it_says_so() -> None:
     add_suzanne()
     edit()
-    with pytest.raises(RuntimeError, match="There is no wire along edges"):
+    with pytest.raises(RuntimeError, match="No wire along edges"):
         bpy.ops.mesh.seamwire_repeat()
 
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The icons in the status bar. The texts are tested without Blender."""
 
+from dataclasses import replace
+
 import bpy
 import pytest
 from scene import add_grid, edit
@@ -30,8 +32,8 @@ def test_every_icon_is_one_of_blenders(session: Session) -> None:
     session.wait()
     session.hover(40)
     session.click(4)  # refused, and said
-    shown = [icon for icon, _ in hints(Status(session, Bindings(), message="A message"))]
-    session.switch("SURFACE")  # computing
+    shown = [icon for icon, _ in hints(Status(session.picture, Bindings(), message="A message"))]
+    session.follow(replace(session.options, along="SURFACE"))  # computing
     session.end_chain()
-    shown += [icon for icon, _ in hints(Status(session, Bindings(), mirror_offer="X"))]
+    shown += [icon for icon, _ in hints(Status(session.picture, Bindings(), mirror_offer="X"))]
     assert [icon for icon in shown if icon not in icons] == []

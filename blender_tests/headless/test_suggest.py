@@ -312,7 +312,7 @@ def test_the_report_tells_of_the_islands_that_the_mesh_has(
     # As if a cut through faces had failed to part them.
     monkeypatch.setattr(suggestion.Suggestion, "write", lambda _: None)
     assert suggest(limit="DISCS") == {"FINISHED"}
-    assert "3 islands, 1 of them no disc, 1 more cut needed" in capfd.readouterr().out
+    assert "3 islands, 1 island still needs 1 cut" in capfd.readouterr().out
 
 
 def test_a_suggested_wire_can_be_dropped(suzanne: bpy.types.Object) -> None:
@@ -450,15 +450,15 @@ def test_strokes_and_selected_islands_weigh_the_wires(planners: list[dict[str, o
 @pytest.mark.parametrize(
     ("options", "limit", "distortion", "warning"),
     [
-        ({"limit": "BEND", "angle": 0.7}, "DISTORTION", 0.17, "no limit BEND"),
+        ({"limit": "BEND", "angle": 0.7}, "DISTORTION", 0.17, "limit BEND is deprecated"),
         (
             {"limit": "STRETCH", "stretch": 1.21},
             "DISTORTION",
             0.1,
-            "no limit STRETCH any more: the limit is a stretch of 10.0 %",
+            "limit STRETCH is deprecated: use distortion=10.0",
         ),
-        ({"angle": 0.7}, "DISTORTION", 0.17, "no setting angle"),
-        ({"stretch": 1.1}, "DISTORTION", 0.17, "no setting stretch"),
+        ({"angle": 0.7}, "DISTORTION", 0.17, "setting angle is deprecated"),
+        ({"stretch": 1.1}, "DISTORTION", 0.17, "setting stretch is deprecated"),
     ],
 )
 def test_settings_of_older_scripts_become_a_stretch_with_a_warning(
@@ -491,7 +491,7 @@ def test_the_older_limit_worst_island_cuts_that_one_alone(capfd: pytest.CaptureF
     worst = max((seam_islands.worst_island(obj, kind) for kind in ("ANGLE", "AREA")), key=lambda one: one.value)
     old, was = set(seams(obj)), energy(obj)
     assert suggest(limit="WORST", distortion=30.0) == {"FINISHED"}
-    assert "no limit WORST any more: only the worst island is cut" in capfd.readouterr().out
+    assert "limit WORST is deprecated: only the worst island is cut" in capfd.readouterr().out
     new = set(seams(obj)) - old
     assert new
     bm = bmesh.from_edit_mesh(obj.data)

@@ -142,9 +142,9 @@ def test_what_is_wrong_is_said_and_nothing_changes(heads: Pair) -> None:
     _, target = heads
     before = snapshot(target)
     for options, message in (
-        ({"source": "Nobody"}, "There is no object Nobody"),
+        ({"source": "Nobody"}, "No object is named Nobody"),
         ({"source": target.name}, "Select one other mesh object"),
-        ({"place": "NUMBERS"}, "of a mesh with 507 vertices, and this one has"),
+        ({"place": "NUMBERS"}, "to a mesh with 507 vertices, but this one has"),
         ({"place": "PAIRS"}, "the objects have 0 vertex groups in common"),
         ({"pairs": "1-2 3"}, "'3' is not a pair"),
         ({"pairs": "1-2 3-4 5-999999"}, "vertex 999999 is no vertex"),

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from desk import Desk, drag, draw, shows
 from scene import chain, seams, snapshot
+from seamwire.core.drawing.picture import Role
 from seamwire.mesh import cut
 from seamwire.mesh.settings import settings
 from seamwire.operators.report import running
@@ -35,7 +36,7 @@ def test_a_chain_is_cut_when_it_ends_in_one_step_of_undo(cutting: Desk) -> None:
     count = len(cutting.obj.data.vertices)
     ui.click(cutting.at(0), ctrl=True)
     ui.move(cutting.at(44))
-    ui.wait_until(lambda: session.active is not None and not session.preliminary)
+    ui.wait_until(lambda: session.picture.active is not None and session.picture.one(Role.COMPUTING) is None)
     alone = ui.pixels()
     settings().finish = "SNAP"
     ui.wait(redraw=True)
@@ -263,7 +264,7 @@ def drawn_cut(cutting: Desk, start: int, end: int) -> None:
     """Draw a wire with the tool and let it be cut."""
     cutting.choose()
     session = draw(cutting, start, end)
-    assert not cutting.running, session.message
+    assert not cutting.running, str(session.message)
     assert agree(cutting.obj)
 
 

@@ -9,6 +9,7 @@ import ui as driver
 from desk import GREEN, ORANGE, RED, WHITE, Desk, choose, near, shows, undo_steps
 from mathutils import Euler
 from scene import add_grid, chain, seams, snapshot
+from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.mesh import object_session
 
@@ -29,15 +30,15 @@ def test_wires_are_drawn_kept_and_marked(desk: Desk) -> None:
     ui.click(desk.at(36), ctrl=True)
     assert session.seed == 36
     ui.move(desk.at(40))
-    ui.wait_until(lambda: session.active is not None)
-    assert session.active.vertices == (36, 37, 38, 39, 40)
+    ui.wait_until(lambda: session.picture.active is not None)
+    assert session.picture.active.vertices == (36, 37, 38, 39, 40)
     pixels = ui.pixels()
     assert shows(pixels, desk.at(37, 38), ORANGE)
     assert shows(pixels, desk.at(36), WHITE)
     assert not shows(pixels, desk.at(41, 42), ORANGE)
     ui.click(desk.at(40))
     ui.move(desk.at(44))
-    ui.wait_until(lambda: session.active is not None)
+    ui.wait_until(lambda: session.picture.active is not None)
     pixels = ui.pixels()
     assert shows(pixels, desk.at(37, 38), RED), "kept"
     assert shows(pixels, desk.at(41, 42), ORANGE), "live"
@@ -94,9 +95,9 @@ def test_alt_shows_the_loop_and_an_alt_click_takes_it(cone: Desk) -> None:
     edge = cone.at(40, 49)
     ui.wait_until(lambda: not session.computing)
     ui.move(edge)
-    assert session.loop_preview is None
+    assert session.picture.one(Role.OFFER) is None
     ui.move(edge, alt=True)
-    preview = session.loop_preview
+    preview = session.picture.one(Role.OFFER)
     assert preview is not None
     assert (40, 49) in preview.edges()
     assert shows(ui.pixels(), cone.at(*preview.vertices[1:3]), GREEN)
@@ -104,7 +105,7 @@ def test_alt_shows_the_loop_and_an_alt_click_takes_it(cone: Desk) -> None:
     assert seams(cone.obj) == sorted(preview.edges())
     assert not cone.running
     ui.move(edge)
-    assert session.loop_preview is None
+    assert session.picture.one(Role.OFFER) is None
 
 
 @pytest.mark.smoke
@@ -133,20 +134,20 @@ def test_e_switches_to_the_surface_and_back(cone: Desk) -> None:
     ui.wait_until(lambda: len(session.wires) == 1)
     ui.move(cone.at(60))
     ui.key("E")
-    assert session.along == "SURFACE"
+    assert session.options.along == "SURFACE"
     ui.move(cone.at(61))
-    ui.wait_until(lambda: session.active is not None)
-    assert session.active.along == "SURFACE"
-    assert session.active.vertices[0] == 24
-    assert session.active.vertices[-1] == 61
+    ui.wait_until(lambda: session.picture.active is not None)
+    assert session.picture.active.along == "SURFACE"
+    assert session.picture.active.vertices[0] == 24
+    assert session.picture.active.vertices[-1] == 61
     ui.move(cone.at(60))
-    ui.wait_until(lambda: session.active is not None)
+    ui.wait_until(lambda: session.picture.active is not None)
     ui.click(cone.at(60))
     ui.key("E")
     ui.move(cone.at(76))
-    ui.wait_until(lambda: session.active is not None)
-    assert session.active.along == "EDGES"
-    assert session.active.vertices[0] == 60
+    ui.wait_until(lambda: session.picture.active is not None)
+    assert session.picture.active.along == "EDGES"
+    assert session.picture.active.vertices[0] == 60
     marked = session.edges_to_mark()
     assert {v for edge in marked for v in edge} >= {20, 24, 60}
     ui.key("RET")
@@ -185,8 +186,8 @@ def test_on_a_turned_and_unevenly_scaled_object_wires_lie_on_the_mesh(ui: driver
     ui.wait(redraw=True)
     ui.click(desk.at(36), ctrl=True)
     ui.move(desk.at(44))
-    ui.wait_until(lambda: session.active is not None)
-    assert session.active.vertices == tuple(range(36, 45))
+    ui.wait_until(lambda: session.picture.active is not None)
+    assert session.picture.active.vertices == tuple(range(36, 45))
     pixels = ui.pixels()
     for first in range(37, 43):
         assert shows(pixels, desk.at(first, first + 1), ORANGE)
@@ -213,8 +214,9 @@ def test_wires_that_are_being_computed_come_when_they_are_ready(desk: Desk, monk
             if ready[0]:
                 self.live.wait()
                 return self.live.wires(target)
-            nothing = type("Nothing", (), {"points": [], "vertices": [], "length": math.inf, "final": False})()
-            return type("Wires", (), {"wires": (nothing, nothing), "active": 0, "settled": False, "final": False})()
+            nothing = {"points": [], "vertices": [], "length": math.inf, "final": False}
+            wires = [type("Nothing", (), {**nothing, "follow": follow})() for follow in ("min", "max")]
+            return type("Wires", (), {"wires": wires, "active": 0, "settled": False, "final": False})()
 
     make = object_session.LiveMaker
     monkeypatch.setattr(make, "__call__", lambda self, along, call=make.__call__: Slow(call(self, along)))

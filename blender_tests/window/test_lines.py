@@ -7,6 +7,7 @@ import bpy
 import pytest
 from desk import ORANGE, RED, WHITE, Desk, drag, draw, shows, undo_steps
 from scene import chain, seams
+from seamwire.core.drawing.picture import Role
 from seamwire.mesh.settings import settings
 
 
@@ -28,11 +29,11 @@ def beside(place: tuple[float, float], x: float = 0.0, y: float = 0.0) -> tuple[
 @pytest.mark.every_blender
 def test_a_drag_over_the_mesh_draws_along_its_edges_in_one_step(desk: Desk, capfd: pytest.CaptureFixture[str]) -> None:
     session, ui = desk.choose(), desk.ui
-    ui.wait_until(lambda: session.progress == 1.0)
+    ui.wait_until(lambda: session.work.progress == 1.0)
     # Along a row and up a column, some pixels beside the edges, as a hand draws.
     press_and_draw(desk, beside(desk.at(36), 3, 4), beside(desk.at(40), -4, -5), beside(desk.at(67), 5, 3))
     wanted = (*range(36, 41), 49, 58, 67)
-    assert [wire.vertices for wire in session.following] == [wanted]
+    assert [wire.vertices for wire in session.picture.all(Role.FOLLOWING)] == [wanted]
     assert session.wires == ()
     pixels = ui.pixels()
     assert shows(pixels, desk.at(37, 38), ORANGE), "it is seen while it is drawn"
@@ -86,11 +87,11 @@ def test_escape_and_the_right_button_forget_a_line_and_keep_the_chain(desk: Desk
     for cancel in ("ESC", "RIGHTMOUSE"):
         press_and_draw(desk, desk.at(36), desk.at(40))
         assert session.drawing
-        assert session.following
+        assert session.picture.all(Role.FOLLOWING)
         ui.event(cancel, "PRESS")
         ui.event(cancel, "RELEASE")
         assert not session.drawing
-        assert session.following == ()
+        assert session.picture.all(Role.FOLLOWING) == ()
         ui.event("LEFTMOUSE", "RELEASE")
         assert len(session.wires) == 1
         assert session.seed_place == 4, "the live wire goes on"
@@ -149,10 +150,10 @@ def test_a_line_may_be_mirrored(desk: Desk) -> None:
     session = desk.choose()
     desk.obj.data.use_mirror_y = True
     press_and_draw(desk, desk.at(54), desk.at(60))
-    assert session.mirror_axes == (1,)
+    assert session.options.mirror == (1,)
     pixels = desk.ui.pixels()
     assert shows(pixels, desk.at(56, 57), ORANGE)
-    image = session.mirrored(session.following[0])
+    image = session.mirrored(session.picture.all(Role.FOLLOWING)[0])
     assert [one.vertices for one in image] == [tuple(range(18, 25))]
     desk.ui.event("LEFTMOUSE", "RELEASE")
     desk.ui.wait_until(lambda: not desk.running)
@@ -163,12 +164,12 @@ def test_across_the_surface_wires_keep_near_to_the_line(cone: Desk) -> None:
     session, ui = cone.choose(), cone.ui
     settings().along = "SURFACE"
     ui.move(cone.at(20))
-    ui.wait_until(lambda: session.along == "SURFACE")
+    ui.wait_until(lambda: session.options.along == "SURFACE")
     press_and_draw(cone, cone.at(20), cone.at(24), cone.at(60))
     ui.wait_until(lambda: not session.computing)
     ui.wait(4)
-    assert session.following
-    along = session.following[0].points
+    assert session.picture.all(Role.FOLLOWING)
+    along = session.picture.all(Role.FOLLOWING)[0].points
     assert shows(ui.pixels(), ui.on_screen(along[len(along) // 2]), ORANGE)
     ui.event("LEFTMOUSE", "RELEASE")
     ui.wait_until(lambda: not cone.running)

@@ -7,6 +7,7 @@ import pytest
 import ui as driver
 from desk import GREEN, Desk, shows, undo_steps
 from scene import chain, seams
+from seamwire.core.drawing.picture import Role
 from seamwire.operators.report import running
 from seamwire.ui import status_bar
 
@@ -23,23 +24,23 @@ def offer(desk: Desk, *edge: int) -> tuple[float, float]:
     desk.ui.wait_until(lambda: not session.computing)
     desk.ui.move(place)
     desk.ui.event("LEFT_ALT", "PRESS", place, alt=True)
-    desk.ui.wait_until(lambda: session.loop_preview is not None)
+    desk.ui.wait_until(lambda: session.picture.one(Role.OFFER) is not None)
     return place
 
 
 def turn_to(desk: Desk, kind: str, up: bool = True) -> None:
     session = desk.session
-    for _ in session.loop_offers:
-        if session.loop_choice != kind:
+    for _ in session.picture.offered.kinds:
+        if session.picture.offered.kind != kind:
             desk.ui.wheel(up=up, alt=True)
-    assert session.loop_choice == kind
+    assert session.picture.offered.kind == kind
 
 
 def take(desk: Desk, kind: str, *edge: int) -> list[tuple[int, int]]:
     """Take an offer with a click; return what is marked."""
     place = offer(desk, *edge)
     turn_to(desk, kind)
-    shown = sorted(desk.session.loop_preview.edges())
+    shown = sorted(desk.session.picture.one(Role.OFFER).edges())
     desk.ui.click(place, alt=True)
     assert desk.left_clean()
     assert desk.session.edges_to_mark() == shown
@@ -50,22 +51,22 @@ def take(desk: Desk, kind: str, *edge: int) -> list[tuple[int, int]]:
 def test_alt_shows_what_a_click_takes_and_w_and_the_wheel_turn_from_one_to_the_next(desk: Desk) -> None:
     place, ui = offer(desk, 40, 41), desk.ui
     session = desk.session
-    kinds = session.loop_offers
+    kinds = session.picture.offered.kinds
     assert "STRIP" in kinds
     assert len(kinds) > 1
     frame, distance = bpy.context.scene.frame_current, ui.view.view_distance
-    seen = [session.loop_choice]
+    seen = [session.picture.offered.kind]
     for _ in kinds[1:]:
         ui.wheel(up=True, alt=True)
-        seen.append(session.loop_choice)
+        seen.append(session.picture.offered.kind)
     assert seen == list(kinds)
     ui.key("W", alt=True)
-    assert session.loop_choice == kinds[0], "and round again"
+    assert session.picture.offered.kind == kinds[0], "and round again"
     assert (bpy.context.scene.frame_current, ui.view.view_distance) == (frame, distance)
     assert f"1 of {len(kinds)}" in said()
     ui.event("LEFT_ALT", "RELEASE", place)
     assert not desk.running
-    assert session.loop_preview is None
+    assert session.picture.one(Role.OFFER) is None
     assert desk.unchanged()
 
 
@@ -155,9 +156,9 @@ def test_the_offer_that_is_shown_is_seen(ui: driver.Ui, desk: Desk) -> None:
     place = offer(desk, 40, 41)
     turn_to(desk, "STRIP")
     assert shows(ui.pixels(), desk.at(37, 38), GREEN)
-    strip, before = set(desk.session.loop_preview.edges()), ui.pixels()
+    strip, before = set(desk.session.picture.one(Role.OFFER).edges()), ui.pixels()
     turn_to(desk, "CLOSED")
-    new = min(set(desk.session.loop_preview.edges()) - strip)
+    new = min(set(desk.session.picture.one(Role.OFFER).edges()) - strip)
     assert shows(ui.pixels(), desk.at(*new), GREEN)
     assert not shows(before, desk.at(*new), GREEN)
     ui.event("LEFT_ALT", "RELEASE", place)

@@ -18,7 +18,7 @@ def begin(desk: Desk) -> None:
     session = desk.start()
     desk.ui.click(desk.at(36), ctrl=True)
     desk.ui.move(desk.at(40))
-    desk.ui.wait_until(lambda: session.active is not None)
+    desk.ui.wait_until(lambda: session.picture.active is not None)
 
 
 def drag(ui: driver.Ui, start: tuple[float, float], by: tuple[float, float], **modifiers: bool) -> None:

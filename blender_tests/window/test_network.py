@@ -10,6 +10,7 @@ import pytest
 import ui as driver
 from desk import Desk, choose, drag, draw, undo_steps
 from scene import chain, seams, snapshot
+from seamwire.core.drawing.picture import Role
 from seamwire.mesh.settings import preferences, settings
 from seamwire.operators import bindings
 from seamwire.ui import status_bar
@@ -71,10 +72,10 @@ def test_f_shows_the_wire_to_the_end_and_keeps_it(desk: Desk) -> None:
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(36))
     ui.move(desk.at(38))
-    ui.wait_until(lambda: session.active is not None)
+    ui.wait_until(lambda: session.picture.active is not None)
     ui.key("F")
-    ui.wait_until(lambda: session.end_preview is not None)
-    assert session.end_preview.vertices[-1] == 44
+    ui.wait_until(lambda: session.picture.one(Role.EXTENSION) is not None)
+    assert session.picture.one(Role.EXTENSION).vertices[-1] == 44
     assert session.wires == ()
     ui.key("F")
     ui.wait_until(lambda: not desk.running)
@@ -113,16 +114,16 @@ def test_w_takes_the_next_candidate_and_the_wheel_zooms(cone: Desk) -> None:
     session, ui = cone.start(), cone.ui
     ui.click(cone.at(20))
     ui.move(cone.at(61))
-    ui.wait_until(lambda: session.others)
-    active, other = session.active.vertices, session.others[0].vertices
+    ui.wait_until(lambda: session.picture.others)
+    active, other = session.picture.active.vertices, session.picture.others[0].vertices
     ui.key("W")
-    assert session.active.vertices == other
+    assert session.picture.active.vertices == other
     ui.wheel(up=True, alt=True)
-    assert session.active.vertices == active
+    assert session.picture.active.vertices == active
     distance = ui.view.view_distance
     ui.wheel(up=True)
     assert ui.view.view_distance < distance
-    assert session.active.vertices == active
+    assert session.picture.active.vertices == active
     ui.wheel(up=False)
     ui.move(cone.at(61))
     ui.key("W")
@@ -136,13 +137,13 @@ def test_across_the_surface_w_goes_through_three_candidates_live_and_kept(cone: 
     session, ui = cone.choose(), cone.ui
     ui.click(cone.at(20))
     ui.move(cone.at(61))
-    ui.wait_until(lambda: len(session.others) == 2)
+    ui.wait_until(lambda: len(session.picture.others) == 2)
     names = ("Least curvature", "Most curvature", "Concave creases")
     seen = []
     for number in range(3):
         assert f"Next Candidate ({(number + 1) % 3 + 1} of 3)" in said(cone)
-        seen.append(session.active.follow)
-        assert f"{names[seen[-1]]} ({number + 1} of 3)" in text_overlay.lines(session, None)
+        seen.append(session.picture.active.follow)
+        assert f"{names[seen[-1]]} ({number + 1} of 3)" in text_overlay.lines(session.picture)
         ui.key("W")
     assert seen == [2, 0, 1], "that along creases first"
     ui.click(cone.at(61))
@@ -152,7 +153,7 @@ def test_across_the_surface_w_goes_through_three_candidates_live_and_kept(cone: 
     for follow in (0, 1, 2):
         points = session.wires[0].points
         ui.move(ui.on_screen(tuple(points[len(points) // 2])))
-        assert session.hovered_wire is not None
+        assert session.picture.one(Role.HOVERED) is not None
         ui.key("W")
         ui.wait_until(lambda expected=follow: session.wires[0].follow == expected)
 
@@ -166,10 +167,10 @@ def test_the_wheel_takes_the_next_candidate_where_it_is_given_to_it(cone: Desk) 
         assert ui.view.view_distance < distance, "no wire is live"
         ui.click(cone.at(20))
         ui.move(cone.at(61))
-        ui.wait_until(lambda: session.others)
-        other, distance = session.others[0].vertices, ui.view.view_distance
+        ui.wait_until(lambda: session.picture.others)
+        other, distance = session.picture.others[0].vertices, ui.view.view_distance
         ui.wheel(up=True)
-        assert session.active.vertices == other
+        assert session.picture.active.vertices == other
         assert ui.view.view_distance == distance
         ui.wheel(up=False, ctrl=True)
         assert ui.view.view_distance > distance
@@ -210,7 +211,7 @@ def test_v_and_e_switch_settings_that_the_header_shows(desk: Desk) -> None:
     assert settings().along == "SURFACE"
     settings().along = "EDGES"
     desk.ui.move(desk.at(41))
-    assert desk.session.along == "EDGES"
+    assert desk.session.options.along == "EDGES"
     assert desk.unchanged()
 
 
@@ -312,7 +313,7 @@ def test_clicks_begin_at_seeds_and_end_on_wires(desk: Desk) -> None:
     ui.click(desk.at(0), button="RIGHTMOUSE")
     ui.click(desk.at(76))
     ui.move(desk.at(40))
-    ui.wait_until(lambda: session.active is not None)
+    ui.wait_until(lambda: session.picture.active is not None)
     assert session.target.to == "WIRE"
     ui.click(desk.at(40))
     ui.wait_until(lambda: not desk.running)
@@ -327,7 +328,7 @@ def test_x_and_delete_remove_the_wire_under_the_cursor(desk: Desk, key: str, cap
     draw(desk, 36, 44)
     draw(desk, 0, 8)
     ui.move(desk.at(40))
-    assert session.hovered_wire is not None
+    assert session.picture.one(Role.HOVERED) is not None
     ui.key(key)
     assert seams(desk.obj) == chain(*range(9))
     assert undo_steps(capfd)[-1] == "Remove Wire"
@@ -359,14 +360,14 @@ def test_a_kept_wire_takes_its_other_path(cone: Desk, capfd: pytest.CaptureFixtu
     session, ui = cone.choose(), cone.ui
     ui.click(cone.at(20))
     ui.move(cone.at(61))
-    ui.wait_until(lambda: session.others)
-    other = session.others[0].vertices
+    ui.wait_until(lambda: session.picture.others)
+    other = session.picture.others[0].vertices
     ui.click(cone.at(61))
     ui.wait_until(lambda: len(session.wires) == 1)
     ui.key("RET")
     inside = session.wires[0].vertices[1]
     ui.move(cone.at(inside))
-    assert session.hovered_wire is not None
+    assert session.picture.one(Role.HOVERED) is not None
     ui.key("W")
     ui.wait_until(lambda: not cone.running)
     assert session.wires[0].vertices == other
@@ -378,17 +379,17 @@ def test_a_kept_wire_takes_its_other_path(cone: Desk, capfd: pytest.CaptureFixtu
 @pytest.mark.every_blender
 def test_the_meshs_own_mirror_counts_and_m_sets_it(desk: Desk) -> None:
     session, ui = desk.start(), desk.ui
-    assert session.mirror_axes == ()
+    assert session.options.mirror == ()
     ui.move(desk.at(40))
     ui.key("M")
-    assert session.mirror_axes == (0,)
+    assert session.options.mirror == (0,)
     assert desk.obj.data.use_mirror_x, "the option that Blender's tools heed"
     ui.key("M")
-    assert session.mirror_axes == (1,)
+    assert session.options.mirror == (1,)
     ui.key("M")
-    assert session.mirror_axes == (0, 1)
+    assert session.options.mirror == (0, 1)
     ui.key("M")
-    assert session.mirror_axes == ()
+    assert session.options.mirror == ()
     ui.key("ESC")
     desk.obj.data.use_mirror_x = True
     choose(ui)
@@ -415,13 +416,13 @@ def test_gaps_in_seams_are_shown_until_they_are_closed(desk: Desk) -> None:
     draw(desk, 22, 31)
     desk.ui.move(desk.at(60))
     view = edited.front
-    desk.ui.wait_until(lambda: view.overlay._islands.newest.gaps != ())
-    (gap,) = view.overlay._islands.newest.gaps
+    desk.ui.wait_until(lambda: view.islands.newest.gaps != ())
+    (gap,) = view.islands.newest.gaps
     assert gap.path == (31, 40)
     before = desk.ui.pixels()
     with desk.ui.override():
         assert bpy.ops.mesh.seamwire_close_gaps() == {"FINISHED"}
     desk.ui.move(desk.at(61))
-    desk.ui.wait_until(lambda: edited.front.overlay._islands.newest.count == 3)
-    assert edited.front.overlay._islands.newest.gaps == ()
+    desk.ui.wait_until(lambda: edited.front.islands.newest.count == 3)
+    assert edited.front.islands.newest.gaps == ()
     assert np.abs(desk.ui.pixels() - before).max() > 0.2

@@ -7,7 +7,7 @@ The sessions are made by hand: what they say is known, and the drawing of it is 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, fields, replace
 from itertools import pairwise
 
 import bmesh
@@ -18,10 +18,13 @@ import show
 import ui as driver
 from numpy.typing import NDArray
 from scene import add_grid, add_object, edit
+from seamwire.core.drawing.options import Options
+from seamwire.core.drawing.picture import Offered, Picture, Role, ShownWire, shown_seeds
 from seamwire.core.islands.islands import IslandMaker
-from seamwire.core.network.network import Edge, Pick, Snap, Wire
+from seamwire.core.network.network import Edge, Snap, Wire
 from seamwire.mesh import edit_mesh
 from seamwire.view.overlay import Overlay
+from seamwire.view.shown_islands import ShownIslands
 from seamwire.view.theme import Looks, Style
 
 pytestmark = pytest.mark.oldest_and_newest
@@ -38,60 +41,70 @@ class Drawn:
     attracts: bool = True
 
 
-@dataclass
 class Said:
-    """A session that says what a test wants it to."""
+    """A picture that says what a test wants it to."""
 
-    wires: tuple[Wire, ...] = ()
-    active: Wire | None = None
-    others: tuple[Wire, ...] = ()
-    candidate_number: int = 0
-    finish: str = "SNAP"
-    loop_preview: Wire | None = None
-    end_preview: Wire | None = None
-    moved: tuple[Wire, ...] = ()
-    following: tuple[Wire, ...] = ()
-    drawn: NDArray[np.float64] | None = None
-    hovered_wire: Wire | None = None
-    hovered_seed: Pick | None = None
-    dragged_seed: Pick | None = None
-    closing_point: Pick | None = None
-    seed_place: Pick | None = None
-    placed: tuple[Pick, ...] = ()
-    target: Snap | None = None
-    images: dict[int, list[Wire]] = field(default_factory=dict)
-    along: str = "EDGES"
-    metric: str = "feature"
-    strength: float = 10.0
-    marking: bool = True
-    preliminary: bool = False
-    straight_active: bool = False
-    mirror_axes: tuple[int, ...] = ()
-    strokes: tuple[Drawn, ...] = ()
-    loop_offers: tuple[str, ...] = ()
-    loop_choice: str | None = None
-    loop_number: int = 0
-    revision: int = 0
-    network_revision: int = 0
+    def __init__(self) -> None:
+        self.picture = Picture()
+        self.cuts: tuple[Wire, ...] = ()
+        self._said: dict[str, object] = {}
 
-    def seeds(self) -> list[Pick]:
-        return list(self.placed)
-
-    def mirrored(self, wire: Wire) -> list[Wire]:
-        return self.images.get(wire.id, [])
+    @property
+    def network_revision(self) -> int:
+        return self.picture.network_revision
 
     def edges_to_mark(self) -> list[Edge]:
-        return [edge for wire in self.wires if wire.marks for edge in wire.edges()]
+        return [edge for wire in self.cuts if wire.marks for edge in wire.edges()]
 
     def edges_to_clear(self) -> list[Edge]:
-        return [edge for wire in self.wires if not wire.marks for edge in wire.edges()]
+        return [edge for wire in self.cuts if not wire.marks for edge in wire.edges()]
 
     def say(self, **what: object) -> None:
-        """Say something else from here on."""
-        for name, value in what.items():
-            setattr(self, name, value)
-        self.revision += 1
-        self.network_revision += "wires" in what
+        """Say something else from here on: wires and seeds by their roles, anything else as pictures and options have it."""
+        self._said.update(what)
+        said, images = dict(self._said), self._said.get("images", {})
+        said.pop("images", None)
+
+        def wires(role: Role, name: str) -> list[ShownWire]:
+            found = said.pop(name, ()) or ()
+            found = (found,) if isinstance(found, Wire) else found
+            kept = role is Role.KEPT
+            own = {wire.id: wire.images or () for wire in found} if kept else images
+            return [ShownWire(wire, role, tuple(own.get(wire.id, ())), "SNAP") for wire in found]
+
+        self.cuts = tuple(said.get("wires", ()))
+        moved = {wire.id for wire in said.get("moved", ())}
+        active = Role.COMPUTING if said.pop("preliminary", False) else Role.ACTIVE
+        shown = [
+            *(one for one in wires(Role.KEPT, "wires") if one.wire.id not in moved),
+            *wires(Role.HOVERED, "hovered_wire"),
+            *wires(Role.OTHER, "others")[::-1],
+            *wires(Role.MOVED, "moved"),
+            *wires(active, "active"),
+            *wires(Role.OFFER, "loop_preview"),
+            *wires(Role.EXTENSION, "end_preview"),
+        ]
+        hovered, dragged = said.pop("hovered_seed", None), said.pop("dragged_seed", None)
+        seeds = shown_seeds(
+            said.pop("placed", ()),
+            said.pop("seed_place", None),
+            said.pop("closing_point", None),
+            hovered if dragged is None else dragged,
+            (),
+        )
+        kinds, choice = said.pop("loop_offers", ()), said.pop("loop_choice", None)
+        number = said.pop("loop_number", 0)
+        names = {field.name for field in fields(Options)}
+        options = Options(**{name: said.pop(name) for name in names & said.keys()})
+        self.picture = Picture(
+            options=options,
+            revision=self.picture.revision + 1,
+            network_revision=self.picture.network_revision + ("wires" in what),
+            wires=tuple(shown),
+            seeds=seeds,
+            offered=Offered(kinds if choice else (), number),
+            **{"strength": options.strength, **said},
+        )
 
 
 class Sight:
@@ -122,7 +135,7 @@ class Sight:
             self.errors.append(error)
 
     def make(self, **options: object) -> Overlay:
-        return Overlay(self.session, self.obj, self.arrays.points, self.arrays.to_object, **options)
+        return Overlay(lambda: self.session.picture, self.obj, self.arrays.points, self.arrays.to_object, **options)
 
     def wire(self, *vertices: int, along: str = "EDGES", marks: bool = True, points: object = None) -> Wire:
         curve = self.arrays.points[list(vertices)] if points is None else np.array(points)
@@ -130,6 +143,16 @@ class Sight:
 
     def at(self, *vertices: int) -> tuple[float, float]:
         return self.ui.on_screen(tuple(self.arrays.points[list(vertices)].mean(axis=0)))
+
+    def tint(self, maker: IslandMaker) -> None:
+        """Show the islands that a maker finds."""
+        islands = ShownIslands(maker, self.session, ())
+
+        def look() -> Picture:
+            islands.poll()
+            return replace(self.session.picture, islands=islands.newest)
+
+        self.overlay = Overlay(look, self.obj, self.arrays.points, self.arrays.to_object)
 
     def pixels(self, **said: object) -> NDArray[np.float32]:
         self.session.say(**said)
@@ -324,8 +347,7 @@ def test_hidden_parts_are_faint_and_in_xray_plain(sight: Sight) -> None:
     behind = sight.pixels()
     assert not has(behind, at, "red", chroma=0.5)
     assert has(behind, at, "red", chroma=0.08), "reddish still"
-    sight.overlay.xray = True
-    assert has(sight.pixels(), at, "red")
+    assert has(sight.pixels(xray=True), at, "red")
 
 
 def test_the_live_wire_is_drawn_over_the_kept_ones(sight: Sight) -> None:
@@ -390,7 +412,7 @@ def test_a_hovered_wire_is_lit(sight: Sight) -> None:
 
 def test_mirrored_wires_are_thinner_than_the_wire(sight: Sight) -> None:
     kept, image = sight.wire(*range(9, 18)), sight.wire(*range(63, 72))
-    seen = sight.pixels(wires=(replace(kept, images=tuple(image.edges())),), images={kept.id: [image]})
+    seen = sight.pixels(wires=(replace(kept, images=tuple(image.edges())),), images={kept.id: image.edges()})
     own, other = amount(seen, sight.at(12, 13), "red", 0.3), amount(seen, sight.at(66, 67), "red", 0.3)
     assert 0 < other < 0.75 * own
     live = sight.pixels(wires=(), active=kept)
@@ -453,11 +475,9 @@ def test_strokes_are_soft_bands_and_those_that_repel_are_barred(sight: Sight) ->
 def test_a_stroke_is_seen_while_it_is_drawn_and_lies_under_the_wires(sight: Sight) -> None:
     at = sight.at(38, 39)
     empty = sight.pixels()
-    sight.overlay.stroke = (stroke_over(sight), True)
-    drawn = sight.pixels()
+    drawn = sight.pixels(stroke=(stroke_over(sight), True))
     assert np.abs(around(drawn, at, 1) - around(empty, at, 1)).max() > 0.08
-    sight.overlay.stroke = None
-    assert np.abs(around(sight.pixels(), at, 1) - around(empty, at, 1)).max() < 0.02
+    assert np.abs(around(sight.pixels(stroke=None), at, 1) - around(empty, at, 1)).max() < 0.02
     over = sight.pixels(strokes=(Drawn(stroke_over(sight)),), active=sight.wire(*range(36, 45)))
     assert has(over, at, "orange"), "the wire is on top"
 
@@ -484,7 +504,7 @@ def test_where_blender_shows_all_layers_the_nearest_is_tinted_and_hidden_wires_a
     sight = Sight(ui, add_object(lower + upper, [*quads, (count, count + 1, count + 2, count + 3)]))
     triangles = sight.arrays.triangles
     maker = IslandMaker(triangles, lambda cuts: (triangles >= count).any(axis=1).astype(np.int32))
-    sight.overlay = sight.make(triangles=triangles, islands=maker)
+    sight.tint(maker)
     try:
         show.shading(ui, name)
         plain = sight.pixels()
@@ -508,7 +528,7 @@ def halves(triangles: NDArray[np.int32], cuts: NDArray[np.int32]) -> NDArray[np.
 def test_segments_are_tinted_apart_and_counted(sight: Sight) -> None:
     triangles = sight.arrays.triangles
     maker = IslandMaker(triangles, lambda cuts: halves(triangles, cuts))
-    sight.overlay = sight.make(triangles=triangles, islands=maker)
+    sight.tint(maker)
     inside = [tuple(np.add(sight.at(v, v + 10), (0.0, 0.0))) for v in (19, 55)]
     plain = sight.pixels()
     cut = sight.pixels(wires=(sight.wire(*range(36, 45)),))
@@ -530,7 +550,7 @@ def text_pixels(pixels: NDArray[np.float32]) -> NDArray[np.bool_]:
 def test_the_text_tells_of_strength_clearing_and_mirror(sight: Sight) -> None:
     seen = [
         text_pixels(sight.pixels(**said))
-        for said in ({}, {"strength": 15.6}, {"marking": False}, {"mirror_axes": (0,)}, {"along": "SURFACE"})
+        for said in ({}, {"strength": 15.6}, {"clear": True}, {"mirror": (0,)}, {"along": "SURFACE"})
     ]
     for one, two in pairwise(seen):
         assert (one != two).sum() > 5
@@ -542,12 +562,10 @@ def test_the_table_of_keys_is_laid_over_a_dark_ground(sight: Sight) -> None:
     region = sight.ui.region
     middle = (region.width / 2, region.height / 2)
     before = sight.pixels()
-    sight.overlay.help_rows = rows
-    seen = sight.pixels()
+    seen = sight.pixels(keys=tuple(rows))
     assert np.median(around(seen, middle, 60)) < 0.5 * np.median(around(before, middle, 60))
     assert has(seen, middle, "orange", chroma=0.4, radius=180), "the keys"
-    sight.overlay.help_rows = None
-    assert np.abs(sight.pixels() - before).max() < 0.1
+    assert np.abs(sight.pixels(keys=None) - before).max() < 0.1
 
 
 def test_styles_are_told_apart_by_more_than_their_hue() -> None:

@@ -26,6 +26,16 @@ def recorded(function: Callable, calls: list[str]) -> Callable:
     return record
 
 
+def noted(draw: Callable, calls: list[str]) -> Callable:
+    """Return a panel's method that draws the same and notes where. Blender counts its arguments."""
+
+    def draw_and_note(panel: bpy.types.Panel, context: bpy.types.Context) -> None:
+        draw(panel, context)
+        calls.append(context.region.type)
+
+    return draw_and_note
+
+
 @pytest.mark.smoke
 @pytest.mark.every_blender
 def test_the_preferences_show_the_keys(ui: driver.Ui, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -78,3 +88,37 @@ def test_the_tools_settings_are_shown_in_its_header_and_in_the_properties(
         with ui.override():
             bpy.ops.wm.tool_set_by_id(name="builtin.select_box")
     assert set(calls) <= {"TOOL_HEADER", "WINDOW", "HEADER", "UI"}
+
+
+@pytest.mark.smoke
+@pytest.mark.every_blender
+def test_the_views_are_shown_in_a_popover_and_the_groups_in_the_sidebar(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    calls: list[str] = []
+    ui = desk.ui
+    panel = bpy.types.VIEW3D_PT_seamwire_overlays
+    monkeypatch.setattr(panel, "draw", noted(panel.draw, calls))
+    desk.choose()
+    with ui.override():
+        bpy.ops.wm.call_panel(name=panel.bl_idname)
+    ui.wait_until(lambda: bool(calls))
+    ui.key("ESC")
+    ui.wait(2)
+    if bpy.app.version < (4, 2, 0):
+        return  # a script cannot choose the sidebar's tab
+    groups: list[str] = []
+    for name, _ in properties.GROUPS:
+        group = getattr(bpy.types, f"VIEW3D_PT_seamwire_{name.lower()}")
+        monkeypatch.setattr(group, "draw", noted(group.draw, groups))
+    ui.space.show_region_ui = True
+    try:
+        ui.wait(2, redraw=True)
+        area = next(area for area in ui.window.screen.areas if area.type == "VIEW_3D")
+        next(region for region in area.regions if region.type == "UI").active_panel_category = "Tool"
+        ui.wait(2, redraw=True)
+        ui.wait_until(lambda: len(groups) >= len(properties.GROUPS) - 1)  # one is closed
+    finally:
+        ui.space.show_region_ui = False
+        ui.wait(2)
+    assert set(groups) == {"UI"}

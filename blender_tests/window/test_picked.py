@@ -8,6 +8,7 @@ import pytest
 import ui as driver
 from desk import ORANGE, Desk, leave, shows
 from scene import add_grid, add_object, chain, seams
+from seamwire.core.drawing.picture import Role
 from seamwire.operators.report import running
 from seamwire.ui import status_bar
 from seamwire.view.edited_objects import edited
@@ -40,7 +41,7 @@ def test_v_lets_wires_be_drawn_on_the_far_side(layers: Desk) -> None:
     assert session.target.pick == 81
     ui.click(layers.at(81))
     ui.move(layers.at(84))
-    ui.wait_until(lambda: session.active is not None)
+    ui.wait_until(lambda: session.picture.active is not None)
     assert shows(ui.pixels(), layers.at(82, 83), ORANGE), "seen through the upper sheet"
     ui.click(layers.at(84))
     ui.wait_until(lambda: len(session.wires) == 1)
@@ -88,7 +89,7 @@ def test_wires_end_on_seams_that_are_there(desk: Desk) -> None:
     ui.click(desk.at(4))
     ui.move(desk.at(40))
     assert session.target.to == "SEAM"
-    ui.wait_until(lambda: session.active is not None and not session.preliminary)
+    ui.wait_until(lambda: session.picture.active is not None and session.picture.one(Role.COMPUTING) is None)
     assert "Join" in said()
     ui.click(desk.at(40))
     ui.wait_until(lambda: len(session.wires) == 1)
@@ -99,10 +100,10 @@ def test_wires_end_on_seams_that_are_there(desk: Desk) -> None:
 def test_mirrored_wires_are_drawn_live(desk: Desk) -> None:
     desk.obj.data.use_mirror_x = True
     session, ui = desk.start(), desk.ui
-    assert session.mirror_axes == (0,)
+    assert session.options.mirror == (0,)
     ui.click(desk.at(9))
     ui.move(desk.at(12))
-    ui.wait_until(lambda: session.active is not None)
+    ui.wait_until(lambda: session.picture.active is not None)
     pixels, there = ui.pixels(), desk.at(15, 16)
     assert not shows(pixels, desk.at(24, 25), ORANGE)
     around = pixels[round(there[1]) - 3 : round(there[1]) + 4, round(there[0]), :3]
@@ -140,7 +141,7 @@ def test_escape_ends_work_that_takes_long(desk: Desk, monkeypatch: pytest.Monkey
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(36))
     ui.wait_until(lambda: not session.computing)
-    engine = session._engines.get(session.along)
+    engine = session._engines.get(session.options.along)
     nothing = type("Nothing", (), {"points": [], "vertices": [], "length": 0.0, "final": False})()
     answer = type("Wires", (), {"wires": (nothing, nothing), "active": 0, "settled": False, "final": False})()
 

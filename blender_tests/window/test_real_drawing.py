@@ -103,7 +103,7 @@ def test_a_wire_is_drawn_by_hand(real_ui: driver.RealUi) -> None:
     ui.click(at(36), ctrl=True)
     assert session.seed == 36
     ui.move(at(40))
-    ui.wait_until(lambda: session.active is not None)
+    ui.wait_until(lambda: session.picture.active is not None)
     ui.click(at(44))
     ui.wait_until(lambda: len(session.wires) == 1)
     ui.click(at(60), button="RIGHTMOUSE")

@@ -8,9 +8,9 @@ from contextlib import contextmanager
 import bpy
 import pytest
 from desk import Desk, draw
-from seamwire.core import islands
-from seamwire.core.islands import IslandMaker
-from seamwire.core.live_maker import LiveMaker
+from seamwire.core.islands import islands
+from seamwire.core.islands.islands import IslandMaker
+from seamwire.core.solver.live_maker import LiveMaker
 from seamwire.mesh import edit_mesh
 from seamwire.view.edited_objects import EditedObjects, edited
 
@@ -68,7 +68,7 @@ def test_the_first_picture_after_a_chain_shows_all_of_its_end(desk: Desk, calls:
     ui.click(desk.at(36))
     ui.click(desk.at(44))
     ui.wait_until(lambda: len(session.wires) == 1 and settled())
-    assert edited.front.overlay._islands.newest.count == 2
+    assert edited.front.islands.newest.count == 2
     wanted = calls["want"]
     with pictures(lambda: (desk.running, settled())) as told:
         ui.key("RET")
@@ -76,7 +76,7 @@ def test_the_first_picture_after_a_chain_shows_all_of_its_end(desk: Desk, calls:
     after = [is_settled for is_running, is_settled in told if not is_running]
     assert after[0], "no other picture is needed"
     assert calls["want"] == wanted, "the seams cut what the wires cut before"
-    assert edited.front.overlay._islands.newest.count == 2
+    assert edited.front.islands.newest.count == 2
 
 
 def test_the_second_chain_goes_on_with_what_the_first_one_prepared(desk: Desk, calls: Counter[str]) -> None:
@@ -97,7 +97,9 @@ def test_progress_is_told_without_a_picture(desk: Desk, calls: Counter[str], mon
     ui.wait_until(lambda: not session.computing and settled())
     ui.wait(2)
     told: list[float] = []
-    monkeypatch.setattr("seamwire.operators.modal.status_makers", [lambda chain: told.append(chain.session.progress)])
+    monkeypatch.setattr(
+        "seamwire.operators.modal.status_makers", [lambda chain: told.append(chain.session.work.progress)]
+    )
     redraws = calls["redraw"]
     for percent in (10, 20, 30):
         monkeypatch.setattr(session, "_progress", percent / 100.0)

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from desk import Desk, draw
 from scene import chain, seams, snapshot
+from seamwire.core.drawing.picture import Role
 from seamwire.mesh import uv_map
 
 ROW = chain(*range(36, 45))
@@ -104,7 +105,7 @@ def test_seams_and_wires_come_back_with_faces_that_were_deleted(desk: Desk) -> N
     ui.key("Z", ctrl=True)
     ui.move(desk.at(40))
     assert seams(desk.obj) == ROW
-    assert desk.session.hovered_wire is not None
+    assert desk.session.picture.one(Role.HOVERED) is not None
 
 
 def test_undo_over_a_change_in_object_mode_and_back_leaves_a_mesh_to_be_drawn_on(desk: Desk) -> None:

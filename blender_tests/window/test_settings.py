@@ -7,6 +7,7 @@ import pytest
 import ui as driver
 from desk import Desk, leave
 from scene import GATE_RIDGE, GATE_SEEDS, GATE_STRAIGHT, add_gate, chain, seams
+from seamwire.core.drawing.picture import Role
 from seamwire.mesh.settings import settings
 
 
@@ -25,8 +26,8 @@ def test_metric_clamp_and_strength_change_the_live_wire(gate: Desk) -> None:
     ridge, straight = chain(*GATE_RIDGE), chain(*GATE_STRAIGHT)
 
     def runs(edges: list[tuple[int, int]]) -> bool:
-        active = session.active
-        return active is not None and not session.preliminary and sorted(active.edges()) == edges
+        active = session.picture.active
+        return active is not None and session.picture.one(Role.COMPUTING) is None and sorted(active.edges()) == edges
 
     ui.click(gate.at(GATE_SEEDS[0]), ctrl=True)
     ui.move(gate.at(GATE_SEEDS[1]))

@@ -56,7 +56,7 @@ def aim(desk: Desk) -> None:
     """Place a seed, and point at another vertex."""
     desk.ui.click(desk.at(START))
     desk.ui.move(desk.at(END))
-    desk.ui.wait_until(lambda: not desk.session.computing and desk.session.active is not None)
+    desk.ui.wait_until(lambda: not desk.session.computing and desk.session.picture.active is not None)
 
 
 @pytest.mark.smoke
@@ -65,11 +65,11 @@ def test_it_is_straight_on_the_screen_and_a_click_keeps_it(desk: Desk) -> None:
     desk.choose()
     aim(desk)
     session = desk.session
-    assert session.straight_active
-    assert bend_on_screen(desk, session.active) < 0.05
+    assert session.picture.choice.straight
+    assert bend_on_screen(desk, session.picture.active) < 0.05
     middle = 0.5 * (np.array(desk.at(START)) + desk.at(END))
     assert shows(ui.pixels(), tuple(middle.tolist()), ORANGE)
-    assert bend_on_screen(desk, session.others[0]) > 3.0
+    assert bend_on_screen(desk, session.picture.others[0]) > 3.0
     ui.click(desk.at(END))
     ui.wait_until(lambda: len(session.wires) == 1)
     assert bend_on_screen(desk, session.wires[0]) < 0.05
@@ -88,8 +88,8 @@ def test_where_the_view_has_turned_it_is_straight_in_that(desk: Desk) -> None:
     ui.move((place[0] + 1.0, place[1]))
     ui.move(place)
     ui.wait_until(lambda: not desk.session.computing)
-    assert desk.session.straight_active
-    assert bend_on_screen(desk, desk.session.active) < 0.05
+    assert desk.session.picture.choice.straight
+    assert bend_on_screen(desk, desk.session.picture.active) < 0.05
 
 
 def test_the_key_that_closes_a_chain_closes_it_straight(desk: Desk) -> None:
@@ -111,13 +111,13 @@ def test_w_goes_on_to_the_wires_of_the_metric(desk: Desk) -> None:
     aim(desk)
     ui.key("W")
     ui.wait()
-    assert not desk.session.straight_active
-    assert bend_on_screen(desk, desk.session.active) > 3.0
+    assert not desk.session.picture.choice.straight
+    assert bend_on_screen(desk, desk.session.picture.active) > 3.0
 
 
 def test_it_is_offered_only_where_it_is_asked_for(desk: Desk) -> None:
     settings().straight = False
     desk.choose()
     aim(desk)
-    assert not desk.session.straight_active
-    assert min(bend_on_screen(desk, wire) for wire in (desk.session.active, *desk.session.others)) > 1.0
+    assert not desk.session.picture.choice.straight
+    assert min(bend_on_screen(desk, wire) for wire in (desk.session.picture.active, *desk.session.picture.others)) > 1.0

@@ -114,7 +114,7 @@ def test_a_map_that_changes_is_measured_once_and_only_where_it_changed(
     settings().heat = "ANGLE"
     desk.ui.wait_until(lambda: bool(measured))
     assert measured[0] == 128
-    desk.ui.wait_until(lambda: edited.front.overlay._islands.newest is not None)
+    desk.ui.wait_until(lambda: edited.front.islands.newest is not None)
     measured.clear()
     lay_out(desk, right=2.0)
     desk.ui.wait_until(lambda: bool(measured))

@@ -10,6 +10,7 @@ import pytest
 import ui as driver
 from desk import Desk, choose, leave, undo_steps
 from scene import add_grid, chain, seams
+from seamwire.core.drawing.picture import Role
 from seamwire.mesh.settings import settings
 from seamwire.operators.report import running
 from seamwire.ui import status_bar
@@ -65,8 +66,8 @@ def wire(desk: Desk) -> list[tuple[int, int]]:
     desk.ui.click(desk.at(LEFT), ctrl=True)
     desk.ui.move(desk.at(RIGHT))
     session = desk.session
-    desk.ui.wait_until(lambda: session.active is not None and not session.preliminary)
-    return sorted(session.active.edges())
+    desk.ui.wait_until(lambda: session.picture.active is not None and session.picture.one(Role.COMPUTING) is None)
+    return sorted(session.picture.active.edges())
 
 
 def test_a_stroke_leads_the_live_wire_and_undo_takes_it_back(fine: Desk) -> None:
@@ -78,15 +79,19 @@ def test_a_stroke_leads_the_live_wire_and_undo_takes_it_back(fine: Desk) -> None
     assert session.strokes[0].acts_on != "both", "it is for the active wire"
     computed(fine)
     ui.move(fine.at(RIGHT))
-    ui.wait_until(lambda: session.active is not None and sorted(session.active.edges()) == sorted(ROUND))
+    ui.wait_until(
+        lambda: session.picture.active is not None and sorted(session.picture.active.edges()) == sorted(ROUND)
+    )
     ui.key("Z", ctrl=True)
     assert session.strokes == ()
     assert session.seed is not None, "the wire is live still"
-    ui.wait_until(lambda: session.active is not None and sorted(session.active.edges()) == STRAIGHT)
+    ui.wait_until(lambda: session.picture.active is not None and sorted(session.picture.active.edges()) == STRAIGHT)
     ui.key("Z", ctrl=True, shift=True)
     assert len(session.strokes) == 1
     computed(fine)
-    assert sorted(session.active.edges()) == sorted(ROUND), "the wire that it is for, though the other may be shorter"
+    assert sorted(session.picture.active.edges()) == sorted(ROUND), (
+        "the wire that it is for, though the other may be shorter"
+    )
     assert fine.unchanged()
     ui.click(fine.at(RIGHT))
     ui.wait_until(lambda: len(session.wires) == 1)
@@ -184,16 +189,16 @@ def test_a_stroke_that_comes_back_to_its_beginning_is_closed(fine: Desk) -> None
 def test_while_it_is_drawn_a_stroke_is_shown_and_escape_drops_it(fine: Desk) -> None:
     session, ui = fine.start(), fine.ui
     computed(fine)
-    overlay = edited.front.overlay
+    view = edited.front
     ui.move(at(fine, (5.0, 15.0)), shift=True)
     ui.event("LEFTMOUSE", "PRESS", shift=True)
     for x in (10.0, 15.0, 20.0):
         ui.move(at(fine, (x, 15.0)), shift=True)
-    points, attracts = overlay.stroke
+    points, attracts = view.stroke
     assert attracts
     assert len(points) > 10, "the hand moved less often than that"
     ui.key("ESC")
-    assert overlay.stroke is None
+    assert view.stroke is None
     ui.event("LEFTMOUSE", "RELEASE", shift=True)
     assert session.strokes == ()
 

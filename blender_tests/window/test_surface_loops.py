@@ -11,6 +11,7 @@ import ui as driver
 from desk import GREEN, Desk, leave, shows
 from scene import add_object, seams
 from seamwire.core.base.geometry import nearest_on_segments
+from seamwire.core.drawing.picture import Role
 from seamwire.core.offers.surface_loops import SurfaceLoops
 from seamwire.mesh.settings import settings
 from seamwire.operators.report import running
@@ -69,10 +70,10 @@ def test_alt_over_a_limb_shows_the_cut_around_it_and_a_click_takes_it(desk: Desk
     ui = desk.ui
     place = offer(desk, WAIST)
     session = desk.session
-    assert session.loop_choice == "ACROSS"
+    assert session.picture.offered.kind == "ACROSS"
     assert "Add Closed Cut" in said()
     assert shows(ui.pixels(), desk.at(WAIST + 3), GREEN)
-    preview = session.loop_preview
+    preview = session.picture.one(Role.OFFER)
     assert abs(preview.points[:, 1]).max() < 0.06, "it goes around the waist"
     shown = sorted(preview.edges())
     ui.click(place, alt=True)
@@ -99,8 +100,8 @@ def test_shift_alt_shows_the_cut_bent_to_the_cursor_and_a_click_keeps_it_in_its_
     ui.event("LEFT_SHIFT", "PRESS", away, alt=True, shift=True)
     ui.event("MOUSEMOVE", "NOTHING", away, alt=True, shift=True)
     session = desk.session
-    ui.wait_until(lambda: session.loop_preview is not None and not session.computing)
-    assert session.bending
+    ui.wait_until(lambda: session.picture.one(Role.OFFER) is not None and not session.computing)
+    assert session.picture.offered.bends
     assert "Bend Closed Cut" in said()
     assert len(session.wires) == 3, "until the click"
     ui.click(away, alt=True, shift=True)
@@ -129,8 +130,8 @@ def test_escape_while_it_is_bent_leaves_the_cut_as_it_was(desk: Desk) -> None:
     ui.event("LEFT_SHIFT", "PRESS", away, shift=True)
     ui.event("LEFT_ALT", "PRESS", away, alt=True, shift=True)
     session = desk.session
-    ui.wait_until(lambda: session.loop_preview is not None and not session.computing)
-    assert session.bending
+    ui.wait_until(lambda: session.picture.one(Role.OFFER) is not None and not session.computing)
+    assert session.picture.offered.bends
     ui.key("ESC", alt=True, shift=True)
     ui.event("LEFT_ALT", "RELEASE", away, shift=True)
     ui.event("LEFT_SHIFT", "RELEASE", away)
@@ -164,9 +165,9 @@ def bend(desk: Desk, vertex: int) -> np.ndarray:
     ui.event("LEFT_ALT", "PRESS", away, alt=True)
     ui.event("LEFT_SHIFT", "PRESS", away, alt=True, shift=True)
     ui.event("MOUSEMOVE", "NOTHING", away, alt=True, shift=True)
-    ui.wait_until(lambda: desk.session.loop_preview is not None and not desk.session.computing)
-    assert desk.session.bending
-    shown = desk.session.loop_preview.points
+    ui.wait_until(lambda: desk.session.picture.one(Role.OFFER) is not None and not desk.session.computing)
+    assert desk.session.picture.offered.bends
+    shown = desk.session.picture.one(Role.OFFER).points
     ui.click(away, alt=True, shift=True)
     ui.event("LEFT_SHIFT", "RELEASE", away, alt=True)
     ui.event("LEFT_ALT", "RELEASE", away)
@@ -257,7 +258,7 @@ def test_where_nothing_suggests_one_the_status_bar_says_so(desk: Desk) -> None:
     ui = desk.ui
     ui.look((0.0, 0.0, 0.7071, 0.7071), (0.0, 0.0, 0.0), 4.0)  # from behind
     place = offer(desk, ROWS * AROUND + 1)
-    assert desk.session.loop_preview is None
+    assert desk.session.picture.one(Role.OFFER) is None
     assert SurfaceLoops.NONE in said()
     ui.event("LEFT_ALT", "RELEASE", place)
     assert not desk.running

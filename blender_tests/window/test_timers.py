@@ -77,7 +77,7 @@ def test_what_is_computed_after_a_chain_is_still_taken_in(desk: Desk) -> None:
     desk.choose()
     draw(desk, 36, 44)
     desk.ui.wait_until(lambda: not any(view.busy for view in edited.views()))
-    assert edited.front.overlay._islands.newest.count == 2
+    assert edited.front.islands.newest.count == 2
 
 
 @pytest.mark.parametrize("in_chain", [pytest.param(False, marks=pytest.mark.every_blender), True])

@@ -37,16 +37,15 @@ def test_the_first_click_with_the_tool_places_a_seed(desk: Desk, modifiers: dict
 def test_the_island_under_the_mouse_is_named(desk: Desk) -> None:
     ui = desk.ui
     desk.choose()
-    assert edited.front.overlay.pointed_island is None, "the mesh as a whole is no news"
+    assert edited.front.islands.pointed_island is None, "the mesh as a whole is no news"
     ui.click(desk.at(27))
     ui.click(desk.at(35))
     ui.wait_until(lambda: len(desk.session.wires) == 1)
 
     def named(place: tuple[float, float, float]) -> list[str]:
         ui.move(ui.on_screen(place))
-        overlay = edited.front.overlay
-        ui.wait_until(lambda: not overlay.busy)
-        lines = text_overlay.lines(desk.session, overlay._islands.newest, pointed=overlay.pointed_island)
+        ui.wait_until(lambda: not edited.front.islands.busy)
+        lines = text_overlay.lines(edited.front.picture)
         return [line for line in lines if line.startswith("Island ")]
 
     larger, smaller = (0.03, 0.55, 0.0), (0.03, -0.7, 0.0)
@@ -55,7 +54,7 @@ def test_the_island_under_the_mouse_is_named(desk: Desk) -> None:
     assert named(smaller) == ["Island 2: 48 triangles, a disc"]
     assert named(larger) == ["Island 1: 80 triangles, a disc"]
     ui.move((ui.region.width - 140.0, 60.0))
-    assert edited.front.overlay.pointed_island is None
+    assert edited.front.islands.pointed_island is None
 
 
 def test_a_click_beside_the_mesh_begins_nothing(desk: Desk) -> None:

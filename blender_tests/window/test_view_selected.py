@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from desk import Desk, drag, draw
 from scene import chain, seams
+from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.mesh.settings import settings
 from stored import agree
@@ -52,7 +53,7 @@ def test_edges_and_vertices_are_hovered_and_drawn_along(desk: Desk) -> None:
     assert agree(desk.obj)
     view_selected(desk)
     desk.ui.move(desk.at(38))
-    assert session.hovered_wire is not None
+    assert session.picture.one(Role.HOVERED) is not None
     desk.ui.key("X")
     assert seams(desk.obj) == []
 

@@ -39,8 +39,8 @@ def test_in_perspective_wires_lie_where_they_are_seen(desk: Desk) -> None:
     ui.click(desk.at(36))
     session = desk.session
     ui.move(desk.at(44))
-    ui.wait_until(lambda: session.active is not None)
-    assert session.active.vertices == tuple(range(36, 45))
+    ui.wait_until(lambda: session.picture.active is not None)
+    assert session.picture.active.vertices == tuple(range(36, 45))
     pixels = ui.pixels()
     assert all(shows(pixels, desk.at(v, v + 1), ORANGE) for v in range(37, 43))
     ui.click(desk.at(44))
@@ -55,7 +55,7 @@ def test_at_a_scale_of_one_and_three_quarters_it_draws_and_says_first_what_matte
         session = desk.choose()
         scaled.click(desk.at(36))
         scaled.move(desk.at(44))
-        scaled.wait_until(lambda: session.active is not None)
+        scaled.wait_until(lambda: session.picture.active is not None)
         hints = [text for _, text in status_bar.hints(status_bar.status_of(desk.chain)) if "Computing" not in text]
         assert "Keep Wire" in hints[0]
         assert "End Chain" in " ".join(hints[1:3])

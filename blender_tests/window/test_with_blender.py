@@ -12,6 +12,7 @@ import pytest
 import ui as driver
 from desk import ORANGE, Desk, choose, dismiss, draw, shows, undo_steps
 from scene import chain, edit, seams
+from seamwire.core.drawing.picture import Role, SeedRole
 from seamwire.core.drawing.session import Session
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.settings import TOOL
@@ -50,9 +51,9 @@ def test_between_chains_no_operator_of_ours_runs_and_what_a_click_takes_is_lit(d
     assert session.target.pick == 40
     draw(desk, 36, 44)
     desk.ui.move(desk.at(40))
-    assert session.hovered_wire is not None
+    assert session.picture.one(Role.HOVERED) is not None
     desk.ui.move(desk.at(36))
-    assert session.hovered_seed == 36
+    assert session.picture.seed_as(SeedRole.HOVERED) == 36
     assert modal_operators(desk.ui) == []
 
 
@@ -80,7 +81,7 @@ def test_between_chains_blender_has_its_keys(desk: Desk) -> None:
     assert seams(obj) == ROW
     ui.move(desk.at(40))
     ui.wait_until(lambda: bool(desk.session.wires))
-    assert desk.session.hovered_wire is not None, "a mode switch leaves the network"
+    assert desk.session.picture.one(Role.HOVERED) is not None, "a mode switch leaves the network"
 
 
 def ensured(obj: bpy.types.Object) -> bool:
@@ -335,7 +336,7 @@ def test_the_network_follows_subdividing_and_duplicating(desk: Desk) -> None:
 def test_what_is_prepared_is_kept_from_one_chain_to_the_next(desk: Desk) -> None:
     session = desk.choose()
     draw(desk, 36, 44)
-    engine = session._engines.get(session.along)
+    engine = session._engines.get(session.options.along)
     choose(desk.ui, "builtin.select_box")
     choose(desk.ui)
     bpy.ops.object.mode_set(mode="OBJECT")
@@ -343,7 +344,7 @@ def test_what_is_prepared_is_kept_from_one_chain_to_the_next(desk: Desk) -> None
         edit()
     draw(desk, 0, 8)
     assert desk.session is session
-    assert session._engines.get(session.along) is engine
+    assert session._engines.get(session.options.along) is engine
 
 
 def test_a_mesh_is_read_once_until_it_changes(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -548,7 +549,7 @@ def test_a_script_that_leaves_edit_mode_ends_the_chain_and_its_wires_are_kept(de
     with desk.ui.override():
         edit()
     desk.ui.move(desk.at(40))
-    assert desk.session.hovered_wire is not None, "and known as a wire"
+    assert desk.session.picture.one(Role.HOVERED) is not None, "and known as a wire"
 
 
 def test_a_script_that_removes_the_object_ends_the_chain(desk: Desk) -> None:
@@ -667,7 +668,7 @@ def test_what_is_lit_goes_with_another_tool(desk: Desk) -> None:
     desk.ui.click(desk.at(36))
     desk.ui.move(desk.at(44))
     session = desk.session
-    desk.ui.wait_until(lambda: session.active is not None)
+    desk.ui.wait_until(lambda: session.picture.active is not None)
     assert shows(desk.ui.pixels(), desk.at(37, 38), ORANGE)
     desk.ui.key("ESC")
     choose(desk.ui, "builtin.select_box")

@@ -27,7 +27,7 @@ from scipy import sparse
 sys.path.insert(0, str(Path(__file__).parents[2] / "scripts/lib"))
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
 from figure_models import Model, read
-from seamwire.core.geometry import nearest_on_segments  # knows no Blender
+from seamwire.core.base.geometry import nearest_on_segments  # knows no Blender
 
 if TYPE_CHECKING:
     from collections.abc import Callable

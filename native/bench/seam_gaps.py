@@ -18,8 +18,8 @@ import numpy as np
 from seams_engine import fan_triangles, polygon_edges
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
-from seamwire.core.gaps import GapFinder, border_edges  # these know no Blender
-from seamwire.core.seam_wires import seam_chains
+from seamwire.core.seams.gaps import GapFinder, border_edges  # these know no Blender
+from seamwire.core.seams.seam_wires import seam_chains
 
 _SHORTEST = 8
 _NEAR_END = 3

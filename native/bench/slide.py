@@ -24,8 +24,8 @@ from scipy.spatial import KDTree
 sys.path.insert(0, str(Path(__file__).parents[2] / "scripts/lib"))
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
 from figure_models import read
-from seamwire.core.geometry import barycentric, nearest_on_segments  # these know no Blender
-from seamwire.core.sliding import places, plan
+from seamwire.core.base.geometry import barycentric, nearest_on_segments  # these know no Blender
+from seamwire.core.seams.slide import places, plan
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The snippets of docs/library/embedding.md.
+#include <cstdint>
 #include <cstdio>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -35,4 +37,11 @@ int main() {
   const ExactGeodesics geodesics(tetrahedron);
   std::printf("an edge is %g long\n", geodesics.solve(0).distances()[3]);
   //! [intrinsic]
+
+  //! [faces]
+  std::vector<std::int32_t> patch(500);
+  std::iota(patch.begin(), patch.end(), 0);
+  const EmbeddedSurface part(context, spec, {.max_error = 0.01, .faces = patch});
+  std::printf("%zu triangles\n", part.embedding().mesh.face_count());
+  //! [faces]
 }

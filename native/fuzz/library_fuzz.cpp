@@ -62,38 +62,53 @@ class Bytes {
   /// In [0, count).
   std::int32_t below(std::size_t count) { return static_cast<std::int32_t>(byte() % count); }
   bool coin() { return (byte() & 1) != 0; }
-  /// Numbers as meshes and people have them, and as they should not.
+  /// A number as meshes and people have them, or one of kNumbers.
   double number() {
-    static constexpr std::array kNumbers{0.0,
-                                         1.0,
-                                         -1.0,
-                                         0.5,
-                                         2.0,
-                                         1.0 / 3.0,
-                                         1e-3,
-                                         1e-6,
-                                         1e-9,
-                                         1e-12,
-                                         1e3,
-                                         1e6,
-                                         1e9,
-                                         1e39,
-                                         1e-39,
-                                         1e150,
-                                         1e-150,
-                                         1e160,
-                                         -0.0,
-                                         1.0001,
-                                         -1e-7,
-                                         5e-8,
-                                         0.125,
-                                         std::numeric_limits<double>::infinity(),
-                                         std::numeric_limits<double>::quiet_NaN()};
     const std::uint8_t which = byte();
     return which < kNumbers.size() ? kNumbers[which] : (static_cast<double>(which) - 140.0) / 64.0;
   }
+  /// A number of at least `least`, or one of kNumbers. Other numbers below it are moved, so that few inputs are
+  /// refused.
+  double at_least(double least) {
+    const bool is_listed = at_ == end_ || *at_ < kNumbers.size();
+    const double drawn = number();
+    return is_listed || drawn >= least ? drawn : least + 8.0 * std::abs(drawn);
+  }
+  /// A number above 0 and up to 1, or one of kNumbers.
+  double share() {
+    const bool is_listed = at_ == end_ || *at_ < kNumbers.size();
+    const double drawn = number();
+    return is_listed || (drawn > 0.0 && drawn <= 1.0) ? drawn : 0.03125 + std::abs(drawn) / 2.0;
+  }
 
  private:
+  /// Numbers that are likely to break something.
+  static constexpr std::array kNumbers{0.0,
+                                       1.0,
+                                       -1.0,
+                                       0.5,
+                                       2.0,
+                                       1.0 / 3.0,
+                                       1e-3,
+                                       1e-6,
+                                       1e-9,
+                                       1e-12,
+                                       1e3,
+                                       1e6,
+                                       1e9,
+                                       1e39,
+                                       1e-39,
+                                       1e150,
+                                       1e-150,
+                                       1e160,
+                                       -0.0,
+                                       1.0001,
+                                       -1e-7,
+                                       5e-8,
+                                       0.125,
+                                       std::numeric_limits<double>::infinity(),
+                                       std::numeric_limits<double>::quiet_NaN()};
+
   const std::uint8_t* at_;
   const std::uint8_t* end_;
 };
@@ -200,12 +215,29 @@ void add_fins(Bytes& from, Mesh& mesh) {
   }
 }
 
+/// Gives some triangles another vertex at the place of one of theirs, with needles on both sides.
+void add_needles(Bytes& from, Mesh& mesh) {
+  for (std::int32_t left = 1 + from.below(6); left > 0; --left) {
+    const auto number = static_cast<std::size_t>(from.below(mesh.triangles.size()));
+    const auto corner = static_cast<std::size_t>(from.below(3));
+    const Triangle whole = mesh.triangles[number];
+    const std::int32_t a = whole[corner], b = whole[(corner + 1) % 3], c = whole[(corner + 2) % 3];
+    const auto added = static_cast<std::int32_t>(mesh.points.size());
+    mesh.points.push_back(Vector(mesh.points[static_cast<std::size_t>(a)]));
+    mesh.triangles[number] = {added, b, c};
+    mesh.triangles.push_back({a, b, added});
+    if (from.coin()) mesh.triangles.push_back({c, a, added});
+  }
+}
+
 Mesh mesh_from(Bytes& from) {
   const std::uint8_t first = from.byte();
   const std::int32_t kind = first % 4;
-  const bool is_complex = first >= 0xb0 && first < 0xf0;
+  const bool has_needles = first >= 0x80 && first < 0xa0;
+  const bool is_complex = has_needles || (first >= 0xb0 && first < 0xf0);
   Mesh mesh = is_complex && kind < 2 ? band(from) : kind == 0 ? soup(from) : kind == 1 ? umbrella(from) : grid(from);
   if (is_complex && kind > 0) add_fins(from, mesh);
+  if (has_needles) add_needles(from, mesh);
   const std::size_t count = mesh.points.size();
   for (std::int32_t left = from.below(4); left > 0; --left) {
     mesh.points[static_cast<std::size_t>(from.below(count))][from.below(3)] = from.number();
@@ -215,11 +247,17 @@ Mesh mesh_from(Bytes& from) {
   }
   if (from.coin()) {
     std::vector<Edge> edges;
+    const auto add = [&](std::int32_t a, std::int32_t b) {
+      if (a != b) edges.push_back({a, b});
+    };
     for (const auto& [a, b, c] : mesh.triangles) {
-      edges.push_back({a, b});
-      if (from.coin()) edges.push_back({b, c});
+      add(a, b);
+      if (from.coin()) add(b, c);
     }
-    for (std::int32_t left = from.below(4); left > 0; --left) edges.push_back({from.below(count), from.below(count)});
+    for (std::int32_t left = from.below(4); left > 0; --left) {
+      const std::int32_t a = from.below(count);
+      add(a, from.below(count));
+    }
     mesh.edges = std::move(edges);
   }
   return mesh;
@@ -227,8 +265,12 @@ Mesh mesh_from(Bytes& from) {
 
 Metric metric_from(Bytes& from, const Surface& surface, const Curvature& curvature, Follow follow) {
   Strength strength;
-  (from.coin() ? strength.parameter : strength.max_anisotropy) = from.number();
-  if (from.coin()) strength.clamp_percentile = 100.0 * from.number();
+  if (from.coin()) {
+    strength.parameter = from.at_least(0.0);
+  } else {
+    strength.max_anisotropy = from.at_least(1.0);
+  }
+  if (from.coin()) strength.clamp_percentile = 100.0 * from.share();
   switch (from.below(4)) {
     case 0:
       return feature_metric(surface, curvature, follow, strength);
@@ -249,9 +291,9 @@ Scribble scribble_from(Bytes& from, const Surface& surface) {
     scribble.points.push_back(surface.points()[static_cast<std::size_t>(vertex)]);
     scribble.vertices.push_back(vertex);
   }
-  scribble.eta = std::abs(from.number());
+  scribble.eta = std::abs(from.at_least(1.0));
   scribble.rings = from.below(12);
-  if (from.coin()) scribble.radius = from.number();
+  if (from.coin()) scribble.radius = from.at_least(0.01);
   scribble.attracts = from.coin();
   return scribble;
 }
@@ -345,7 +387,7 @@ void check_geodesics(const Patience& patience, const Surface& surface) {
 void check_wires(Bytes& from, const Patience& patience, const Surface& surface, const Metric& metric) {
   EmbedOptions options;
   options.max_faces_added = static_cast<std::size_t>(from.byte()) * 40;
-  options.sigma = from.coin() ? 0.0 : from.number();
+  options.sigma = from.coin() ? 0.0 : from.at_least(0.0);
   options.perimeter = from.coin() ? Perimeter::kMetric : Perimeter::kEuclidean;
   const Embedding embedding = embed(surface, metric, options, patience.task());
   require(embedding.worst_clamp >= 1.0, "a factor is one or more");

@@ -70,28 +70,29 @@ LiveMetrics metrics_from(const std::string& metric, Along along, OptionalNumber 
   return live_metrics(family, strength_from(family, along, gamma, max_anisotropy, clamp_percentile), along);
 }
 
-LiveWireOptions options_from(OptionalNumber gamma, OptionalNumber max_anisotropy, OptionalNumber clamp_percentile,
-                             const std::string& along, double turning, OptionalNumber loop_turning,
-                             const std::string& metric, double max_error) {
-  const Along how = along_from(along);
-  return {.along = how,
-          .metrics = metrics_from(metric, how, gamma, max_anisotropy, clamp_percentile),
-          .turning = turning,
-          .loop_turning = loop_turning,
-          .max_error = max_error};
+/// A function that takes `First...` and the arguments of define_with_options(), and calls make(first..., options).
+template <class... First, class Make>
+auto taking_options(const Make& make) {
+  return [make](First... first, OptionalNumber gamma, OptionalNumber max_anisotropy, OptionalNumber clamp_percentile,
+                const std::string& along, double turning, OptionalNumber loop_turning, const std::string& metric,
+                double max_error) {
+    const Along how = along_from(along);
+    return make(std::forward<First>(first)...,
+                LiveWireOptions{.along = how,
+                                .metrics = metrics_from(metric, how, gamma, max_anisotropy, clamp_percentile),
+                                .turning = turning,
+                                .loop_turning = loop_turning,
+                                .max_error = max_error});
+  };
 }
 
-/// The arguments of options_from(), with their defaults.
-struct OptionArguments {
-  py::arg_v gamma = py::arg("gamma") = py::none();
-  py::arg_v max_anisotropy = py::arg("max_anisotropy") = py::none();
-  py::arg_v clamp_percentile = py::arg("clamp_percentile") = py::none();
-  py::arg_v along = py::arg("along") = "surface";
-  py::arg_v turning = py::arg("turning") = 3.0;
-  py::arg_v loop_turning = py::arg("loop_turning") = py::none();
-  py::arg_v metric = py::arg("metric") = "feature";
-  py::arg_v max_error = py::arg("max_error") = 0.01;
-};
+/// Calls define(arguments...) with the arguments of a live wire's options, and their defaults.
+template <class Define>
+void define_with_options(const Define& define) {
+  define(py::arg("gamma") = py::none(), py::arg("max_anisotropy") = py::none(),
+         py::arg("clamp_percentile") = py::none(), py::arg("along") = "surface", py::arg("turning") = 3.0,
+         py::arg("loop_turning") = py::none(), py::arg("metric") = "feature", py::arg("max_error") = 0.01);
+}
 
 constexpr const char* kClassDoc = R"(Wires from a seed to any target, one in each metric of a family.
 
@@ -132,22 +133,14 @@ ValueError
     If a parameter is out of range, or an array has the wrong shape or type.
 )";
 
-HeldLiveWire live_wire_on(const SharedSurface& surface, OptionalNumber gamma, OptionalNumber max_anisotropy,
-                          OptionalNumber clamp_percentile, const std::string& along, double turning,
-                          OptionalNumber loop_turning, const std::string& metric, double max_error) {
-  const LiveWireOptions options =
-      options_from(gamma, max_anisotropy, clamp_percentile, along, turning, loop_turning, metric, max_error);
+HeldLiveWire live_wire_on(const SharedSurface& surface, const LiveWireOptions& options) {
   auto live = without_gil([&] { return std::make_unique<LiveWire>(surface->context, options); });
   return make_live_wire(surface->surface->vertex_count(), surface->surface->face_count(), options.along,
                         std::move(live), surface);
 }
 
 HeldLiveWire live_wire_of(const py::object& points, const py::object& triangles, const py::object& edges,
-                          OptionalNumber gamma, OptionalNumber max_anisotropy, OptionalNumber clamp_percentile,
-                          const std::string& along, double turning, OptionalNumber loop_turning,
-                          const std::string& metric, double max_error) {
-  const LiveWireOptions options =
-      options_from(gamma, max_anisotropy, clamp_percentile, along, turning, loop_turning, metric, max_error);
+                          const LiveWireOptions& options) {
   auto p = points_from(points, "points");
   auto t = triangles_from(triangles, "triangles");
   auto e = edges.is_none() ? std::nullopt : std::optional(edges_from(edges, "edges"));
@@ -158,17 +151,17 @@ HeldLiveWire live_wire_of(const py::object& points, const py::object& triangles,
 }
 
 void bind_construction(LiveWireClass& live_wire) {
-  const OptionArguments with;
-  live_wire
-      .def(py::init(&live_wire_on), py::arg("surface"), with.gamma, with.max_anisotropy, with.clamp_percentile,
-           with.along, with.turning, with.loop_turning, with.metric, with.max_error)
-      .def(py::init(&live_wire_of), py::arg("points"), py::arg("triangles"), py::arg("edges") = py::none(),
-           py::kw_only(), with.gamma, with.max_anisotropy, with.clamp_percentile, with.along, with.turning,
-           with.loop_turning, with.metric, with.max_error)
-      .def("__repr__", [](const LiveWireObject& object) {
-        return "<LiveWire: " + std::string(object.along == Along::kEdges ? "along edges" : "across the surface") +
-               " of " + std::to_string(object.vertex_count) + " vertices>";
-      });
+  const auto on_surface = taking_options<const SharedSurface&>(&live_wire_on);
+  const auto of_arrays = taking_options<const py::object&, const py::object&, const py::object&>(&live_wire_of);
+  define_with_options([&](const auto&... options) {
+    live_wire.def(py::init(on_surface), py::arg("surface"), options...)
+        .def(py::init(of_arrays), py::arg("points"), py::arg("triangles"), py::arg("edges") = py::none(), py::kw_only(),
+             options...);
+  });
+  live_wire.def("__repr__", [](const LiveWireObject& object) {
+    return "<LiveWire: " + std::string(object.along == Along::kEdges ? "along edges" : "across the surface") + " of " +
+           std::to_string(object.vertex_count) + " vertices>";
+  });
 }
 
 HeldLiveWire fork(const LiveWireObject& object) {
@@ -176,17 +169,12 @@ HeldLiveWire fork(const LiveWireObject& object) {
   return make_live_wire(object.vertex_count, object.face_count, object.along, std::move(live), object.surface);
 }
 
-HeldLiveWire sibling(const LiveWireObject& object, OptionalNumber gamma, OptionalNumber max_anisotropy,
-                     OptionalNumber clamp_percentile, const std::string& along, double turning,
-                     OptionalNumber loop_turning, const std::string& metric, double max_error) {
-  const LiveWireOptions options =
-      options_from(gamma, max_anisotropy, clamp_percentile, along, turning, loop_turning, metric, max_error);
+HeldLiveWire sibling(const LiveWireObject& object, const LiveWireOptions& options) {
   auto live = without_gil([&] { return std::make_unique<LiveWire>(object.live->sibling(options)); });
   return make_live_wire(object.vertex_count, object.face_count, options.along, std::move(live), object.surface);
 }
 
 void bind_copies(LiveWireClass& live_wire) {
-  const OptionArguments with;
   live_wire.def("fork", &fork, R"(Return another live wire with the same metrics and no seed.
 
 The two share metrics, including those that are still being computed. `set_metric` of one does not change the other.
@@ -195,9 +183,9 @@ Returns
 -------
 LiveWire
 )");
-  live_wire.def("sibling", &sibling, py::kw_only(), with.gamma, with.max_anisotropy, with.clamp_percentile, with.along,
-                with.turning, with.loop_turning, with.metric, with.max_error,
-                R"(Return another live wire on the same surface, with its own metrics.
+  define_with_options([&](const auto&... options) {
+    live_wire.def("sibling", taking_options<const LiveWireObject&>(&sibling), py::kw_only(), options...,
+                  R"(Return another live wire on the same surface, with its own metrics.
 
 It shares the surface and the curvatures. It has no strokes and no seed.
 
@@ -215,6 +203,7 @@ Raises
 ValueError
     If a parameter is out of range.
 )");
+  });
 }
 
 void set_metric(const LiveWireObject& object, const std::string& metric, OptionalNumber max_anisotropy,

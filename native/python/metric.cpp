@@ -24,6 +24,22 @@ namespace {
 using OptionalNumber = std::optional<double>;
 using MetricClass = py::class_<MetricObject, Held<MetricObject>>;
 
+/// Defines a function of a surface and its curvature, which takes `arguments` before the callback for progress.
+template <class Function, class... Arguments>
+void define(py::module_& module, const char* name, const Function& function, const char* doc,
+            const Arguments&... arguments) {
+  module.def(name, function, py::arg("surface"), py::arg("curvature"), arguments..., py::arg("progress") = py::none(),
+             doc);
+}
+
+/// Defines a metric that follows a direction. Its strength is `parameter` or max_anisotropy.
+template <class Function, class... Arguments>
+void define_directed(py::module_& module, const char* name, const char* parameter, const Function& function,
+                     const char* doc, const Arguments&... arguments) {
+  define(module, name, function, doc, py::arg("follow") = "min", py::arg(parameter) = py::none(),
+         py::arg("max_anisotropy") = py::none(), arguments...);
+}
+
 std::string text_of_curvature(const CurvatureObject& object) {
   const std::vector<double>& s = object.difference;
   return "<Curvature: " + std::to_string(s.size()) + " vertices, largest difference " +
@@ -89,9 +105,8 @@ References
 Rusinkiewicz, "Estimating Curvatures and Their Derivatives on Triangle Meshes" (2004). Normals are weighted as in Max,
 "Weights for Computing Vertex Normals from Facet Normals" (1999).
 )");
-  module.def("smoothed_curvatures", &smooth_curvatures, py::arg("surface"), py::arg("curvature"),
-             py::arg("radius") = 0.01, py::arg("progress") = py::none(),
-             R"(Average curvatures over a radius, by averaging their tensors over 1-rings repeatedly.
+  define(module, "smoothed_curvatures", &smooth_curvatures,
+         R"(Average curvatures over a radius, by averaging their tensors over 1-rings repeatedly.
 
 Parameters
 ----------
@@ -112,7 +127,8 @@ Raises
 ValueError
     If the curvature belongs to another surface, or the radius is not positive.
 Cancelled
-)");
+)",
+         py::arg("radius") = 0.01);
 }
 
 /// The semi-axes of each vertex's ellipse, the longer one first.
@@ -189,10 +205,8 @@ Held<MetricObject> make_feature_metric(const SurfaceObject& surface, const Curva
 }
 
 void bind_feature_metric(py::module_& module) {
-  module.def("feature_metric", &make_feature_metric, py::arg("surface"), py::arg("curvature"),
-             py::arg("follow") = "min", py::arg("gamma") = py::none(), py::arg("max_anisotropy") = py::none(),
-             py::arg("clamp_percentile") = py::none(), py::arg("progress") = py::none(),
-             R"(Make the metric of the paper, eq. 5: l1 = 1 + gamma s, l2 = 1 / l1.
+  define_directed(module, "feature_metric", "gamma", &make_feature_metric,
+                  R"(Make the metric of the paper, eq. 5: l1 = 1 + gamma s, l2 = 1 / l1.
 
 Give gamma or max_anisotropy. Without either, gamma is 0.1.
 
@@ -222,7 +236,8 @@ ValueError
     If both gamma and max_anisotropy are given, a parameter is out of range, or the curvature belongs to another
     surface.
 Cancelled
-)");
+)",
+                  py::arg("clamp_percentile") = py::none());
 }
 
 template <MetricFunction function>
@@ -233,9 +248,8 @@ Held<MetricObject> make_other_metric(const SurfaceObject& surface, const Curvatu
 }
 
 void bind_earlier_metrics(py::module_& module) {
-  module.def("campen_metric", &make_other_metric<campen_metric>, py::arg("surface"), py::arg("curvature"),
-             py::arg("follow") = "min", py::arg("alpha") = py::none(), py::arg("max_anisotropy") = py::none(),
-             py::arg("progress") = py::none(), R"(Make the metric of Campen et al., eq. 3: l1 = alpha, l2 = 1.
+  define_directed(module, "campen_metric", "alpha", &make_other_metric<campen_metric>,
+                  R"(Make the metric of Campen et al., eq. 3: l1 = alpha, l2 = 1.
 
 Give either alpha or max_anisotropy.
 
@@ -258,10 +272,8 @@ ValueError
     If neither or both of alpha and max_anisotropy are given, or as in `feature_metric`.
 Cancelled
 )");
-  module.def("pottmann_kovacs_metric", &make_other_metric<pottmann_kovacs_metric>, py::arg("surface"),
-             py::arg("curvature"), py::arg("follow") = "min", py::arg("beta") = py::none(),
-             py::arg("max_anisotropy") = py::none(), py::arg("progress") = py::none(),
-             R"(Make the metric of Pottmann et al. and Kovacs et al., eq. 4: l1 = k1^2 + beta, l2 = k2^2 + beta.
+  define_directed(module, "pottmann_kovacs_metric", "beta", &make_other_metric<pottmann_kovacs_metric>,
+                  R"(Make the metric of Pottmann et al. and Kovacs et al., eq. 4: l1 = k1^2 + beta, l2 = k2^2 + beta.
 
 Give either beta or max_anisotropy.
 
@@ -302,9 +314,8 @@ Held<MetricObject> make_euclidean_metric(const SurfaceObject& surface, const Cur
 }
 
 void bind_concave_and_euclidean_metric(py::module_& module) {
-  module.def("concave_metric", &make_concave_metric, py::arg("surface"), py::arg("curvature"),
-             py::arg("strength") = 1.0, py::arg("progress") = py::none(),
-             R"(Make a metric in which paths along concave creases are short, as the cuts that people draw.
+  define(module, "concave_metric", &make_concave_metric,
+         R"(Make a metric in which paths along concave creases are short, as the cuts that people draw.
 
 Parameters
 ----------
@@ -330,9 +341,9 @@ Cancelled
 References
 ----------
 docs/method/metric.md.
-)");
-  module.def("euclidean_metric", &make_euclidean_metric, py::arg("surface"), py::arg("curvature"),
-             py::arg("progress") = py::none(), R"(Make the metric in which lengths are those of space.
+)",
+         py::arg("strength") = 1.0);
+  define(module, "euclidean_metric", &make_euclidean_metric, R"(Make the metric in which lengths are those of space.
 
 Parameters
 ----------

@@ -191,9 +191,9 @@ class Film:
             for frame in self.frames:
                 file.write(np.ascontiguousarray(frame[:, :, :3]).tobytes())
 
-    def picture(self, name: str) -> None:
-        """Keep what is seen as a picture of the guide."""
-        write_png(self.folder / f"guide-{name}.png", self.shot())
+    def picture(self, name: str, step: int = 1) -> None:
+        """Keep the window as a picture of the guide. Colors in steps of more than 1 make a smaller file."""
+        write_png(self.folder / f"guide-{name}.png", self.shot() // step * step)
 
 
 def settings() -> bpy.types.PropertyGroup:
@@ -439,6 +439,29 @@ def guide(film: Film) -> None:
     film.click("RIGHTMOUSE")
     unwrap(film)
     film.picture("unwrapped")
+
+
+def tool(film: Film) -> None:
+    """Take the tool before the first click, with its menu and its views open, and in a chain. The names have Blender's version."""
+    version = ".".join(map(str, bpy.app.version[:2]))
+    film.filming = False
+    stage(film)
+    film.at = film.vertex(0.0, -0.6, 0.80)
+    start(film)
+    film.ui.wait(20, redraw=True)
+    film.picture(f"tool-{version}-before", step=8)
+    for kind, name in (("menu", "VIEW3D_MT_seamwire"), ("panel", "VIEW3D_PT_seamwire_overlays")):
+        with film.ui.override():
+            getattr(bpy.ops.wm, f"call_{kind}")(name=name)
+        film.ui.wait(6)
+        film.picture(f"tool-{version}-{kind}", step=8)
+        film.ui.key("ESC")
+        film.ui.wait(6)
+    film.click()
+    film.go(film.vertex(0.80, -0.40, 0.40))
+    film.ui.wait(20, redraw=True)
+    film.picture(f"tool-{version}-chain", step=8)
+    film.key("ESC")
 
 
 def cut(film: Film) -> None:
@@ -845,6 +868,6 @@ def looks(film: Film) -> None:
 
 addon_utils.enable("seamwire", default_set=True)
 kind, target = sys.argv[sys.argv.index("--") + 1 :]
-parts = (animation, limbs, character, guide, cut, stretch, views, looks)
+parts = (animation, limbs, character, guide, tool, cut, stretch, views, looks)
 part = next(part for part in parts if part.__name__ == kind)
 play_strictly(lambda: part(Film(Path(target))))

@@ -36,12 +36,12 @@ _RINGS = 3
 
 @dataclass(frozen=True)
 class Cut:
-    """What was done to a mesh.
+    """The result of a cut.
 
     Parameters
     ----------
     edges
-        What the wires run along now, by their vertices.
+        The vertices of the edges that the wires run along.
     seeds
         The vertices and points that were asked for, and the numbers of the vertices there now.
     vertices
@@ -205,7 +205,7 @@ def _carry_out(
     for node in nodes:
         if len(node.vertices) == 1:
             vert_of[node] = corners[node.vertices[0]]
-    # Inside faces first: what they are between is still as it was.
+    # Points inside faces come first, because their faces are still whole.
     for node in what.inside():
         vert_of[node] = _vert_inside(bm, [corners[vertex] for vertex in node.vertices], node.weights)
     for (a, b), between in what.splits.items():
@@ -277,8 +277,8 @@ def _add_unwrapped(bm: bmesh.types.BMesh) -> None:
 def take_back(cage: Cage, edges: Iterable[Edge]) -> int:
     """Join what cuts along some edges parted, and return how many edges went.
 
-    Only edges that cuts made go, but not those of hidden faces, and the vertices that cuts made on them, where all that is left is
-    one edge that passes there and no wire has. Vertices, edges and faces have other numbers then.
+    Only edges that cuts made are removed, except on hidden faces. A vertex that a cut made on an edge is removed if only that edge is
+    left there and no wire uses it. Vertices, edges and faces have other numbers then.
     """
     bm = cage.bm
     with _changing(cage):

@@ -54,7 +54,7 @@ def _seams(bm: bmesh.types.BMesh) -> list[bmesh.types.BMEdge]:
 
 
 def _layer(bm: bmesh.types.BMesh, kind: str) -> bmesh.types.BMLayerItem:
-    """Return a mark's layer: of its own kind, in later Blenders an attribute like any other."""
+    """Return the layer of a mark. In newer versions of Blender, it is a generic attribute."""
     layers, (name, of_type) = bm.edges.layers, _ATTRIBUTES[kind]
     if hasattr(layers, name):
         return getattr(layers, name).verify()

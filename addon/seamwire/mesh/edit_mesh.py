@@ -468,7 +468,7 @@ def selected_faces(obj: bpy.types.Object) -> NDArray[np.int64]:
 
 
 class Selection:
-    """What is selected of an edit mesh.
+    """The selection of an edit mesh.
 
     Parameters
     ----------

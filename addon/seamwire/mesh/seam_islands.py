@@ -65,7 +65,7 @@ def missing_cuts(obj: bpy.types.Object) -> NDArray[np.int32]:
 
 
 def faces_to_cut(obj: bpy.types.Object) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Return the faces of the islands that are no discs, and how many cuts each of these islands needs.
+    """Return the faces of the islands that are not discs, and how many cuts each of these islands needs.
 
     Raises
     ------
@@ -86,8 +86,8 @@ def store(obj: bpy.types.Object, kind: str) -> int:
         In edit mode.
     kind
         ``ATTRIBUTE``: as the face attribute `ATTRIBUTE`, from 0, largest first. ``FACE_SETS``: as the sculpt mode's face
-        sets, from 1. ``MATERIALS``: as materials of their own, one a hue for neighbors to differ, in new slots. Hidden faces
-        keep what they have; where they had nothing, that is -1, a set of their own, an empty slot.
+        sets, from 1. ``MATERIALS``: as materials in new slots, with different hues for neighbors. Hidden faces keep their values. Without
+        a value they get -1, a separate set, or an empty slot.
 
     Raises
     ------

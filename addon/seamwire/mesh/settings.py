@@ -1,18 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the artist has set: the tool's settings, and the add-on's preferences, which hold them from one file to the next."""
+"""The tool's settings, which the add-on's preferences keep from one file to the next."""
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import TYPE_CHECKING
 
 import bpy
 
+from ..core.drawing.options import Options
 from ..core.solver.defaults import CLAMP_PERCENTILE, CLAMP_RANGE, STRENGTH_RANGE, STRENGTHS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ..core.network.network import Along
+    from ..core.network.network import Along, Finish
 
 ADDON = __package__.rpartition(".")[0]
 """The add-on's name in this Blender."""
@@ -20,56 +22,56 @@ TOOL = "seamwire.draw"
 """The tool's name in Blender's toolbar."""
 ALONG_ITEMS = (
     ("EDGES", "Along Edges", "Wires are chains of the mesh's edges", 0),
-    ("SURFACE", "Across Surface", "Wires cross faces, and the chain of edges nearest to them is marked", 1),
+    ("SURFACE", "Across Surface", "Wires cross faces. Finish decides how they become seams", 1),
 )
 FINISH_ITEMS = (
-    ("SNAP", "Snap", "The edges that lie nearest to it", 0),
-    ("SLIDE", "Slide", "The edges that lie nearest to it, with their vertices slid onto it", 2),
-    ("CUT", "Cut", "The wire itself, cut into the faces", 1),
+    ("SNAP", "Snap", "Mark the nearest edges", 0),
+    ("SLIDE", "Slide", "Mark the nearest edges, and slide their vertices onto the wire", 2),
+    ("CUT", "Cut", "Cut the wire into the faces", 1),
 )
 AUTO_FINISH_ITEMS = (
-    ("AUTO", "Auto", "Cut where the mesh is of many triangles, as scans and sculpts are; else snap", 3),
+    ("AUTO", "Auto", "Cut on dense triangles such as scans and sculpts, otherwise snap", 3),
     *FINISH_ITEMS,
 )
 METRIC_ITEMS = (
     (
         "feature",
         "Features",
-        "Follow ridges, valleys and lines of curvature; across the surface concave creases first",
+        "Follow ridges, valleys and lines of curvature. Across the surface, concave creases come first",
         0,
     ),
-    ("campen", "Principal Directions", "Keep to the directions of curvature (Campen, Bommes, Kobbelt)", 1),
-    ("pottmann_kovacs", "Surface Normals", "Turning normals make paths long (Pottmann, Kovacs)", 2),
+    ("campen", "Principal Directions", "Follow the directions of curvature (Campen, Bommes and Kobbelt)", 1),
+    ("pottmann_kovacs", "Surface Normals", "Avoid changes of the normal (Pottmann and Kovacs)", 2),
     (
         "concave",
         "Concave Creases",
-        "Follow creases as cuts that people make do; the other wire is the shortest path",
+        "Follow concave creases, where people usually cut",
         4,
     ),
-    ("euclidean", "Shortest Path", "Run as short as possible, whatever the shape", 3),
+    ("euclidean", "Shortest Path", "Run as short as possible and ignore the shape", 3),
 )
 TOOL_METRIC_ITEMS = tuple(item for item in METRIC_ITEMS if item[0] in {"feature", "concave", "euclidean"})
 """The metrics that the tool offers. Scripts can use all of them."""
 STRETCH_ITEMS = (
-    ("ANGLE", "Angle", "How much longer faces are one way than the other in the UV map than on the model", 1),
-    ("AREA", "Area", "How much larger or smaller faces are in the UV map than the mean of the mesh", 2),
+    ("ANGLE", "Angle", "How much the UV map stretches faces in one direction more than in the other", 1),
+    ("AREA", "Area", "How much larger or smaller faces are in the UV map than on average", 2),
 )
 HEAT_ITEMS = (
-    ("NONE", "None", "The islands are tinted instead", 0),
+    ("NONE", "None", "Tint the islands instead", 0),
     ("ANGLE", "Stretch of Angles", STRETCH_ITEMS[0][2], 1),
     ("AREA", "Stretch of Areas", STRETCH_ITEMS[1][2], 2),
-    ("STRENGTH", "Feature Strength", "How much the surface bends more one way than the other: s of the metric", 3),
-    ("CONCAVITY", "Concavity", "Which way the surface bends most, and how much: valleys and ridges", 4),
-    ("DISTANCE", "Distance", "How far all is from the seed, or from a selected vertex, in the metric", 5),
+    ("STRENGTH", "Feature Strength", "How strongly wires follow the shape", 3),
+    ("CONCAVITY", "Concavity", "How sharply the surface bends, in valleys and on ridges", 4),
+    ("DISTANCE", "Distance", "Distance from the seed or the selected vertex, as wires measure it", 5),
 )
 SHOWN_METRIC_ITEMS = (
-    ("MIN", "Along Features", "That of the wire along ridges and valleys", 0),
-    ("MAX", "Across Features", "That of the other wire", 1),
+    ("MIN", "Along Features", "The metric of the wire along ridges and valleys", 0),
+    ("MAX", "Across Features", "The metric of the wire across ridges and valleys", 1),
 )
 
 
 listeners: list[Callable[[], None]] = []
-"""Called when a setting was changed: what is drawn follows at once."""
+"""Functions to call when a setting has changed, so that the drawing follows at once."""
 
 
 def _changed(_settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
@@ -82,10 +84,10 @@ def _changed(_settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> 
 
 
 def strength_property(along: Along) -> object:
-    """Return a property for the strength of one way of running."""
+    """Return the property for the strength along edges or across the surface."""
     return bpy.props.FloatProperty(
         name="Strength",
-        description="How strongly wires follow the shape. 1 is the shortest path",
+        description="How strongly wires follow the shape. 1 gives the shortest path",
         default=STRENGTHS[along],
         min=STRENGTH_RANGE[0],
         max=STRENGTH_RANGE[1],
@@ -94,25 +96,27 @@ def strength_property(along: Along) -> object:
 
 
 class SeamwireSettings(bpy.types.PropertyGroup):
-    """How wires are drawn; sessions follow them, and they follow the keys of a chain."""
+    """How wires are drawn: keys write these properties, and sessions follow snapshots of them."""
 
-    along: bpy.props.EnumProperty(name="Along", description="Where wires run", items=ALONG_ITEMS, update=_changed)
+    along: bpy.props.EnumProperty(
+        name="Along", description="How wires run on the mesh", items=ALONG_ITEMS, update=_changed
+    )
     strength_edges: strength_property("EDGES")
     strength_surface: strength_property("SURFACE")
     finish: bpy.props.EnumProperty(
         name="Finish",
-        description="What becomes the seam of a wire across the surface when its chain ends",
+        description="How a wire across the surface becomes a seam when its chain ends",
         items=AUTO_FINISH_ITEMS,
         default="AUTO",
         update=_changed,
     )
     straight: bpy.props.BoolProperty(
         name="Straight in View",
-        description="Across the surface, offer first the wire that is straight in the view: a cut by a plane. Moved, it follows features",
+        description="Offer the wire that is straight on screen first",
         update=_changed,
     )
     metric: bpy.props.EnumProperty(
-        name="Metric", description="What draws wires to features", items=TOOL_METRIC_ITEMS, update=_changed
+        name="Metric", description="What wires follow", items=TOOL_METRIC_ITEMS, update=_changed
     )
     clamp: bpy.props.FloatProperty(
         name="Feature Percentile",
@@ -128,7 +132,7 @@ class SeamwireSettings(bpy.types.PropertyGroup):
     )
     stroke_radius: bpy.props.FloatProperty(
         name="Stroke Radius",
-        description="How far strokes reach, in the object's units; 0: ten rings of vertices",
+        description="How far strokes reach. 0 means ten rings of vertices",
         default=0.0,
         min=0.0,
         soft_max=1.0,
@@ -137,65 +141,94 @@ class SeamwireSettings(bpy.types.PropertyGroup):
     )
     snap: bpy.props.BoolProperty(
         name="Snap to Features",
-        description="Snap to ridges and valleys, else to the strongest feature, within a few pixels of the cursor",
+        description="Snap seeds to ridges, valleys and other features near the cursor",
         default=False,
         update=_changed,
     )
     xray: bpy.props.BoolProperty(
-        name="X-Ray", description="Show wires, and pick, through the mesh", default=False, update=_changed
+        name="X-Ray", description="Show wires through the mesh, and pick through it", default=False, update=_changed
     )
     heat: bpy.props.EnumProperty(
         name="Heat",
-        description="Color faces by a number, told by a legend",
+        description="Color faces by a measured value",
         items=HEAT_ITEMS,
         update=_changed,
     )
     show_crests: bpy.props.BoolProperty(
         name="Ridges and Valleys",
-        description="Show the lines along which the surface bends most sharply; with Alt a click on one draws wires along it",
+        description="Show where the surface bends most sharply. Alt-click a line to draw wires along it",
         update=_changed,
     )
     show_silhouette: bpy.props.BoolProperty(
         name="Silhouette",
-        description="Show where the surface turns away from the viewer: a guide for seams that are not to be seen from there",
+        description="Show where the surface turns away from the viewer. Seams behind it are hidden from there",
         update=_changed,
     )
     show_ellipses: bpy.props.BoolProperty(
         name="Ellipses",
-        description="Show the metric: in each ellipse's direction wires run as far as it is long at the same cost",
+        description="Show how cheaply wires run in each direction",
         update=_changed,
     )
     show_paths: bpy.props.BoolProperty(
         name="Shortest Paths",
-        description="Show the shortest paths from the seed, or from a selected vertex, to many vertices, by their length",
+        description="Show the shortest paths from the seed or the selected vertex to many vertices",
         update=_changed,
     )
     show_bands: bpy.props.BoolProperty(
         name="Distance Bands",
-        description="Show lines of equal distance from the seed, or from a selected vertex, evenly spaced",
+        description="Show evenly spaced lines of equal distance from the seed or the selected vertex",
         update=_changed,
     )
     show_invalid: bpy.props.BoolProperty(
         name="Invalid Triangles",
-        description="Show triangles that the metric makes invalid, and what became of them",
+        description="Show triangles that the metric makes invalid, and how they were repaired",
         update=_changed,
     )
     shown_metric: bpy.props.EnumProperty(
         name="Shown Metric",
-        description="Which of both wires' metrics is shown",
+        description="Which candidate's metric to show",
         items=SHOWN_METRIC_ITEMS,
         update=_changed,
     )
     views_in_object_mode: bpy.props.BoolProperty(
         name="Seamwire Views",
-        description="Show what the metric sees of the active object in Object Mode too",
+        description="Show views of the active object in Object Mode too",
         update=_changed,
     )
     unwrap: bpy.props.BoolProperty(
         name="Unwrap After Each Chain",
-        description="When a chain ends unwrap the islands whose seams it has changed; all other UVs stay as they are",
+        description="When a chain ends, unwrap the islands whose seams it has changed. All other UVs stay in place",
         default=False,
     )
+
+
+def snapshot(settings: SeamwireSettings, mesh: bpy.types.Mesh | None = None, auto: Finish = "SNAP") -> Options:
+    """Return the settings as they are now.
+
+    Parameters
+    ----------
+    settings
+        Blender's properties.
+    mesh
+        Its own options tell over which axes wires are mirrored; None: over none.
+    auto
+        The finish that Auto stands for on that mesh.
+    """
+    values = {field.name: _exact(getattr(settings, field.name)) for field in fields(Options) if field.name != "mirror"}
+    values["metric"] = values["metric"] or "feature"  # one that was removed is stored as nothing
+    if values["finish"] == "AUTO":
+        values["finish"] = auto
+    return Options(**values, mirror=() if mesh is None else mirror_axes(mesh))
+
+
+def mirror_axes(mesh: bpy.types.Mesh) -> tuple[int, ...]:
+    """Return the axes over which Blender mirrors what is done to a mesh."""
+    return tuple(axis for axis, name in enumerate("xyz") if getattr(mesh, f"use_mirror_{name}"))
+
+
+def _exact(value: object) -> object:
+    """Return a value without the digits that single precision, which Blender's properties have, adds to it."""
+    return float(f"{value:.7g}") if isinstance(value, float) else value
 
 
 def preferences(context: bpy.types.Context | None = None) -> bpy.types.AddonPreferences | bpy.types.PropertyGroup:
@@ -227,7 +260,7 @@ def replace_removed_metric() -> None:
 
 
 def tool_is_active(context: bpy.types.Context) -> bool:
-    """Whether the tool is the active one of edit mode in the workspace."""
+    """Return whether the tool is active in Edit Mode in the workspace."""
     if context.mode != "EDIT_MESH" or context.workspace is None:
         return False
     tool = context.workspace.tools.from_space_view3d_mode("EDIT_MESH", create=False)
@@ -235,7 +268,7 @@ def tool_is_active(context: bpy.types.Context) -> bool:
 
 
 def register() -> None:
-    """Add the settings' type, and where meshes keep their wires."""
+    """Add the type of the settings, and the property in which meshes keep their wires."""
     bpy.utils.register_class(SeamwireSettings)
     bpy.types.Mesh.seamwire_wires = bpy.props.StringProperty(
         name="Seamwires", description="The wires drawn on this mesh", options={"HIDDEN"}
@@ -243,6 +276,6 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Remove them; what meshes keep stays with them."""
+    """Remove both. Meshes keep their stored wires."""
     del bpy.types.Mesh.seamwire_wires
     bpy.utils.unregister_class(SeamwireSettings)

@@ -141,8 +141,8 @@ def _of_corners(
 ) -> Iterator[tuple[bmesh.types.BMLoop, Value]]:
     """Yield the corners around vertices that move, and what a layer has there.
 
-    Where the layer hangs together with the face that a vertex moves into, that is what it has at the place there; beyond a seam of
-    it what each face has is continued to that place, and the mean of those taken that hang together.
+    If the layer is continuous with the face that a vertex moves into, the value is interpolated there. Beyond a seam of the layer, each
+    face's values are extrapolated to that place, and connected values are averaged.
     """
     for vertex, move in moves.items():
         inside = {corner.vert.index: read(corner) for corner in bm.faces[move.polygon].loops}

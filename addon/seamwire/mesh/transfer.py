@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from .settings import SeamwireSettings
 
 Place = Literal["AUTO", "NUMBERS", "SURFACE", "PAIRS"]
-"""How the places of seeds are found: by vertex numbers, by the nearest surface, by distances to pairs of vertices; AUTO: by numbers
-where the topology is the same, else by pairs where there are some, else by the surface."""
+"""How the places of seeds are found: by vertex numbers, on the nearest surface, or by distances to pairs of vertices. AUTO takes numbers
+if the topology is the same, otherwise pairs if there are any, otherwise the surface."""
 
 
 def shape_of(arrays: Arrays) -> Shape:
@@ -93,7 +93,7 @@ def carry_over(
     mirror, align
         As ``core.transfer.by_surface`` takes them; `mirror` rules out the other ways.
     source
-        The mesh that the network was drawn on; None: it is not at hand, and pairs are of no use.
+        The mesh that the network was drawn on. None if it is not available, and then pairs are ignored.
     pairs
         Vertices of both.
 
@@ -105,7 +105,7 @@ def carry_over(
     arrays = target.arrays
     shape = shape_of(arrays)
     if mirror is not None and place in {"NUMBERS", "PAIRS"}:
-        raise ValueError("A network is mirrored onto a surface: place it by that, not by numbers or pairs")
+        raise ValueError("Mirror needs Place: Nearest Surface")
     if place == "AUTO":
         same = mirror is None and not file.problem_with(target.cage.vertex_count, arrays.edges)
         place = "NUMBERS" if same else "PAIRS" if pairs and mirror is None else "SURFACE"
@@ -114,7 +114,7 @@ def carry_over(
     if place == "SURFACE":
         return transfer.by_surface(file, shape, mirror=mirror, align=align, live=target.make_live)
     if source is None:
-        raise ValueError("Pairs need the object that the network was drawn on")
+        raise ValueError("Pairs need the source object")
     return transfer.by_landmarks(file, source, shape, pairs, live=target.make_live)
 
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Unwrapping, for the islands alone whose seams have changed; all other UVs keep every bit.
 
-An island has changed where its UVs are torn over an edge that is no seam, or hang together over one that is, or have no area.
-Both can be meant, and unwrapping a flat island leaves a slit closed: a hidden layer of the edges holds what was a seam when
-they were unwrapped last, and while that is so, they are left alone. Being a layer it goes with Blender's undo, saving, joining.
+An island has changed if its UVs are torn at an edge without a seam, are connected across a seam, or have no area.
+Both can be intended, and unwrapping a flat island leaves a slit closed. Therefore a hidden edge layer stores the seams of the last
+unwrap. Edges that still agree with it do not count. Being a layer it goes with Blender's undo, saving, joining.
 Where a cut was taken back, nothing is torn any more that was: the layer tells that too.
 """
 
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 UNWRAPPED = ".seamwire_unwrapped"
 """The layer of the edges: twice a number that stands for the UV map, plus one where the edge was a seam; 0: not known, or `JOINED`."""
 JOINED = 1
-"""What it holds of edges around faces that were joined since: their corners may be of several islands in the map."""
+"""The value for edges around faces that were joined later. Their corners may belong to several islands in the map."""
 
 
 _MARGIN = 0.01
@@ -41,7 +41,7 @@ _MARGIN = 0.01
 
 @dataclass(frozen=True)
 class Unwrapped:
-    """What was done.
+    """The result of unwrapping.
 
     Parameters
     ----------
@@ -185,7 +185,7 @@ class _Map:
         return boxes_of(uv_map.read_uvs(self.obj)[self._triangles[rows]].astype(np.float64))
 
     def areas(self) -> NDArray[np.float64]:
-        """Return the areas of the islands in the map as it was, and on the model, (2, count)."""
+        """Return the areas of the islands in the old map and on the model, (2, count)."""
         in_map = np.zeros(len(self._labels))
         if self._uvs is not None:
             in_map = uv_areas(self._uvs[self._triangles].astype(np.float64))

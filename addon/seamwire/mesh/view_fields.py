@@ -42,7 +42,7 @@ def store(
     Returns
     -------
     tuple of str, float, float
-        The attribute, and the least and largest number in it that is no such sign.
+        The name of the attribute, and its least and largest finite value.
 
     Raises
     ------
@@ -69,7 +69,7 @@ def store(
 
 
 def selected_vertex(obj: bpy.types.Object) -> int | None:
-    """Return the vertex of a mesh that was selected last, or else the first one selected; None where there is none.
+    """Return the active vertex of a mesh, or the first selected one, or None.
 
     Where all are selected, as new meshes are, none was chosen.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cuts wires into the mesh, and says what was done."""
+"""Cuts wires into the mesh and reports the result."""
 
 from __future__ import annotations
 
@@ -24,40 +24,40 @@ def cut_wires(
     crumb: float = 0.0,
     live_unwrap: bool = True,
 ) -> set[str]:
-    """Cut wires across the surface into meshes and say what was done.
+    """Cut wires across the surface into meshes, and report the result.
 
-    Wires that do not run over their mesh are left out. If none of a mesh's wires can be cut, a warning says so, and the other
-    meshes are cut. Every mesh is tried on a copy before the first one is changed.
+    Wires that do not run over their mesh are left out. If no wire of a mesh can be cut, a warning names the mesh, and the others are
+    cut. Every cut is tried on a copy before the first mesh changes.
 
     Parameters
     ----------
     operator
-        Reports it.
+        Reports the result.
     wires
-        Of each mesh. Its session is over then.
+        The wires of each mesh. Its session ends.
     kept
-        Whether meshes have these wires already: their snapped edges cease to be seams.
+        Whether meshes already have these wires. Their snapped edges stop being seams.
     crumb
-        The part of a mesh's area below which an island beside the cuts becomes part of a larger one.
+        Islands smaller than this fraction of the area of a mesh are merged into a larger one.
     live_unwrap
-        Whether Blender unwraps where the scene asks for that.
+        Whether to follow Blender's Live Unwrap.
     """
     from ..core.seams.cut import CutError
-    from ..mesh import edit_mesh
+    from ..mesh import edit_mesh, finish
 
     plans, problems = {}, []
     for mesh, own in wires.items():
         try:
             if own:
-                plans[mesh] = mesh.plan_cut(own)
+                plans[mesh] = finish.plan_cut(mesh, own)
         except CutError as error:
             problems.append(f"{mesh.obj.name}: {error}" if len(wires) > 1 else str(error))
     if not plans:
         operator.report({"ERROR"}, problems[0])
         return {"CANCELLED"}
     for problem in problems:
-        operator.report({"WARNING"}, problem if kept else f"{problem}; no wire was added")
-    cuts = [mesh.cut(plan, wires[mesh], kept, crumb=crumb) for mesh, plan in plans.items()]
+        operator.report({"WARNING"}, problem if kept else f"{problem}: no wire was added")
+    cuts = [finish.cut(mesh, plan, wires[mesh], kept, crumb=crumb)[1] for mesh, plan in plans.items()]
     if live_unwrap:
         edit_mesh.live_unwrap(context)
     uncut = sum(cut.uncut for cut in cuts)
@@ -76,11 +76,11 @@ def cut_wires(
 
 
 def gaps(uncut: int) -> str:
-    """Say that faces could not be cut."""
+    """Return the warning for faces that could not be cut."""
     return f"{count(uncut, 'face')} could not be cut: the seams have gaps there"
 
 
 def left_out(number: int) -> str:
-    """Say that wires or their mirror images were not cut."""
+    """Return the warning for wires or mirror images that were not cut."""
     why = "it does not run over the mesh" if number == 1 else "they do not run over the mesh"
     return f"{count(number, 'wire or mirror image', 'wires or mirror images')} not cut: {why}"

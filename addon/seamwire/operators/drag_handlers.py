@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from ..core.drawing.drawn_line import DrawnLine
     from ..core.network.network import Snap
     from ..view.object_view import ObjectView
     from ..view.viewport import Place, View
@@ -28,7 +29,7 @@ CLOSE_LENGTH = 6.0
 
 
 class Hold(Protocol):
-    """What a button holds, until it is released."""
+    """The thing that a pressed button drags."""
 
     button: str
 
@@ -39,7 +40,7 @@ class Hold(Protocol):
         """Do what was meant."""
 
     def cancel(self) -> bool:
-        """Leave all as it was; returns whether there was a drag."""
+        """Cancel without a change, and return whether there was a drag."""
 
 
 class SeedHold:
@@ -52,7 +53,7 @@ class SeedHold:
     view
         The object it is on.
     snap
-        What is held.
+        The dragged thing.
     place
         Where the button was pressed.
     note
@@ -158,13 +159,11 @@ class LineHold:
     view
         The object it is on.
     snap
-        What was under the mouse.
+        The pick under the mouse.
     place
         Where the button was pressed.
     click
         Does what a click does there.
-    keep
-        Keeps the chain that is live, before a line begins another one; returns whether the object is still the same.
     note
         Told what was done, in words.
     """
@@ -176,7 +175,6 @@ class LineHold:
         snap: Snap,
         place: Place,
         click: Callable[[], None],
-        keep: Callable[[], bool],
         note: Callable[[str], None],
     ) -> None:
         self.button = button
@@ -184,9 +182,9 @@ class LineHold:
         self._snap = snap
         self._place = place
         self._click = click
-        self._keep = keep
         self._note = note
         self._trail: Trail | None = None
+        self._line: DrawnLine | None = None
 
     def move(self, place: Place, threshold: float) -> bool:
         """Draw on to where the mouse is now."""
@@ -212,22 +210,20 @@ class LineHold:
         points, triangles = np.array(trail.points).reshape(-1, 3), np.array(trail.triangles, dtype=np.int32)
         return self._view.session.line_to(points, triangles, snap)
 
+    def starts_chain(self) -> bool:
+        """Take the line out of the session; return whether what is live is a chain of its own, to be kept before the line."""
+        session = self._view.session
+        self._line = session.line_release()
+        live = session.seed is not None and not session.waiting_clicks
+        return self._line is not None and live and not session.goes_on_from(self._snap)
+
     def release(self) -> None:
         """Keep the wires that follow the line, or click."""
-        session = self._view.session
         if self._trail is None:
             self._click()
-            return
-        if not session.drawing:
-            return
-        if session.seed is not None and not session.waiting_clicks and not session.goes_on_from(self._snap):
-            # What was live is a chain of its own, with a step of its own in Blender's undo.
-            session.line_cancel()
-            if not self._keep() or not session.line_begin(self._snap):
-                return
-            self._draw()
-        session.line_end()
-        self._note(undo_steps.DRAW_LINE)
+        elif self._line is not None:
+            self._view.session.line_keep(self._line)
+            self._note(undo_steps.DRAW_LINE)
 
     def cancel(self) -> bool:
         """Forget the line."""
@@ -276,12 +272,12 @@ class StrokeHold:
             self._trail = Trail(self._view, self._first)
         self._trail.to(place)
         self._farthest = max(self._farthest, math.dist(self._first.cursor, place.cursor))
-        self._view.overlay.stroke = (np.array(self._trail.points).reshape(-1, 3), self._attracts)
+        self._view.stroke = (np.array(self._trail.points).reshape(-1, 3), self._attracts)
         return True
 
     def release(self) -> None:
         """Let the wires follow it, or keep off."""
-        self._view.overlay.stroke = None
+        self._view.stroke = None
         trail = self._trail
         if trail is None or self.missed:
             return
@@ -295,7 +291,7 @@ class StrokeHold:
 
     def cancel(self) -> bool:
         """Forget it."""
-        self._view.overlay.stroke = None
+        self._view.stroke = None
         return self._trail is not None
 
     @property

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operator that draws a chain, or does what else begins with a button or a key of the tool."""
+"""The operator of the tool: it draws chains, loops and strokes, and moves seeds."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ if TYPE_CHECKING:
     from .modal import Chain
 
 _FIRST = (
-    ("NONE", "Nothing", "The chain begins with the next click", 0),
-    ("CLICK", "Click", "Place the first seed, or take hold of a seed or a wire", 1),
-    ("LOOP", "Loop", "Take the loop through the edge", 2),
-    ("GUIDE", "Guide Stroke", "Draw a stroke that wires follow", 3),
-    ("AVOID", "Avoid Stroke", "Draw a stroke that wires avoid", 4),
-    ("REMOVE", "Remove", "Remove the wire or the stroke; where there is none, Blender has the key", 5),
-    ("NEXT", "Next Candidate", "Let the wire take its other path; where there is none, Blender has the key", 6),
-    ("PEEK", "Show Loop", "Show the loop that a click would take, while the key is held", 7),
-    ("BEND", "Bend Closed Cut", "Bend the closed cut that was taken last; along edges, Blender has the key", 8),
+    ("NONE", "Nothing", "Wait for the next click", 0),
+    ("CLICK", "Click", "Place the first seed, or grab a seed or a wire", 1),
+    ("LOOP", "Loop", "Add the loop through the edge", 2),
+    ("GUIDE", "Guide Stroke", "Draw a stroke that attracts wires", 3),
+    ("AVOID", "Avoid Stroke", "Draw a stroke that repels wires", 4),
+    ("REMOVE", "Remove", "Remove the wire or the stroke. Elsewhere the key keeps Blender's meaning", 5),
+    ("NEXT", "Next Candidate", "Swap the path of the wire. Elsewhere the key keeps Blender's meaning", 6),
+    ("PEEK", "Show Loop", "Show the loop that a click would add, while the key is held", 7),
+    ("BEND", "Bend Closed Cut", "Bend the last closed cut. Along edges the key keeps Blender's meaning", 8),
 )
 _FOR_BLENDER = {"REMOVE", "NEXT", "PEEK", "BEND"}
-"""Where these find nothing to do, the key has Blender's meaning."""
+"""If these find nothing to do, the key keeps Blender's meaning."""
 
 
 class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
@@ -43,33 +43,33 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
 
     along: bpy.props.EnumProperty(
         name="Along",
-        description="Where wires run at first; where not given, as the tool is set",
+        description="How wires run on the mesh. If not given, as set in the tool",
         items=ALONG_ITEMS,
         options={"SKIP_SAVE"},
     )
     first: bpy.props.EnumProperty(
-        name="First", description="What is done at once, under the cursor", items=_FIRST, options={"SKIP_SAVE"}
+        name="First", description="What to do first, under the cursor", items=_FIRST, options={"SKIP_SAVE"}
     )
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether a mesh is in edit mode, and no chain being drawn."""
+        """Return whether a mesh is in Edit Mode and no chain is being drawn."""
         if not super().poll(context):
             return False
         if running:
-            cls.poll_message_set("A chain is being drawn already")
+            cls.poll_message_set("A chain is already being drawn")
             return False
         return True
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Begin."""
+        """Begin a gesture."""
         from ..mesh.edit_mesh import NothingVisibleError
         from .modal import Chain
 
         if self.first != "NONE" and takes(Key.of(event), context):
             return {"PASS_THROUGH"}
         if not any(area.type == "VIEW_3D" for area in context.window.screen.areas):
-            self.report({"ERROR"}, "Seams are drawn in a 3D view, and this window shows none")
+            self.report({"ERROR"}, "Drawing needs a 3D view in this window")
             return {"CANCELLED"}
         try:
             if self.properties.is_property_set("along"):
@@ -82,7 +82,7 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
             nothing = isinstance(error, NothingVisibleError) and self.first != "NONE"
             self.report({"WARNING"} if nothing else {"ERROR"}, str(error))
             return {"CANCELLED"}
-        # Blender frees an operator whose invoke raised, and would call its modal method all the same.
+        # Blender frees an operator whose invoke raised an exception, but would still call its modal method.
         try:
             if self.first != "PEEK":
                 self._tell_problem(self._chain)
@@ -99,13 +99,13 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
         return {"RUNNING_MODAL"} if self.first != "PEEK" else {"RUNNING_MODAL", "PASS_THROUGH"}
 
     def _begin(self, event: bpy.types.Event) -> bool:
-        """Do what comes first; return whether there was something to do it to."""
+        """Do the first action, and return whether it found something to act on."""
         if self.first == "NONE":
             return True
         return self._chain.peek(event) if self.first == "PEEK" else self._chain.begin(Action[self.first], event)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Pass an event on to the chain, and end it where that is due."""
+        """Pass an event to the chain, and finish when the chain has ended."""
         chain = self._chain
         if not chain.open:
             return {"CANCELLED", "PASS_THROUGH"}
@@ -123,7 +123,7 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
             return self._failed(error)
 
     def _tell_problem(self, chain: Chain) -> None:
-        """Say once what there is to say of the wires that came with the mesh."""
+        """Report problems with the wires that are stored with the mesh, once."""
         while notices:
             self.report({"WARNING"}, notices.pop(0))
         mesh = chain.view.mesh
@@ -138,7 +138,7 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
             self._chain.finish(context)
         except ValueError as error:
             self._chain.drop()
-            self.report({"WARNING"}, f"{error}: the wires of this chain are lost")
+            self.report({"WARNING"}, f"{error}: the wires of this chain were not kept")
             return {"CANCELLED"}
         for told in self._chain.told:
             self.report({"INFO"}, told)
@@ -156,11 +156,11 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
             self._chain.close()
         if previews:
             return {"CANCELLED", "PASS_THROUGH"}
-        self.report({"ERROR"}, f"Drawing seams ended on an error, the mesh is as it was before this chain: {error}")
+        self.report({"ERROR"}, f"Drawing failed, and the mesh was restored: {error}")
         return {"CANCELLED"}
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """End the chain when Blender takes the operator away; its wires are kept where the mesh is still there."""
+        """End the chain when Blender stops the operator. Its wires are kept if the mesh still exists."""
         chain = self._chain
         if not chain.open:
             return
@@ -177,7 +177,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """End what is being drawn, leaving the meshes as they were before it, and remove the operator."""
+    """End the chain that is being drawn, restore the meshes, and remove the operator."""
     for chain in tuple(running):
         chain.drop()
     bpy.utils.unregister_class(MESH_OT_seamwire_draw)

@@ -1,23 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Operator that marks seams as something else too: sharp, creased, beveled, drawn by Freestyle."""
+"""The operator that marks seams as sharp, creased, beveled or Freestyle edges as well."""
 
 from __future__ import annotations
 
 import bpy
 
 from ..words.names import count
-from .edit_mesh_operator import EditMeshOperator
+from .edit_mesh_operator import EditMeshOperator, description_of_item
 
 
 class MESH_OT_seamwire_mark_seams_as(EditMeshOperator, bpy.types.Operator):
-    """Mark the visible seams as something else too; they stay seams"""  # noqa: D400 - a tooltip
+    """Mark the visible seams as sharp, creased, beveled or Freestyle edges as well"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_mark_seams_as"
     bl_label = "Mark Seams As"
 
     kind: bpy.props.EnumProperty(
         name="As",
-        description="What seams are marked as",
+        description="Additional mark for seams",
         items=(
             ("SHARP", "Sharp", "Edges that shading does not smooth"),
             ("CREASE", "Crease", "Edges that subdivision keeps, with weight 1"),
@@ -26,13 +26,15 @@ class MESH_OT_seamwire_mark_seams_as(EditMeshOperator, bpy.types.Operator):
         ),
     )
 
+    description = description_of_item("kind")
+
     def run(self, context: bpy.types.Context) -> set[str]:
-        """Mark those of all objects in edit mode."""
+        """Mark the seams of all objects in Edit Mode."""
         from ..mesh.edge_marks import copy_seams
 
         marked = copy_seams(list(context.objects_in_mode_unique_data), self.kind)
         if not marked:
-            self.report({"WARNING"}, "No seam is visible")
+            self.report({"WARNING"}, "No visible seams to mark")
             return {"CANCELLED"}
         self.report({"INFO"}, f"{count(marked, 'edge')} marked")
         return {"FINISHED"}

@@ -10,10 +10,18 @@ if TYPE_CHECKING:
 
     import bpy
 
-    from ..core.network.network import Along
     from ..mesh.object_session import ObjectSession
 
 _Found = TypeVar("_Found")
+
+
+def description_of_item(name: str) -> classmethod:
+    """Return an operator's `description`: the tooltip of a menu entry describes the item of the property of this name."""
+
+    def description(_cls: type, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
+        return properties.bl_rna.properties[name].enum_items[getattr(properties, name)].description
+
+    return classmethod(description)
 
 
 class NeedsEditMode:
@@ -69,7 +77,7 @@ class EditMeshOperator(NeedsEditMode):
         Returns
         -------
         dict
-            The result for each object. It is empty if there is none, and the reason is reported.
+            The result for each object. It is empty if every object failed, and the reason is reported.
         """
         from ..core.base.native import NativeError
         from ..mesh.edit_mesh import NothingVisibleError
@@ -89,7 +97,7 @@ class EditMeshOperator(NeedsEditMode):
             self.report({"WARNING"} if found else {"ERROR"}, problem)
         return found
 
-    def open_mesh(self, obj: bpy.types.Object, along: Along = "EDGES") -> ObjectSession:
+    def open_mesh(self, obj: bpy.types.Object) -> ObjectSession:
         """Read an object to draw on, and report problems with the wires that are stored with it.
 
         Raises
@@ -99,7 +107,7 @@ class EditMeshOperator(NeedsEditMode):
         """
         from ..mesh.object_session import ObjectSession
 
-        mesh = ObjectSession(obj, along)
+        mesh = ObjectSession(obj)
         if mesh.problem:
             self.report({"WARNING"}, mesh.problem)
         return mesh

@@ -9,7 +9,7 @@ import bpy
 
 from ..words.names import count
 from .cut import cut_wires
-from .edit_mesh_operator import EditMeshOperator
+from .edit_mesh_operator import EditMeshOperator, description_of_item
 from .slide import slide_wires
 
 if TYPE_CHECKING:
@@ -32,6 +32,8 @@ class MESH_OT_seamwire_finish(EditMeshOperator, bpy.types.Operator):
         ),
     )
 
+    description = description_of_item("finish")
+
     def run(self, context: bpy.types.Context) -> set[str]:
         """Cut or slide the wires of all objects in Edit Mode."""
         return finish_wires(self, context, self.finish)
@@ -53,7 +55,7 @@ def finish_wires(operator: EditMeshOperator, context: bpy.types.Context, finish:
 
 
 def _wires_across(operator: EditMeshOperator, context: bpy.types.Context) -> dict[ObjectSession, list[Wire]]:
-    """Return the kept wires across the surface of each object in Edit Mode. If there are none, report it."""
+    """Return the kept wires across the surface of each object in Edit Mode. Report an error if no object has such a wire."""
     wires: dict[ObjectSession, list[Wire]] = {}
     meshes = operator.open_meshes(context)
     for mesh in meshes:

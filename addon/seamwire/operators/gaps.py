@@ -18,21 +18,21 @@ if TYPE_CHECKING:
 
 
 class MESH_OT_seamwire_close_gaps(EditMeshOperator, bpy.types.Operator):
-    """Draw wires from the ends of seams that just miss another seam, or the border, and so keep two islands from separating"""  # noqa: D400 - a tooltip
+    """Draw wires where the end of a seam just misses another seam or the border, so that the islands separate"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_close_gaps"
     bl_label = "Close Gaps in Seams"
 
     longest: bpy.props.FloatProperty(
         name="Longest Gap",
-        description="As part of the seam's length that ends there, as far as that meets no other: shorter ends are darts",
+        description="Longest gap to close, as a fraction of the seam ending there",
         default=0.5,
         min=0.0,
         soft_max=2.0,
     )
 
     def run(self, context: bpy.types.Context) -> set[str]:
-        """Draw wires over the gaps of all objects in edit mode, then write them: where one object fails, none is changed."""
+        """Draw wires over the gaps of all objects before writing to any, so that an error leaves all of them unchanged."""
         from ..mesh import edit_mesh
 
         meshes = self.open_meshes(context)
@@ -40,7 +40,7 @@ class MESH_OT_seamwire_close_gaps(EditMeshOperator, bpy.types.Operator):
             return {"CANCELLED"}
         found = self._find(meshes)
         if not found:
-            self.report({"INFO"}, "No seam ends just before another one, or before the border")
+            self.report({"INFO"}, "No gaps: no seam ends just before another seam or the border")
             return {"CANCELLED"}
         closed = sum(self._close(mesh, gaps) for mesh, gaps in found.items())
         if not closed:
@@ -65,7 +65,7 @@ class MESH_OT_seamwire_close_gaps(EditMeshOperator, bpy.types.Operator):
         return found
 
     def _close(self, mesh: ObjectSession, gaps: list[Gap]) -> int:
-        """Draw a wire over each gap that none before has closed, mirrored too; return how many there are."""
+        """Draw a wire and its mirror images over each gap that is still open, and return the number of wires."""
         from ..words import seed_text
 
         mesh.make_live.wait()

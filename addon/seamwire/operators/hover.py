@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a click would take lights up while no operator runs.
+"""Highlights the edge or vertex that a click would pick, while no operator runs.
 
-Blender asks a gizmo of the tool at each motion of the mouse. Where a view shows no gizmos, the tool's keymap has an operator
-that hears of the mouse and ends at once.
+Blender asks a gizmo of the tool at each motion of the mouse. In views without gizmos, an operator in the tool's keymap
+receives the motion and ends at once.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _NOWHERE = -1
 
 
 def _hover(context: bpy.types.Context, location: tuple[int, int]) -> None:
-    # Not before the tool is used: Blender's start is not to wait for NumPy.
+    # Imported only when the tool is used, so that Blender's start does not wait for NumPy.
     from ..view.edited_objects import edited
     from ..view.viewport import place_in
 
@@ -29,13 +29,13 @@ def _hover(context: bpy.types.Context, location: tuple[int, int]) -> None:
     try:
         edited.hover(place_in(context.area, context.region, location))
     except Exception:
-        # Whoever hears of the mouse and raises is asked again at each motion.
+        # Blender would call again at each motion.
         traceback.print_exc()
         edited.pause()
 
 
 class MESH_OT_seamwire_hover(bpy.types.Operator):
-    """Light up what a click would take, in views that show no gizmos"""  # noqa: D400 - a tooltip
+    """Highlight the edge or vertex under the mouse in views without gizmos"""  # noqa: D400 - a tooltip
 
     bl_idname = OPERATOR
     bl_label = "Seamwire Hover"
@@ -43,27 +43,27 @@ class MESH_OT_seamwire_hover(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether the mouse is over such a view, and the tool active."""
+        """Return whether the mouse is over such a view and the tool is active."""
         space = context.space_data
         hidden = space is not None and space.type == "VIEW_3D" and not (space.show_gizmo and space.show_gizmo_tool)
         return hidden and tool_is_active(context)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Hear of the mouse."""
+        """Receive the motion of the mouse."""
         _hover(context, (event.mouse_region_x, event.mouse_region_y))
         return {"PASS_THROUGH"}
 
 
 class SEAMWIRE_GT_hover(bpy.types.Gizmo):
-    """Nothing to be seen or taken hold of; it hears where the mouse is."""
+    """Receives the position of the mouse. It is invisible and cannot be grabbed."""
 
     bl_idname = "SEAMWIRE_GT_hover"
 
     def draw(self, _context: bpy.types.Context) -> None:
-        """Draw nothing: the overlay does."""
+        """Draw nothing, because the overlay draws the highlight."""
 
     def test_select(self, context: bpy.types.Context, location: tuple[int, int]) -> int:
-        """Hear of the mouse, and be no gizmo under it."""
+        """Receive the position of the mouse, and return that no gizmo is there."""
         if context.area is not None and context.area.type == "VIEW_3D":
             _hover(context, location)
         return _NOWHERE
@@ -80,11 +80,11 @@ class SEAMWIRE_GGT_hover(bpy.types.GizmoGroup):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether the tool is active in edit mode."""
+        """Return whether the tool is active in Edit Mode."""
         return tool_is_active(context)
 
     def setup(self, _context: bpy.types.Context) -> None:
-        """Make it."""
+        """Create the gizmo."""
         self.gizmos.new(SEAMWIRE_GT_hover.bl_idname)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operator that selects islands: those that need another cut, or the one that is stretched most."""
+"""The operator that selects islands to cut, or the most stretched island."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from mathutils import Vector
 
 from ..mesh.settings import STRETCH_ITEMS, settings
 from ..words.names import count
-from .edit_mesh_operator import EditMeshOperator
+from .edit_mesh_operator import EditMeshOperator, description_of_item
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -104,10 +104,7 @@ class MESH_OT_seamwire_select_islands(SelectingIslands, bpy.types.Operator):
     )
     kind: kind_property()
 
-    @classmethod
-    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
-        """Return the tooltip of a menu entry."""
-        return properties.bl_rna.properties["which"].enum_items[properties.which].description
+    description = description_of_item("which")
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Show the settings that count."""

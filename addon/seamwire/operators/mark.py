@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operator that draws lists of seeds without a hand."""
+"""The operator that draws wires for scripts."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from .report import summary
 from .slide import slide_wires
 
 if TYPE_CHECKING:
+    from ..core.drawing.options import Options
     from ..core.network.network import Pick, Wire
     from ..mesh.object_session import ObjectSession
     from ..words.seed_text import VertexStroke
@@ -28,68 +29,70 @@ class MESH_OT_seamwire_mark(EditMeshOperator, bpy.types.Operator):
 
     chains: bpy.props.StringProperty(
         name="Chains",
-        description="Chains of seeds: vertex numbers, edges as two numbers with a hyphen or, across the surface, places as"
-        " three coordinates in parentheses; semicolons between chains",
+        description="Chains of seeds, separated by semicolons. A seed is a vertex number, an edge such as 3-7, or across the"
+        " surface a place such as (0 0.5 1)",
     )
     loops: bpy.props.StringProperty(
         name="Loops",
-        description="Edges, each as two vertex numbers with a hyphen: the closed loop through each of them is taken. Across the"
-        " surface vertex numbers, or places as three coordinates in parentheses: the closed cut through each that the shape suggests",
+        description="Edges such as 3-7: the loop through each edge is added. Across the surface, vertex numbers or places: the"
+        " closed cut through each is added",
     )
     take: bpy.props.EnumProperty(
         name="Take",
-        description="What is taken through the edges given as loops",
+        description="Kind of loop through the edges",
         items=(
-            ("FIRST", "First Offered", "What a click on the edge offers first"),
-            ("CLOSED", "Closed Loop", "The closed chain of edges that is shortest for its shape"),
-            ("STRIP", "Strip", "Straight on both ways, up to seams, other wires and the mirror"),
+            ("FIRST", "First Offered", "The loop that a click on the edge offers first"),
+            ("CLOSED", "Closed Loop", "The best closed chain of edges"),
+            ("STRIP", "Strip", "Straight in both directions, up to seams, wires and the mirror plane"),
             (
                 "PAST",
                 "Past Poles",
-                "Straight on as well where other than four edges meet, up to seams, other wires and the mirror",
+                "Straight in both directions and through poles, up to seams, wires and the mirror plane",
             ),
-            ("WHOLE", "Whole Strip", "Straight on both ways, across seams and wires"),
-            ("FLAT", "Border of Flat Region", "Around the faces beside the edge that meet at small angles"),
+            ("WHOLE", "Whole Strip", "Straight in both directions, across seams and wires"),
+            ("FLAT", "Border of Flat Region", "Around the flat faces beside the edge"),
         ),
         default="FIRST",
     )
     strokes: bpy.props.StringProperty(
         name="Strokes",
-        description="Strokes that wires are to follow: vertex numbers along each; semicolons between strokes; a tilde"
-        " before one that they are to avoid",
+        description="Strokes that attract wires, as vertex numbers, separated by semicolons. A tilde before a stroke makes it"
+        " repel wires",
     )
-    along: bpy.props.EnumProperty(name="Along", description="Where wires run", items=ALONG_ITEMS, default="EDGES")
+    along: bpy.props.EnumProperty(
+        name="Along", description="How wires run on the mesh", items=ALONG_ITEMS, default="EDGES"
+    )
     finish: bpy.props.EnumProperty(
         name="Finish",
-        description="What becomes the seam of a wire across the surface",
+        description="How a wire across the surface becomes a seam",
         items=FINISH_ITEMS,
     )
     clear: bpy.props.BoolProperty(name="Clear", description="Clear seams instead of marking them", default=False)
     mirror: bpy.props.EnumProperty(
         name="Mirror",
-        description="The axes over which wires are mirrored; where not given, those that the mesh is mirrored over",
+        description="Axes to mirror wires over. If not given, as set for the mesh",
         items=(("X", "X", ""), ("Y", "Y", ""), ("Z", "Z", "")),
         options={"ENUM_FLAG"},
         default=set(),
     )
     strength: bpy.props.FloatProperty(
         name="Strength",
-        description="How strongly wires follow the shape, 1 to 100. 1 is the shortest path; 0: as the tool does",
+        description="How strongly wires follow the shape, from 1 for the shortest path to 100. 0 takes the tool's default",
         default=0.0,
         min=0.0,
         max=100.0,
     )
     metric: bpy.props.EnumProperty(
-        name="Metric", description="What draws wires to features", items=METRIC_ITEMS, default="feature"
+        name="Metric", description="What wires follow", items=METRIC_ITEMS, default="feature"
     )
 
     objects: bpy.props.StringProperty(
         name="Objects",
-        description="Names of objects in Edit Mode, separated by semicolons, or an asterisk for all; empty: the active one",
+        description="Names of objects in Edit Mode, separated by semicolons, or an asterisk for all. If empty, the active object",
     )
 
     def run(self, context: bpy.types.Context) -> set[str]:
-        """Draw the chains and loops, and mark or clear what they run along."""
+        """Draw the chains and loops, and mark or clear their edges."""
         from ..mesh import edit_mesh
 
         self._before: dict[str, tuple[Wire, ...]] = {}
@@ -97,7 +100,7 @@ class MESH_OT_seamwire_mark(EditMeshOperator, bpy.types.Operator):
         # Draw on all objects before writing to any, so that an error leaves all of them unchanged.
         drawn = list(filter(None, (self._draw(obj, "" if len(chosen) == 1 else f"{obj.name}: ") for obj in chosen)))
         if not drawn:
-            raise ValueError("Nothing is visible of any of the objects")
+            raise ValueError("No object has anything visible")
         problems = [problem for _, found in drawn for problem in found]
         for problem in problems:
             self.report({"WARNING"}, problem)
@@ -123,7 +126,7 @@ class MESH_OT_seamwire_mark(EditMeshOperator, bpy.types.Operator):
         return {"FINISHED"}
 
     def _chosen(self, context: bpy.types.Context) -> list[bpy.types.Object]:
-        """Return the objects to draw on, each mesh once; raises ValueError where there is none of a name."""
+        """Return the objects to draw on, each mesh once. Raise ValueError if a name is unknown."""
         edited = [obj for obj in context.objects_in_mode if obj.type == "MESH"]
         self._names = names = [name.strip() for name in self.objects.split(";") if name.strip()]
         if not names:
@@ -141,16 +144,16 @@ class MESH_OT_seamwire_mark(EditMeshOperator, bpy.types.Operator):
         ObjectSession
             Its session.
         list of str
-            What could not be done, in words that begin with the prefix.
+            Problems, in sentences that begin with the prefix.
 
-        None if all objects are asked for and nothing of this one is visible.
+        The result is None if all objects are wanted and nothing of this one is visible.
         """
         from ..mesh.edit_mesh import NothingVisibleError
         from ..mesh.object_session import ObjectSession
         from ..words import seed_text
 
         try:
-            mesh = ObjectSession(obj, self.along)
+            mesh = ObjectSession(obj, self._options(obj))
             mesh.make_live.wait()
             seeds, loops, strokes = self._read(mesh)
         except NothingVisibleError as error:
@@ -161,14 +164,6 @@ class MESH_OT_seamwire_mark(EditMeshOperator, bpy.types.Operator):
             raise ValueError(f"{prefix}{error}") from error
         session = mesh.session
         self._before[obj.name] = session.wires
-        if self.strength:
-            session.set_strength(self.along, self.strength)
-        session.set_metric(self.metric)
-        session.finish = self.finish
-        if self.properties.is_property_set("mirror"):
-            session.set_mirror("XYZ".index(axis) for axis in self.mirror)
-        if self.clear:
-            session.toggle_marking()
         take = None if self.take == "FIRST" else self.take
         problems = [
             *([mesh.problem] if mesh.problem else []),
@@ -178,13 +173,29 @@ class MESH_OT_seamwire_mark(EditMeshOperator, bpy.types.Operator):
         ]
         return mesh, [f"{prefix}{problem}" for problem in problems]
 
+    def _options(self, obj: bpy.types.Object) -> Options:
+        """Return the settings that are asked for; the mirror, if it is not, is the mesh's own."""
+        from ..core.drawing.options import Options, strength_name
+        from ..mesh.settings import mirror_axes
+
+        asked = self.properties.is_property_set("mirror")
+        strength = {strength_name(self.along): self.strength} if self.strength else {}
+        return Options(
+            along=self.along,
+            finish=self.finish,
+            metric=self.metric,
+            clear=self.clear,
+            mirror=tuple("XYZ".index(axis) for axis in self.mirror) if asked else mirror_axes(obj.data),
+            **strength,
+        )
+
     def _read(self, mesh: ObjectSession) -> tuple[list[list[Pick]], list[Pick], list[VertexStroke]]:
-        """Return chains, loops and strokes; raises ValueError where they cannot be drawn."""
+        """Return chains, loops and strokes. Raise ValueError if they cannot be drawn."""
         from ..core.network.network import FacePoint
         from ..words import seed_text
 
         if self.finish == "CUT" and self.clear and self.along == "SURFACE":
-            raise ValueError("A cut makes seams: it cannot clear them")
+            raise ValueError("Finish Cut cannot clear seams")
         across = self.along == "SURFACE" and self.loops.strip()
         loops: list[Pick] = []
         loops += seed_text.parse_points(self.loops, mesh.finder()) if across else seed_text.parse_edges(self.loops)
@@ -195,16 +206,16 @@ class MESH_OT_seamwire_mark(EditMeshOperator, bpy.types.Operator):
         if problem:
             raise ValueError(problem)
         if across and self.take != "FIRST":
-            raise ValueError("Across the surface there is one kind of loop: leave out what to take")
+            raise ValueError("Take applies only along edges")
         if self.along == "SURFACE" and any(isinstance(pick, tuple) for chain in seeds for pick in chain):
-            raise ValueError("Across the surface seeds are vertices or places: give no edges")
+            raise ValueError("Seeds across the surface must be vertices or places, not edges")
         if self.along == "EDGES" and any(isinstance(pick, FacePoint) for chain in seeds for pick in chain):
-            raise ValueError("Along edges seeds are vertices or edges: give no places")
+            raise ValueError("Seeds along edges must be vertices or edges, not places")
         return seeds, loops, strokes
 
 
 def _new_wires(wires: tuple[Wire, ...], before: tuple[Wire, ...]) -> list[Wire]:
-    """Return the wires that were drawn, and those that run along other edges than before."""
+    """Return the wires that are new or that changed their edges."""
     known = set(before)
     return [wire for wire in wires if wire not in known]
 

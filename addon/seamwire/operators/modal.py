@@ -10,7 +10,11 @@ from typing import TYPE_CHECKING
 
 import bpy
 
+from ..core.drawing.change import Change
+from ..core.drawing.options import strength_name
+from ..core.drawing.picture import Role
 from ..core.network.network import Network
+from ..mesh import finish
 from ..mesh import settings as chosen
 from ..view.edited_objects import edited
 from ..view.viewport import Place, place_of
@@ -30,7 +34,7 @@ if TYPE_CHECKING:
 TICK = 0.008
 """Seconds between two looks at running work, half of what a screen shows a picture for: a wire is drawn with the next one."""
 _OFFERED = (Action.LOOP, Action.BEND)
-"""What is shown while the modifiers of its click are held."""
+"""The preview while the modifiers of its click are held."""
 _CLICKS = frozenset({Action.CLICK, Action.NEW_CHAIN, *_OFFERED})
 _STROKES = frozenset({Action.GUIDE, Action.AVOID})
 _CHANGES = frozenset({Action.NEXT, Action.CLOSE, Action.EXTEND, Action.UNDO, Action.REDO})
@@ -51,7 +55,7 @@ class Chain:
     message
         What there is to say about the last key.
     done
-        What was done, as titles of `undo_steps`, each once.
+        The titles from `undo_steps` of everything that was done, each once.
     told
         What became of it, in words, for each step of undo.
     errors
@@ -99,7 +103,7 @@ class Chain:
             self.close()
             raise
 
-    # What it is
+    # State
 
     @property
     def view(self) -> ObjectView:
@@ -145,7 +149,7 @@ class Chain:
         edited.watch()
         edited.redraw()
         for view in edited.views():
-            view.overlay.stroke = None
+            view.stroke = None
             view.session.hover(None)
         edited.show()
 
@@ -186,7 +190,7 @@ class Chain:
         self.close()
 
     def _keep(self, context: bpy.types.Context, undo_step: bool = True) -> None:
-        # The object that is drawn on comes first: out of edit mode it is none of the views.
+        # The object that is drawn on comes first, because outside Edit Mode it is not among the views.
         if self._drawn is not None:
             if self._ending:
                 self._drawn.session.wait()  # a key that ended the chain also left edit mode before the last wire was there
@@ -196,17 +200,14 @@ class Chain:
         view, before = self._drawn, self._before
         title = self.done[0] if len(self.done) == 1 else undo_steps.DRAW_SEVERAL
         self.done.clear()
-        if view is None or not (self._saved or _differs(view.session.network, before)):
+        if view is None or not (self._saved or Change(before, view.session.network)):
             self._drawn = None
             return
-        known = {wire.id for wire in before.wires}
-        wires = sum(wire.id not in known for wire in view.session.network.wires)
-        same = {id(wire) for wire in before.wires}
-        changed = {wire.id for wire in view.session.network.wires if id(wire) not in same}
+        change = Change(before, view.session.network)
         marked, cleared = self._write(view, adopt=True)
         self._drawn, self._saved, problem = None, False, ""
         try:
-            finished = self._finish_wires(view, before, changed)
+            finished = self._apply(view, change)
         except Exception as error:
             # The wires are in the mesh by now, and undo is to lead back from what was left half done.
             traceback.print_exc()
@@ -219,14 +220,14 @@ class Chain:
             if (marked or cleared) and context.mode == "EDIT_MESH":
                 problem = unwrap_after_chain(context)
             undo_steps.push(title)
-        self.told.append(f"{title}: {finished or summary(wires, marked, cleared)}{problem and f'. {problem}'}")
+        self.told.append(f"{title}: {finished or summary(change.drawn, marked, cleared)}{problem and f'. {problem}'}")
 
     @staticmethod
-    def _finish_wires(view: ObjectView, before: Network, changed: set[int]) -> str:
-        """Let the changed wires be finished, and return what was done, in words."""
+    def _apply(view: ObjectView, change: Change) -> str:
+        """Let the mesh do what a change asks, and return what was done, in words."""
         if not view.mesh.alive():
             return ""
-        done = view.mesh.finish_wires(before, changed)
+        _, done = finish.apply(view.mesh, change)
         if not done:
             return ""
         edited.forget(view)
@@ -261,7 +262,7 @@ class Chain:
         return counts
 
     def drop(self) -> None:
-        """End the chain and leave all as it was before it."""
+        """End the chain and undo everything that it did."""
         self._hold = None
         view, self._drawn = self._drawn, None
         if view is not None and view.mesh.alive():
@@ -292,8 +293,8 @@ class Chain:
 
     @property
     def _bends(self) -> bool:
-        """Whether there may be a closed cut to be bent: along edges there is none."""
-        return self.session.along == "SURFACE"
+        """Return whether there may be a closed cut to bend. Along edges there is no such cut."""
+        return self.session.options.along == "SURFACE"
 
     def peek(self, event: bpy.types.Event) -> bool:
         """Show the loop under the mouse while the key of an event is held; return whether it shows loops."""
@@ -314,8 +315,7 @@ class Chain:
             event.type == "WINDOW_DEACTIVATE" or (event.type == self._peek and event.value == "RELEASE")
         ):
             self._peek = ""
-        for view in edited.views():
-            view.mesh.follow_mirror()
+        edited.follow_settings()
         place = place_of(self._window, event)
         double = self._clicks.is_second(event, time.monotonic(), context.preferences)
         if self._hold is not None and event.type == self._hold.button and event.value == "RELEASE":
@@ -412,11 +412,10 @@ class Chain:
             view.session.end_chain()
 
     def _after(self) -> None:
-        self.view.mesh.tell(chosen.settings())
         self.show()
 
     def _draw_on(self, view: ObjectView) -> None:
-        """Let an object be the one that is drawn on; what was drawn on another is a chain of its own."""
+        """Draw on this object. Wires drawn on another object become a separate chain."""
         edited.front = view
         if self._drawn is not view:
             if self._drawn is not None:
@@ -428,7 +427,6 @@ class Chain:
             self.done.append(done)
 
     def _on_settings(self) -> None:
-        edited.follow_settings()
         self._shown = None
         self.show()
 
@@ -444,7 +442,9 @@ class Chain:
     def _release(self, place: Place | None) -> None:
         hold, self._hold = self._hold, None
         assert hold is not None
-        hold.release()
+        # What was live before a line is a chain of its own, with a step of its own in Blender's undo.
+        if not (isinstance(hold, LineHold) and hold.starts_chain()) or self._keep_chain():
+            hold.release()
         if isinstance(hold, StrokeHold) and hold.missed:
             self.message = "Drag over the mesh to draw a stroke"
         if place is not None:
@@ -481,9 +481,7 @@ class Chain:
             session.hover(snap)
             self._hold = SeedHold(event.type, view, snap, place, self._note)
         elif snap.to in {"MESH", "FEATURE", "SEAM"} or session.goes_on_from(snap):
-            self._hold = LineHold(
-                event.type, view, snap, place, lambda: self._click_at(view, snap), self._keep_chain, self._note
-            )
+            self._hold = LineHold(event.type, view, snap, place, lambda: self._click_at(view, snap), self._note)
         else:
             self._click_at(view, snap)
 
@@ -492,7 +490,7 @@ class Chain:
         self._note(undo_steps.DRAW_WIRES)
 
     def _keep_chain(self) -> bool:
-        """Keep what is live as a chain of its own; return whether the object that is drawn on is still the same."""
+        """Keep the live wires as a separate chain, and return whether the object is still the same."""
         view = self.view
         self._keep(bpy.context)
         if view not in edited.views():
@@ -503,7 +501,7 @@ class Chain:
 
     def _is_loop(self, session: Session, snap: Snap, event: bpy.types.Event) -> bool:
         """Whether a click takes what runs around: across the surface not the second one of a double click, which ends a wire."""
-        if session.along == "SURFACE":
+        if session.options.along == "SURFACE":
             return self.keys.previews(Action.LOOP, event)
         return isinstance(snap.pick, tuple)
 
@@ -521,7 +519,7 @@ class Chain:
     def _cancel_hold(self) -> bool:
         hold, self._hold = self._hold, None
         dragged = hold is not None and hold.cancel()
-        # What was released may wait still.
+        # A released drag may still wait.
         return any([view.session.drag_cancel() for view in edited.views()]) or dragged or hold is not None
 
     def _do(self, action: Action, place: Place) -> None:
@@ -529,29 +527,28 @@ class Chain:
             self._draw_on(self.view)
         session, settings = self.session, chosen.settings()
         if action is Action.NEXT:
-            if session.seed is None and session.hovered_wire is not None:
-                session.retrace(session.hovered_wire)
+            hovered = session.picture.one(Role.HOVERED)
+            if session.seed is None and hovered is not None:
+                session.retrace(hovered)
             else:
                 session.next_candidate()
         elif action in {Action.STRONGER, Action.WEAKER}:
-            if session.change_strength(1 if action is Action.STRONGER else -1):
-                self.message = f"Strength {session.strength:.3g}"
+            self._change_strength(1 if action is Action.STRONGER else -1)
         elif action is Action.CLOSE:
             first = session.closing_point
             session.close(None if first is None else self.view.seen_along(place.view, first))
         elif action is Action.EXTEND:
-            session.run_to_end(preview=session.end_preview is None)
+            session.run_to_end(preview=session.picture.one(Role.EXTENSION) is None)
         elif action is Action.CLEAR:
-            session.toggle_marking()
+            settings.clear = not settings.clear
         elif action is Action.XRAY:
             settings.xray = not settings.xray
         elif action is Action.SNAP:
             settings.snap = not settings.snap
             self._rehover(place)
         elif action is Action.SWITCH:
-            if session.switch("SURFACE" if session.along == "EDGES" else "EDGES"):
-                settings.along = session.along
-                self._rehover(place)
+            settings.along = "SURFACE" if settings.along == "EDGES" else "EDGES"
+            self._rehover(place)
         elif action is Action.MIRROR:
             self._cycle_mirror()
         elif action is Action.KEYS:
@@ -591,6 +588,17 @@ class Chain:
         self._note(undo_steps.RETRACE)
         return True
 
+    def _change_strength(self, steps: int) -> None:
+        session, settings = self.session, chosen.settings()
+        name, strength = strength_name(settings.along), session.options.stepped(steps).strength
+        if session.dragging:
+            self.message = "Finish moving the seed first"
+        elif strength == session.options.strength:
+            self.message = f"The strength is {strength:g} already, the {'most' if steps > 0 else 'least'} there is"
+        else:
+            setattr(settings, name, strength)
+            self.message = f"Strength {strength:.3g}"
+
     def _cycle_mirror(self) -> None:
         session = self.session
         symmetric = self.view.mesh.symmetric_soon()
@@ -601,15 +609,15 @@ class Chain:
             self.message = self.view.mesh.symmetry_problem
             return
         ways = [(), *((axis,) for axis in symmetric), *([symmetric] if len(symmetric) > 1 else ())]
-        if len(ways) == 1 and not session.mirror_axes:
+        if len(ways) == 1 and not session.options.mirror:
             self.message = "The mesh is not symmetric on X, Y or Z"
             return
-        now = ways.index(session.mirror_axes) if session.mirror_axes in ways else len(ways) - 1
+        now = ways.index(session.options.mirror) if session.options.mirror in ways else len(ways) - 1
         axes = ways[(now + 1) % len(ways)]
-        # The mesh's own option, which Blender's tools heed as well.
+        # The mesh's own option, which Blender's tools use as well.
         for axis, name in enumerate("xyz"):
             setattr(self.view.obj.data, f"use_mirror_{name}", axis in axes)
-        self.view.mesh.follow_mirror()
+        edited.follow_settings()
         self.message = f"Mirrored on {', '.join(_AXES[axis] for axis in axes)}" if axes else "Not mirrored"
 
     def _undo(self) -> None:
@@ -620,7 +628,7 @@ class Chain:
     def _redo(self) -> None:
         self.session.redo()
 
-    # What is under the mouse
+    # Pointing
 
     def _hover(self, place: Place, event: bpy.types.Event) -> None:
         loop, bend = (self.keys.previews(action, event) for action in _OFFERED)
@@ -640,18 +648,18 @@ class Chain:
         view, snap = edited.find(place)
         self.session.hover(snap if view is edited.front else None)
 
-    # What is seen
+    # Drawing
 
     def show(self) -> None:
         """Show the sessions as they are now."""
         session = self.session
         picture = (
             id(self.view),
-            tuple((view.session.revision, view.overlay.pointed_island) for view in edited.views()),
+            tuple((view.session.revision, view.islands.pointed_island) for view in edited.views()),
             self._keys,
         )
         words = (
-            round(100.0 * session.progress),
+            round(100.0 * session.work.progress),
             session.computing,
             session.waiting_clicks,
             self.view.mesh.symmetric,
@@ -682,10 +690,6 @@ class Chain:
             self._window.cursor_modal_set(shape)
         else:
             self._window.cursor_modal_restore()
-
-
-def _differs(now: Network, before: Network) -> bool:
-    return now.wires != before.wires or now.strokes != before.strokes
 
 
 def _in_tool_settings(window: bpy.types.Window, event: bpy.types.Event) -> bool:

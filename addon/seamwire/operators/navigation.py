@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What Blender would do with an event, by the user's own keymap: move the view, save, or something that ends a chain first."""
+"""Finds out what the user's keymap does with an event: move the view, save, or something that ends a chain."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from ..words.keys import Key
 
 _KEYMAPS = ("Mesh", "3D View Generic", "3D View", "Object Non-modal", "Frames", "Screen", "Screen Editing", "Window")
-"""Those that have a say over a 3D view in edit mode, first the one that is asked first."""
+"""The keymaps of a 3D view in Edit Mode, in the order in which Blender asks them."""
 _NAVIGATION = (
     "view3d.rotate",
     "view3d.move",
@@ -26,7 +26,7 @@ _NAVIGATION = (
     "view3d.fly",
     "view3d.smoothview",
 )
-"""Operators that move the view: what their names begin with."""
+"""How the names of operators that move the view begin."""
 _HARMLESS = (
     *_NAVIGATION,
     "view3d.clip_border",
@@ -44,7 +44,7 @@ _HARMLESS = (
     "wm.save",
     "wm.window_fullscreen",
 )
-"""Operators that change neither the mesh nor the mode."""
+"""How the names of operators begin that change neither the mesh nor the mode."""
 _HARMLESS_PIES = frozenset({"VIEW3D_MT_view_pie", "VIEW3D_MT_shading_pie", "VIEW3D_MT_shading_ex_pie"})
 _MODIFIERS = ("ctrl", "shift", "alt", "oskey")
 _GIZMO_MARGIN = 10.0
@@ -53,22 +53,22 @@ _GIZMO_BUTTONS = 5
 
 
 class Meaning(Enum):
-    """What Blender makes of an event."""
+    """The effect of an event in Blender."""
 
     NOTHING = auto()
-    """It has no key for it, or one that changes neither the mesh nor the mode."""
+    """The event is unbound, or changes neither the mesh nor the mode."""
     OTHER = auto()
-    """Something that a chain must end for."""
+    """The event does something that a chain must end for."""
 
 
 def meaning(event: bpy.types.Event, manager: bpy.types.WindowManager) -> Meaning:
-    """Return what Blender would do with an event over a 3D view in edit mode."""
+    """Return the effect of an event over a 3D view in Edit Mode."""
     item = _item_for(event, manager)
     return Meaning.NOTHING if item is None else _meaning_of(item)
 
 
 def moves_view(event: bpy.types.Event, manager: bpy.types.WindowManager) -> bool:
-    """Whether Blender would move the view, or does so already."""
+    """Return whether an event moves the view."""
     item = _item_for(event, manager)
     return event.type in {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"} or (
         item is not None and item.idname.startswith(_NAVIGATION)
@@ -94,9 +94,9 @@ def _meaning_of(item: bpy.types.KeyMapItem) -> Meaning:
 
 
 def takes(key: Key, context: bpy.types.Context) -> bool:
-    """Whether the user's keymap moves the view with a button of the mouse: that comes before the same button of ours.
+    """Return whether the user's keymap moves the view with this button of the mouse. If so, the view comes first.
 
-    A left button that plays the middle one moves the view too, see `Emulate 3 Button Mouse` in Blender's preferences.
+    With *Emulate 3 Button Mouse* in Blender's preferences, the left button can move the view as well.
     """
     if not key.type.endswith("MOUSE"):
         return False
@@ -118,18 +118,18 @@ def takes(key: Key, context: bpy.types.Context) -> bool:
 
 
 def _button(item: bpy.types.KeyMapItem, inputs: bpy.types.PreferencesInput) -> str:
-    """Return the button of a keymap item, for the wheel which way it is turned."""
+    """Return the button of a keymap item, or the direction of the wheel."""
     inwards, outwards = ("DOWN", "UP") if inputs.invert_zoom_wheel else ("UP", "DOWN")
     return {"WHEELINMOUSE": f"WHEEL{inwards}MOUSE", "WHEELOUTMOUSE": f"WHEEL{outwards}MOUSE"}.get(item.type, item.type)
 
 
 def on_gizmo(place: Place, preferences: bpy.types.Preferences) -> bool:
-    """Whether a place lies on the navigation gizmo or one of the buttons below it."""
+    """Return whether a place lies on the navigation gizmo or a button below it."""
     space = place.area.spaces.active
     if not (space.show_gizmo and space.show_gizmo_navigate):
         return False
     scale, view = preferences.system.ui_scale, preferences.view
-    # Blender 3.4 keeps its size to itself.
+    # Blender 3.4 does not tell its size.
     size = getattr(view, "gizmo_size_navigate_view", 80) if view.mini_axis_type == "GIZMO" else 0
     right, top = float(place.region.width), float(place.region.height)
     for other in place.area.regions:

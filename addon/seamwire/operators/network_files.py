@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Operators that save a mesh's wires as a file, and load them."""
+"""Operators that save the wires of a mesh to a file, and load them."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ SUFFIX = ".json"
 
 
 class MESH_OT_seamwire_save_network(EditMeshOperator, bpy.types.Operator, ExportHelper):
-    """Save the wires and strokes of the active mesh as a file that other meshes can load"""  # noqa: D400 - a tooltip
+    """Save the wires and strokes of the active mesh to a file. Other meshes can load it"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_save_network"
     bl_label = "Save Seamwire Network"
@@ -31,15 +31,15 @@ class MESH_OT_seamwire_save_network(EditMeshOperator, bpy.types.Operator, Export
     filter_glob: bpy.props.StringProperty(default=f"*{SUFFIX}", options={"HIDDEN"})
 
     def run(self, context: bpy.types.Context) -> set[str]:
-        """Write the file, whole or not at all."""
+        """Write the file completely, or leave an existing file unchanged."""
         network = self.open_mesh(context.active_object).network_file(settings(context))
         if not network.courses and not network.strokes:
-            self.report({"ERROR"}, "The mesh has no wires to save: Take Over Seams makes wires of its seams")
+            self.report({"ERROR"}, "No wires to save: Seams to Seamwires turns seams into wires")
             return {"CANCELLED"}
         try:
             _write(Path(bpy.path.abspath(self.filepath)), network.text())
         except OSError as error:
-            self.report({"ERROR"}, f"The file cannot be written: {error}")
+            self.report({"ERROR"}, f"Cannot write the file: {error}")
             return {"CANCELLED"}
         saved = f"{count(len(network.courses), 'wire')}, {count(len(network.strokes), 'stroke')} saved"
         self.report({"INFO"}, saved)
@@ -56,28 +56,28 @@ def _write(path: Path, text: str) -> None:
 
 
 def read_network(path: str) -> NetworkFile:
-    """Read a file; raises ValueError with a sentence for the artist where it cannot be read."""
+    """Read a file. Raise ValueError with a sentence for the artist if that fails."""
     from ..core.storage.network_file import NetworkFile
 
     try:
         text = Path(bpy.path.abspath(path)).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
-        raise ValueError(f"The file cannot be read: {error}") from error
+        raise ValueError(f"Cannot read the file: {error}") from error
     return NetworkFile.parse(text)
 
 
 class MESH_OT_seamwire_load_network(EditMeshOperator, bpy.types.Operator, ImportHelper):
-    """Draw the wires of a saved network on the active mesh"""  # noqa: D400 - a tooltip
+    """Draw the wires from a file on the active mesh"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_load_network"
     bl_label = "Load Seamwire Network"
 
     filename_ext = SUFFIX
     filter_glob: bpy.props.StringProperty(default=f"*{SUFFIX}", options={"HIDDEN"})
-    place: bpy.props.EnumProperty(name="Place", description="How seeds are placed", items=PLACE_ITEMS, default="AUTO")
+    place: bpy.props.EnumProperty(name="Place", description="How to place seeds", items=PLACE_ITEMS, default="AUTO")
     mirror: bpy.props.EnumProperty(
         name="Mirror",
-        description="The axis over which the network is mirrored first",
+        description="Axis to mirror the network over before it is placed",
         items=MIRROR_ITEMS,
         default="NONE",
     )

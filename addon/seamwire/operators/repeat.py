@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operator that draws wires again wherever the mesh has the same parts."""
+"""The operator that repeats wires wherever the mesh has matching edges."""
 
 from __future__ import annotations
 
@@ -16,24 +16,24 @@ if TYPE_CHECKING:
 
 
 class MESH_OT_seamwire_repeat(EditMeshOperator, bpy.types.Operator):
-    """Draw the wires drawn last, and those that hang together with them, wherever the mesh has the same edges again"""  # noqa: D400 - a tooltip
+    """Repeat the last wires, and those connected to them, wherever edges match"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_repeat"
     bl_label = "Repeat Seamwires"
 
     selected: bpy.props.BoolProperty(
-        name="Selected", description="Repeat the wires that have selected edges, not those drawn last", default=False
+        name="Selected", description="Repeat the wires with selected edges instead of the last ones", default=False
     )
 
     def run(self, context: bpy.types.Context) -> set[str]:
-        """Find the repeats on the active object, and write what is new."""
+        """Find matching places on the active object, and add the missing wires."""
         from ..core.matching.repeats import Repeats
         from ..mesh import edit_mesh
 
         mesh = self.open_mesh(context.active_object)
         groups = self._groups(mesh)
         if not groups:
-            self.report({"ERROR"}, f"There is no {'selected wire' if self.selected else 'wire'} along edges")
+            self.report({"ERROR"}, f"No {'selected wire' if self.selected else 'wire'} along edges to repeat")
             return {"CANCELLED"}
         arrays = mesh.arrays
         repeats = Repeats(arrays.points, arrays.triangles, arrays.edges)
@@ -46,7 +46,7 @@ class MESH_OT_seamwire_repeat(EditMeshOperator, bpy.types.Operator):
                 new += wires
                 taken.update(edge for wire in wires for edge in wire.edges())
         if not new:
-            self.report({"INFO"}, "The mesh has these edges nowhere else where they are no seams yet")
+            self.report({"INFO"}, "No other unmarked place matches these wires")
             return {"CANCELLED"}
         mesh.add(new)
         marked, _ = mesh.write(mesh.plan())
@@ -57,7 +57,9 @@ class MESH_OT_seamwire_repeat(EditMeshOperator, bpy.types.Operator):
         return {"FINISHED"}
 
     def _groups(self, mesh: ObjectSession) -> list[list[Wire]]:
-        """Return the wires to repeat, those that hang together in one list."""
+        """Return the wires to repeat, with connected wires in one list."""
+        from ..core.matching.repeats import connected_groups
+
         wires = [wire for wire in mesh.session.wires if wire.along == "EDGES"]
         wanted = wires[-1:]
         if self.selected:
@@ -65,18 +67,7 @@ class MESH_OT_seamwire_repeat(EditMeshOperator, bpy.types.Operator):
                 tuple(sorted(vertex.index for vertex in edge.verts)) for edge in mesh.cage.bm.edges if edge.select
             }
             wanted = [wire for wire in wires if not chosen.isdisjoint(wire.edges())]
-        groups: list[list[Wire]] = []
-        for wire in wanted:
-            if any(wire in group for group in groups):
-                continue
-            group, reached = [], {*wire.vertices}
-            left = wires
-            while joined := [other for other in left if not reached.isdisjoint(other.vertices)]:
-                group += joined
-                reached.update(vertex for other in joined for vertex in other.vertices)
-                left = [other for other in left if other not in joined]
-            groups.append(group)
-        return groups
+        return connected_groups(wanted, wires)
 
 
 register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_repeat,))

@@ -15,11 +15,11 @@ if TYPE_CHECKING:
 running: list[Chain] = []
 """The chain that is being drawn."""
 status_makers: list[Callable[[Chain], object]] = []
-"""Make what draws the status bar while a chain is drawn; the interface adds one."""
+"""Functions that return what draws the status bar for a chain. The interface adds one."""
 
 
 def summary(wires: int, marked: int, cleared: int, touched: int = 0) -> str:
-    """Say what was done: `touched` edges are those that new wires run along, seams before or not."""
+    """Return a report. `touched` is the number of edges below new wires, including edges that were already seams."""
     parts = [count(wires, "wire")]
     if marked or not cleared:
         parts.append(f"{count(marked, 'edge')} marked")

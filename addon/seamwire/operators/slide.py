@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Slides vertices onto kept wires, and says what was done."""
+"""Slides vertices onto kept wires."""
 
 from __future__ import annotations
 
@@ -15,5 +15,7 @@ if TYPE_CHECKING:
 
 
 def slide_wires(wires: Mapping[ObjectSession, Collection[Wire]]) -> str:
-    """Slide the vertices of kept wires onto them, and return what was done in words. The sessions of the meshes end."""
-    return f"{count(sum(mesh.slide(own) for mesh, own in wires.items() if own), 'vertex', 'vertices')} moved"
+    """Slide the vertices of kept wires onto the wires, and return a report. The sessions of the meshes end."""
+    from ..mesh import finish
+
+    return f"{count(sum(finish.slide(mesh, own)[1] for mesh, own in wires.items() if own), 'vertex', 'vertices')} moved"

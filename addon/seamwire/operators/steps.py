@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Long work of an operator in steps: beside the interface, which goes on drawing, or at once.
+"""Divides the long work of an operator into steps, so that the interface keeps drawing.
 
-Esc cancels the operator, which then changes nothing. Enter ends a step early if it has found something to go on with.
+Esc cancels the operator, and nothing changes. Enter ends a step early if it already has a result.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from concurrent.futures import Future
 
     Progress = Callable[[float], bool]
-    """Is told the fraction done; returns whether to go on."""
+    """Takes the finished fraction, and returns whether to continue."""
 
 running: list[Stepwise] = []
 """The operators that take steps beside the interface at the moment."""
@@ -32,17 +32,17 @@ _CONSOLE_PERIOD = 5.0
 
 @dataclass(frozen=True)
 class Step:
-    """What the generator of steps yields, and goes on after.
+    """One step of an operator.
 
     Parameters
     ----------
     text
-        What the status bar says meanwhile.
+        A text for the status bar.
     work
-        What any thread may do; None: the interface has its turn, and what comes next is done by Blender itself.
+        Work for another thread, or None if Blender itself must do what comes next.
     look
-        Shows the best result so far. The interface calls it now and then during the work. It returns a text for the status bar, empty as
-        long as there is no result to go on with. None: the step cannot end early.
+        Shows the best result so far, and returns a text for the status bar. The text is empty if there is no result yet. The interface
+        calls it from time to time. None if the step cannot end early.
     """
 
     text: str
@@ -51,7 +51,7 @@ class Step:
 
 
 class Stepwise:
-    """Gives an operator `execute`, and `invoke` with a thread for the work of steps; the operator has `steps`.
+    """Gives an operator `execute`, and `invoke` with a thread for its steps. The operator has `steps`.
 
     Attributes
     ----------
@@ -62,14 +62,14 @@ class Stepwise:
     enough = False
 
     def steps(self, context: bpy.types.Context) -> Generator[Step, None, set[str]]:
-        """Yield the steps; return the operator's result.
+        """Yield the steps, and return the operator's result.
 
-        A ValueError is reported. Closed between two steps, it leaves all as it was.
+        A ValueError is reported. If the generator is closed between two steps, nothing changes.
         """
         raise NotImplementedError
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Take all steps at once, as redoing does.
+        """Take all steps at once, for scripts and for Adjust Last Operation.
 
         The mouse pointer shows the progress of each step. Without a window the console does, while a step takes longer than a few seconds.
         """
@@ -101,7 +101,7 @@ class Stepwise:
             pointer.progress_end()
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        """Take the steps beside the interface."""
+        """Take the steps while the interface keeps drawing."""
         from concurrent.futures import ThreadPoolExecutor
 
         if bpy.app.background or context.window is None:
@@ -119,7 +119,7 @@ class Stepwise:
         return result
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Wait for a step, and take the next one. Meanwhile the view can be moved, and nothing else be done."""
+        """Wait for a step, and take the next one. Only the view can be moved in the meantime."""
         if moves_view(event, context.window_manager):
             return {"PASS_THROUGH"}
         if event.type == "ESC":
@@ -139,7 +139,7 @@ class Stepwise:
         return self._advance(context)
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """End with Blender, or with the file."""
+        """End because Blender quits or loads a file."""
         self._cancelled = True
         self._end(context)
 
@@ -181,5 +181,5 @@ class Stepwise:
         self._thread.shutdown()
         self._steps.close()
         context.window_manager.event_timer_remove(self._timer)
-        with suppress(ReferenceError):  # it may have gone with its file
+        with suppress(ReferenceError):  # the workspace may be gone with its file
             self._workspace.status_text_set(None)

@@ -7,7 +7,7 @@ import bpy
 
 from ..mesh import settings as chosen
 from ..words.names import count
-from .edit_mesh_operator import EditMeshOperator
+from .edit_mesh_operator import EditMeshOperator, description_of_item
 
 ISLAND_ITEMS = (
     ("ATTRIBUTE", "Face Attribute", "Numbers from 0 in the attribute 'island', the largest island first", 0),
@@ -84,6 +84,7 @@ class MESH_OT_seamwire_store(Storing, bpy.types.Operator):
         description="What to store: the islands that seams make, or a view of the metric",
         items=(*ISLAND_ITEMS, *VIEW_ITEMS),
     )
+    description = description_of_item("what")
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Store it."""

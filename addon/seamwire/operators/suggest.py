@@ -28,12 +28,11 @@ if TYPE_CHECKING:
     from ..view.plan_preview import PlanPreview
 
 _CUT_CRUMB = 0.25
-"""What cuts enclose is no island either below this part of the area below which none is planned: where they run side by side, they
-cross here and there."""
+"""Cuts that run side by side cross here and there. A piece smaller than this fraction of the smallest planned island is merged."""
 _LIMITS = ("DISTORTION", "ISLANDS", "DISCS")
-"""The limits that the interface offers; the others are those of older scripts."""
+"""The limits that the interface offers. The others are deprecated."""
 _BLENDERS_FRONT = (0.0, -1.0, 0.0)
-"""The direction towards the viewer in Blender's front view."""
+"""The direction to the viewer in Blender's front view."""
 
 
 class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
@@ -44,14 +43,14 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
 
     limit: bpy.props.EnumProperty(
         name="Limit",
-        description="What decides how many seams there are",
+        description="When to stop adding seams",
         items=(
-            ("DISTORTION", "Stretch", "As few seams as possible, with the stretch that is asked for", 0),
-            ("ISLANDS", "Islands", "At least so many islands, with the stretch that is asked for", 1),
-            ("DISCS", "Open Islands", "Only the seams that make each island a disc, with any stretch", 2),
-            ("BEND", "Bend", "An older limit: the same as Stretch", 3),
-            ("STRETCH", "Stretch Ratio", "An older limit: the setting 'stretch' as a stretch in percent", 4),
-            ("WORST", "Worst Island", "An older limit: only the island that the UV map stretches most", 5),
+            ("DISTORTION", "Stretch", "As few seams as possible for the stretch below", 0),
+            ("ISLANDS", "Islands", "At least this many islands, within the stretch below", 1),
+            ("DISCS", "Open Islands", "Only seams that make each island a disc, with any stretch", 2),
+            ("BEND", "Bend", "Deprecated: the same as Stretch", 3),
+            ("STRETCH", "Stretch Ratio", "Deprecated: the setting 'stretch' as a stretch in percent", 4),
+            ("WORST", "Worst Island", "Deprecated: only the island that the UV map stretches most", 5),
         ),
         default="DISTORTION",
     )
@@ -91,7 +90,7 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
     )
     along: bpy.props.EnumProperty(
         name="Along",
-        description="Where wires run",
+        description="How wires run on the mesh",
         items=(("AUTO", "Automatic", "Along edges if most faces are quads", 2), *ALONG_ITEMS),
         default="AUTO",
     )
@@ -102,36 +101,36 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
         default="AUTO",
     )
     symmetric: bpy.props.BoolProperty(
-        name="Symmetric", description="Wires come in pairs where the mesh is symmetric", default=True
+        name="Symmetric", description="Add wires in pairs if the mesh is symmetric", default=True
     )
     selected: bpy.props.BoolProperty(
-        name="Selected Only", description="Only islands that have selected faces are cut", default=False
+        name="Selected Only", description="Cut only islands with selected faces", default=False
     )
     unwrap: bpy.props.BoolProperty(
         name="Unwrap", description="Unwrap the islands whose seams have changed", default=True
     )
     view_direction: bpy.props.FloatVectorProperty(
         name="View Direction",
-        description="Towards the viewer, in the scene's coordinates, for Hide From View; zero: as the 3D view shows it",
+        description="Direction to the viewer in world space, for Hide From View. Zero takes the direction of the 3D view",
         subtype="XYZ",
         options={"HIDDEN", "SKIP_SAVE"},
     )
     angle: bpy.props.FloatProperty(
         name="Angle",
-        description="A setting of older scripts, without effect",
+        description="Deprecated: has no effect",
         subtype="ANGLE",
         options={"HIDDEN", "SKIP_SAVE"},
     )
     stretch: bpy.props.FloatProperty(
         name="Stretch Ratio",
-        description="A setting of older scripts: how many times longer than wide faces may become",
+        description="Deprecated: how many times longer than wide faces may become",
         default=1.2,
         min=1.02,
         options={"HIDDEN", "SKIP_SAVE"},
     )
 
     def draw(self, _context: bpy.types.Context) -> None:
-        """Show the settings that count."""
+        """Show the settings that have an effect."""
         layout = self.layout
         layout.use_property_split = True
         row = layout.row(align=True)
@@ -159,13 +158,13 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
         layout.prop(self, "unwrap")
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Note which side the 3D view shows, and take the steps beside the interface."""
+        """Note the direction of the 3D view, and search while the interface stays responsive."""
         if not any(self.view_direction):
             self.view_direction = _towards_viewer(context)
         return super().invoke(context, event)
 
     def steps(self, context: bpy.types.Context) -> Generator[Step, None, set[str]]:
-        """Plan, and mark or cut."""
+        """Yield the steps of the search, then mark or cut."""
         from ..view.plan_preview import PlanPreview
 
         self._follow_older_scripts()
@@ -184,26 +183,25 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
         return self._carry_out(context, suggestions)
 
     def _follow_older_scripts(self) -> None:
-        """Let settings of older scripts be what is nearest to them now, and say so."""
+        """Replace deprecated settings by the nearest current ones, and report it."""
         from ..core.seams.suggestion import stretch_of_ratio
 
         is_set = self.properties.is_property_set
         if self.limit == "BEND":
             self.limit = "DISTORTION"
-            self._warn(f"There is no limit BEND any more: the limit is a stretch of {self.distortion:.0f} %")
+            self._warn(f"The limit BEND is deprecated: the stretch is limited to {self.distortion:.0f} % instead")
         elif self.limit == "STRETCH":
             self.limit, self.distortion = "DISTORTION", 100.0 * stretch_of_ratio(self.stretch)
             self._warn(
-                f"There is no limit STRETCH any more: the limit is a stretch of {self.distortion:.1f} %"
-                f" (distortion={self.distortion:.1f}) in place of stretch={self.stretch:.2f}"
+                f"The limit STRETCH is deprecated: use distortion={self.distortion:.1f} instead of stretch={self.stretch:.2f}"
             )
         elif self.limit == "WORST":
             self._warn(
-                f"There is no limit WORST any more: only the worst island is cut, until its stretch is {self.distortion:.0f} %"
+                f"The limit WORST is deprecated: only the worst island is cut, until its stretch is {self.distortion:.0f} %"
             )
         elif is_set("angle") or is_set("stretch"):
             name = "angle" if is_set("angle") else "stretch"
-            self._warn(f"There is no setting {name} any more: the limit is a stretch of {self.distortion:.0f} %")
+            self._warn(f"The setting {name} is deprecated: the stretch is limited to {self.distortion:.0f} % instead")
             self.properties.property_unset("angle")
             self.properties.property_unset("stretch")
 
@@ -211,14 +209,14 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
         self.report({"WARNING"}, text)
 
     def _request(self) -> Request:
-        """Return what is asked of a plan."""
+        """Return the requirements for a plan."""
         from ..core.seams.suggestion import Request, energy_of
 
         distortion = math.inf if self.limit == "DISCS" else energy_of(0.01 * self.distortion)
         return Request(distortion, self.islands if self.limit == "ISLANDS" else 0, self.parts)
 
     def _front(self, context: bpy.types.Context) -> tuple[float, float, float] | None:
-        """Return the direction towards the viewer whom seams hide from, in the scene's coordinates. None: they hide from all sides."""
+        """Return the direction to the viewer whom seams hide from, in world space, or None to hide from all sides."""
         if self.front == "NONE":
             return None
         if self.front == "FRONT":
@@ -226,7 +224,7 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
         return tuple(self.view_direction) if any(self.view_direction) else _towards_viewer(context)
 
     def _begin(self, context: bpy.types.Context) -> list[Suggestion]:
-        """Read the meshes in edit mode; report where that cannot be. Raises as `_chosen`."""
+        """Read the meshes in Edit Mode and report errors. Raises as `_chosen`."""
         from ..core.base.native import NativeError
         from ..mesh.suggestion import Options, Suggestion
 
@@ -251,12 +249,12 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
         return found
 
     def _chosen(self, context: bpy.types.Context) -> dict[bpy.types.Object, NDArray[np.integer] | None]:
-        """Return the objects that are cut, and of each the faces whose islands are cut; None: all islands.
+        """Return the objects to cut, each with the faces whose islands are cut, or None for all islands.
 
         Raises
         ------
         ValueError
-            If the worst island is asked for, and there are no UVs.
+            If the worst island is wanted and there are no UVs.
         """
         from ..mesh import edit_mesh
         from ..mesh.seam_islands import worst_of
@@ -270,7 +268,7 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
         return dict.fromkeys(objects)
 
     def _carry_out(self, context: bpy.types.Context, suggestions: Sequence[Suggestion]) -> set[str]:
-        """Write or cut the wires, unwrap, and say what was done."""
+        """Write or cut the wires, unwrap, and report."""
         if not any(suggestion.wires for suggestion in suggestions):
             return self._unwrap_uncut(context, suggestions)
         across = [suggestion for suggestion in suggestions if suggestion.along == "SURFACE" and suggestion.wires]
@@ -287,21 +285,20 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
         return {"FINISHED"}
 
     def _unwrap_uncut(self, context: bpy.types.Context, suggestions: Sequence[Suggestion]) -> set[str]:
-        """Unwrap if no seam is needed, and say so; return the operator's result."""
+        """Unwrap although no seam is needed, report it, and return the operator's result."""
         unwrapped = self._unwrap(context, suggestions) if self.unwrap else 0
         if not self._is_reached(suggestions):
-            self.report({"WARNING"}, f"No useful seam found: the stretch is {self._stretch(suggestions):.0f} %")
+            self.report({"WARNING"}, f"No useful seam found: the stretch stays at {self._stretch(suggestions):.0f} %")
         elif unwrapped:
-            self.report({"INFO"}, f"No seam is needed: {count(unwrapped, 'island')} unwrapped")
+            self.report({"INFO"}, f"No seam needed: {count(unwrapped, 'island')} unwrapped")
         else:
             self.report({"INFO"}, "Nothing to add: all islands already unwrap within the limit")
         return {"FINISHED"} if unwrapped else {"CANCELLED"}
 
     def _unwrap(self, context: bpy.types.Context, suggestions: Sequence[Suggestion]) -> int:
-        """Unwrap as asked for, or as Blender is set; return how many islands were, and report what could not be done.
+        """Unwrap if wanted, otherwise follow Blender's Live Unwrap. Return the number of unwrapped islands.
 
-        The UVs of a mesh without seams do not follow seams: all of them are replaced, so that the new islands have the UV square to
-        themselves.
+        If the mesh had no seams, all UVs are replaced, so that the new islands fill the UV square.
         """
         from ..core.base.native import NativeError
         from ..mesh import edit_mesh
@@ -321,50 +318,38 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
             return 0
 
     def _tell(self, suggestions: Sequence[Suggestion]) -> None:
-        """Report the wires, the islands, and how good the map is."""
+        """Report the wires, the islands, and the quality of the map."""
         from ..core.seams.suggestion import mean_stretch
         from ..mesh.seam_islands import map_quality, missing_cuts
+        from ..words.suggestion import Outcome
 
-        missing = [int(cuts) for suggestion in suggestions for cuts in missing_cuts(suggestion.mesh.obj)]
-        marked = sum(suggestion.marked for suggestion in suggestions)
-        parts = [
-            count(sum(len(suggestion.wires) for suggestion in suggestions), "wire"),
-            *([f"{count(marked, 'edge')} marked"] if marked else ()),
-            count(len(missing), "island"),
-        ]
-        is_few = self.limit == "ISLANDS" and any(
-            suggestion.best.island_count - suggestion.others < self.islands for suggestion in suggestions
-        )
-        if is_few:
-            parts.append(f"fewer than {self.islands} because there are no more limbs to part")
-        open_ones = sum(cuts > 0 for cuts in missing)
-        if open_ones and self.limit == "DISCS":
-            parts.append(f"{open_ones} of them no {'disc' if open_ones == 1 else 'discs'}")
-            parts.append(f"{count(sum(missing), 'more cut')} needed")
-        elif open_ones:  # a slit to an eye would cross the face
-            parts.append(f"{open_ones} of them with holes")
-        stretch, overlapping = self._stretch(suggestions), 0
+        stretch, overlapping = self._stretch(suggestions), None
         if self.unwrap:
             maps = [found for suggestion in suggestions if (found := map_quality(suggestion.mesh.obj)) is not None]
             stretch = 100.0 * mean_stretch([found.energy for found in maps], [found.area for found in maps])
             overlapping = sum(found.overlapping for found in maps)
-        parts += [f"stretch {stretch:.0f} %", *(["no overlap"] if self.unwrap and not overlapping else ())]
-        if overlapping:
-            parts.append(f"{count(overlapping, 'island')} overlapping")
-        is_reached = self._is_reached(suggestions)
-        if not is_reached:
-            parts.append(f"{self.distortion:.0f} % was not reached")
-        is_open = open_ones > 0 and self.limit == "DISCS"
-        is_good = not (is_open or overlapping or is_few) and is_reached
-        self.report({"INFO"} if is_good else {"WARNING"}, ", ".join(parts))
+        is_few = self.limit == "ISLANDS" and any(
+            suggestion.best.island_count - suggestion.others < self.islands for suggestion in suggestions
+        )
+        outcome = Outcome(
+            wires=sum(len(suggestion.wires) for suggestion in suggestions),
+            marked=sum(suggestion.marked for suggestion in suggestions),
+            missing=[int(cuts) for suggestion in suggestions for cuts in missing_cuts(suggestion.mesh.obj)],
+            discs_wanted=self.limit == "DISCS",
+            islands_wanted=self.islands if is_few else 0,
+            stretch=stretch,
+            stretch_wanted=0.0 if self._is_reached(suggestions) else self.distortion,
+            overlapping=overlapping,
+        )
+        self.report({"INFO"} if outcome.is_good else {"WARNING"}, outcome.text)
 
     def _is_reached(self, suggestions: Sequence[Suggestion]) -> bool:
-        """Whether all plans are within the limit on stretch, or none is set."""
+        """Return whether all plans are within the limit on stretch, if there is one."""
         return self.limit == "DISCS" or all(suggestion.best.is_reached for suggestion in suggestions)
 
     @staticmethod
     def _stretch(suggestions: Sequence[Suggestion]) -> float:
-        """Return the stretch of the planned maps together, in percent."""
+        """Return the mean stretch of all planned maps in percent."""
         from ..core.seams.suggestion import mean_stretch
 
         energies = [float(suggestion.best.energy) for suggestion in suggestions]
@@ -372,14 +357,14 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
 
 
 class _Look:
-    """Shows the best plan of a suggestion so far, in the 3D views and in words.
+    """Shows the best plan so far in the 3D views and in the status bar.
 
     Parameters
     ----------
     preview
-        Draws it.
+        Draws the plan.
     suggestion
-        Plans on another thread.
+        Plans in another thread.
     """
 
     def __init__(self, preview: PlanPreview, suggestion: Suggestion) -> None:
@@ -388,7 +373,7 @@ class _Look:
         self._seen: object = None
 
     def __call__(self) -> str:
-        """Show a plan that is new; return its stretch and length."""
+        """Show the plan if it is new, and return its stretch and length."""
         from ..core.seams.suggestion import stretch_of
 
         suggestion = self._suggestion
@@ -405,7 +390,7 @@ class _Look:
 
 
 def _in_units(length: float) -> str:
-    """Return a length as the scene's units have it."""
+    """Return a length in the scene's units."""
     units = bpy.context.scene.unit_settings
     if units.system == "NONE":
         return f"{length:.3g}"
@@ -418,15 +403,15 @@ def _step(suggestions: Sequence[Suggestion], step: Step) -> Generator[Step, None
     Raises
     ------
     ValueError
-        If a mesh is another one afterwards.
+        If a mesh changed during the step.
     """
     yield step
     if not all(suggestion.mesh.alive() for suggestion in suggestions):
-        raise ValueError("The mesh was changed meanwhile")
+        raise ValueError("The mesh changed during the search")
 
 
 def _towards_viewer(context: bpy.types.Context) -> tuple[float, float, float]:
-    """Return the direction towards the viewer, in the scene's coordinates: of the 3D view, or of Blender's front without one."""
+    """Return the direction to the viewer in world space: from the 3D view if there is one, otherwise Blender's front."""
     view = context.region_data
     if not isinstance(view, bpy.types.RegionView3D) and context.screen is not None:
         spaces = (area.spaces.active for area in context.screen.areas if area.type == "VIEW_3D")

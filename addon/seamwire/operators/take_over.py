@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operator that makes wires of seams that a mesh has."""
+"""The operator that turns existing seams into wires."""
 
 from __future__ import annotations
 
@@ -19,17 +19,15 @@ if TYPE_CHECKING:
 
 
 class MESH_OT_seamwire_take_over(EditMeshOperator, bpy.types.Operator):
-    """Make wires of the seams that the mesh has, with as few seeds as reproduce them, so that they can be dragged"""  # noqa: D400 - a tooltip
+    """Turn existing seams into wires with as few seeds as possible, so that you can drag them"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_take_over"
     bl_label = "Seams to Seamwires"
 
-    selected: bpy.props.BoolProperty(
-        name="Selected Only", description="Only seams whose edges are selected", default=False
-    )
+    selected: bpy.props.BoolProperty(name="Selected Only", description="Convert only selected seams", default=False)
 
     def run(self, context: bpy.types.Context) -> set[str]:
-        """Find the wires of all objects in edit mode, then write them: the seams stay as they are."""
+        """Find the wires of all objects in Edit Mode, then write them. The seams do not change."""
         found: dict[ObjectSession, list[Wire]] = {}
         meshes = self.open_meshes(context)
         if not meshes:
@@ -42,7 +40,7 @@ class MESH_OT_seamwire_take_over(EditMeshOperator, bpy.types.Operator):
             if len(seams):
                 found[mesh] = self._wires(context, mesh, seams)
         if not found:
-            self.report({"ERROR"}, f"No {'selected edge' if self.selected else 'edge'} is a seam without a wire")
+            self.report({"ERROR"}, f"No {'selected seams' if self.selected else 'seams'} to convert")
             return {"CANCELLED"}
         for mesh, wires in found.items():
             mesh.take_over(wires)
@@ -52,7 +50,7 @@ class MESH_OT_seamwire_take_over(EditMeshOperator, bpy.types.Operator):
         edges = sum(len(wire.edges()) for wire in wires)
         self.report(
             {"INFO"},
-            f"{count(edges, 'seam edge')} taken over: {count(len(wires), 'wire')}, {count(len(seeds), 'seed')}",
+            f"{count(edges, 'seam edge')} converted: {count(len(wires), 'wire')}, {count(len(seeds), 'seed')}",
         )
         return {"FINISHED"}
 

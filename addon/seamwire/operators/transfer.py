@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..mesh.settings import settings
-from ..words.names import count
+from ..words.names import DEGREE_NAMES, count
 from .edit_mesh_operator import EditMeshOperator
 
 if TYPE_CHECKING:
@@ -16,14 +16,18 @@ if TYPE_CHECKING:
     from ..mesh.object_session import ObjectSession
 
 PLACE_ITEMS = (
-    ("AUTO", "Automatic", "By vertex numbers where both meshes have the same topology, else by pairs or the surface"),
-    ("NUMBERS", "Vertex Numbers", "Vertex by vertex, on a mesh of the same topology"),
-    ("SURFACE", "Nearest Surface", "At the nearest point, on a mesh of about the same shape"),
+    (
+        "AUTO",
+        "Automatic",
+        "By vertex numbers if both meshes have the same topology, otherwise by pairs or on the surface",
+    ),
+    ("NUMBERS", "Vertex Numbers", "Vertex by vertex, on a mesh with the same topology"),
+    ("SURFACE", "Nearest Surface", "At the nearest point, on a mesh with a similar shape"),
 )
 MIRROR_ITEMS = (("NONE", "None", ""), ("X", "X", ""), ("Y", "Y", ""), ("Z", "Z", ""))
-ALIGN = "Move, turn and scale the network onto the mesh, where it does not lie on it as it is"
+ALIGN = "Move, rotate and scale the network onto the mesh if it does not lie there already"
 _MOST_TOLD = 12
-"""Of what could not be placed; the rest is counted."""
+"""The largest number of problems to report one by one."""
 
 
 def axis_of(name: str) -> int | None:
@@ -34,27 +38,28 @@ def axis_of(name: str) -> int | None:
 def write_and_report(
     operator: bpy.types.Operator, context: bpy.types.Context, mesh: ObjectSession, found: Transfer
 ) -> set[str]:
-    """Write what was found to the mesh, and say how sure it is and what is missing."""
-    from ..core.matching.transfer import WORDS
+    """Write the wires to the mesh, and report how certain each seed is and what is missing."""
+    from ..core.matching.transfer import DEGREES
     from ..mesh import edit_mesh
     from ..mesh.transfer import write
 
-    told = [*found.doubts, *found.lost, *(seed.text for seed in found.seeds if seed.confidence < WORDS[1][0])]
-    for text in told[:_MOST_TOLD]:
+    told = [*found.doubts, *found.lost, *(seed.message for seed in found.seeds if seed.confidence < DEGREES[1][0])]
+    for text in map(str, told[:_MOST_TOLD]):
         operator.report({"WARNING"}, text[:1].upper() + text[1:])
     if len(told) > _MOST_TOLD:
-        operator.report({"WARNING"}, f"And {len(told) - _MOST_TOLD} more that are doubtful or missing")
+        operator.report({"WARNING"}, f"{len(told) - _MOST_TOLD} more seeds are doubtful or missing")
     if not found.wires and not found.strokes:
-        operator.report({"ERROR"}, "No wire has a place on this mesh")
+        operator.report({"ERROR"}, "No wire could be placed on this mesh")
         return {"CANCELLED"}
     wires, marked = write(mesh, found)
     edit_mesh.live_unwrap(context)
     parts = [count(wires, "wire")]
     if wires < len(found.wires):
-        parts.append(f"{len(found.wires) - wires} there already")
+        parts.append(f"{len(found.wires) - wires} already present")
     parts.append(f"{count(marked, 'edge')} marked")
     if found.seeds:
-        parts.append(f"seeds: {found.summary}")
+        degrees = (f"{number} {DEGREE_NAMES[degree]}" for degree, number in found.degrees.items())
+        parts.append(f"seeds: {', '.join(degrees)}")
     if found.added:
         parts.append(f"{count(found.added, 'seed')} added in between")
     if found.lost:
@@ -64,38 +69,38 @@ def write_and_report(
 
 
 class MESH_OT_seamwire_transfer(EditMeshOperator, bpy.types.Operator):
-    """Draw the seams of another object on the active mesh, whatever its topology, and say how sure each seed is"""  # noqa: D400 - a tooltip
+    """Draw the seams of another object on the active mesh, and report how certain each seed is"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_transfer"
     bl_label = "Transfer Seamwires"
 
     source: bpy.props.StringProperty(
-        name="Source", description="The object that has the seams; empty: the other one that is selected"
+        name="Source", description="Object with the seams. If empty, the other selected object"
     )
     place: bpy.props.EnumProperty(
         name="Place",
-        description="How seeds are placed",
+        description="How to place seeds",
         items=(
             *PLACE_ITEMS,
-            ("PAIRS", "Pairs", "By distances along the surface to pairs of vertices, in whatever pose"),
+            ("PAIRS", "Pairs", "By distances along the surface to pairs of vertices, in any pose"),
         ),
         default="AUTO",
     )
     pairs: bpy.props.StringProperty(
         name="Pairs",
-        description="Vertices that are the same point of both: the source's and this mesh's with a hyphen; empty: the middles of"
+        description="Matching vertices, each as the source's number, a hyphen and this mesh's number. If empty, the centers of"
         " vertex groups with the same names",
     )
     mirror: bpy.props.EnumProperty(
         name="Mirror",
-        description="The axis over which the seams are mirrored first",
+        description="Axis to mirror the seams over before they are placed",
         items=MIRROR_ITEMS,
         default="NONE",
     )
     align: bpy.props.BoolProperty(name="Align", description=ALIGN, default=True)
 
     def draw(self, _context: bpy.types.Context) -> None:
-        """Show what there is to choose."""
+        """Show the settings that have an effect."""
         layout = self.layout
         layout.use_property_split = True
         layout.prop_search(self, "source", bpy.data, "objects")
@@ -121,7 +126,7 @@ class MESH_OT_seamwire_transfer(EditMeshOperator, bpy.types.Operator):
             pairs = transfer.pairs_of_groups(source, target)
             if len(pairs) < 3:
                 raise ValueError(
-                    f"Give three pairs of vertices at least: the objects have {count(len(pairs), 'vertex group')} in common"
+                    f"Give at least three pairs of vertices: the objects share only {count(len(pairs), 'vertex group')}"
                 )
         drawn = self.open_mesh(source)
         network = transfer.network_of(drawn, settings(context))
@@ -138,17 +143,17 @@ class MESH_OT_seamwire_transfer(EditMeshOperator, bpy.types.Operator):
         return write_and_report(self, context, mesh, found)
 
     def _source(self, context: bpy.types.Context) -> bpy.types.Object:
-        """Return the object that has the seams; raises ValueError where it is not clear which."""
+        """Return the object with the seams. Raise ValueError if it is ambiguous."""
         target = context.active_object
         if self.source:
             obj = bpy.data.objects.get(self.source)
             if obj is None:
-                raise ValueError(f"There is no object {self.source}")
+                raise ValueError(f"No object is named {self.source}")
             found = [obj]
         else:
             found = [obj for obj in context.selected_objects if obj.type == "MESH" and obj.data != target.data]
         if len(found) != 1 or found[0].type != "MESH" or found[0].data == target.data:
-            raise ValueError("Select one other mesh object beside the active one, or name the source")
+            raise ValueError("Select one other mesh object, or name the source")
         return found[0]
 
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Steps of Blender's undo for what a chain did, named for it.
+"""Named steps of Blender's undo for what a chain did.
 
 Blender's *Adjust Last Operation* undoes everything back to the operator that was registered last, then runs that operator again.
-A plain `ed.undo_push` registers nothing: adjusting an operator from before the chain would take the chain away. So each step is
-pushed by an operator of its own. These operators have no properties and no `execute`, so Blender offers nothing to adjust or repeat.
+A plain `ed.undo_push` registers nothing, so adjusting an operator from before the chain would remove the chain. Therefore each step
+has an operator that pushes it. These operators have no properties and no `execute`, so Blender offers nothing to adjust or repeat.
 """
 
 from __future__ import annotations

@@ -11,42 +11,42 @@ from .edit_mesh_operator import EditMeshOperator
 
 
 class MESH_OT_seamwire_unwrap(EditMeshOperator, bpy.types.Operator):
-    """Unwrap the islands whose seams have changed since they were unwrapped; all other UVs stay as they are"""  # noqa: D400 - a tooltip
+    """Unwrap the islands whose seams have changed. All other UVs stay in place"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_unwrap"
     bl_label = "Unwrap Changed Islands"
 
     method: bpy.props.EnumProperty(
         name="Method",
-        description="How islands are flattened",
+        description="How to flatten islands",
         items=(
             (
                 "SEAMWIRE",
                 "Symmetric Dirichlet",
-                "Stretch as little as possible, in angles and areas: no flipped faces, no overlaps. Islands with pins: Angle Based",
+                "Little stretch in angles and areas, without flipped faces or overlaps. Islands with pins use Angle Based",
             ),
-            ("ANGLE_BASED", "Angle Based", "Blender's unwrap: keep angles, good for organic shapes"),
-            ("CONFORMAL", "Conformal", "Blender's unwrap: keep angles, faster"),
+            ("ANGLE_BASED", "Angle Based", "Blender's method for organic shapes. Preserves angles"),
+            ("CONFORMAL", "Conformal", "Blender's faster method. Preserves angles"),
         ),
     )
     changed_only: bpy.props.BoolProperty(
-        name="Changed Only", description="Keep the UVs of islands whose seams have not changed", default=True
+        name="Changed Only", description="Keep the UVs of islands with unchanged seams", default=True
     )
 
     def run(self, context: bpy.types.Context) -> set[str]:
-        """Unwrap, and say how many islands."""
+        """Unwrap, and report the number of islands."""
         from ..mesh.unwrap import unwrap_changed
 
         done = unwrap_changed(context, method=self.method, every=not self.changed_only)
         if not done.islands:
-            self.report({"INFO"}, "No island has changed since it was unwrapped")
+            self.report({"INFO"}, "Nothing to unwrap: no island has changed")
             return {"CANCELLED"}
         self.report({"INFO"}, f"{count(done.islands, 'island')} unwrapped, {done.kept} kept")
         return {"FINISHED"}
 
 
 def unwrap_after_chain(context: bpy.types.Context) -> str:
-    """Unwrap as the tool and Blender are set, after seams have changed; return what could not be done, in words."""
+    """Unwrap after a change of seams, as the tool or Blender is set. Return an error message, or an empty text."""
     if not settings(context).unwrap:
         from ..mesh import edit_mesh
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The keys, registered with Blender so that its user can change them."""
+"""The keys, registered with Blender so that users can change them."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ START = {"type": "W", "value": "PRESS", "ctrl": True, "alt": True}
 
 
 class MESH_OT_seamwire_key(bpy.types.Operator):
-    """Holds the place of a key within a chain"""  # noqa: D400 - a tooltip
+    """Represents a key of a chain in the keymap"""  # noqa: D400 - a tooltip
 
     bl_idname = ACTION_OPERATOR
     bl_label = "Seamwire Key"
@@ -26,13 +26,13 @@ class MESH_OT_seamwire_key(bpy.types.Operator):
 
     action: bpy.props.EnumProperty(
         name="Action",
-        description="What the key does",
+        description="Action of the key",
         items=tuple((action.name, action.value, "", "NONE", number) for action, number in NUMBERS.items()),
     )
 
     @classmethod
     def poll(cls, _context: bpy.types.Context) -> bool:
-        """Never: a chain looks its keys up itself."""
+        """Return False, because a chain looks up its keys itself."""
         return False
 
 
@@ -41,20 +41,20 @@ _SPACE = {"space_type": "VIEW_3D", "region_type": "WINDOW"}
 
 
 def register() -> None:
-    """Add the key that chooses the tool in edit mode, and those of a chain."""
+    """Add the key that chooses the tool in Edit Mode, and the keys of a chain."""
     bpy.utils.register_class(MESH_OT_seamwire_key)
     _registered.extend(_add())
 
 
 def _add() -> Iterator[tuple[bpy.types.KeyMap, bpy.types.KeyMapItem]]:
     configurations = bpy.context.window_manager.keyconfigs
-    if configurations.addon is None:  # there may be none in background mode
+    if configurations.addon is None:  # background mode has no keymaps
         return
     keymap = configurations.addon.keymaps.new(name="Mesh", space_type="EMPTY")
     item = keymap.keymap_items.new("wm.tool_set_by_id", **START)
     item.properties.name = TOOL
     yield keymap, item
-    # Blender hands a keymap of an add-on on to the user's only where its own has one of that name.
+    # Blender copies an add-on's keymap to the user's only if its own configuration has a keymap with this name.
     configurations.default.keymaps.new(name=NAME, **_SPACE)
     keymap = configurations.addon.keymaps.new(name=NAME, **_SPACE)
     for action, key in KEYS:
@@ -67,7 +67,7 @@ def _add() -> Iterator[tuple[bpy.types.KeyMap, bpy.types.KeyMapItem]]:
 
 
 def unregister() -> None:
-    """Remove them."""
+    """Remove all keys."""
     while _registered:
         keymap, item = _registered.pop()
         keymap.keymap_items.remove(item)
@@ -76,7 +76,7 @@ def unregister() -> None:
 
 
 def empty(name: str) -> None:
-    """Take the add-on's items out of a keymap, and so out of the user's, where they would stay without their keymap."""
+    """Remove the add-on's items from a keymap. Otherwise they would stay in the user's keymap."""
     configurations = bpy.context.window_manager.keyconfigs
     keymap = configurations.addon.keymaps.get(name) if configurations.addon is not None else None
     if keymap is not None:
@@ -86,7 +86,7 @@ def empty(name: str) -> None:
 
 
 def remove(name: str) -> None:
-    """Remove a keymap that is the add-on's alone."""
+    """Remove a keymap that only the add-on uses."""
     empty(name)
     configurations = bpy.context.window_manager.keyconfigs
     for configuration in (configurations.addon, configurations.default):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The add-on's preferences: how the drawing looks, and the keys."""
+"""The add-on's preferences: the look of the drawing, and the keys."""
 
 from __future__ import annotations
 
@@ -18,52 +18,54 @@ def _color(name: str, description: str, default: tuple[float, float, float, floa
 
 
 class _Properties:
-    """What the artist can set, wherever it is kept."""
+    """The preferences, wherever they are stored."""
 
     tool: bpy.props.PointerProperty(type=SeamwireSettings)
 
     wheel_switches: bpy.props.BoolProperty(
         name="Wheel Takes Next Candidate",
-        description="While a wire is live the wheel takes the next candidate, and Ctrl and the wheel zoom",
+        description="While a wire is live, the wheel takes the next candidate, and Ctrl and the wheel zoom",
         default=False,
     )
     line_width: bpy.props.FloatProperty(
         name="Line Width",
-        description="How much wider or thinner wires and seeds are drawn; Blender's display scale counts as well",
+        description="Scale of wires and seeds, in addition to Blender's display scale",
         default=1.0,
         min=0.25,
         max=5.0,
         soft_max=3.0,
     )
     theme_colors: bpy.props.BoolProperty(
-        name="Use Theme Colors", description="Draw kept wires in the theme's color of seams", default=True
+        name="Use Theme Colors", description="Draw kept wires in the theme's color for seams", default=True
     )
     active_color: _color("Live Wire", "The wire that a click keeps", (1.0, 0.72, 0.05, 1.0))
     other_color: _color("Next Candidate", "The next candidate", (0.45, 0.8, 1.0, 0.9))
     kept_color: _color("Kept Wires", "Wires whose edges become seams", (1.0, 0.2, 0.1, 1.0))
-    clear_color: _color("Cleared Seams", "Wires whose edges cease to be seams", (0.82, 0.86, 0.95, 1.0))
-    loop_color: _color("Loop", "The loop that a click takes", (0.3, 1.0, 0.55, 1.0))
-    seed_color: _color("Seeds", "Seeds, and what is under the cursor", (1.0, 1.0, 1.0, 1.0))
+    clear_color: _color("Cleared Seams", "Wires that clear seams", (0.82, 0.86, 0.95, 1.0))
+    loop_color: _color("Loop", "The loop that a click adds", (0.3, 1.0, 0.55, 1.0))
+    seed_color: _color("Seeds", "Seeds, and the edge or vertex under the cursor", (1.0, 1.0, 1.0, 1.0))
     tint: bpy.props.FloatProperty(
         name="Island Tint",
-        description="How strongly the islands that seams make are tinted; 0: not at all",
+        description="Strength of the islands' colors. 0 turns them off",
         default=0.22,
         min=0.0,
         max=1.0,
         subtype="FACTOR",
     )
     show_text: bpy.props.BoolProperty(
-        name="Viewport Text", description="Write the number of islands and other hints in the 3D view", default=True
+        name="Viewport Text",
+        description="Show the number of islands and other information in the 3D view",
+        default=True,
     )
 
 
 class SeamwirePreferences(_Properties, bpy.types.AddonPreferences):
-    """What the add-on remembers from one start of Blender to the next."""
+    """The preferences that Blender stores."""
 
     bl_idname = ADDON
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Show them in Blender's preferences."""
+        """Show the preferences."""
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
@@ -84,7 +86,7 @@ class SeamwirePreferences(_Properties, bpy.types.AddonPreferences):
 
 
 def draw_keys(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
-    """Show the keys, to be changed."""
+    """Show the keys, so that users can change them."""
     configuration = context.window_manager.keyconfigs.user
     box = layout.box()
     box.label(text="Keys of the Tool", icon="MOUSE_LMB")
@@ -95,7 +97,7 @@ def draw_keys(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
         _draw_key(box, keys, item, item.properties.bl_rna.properties["which"].enum_items[item.properties.which].name)
     keys = bindings.user_keymap(context.window_manager)
     if keys is None:
-        box.label(text="There are no keymaps here")
+        box.label(text="No keymaps available")
         return
     box = layout.box()
     box.label(text="Keys While a Chain Is Drawn", icon="MOUSE_LMB")
@@ -130,7 +132,7 @@ def _draw_key(box: bpy.types.UILayout, keys: bpy.types.KeyMap, item: bpy.types.K
 
 
 class SeamwireSessionPreferences(_Properties, bpy.types.PropertyGroup):
-    """The same for an add-on that is enabled without being listed in Blender's preferences; Blender does not store them."""
+    """The same preferences for an add-on that is enabled but not listed in Blender's preferences. Blender does not store them."""
 
 
 def register() -> None:
@@ -144,7 +146,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Remove them."""
+    """Remove the preferences."""
     del bpy.types.WindowManager.seamwire_preferences
     bpy.utils.unregister_class(SeamwireSessionPreferences)
     bpy.utils.unregister_class(SeamwirePreferences)

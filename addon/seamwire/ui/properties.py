@@ -44,13 +44,13 @@ def draw_drawing(context: bpy.types.Context, layout: bpy.types.UILayout) -> None
     chosen, obj = settings(context), context.edit_object
     layout.prop(chosen, "along")
     layout.prop(chosen, _strength(chosen))
-    column = layout.column(heading="Wires")
-    straight = column.row()
+    toggles = _whole_width(layout)
+    straight = toggles.row()
     straight.active = chosen.along == "SURFACE"
     straight.prop(chosen, "straight")
-    column.prop(chosen, "clear")
-    column.prop(chosen, "snap")
-    column.prop(chosen, "xray")
+    toggles.prop(chosen, "clear")
+    toggles.prop(chosen, "snap")
+    toggles.prop(chosen, "xray")
     if obj is not None and obj.type == "MESH":
         row = layout.row(align=True, heading="Mirror")
         for axis in "xyz":
@@ -66,7 +66,7 @@ def draw_finish(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
 
 def draw_islands(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
     """Show what happens to the islands that seams make."""
-    layout.column(heading="Unwrap").prop(settings(context), "unwrap", text="After Each Chain")
+    _whole_width(layout).prop(settings(context), "unwrap")
 
 
 def draw_advanced(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
@@ -93,6 +93,13 @@ def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout) -> Non
             box = layout.box()
             box.label(text=name)
             draw(context, _split(box.column()))
+
+
+def _whole_width(layout: bpy.types.UILayout) -> bpy.types.UILayout:
+    """Return a column for toggles whose names need the whole width of the sidebar."""
+    column = layout.column()
+    column.use_property_split = False
+    return column
 
 
 def _split(layout: bpy.types.UILayout) -> bpy.types.UILayout:

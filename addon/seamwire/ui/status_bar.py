@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 def status_of(chain: Chain) -> Status:
     """Return the state of a chain."""
     symmetric = chain.view.mesh.symmetric
-    offers = symmetric if symmetric and not chain.session.mirror_axes else ()
-    return Status(chain.session, chain.keys, chain.message, "".join("XYZ"[axis] for axis in offers))
+    offers = symmetric if symmetric and not chain.session.options.mirror else ()
+    return Status(chain.session.picture, chain.keys, chain.message, "".join("XYZ"[axis] for axis in offers))
 
 
 def status_drawer(status: Status) -> Callable[[bpy.types.Header, bpy.types.Context], None]:
@@ -84,5 +84,8 @@ def register() -> None:
 
 def unregister() -> None:
     """Remove the hints."""
-    STATUSBAR_HT_header.remove(draw_idle)
+    # While a chain is drawn, Blender keeps its own function aside.
+    draw = getattr(STATUSBAR_HT_header, "_draw_orig", STATUSBAR_HT_header.draw)
+    if draw_idle in draw._draw_funcs:
+        draw._draw_funcs.remove(draw_idle)
     status_makers.remove(_drawer_of)

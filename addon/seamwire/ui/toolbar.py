@@ -14,7 +14,7 @@ from . import keymap, properties
 
 OPERATOR = "mesh.seamwire_draw"
 KEYMAP = f"3D View Tool: Edit Mesh, {NAME}"
-"""What Blender calls the keymap of the tool."""
+"""The name of the tool's keymap in Blender."""
 _ICON = Path(__file__).parent.parent / "icons" / "seamwire.draw"
 
 
@@ -23,15 +23,16 @@ def _key(first: str, type: str = "LEFTMOUSE", **held: bool) -> tuple[str, dict[s
 
 
 class SeamwireTool(bpy.types.WorkSpaceTool):
-    """The tool: a click begins a chain, and all else is Blender's."""
+    """The tool in the toolbar. A click begins a chain, and most other keys keep Blender's meaning."""
 
     bl_space_type = "VIEW_3D"
     bl_context_mode = "EDIT_MESH"
     bl_idname = TOOL
     bl_label = NAME
     bl_description = (
-        "Draw UV seams with live wires that follow the shape of the mesh.\n"
-        "Click to begin, click to keep a wire, right-click to end the chain. Drag seeds to move them, X removes a wire"
+        "Draw UV seams that follow the shape of the mesh.\n"
+        "Click to begin, click to keep a wire, right-click to end.\n"
+        "Drag to draw by hand or to move seeds. Hold Alt for loops. X removes a wire"
     )
     bl_icon = str(_ICON) if _ICON.with_suffix(".draw.dat").exists() else "ops.mesh.knife_tool"
     bl_cursor = "CROSSHAIR"
@@ -47,7 +48,7 @@ class SeamwireTool(bpy.types.WorkSpaceTool):
         _key("REMOVE", "DEL"),
         _key("NEXT", "W"),
         _key("PEEK", "LEFT_ALT", any=True),
-        # Whether the key that is pressed counts as held is not the same everywhere.
+        # Systems differ in whether the pressed key counts as held.
         _key("PEEK", "LEFT_SHIFT", alt=True),
         _key("PEEK", "LEFT_SHIFT", alt=True, shift=True),
         (
@@ -65,7 +66,7 @@ class SeamwireTool(bpy.types.WorkSpaceTool):
 
 
 def register() -> None:
-    """Add the tool, in a slot of its own at the end of the toolbar."""
+    """Add the tool in a separate slot at the end of the toolbar."""
     if bpy.context.window_manager.keyconfigs.addon is not None:  # Blender as a module has no keymaps for a tool
         bpy.utils.register_tool(SeamwireTool)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sidebar's panel of Object Mode: what the metric sees of the active object."""
+"""The sidebar's panel in Object Mode with views of the active object."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .properties import draw_views
 
 
 class VIEW3D_PT_seamwire_views(bpy.types.Panel):
-    """What the metric sees of the active object"""  # noqa: D400 - a tooltip
+    """Views of what wires follow on the active object"""  # noqa: D400 - a tooltip
 
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
@@ -22,15 +22,15 @@ class VIEW3D_PT_seamwire_views(bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Whether a mesh is active."""
+        """Return whether a mesh is active."""
         return context.active_object is not None and context.active_object.type == "MESH"
 
     def draw_header(self, context: bpy.types.Context) -> None:
-        """Show whether anything is seen at all."""
+        """Show the switch for all views."""
         self.layout.prop(chosen.settings(context), "views_in_object_mode", text="")
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Show what is to be seen."""
+        """Show the views and the settings that they depend on."""
         layout, settings = self.layout, chosen.settings(context)
         layout.use_property_split = True
         layout.use_property_decorate = False
@@ -50,14 +50,14 @@ def _follow() -> None:
 
 
 def register() -> None:
-    """Add the panel; what an earlier session showed is shown again."""
+    """Add the panel, and show the views again that were on."""
     bpy.utils.register_class(VIEW3D_PT_seamwire_views)
     chosen.listeners.append(_follow)
     bpy.app.timers.register(_follow, first_interval=0.5, persistent=True)
 
 
 def unregister() -> None:
-    """Remove it, and end what is shown."""
+    """Remove the panel and the views."""
     if _follow in chosen.listeners:
         chosen.listeners.remove(_follow)
     if bpy.app.timers.is_registered(_follow):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The objects that are drawn on: which of them is under the mouse, what is drawn over them, and how they follow Blender.
 
-What was prepared for a mesh stays until its geometry changes, from one chain to the next, whatever tool is used between.
+Prepared data of a mesh stays until its geometry changes, also between chains and while other tools are used.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class EditedObjects:
     problem
         Why nothing lights up under the mouse; an empty string: it does.
     chain
-        Whether a chain is being drawn: it looks after the objects, and they are drawn whatever the tool.
+        Whether a chain is being drawn. The chain then updates the objects, and they are drawn with every tool.
     covered
         Whether something else is drawn in place of the objects.
     """
@@ -58,7 +58,7 @@ class EditedObjects:
     # What there is
 
     def views(self) -> list[ObjectView]:
-        """Return the objects that are in edit mode now, as far as they were pointed at."""
+        """Return the objects in Edit Mode that were pointed at."""
         return [view for view in self._views.values() if view.mesh.alive()]
 
     def of(self, obj: bpy.types.Object) -> ObjectView:
@@ -134,7 +134,7 @@ class EditedObjects:
         self.problem = ""
         self._error = None
 
-    # What is under the mouse
+    # Pointing
 
     def find(self, place: Place, plain: bool = False) -> tuple[ObjectView | None, Snap | None]:
         """Return which object is under the mouse, and what of it; `plain`: what loops lead through."""
@@ -182,20 +182,19 @@ class EditedObjects:
         """Let the overlay name the island under the mouse, which is on that object if anywhere."""
         for each in self.views():
             hit = each.surface_at(place.view, place.cursor) if each is view and place is not None else None
-            each.overlay.pointed = None if hit is None else hit[1]
+            each.islands.pointed = None if hit is None else hit[1]
 
     def pause(self) -> None:
         """Light up nothing until the objects are forgotten: doing so raised."""
-        self.problem = "What is under the mouse cannot be shown"
+        self.problem = "The edge or vertex under the mouse cannot be shown"
 
     # How they follow
 
     def follow_settings(self) -> None:
-        """Let the sessions follow the tool's settings and their meshes' mirrors."""
+        """Let the sessions follow the settings."""
         settings = chosen.settings()
         for view in self.views():
             view.mesh.follow(settings)
-            view.mesh.follow_mirror()
             view.measure()
 
     def _on_settings(self) -> None:
@@ -281,13 +280,13 @@ class EditedObjects:
 
     _changed = _stale_since = 0.0
 
-    # What is seen
+    # Drawing
 
     def show(self, help_rows: list[tuple[str, str]] | None = None) -> None:
         """Show the sessions as they are now, where that is something new."""
         for view in self.views():
             view.show(front=view is self.front, help_rows=help_rows)
-        state = [(id(view), view.session.revision, view.overlay.pointed_island) for view in self.views()]
+        state = [(id(view), view.session.revision, view.islands.pointed_island) for view in self.views()]
         state.append((id(self.front), bool(help_rows)))
         if state != self._shown:
             self._shown = state
@@ -342,7 +341,7 @@ class EditedObjects:
             return
         shown = set(context.view_layer.objects.keys())
         for name, view in self._views.items():
-            # What is being changed for long is shown when it was read anew.
+            # A mesh that changes for a long time is shown after it was read again.
             recent = time.monotonic() - self._stale_since < 2.0 * _PAUSE
             current = view.mesh.alive() and (self.chain or not view.stale or recent)
             if current and name in shown and view.obj.visible_in_viewport_get(context.space_data):
@@ -364,7 +363,7 @@ def _in_edit_mode() -> list[bpy.types.Object]:
 
 
 edited = EditedObjects()
-"""Those of this Blender."""
+"""The edited objects of this Blender."""
 
 
 def _tick() -> float | None:

@@ -56,7 +56,7 @@ def unseen() -> Iterator[None]:
 
 @contextmanager
 def blended(depth: str) -> Iterator[None]:
-    """Draw with opacity and a depth test, ``LESS_EQUAL``, ``GREATER`` or ``NONE``, leaving the state as it was."""
+    """Draw with opacity and a depth test, ``LESS_EQUAL``, ``GREATER`` or ``NONE``, and restore the state."""
     before = gpu.state.blend_get(), gpu.state.depth_test_get(), gpu.state.depth_mask_get()
     gpu.state.blend_set("ALPHA")
     gpu.state.depth_mask_set(False)
@@ -104,9 +104,8 @@ class Eye:
     def lifted(self, pixels: float) -> Matrix:
         """Return the model-view matrix that brings all nearer to the viewer by the depth of a number of pixels.
 
-        A line some pixels wide would sink into a surface that it lies on, by as much as the surface is steep. Drawing
-        it nearer by a few pixels' worth, whatever the distance, keeps it out and shows nothing through a part that is
-        thicker.
+        A line some pixels wide would sink into a surface that it lies on, by as much as the surface is steep. It is drawn a few pixels
+        nearer at any distance. That keeps it out of the surface, but hides it behind thicker parts.
         """
         depth = pixels * self.scale * self._pixel
         if self._orthographic:

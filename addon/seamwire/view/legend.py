@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 _TEXT: Color = (0.93, 0.93, 0.93, 1.0)
 _GROUND: Color = (0.07, 0.07, 0.08, 0.8)
-"""Dark under light text whatever the theme: the colors are to be read on the same ground everywhere."""
+"""Dark under light text in every theme, so that the colors look the same everywhere."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class Legend:
     Parameters
     ----------
     lines
-        What it is of, and what else there is to say.
+        The title, and further lines of text.
     colors
         From the least to the most; none: there is no bar.
     marks

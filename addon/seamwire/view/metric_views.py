@@ -21,15 +21,15 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.base.mesh_arrays import Arrays
+    from ..core.drawing.options import Options
     from ..core.fields.color_maps import ColorMap
     from ..core.fields.crests import Crests
     from ..core.fields.metric_fields import Ellipses, Fields, Part, Source
-    from ..mesh.settings import SeamwireSettings
     from .gpu_draw import Eye
     from .theme import Color
 
 HEATS: tuple[Part, ...] = ("STRENGTH", "CONCAVITY", "DISTANCE")
-"""What is shown as heat, as the tool's setting calls it."""
+"""The heat views, as the tool's setting names them."""
 _STEPS = 64
 """Colors of a legend's bar."""
 _OPACITY = 0.85
@@ -79,8 +79,7 @@ class MetricViews:
 
     def follow(
         self,
-        settings: SeamwireSettings,
-        along: str,
+        options: Options,
         source: Source | None,
         strokes: tuple[object, ...] = (),
         crests: bool = False,
@@ -89,10 +88,8 @@ class MetricViews:
 
         Parameters
         ----------
-        settings
-            The tool's.
-        along
-            How wires run: it has a strength of its own.
+        options
+            The options.
         source
             Where distances are from; None: nowhere.
         strokes
@@ -100,25 +97,24 @@ class MetricViews:
         crests
             Whether `crests` are wanted, seen or not.
         """
-        self._heat = settings.heat if settings.heat in HEATS else None
+        self._heat = options.heat if options.heat in HEATS else None
         parts = {
-            "CRESTS": settings.show_crests,
-            "SILHOUETTE": settings.show_silhouette,
-            "ELLIPSES": settings.show_ellipses,
-            "PATHS": settings.show_paths,
-            "ISOLINES": settings.show_bands,
-            "INVALID": settings.show_invalid,
+            "CRESTS": options.show_crests,
+            "SILHOUETTE": options.show_silhouette,
+            "ELLIPSES": options.show_ellipses,
+            "PATHS": options.show_paths,
+            "ISOLINES": options.show_bands,
+            "INVALID": options.show_invalid,
         }
         self._visible = frozenset(name for name, on in parts.items() if on) | ({self._heat} if self._heat else set())
         wanted = self._visible | ({"CRESTS"} if crests else set())
-        strength = settings.strength_edges if along == "EDGES" else settings.strength_surface
         far = bool(wanted & {"DISTANCE", "PATHS", "ISOLINES"})
         self._request = Request(
             wanted,
-            settings.metric,
-            strength,
-            settings.clamp,
-            settings.shown_metric.lower(),
+            options.metric,
+            options.strength,
+            options.clamp,
+            options.shown_metric.lower(),
             source if far else None,
             strokes,
         )
@@ -138,7 +134,7 @@ class MetricViews:
 
     @property
     def fields(self) -> Fields | None:
-        """What is shown now: what was computed last, as far as it is asked for and in the metric that is."""
+        """The latest fields that are wanted and belong to the current metric."""
         found = self._maker.newest
         if found is None or not self._request.parts or found.request.metric_key != self._request.metric_key:
             return None
@@ -240,7 +236,7 @@ class MetricViews:
                 faces.add(color, self._arrays.triangles[numbers])
         return faces
 
-    # What the colors mean
+    # Legends
 
     def legends(self) -> list[Legend]:
         """Return what is to be read, from below."""

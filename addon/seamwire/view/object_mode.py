@@ -31,7 +31,7 @@ _PAUSE = 0.3
 
 
 class _Shown:
-    """The active object as it was read."""
+    """The arrays of the active object."""
 
     def __init__(self, obj: bpy.types.Object) -> None:
         self.name, self.mesh = obj.name_full, obj.data.name_full
@@ -93,7 +93,7 @@ class ObjectModeViews:
 
     @property
     def views(self) -> MetricViews | None:
-        """What is shown of the active object; None: nothing."""
+        """The views of the active object, or None."""
         return None if self._shown is None else self._shown.views
 
     def on_change(self, depsgraph: bpy.types.Depsgraph | None = None) -> None:
@@ -130,8 +130,7 @@ class ObjectModeViews:
         views = self._shown.views
         if views is None:
             return _IDLE
-        settings = chosen.settings()
-        views.follow(settings, settings.along, self._shown.source)
+        views.follow(chosen.snapshot(chosen.settings()), self._shown.source)
         if views.poll():
             _redraw()
         return _RHYTHM if views.busy else _IDLE
@@ -183,7 +182,7 @@ def _redraw() -> None:
 
 
 object_mode = ObjectModeViews()
-"""Those of this Blender."""
+"""The views in this Blender."""
 
 
 def _tick() -> float | None:

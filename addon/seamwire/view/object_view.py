@@ -18,6 +18,7 @@ from ..mesh.object_session import ObjectSession
 from .metric_views import MetricViews
 from .overlay import Overlay
 from .picking import REACH, Picker, stroke_at
+from .shown_islands import ShownIslands
 from .stretch_heat import StretchHeat
 from .theme import HUES
 
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from ..core.drawing.options import Options
+    from ..core.drawing.picture import Picture
     from ..core.drawing.session import Session
     from ..core.fields.metric_fields import Source
     from ..core.network.network import Pick, Snap
@@ -62,6 +65,8 @@ class ObjectView:
     ----------
     name
         The object's, when it was read.
+    stroke
+        The stroke that is being drawn: its points, (k, 3), as the session has them, and whether wires will follow it.
     stale
         Whether Blender told of a change of the mesh since it was read.
 
@@ -73,7 +78,7 @@ class ObjectView:
 
     def __init__(self, obj: bpy.types.Object) -> None:
         settings = chosen.settings()
-        self.mesh = ObjectSession(obj, settings.along)
+        self.mesh = ObjectSession(obj, chosen.snapshot(settings, obj.data))
         self.mesh.follow(settings)
         arrays = self.mesh.arrays
         gaps = GapFinder(arrays.points, arrays.triangles, arrays.edges, arrays.partly_hidden)
@@ -81,14 +86,15 @@ class ObjectView:
         self._islands = islands.IslandMaker(arrays.triangles, make.face_segments, HUES, gaps, make.missing_cuts)
         self.views = MetricViews(arrays, native.load(), self.mesh.make_live.wait)
         self._picker = Picker(arrays, self.mesh.plain_seams)
+        self.islands = ShownIslands(self._islands, self.session, arrays.seams)
+        self.stroke: tuple[NDArray[np.float64], bool] | None = None
+        self._front = True
+        self._keys: tuple[Row, ...] | None = None
         self.overlay = Overlay(
-            self.session,
+            self._look,
             obj,
             arrays.points,
             arrays.to_object,
-            triangles=arrays.triangles,
-            islands=self._islands,
-            seams=arrays.seams,
             preferences=chosen.preferences(),
             heat=StretchHeat(arrays, self._islands),
             views=self.views,
@@ -108,6 +114,28 @@ class ObjectView:
     def session(self) -> Session:
         """The object's session."""
         return self.mesh.session
+
+    @property
+    def options(self) -> Options:
+        """The settings that the session follows."""
+        return self.session.options
+
+    @property
+    def picture(self) -> Picture:
+        """Everything that is to be seen of the object now."""
+        return replace(
+            self.session.picture,
+            islands=self.islands.newest,
+            pointed_island=self.islands.pointed_island,
+            stroke=self.stroke,
+            front=self._front,
+            keys=self._keys,
+        )
+
+    def _look(self) -> Picture:
+        """Return what is drawn now, and ask for what has changed."""
+        self.islands.poll()
+        return self.picture
 
     def close(self) -> None:
         """Let go of what works on threads."""
@@ -131,7 +159,8 @@ class ObjectView:
     def renew(self) -> None:
         """Let picker and overlay follow the mesh that was read, or written."""
         self._picker.set_seams(self.mesh.plain_seams)
-        self.overlay.renew(self.obj, self.mesh.arrays.seams)
+        self.overlay.renew(self.obj)
+        self.islands.set_seams(self.mesh.arrays.seams)
         self.measure(anew=True)
 
     def measure(self, anew: bool = False) -> None:
@@ -140,16 +169,15 @@ class ObjectView:
         if self.stale and not anew:
             return  # of a mesh that is read anew soon
         stale = self.stale
-        if self.overlay.heat.follow(self.obj, chosen.settings().heat, anew):
+        if self.overlay.heat.follow(self.obj, self.options.heat, anew):
             self.was_read()
             self.stale = stale
 
     def _follow_views(self) -> None:
-        session = self.session
-        settings = chosen.settings()
-        crests = settings.snap or session.wants_crests
-        self.views.follow(settings, session.along, self._source(), session.metric_strokes, crests)
-        session.use_crests(self.views.crests, settings.show_crests)
+        session, options = self.session, self.options
+        crests = options.snap or session.wants_crests
+        self.views.follow(options, self._source(), session.metric_strokes, crests)
+        session.use_crests(self.views.crests, options.show_crests)
 
     def _source(self) -> Source | None:
         """Return where distances are shown from: the seed of the chain, else the active vertex, else the last seed."""
@@ -163,17 +191,17 @@ class ObjectView:
     @property
     def busy(self) -> bool:
         """Whether something is being computed: `poll` is to be called now and then."""
-        return self.mesh.busy or self.overlay.busy or self.views.busy
+        return self.mesh.busy or self.islands.busy or self.views.busy
 
     def poll(self) -> bool:
         """Take in what was computed; return whether there is something new to be seen."""
         self.mesh.poll()
         told = self.views.poll()
-        self.session.use_crests(self.views.crests, chosen.settings().show_crests)
+        self.session.use_crests(self.views.crests, self.options.show_crests)
         # Progress is told by the status bar: the picture stays.
         seen = self.session.revision
         self.session.poll()
-        return any((self.session.revision != seen, self.overlay.poll(), told))
+        return any((self.session.revision != seen, self.islands.poll(), told))
 
     def shows(self, update: bpy.types.DepsgraphUpdate) -> bool:
         """Whether an update of Blender's tells of a change of the mesh, whichever it is."""
@@ -187,10 +215,10 @@ class ObjectView:
 
         That is the mesh's nearest edge, or across the surface its nearest vertex or the point itself.
         """
-        settings = chosen.settings()
-        across = self.session.along == "SURFACE"
-        mirrored = not plain and self.session.mirror_axes and self.mesh.symmetric is not None
-        if settings.snap and self._strength is None:
+        options = self.options
+        across = options.along == "SURFACE"
+        mirrored = not plain and options.mirror and self.mesh.symmetric is not None
+        if options.snap and self._strength is None:
             self._strength = self.session.feature_strength()
         snap = self._picker.snap(
             view,
@@ -198,20 +226,20 @@ class ObjectView:
             cursor,
             vertices_only=across,
             edges_only=plain and not across,
-            anywhere=across and self.session.marking and self.session.finish == "CUT",
+            anywhere=across and options.marking and options.finish == "CUT",
             session=None if plain else self.session,
-            xray=settings.xray,
+            xray=options.xray,
             preferred=self.session.on_mirror() if mirrored else frozenset(),
-            strength=self._strength if settings.snap and not plain else None,
+            strength=self._strength if options.snap and not plain else None,
             # A loop leads through what is seen: a ridge that is shown is as good as under the cursor.
-            crests=self.views.crests if (settings.show_crests and across if plain else settings.snap) else None,
+            crests=self.views.crests if (options.show_crests and across if plain else options.snap) else None,
             scale=bpy.context.preferences.system.ui_scale,
         )
         return None if snap is None else replace(snap, seen_along=self.seen_along(view, snap.pick))
 
     def seen_along(self, view: View, pick: Pick) -> tuple[float, float, float] | None:
         """Return the direction from the viewer to a pick where wires that are straight in the view are offered, else None."""
-        if not chosen.settings().straight or self.session.along == "EDGES" or isinstance(pick, tuple):
+        if not self.options.straight or self.options.along == "EDGES" or isinstance(pick, tuple):
             return None
         return self._picker.seen_along(view, self.obj.matrix_world, pick)
 
@@ -226,7 +254,7 @@ class ObjectView:
     @property
     def stroke_radius(self) -> float | None:
         """How far strokes reach; None: as many rings as the library takes."""
-        return chosen.settings().stroke_radius or None
+        return self.options.stroke_radius or None
 
     def stroke_at(self, view: View, cursor: tuple[float, float]) -> Stroke | None:
         """Return the stroke under the cursor."""
@@ -238,14 +266,10 @@ class ObjectView:
             self.mesh.arrays.to_object,
             cursor,
             bpy.context.preferences.system.ui_scale,
-            lambda place: chosen.settings().xray or self._picker.sees(view, matrix, place),
+            lambda place: self.options.xray or self._picker.sees(view, matrix, place),
         )
 
     def show(self, front: bool, help_rows: Sequence[Row] | None) -> None:
         """Let the overlay follow."""
-        settings = chosen.settings()
         self._follow_views()
-        self.overlay.xray = settings.xray
-        self.overlay.features = settings.snap
-        self.overlay.front = front
-        self.overlay.help_rows = help_rows
+        self._front, self._keys = front, None if help_rows is None else tuple(help_rows)

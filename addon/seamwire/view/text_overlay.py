@@ -7,13 +7,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..core.network.network import LOOP_NAMES
+from ..words.names import LOOP_NAMES
 from . import gpu_draw
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ..core.drawing.session import Session
+    from ..core.drawing.picture import Picture
     from ..core.islands.islands import Islands
     from .theme import Color
 
@@ -37,57 +37,40 @@ def _islands(islands: Islands) -> str:
     if not islands.cut or not no_discs:
         return found
     cuts = int(islands.missing.sum())
-    return (
-        f"{found}, {no_discs} no disc{'s' if no_discs != 1 else ''}: {cuts} more cut{'s' if cuts != 1 else ''} needed"
-    )
+    return f"{found}, {no_discs} still need{'s' if no_discs == 1 else ''} {cuts} cut{'s' if cuts != 1 else ''}"
 
 
 def _island(islands: Islands, number: int) -> str:
     """Say which island that is, and what it needs."""
     size, cuts = int(islands.sizes[number]), int(islands.missing[number])
-    needs = f"{cuts} more cut{'s' if cuts != 1 else ''} needed" if cuts else "a disc"
+    needs = f"needs {cuts} more cut{'s' if cuts != 1 else ''}" if cuts else "a disc"
     return f"Island {number + 1}: {size} triangle{'s' if size != 1 else ''}, {needs}"
 
 
-def lines(
-    session: Session, islands: Islands | None, xray: bool = False, features: bool = False, pointed: int | None = None
-) -> list[str]:
-    """Return what is to be read, top line first.
-
-    Parameters
-    ----------
-    session
-        The drawing.
-    islands
-        What the seams cut the mesh into; None where that is not known.
-    xray, features
-        Whether picking goes through the mesh, and whether seeds snap to features.
-    pointed
-        The island under the mouse; None where there is none.
-    """
+def lines(picture: Picture) -> list[str]:
+    """Return what is to be read, top line first."""
     found = []
-    if session.loop_choice is not None:
-        offers = session.loop_offers
-        which = f" ({session.loop_number + 1} of {len(offers)})" if len(offers) > 1 else ""
-        found.append(LOOP_NAMES[session.loop_choice].capitalize() + which)
-    if session.active is not None and session.others:
-        follows = _CONCAVE_FOLLOWS if session.metric == "concave" else _FOLLOWS
-        count = 1 + len(session.others)
-        which = "Straight in the view" if session.straight_active else follows[session.active.follow]
-        found.append(f"{which} ({session.candidate_number + 1} of {count})")
+    options, offered, choice, islands = picture.options, picture.offered, picture.choice, picture.islands
+    if offered.kind is not None:
+        which = f" ({offered.number + 1} of {len(offered.kinds)})" if len(offered.kinds) > 1 else ""
+        found.append(LOOP_NAMES[offered.kind].capitalize() + which)
+    if picture.active is not None and choice.count > 1:
+        follows = _CONCAVE_FOLLOWS if options.metric == "concave" else _FOLLOWS
+        which = "Straight in the view" if choice.straight else follows[picture.active.follow]
+        found.append(f"{which} ({choice.number + 1} of {choice.count})")
     if islands is not None:
         found.append(_islands(islands))
-        if pointed is not None:
-            found.append(_island(islands, pointed))
-    way = "Along edges" if session.along == "EDGES" else "Across the surface"
-    metric = _METRICS.get(session.metric, session.metric)
-    strength = "" if session.metric == "euclidean" else f"strength {session.strength:.3g}"
+        if picture.pointed_island is not None:
+            found.append(_island(islands, picture.pointed_island))
+    way = "Along edges" if options.along == "EDGES" else "Across the surface"
+    metric = _METRICS.get(options.metric, options.metric)
+    strength = "" if options.metric == "euclidean" else f"strength {picture.strength:.3g}"
     found.append(", ".join(part for part in (way, strength, metric) if part))
     modes = [
-        "" if session.marking else "Clearing seams",
-        "Mirror " + " ".join("XYZ"[axis] for axis in sorted(session.mirror_axes)) if session.mirror_axes else "",
-        "X-ray" if xray else "",
-        "Snapping to features" if features else "",
+        "" if options.marking else "Clearing seams",
+        "Mirror " + " ".join("XYZ"[axis] for axis in options.mirror) if options.mirror else "",
+        "X-ray" if options.xray else "",
+        "Snapping to features" if options.snap else "",
     ]
     said = ", ".join(mode for mode in modes if mode)
     return [*found, said] if said else found
@@ -153,7 +136,7 @@ def laid_out(
     Parameters
     ----------
     rows
-        What is to be read.
+        The rows of the table.
     room
         Width and height there are.
     size
@@ -196,7 +179,7 @@ def draw_table(rows: Sequence[Row], room: tuple[float, float, float, float], sca
     Parameters
     ----------
     rows
-        What is to be read.
+        The rows of the table.
     room
         Left, bottom, width and height in the region.
     scale

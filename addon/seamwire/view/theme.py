@@ -70,7 +70,7 @@ class Looks:
     marked: Style
     """Edges that will become seams, where the wire itself runs beside them."""
     will_mark: Style
-    """Those of the live wire."""
+    """Edges that the live wire will make seams."""
     clear: Style
     """Wires and edges that will cease to be seams."""
     mirrored: Style
@@ -78,7 +78,7 @@ class Looks:
     hovered: Style
     """Laid under a kept wire that is pointed at."""
     line: Style
-    """What the hand draws; the wires that follow it look as live ones do."""
+    """The line that the hand draws. Wires that follow it look like live wires."""
     loop: Style
     end: Style
     target: Style

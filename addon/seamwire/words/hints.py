@@ -6,13 +6,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from ..core.drawing.picture import Role
 from .keys import Action, Bindings, Key
-from .names import count
+from .names import LOOP_NAMES, count
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from ..core.drawing.session import Session
+    from ..core.drawing.picture import Picture
     from ..core.network.network import LoopKind
 
 Hint = tuple[str, str]
@@ -41,7 +42,7 @@ _IDLE = (
     ("LOOP", "Add Loop", False),
     ("GUIDE", "Draw Stroke", True),
 )
-"""What the tool does between chains: the name of its key, the text, and whether the mouse is dragged."""
+"""The gestures between chains: the name of the key, the text, and whether the mouse is dragged."""
 
 
 @dataclass(frozen=True)
@@ -50,8 +51,8 @@ class Status:
 
     Parameters
     ----------
-    session
-        The session of the object under the mouse.
+    picture
+        The picture of the object under the mouse.
     keys
         The action of each key.
     message
@@ -60,7 +61,7 @@ class Status:
         The letters of the axes that the mesh is symmetric over and that are not mirrored.
     """
 
-    session: Session
+    picture: Picture
     keys: Bindings
     message: str = ""
     mirror_offer: str = ""
@@ -88,20 +89,21 @@ def idle_hints(keys: Mapping[str, Key]) -> list[Hint]:
 
 def hints(status: Status) -> list[Hint]:
     """Return at most `MOST` hints: first messages, then what a click does and how to end, then other keys by their usefulness."""
-    session, keys = status.session, status.keys
+    picture, keys = status.picture, status.keys
     found: list[Hint] = []
-    if session.computing:
-        waiting = f", {count(session.waiting_clicks, 'click')} waiting" if session.waiting_clicks else ""
-        found.append(("SORTTIME", f"Computing {min(99.0, 100.0 * session.progress):.0f} %{waiting}"))
+    work = picture.work
+    if work.computing:
+        waiting = f", {count(work.waiting, 'click')} waiting" if work.waiting else ""
+        found.append(("SORTTIME", f"Computing {min(99.0, 100.0 * work.progress):.0f} %{waiting}"))
     if status.message:
         found.append(("INFO", status.message))
-    if session.message:
-        found.append(("ERROR", session.message))
+    if picture.message:
+        found.append(("ERROR", str(picture.message)))
     deeds = [
-        *_click(session),
+        *_click(picture),
         (Action.END, "End Chain"),
         (Action.KEYS, "Keys"),
-        *_wires(session),
+        *_wires(picture),
         *_guides(status),
     ]
     for action, text in deeds:
@@ -111,65 +113,64 @@ def hints(status: Status) -> list[Hint]:
     return found[:MOST]
 
 
-def _click(session: Session) -> Iterator[Deed]:
+def _click(picture: Picture) -> Iterator[Deed]:
     """Yield what a click does, and what it does after W."""
-    offers, offer = session.loop_offers, session.loop_choice
-    if offer is not None and session.bending:
+    offered, choice = picture.offered, picture.choice
+    kinds, kind, number = offered.kinds, offered.kind, offered.number
+    if kind is not None and offered.bends:
         yield Action.BEND, "Bend Closed Cut"
         return
-    if offer is not None:
-        number = session.loop_number
-        which = f", {number + 1} of {len(offers)}" if len(offers) > 1 else ""
-        yield Action.LOOP, f"Add {_offer(offer)}{which}"
+    if kind is not None:
+        which = f", {number + 1} of {len(kinds)}" if len(kinds) > 1 else ""
+        yield Action.LOOP, f"Add {_offer(kind)}{which}"
         if which:
-            yield Action.NEXT, f"{_offer(offers[(number + 1) % len(offers)])} Instead"
+            yield Action.NEXT, f"{_offer(kinds[(number + 1) % len(kinds)])} Instead"
         return
-    click = _CLICKS.get(session.intent.name)
+    click = _CLICKS.get(picture.intent.name)
     if click:
         yield Action.CLICK, click
-    if session.seed is not None and session.others:
-        count = 1 + len(session.others)
-        yield Action.NEXT, f"Next Candidate ({(session.candidate_number + 1) % count + 1} of {count})"
+    if picture.seed is not None and choice.count > 1:
+        yield Action.NEXT, f"Next Candidate ({(choice.number + 1) % choice.count + 1} of {choice.count})"
 
 
 def _offer(kind: LoopKind) -> str:
-    from ..core.network.network import LOOP_NAMES
-
     return LOOP_NAMES[kind].title()
 
 
-def _wires(session: Session) -> Iterator[Deed]:
+def _wires(picture: Picture) -> Iterator[Deed]:
     """Yield what other keys do to wires."""
-    if session.seed is not None:
-        if session.closing_point is not None:
+    is_along_edges = picture.options.along == "EDGES"
+    if picture.seed is not None:
+        if picture.can_close:
             yield Action.CLOSE, "Close"
-        if session.along == "EDGES":
-            yield Action.EXTEND, "Extend to End" if session.end_preview is None else "Keep It"
-    wire = session.hovered_wire
+        if is_along_edges:
+            yield Action.EXTEND, "Extend to End" if picture.one(Role.EXTENSION) is None else "Keep It"
+    wire = picture.one(Role.HOVERED)
     if wire is not None:
         yield Action.REMOVE, "Remove Wire"
-        if session.seed is None and (wire.kind is not None or not wire.closed):
+        if picture.seed is None and (wire.kind is not None or not wire.closed):
             yield Action.NEXT, "Swap Path"
-    on_edge = session.target is not None and isinstance(session.target.pick, tuple)
-    if session.loop_choice is None and session.target is not None and on_edge == (session.along == "EDGES"):
+    target = picture.target
+    on_edge = target is not None and isinstance(target.pick, tuple)
+    if picture.offered.kind is None and target is not None and on_edge == is_along_edges:
         yield Action.LOOP, "Loop" if on_edge else "Closed Cut"
-        if session.can_bend:
+        if picture.can_bend:
             yield Action.BEND, "Bend Closed Cut"
-    if session.can_undo:
+    if picture.can_undo:
         yield Action.UNDO, "Undo"
 
 
 def _guides(status: Status) -> Iterator[Deed]:
     """Yield the keys for settings and strokes."""
-    session = status.session
-    if status.mirror_offer and not session.mirror_axes:
+    picture, options = status.picture, status.picture.options
+    if status.mirror_offer and not options.mirror:
         yield Action.MIRROR, f"Mirror? Symmetric on {status.mirror_offer}"
-    if session.metric != "euclidean":
-        yield Action.STRONGER, f"Strength {session.strength:.3g}"
-    yield Action.CLEAR, "Switch to Clear" if session.marking else "Switch to Mark"
-    yield Action.SWITCH, "Across Surface" if session.along == "EDGES" else "Along Edges"
-    if session.target is not None:
+    if options.metric != "euclidean":
+        yield Action.STRONGER, f"Strength {picture.strength:.3g}"
+    yield Action.CLEAR, "Switch to Clear" if options.marking else "Switch to Mark"
+    yield Action.SWITCH, "Across Surface" if options.along == "EDGES" else "Along Edges"
+    if picture.target is not None:
         yield Action.GUIDE, "Guide Stroke"
         yield Action.AVOID, "Avoid Stroke"
-    if session.mirror_axes:
-        yield Action.MIRROR, f"Mirror {''.join('XYZ'[axis] for axis in session.mirror_axes)}"
+    if options.mirror:
+        yield Action.MIRROR, f"Mirror {''.join('XYZ'[axis] for axis in options.mirror)}"

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class Event(Protocol):
-    """What is read of Blender's events."""
+    """The part of Blender's events that is read."""
 
     type: str
     value: str
@@ -26,14 +26,14 @@ class Event(Protocol):
 
 
 class Preferences(Protocol):
-    """What is read of Blender's preferences."""
+    """The part of Blender's preferences that is read."""
 
     inputs: Any
     system: Any
 
 
 class Action(Enum):
-    """What the artist asks for; the value is what the preferences and the table of keys call it."""
+    """Everything that keys can do. The values are the names in the preferences and in the table of keys."""
 
     CLICK = "Add Seed, Keep Wire, Join (drag: Draw Line, Move Seed)"
     NEW_CHAIN = "New Chain"
@@ -130,7 +130,7 @@ class Key:
 
     @property
     def icon(self) -> str:
-        """Blender's icon of the key without its modifiers; an empty string where there is none."""
+        """Blender's icon of the key without its modifiers, or an empty string."""
         if self.type in _ICONS:
             return _ICONS[self.type]
         letter = len(self.type) == 1 and self.type.isalpha()
@@ -261,7 +261,7 @@ class Bindings:
         Parameters
         ----------
         action
-            What the key does.
+            The action of the key.
         single
             Prefer a key to a double click.
         """
@@ -282,8 +282,8 @@ class Bindings:
 class DoubleClicks:
     """Finds double clicks: Blender hands modal operators the second press as any other.
 
-    The time that counts is that from the first release to the second press, as they are handled: where a redraw comes
-    between the two presses, however long it takes, the release has waited as well.
+    The time between the first release and the second press counts, as the events are handled. A slow redraw between the presses delays
+    both events alike.
     """
 
     def __init__(self) -> None:
@@ -306,7 +306,7 @@ class DoubleClicks:
             return False
         pressed, self._pressed = self._pressed, (event.mouse_x, event.mouse_y) if event.value == "PRESS" else None
         if event.value == "RELEASE":
-            # What was dragged is no first click.
+            # A drag does not count as a first click.
             moved = max(abs(event.mouse_x - pressed[0]), abs(event.mouse_y - pressed[1])) if pressed else 0
             here = (event.type, now, event.mouse_x, event.mouse_y)
             self._released = here if moved <= drag_threshold(event, preferences) else None

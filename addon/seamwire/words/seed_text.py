@@ -9,7 +9,9 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..core.network.network import LOOP_NAMES, name, undirected
+from ..core.drawing.picture import Role
+from ..core.network.network import undirected
+from .names import LOOP_NAMES, pick_name
 
 if TYPE_CHECKING:
     from ..core.drawing.session import Session
@@ -38,8 +40,7 @@ def parse_chains(text: str, find: Callable[[Place], Pick]) -> list[list[Pick]]:
     Raises
     ------
     ValueError
-        Where a seed is none of these, or the one before it again, where a chain has fewer than two seeds, or where there is no
-        chain.
+        If a seed is malformed or repeats the one before, a chain has fewer than two seeds, or the text has no chain.
     """
     chains: list[list[Pick]] = []
     pick: Pick
@@ -100,7 +101,7 @@ def parse_pairs(text: str) -> list[Edge]:
     Raises
     ------
     ValueError
-        Where one of them is none.
+        If an item is malformed.
     """
     pairs: list[Edge] = []
     for token in text.replace(",", " ").replace(";", " ").split():
@@ -136,7 +137,7 @@ def draw_loops(session: Session, picks: Iterable[Pick], kind: LoopKind | None = 
     picks
         The edges or points, one after the other.
     kind
-        What is taken through edges; None: what a click offers first.
+        The kind of loop through edges, or None for the first one that a click offers.
 
     Returns
     -------
@@ -147,14 +148,14 @@ def draw_loops(session: Session, picks: Iterable[Pick], kind: LoopKind | None = 
     for pick in picks:
         before = session.wires
         if kind is not None and isinstance(pick, tuple) and not _turn_to(session, pick, kind):
-            problems.append(f"No {LOOP_NAMES[kind]} runs through {name(pick)}")
+            problems.append(f"No {LOOP_NAMES[kind]} runs through {pick_name(pick)}")
             continue
         done = session.loop(pick)
         session.wait()
         if not done or session.wires == before:
-            # What the shape suggests nothing at, has to be said.
-            why = session.message or f"The loop through {name(pick)} is there already"
-            problems.append(why if isinstance(pick, tuple) else f"{name(pick).capitalize()}: {why}")
+            # Report places where the shape suggests no cut.
+            why = str(session.message) or f"The loop through {pick_name(pick)} is there already"
+            problems.append(why if isinstance(pick, tuple) else f"{pick_name(pick).capitalize()}: {why}")
     return problems
 
 
@@ -166,9 +167,10 @@ def _turn_to(session: Session, edge: Edge, kind: LoopKind) -> bool:
     session.hover(edge, loop=True)
     session.wait()
     edges: dict[LoopKind, set[Edge]] = {}
-    for _ in session.loop_offers:
-        if session.loop_preview is not None and session.loop_choice is not None:
-            edges[session.loop_choice] = set(session.loop_preview.edges())
+    for _ in session.picture.offered.kinds:
+        offer, shown = session.picture.one(Role.OFFER), session.picture.offered.kind
+        if offer is not None and shown is not None:
+            edges[shown] = set(offer.edges())
         session.next_candidate()
     wanted: LoopKind | None = kind
     if kind == "FLAT" and kind not in edges:
@@ -180,7 +182,7 @@ def _turn_to(session: Session, edge: Edge, kind: LoopKind) -> bool:
             wanted = "STRIP" if kind in {"PAST", "WHOLE"} and strip is not None else None
         else:
             wanted = "CLOSED" if strip is None or strip <= closed else "STRIP"
-    while wanted in edges and session.loop_choice != wanted:
+    while wanted in edges and session.picture.offered.kind != wanted:
         session.next_candidate()
     return wanted in edges
 
@@ -241,7 +243,7 @@ def parse_strokes(text: str) -> list[VertexStroke]:
 
 
 def draw_strokes(session: Session, strokes: Iterable[VertexStroke]) -> list[str]:
-    """Draw strokes without a hand; return what could not be done, in words. Wires drawn after that heed them."""
+    """Draw strokes without a hand; return what could not be done, in words. Wires that are drawn later follow them."""
     problems = []
     for number, stroke in enumerate(strokes, start=1):
         if not session.draw_stroke(vertices=stroke.vertices, attracts=stroke.attracts, acts_on="both"):

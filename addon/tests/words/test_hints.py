@@ -8,6 +8,7 @@ from seamwire.core.network.network import Snap
 from seamwire.core.solver.live_maker import LiveMaker
 from seamwire.words.hints import MOST, Status, hints, idle_hints
 from seamwire.words.keys import Action, Bindings, Key
+from setting import use
 
 pytest.importorskip("seamwire_core")
 
@@ -22,7 +23,7 @@ def session() -> Session:
 
 
 def first(session: Session, number: int | None = None, **more: str) -> list[str]:
-    return [text for _, text in hints(Status(session, Bindings(), **more))][:number]
+    return [text for _, text in hints(Status(session.picture, Bindings(), **more))][:number]
 
 
 def said(session: Session, **more: str) -> str:
@@ -56,11 +57,11 @@ def test_the_hints_follow_what_is_going_on(session: Session) -> None:
     assert "Remove Wire" in said(session)
     assert "Swap Path" in said(session)
     assert "Switch to Clear" in said(session)
-    session.toggle_marking()
+    use(session, clear=not session.options.clear)
     assert "Switch to Mark" in said(session)
     session.hover(None)
     assert "Across Surface" in said(session)
-    session.switch("SURFACE")
+    use(session, along="SURFACE")
     session.wait()
     assert "Along Edges" in said(session)
     assert "Loop" not in said(session)
@@ -68,7 +69,7 @@ def test_the_hints_follow_what_is_going_on(session: Session) -> None:
 
 def test_the_mirror_is_offered_and_told(session: Session) -> None:
     assert "Mirror? Symmetric on XY" in said(session, mirror_offer="XY")
-    session.set_mirror((0,))
+    use(session, mirror=(0,))
     assert said(session, mirror_offer="XY").endswith("Mirror X")
 
 
@@ -108,7 +109,7 @@ def test_before_the_first_click_the_hints_name_the_keys_as_they_are_bound() -> N
 
 def test_the_hints_name_the_keys_as_they_are_bound(session: Session) -> None:
     keys = Bindings([(Action.CLEAR, Key("J", shift=1))])
-    shown = hints(Status(session, keys))
+    shown = hints(Status(session.picture, keys))
     assert ("EVENT_J", "Shift: Switch to Clear") in shown
     assert not any("Keys" in text for _, text in shown), "what has no key is not offered"
 
@@ -124,10 +125,10 @@ def test_what_a_click_does_comes_first_then_the_way_out_and_the_keys(session: Se
     session.end_chain()
     session.hover((40, 49), loop=True)
     session.wait()
-    assert len(session.loop_offers) > 1
+    assert len(session.picture.offered.kinds) > 1
     said_first = first(session, 4)
     assert said_first[0].startswith("Alt: Add ")
-    assert said_first[0].endswith(f", 1 of {len(session.loop_offers)}")
+    assert said_first[0].endswith(f", 1 of {len(session.picture.offered.kinds)}")
     assert said_first[1].endswith(" Instead")
     assert said_first[2:] == ["End Chain", "Keys"]
 
@@ -140,5 +141,5 @@ def test_what_does_not_apply_is_not_hinted_at(session: Session) -> None:
     session.hover(36)
     assert "Guide Stroke" in said(session)
     assert "Avoid Stroke" in said(session)
-    session.set_metric("euclidean")
+    use(session, metric="euclidean")
     assert "Strength" not in said(session), "straight ways have none"

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <fstream>
 #include <numbers>
 #include <sstream>
@@ -50,18 +51,37 @@ inline Mesh torus() {
   });
 }
 
-/// Reads an OBJ file with triangles.
+/// Reads the points and faces of an OBJ file. Larger faces are cut into triangles around their first corner. Throws
+/// std::runtime_error, which names the line, for a line it cannot read.
 inline Mesh read_obj(const std::string& path) {
   Mesh mesh;
+  auto& [points, triangles] = mesh;
   std::ifstream file(path);
   if (!file) throw std::runtime_error("cannot read " + path);
-  for (std::string line, kind; std::getline(file, line); kind.clear()) {
+  std::string line;
+  for (int number = 1; std::getline(file, line); ++number) {
+    const auto check = [&](bool is_right) {
+      if (!is_right)
+        throw std::runtime_error(path + ", line " + std::to_string(number) + ": cannot read '" + line + "'");
+    };
     std::istringstream words(line);
+    std::string kind;
     words >> kind;
-    std::array<std::string, 3> three;
-    if (kind == "v" || kind == "f") words >> three[0] >> three[1] >> three[2];
-    if (kind == "v") mesh.first.emplace_back(std::stod(three[0]), std::stod(three[1]), std::stod(three[2]));
-    if (kind == "f") mesh.second.push_back({std::stoi(three[0]) - 1, std::stoi(three[1]) - 1, std::stoi(three[2]) - 1});
+    if (kind == "v") {
+      double x = 0, y = 0, z = 0;
+      check(static_cast<bool>(words >> x >> y >> z));
+      points.emplace_back(x, y, z);
+    } else if (kind == "f") {
+      std::vector<std::int32_t> corners;
+      const auto count = static_cast<std::int32_t>(points.size());
+      for (std::string corner; words >> corner;) {
+        const int given = std::atoi(corner.c_str());  // as in 7/3/1; negative numbers count from the end
+        corners.push_back(given < 0 ? count + given : given - 1);
+        check(corners.back() >= 0 && corners.back() < count);
+      }
+      check(corners.size() >= 3);
+      for (std::size_t i = 2; i < corners.size(); ++i) triangles.push_back({corners[0], corners[i - 1], corners[i]});
+    }
   }
   return mesh;
 }

@@ -31,10 +31,12 @@ struct CleanMesh {
   std::vector<std::int32_t> degenerate;  ///< the origins of the degenerate faces left, ascending
 };
 
-/// Removes degenerate faces, which have no area (SurfaceReport::zero_area_faces), so no path could go across them, on a
-/// copy of the half-edge mesh: needles, whose shortest edge has no length, by collapsing that edge; caps by flipping
-/// their longest edge. An edge is collapsed in all corner fans of the vertex that goes, so edges of three or more faces
-/// stay joined. Faces of which neither is possible stay. Nothing where the surface has no degenerate face.
+/// Removes degenerate faces (SurfaceReport::zero_area_faces) on a copy of the half-edge mesh. They have no area, so no
+/// path can cross them.
+///
+/// Needles are removed by collapsing their shortest edge, which has no length. Caps are removed by flipping their
+/// longest edge. An edge is collapsed in all corner fans of the vertex that goes, so edges of three or more faces stay
+/// joined. Faces that allow neither stay. Returns nullopt if the surface has no degenerate face.
 std::optional<CleanMesh> remove_degenerate_faces(const Surface& surface, const Metric& metric);
 
 }  // namespace seamwire::detail

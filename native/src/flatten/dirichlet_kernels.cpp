@@ -4,18 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "detail/always_inline.hpp"
+
 #if defined(__clang__)
 #define SEAMWIRE_VECTORIZE _Pragma("clang loop vectorize(assume_safety) interleave_count(1)")
 #elif defined(__GNUC__)
 #define SEAMWIRE_VECTORIZE _Pragma("GCC ivdep")
 #else
 #define SEAMWIRE_VECTORIZE
-#endif
-// Loops take on the instruction set of the function they are inlined into.
-#if defined(__GNUC__)
-#define SEAMWIRE_INLINE [[gnu::always_inline]] inline
-#else
-#define SEAMWIRE_INLINE inline
 #endif
 
 namespace seamwire::detail {

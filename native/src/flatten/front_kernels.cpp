@@ -4,12 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-// Functions take on the instruction set of the function they are inlined into.
-#if defined(__GNUC__)
-#define SEAMWIRE_INLINE [[gnu::always_inline]] inline
-#else
-#define SEAMWIRE_INLINE inline
-#endif
+#include "detail/always_inline.hpp"
 
 namespace seamwire::detail {
 namespace {

@@ -231,7 +231,7 @@ FaceTree::FaceTree(const std::vector<double>& areas, const std::vector<Closing>&
   }
 }
 
-/// The edges of the tree, each with the face that hangs on it. Faces then have the areas of all below them.
+/// The edges of the tree, each with the face below it. Faces then have the areas of all below them.
 std::vector<FaceTree::Cut> FaceTree::take_leaves() {
   std::vector<Cut> cuts;
   cuts.reserve(faces_.size());

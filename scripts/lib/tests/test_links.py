@@ -35,5 +35,5 @@ def test_every_link_leads_somewhere(page: Path) -> None:
 
 
 def test_links_and_anchors_are_found() -> None:
-    assert {("docs/guide.md", ""), ("docs/install.md", "")} <= set(links(ROOT / "README.md"))
+    assert {("docs/guide/index.md", ""), ("docs/install.md", "")} <= set(links(ROOT / "README.md"))
     assert {"seamwire", "try-it", "from-a-script"} <= anchors(ROOT / "README.md")

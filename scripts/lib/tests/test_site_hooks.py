@@ -15,7 +15,7 @@ FORGE = "https://forge.example/seamwire/"
 @pytest.mark.parametrize(
     ("page", "link", "led"),
     [
-        ("guide.md", "[script](../README.md#from-a-script)", f"[script]({FORGE}blob/main/README.md#from-a-script)"),
+        ("install.md", "[script](../README.md#from-a-script)", f"[script]({FORGE}blob/main/README.md#from-a-script)"),
         ("library/a.md", "[h](../../native/a.hpp)", f"[h]({FORGE}blob/main/native/a.hpp)"),
         ("library/a.md", "[m](../method.md#wires)", "[m](../method.md#wires)"),
         ("library/a.md", "![p](../images/p.png)", "![p](../images/p.png)"),
@@ -28,6 +28,6 @@ def test_links_out_of_the_site_lead_to_the_forge(page: str, link: str, led: str)
 
 def test_without_a_forge_they_are_plain_text() -> None:
     assert (
-        relinked("See [script](../README.md#from) and [m](method.md).", "guide.md", None)
+        relinked("See [script](../README.md#from) and [m](method.md).", "install.md", None)
         == "See script and [m](method.md)."
     )

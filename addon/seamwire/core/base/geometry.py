@@ -71,7 +71,7 @@ def barycentric(
 
 
 def vertex_normals(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Return unit normals of vertices, (n, 3), those of their triangles weighted by area; zero where there is none.
+    """Return unit normals of vertices, (n, 3), weighted by the areas of their triangles. Vertices without triangles have zero.
 
     Parameters
     ----------

@@ -15,6 +15,8 @@ from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from .messages import Message
+
 if TYPE_CHECKING:
     from types import ModuleType
 
@@ -28,18 +30,31 @@ IS_EXTENSION = __package__.startswith("bl_ext.")
 
 
 class NativeError(ImportError):
-    """The compiled part cannot be used; the text is a sentence for the artist."""
+    """The compiled part cannot be used.
+
+    Parameters
+    ----------
+    code, values
+        Why, as `Message.of` takes them.
+    """
+
+    def __init__(self, code: str, **values: object) -> None:
+        super().__init__(code)
+        self.message = Message.of(code, **values)
+
+    def __str__(self) -> str:
+        return str(self.message)
 
 
 def load(folder: Path = FOLDER, wheels: Path = WHEELS) -> ModuleType:
     """Return the module: an installed one first, else the one in the add-on's own folder, unpacked there if need be.
 
-    An extension has no folder of its own: what Blender has not installed is not there.
+    An extension has no such folder, because Blender installs the module itself.
 
     Raises
     ------
     NativeError
-        Where there is none, or none for this Python and system, or one of another version is loaded.
+        If there is no module for this Python and system, or another version is already loaded.
     """
     if NAME in sys.modules:
         return _of_this_package(sys.modules[NAME], wheels)
@@ -48,22 +63,20 @@ def load(folder: Path = FOLDER, wheels: Path = WHEELS) -> ModuleType:
     except NativeError:
         raise
     except ImportError as error:
-        installed = error
+        # A traceback that this function holds would keep all its callers, and what they made, in memory.
+        installed = error.with_traceback(None)
     if IS_EXTENSION:
         fitting = _fitting(wheels)
         if fitting and _is_absent(installed):
-            raise NativeError(
-                f"Blender has not installed Seamwire's compiled part, {fitting[0].name}, or has removed it since: "
-                "disable and enable the add-on"
-            ) from installed
-        raise NativeError(_sentence(folder, wheels, installed, installed)) from installed
+            raise NativeError("wheel-not-installed", wheel=fitting[0].name) from installed
+        raise _error(folder, wheels, installed, installed) from installed
     place = _unpacked(folder, wheels)
     sys.path.insert(0, str(place))
     try:
         importlib.invalidate_caches()
         return _import()
     except ImportError as error:
-        raise NativeError(_sentence(place, wheels, installed, error)) from error
+        raise _error(place, wheels, installed, error) from error
     finally:
         sys.path.remove(str(place))
 
@@ -116,8 +129,11 @@ def _of_this_package(module: ModuleType, wheels: Path) -> ModuleType:
         found = PathFinder.find_spec(NAME)
         place = found.origin if found and found.origin else module.__file__
         raise NativeError(
-            f"Seamwire was updated to {', '.join(sorted(versions))} while its version {module.__version__} was in use: "
-            f"restart Blender. If that does not help, remove the {NAME} in {Path(place).parent}"
+            "updated-while-in-use",
+            versions=", ".join(sorted(versions)),
+            used=module.__version__,
+            name=NAME,
+            folder=Path(place).parent,
         )
     return module
 
@@ -141,7 +157,7 @@ def _unpacked(folder: Path, wheels: Path) -> Path:
     except OSError as error:
         # Another Blender may have been faster.
         if not place.is_dir():
-            raise NativeError(f"Seamwire cannot unpack its compiled part to {folder}: {error.strerror}") from error
+            raise NativeError("cannot-unpack", folder=folder, why=error.strerror) from error
     return place
 
 
@@ -172,20 +188,17 @@ def _runs_here(platform: str) -> bool:
 
 
 def _is_absent(error: ImportError) -> bool:
-    # Only "No module named seamwire_core" means that there is none: anything else was found, and did not load.
+    # Only "No module named seamwire_core" means that the module is missing. Otherwise it was found but did not load.
     return isinstance(error, ModuleNotFoundError) and error.name == NAME
 
 
-def _sentence(folder: Path, wheels: Path, installed: ImportError, own: ImportError) -> str:
-    python = f"Python {sys.version_info.major}.{sys.version_info.minor} on {sysconfig.get_platform()}"
+def _error(folder: Path, wheels: Path, installed: ImportError, own: ImportError) -> NativeError:
+    version, system = f"{sys.version_info.major}.{sys.version_info.minor}", sysconfig.get_platform()
     found = sorted(path.name for path in folder.glob(f"{NAME}*") if path.suffix in {".so", ".pyd", ".dll"})
     found += sorted(path.name for path in wheels.glob("*.whl"))
     for error in (installed, own):
         if not _is_absent(error):
-            return f"Seamwire's compiled part does not load in this Blender ({python}): {error}"
+            return NativeError("does-not-load", version=version, system=system, why=error)
     if found:
-        return (
-            f"Seamwire's compiled part was built for another Python or system ({', '.join(found)}), and this Blender "
-            f"has {python}: install the Seamwire package made for it"
-        )
-    return f"Seamwire's compiled part, {NAME}, is missing: install the Seamwire package made for {python}"
+        return NativeError("other-build", found=", ".join(found), version=version, system=system)
+    return NativeError("no-build", name=NAME, version=version, system=system)

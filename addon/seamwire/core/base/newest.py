@@ -12,7 +12,7 @@ Answer = TypeVar("Answer")
 
 
 class Newest(Generic[Request, Answer]):
-    """Answers requests on a thread of its own; of several that wait the newest wins.
+    """Answers requests in its own thread. Only the newest waiting request is answered.
 
     Parameters
     ----------
@@ -27,7 +27,7 @@ class Newest(Generic[Request, Answer]):
     def __init__(
         self, make: Callable[[Request], Answer], name: str, given_up: tuple[type[Exception], ...] = ()
     ) -> None:
-        self._make = make
+        self._make: Callable[[Request], Answer] | None = make
         self._name = name
         self._given_up = given_up
         self._lock = threading.Lock()
@@ -44,7 +44,7 @@ class Newest(Generic[Request, Answer]):
 
     @property
     def answer(self) -> Answer | None:
-        """What was computed last. Raises what went wrong on the thread."""
+        """The latest result. Raises what went wrong on the thread."""
         if self._error is not None:
             raise self._error
         return self._answer
@@ -67,23 +67,26 @@ class Newest(Generic[Request, Answer]):
 
     def answer_now(self, request: Request) -> None:
         """Answer at once, on the thread that asks."""
-        self._answer = self._make(request)
+        if self._make is not None:
+            self._answer = self._make(request)
 
     def close(self) -> None:
         """Drop what is asked for; a running computation ends unseen."""
         with self._lock:
             self._closed = True
             self._wanted = []
+            # `make` often belongs to the owner of this object. Python would free neither until it looks for cycles.
+            self._make = None
 
     def _work(self) -> None:
         while True:
             with self._lock:
-                if not self._wanted:
+                if self._make is None or not self._wanted:
                     self._working = False
                     return
-                request = self._wanted.pop()
+                make, request = self._make, self._wanted.pop()
             try:
-                made = self._make(request)
+                made = make(request)
             except self._given_up:
                 continue
             except Exception as error:

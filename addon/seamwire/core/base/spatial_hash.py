@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Finds points by their place, for a million of them at once, each within a reach of its own.
+"""Finds points by their position, for a million points at once, each within its own reach.
 
-Points are sorted along a Morton curve (Morton, A computer oriented geodetic data base, 1966): the points in a cell of any
-of its grids, each of twice the size of the one before, are neighbors in that order, so one order serves every reach.
+Points are sorted along a Morton curve (Morton, A computer oriented geodetic data base, 1966). The cells of its grids double in size, and
+the points in each cell are neighbors in this order. So one order serves every reach.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class SpatialHash:
     points
         (n, 3) places; points that are not finite are never found.
     tolerance
-        How far a point that is looked for may be where nothing else is said; positive.
+        The default search radius, positive.
     """
 
     def __init__(self, points: NDArray[np.float64], tolerance: float) -> None:
@@ -78,7 +78,7 @@ class SpatialHash:
         Returns
         -------
         (m,) array
-            Numbers of points; -1: there is none within reach.
+            Numbers of points, or -1 if no point is within reach.
         """
         best = np.full(len(places), -1, dtype=np.int64)
         reaches = np.broadcast_to(np.asarray(self._tolerance if reach is None else reach, np.float64), len(places))

@@ -28,11 +28,11 @@ class DrawnLine:
     line
         Knows its wires.
     begin
-        What was under the cursor when it began.
+        The pick under the cursor at its beginning.
     goes_on
         Whether it goes on from the live wire's seed, so that the chain goes on behind it.
     end
-        What is under the cursor where it ends by now.
+        The pick under the cursor at its current end.
     apart
         Whether its wires are no part of a chain, and leave that which is drawn as it is.
     """
@@ -45,7 +45,7 @@ class DrawnLine:
 
     @property
     def joined(self) -> Snap | None:
-        """What is under the cursor where a chain would end there; None: nothing such."""
+        """The pick under the cursor if a chain would end there, otherwise None."""
         return self.end if self.end is not None and self.end.ends_chains else None
 
     def kept_in(self, network: Network, wires: tuple[Wire, ...], points: NDArray[np.float64], stops: Stops) -> Network:

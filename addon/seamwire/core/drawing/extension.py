@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from ..base.messages import Refused
 from ..network.network import Wire
 
 if TYPE_CHECKING:
@@ -75,7 +76,7 @@ class Extension:
         elif seed.forward and isinstance(seed.pick, tuple):
             edge = seed.pick
         else:
-            raise ValueError("Point where the wire is to run")
+            raise Refused("point-where-to-run")
         stops = self._stops.of(network, active, edge[1:])
         wire = extended(self._engines.get("EDGES"), seed, active, edge, stops, self._points)
         strength = self._engines.strengths["EDGES"]
@@ -85,7 +86,7 @@ class Extension:
 def extended(
     live: LiveWire, seed: Seed, active: Wire | None, edge: Edge, stops: NDArray[np.int64], points: NDArray[np.float64]
 ) -> Wire | None:
-    """Return the way to the end from a directed edge; None: there is none.
+    """Return the way to the end from a directed edge, or None.
 
     Parameters
     ----------
@@ -96,7 +97,7 @@ def extended(
     active
         The live wire, which `edge` is the last one of; None: the wire begins with the seed, which is that edge.
     stops
-        The vertices where it ends; the edge's second one is none of them.
+        The vertices where it ends, without the edge's second one.
     points
         (n, 3) vertices of the mesh.
 

@@ -7,7 +7,7 @@ from enum import Enum, auto
 
 
 class Intent(Enum):
-    """What a click would do now."""
+    """The effect of a click."""
 
     NOTHING = auto()
     SEED = auto()

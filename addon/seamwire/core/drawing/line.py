@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
+from ..base.messages import NOTHING, Message, message_of
 from ..network.network import FacePoint, Wire
 from ..network.symmetry import among
 from ..seams.seam_wires import wires_along
@@ -50,12 +51,12 @@ class Line(Protocol):
     wires
         What follows it, as far as it is known.
     message
-        Why that is not all, in words for the artist.
+        Why that is not all.
     """
 
     points: NDArray[np.float64]
     wires: tuple[Wire, ...]
-    message: str
+    message: Message
 
     def to(
         self, points: NDArray[np.float64], triangles: NDArray[np.int32], end: Pick | None, stops: NDArray[np.int64]
@@ -108,14 +109,14 @@ class EdgeLine:
         self._before = before
         self._fixed: list[int] = []
         self._from = 0
-        # What was drawn before the mesh's edges may have been known.
+        # A part of the line may have been drawn before the mesh's edges were known.
         self._early: tuple[NDArray[np.float64], NDArray[np.int32], Pick | None, NDArray[np.int64]] | None = None
         self._finished = False
         self._ready: list[Wire] = []
         self._making: Iterator[Wire | None] | None = None
         self.points = np.empty((0, 3))
         self.wires: tuple[Wire, ...] = ()
-        self.message = ""
+        self.message = NOTHING
 
     def to(
         self, points: NDArray[np.float64], triangles: NDArray[np.int32], end: Pick | None, stops: NDArray[np.int64]
@@ -128,7 +129,7 @@ class EdgeLine:
         try:
             fitted = self._live.fit_chain(points[at], triangles[at], begin, self._nearest_of(end, points[-1]))
         except ValueError as error:
-            self.message = str(error)
+            self.message = message_of(error)
             return
         chain, places = fitted.vertices.tolist(), fitted.places
         if end is None:
@@ -235,7 +236,7 @@ class SurfaceLine:
         self._finished = False
         self.points = np.empty((0, 3))
         self.wires: tuple[Wire, ...] = ()
-        self.message = ""
+        self.message = NOTHING
         self._live.seed(for_live(begin, "SURFACE"))
 
     def to(
@@ -301,7 +302,7 @@ class SurfaceLine:
                     continue
                 found = self._live.wires(for_live(self._picks[goal][0], "SURFACE"))
             except ValueError as error:
-                self.message = str(error)
+                self.message = message_of(error)
                 break
             wire, fits = self._nearest(found, goal)
             if not found.solved:
@@ -345,7 +346,7 @@ class SurfaceLine:
         """Keep the wire that goes farthest, and go on from its end; return whether there is more to do."""
         number, wire = self._farthest()
         if wire is None:
-            self.message = "No wire follows the line any further"
+            self.message = Message.of("no-wire-further")
             return False
         self._legs.append(wire)
         self._anchor, self._good, self._bad = number, None, None

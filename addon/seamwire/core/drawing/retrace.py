@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from ..base.messages import Refused
 from .seed_drag import Courses, Leg
-from .wire import SAME_EDGES
 
 if TYPE_CHECKING:
     import numpy as np
@@ -60,7 +60,7 @@ class Retraces:
         return [leg.live for leg in self._legs]
 
     def poll(self) -> Iterator[tuple[Wire, Courses | ValueError]]:
-        """Yield the wires, as they were, whose courses are there, or why there are none, and forget them."""
+        """Yield each old wire whose new courses are ready, or the reason why it has none, and forget it."""
         for leg in list(self._legs):
             try:
                 courses = leg.trace(leg.wire.end, leg.wire.end)
@@ -87,16 +87,16 @@ def retraced(network: Network, own: Wire, others: tuple[Wire, ...]) -> Network:
 
     Raises
     ------
-    ValueError
-        Where no way is left; the text is a sentence for the artist.
+    Refused
+        Where no way is left.
     """
     if not others:
-        raise ValueError(SAME_EDGES)
+        raise Refused("same-edges")
     other, *rest = others
     after = network.after(own)
     if after is not None and isinstance(own.end, tuple) and other.last_edge == own.last_edge[::-1]:
         # What goes on from the edge leaves it over this vertex: arriving there is enough.
         other = replace(other, vertices=other.vertices[:-1], points=other.points[:-1])
         if len(other.vertices) < 2:
-            raise ValueError("There is no other way to this seed")
+            raise Refused("no-other-way-to-seed")
     return network.with_courses({own.id: replace(own, alternatives=(other, *rest)).retraced()})

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..network.network import FacePoint, Network, Snap, Wire, distinct, name, undirected, vertices_of
+from ..base.messages import NOTHING, Message, Refused, message_of
+from ..network.network import FacePoint, Network, Snap, Wire, distinct, undirected, vertices_of
 from ..solver.solver import by_number, for_live
 from .wire import only_vertices
 
@@ -29,7 +30,7 @@ class Courses:
     final: bool = False
 
     def following(self, follow: int) -> Wire | None:
-        """Return the way of one metric with the others as its alternatives; where there is none, the next of them."""
+        """Return the way of one metric with the others as its alternatives. If it has no way, return the next one."""
         way, *others = self.in_order(follow if follow < len(self.ways) else self.leading) or (None,)
         return way and replace(way, alternatives=tuple(others))
 
@@ -44,7 +45,7 @@ class Courses:
 
 
 class Leg:
-    """Finds new courses for one wire: live wires of its own, from the end that stays.
+    """Finds new courses for one wire with separate live wires, from the end that stays.
 
     Parameters
     ----------
@@ -146,7 +147,7 @@ class SeedDrag:
     Raises
     ------
     ValueError
-        Where there is no seed, or a wire's other end is not part of the surface; the text is a sentence for the artist.
+        Where there is no seed, or a wire's other end is not part of the surface.
     """
 
     def __init__(self, engines: Engines, network: Network, seed: Pick, points: NDArray[np.float64]) -> None:
@@ -156,7 +157,7 @@ class SeedDrag:
         ends = network.at(seed)
         live = network.seed
         if not ends and (live is None or undirected(live.place) != undirected(seed)):
-            raise ValueError(f"There is no seed to move at {name(seed)}")
+            raise Refused("no-seed-to-move", pick=seed)
         self.before = network
         self.network = network
         self.seed = seed
@@ -164,7 +165,7 @@ class SeedDrag:
         self.final = True
         self._solved = True
         self.ending = False
-        self.message = ""
+        self.message = NOTHING
         self.legs = [Leg(engines.get(wire.along).fork(), network, wire, end, points) for wire, end in ends]
 
     @property
@@ -191,7 +192,7 @@ class SeedDrag:
         return self.network is not before
 
     def to(self, target: Snap) -> bool:
-        """Lead the wires to another place; where that cannot be, say why in `message` and leave them as they were."""
+        """Lead the wires to another place. If that fails, tell why in `message` and keep the old wires."""
         self.target = target
         self.final = self._solved = True
         self.message = self._refusal(target.pick)
@@ -200,23 +201,23 @@ class SeedDrag:
         try:
             courses = self._courses(target.pick)
         except ValueError as error:
-            self.message = str(error)
+            self.message = message_of(error)
             return False
         if not self._solved:
             return False
         missing = [leg for leg in self.legs if leg.wire.id not in courses]
         if missing:
-            self.message = f"No wire from {name(missing[0].stays)} reaches {name(target.pick)}"
+            self.message = Message.of("no-wire-between", start=missing[0].stays, pick=target.pick)
             return False
         self.network = self._with_seed(self.before.with_courses(courses), target.pick)
         return True
 
-    def _refusal(self, pick: Pick) -> str:
+    def _refusal(self, pick: Pick) -> Message:
         if isinstance(pick, tuple) and any(leg.wire.along == "SURFACE" for leg in self.legs):
             return only_vertices(pick)
         if self.legs and all(undirected(leg.stays) == undirected(pick) for leg in self.legs):
-            return "The wire would end where it begins: drop it instead"
-        return ""
+            return Message.of("would-end-where-it-begins")
+        return NOTHING
 
     def _courses(self, pick: Pick) -> dict[int, Wire | None]:
         """Return the wires' new courses; one whose ends meet goes, one that is not reached or computed is left out."""

@@ -7,16 +7,17 @@ shows and what it marks is decided here and nowhere else.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from ..base.messages import NOTHING, Message, message_of
 from ..fields.crests import CREST_KINDS
 from ..network.history import History
 from ..network.mirror_images import MirrorImages
-from ..network.network import FOLLOWS, FacePoint, Network, Seed, Snap, Wire, name, undirected
+from ..network.network import FOLLOWS, FacePoint, Network, Seed, Snap, Wire, undirected
 from ..network.stops import Stops
 from ..network.strokes import OffMeshError, Stroke, drawn, for_library, through_vertices
 from ..network.symmetry import Symmetry
@@ -24,12 +25,13 @@ from ..offers.edge_loops import LoopOffers, taken
 from ..offers.flat_regions import FlatRegions
 from ..offers.surface_loops import SurfaceLoops
 from ..seams.seam_wires import seam_chains, waiting, wires_along
-from ..solver.defaults import CLAMP_PERCENTILE, CLAMP_RANGE, STRENGTH_RANGE, STRENGTH_STEP, STRENGTHS
 from ..solver.solver import Engines
 from .drawn_line import DrawnLine
 from .extension import Extension
 from .intent import Intent
 from .line import EdgeLine, SurfaceLine
+from .options import Options
+from .picture import Choice, Offered, Picture, ShownWire, Work, kept_wires, shown_seeds, shown_wires
 from .retrace import Retraces, retraced
 from .seed_drag import SeedDrag
 from .wire import CandidateWires, only_vertices
@@ -38,17 +40,12 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from ..fields.crests import Crests
-    from ..network.network import Along, Edge, Finish, LoopKind, Pick
+    from ..network.network import Along, Edge, Pick
     from ..network.strokes import ActsOn
     from ..offers.closed_cuts import TakenCut
     from ..offers.offers import Offers
-    from ..solver.solver import LiveWire, MetricName
+    from ..solver.solver import LiveWire
     from .line import Line
-
-__all__ = ["CLAMP_PERCENTILE", "STRENGTHS", "Intent", "Session"]
-
-_NOWHERE = "The wire cannot run on from here"
-
 
 Waiting = Literal["click", "loop", "bend", "run", "offer", "line"]
 """What waits: a click, a loop, a cut to be bent, a run to the end, the next offer for a kept wire, a line that was drawn."""
@@ -72,15 +69,12 @@ class Session:
         Makes the live wires for one way of running; called once for each way that is used, and once for closed cuts.
     points
         (n, 3) coordinates of the mesh's vertices.
-    along
-        The way to begin with.
+    options
+        The settings to begin with.
     edges
         (e, 2) the visible edges; None: whatever two vertices a mirrored edge would have, they have an edge.
     seams
         The edges, by their vertices, that are seams and no wires: wires that run straight on end there.
-    strength
-        Largest anisotropy of the metric for each way; `make_live` is to make its live wires with the ones of
-        `STRENGTHS`.
     to_object
         (3, 3) takes `points` to object coordinates, where mirroring happens; None: they are such.
     triangles
@@ -96,20 +90,18 @@ class Session:
     knows no session. The session tells the parts what is under the cursor, makes of what they found the next network, and
     lets them follow that.
 
-    Methods that do something return whether it was done; where it was not, `message` says why, in words for the
-    artist. `finish` is that of wires that are kept from here on. `revision` grows with every change of what is to be seen,
-    `network_revision` with every change of the kept wires.
+    Methods that do something return whether it was done; where it was not, `message` says why. `revision` grows with every
+    change of what is to be seen, `network_revision` with every change of the kept wires.
     """
 
     def __init__(
         self,
         make_live: Callable[[Along], LiveWire],
         points: NDArray[np.float64],
-        along: Along = "EDGES",
+        options: Options = Options(),  # noqa: B008 - it cannot be changed
         *,
         edges: NDArray[np.int32] | None = None,
         seams: ArrayLike = (),
-        strength: Mapping[Along, float] | None = None,
         to_object: NDArray[np.float64] | None = None,
         triangles: NDArray[np.int32] | None = None,
         make_stroke: Callable[[Stroke], object] = for_library,
@@ -120,8 +112,9 @@ class Session:
         self._symmetry = Symmetry(points, edges, to_object, topology, triangles)
         self._images = MirrorImages(self._symmetry)
         self._stops = Stops(seams, self._symmetry)
-        self._engines = Engines(make_live, strength or {}, make_stroke)
-        self._network = Network()
+        self._engines = Engines(make_live, make_stroke)
+        self._engines.use(options.metric, options.strengths, options.clamp)
+        self._network = Network(mirror=options.mirror)
         self._history = History()
         self._candidates = CandidateWires(self._engines, points)
         flat = None if triangles is None or edges is None else FlatRegions(points, triangles, edges)
@@ -138,11 +131,11 @@ class Session:
         self._queue: list[Queued] = []
         self._last_click: tuple[Pick, int] | None = None
         # Made at once: what they compute first takes longest.
-        self._progress = self._engines.get(along).progress()
-        self.along: Along = along
-        self.finish: Finish = "SNAP"
-        self.marking = True
-        self.message = ""
+        self._progress = self._engines.get(options.along).progress()
+        self.options = options
+        self.message: Message = NOTHING
+        self._picture: tuple[object, Picture] | None = None
+        self._shown_kept: tuple[Network, tuple[ShownWire, ...]] | None = None
         self.revision = 0
         self.network_revision = 0
 
@@ -154,9 +147,9 @@ class Session:
         Parameters
         ----------
         snap
-            What is under the cursor; None: nothing. A pick alone stands for one on the plain mesh.
+            The pick under the cursor, or None. A pick alone stands for one on the plain mesh.
         loop
-            Show the loop through it instead: along edges where it is an edge, across the surface where it is none.
+            Show the loop through it instead. Along edges the pick must be an edge, across the surface any other place.
         bend
             Show the closed cut that was taken last, bent to it; across the surface only.
         """
@@ -166,9 +159,9 @@ class Session:
         self._aim(target)
         if target is None or undirected(target.pick) != self._crest_taken:
             self._crest_taken = None
-        bend = bend and self.along == "SURFACE"
+        bend = bend and self.options.along == "SURFACE"
         if bend != self._cuts.bends and self.message:
-            self.message = ""
+            self.message = NOTHING
             self.revision += 1
         self.revision += self._cuts.bend(bend)
         asked = target.pick if (loop or bend) and target is not None and self._loops.takes(target.pick) else None
@@ -187,7 +180,7 @@ class Session:
         if self._extension.wanted and not self._queue:
             return self.run_to_end()
         if self._loops.wire is not None and self._loops.edge == undirected(target.pick) and not self._queue:
-            return self.bend(target) if self.bending else self.loop(target)
+            return self.bend(target) if self._bends else self.loop(target)
         self.drag_cancel()
         if self._network.seed is None and not self._queue:
             return self.start(target)
@@ -197,7 +190,7 @@ class Session:
             return True
         seen = self._candidates.active_final and target == self.target
         self._aim(target)
-        # What is seen is kept; where nothing is seen yet, the one that is there first must not win for that.
+        # Keep the candidate that was shown. If none was shown yet, do not pick one merely because it finished first.
         if not (self._candidates.decided or (seen and self._candidates.active_final)) and self._wires_computing:
             return self._postpone("click", target)
         return self._keep(target)
@@ -206,10 +199,10 @@ class Session:
         """Begin a new chain, ending the one before."""
         target = Snap.of(snap)
         self._calm()
-        if self.along == "SURFACE" and isinstance(target.pick, tuple):
+        if self.options.along == "SURFACE" and isinstance(target.pick, tuple):
             return self._refuse(only_vertices(target.pick))
         network = replace(self._network, seed=None).joined(target, self._points)
-        if not self._change(replace(network, seed=network.seed_at(target, self.along))):
+        if not self._change(replace(network, seed=network.seed_at(target, self.options.along))):
             return False
         self._last_click = (undirected(target.pick), self._history.steps)
         return True
@@ -222,11 +215,11 @@ class Session:
         target = Snap.of(snap)
         edge = target.pick
         if not self._loops.takes(edge):
-            on = "an edge" if self.along == "EDGES" else "a vertex or a point of a face"
-            return self._refuse(f"Loops are taken through {on}, not through {name(edge)}")
+            code = "no-loop-through" if self.options.along == "EDGES" else "no-cut-through"
+            return self._refuse(code, pick=edge)
         self.drag_cancel()
         self._cuts.bend(False)
-        if self.along == "SURFACE":
+        if self.options.along == "SURFACE":
             return self._cut_around(target)
         if undirected(edge) == self._crest_taken:
             return True  # of a double click, the first press took the ridge
@@ -239,18 +232,18 @@ class Session:
         if on_crest:
             return self._along_crest(edge)
         own = self._network.taken_through(edge)
-        if own is not None and own.marks == self.marking:
+        if own is not None and own.marks == self.options.marking:
             # Of a double click, the first press took it already.
             return not choice or self._retrace_offer(own, choice)
         offers = self._find_offers(edge)
         if not offers:
             if self.computing:
                 return self._postpone("loop", target)
-            return self._refuse(self.message or f"No edges run on from {name(edge)}")
+            return self._refuse(self.message or Message.of("no-edges-run-on", pick=edge))
         loops = tuple(offer for offer in offers if offer.kind not in CREST_KINDS)
         if not loops or (seen is None and offers[0].kind in CREST_KINDS):
             return self._along_crest(edge)
-        wire = replace(taken(loops, min(choice, len(loops) - 1), self.marking), mirror=self._network.mirror)
+        wire = replace(taken(loops, min(choice, len(loops) - 1), self.options.marking), mirror=self._network.mirror)
         return self._change(replace(self._network, wires=(*self.wires, wire)))
 
     def _cut_around(self, target: Snap) -> bool:
@@ -269,7 +262,7 @@ class Session:
         wires = tuple(self._as_drawn(piece.anew(), like) for piece in self._cuts.pieces(offer))
         wires = tuple(wire for wire in wires if wire.leaves_trace)
         if not wires:
-            return self._refuse("The cut meets no edge that could be a seam")
+            return self._refuse("cut-meets-no-edge")
         for wire in () if before is None else before.wires:
             network = network.without(wire)
         self._cuts.take(target.pick, offer, wires, before)
@@ -278,11 +271,11 @@ class Session:
     def bend(self, snap: Snap | Pick) -> bool:
         """Bend the closed cut that was taken last: the shortest through its first point and this one that lies around the same.
 
-        Once more, it is its second point that moves. One step for undo, which brings back the cut as it was.
+        Once more, it is its second point that moves. One step for undo, which restores the old cut.
         """
         target = Snap.of(snap)
-        if self.along == "EDGES" or not self._cuts.takes(target.pick):
-            return self._refuse(f"Closed cuts are bent across the surface, not to {name(target.pick)}")
+        if self.options.along == "EDGES" or not self._cuts.takes(target.pick):
+            return self._refuse("no-bend-to", pick=target.pick)
         self.drag_cancel()
         self._cuts.bend(True)
         return self._cut_around(target)
@@ -291,16 +284,16 @@ class Session:
         """Keep wires that follow the ridge or valley at a pick, as soon as they are computed; one step for undo."""
         number = None if self._crests is None else self._crests.line_at(pick)
         if self._crests is None or number is None or self._triangles is None:
-            return self._refuse(f"No ridge or valley runs at {name(pick)}")
+            return self._refuse("no-crest-at", pick=pick)
         points, triangles = self._crests.line(number)
         first = FacePoint.at(points[0], int(triangles[0]), self._triangles, self._points)
-        begin: Pick = first if self._into_faces and self.along == "SURFACE" else first.vertex
+        begin: Pick = first if self._into_faces and self.options.along == "SURFACE" else first.vertex
         line = self._new_line(begin, None, None)
         line.to(points, triangles, None, self._stops.kept(self._network))
         self._cuts.was_taken(pick)
         self._edge_loops.wanted = False
         self._crest_taken = undirected(pick)
-        return self._finish_line(DrawnLine(line, Snap(begin), False, apart=True))
+        return self.line_keep(DrawnLine(line, Snap(begin), False, apart=True))
 
     def next_candidate(self) -> bool:
         """Make the next of the wires the active one, until it is kept; of what is offered for an edge, the next."""
@@ -308,7 +301,7 @@ class Session:
         why = part.advance()
         if why:
             return self._refuse(why)
-        self.message = ""
+        self.message = NOTHING
         if part is self._candidates:
             self._show_extension()
         self.revision += 1
@@ -318,7 +311,7 @@ class Session:
         """Lead the live wire back to the chain's first seed, keep it and end the chain; `seen_along`: as a snap has it."""
         first = self.closing_point
         if first is None:
-            return self._refuse("There is no chain to close: draw a wire first")
+            return self._refuse("no-chain-to-close")
         self._extension.wanted = False
         return self.click(Snap(first, "SEED", seen_along=seen_along))
 
@@ -331,23 +324,27 @@ class Session:
             Show it, for wherever the cursor goes; a click, or this without `preview`, keeps it. `stop_preview` ends that.
         """
         if self._network.seed is None:
-            return self._refuse("Nothing runs on: place a seed first")
-        if self.along == "SURFACE":
-            return self._refuse("Wires run on along edges, not across the surface")
+            return self._refuse("nothing-runs-on")
+        if self.options.along == "SURFACE":
+            return self._refuse("no-run-across")
         self.drag_cancel()
         if preview:
             self._extension.wanted = True
             self._show_extension()
-            return self._extension.wire is not None or self.computing or self._refuse(self.message or _NOWHERE)
+            return (
+                self._extension.wire is not None
+                or self.computing
+                or self._refuse(self.message or Message.of("no-way-on"))
+            )
         target = self.target
         if self._queue or (target is not None and not self._candidates.active_final and self._wires_computing):
             if target is None:
-                return self._refuse(_NOWHERE)
+                return self._refuse("no-way-on")
             self._extension.wanted = False
             return self._postpone("run", target)
         wire = self._find_extension()
         if wire is None:
-            return self._refuse(self.message or _NOWHERE)
+            return self._refuse(self.message or Message.of("no-way-on"))
         self._extension.wanted = False
         return self._change(replace(self._network, wires=(*self.wires, wire), seed=None))
 
@@ -364,7 +361,7 @@ class Session:
         self._calm()
         if self._network.seed is None:
             return
-        # No step of its own for undo: taking back the last wire after this brings the chain back to life.
+        # This is not a step for undo. Undoing the last wire afterwards makes the chain live again.
         self._set(replace(self._network, seed=None))
         self._candidates.chosen = None
         self._aim_again()
@@ -376,17 +373,17 @@ class Session:
         self._calm()
         own = self._network.find(wire)
         if own is None:
-            return self._refuse("This wire is not there any more")
+            return self._refuse("wire-is-gone")
         if own.through is not None:
             return self._retrace_offer(own)
         if own.closed:
-            return self._refuse("A loop has no other way")
+            return self._refuse("loop-has-one-way")
         if own.alternatives:
             return self._take_way(own, own.alternatives)
         try:
             self._retraces.add(self._network, own.uncut())
         except ValueError as error:
-            return self._refuse(str(error))
+            return self._refuse(message_of(error))
         self._read_progress()
         self._poll_retraces()
         return not self.message
@@ -396,7 +393,7 @@ class Session:
         self._calm()
         own = self._network.find(wire)
         if own is None:
-            return self._refuse("This wire is not there any more")
+            return self._refuse("wire-is-gone")
         return self._change(self._network.without(own))
 
     def insert(self, wire: Wire, pick: Pick) -> bool:
@@ -404,7 +401,7 @@ class Session:
         self._calm()
         network = self._network.with_seed_in(wire, pick, self._points)
         if network is None:
-            return self._refuse(f"No seed can be put into the wire at {name(pick)}")
+            return self._refuse("no-seed-into-wire", pick=pick)
         return self._change(network)
 
     def drag(self, snap: Snap | Pick) -> bool:
@@ -418,12 +415,12 @@ class Session:
         try:
             self._drag = SeedDrag(self._engines, network, target.pick, self._points)
         except ValueError as error:
-            return self._refuse(str(error))
+            return self._refuse(message_of(error))
         self._read_progress()
         self._candidates.clear()
         self._loops.clear()
         self._extension.clear()
-        self.message = ""
+        self.message = NOTHING
         self.revision += 1
         return True
 
@@ -431,7 +428,7 @@ class Session:
         """Move the dragged seed; its wires follow as soon as they are computed. None: over nothing, it stays."""
         drag = self._drag
         if drag is None:
-            return self._refuse("No seed is being moved")
+            return self._refuse("no-seed-moves")
         if snap is None or drag.ending:
             return False
         before = (drag.target, drag.network, self.message)
@@ -446,12 +443,11 @@ class Session:
         """Leave the dragged seed where it is, as soon as its wires are computed; one step for undo."""
         drag = self._drag
         if drag is None:
-            return self._refuse("No seed is being moved")
+            return self._refuse("no-seed-moves")
         if not drag.final:
             drag.ending = True
             return True
-        self._drag = None
-        self.revision += 1
+        self._leave_drag()
         if drag.message or drag.target is None:
             why = drag.message
             self._aim_again()
@@ -462,10 +458,16 @@ class Session:
         """Let the dragged seed go back to where it was."""
         if self._drag is None:
             return False
-        self._drag = None
+        self._leave_drag()
         self._aim_again()
-        self.revision += 1
         return True
+
+    def _leave_drag(self) -> None:
+        """Let go of the dragged seed, and take over what was set meanwhile."""
+        self._drag = None
+        self.revision += 1
+        if self._engines.computes != self.options.computes:
+            self._compute_anew()
 
     # Ridges and valleys
 
@@ -488,19 +490,19 @@ class Session:
     def goes_on_from(self, snap: Snap | Pick) -> bool:
         """Whether a line that begins at a place goes on from the live wire's seed, rather than begin a chain."""
         seed, target = self._network.seed, Snap.of(snap)
-        return seed is not None and not self._queue and target.to == "SEED" and seed.at(target.pick, self.along)
+        return seed is not None and not self._queue and target.to == "SEED" and seed.at(target.pick, self.options.along)
 
     def line_begin(self, snap: Snap | Pick) -> bool:
         """Begin a line over the surface, `line_to` draws it. At the live wire's seed it goes on from there."""
         begin = Snap.of(snap)
-        if self.along == "SURFACE" and isinstance(begin.pick, tuple):
+        if self.options.along == "SURFACE" and isinstance(begin.pick, tuple):
             return self._refuse(only_vertices(begin.pick))
         self.drag_cancel()
         self.stop_preview()
         goes_on = self.goes_on_from(begin)
         seed = self._network.seed if goes_on else None
-        if self.along == "SURFACE" and self._triangles is None:
-            return self._refuse("Lines across the surface need the triangles of the mesh")
+        if self.options.along == "SURFACE" and self._triangles is None:
+            return self._refuse("no-triangles")
         vertex: int | None = None
         if seed is not None:
             vertex = seed.vertex
@@ -512,13 +514,13 @@ class Session:
         self._last_click = None
         self._candidates.clear()
         self._loops.clear()
-        self.message = ""
+        self.message = NOTHING
         self.revision += 1
         return True
 
     def _new_line(self, place: Pick, vertex: int | None, before: Edge | None) -> Line:
         """Return a line from a place across the surface; along edges from a vertex, None: the nearest one, after an edge."""
-        if self.along == "EDGES":
+        if self.options.along == "EDGES":
             return EdgeLine(self._engines, self._points, vertex, before)
         assert self._triangles is not None
         return SurfaceLine(self._engines, self._points, self._triangles, place, self._into_faces)
@@ -533,11 +535,11 @@ class Session:
         triangles
             (k,) the triangle that each point lies in.
         snap
-            What is under the cursor.
+            The pick under the cursor.
         """
         drawn = self._line
         if drawn is None:
-            return self._refuse("No line is being drawn")
+            return self._refuse("no-line-drawn")
         drawn.end = None if snap is None else Snap.of(snap)
         self._candidates.target = drawn.joined
         if len(points):
@@ -550,13 +552,17 @@ class Session:
 
     def line_end(self) -> bool:
         """Keep the wires that follow the line, as soon as they are computed; one step for undo."""
-        drawn, self._line = self._line, None
-        if drawn is None:
-            return self._refuse("No line is being drawn")
-        return self._finish_line(drawn)
+        drawn = self.line_release()
+        return self._refuse("no-line-drawn") if drawn is None else self.line_keep(drawn)
 
-    def _finish_line(self, drawn: DrawnLine) -> bool:
-        """Keep the wires that follow a line, as soon as they are computed."""
+    def line_release(self) -> DrawnLine | None:
+        """Let go of the line that is being drawn, to keep it with `line_keep`; None: there is none."""
+        drawn, self._line = self._line, None
+        self.revision += drawn is not None
+        return drawn
+
+    def line_keep(self, drawn: DrawnLine) -> bool:
+        """Keep the wires that follow a line, as soon as they are computed; one step for undo."""
         drawn.line.finish()
         self._read_progress()
         self.revision += 1
@@ -579,13 +585,13 @@ class Session:
         wires = drawn.line.wires
         if not wires:
             self._aim_again()
-            none = "No wire follows this line" if drawn.apart else "Drag farther along the surface to draw a line"
+            none = Message.of("no-wire-follows-line" if drawn.apart else "line-too-short")
             return self._refuse(drawn.line.message or none)
         told = drawn.line.message
         drawn_as = tuple(self._as_drawn(wire) for wire in wires)
         if not self._change(drawn.kept_in(self._network, drawn_as, self._points, self._stops)):
             return False
-        self.message = self.message or told or self._engines.warning(self.along)
+        self.message = self.message or told or self._engines.warning(self.options.along)
         return True
 
     def wires_along(self, seams: NDArray[np.int32]) -> Iterator[Wire]:
@@ -607,83 +613,57 @@ class Session:
 
     # What leads the wires that are drawn from here on; kept wires stay as they are
 
-    def switch(self, along: Along) -> bool:
-        """Run wires along edges or across the surface from here on; kept wires stay as they are."""
-        if along == self.along:
+    def follow(self, options: Options) -> bool:
+        """Draw wires by other settings from here on; kept wires stay as they are.
+
+        Returns
+        -------
+        bool
+            False where the live wire's seed is no part of the surface the other way: then the chain ends.
+        """
+        before, self.options = self.options, options
+        if options == before:
             return True
+        self.revision += 1
+        done = options.along == before.along or self._switched()
+        if options.straight != before.straight:
+            self._candidates.reset()
+            self._aim_again()
+        if options.computes != before.computes:
+            self._compute_anew()
+        if options.clear != before.clear:
+            self.message = NOTHING
+        if options.mirror != self._network.mirror:
+            self._set(replace(self._network, mirror=options.mirror))
+        return done
+
+    def _switched(self) -> bool:
+        """Let the live wire run the other way; where it cannot begin there, end the chain."""
         self._calm()
-        before = self.along
-        self.along = along
         self._candidates.reset()
         for offers in (self._edge_loops, self._cuts):
             offers.wanted = False
             offers.clear()
-        if self._network.seed is not None and not self._sow(self._network.seed):
-            self.along = before
-            return False
-        self.message = ""
+        seed, why = self._network.seed, NOTHING
+        if seed is not None and not self._sow(seed):
+            why = self.message
+            self._set(replace(self._network, seed=None))
+        self.message = why
         self._aim_again()
-        self.revision += 1
-        return True
+        return not why
 
-    def toggle_marking(self) -> bool:
-        """Let the wires that are kept from here on clear seams instead of marking them, or mark again."""
-        self.marking = not self.marking
-        self.message = ""
-        self.revision += 1
-        return True
-
-    def change_strength(self, steps: int) -> bool:
-        """Draw wires more or less strongly to features, a quarter a step; kept wires stay as they are."""
-        low, high = STRENGTH_RANGE
-        strength = min(max(self.strength * STRENGTH_STEP**steps, low), high)
-        if strength == self.strength:
-            return self._refuse(
-                f"The strength is {strength:g} already, the {'most' if steps > 0 else 'least'} there is"
-            )
-        return self._use_metric(self.metric, {**self._engines.strengths, self.along: strength})
-
-    def set_strength(self, along: Along, strength: float) -> bool:
-        """Draw wires that run one way so strongly to features; kept wires stay as they are."""
-        low, high = STRENGTH_RANGE
-        strength = min(max(strength, low), high)
-        # What comes from Blender's properties is of single precision.
-        if abs(strength - self._engines.strengths[along]) <= 1e-4 * strength:
-            return True
-        return self._use_metric(self.metric, {**self._engines.strengths, along: strength})
-
-    def set_metric(self, metric: MetricName) -> bool:
-        """Draw wires by another metric; kept wires stay as they are."""
-        if metric == self.metric:
-            return True
-        if self._drag is None:
+    def _compute_anew(self) -> None:
+        """Let the live wires be those of the metric that is set; while a seed is moved, its wires stay as they are."""
+        options = self.options
+        if self._drag is not None:
+            return
+        if options.metric != self._engines.metric:
             self._candidates.reset()
-        return self._use_metric(metric, self._engines.strengths)
-
-    def set_clamp(self, percentile: float) -> bool:
-        """Let another percentile of feature strengths count as the strongest; kept wires stay as they are."""
-        low, high = CLAMP_RANGE
-        percentile = min(max(percentile, low), high)
-        if abs(percentile - self.clamp) <= 1e-4:
-            return True
-        return self._use_metric(self.metric, self._engines.strengths, percentile)
-
-    def set_straight(self, straight: bool) -> bool:
-        """Offer, across the surface, the wire that is straight in the view too, before the others; kept wires stay as they are."""
-        if straight == self._candidates.with_straight:
-            return True
-        self._candidates.with_straight = straight
-        self._candidates.reset()
+        self._engines.use(options.metric, options.strengths, options.clamp)
+        self.message = NOTHING
+        self._loops.clear()
         self._aim_again()
-        self.revision += 1
-        return True
-
-    def set_mirror(self, axes: Iterable[int]) -> bool:
-        """Mirror the wires that are kept from here on over axes, 0 to 2; none: not at all."""
-        mirror = tuple(sorted(set(axes)))
-        if mirror != self._network.mirror:
-            self._set(replace(self._network, mirror=mirror))
-        return True
+        self._show_offers()
 
     def draw_stroke(
         self,
@@ -716,15 +696,15 @@ class Session:
             if vertices is not None:
                 stroke = through_vertices(vertices, self._points)
             elif points is None or faces is None or self._triangles is None:
-                raise ValueError("a stroke needs points and the triangles that they lie in, or vertices")
+                raise TypeError("neither points nor vertices")
             else:
                 stroke = drawn(points, faces, self._points, self._triangles)
         except OffMeshError as error:
-            return self._refuse(str(error))
+            return self._refuse(message_of(error))
         self._last_click = None
         self.drag_cancel()
         chosen = self._candidates.chosen
-        if acts_on is None and self._network.seed is not None and not self.straight_active:
+        if acts_on is None and self._network.seed is not None and not self._candidates.straight_active:
             # The wire that the stroke is for stays the active one, even where another is shorter now.
             chosen = self._candidates.active_index
             acts_on = FOLLOWS[chosen]
@@ -735,7 +715,7 @@ class Session:
         """Remove a stroke."""
         rest = tuple(own for own in self._network.strokes if own.id != stroke.id)
         if len(rest) == len(self._network.strokes):
-            return self._refuse("This stroke is not there any more")
+            return self._refuse("stroke-is-gone")
         self._last_click = None
         self.drag_cancel()
         return self._with_strokes(rest, self._candidates.chosen)
@@ -756,7 +736,7 @@ class Session:
             return True
         network = self._history.back(self._network)
         if network is None:
-            return self._refuse("Nothing to undo in this drawing")
+            return self._refuse("nothing-to-undo")
         self._restore(network)
         return True
 
@@ -765,7 +745,7 @@ class Session:
         self.drag_cancel()
         network = self._history.forth(self._network)
         if network is None:
-            return self._refuse("Nothing to redo in this drawing")
+            return self._refuse("nothing-to-redo")
         self._restore(network)
         return True
 
@@ -793,7 +773,7 @@ class Session:
 
     @property
     def taken_cuts(self) -> tuple[TakenCut, ...]:
-        """The closed cuts that are there still as they were taken, the last one at the end."""
+        """The closed cuts that are still unchanged, the last one at the end."""
         return self._cuts.taken(self._network)
 
     def recall_cuts(self, cuts: Iterable[TakenCut]) -> None:
@@ -838,12 +818,12 @@ class Session:
                 try:
                     live.wait()
                 except ValueError as error:  # what it is to compute cannot be computed
-                    self._refuse(str(error))
+                    self._refuse(message_of(error))
             self.poll()
             if not self._queue and not self._retraces and not self.computing:
                 return
 
-    # What is there to be seen
+    # Shown state
 
     @property
     def network(self) -> Network:
@@ -864,82 +844,22 @@ class Session:
     def seed(self) -> Pick | None:
         """Where the live wire begins; None between chains."""
         seed = self._network.seed
-        return None if seed is None else seed.begins(self.along)
+        return None if seed is None else seed.begins(self.options.along)
 
     @property
     def seed_place(self) -> Pick | None:
         """Where that seed is shown, as `seeds` has it."""
         seed = self._network.seed
-        return None if seed is None else undirected(seed.shown(self.along))
+        return None if seed is None else undirected(seed.shown(self.options.along))
 
     @property
     def target(self) -> Snap | None:
-        """What is under the cursor, or what the oldest waiting click asked for."""
+        """The pick under the cursor, or the pick of the oldest waiting click."""
         return self._candidates.target
 
-    @property
-    def active(self) -> Wire | None:
-        """The wire that a click would keep."""
-        return self._candidates.active
-
-    @property
-    def others(self) -> tuple[Wire, ...]:
-        """The other wires that run elsewhere, in the order in which the wheel brings them forward."""
-        return self._candidates.others
-
-    @property
-    def candidate_number(self) -> int:
-        """The place of the active wire among those that run differently, the one that is offered first at 0."""
-        return self._candidates.number
-
-    @property
-    def straight_active(self) -> bool:
-        """Whether the wire that a click would keep is the one that is straight in the view."""
-        return self._candidates.straight_active
-
-    @property
-    def preliminary(self) -> bool:
-        """Whether the active wire is still being computed: what is shown is not yet what a click would keep."""
-        return self.active is not None and not self._candidates.active_final
-
-    @property
-    def loop_preview(self) -> Wire | None:
-        """What a click on the edge under the cursor takes as a whole, while that is asked for."""
-        return self._loops.wire
-
     def flat_border(self, edge: Edge) -> set[Edge]:
-        """Return the likeliest border of a flat region beside an edge, by its edges; empty: there is none."""
+        """Return the edges of the likeliest border of a flat region beside an edge, or nothing."""
         return self._edge_loops.flat_border(edge)
-
-    @property
-    def loop_offers(self) -> tuple[LoopKind, ...]:
-        """What such a click may take, each once, the default first: `toggle` goes from one to the next."""
-        return self._loops.kinds
-
-    @property
-    def loop_number(self) -> int:
-        """The place among them of the one that is shown."""
-        return self._loops.choice
-
-    @property
-    def loop_choice(self) -> LoopKind | None:
-        """Which of them `loop_preview` is."""
-        return None if self._loops.wire is None else self._loops.wire.kind
-
-    @property
-    def bending(self) -> bool:
-        """Whether what a click would take is the closed cut taken last, bent."""
-        return self._cuts.bends and self._cuts.wanted
-
-    @property
-    def can_bend(self) -> bool:
-        """Whether there is a closed cut that can be bent."""
-        return self.along == "SURFACE" and self._cuts.bendable(self.network) is not None
-
-    @property
-    def end_preview(self) -> Wire | None:
-        """The live wire with its way on to the end, while it is asked for."""
-        return self._extension.wire
 
     @property
     def dragging(self) -> bool:
@@ -950,42 +870,6 @@ class Session:
     def drawing(self) -> bool:
         """Whether a line is being drawn."""
         return self._line is not None
-
-    @property
-    def drawn(self) -> NDArray[np.float64] | None:
-        """The line that is being drawn, (k, 3)."""
-        return None if self._line is None else self._line.line.points
-
-    @property
-    def following(self) -> tuple[Wire, ...]:
-        """The wires that follow the line that is being drawn, or those that wait to be kept."""
-        lines = [queued.line for queued in self._queue if queued.line is not None]
-        lines += [] if self._line is None else [self._line]
-        return tuple(
-            replace(wire, marks=self.marking, mirror=self._network.mirror) for one in lines for wire in one.line.wires
-        )
-
-    @property
-    def moved(self) -> tuple[Wire, ...]:
-        """The wires that follow the dragged seed, as they run now."""
-        return () if self._drag is None else self._drag.moved
-
-    @property
-    def dragged_seed(self) -> Pick | None:
-        """The seed that is being moved, where it is now."""
-        return None if self._drag is None else undirected(self._drag.place)
-
-    @property
-    def hovered_wire(self) -> Wire | None:
-        """The kept wire under the cursor."""
-        target = self._candidates.target
-        return None if target is None or target.to != "WIRE" else self.network.find(target.wire)
-
-    @property
-    def hovered_seed(self) -> Pick | None:
-        """The seed of the network under the cursor."""
-        target = self._candidates.target
-        return None if target is None or target.to != "SEED" else target.pick
 
     @property
     def closing_point(self) -> Pick | None:
@@ -1004,44 +888,14 @@ class Session:
         return self._progress < 1.0 or not self._candidates.final or (drag is not None and not drag.final)
 
     @property
-    def progress(self) -> float:
-        """Fraction of that work that is done."""
-        return self._progress
-
-    @property
     def waiting_clicks(self) -> int:
         """How many clicks and other deeds wait for their wires."""
         ending = self._drag is not None and self._drag.ending
         return len(self._queue) + len(self._retraces) + ending
 
-    @property
-    def can_undo(self) -> bool:
-        """Whether undo() has something to take back."""
-        return bool(self._queue or self._drag or self._line or self._retraces) or self._history.can_undo(self._network)
-
-    @property
-    def can_redo(self) -> bool:
-        """Whether redo() has something to bring back."""
-        return self._history.can_redo
-
-    @property
-    def strength(self) -> float:
-        """How strongly wires are drawn to features: the metric's largest anisotropy, for the way they run now."""
-        return self._engines.strengths[self.along]
-
     def feature_strength(self) -> NDArray[np.float64] | None:
         """Return how strong the feature is at each vertex; None while that is computed."""
-        return self._engines.get(self.along).feature_strength()
-
-    @property
-    def clamp(self) -> float:
-        """The percentile of feature strengths that counts as the strongest: single noisy vertices are not to decide."""
-        return self._engines.clamp
-
-    @property
-    def metric(self) -> MetricName:
-        """What draws wires to features."""
-        return self._engines.metric
+        return self._engines.get(self.options.along).feature_strength()
 
     @property
     def strokes(self) -> tuple[Stroke, ...]:
@@ -1054,26 +908,99 @@ class Session:
         return self._engines.strokes
 
     @property
-    def mirror_axes(self) -> tuple[int, ...]:
-        """The axes, 0 to 2, over which wires are mirrored."""
-        return self.network.mirror
-
-    @property
     def symmetric_axes(self) -> tuple[int, ...]:
         """The axes over which the mesh is symmetric."""
         return self._symmetry.symmetric_axes
 
     def on_mirror(self) -> frozenset[int]:
         """Return the vertices on the planes over which wires are mirrored."""
-        return self._symmetry.on_plane(self.mirror_axes)
+        return self._symmetry.on_plane(self.options.mirror)
 
     def partners(self, axes: tuple[int, ...]) -> NDArray[np.int64]:
         """Return the vertex that each is mirrored to over all of the axes at once, (n,); -1: none."""
         return self._symmetry.partners(axes)
 
     @property
-    def intent(self) -> Intent:
-        """What a click would do now."""
+    def picture(self) -> Picture:
+        """Everything that is to be seen now."""
+        key = (self.revision, self.network_revision, self.message, self.work)
+        if self._picture is None or self._picture[0] != key:
+            self._picture = (key, self._painted())
+        return self._picture[1]
+
+    def _painted(self) -> Picture:
+        live, drag, network = self._candidates, self._drag, self.network
+        lines = [queued.line for queued in self._queue if queued.line is not None]
+        lines += [] if self._line is None else [self._line]
+        target = live.target
+        hovered = target.pick if target is not None and target.to == "SEED" else None
+        begins = [wire.start for drawn in lines for wire in drawn.line.wires]
+        return Picture(
+            self.options,
+            self.revision,
+            self.network_revision,
+            shown_wires(
+                self._kept_wires(),
+                network,
+                self.options,
+                live,
+                drag,
+                lines,
+                self._loops.wire,
+                self._extension.wire,
+                self.mirrored,
+            ),
+            shown_seeds(
+                self.seeds(),
+                self.seed_place,
+                self.closing_point,
+                hovered if drag is None else undirected(drag.place),
+                begins,
+            ),
+            network.strokes,
+            None if self._line is None else self._line.line.points,
+            target,
+            self.seed,
+            Choice(live.number, 1 + len(live.others), live.straight_active),
+            Offered(self._loops.kinds, self._loops.choice, self._bends),
+            self._intent,
+            self.closing_point is not None,
+            self.options.along == "SURFACE" and self._cuts.bendable(network) is not None,
+            bool(self._queue or drag or self._line or self._retraces) or self._history.can_undo(self._network),
+            self._history.can_redo,
+            self.strength,
+            self.work,
+            self.message,
+        )
+
+    def _kept_wires(self) -> tuple[ShownWire, ...]:
+        network = self.network
+        if self._shown_kept is None or self._shown_kept[0] is not network:
+            self._shown_kept = (network, kept_wires(network, self.moved))
+        return self._shown_kept[1]
+
+    @property
+    def moved(self) -> tuple[Wire, ...]:
+        """The wires that follow a dragged seed, as they run now."""
+        return () if self._drag is None else self._drag.moved
+
+    @property
+    def work(self) -> Work:
+        """The running computation for the picture."""
+        return Work(self.computing, self._progress, self.waiting_clicks)
+
+    @property
+    def strength(self) -> float:
+        """How strongly the wires that are shown are drawn to features: the metric's largest anisotropy."""
+        return self._engines.strengths[self.options.along]
+
+    @property
+    def _bends(self) -> bool:
+        """Whether what a click would take is the closed cut taken last, bent."""
+        return self._cuts.bends and self._cuts.wanted
+
+    @property
+    def _intent(self) -> Intent:
         live, seed = self._candidates, self._network.seed
         if self._drag is not None:
             return Intent.MOVE
@@ -1083,13 +1010,13 @@ class Session:
             return Intent.RUN
         if self._loops.wire is not None:
             return Intent.LOOP
-        if live.target is None or (self.along == "SURFACE" and isinstance(live.target.pick, tuple)):
+        if live.target is None or (self.options.along == "SURFACE" and isinstance(live.target.pick, tuple)):
             return Intent.NOTHING
         if seed is None:
             return {"SEED": Intent.CONTINUE, "WIRE": Intent.BRANCH}.get(live.target.to, Intent.SEED)
         if live.active_final:
             return self._ending(live.target) or Intent.KEEP
-        waits = self.computing and not seed.at(live.target.pick, self.along)
+        waits = self.computing and not seed.at(live.target.pick, self.options.along)
         return Intent.WAIT if waits else Intent.NOTHING
 
     def seeds(self) -> list[Pick]:
@@ -1097,7 +1024,7 @@ class Session:
         seed = self.network.seed
         ends = self.network.seeds()
         if seed is not None:
-            ends.append(seed.shown(self.along))
+            ends.append(seed.shown(self.options.along))
         return list({undirected(pick): None for pick in ends})
 
     def edges_to_mark(self) -> list[Edge]:
@@ -1114,13 +1041,13 @@ class Session:
 
     @property
     def _loops(self) -> Offers:
-        """What a click offers as a whole, for the way that wires run now."""
-        return self._edge_loops if self.along == "EDGES" else self._cuts
+        """The loops that a click offers, along edges or across the surface."""
+        return self._edge_loops if self.options.along == "EDGES" else self._cuts
 
     @property
     def _into_faces(self) -> bool:
         """Whether wires across the surface that are kept from here on are to be cut into the faces."""
-        return self.marking and self.finish == "CUT"
+        return self.options.marking and self.options.finish == "CUT"
 
     @property
     def _offers_final(self) -> bool:
@@ -1128,9 +1055,9 @@ class Session:
 
     # From one network to the next
 
-    def _refuse(self, why: str) -> bool:
-        """Say why something is not done."""
-        self.message = why
+    def _refuse(self, why: str | Message, **values: object) -> bool:
+        """Say why something is not done, with a message or its code and values."""
+        self.message = Message.of(why, **values) if isinstance(why, str) else why
         self.revision += 1
         return False
 
@@ -1152,7 +1079,7 @@ class Session:
         lasting = network.lasting()
         self._set(self._images.complete(lasting))
         self._settle()
-        gone = "A wire went: it met no edge any more that could be a seam" if lasting is not network else ""
+        gone = Message.of("wire-went") if lasting is not network else NOTHING
         self.message = self._images.warning(self._network) or gone or self.message
         return True
 
@@ -1165,6 +1092,7 @@ class Session:
         """Go back or on to a network that there was."""
         if network.seed is not None and network.seed != self._network.seed:
             self._sow(network.seed)
+        network = replace(network, mirror=self.options.mirror)
         back = [stroke.acts_on for stroke in network.strokes if stroke not in self._network.strokes]
         self._set(network)
         self._last_click, self._crest_taken = None, None
@@ -1178,7 +1106,7 @@ class Session:
         self._candidates.chosen = None
         self._loops.clear()
         self._extension.clear()
-        self.message = ""
+        self.message = NOTHING
         self._aim_again()
 
     def _calm(self) -> None:
@@ -1195,11 +1123,11 @@ class Session:
         """Start the wires of a seed; on refusal the wires are those of the seed before."""
         before = self._network.seed
         try:
-            self._candidates.sow(seed, self.along)
+            self._candidates.sow(seed, self.options.along)
         except ValueError as error:
             if before is not None and before != seed:
                 self._sow(before)
-            return self._refuse(str(error))
+            return self._refuse(message_of(error))
         finally:
             self._read_progress()
         return True
@@ -1207,13 +1135,13 @@ class Session:
     def _aim(self, target: Snap | None, again: bool = False) -> None:
         """Find the wires to a target; `again`: also where it is the same as before."""
         live = self._candidates
-        if live.is_aimed_at(target) and not again and live.final and self._offers_final:
+        if live.is_aimed_at(target, self.options.straight) and not again and live.final and self._offers_final:
             return
         before = (live.shown, self.message)
         self._read_progress()
         # A seed that is dragged has no live wire.
         network = self._network if self._drag is None else replace(self._network, seed=None)
-        self.message = live.aim(target, network, self.along)
+        self.message = live.aim(target, network, self.options)
         # Asking again while nothing is ready shows nothing new, and must not cost a redraw each time.
         self.revision += before != (live.shown, self.message)
         self._show_extension()
@@ -1222,39 +1150,27 @@ class Session:
         """Find the wires to the target once more: they may be others now."""
         self._aim(self.target, again=True)
 
-    def _use_metric(self, metric: MetricName, strengths: Mapping[Along, float], clamp: float | None = None) -> bool:
-        """Find the live wires by another metric; `clamp` None: the percentile stays."""
-        if self._drag is not None:
-            return self._refuse("Finish moving the seed first")
-        self._engines.use(metric, strengths, self.clamp if clamp is None else clamp)
-        self.message = ""
-        self._loops.clear()
-        self._aim_again()
-        self._show_offers()
-        self.revision += 1
-        return True
-
     def _keep(self, target: Snap) -> bool:
         """Keep the active wire, which leads to a target."""
         live = self._candidates
         wire = live.active
         seed = self._network.seed
         if wire is None:
-            if seed is not None and seed.at(target.pick, self.along):
-                return self._refuse("The wire ends where it begins: click somewhere else")
-            return self._refuse(self.message or f"No wire reaches {name(target.pick)}")
+            if seed is not None and seed.at(target.pick, self.options.along):
+                return self._refuse("ends-where-it-begins")
+            return self._refuse(self.message or Message.of("no-wire-reaches", pick=target.pick))
         ending = self._ending(target)
         known = {edge for own in self.wires for edge in own.edges()}
         # Of what is cut the snapped edges say nothing.
         if ending is Intent.CLOSE and known.issuperset(wire.edges()) and not isinstance(wire.end, FacePoint):
-            return self._refuse("The way back runs along the chain itself: place another seed first")
+            return self._refuse("way-back-along-chain")
         wire = replace(self._as_drawn(wire), alternatives=live.others if live.final else ())
         if not wire.leaves_trace:
-            return self._refuse("The wire meets no edge that could be a seam: click farther away")
+            return self._refuse("wire-too-short")
         network = self._network.joined(target, self._points).with_drawn(wire, target.pick, ending is not None)
         if not self._change(network):
             return False
-        self.message = self.message or self._engines.warning(self.along)
+        self.message = self.message or self._engines.warning(self.options.along)
         self._last_click = (undirected(target.pick), self._history.steps)
         return True
 
@@ -1267,10 +1183,10 @@ class Session:
             return replace(wire, marks=like.marks, mirror=like.mirror, strength=self.strength, finish=like.finish)
         return replace(
             wire,
-            marks=self.marking,
+            marks=self.options.marking,
             mirror=self._network.mirror,
             strength=self.strength,
-            finish=self.finish if wire.along == "SURFACE" and self.marking else "SNAP",
+            finish=self.options.finish if wire.along == "SURFACE" and self.options.marking else "SNAP",
         )
 
     def _ending(self, target: Snap) -> Intent | None:
@@ -1290,14 +1206,14 @@ class Session:
             self._cuts.into_faces = self._into_faces
             return self._with_crest(pick, offers.find(pick, self._network, kept), kept)
         except ValueError as error:
-            self.message = str(error)
+            self.message = message_of(error)
             return ()
 
     def _with_crest(self, pick: Pick, offers: tuple[Wire, ...], kept: Wire | None) -> tuple[Wire, ...]:
         """Return what is offered with the ridge or valley at a pick: first where these are seen, else last."""
         if self._cuts.bends and not isinstance(pick, tuple):
             return offers
-        # What is known first must not be what a click takes while others are computed.
+        # A click must not take the first known loop while others are still computed.
         ready = offers or (self._edge_loops if isinstance(pick, tuple) else self._cuts).final or self._crests_first
         crest = self._crests.offer(pick) if self._crests is not None and kept is None and ready else None
         if crest is None or undirected(pick) == self._crest_taken:
@@ -1318,7 +1234,7 @@ class Session:
         if none != self._told_none and (not none or not self.message):
             self._told_none = none
             if none or self.message == self._cuts.NONE:
-                self.message = loops.NONE if none else ""
+                self.message = loops.NONE if none else NOTHING
         self.revision += before != self.message
 
     def _retrace_offer(self, own: Wire, steps: int = 1) -> bool:
@@ -1329,7 +1245,7 @@ class Session:
             if not self._edge_loops.final:
                 return self._postpone("offer", Snap(own.through, "WIRE", own))
             if not offers:
-                return self._refuse(self.message or "Nothing else runs through this edge")
+                return self._refuse(self.message or Message.of("nothing-else-through-edge"))
             own = replace(own, offers=offers)
         return self._change(self._network.with_wire(own).with_next_offer(own, steps))
 
@@ -1337,9 +1253,9 @@ class Session:
         """Return the live wire with its way on; None where there is no way, or no direction yet."""
         self._read_progress()
         try:
-            return self._extension.find(self._network, self.active, self.marking)
+            return self._extension.find(self._network, self._candidates.active, self.options.marking)
         except ValueError as error:
-            self.message = str(error)
+            self.message = message_of(error)
             return None
 
     def _show_extension(self) -> None:
@@ -1362,7 +1278,7 @@ class Session:
         for wire, courses in self._retraces.poll():
             own = self._network.find(wire)
             if isinstance(courses, ValueError):
-                self._refuse(str(courses))
+                self._refuse(message_of(courses))
             elif own is not None:  # else it was dropped in the meantime
                 self._take_way(own, courses.others(own))
 
@@ -1370,7 +1286,7 @@ class Session:
         try:
             network = retraced(self._network, own, others)
         except ValueError as error:
-            return self._refuse(str(error))
+            return self._refuse(message_of(error))
         return self._change(network)
 
     # What waits until it is computed
@@ -1439,7 +1355,7 @@ class Session:
         lines = [queued.line for queued in self._queue if queued.line is not None]
         lines += [] if self._line is None else [self._line]
         drawn = [live for one in lines for live in one.line.lives()]
-        return [self._engines.get(self.along), *offers, *cuts, *self._retraces.lives(), *drag, *drawn]
+        return [self._engines.get(self.options.along), *offers, *cuts, *self._retraces.lives(), *drag, *drawn]
 
     def _read_progress(self) -> None:
         """Look how much is computed; before wires are asked for: what is not final after the work is done stays so."""

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def straight_wire(live: LiveWire, begin: Pick, end: Pick, direction: Direction, follow: int) -> Wire | None:
-    """Return the wire in the plane through two picks and along a direction; None where there is none.
+    """Return the wire in the plane through two picks and along a direction, or None.
 
     Parameters
     ----------

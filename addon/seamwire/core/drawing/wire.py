@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..network.network import FacePoint, Network, Snap, Wire, distinct, name
+from ..base.messages import NOTHING, Message, message_of
+from ..network.network import FacePoint, Network, Snap, Wire, distinct
 from ..solver.solver import by_number, for_live
 from .straight import straight_wire
 
@@ -16,13 +17,11 @@ if TYPE_CHECKING:
 
     from ..network.network import Along, Pick, Seed
     from ..solver.solver import Candidate, Engines
-
-
-SAME_EDGES = "All wires run along the same edges here"
+    from .options import Options
 
 
 class CandidateWires:
-    """What is under the cursor, and the wires that lead there from the seed, one for each metric.
+    """The pick under the cursor, and a wire from the seed to it for each metric.
 
     Parameters
     ----------
@@ -44,8 +43,6 @@ class CandidateWires:
         """Whether it is computed, and stays the leading one."""
         self.chosen: int | None = None
         """The one that the artist brought forward."""
-        self.with_straight = False
-        """Whether, across the surface, the wire that is straight in the view comes with the others, and leads."""
         self._straight: Wire | None = None
 
     @property
@@ -68,7 +65,7 @@ class CandidateWires:
 
     @property
     def others(self) -> tuple[Wire, ...]:
-        """Those that run elsewhere, each once, in the order in which they come forward after the active one."""
+        """The different other wires, in the order in which they follow the active one."""
         return distinct(self.wires[at] for at in self._order(self.active_index))[1:]
 
     @property
@@ -99,11 +96,11 @@ class CandidateWires:
         """What changes when something else is to be seen."""
         return self.target, self.leading, self.finals, self.wires
 
-    def is_aimed_at(self, target: Snap | None) -> bool:
-        """Whether a target is what is under the cursor already, looked at from where it is now."""
+    def is_aimed_at(self, target: Snap | None, straight: bool) -> bool:
+        """Whether a target is what is under the cursor already, looked at from where it is now if wires are to be straight there."""
         if target != self.target:
             return False
-        return not self.with_straight or target is None or target.seen_along == self.target.seen_along
+        return not straight or target is None or target.seen_along == self.target.seen_along
 
     def clear(self) -> None:
         """Show no wires, and what is under the cursor still."""
@@ -126,41 +123,42 @@ class CandidateWires:
         begin = for_live(seed.begins(along), along)
         self._engines.get(along).seed(begin, forward=seed.forward and along == "EDGES")
 
-    def advance(self) -> str:
+    def advance(self) -> Message:
         """Bring the next wire forward; return why that cannot be, else nothing."""
         others = self.others
         if not others:
             same = self.final and self.active is not None
-            return SAME_EDGES if same else "There is no next candidate yet"
+            return Message.of("same-edges" if same else "no-next-candidate")
         self.chosen = next(at for at, wire in enumerate(self.wires) if wire is others[0])
-        return ""
+        return NOTHING
 
     @property
     def straight_active(self) -> bool:
         """Whether the wire that a click would keep is the one that is straight in the view."""
         return self._straight is not None and self.active is self._straight
 
-    def aim(self, target: Snap | None, network: Network, along: Along) -> str:
-        """Find the wires from a network's seed to a target; return why there is none, else nothing."""
+    def aim(self, target: Snap | None, network: Network, options: Options) -> Message:
+        """Find the wires from a network's seed to a target. Return the reason for a failure, otherwise an empty message."""
+        along = options.along
         self.target = target
         self.clear()
         seed = network.seed
         if seed is None or target is None or seed.at(target.pick, along):
-            return ""
+            return NOTHING
         if along == "SURFACE" and isinstance(target.pick, tuple):
             return only_vertices(target.pick)
         goal, avoid = _goal(target, network, along)
         try:
             found = self._engines.get(along).wires(for_live(goal, along))
         except ValueError as error:
-            return str(error)
+            return message_of(error)
         wires, self.leading = by_number(found)
         self.finals = tuple(wire.final for wire in wires)
         self.settled = found.settled
         if along == "SURFACE":
             begin = seed.begins("SURFACE")
             self.wires = tuple(across(wire, follow, begin, target.pick) for follow, wire in enumerate(wires))
-            if self.with_straight:
+            if options.straight:
                 self._add_straight(begin, target)
         else:
             self.wires = tuple(
@@ -168,7 +166,8 @@ class CandidateWires:
             )
         if self.chosen is not None and self.chosen >= len(self.wires):
             self.chosen = None  # the metric that is used now has no such wire
-        return f"No wire reaches {name(target.pick)}" if self.final and not any(self.wires) else ""
+        is_reached = not self.final or any(self.wires)
+        return NOTHING if is_reached else Message.of("no-wire-reaches", pick=target.pick)
 
     def _add_straight(self, begin: Pick, target: Snap) -> None:
         if target.seen_along is None:
@@ -195,7 +194,7 @@ class CandidateWires:
 
 
 def across(candidate: Candidate, follow: int, begin: Pick, end: Pick) -> Wire | None:
-    """Return a wire across the surface as the library found it, from a pick to another; None where there is none."""
+    """Return the library's wire across the surface from one pick to another, or None."""
     vertices = tuple(int(v) for v in candidate.vertices)
     # Between points of one face there may be no edge to snap to.
     least = 1 if isinstance(begin, FacePoint) or isinstance(end, FacePoint) else 2
@@ -215,6 +214,6 @@ def _goal(target: Snap, network: Network, along: Along) -> tuple[Pick, int | Non
     return target.pick, None
 
 
-def only_vertices(edge: Pick) -> str:
+def only_vertices(edge: Pick) -> Message:
     """Say that wires across the surface do not end at edges."""
-    return f"Across the surface wires begin and end at vertices and points of faces, not at {name(edge)}"
+    return Message.of("no-edge-across", pick=edge)

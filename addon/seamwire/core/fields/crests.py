@@ -90,7 +90,7 @@ class Crests:
         return self.points[mine], faces
 
     def line_at(self, pick: Pick) -> int | None:
-        """Return the strongest line at a pick; None: there is none.
+        """Return the strongest line at a pick, or None.
 
         It crosses an edge of a vertex, the triangle of a point, or this edge, or it runs beside that.
         """

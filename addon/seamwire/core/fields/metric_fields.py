@@ -42,12 +42,12 @@ _RADIUS, _LONGEST = 0.33, 1.5
 
 @dataclass(frozen=True)
 class Request:
-    """What is to be computed, in which metric.
+    """The fields to compute, and their metric.
 
     Parameters
     ----------
     parts
-        What is asked for.
+        The names of the fields.
     metric, strength, clamp
         As the tool's settings.
     follow
@@ -172,7 +172,7 @@ class Silhouette:
 
 @dataclass(frozen=True)
 class Fields:
-    """What was computed for a request; None: not asked for, or without a source."""
+    """The results for a request. A field is None if it was not requested or has no source."""
 
     request: Request
     strength: NDArray[np.float64] | None = None
@@ -239,7 +239,7 @@ def band_levels(largest: float, bands: int = BANDS) -> NDArray[np.float64]:
 
 
 class FieldMaker:
-    """Computes fields of one mesh on a thread of its own; what they have in common once.
+    """Computes fields of one mesh in its own thread, with shared parts computed once.
 
     Parameters
     ----------
@@ -263,7 +263,7 @@ class FieldMaker:
 
     @property
     def newest(self) -> Fields | None:
-        """What was computed last. Raises what went wrong on the thread."""
+        """The latest result. Raises what went wrong on the thread."""
         return self._maker.answer
 
     def want(self, request: Request) -> None:
@@ -292,7 +292,7 @@ class FieldMaker:
         Raises
         ------
         ValueError
-            Where the mesh is none that wires can run on.
+            If wires cannot run on the mesh.
         seamwire_core.Cancelled
             Where other ones are asked for meanwhile.
         """

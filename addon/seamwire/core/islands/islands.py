@@ -36,12 +36,12 @@ _CLEAR = 3
 
 @dataclass(frozen=True)
 class Islands:
-    """What a network cuts a mesh into.
+    """The islands that a network cuts a mesh into.
 
     Parameters
     ----------
     key
-        What it was asked for by.
+        The key of the request.
     count
         How many islands there are.
     labels
@@ -74,7 +74,7 @@ class Islands:
 
 
 class IslandMaker:
-    """Computes islands on a thread of its own; of several requests the newest wins.
+    """Computes islands in its own thread. Only the newest waiting request is answered.
 
     Parameters
     ----------
@@ -112,7 +112,7 @@ class IslandMaker:
 
     @property
     def newest(self) -> Islands | None:
-        """What was computed last. Raises what went wrong on the thread."""
+        """The latest result. Raises what went wrong on the thread."""
         return self._maker.answer
 
     def want(self, key: object, cuts: Iterable[tuple[int, int]] | NDArray[np.int32]) -> None:
@@ -241,7 +241,7 @@ def choose_hues(inherited: NDArray[np.int64], pairs: NDArray[np.int32], hues: in
         for other in around[island]:
             free[other] &= ~too_near[hue]
 
-    # What was there before stays, the larger first; what cannot is chosen anew with the rest, when all of it is known.
+    # Old hues stay, the largest islands first. The other islands get new hues when all old ones are known.
     for island, hue in enumerate(inherited.tolist()):
         if hue >= 0 and free[island] >> hue & 1:
             settle(island, hue)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How much a UV map stretches the faces of a mesh, by angle and by area. Knows neither Blender nor the GPU.
 
-Where s1 >= s2 are the singular values of the map from a triangle to its UVs, angles are kept where s1 = s2, and areas where
-s1 s2 is the same everywhere (Sander, Snyder, Gortler, Hoppe: Texture mapping progressive meshes, 2001; Hormann, Greiner:
-MIPS, 2000). Both are counted in octaves: 1 means twice as long one way as the other, or an area twice too large.
+Let s1 >= s2 be the singular values of the map from a triangle to its UVs. The map preserves angles if s1 = s2, and areas if s1 s2 is
+constant (Sander, Snyder, Gortler, Hoppe: Texture mapping progressive meshes, 2001; Hormann, Greiner: MIPS, 2000). Both are counted in
+octaves: 1 means twice as long one way as the other, or an area twice too large.
 """
 
 from __future__ import annotations

@@ -68,7 +68,7 @@ class NewIsland:
     areas
         (t,) of those triangles on the model.
     density
-        What it is to have, length in UVs over length on the model; zero: as it is.
+        The wanted density: length in UVs over length on the model. Zero keeps the size.
     aspect
         The width over the height of the image that the UVs lie on: islands are turned as they are seen there.
     """
@@ -143,13 +143,13 @@ def boxes_of(corners: NDArray[np.float64]) -> NDArray[np.float64]:
 def place(islands: Sequence[NewIsland], taken: NDArray[np.float64]) -> list[NDArray[np.float64]]:
     """Find a place for islands among those that stay.
 
-    Each has the texel density it is to have, turned as it was, and lies as near to where it was as there is room in that square
-    of the UV plane; where there is none, beside all others, to the right.
+    Each island keeps its texel density and rotation. It is placed in the nearest free space of its square, or to the right of all islands
+    if the square is full.
 
     Parameters
     ----------
     islands
-        What was unwrapped.
+        The unwrapped islands.
     taken
         (b, 4) bounds of the triangles that stay, see `boxes_of`.
 
@@ -190,7 +190,7 @@ def place(islands: Sequence[NewIsland], taken: NDArray[np.float64]) -> list[NDAr
 
 
 def _fitted(island: NewIsland) -> NDArray[np.float64]:
-    """Return the corners of an island in the size they are to have, and turned as they were before."""
+    """Return the corners of an island in the wanted size and the old rotation."""
     area, now = float(island.areas.sum()), float(uv_areas(island.after[island.triangles]).sum())
     wanted = island.density**2 * area
     on_image = (island.aspect, 1.0)
@@ -234,7 +234,7 @@ class _Square:
         self._full |= marks.cumsum(axis=0, dtype=np.int32).cumsum(axis=1, dtype=np.int32)[:-1, :-1] > 0
 
     def free_spot(self, size: NDArray[np.float64], middle: NDArray[np.float64]) -> NDArray[np.float64] | None:
-        """Return the low corner of the free rectangle of a size whose middle is nearest to a place; None: there is none."""
+        """Return the low corner of the free rectangle of a size whose center is nearest to a place, or None."""
         wide, tall = np.ceil((size + 2.0 * _GAP) * _CELLS).astype(np.int64)
         if wide > _CELLS or tall > _CELLS:
             return None

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..base import native
 from ..base.geometry import Moments, creases, vertex_normals
+from ..base.messages import NOTHING, Message, Refused
 from ..network.strokes import into_triangles
 
 if TYPE_CHECKING:
@@ -21,14 +22,14 @@ _STEPS = 30
 _ELSEWHERE = 0.1
 """As part of the mesh's size: what lies that far off lies elsewhere."""
 _RIVAL = 2.0
-"""How many times farther off something may lie elsewhere for it to be as likely: on artists' models, moved and with another topology,
-it is 1.06 where the wrong one is nearest, and 2.6 at least where only one is right (docs/benchmarks/clicks.md)."""
+"""An alternative is a rival if its distance is at most this many times larger. On artists' models, moved and with another topology, the
+ratio is 1.06 for wrong choices and at least 2.6 for unique ones (docs/benchmarks/clicks.md)."""
 _TURNED = 5.0
 """Degrees: what is turned by less than that lies elsewhere because it is moved."""
 _SAMPLE = 100
 """How many points it looks at."""
 _TRIMMED = 0.8
-"""The part of the points that the alignment heeds, the nearest ones: what one mesh has alone does not pull."""
+"""The fraction of points that the alignment uses, the nearest ones. Parts that only one mesh has do not pull."""
 _ALIGNED = 0.01
 """As part of the mesh's size: points this near to a surface lie on it as they are."""
 _CREASE = 30.0
@@ -79,7 +80,7 @@ class Shape:
 
     @cached_property
     def spacing(self) -> NDArray[np.float64]:
-        """(n,) how long the edges at each vertex are on average, in object coordinates; 0 where there is none."""
+        """(n,) the mean length of the edges at each vertex, in object coordinates. 0 for vertices without edges."""
         lengths = np.linalg.norm(self.places[self.edges[:, 0]] - self.places[self.edges[:, 1]], axis=1)
         ends = self.edges.reshape(-1)
         sums, counts = (
@@ -129,7 +130,7 @@ class Placed:
     Parameters
     ----------
     triangles
-        (k,) the triangle that each lies in; -1: there is none.
+        (k,) the triangle of each point, or -1.
     places
         (k, 3) in object coordinates.
     confidence
@@ -212,14 +213,15 @@ class Aligned:
     rival: Similarity | None = None
 
     @property
-    def doubt(self) -> str:
-        """What is to be said where there is a rival."""
+    def doubt(self) -> Message:
+        """The report if there is a rival."""
         if self.rival is None:
-            return ""
+            return NOTHING
         cosine = 0.5 * (np.trace(self.rival.rotation @ self.way.rotation.T) - 1.0)
         turn = np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
-        elsewhere = f"turned by {turn:.0f} degrees" if turn >= _TURNED else "moved to another place"
-        return f"{elsewhere} the network fits as well: look whether it lies right, or give pairs"
+        if turn >= _TURNED:
+            return Message.of("fits-turned", degrees=round(float(turn)))
+        return Message.of("fits-moved")
 
 
 class Surface:
@@ -238,7 +240,7 @@ class Surface:
 
     def __init__(self, shape: Shape) -> None:
         if not len(shape.triangles):
-            raise ValueError("The mesh has no visible faces: there is nowhere to place wires")
+            raise Refused("no-visible-faces")
         self._shape = shape
         self._corners = corners = shape.places[shape.triangles]
         self._middles = corners.mean(axis=1)
@@ -294,9 +296,8 @@ class Surface:
     def align(self, points: NDArray[np.float64], moments: Moments) -> Aligned:
         """Find what brings points of a mesh onto this one.
 
-        They stay where they are if they lie on it. Else from there, and from where the meshes' principal axes agree in one of the four ways
-        that mirror nothing, all are brought nearer by turns to what they are nearest to (Besl, McKay, A method for
-        registration of 3-D shapes, 1992), and the best one is taken.
+        They stay where they are if they lie on it. Otherwise ICP starts there and from the four alignments of the principal axes without
+        a reflection (Besl, McKay, A method for registration of 3-D shapes, 1992). The best result is taken.
 
         Parameters
         ----------
@@ -384,7 +385,7 @@ class Surface:
         """
         shape = self._shape
         corners = shape.triangles[triangle].tolist()
-        # Hidden edges and those of no triangle are none that wires run along.
+        # Wires do not run along hidden edges and edges without a triangle.
         near = dict.fromkeys(corner for corner in corners if corner in shape.around)
         if crease >= _CREASE:
             near |= dict.fromkeys(other for corner in near for other in shape.around[corner])
@@ -424,8 +425,8 @@ def _closest(place: NDArray[np.float64], corners: NDArray[np.float64]) -> NDArra
 class Landmarks:
     """Places vertices of one mesh on another by their distances, along the surface, to points that both have.
 
-    Poses change these little. Of two places with the same distances, such as both sides of what is symmetric with all pairs in its
-    plane, the one counts that is nearer after the pairs were laid onto each other.
+    Poses change these little. Two places can have the same distances, such as both sides of a symmetric shape with all pairs in its
+    plane. Then the nearer one counts after the pairs were aligned.
 
     Parameters
     ----------
@@ -450,11 +451,11 @@ class Landmarks:
     def __init__(self, source: Shape, target: Shape, pairs: ArrayLike) -> None:
         numbers = np.array(pairs, dtype=np.int64).reshape(-1, 2)
         if len(numbers) < 3:
-            raise ValueError(f"Transfer by pairs needs three pairs of vertices at least, and there are {len(numbers)}")
+            raise Refused("too-few-pairs", count=len(numbers))
         for shape, column, what in ((source, 0, "source"), (target, 1, "target")):
             outside = numbers[~np.isin(numbers[:, column], shape.triangles), column]
             if len(outside):
-                raise ValueError(f"Pairs: vertex {outside[0]} is no vertex of a visible face of the {what}")
+                raise Refused("pair-off-mesh", vertex=outside[0], what=what)
         self._source, self._target = source, target
         self._here, self._there = _distances(source, numbers[:, 0]), _distances(target, numbers[:, 1])
         one, other = self._here[numbers[:, 0]], self._there[numbers[:, 1]]
@@ -514,6 +515,6 @@ def _distances(shape: Shape, vertices: NDArray[np.int64]) -> NDArray[np.float64]
     core = native.load()
     surface = core.Surface(shape.places, shape.triangles, shape.edges)
     flat = core.embed(surface, core.euclidean_metric(surface, core.principal_curvatures(surface)))
-    # Of several pairs at one vertex, and those on parts of their own, each counts for itself.
+    # Several pairs at one vertex, and pairs on separate parts, each count.
     columns = [core.distance_field(flat, int(vertex)).distances / surface.scale for vertex in vertices]
     return np.stack(columns, axis=1)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -101,7 +101,7 @@ class Repeats:
         """Return a walk along all edges that hang together with the first one, breadth first."""
         left = set(edges[1:])
         steps = [_Step(2 * edges[0], -1, 0)]
-        # Both ends of the first edge are left from: its other end by the way back, as if that were a step of its own.
+        # The walk starts from both ends of the first edge. The way back to its other end counts as a step.
         steps.append(_Step(2 * edges[0] + 1, -1, 0))
         at = 0
         while at < len(steps):
@@ -155,7 +155,7 @@ class Repeats:
 
     def _look_around(self, count: int, triangles: NDArray[np.int32]) -> None:
         """Order the darts that leave each vertex counterclockwise; on the border the first one follows on it."""
-        # The sides of triangles that are no edges have darts too, behind those of the edges: one turns past them.
+        # Sides of triangles that are not edges have darts too, behind those of the edges. The walk turns past them.
         tails, heads = (
             triangles.astype(np.int64).reshape(-1),
             np.roll(triangles, -1, axis=1).astype(np.int64).reshape(-1),
@@ -229,3 +229,27 @@ def _moved(wire: Wire, to: dict[int, int], points: NDArray[np.float64]) -> Wire:
         kind=wire.kind if ends else None,
         through=(ends[0], ends[1]) if ends else None,
     )
+
+
+def connected_groups(wanted: Iterable[Wire], wires: Sequence[Wire]) -> list[list[Wire]]:
+    """Return each group of connected wires that has a wanted wire, once.
+
+    Parameters
+    ----------
+    wanted
+        Some of the wires.
+    wires
+        All wires that may belong to a group. Wires are connected if they share a vertex.
+    """
+    groups: list[list[Wire]] = []
+    for wire in wanted:
+        if any(wire in group for group in groups):
+            continue
+        group, reached = [], {*wire.vertices}
+        left = list(wires)
+        while joined := [other for other in left if not reached.isdisjoint(other.vertices)]:
+            group += joined
+            reached.update(vertex for other in joined for vertex in other.vertices)
+            left = [other for other in left if other not in joined]
+        groups.append(group)
+    return groups

@@ -8,6 +8,7 @@ is told, and nothing is put in its place.
 from __future__ import annotations
 
 import itertools
+from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
@@ -15,8 +16,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.geometry import Moments, nearest_on_segments
+from ..base.messages import NOTHING, Message
 from ..network.mirror_images import MirrorImages
-from ..network.network import LOOP_NAMES, Network, Wire
+from ..network.network import LOOP_KINDS, Network, Wire
 from ..network.strokes import Stroke, for_library, on_mesh
 from ..network.symmetry import Symmetry
 from ..solver.defaults import CLAMP_PERCENTILE, STRENGTHS
@@ -32,8 +34,8 @@ if TYPE_CHECKING:
     from ..network.network import Along, Edge
     from ..solver.solver import Candidate, LiveWire
 
-WORDS = ((0.9, "sure"), (0.6, "likely"), (DOUBTFUL, "doubtful"))
-"""From which confidence on a seed is called what; below that it is not placed."""
+DEGREES = ((0.9, "SURE"), (0.6, "LIKELY"), (DOUBTFUL, "DOUBTFUL"), (0.0, "LOST"))
+"""From which confidence on a seed counts as what."""
 _STRAY = 1.0
 """How many edges a wire may run beside where it is to run before it gets a seed more."""
 _MOST_LOST = 0.3
@@ -43,9 +45,9 @@ _TURNED = 0.5
 _SLICE = 0.005
 
 
-def word_for(confidence: float) -> str:
-    """Say how sure a seed is."""
-    return next((word for least, word in WORDS if confidence >= least), "not placed")
+def degree_of(confidence: float) -> str:
+    """Return how sure a seed is, as `DEGREES` has it."""
+    return next(degree for least, degree in DEGREES if confidence >= least)
 
 
 @dataclass(frozen=True)
@@ -61,7 +63,7 @@ class Seed:
     vertex
         Its vertex on the target; None: it has no place.
     confidence
-        From 0 to 1, see `word_for`.
+        From 0 to 1, see `DEGREES`.
     """
 
     source: int
@@ -70,30 +72,30 @@ class Seed:
     confidence: float
 
     @property
-    def text(self) -> str:
+    def message(self) -> Message:
         """What there is to say of it."""
-        word = f"{word_for(self.confidence)} ({self.confidence:.2f})"
-        return (
-            f"seed {self.source}: {word}"
-            if self.vertex is None
-            else f"seed {self.source} at vertex {self.vertex}: {word}"
+        degree = degree_of(self.confidence)
+        if self.vertex is None:
+            return Message.of("seed-lost", seed=self.source, degree=degree, confidence=self.confidence)
+        return Message.of(
+            "seed-placed", seed=self.source, vertex=self.vertex, degree=degree, confidence=self.confidence
         )
 
 
 @dataclass
 class Transfer:
-    """What a network is on another mesh.
+    """A network on another mesh.
 
     Attributes
     ----------
     wires, strokes
-        What is there; wires hang together where they did.
+        The placed wires, connected as in the source.
     seeds
         All of the network's, each once.
     lost
-        What could not be placed, and why, in words.
+        What could not be placed, and why.
     doubts
-        What else there is to look at, in words.
+        What else there is to look at.
     added
         How many seeds lie between those of the network.
     """
@@ -101,20 +103,15 @@ class Transfer:
     wires: list[Wire] = field(default_factory=list)
     strokes: list[Stroke] = field(default_factory=list)
     seeds: list[Seed] = field(default_factory=list)
-    lost: list[str] = field(default_factory=list)
-    doubts: list[str] = field(default_factory=list)
+    lost: list[Message] = field(default_factory=list)
+    doubts: list[Message] = field(default_factory=list)
     added: int = 0
 
     @property
-    def summary(self) -> str:
-        """How many seeds are how sure."""
-        counts: dict[str, int] = {}
-        for seed in self.seeds:
-            word = word_for(seed.confidence)
-            counts[word] = counts.get(word, 0) + 1
-        return ", ".join(
-            f"{counts[word]} {word}" for word in (*(word for _, word in WORDS), "not placed") if word in counts
-        )
+    def degrees(self) -> dict[str, int]:
+        """How many seeds are how sure, the surest first; those that there are."""
+        counts = Counter(degree_of(seed.confidence) for seed in self.seeds)
+        return {degree: counts[degree] for _, degree in DEGREES if degree in counts}
 
 
 def by_numbers(file: NetworkFile, target: Shape, *, topology: bool = False) -> Transfer:
@@ -136,7 +133,7 @@ def by_numbers(file: NetworkFile, target: Shape, *, topology: bool = False) -> T
     """
     problem = file.problem_with(len(target.points), target.edges)
     if problem:
-        raise NetworkFileError(problem)
+        raise NetworkFileError(problem.code, **dict(problem.values))
     to_object = np.eye(3) if target.to_object is None else target.to_object
     symmetry = Symmetry(target.points, target.edges, to_object, topology, target.triangles)
     network = MirrorImages(symmetry).complete(Network(tuple(file.wires(target.points, to_object))))
@@ -171,7 +168,7 @@ def by_surface(
     ValueError
         Where no wire can run on the mesh.
     """
-    surface, doubt = Surface(target), ""
+    surface, doubt = Surface(target), NOTHING
     way = Similarity.none() if mirror is None else Similarity.mirroring(mirror)
     if align and file.courses:
         points = way.of(np.concatenate([course.places for course in file.courses]))
@@ -222,7 +219,7 @@ def by_landmarks(
     """
     problem = file.problem_with(len(source.points), source.edges)
     if problem:
-        raise NetworkFileError(problem)
+        raise NetworkFileError(problem.code, **dict(problem.values))
     surface = Surface(target)
     landmarks = Landmarks(source, target, pairs)
 
@@ -313,7 +310,7 @@ class _Tracing:
         for number, record in enumerate(self._file.strokes, start=1):
             stroke = self._stroke(record, place_stroke(unpacked(record["points"])))
             if stroke is None:
-                result.lost.append(f"stroke {number}: nothing of it has a place")
+                result.lost.append(Message.of("stroke-lost", number=number))
             else:
                 result.strokes.append(stroke)
         self._library_strokes = [for_library(stroke) for stroke in result.strokes]
@@ -411,24 +408,24 @@ class _Tracing:
     def _wires(self, piece: _Piece) -> list[Wire]:
         lost = float((piece.confidence < DOUBTFUL).mean())
         if lost > _MOST_LOST:
-            return self._lose(piece, f"{lost:.0%} of its course has no place on this mesh")
+            return self._lose(piece, "course-lost", part=lost)
         if piece.vertices[0] == piece.vertices[-1]:
             return self._loop(piece)
         ends = [self._seed(piece, row) for row in (0, -1)]
         if None in ends:
-            return self._lose(piece, "a seed of it has no place on this mesh")
+            return self._lose(piece, "end-lost")
         start, end = ends
         if start == end:
-            return self._lose(piece, f"both its seeds are vertex {start} of this mesh")
+            return self._lose(piece, "ends-meet", vertex=start)
         live = self._live(piece)
         found = self._between(live, piece, start, end)
         if found is None:
-            return self._lose(piece, f"no wire leads from vertex {start} to vertex {end}")
+            return self._lose(piece, "no-way", start=start, end=end)
         self._result.added += len(found) - 1
         return found
 
-    def _lose(self, piece: _Piece, why: str) -> list[Wire]:
-        self._result.lost.append(f"{piece.name}: {why}")
+    def _lose(self, piece: _Piece, why: str, **values: object) -> list[Wire]:
+        self._result.lost.append(Message.of(why, wire=piece.name, **values))
         return []
 
     def _between(self, live: LiveWire, piece: _Piece, start: int, end: int) -> list[Wire] | None:
@@ -483,19 +480,19 @@ class _Tracing:
         rows = [0, count // 3, 2 * count // 3] if count >= 3 else [0]
         corners = list(dict.fromkeys(self._vertex(piece, row) for row in rows))
         if len(corners) < 3:
-            return self._lose(piece, "it is smaller than an edge of this mesh")
+            return self._lose(piece, "loop-too-small")
         wires: list[Wire] = []
         for (begin, one), (end, other) in itertools.pairwise(zip([*rows, count], [*corners, corners[0]], strict=True)):
             found = self._between(live, piece.part(begin, end), one, other)
             if found is None:
-                return self._lose(piece, f"no wire leads from vertex {one} to vertex {other}")
+                return self._lose(piece, "no-way", start=one, end=other)
             wires += found
         self._result.added += len(wires)
         return wires
 
     def _closed(self, live: LiveWire, piece: _Piece) -> Wire | None:
         record = piece.course.record
-        if record["along"] != "EDGES" or record.get("kind") not in LOOP_NAMES:
+        if record["along"] != "EDGES" or record.get("kind") not in LOOP_KINDS:
             return None
         edge = self._edge(piece)
         if edge is None:
@@ -614,7 +611,7 @@ def transferred_seams(
     Parameters
     ----------
     text
-        What the file holds.
+        The content of the file.
     points
         (n, 3) vertices.
     triangles

@@ -9,7 +9,7 @@ from .network import Network
 
 
 class History:
-    """What a network was before each of its steps, and after those that were taken back.
+    """The states of a network before each of its steps, and after each step that was undone.
 
     The mirror belongs to the mesh and is no step of the drawing: what is brought back has the mirror that there is now.
     """

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..base.messages import NOTHING, Message
 from .network import Network, Wire, net_effect
 
 if TYPE_CHECKING:
@@ -69,12 +70,12 @@ class MirrorImages:
             self._effect = (network, *net_effect(claims))
         return self._effect[1:]
 
-    def warning(self, network: Network) -> str:
+    def warning(self, network: Network) -> Message:
         """Return, the first time only, that part of a network's newest wire has no image; empty where it has."""
         if self._warned or not network.wires:
-            return ""
+            return NOTHING
         wire = network.wires[-1]
         if not wire.mirror or not self._symmetry.one_sided(wire, wire.mirror):
-            return ""
+            return NOTHING
         self._warned = True
-        return "Part of this wire has no mirror image: the mesh is not symmetric there"
+        return Message.of("no-mirror-image")

@@ -9,7 +9,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
@@ -76,41 +76,30 @@ Edge = tuple[int, int]
 End = Literal["start", "end"]
 
 FOLLOWS: tuple[Literal["min", "max", "concave"], ...] = ("min", "max", "concave")
-"""What the library calls its wires, by `Wire.follow`: they follow the direction of least curvature, that of most, concave creases
-(across the surface only). Files have these numbers."""
+"""The library's names of wires, by `Wire.follow`: along the least curvature, along the most curvature, or along concave creases (only
+across the surface). Files have these numbers."""
 
 LoopKind = Literal["CLOSED", "STRIP", "PAST", "WHOLE", "FLAT", "ACROSS", "HANDLE", "RIDGE", "VALLEY"]
-"""What a click takes as a whole. On an edge: the closed loop of the metric, the straight strip up to what is there already, the same
+"""A loop that a click adds as a whole. On an edge: the closed loop of the metric, the straight strip up to what is there already, the
+same
 past poles, the whole strip, the border of a flat region. On a point of the surface: a closed cut that separates, or one around or
 through a handle, which does not. On both: a ridge or a valley as far as it is one."""
 
-LOOP_NAMES: Mapping[LoopKind, str] = {
-    "CLOSED": "closed loop",
-    "STRIP": "strip",
-    "PAST": "strip past poles",
-    "WHOLE": "whole strip",
-    "FLAT": "border of flat region",
-    "ACROSS": "closed cut",
-    "HANDLE": "cut of a handle",
-    "RIDGE": "ridge",
-    "VALLEY": "valley",
-}
-"""What the artist reads of them."""
+LOOP_KINDS: tuple[LoopKind, ...] = get_args(LoopKind)
 
 _ids = itertools.count()
 
 
 @dataclass(frozen=True)
 class Snap:
-    """What is under the cursor.
+    """The edge, vertex or place under the cursor.
 
     Parameters
     ----------
     pick
         The vertex or the edge that a click would take.
     to
-        What it belongs to: the plain mesh, a seed or a wire of the network, a seam that the mesh has already, or a
-        feature nearby that was stronger than what lies under the cursor.
+        The target of the pick: the plain mesh, a seed or a wire of the network, an existing seam, or a strong feature nearby.
     wire
         The wire, where it belongs to one.
     seen_along
@@ -145,7 +134,7 @@ class Seed:
         The wire before this one ended on the edge `pick`, running from its first vertex to its second: the next wire
         goes on from there.
     clicked
-        What was clicked, where that is not `pick`.
+        The clicked place, if it differs from `pick`.
     first
         Where the chain began; None: here.
     """
@@ -219,7 +208,7 @@ class Wire:
     finish
         Across the surface, what becomes its seam when its chain ends; along edges "CUT" says that it was cut into the faces.
     kind
-        What it is of what one click on an edge offers; None: it was drawn.
+        The kind of loop that one click on an edge offered, or None if the wire was drawn.
     through
         The edge of that click, smaller vertex first.
     offers
@@ -301,7 +290,7 @@ class Wire:
         )
 
     def drawn(self, **course: object) -> Wire:
-        """Return it with another course, which is none that a click on an edge offered."""
+        """Return the wire with another course, which no click on an edge offered."""
         return self.changed(**course, images=None, alternatives=(), kind=None, through=None, offers=())
 
     def anew(self, **changes: object) -> Wire:
@@ -313,7 +302,7 @@ class Wire:
         return replace(self, **changes, stored=0)
 
     def all_offers(self) -> tuple[Wire, ...]:
-        """Return itself and what else the click on its edge offered, all without offers of their own."""
+        """Return the wire and the other offers of the click on its edge, all without further offers."""
         return replace(self, offers=()), *self.offers
 
     def next_offer(self, steps: int = 1) -> Wire:
@@ -500,13 +489,6 @@ def distinct(ways: Iterable[Wire | None]) -> tuple[Wire, ...]:
 def undirected(pick: Pick | None) -> Pick | None:
     """Return a pick with an edge's smaller vertex first."""
     return (min(pick), max(pick)) if isinstance(pick, tuple) else pick
-
-
-def name(pick: Pick) -> str:
-    """Return a pick as it is called in messages."""
-    if isinstance(pick, FacePoint):
-        return "this point"
-    return f"edge {pick[0]}-{pick[1]}" if isinstance(pick, tuple) else f"vertex {pick}"
 
 
 def vertices_of(pick: Pick) -> tuple[int, ...]:

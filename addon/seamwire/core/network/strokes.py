@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from ..base import native
+from ..base.messages import Refused
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -68,8 +69,8 @@ class Stroke:
         return np.where(self.faces >= 0, -1, self.corners[:, 0]).astype(np.int32)
 
 
-class OffMeshError(ValueError):
-    """A stroke cannot be drawn; the text is a sentence for the artist."""
+class OffMeshError(Refused):
+    """A stroke cannot be drawn."""
 
 
 def drawn(
@@ -96,9 +97,9 @@ def drawn(
     path = np.array(points, dtype=np.float64).reshape(-1, 3)
     numbers = np.array(faces, dtype=np.int32).reshape(-1)
     if len(path) != len(numbers) or not np.isfinite(path).all():
-        raise OffMeshError("The stroke is damaged: it needs a place and a face for each of its points")
+        raise OffMeshError("stroke-damaged")
     if ((numbers < 0) | (numbers >= len(triangles))).any():
-        raise OffMeshError("The stroke leaves the visible part of the mesh")
+        raise OffMeshError("stroke-leaves-visible-part")
     size = longest_side(mesh)
     rows = _thinned(path, _STEP * size)
     path, numbers = path[rows], numbers[rows]
@@ -108,7 +109,7 @@ def drawn(
     corners = triangles[numbers]
     inside = into_triangles(path, mesh[corners])
     if (np.linalg.norm(inside - path, axis=1) > _OFF_MESH * size).any():
-        raise OffMeshError("The stroke leaves the mesh")
+        raise OffMeshError("stroke-leaves-mesh")
     _check_length(inside, size)
     for _ in range(_SMOOTHINGS):
         before, after = np.roll(inside, 1, axis=0), np.roll(inside, -1, axis=0)
@@ -135,7 +136,7 @@ def through_vertices(
     numbers = np.array(vertices, dtype=np.int64).reshape(-1)
     missing = numbers[(numbers < 0) | (numbers >= len(mesh))]
     if len(missing):
-        raise OffMeshError(f"There is no vertex {missing[0]} for the stroke: the mesh has {len(mesh)}, numbered from 0")
+        raise OffMeshError("stroke-no-vertex", vertex=missing[0], count=len(mesh))
     path = mesh[numbers]
     _check_length(path, longest_side(mesh))
     corners = np.repeat(numbers[:, None], 3, axis=1).astype(np.int32)
@@ -159,7 +160,7 @@ def _thinned(path: NDArray[np.float64], step: float) -> NDArray[np.int64]:
 def _check_length(path: NDArray[np.float64], size: float) -> None:
     length = float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum()) if len(path) > 1 else 0.0
     if not length > _STEP * size:
-        raise OffMeshError("A stroke needs a direction: drag along the surface")
+        raise OffMeshError("stroke-without-direction")
 
 
 def into_triangles(places: NDArray[np.float64], triangles: NDArray[np.float64]) -> NDArray[np.float64]:

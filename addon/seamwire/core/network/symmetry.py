@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 TOLERANCE = 2e-5
 """How far from its mirror image a vertex may be where no edges are known, in object coordinates: as Blender has it."""
 REACH = 0.5
-"""How far from its mirror image a vertex may be, as part of (sum of 1 / l^2)^(-1/2) over the lengths l of its edges: less than
-half of the shortest, so nearer than its neighbors, and a quarter of the edges of a regular quad grid."""
+"""How far a vertex may be from its mirror image, as a fraction of (sum of 1 / l^2)^(-1/2) over the lengths l of its edges. This is less
+than half of the shortest edge, and a quarter of an edge in a regular quad grid."""
 ROUNDING = 1e-6
 """How far in any case, as part of its coordinates: those are single precision, and have been transformed."""
 SYMMETRIC = 0.75
@@ -41,7 +41,7 @@ _WELL_GROWN = 0.9
 
 
 class Symmetry:
-    """What the mesh's vertices and edges are mirrored to; found out when it is first asked for, from any thread.
+    """The mirror images of vertices and edges. They are computed on first use, in any thread.
 
     Partners are one to one: each vertex is the partner of its partner. By place, that is where each is the nearest to the
     mirror image of the other, within a part of the length of the edges around both.
@@ -75,7 +75,7 @@ class Symmetry:
         self._triangles = triangles if topology and edges is not None else None
         self._partners: dict[tuple[int, ...], NDArray[np.int64]] = {}
         self._on_plane: dict[tuple[int, ...], frozenset[int]] = {}
-        # What one thread prepares the others wait for, rather than prepare it too.
+        # Other threads wait for the thread that prepares.
         self._lock = threading.RLock()
 
     @cached_property
@@ -372,7 +372,7 @@ class _HalfEdges:
         return sides
 
     def between(self, start: NDArray[np.int64], end: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Return the half-edges from some vertices to others, where there are several one of them; -1: there is none."""
+        """Return a half-edge from each vertex to its partner, or -1."""
         found = np.full(len(start), -1)
         if not len(self._keys):
             return found

@@ -39,13 +39,13 @@ class TakenCut:
     through
         The point that it was taken at.
     course
-        (k, 3) how it ran when it was taken, from that point around to it, whatever it was bent to since.
+        (k, 3) its course when it was added, from that point around. Bending does not change it.
     wires
-        What it consists of now.
+        The wires that it consists of.
     id
-        What the library calls it among those through that point; None: it was taken on another mesh.
+        The library's number among the cuts through that point, or None if it was added on another mesh.
     metric
-        What it was found by.
+        The request that found it.
     """
 
     through: Pick
@@ -55,7 +55,7 @@ class TakenCut:
     metric: tuple[object, ...] = ()
 
     def is_in(self, network: Network) -> bool:
-        """Whether a network has its wires still as they were."""
+        """Return whether a network still has its wires unchanged."""
         own = [(wire, network.find(wire)) for wire in self.wires]
         return all(now is not None and now.like(wire) for wire, now in own)
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..base.messages import Message
 from ..network.network import Wire, undirected
 from ..network.stops import ranked
 from ..network.symmetry import among
@@ -37,7 +38,7 @@ _MOST_PIECES = 64
 
 
 class LoopOffers(Offers):
-    """What one click on the edge under the cursor may take, while that is asked for.
+    """The loops that a click on the edge under the cursor may add.
 
     Parameters
     ----------
@@ -51,7 +52,7 @@ class LoopOffers(Offers):
         Finds the borders of flat regions; None: they are not offered.
     """
 
-    SINGLE = "Nothing else runs through this edge"
+    SINGLE = Message.of("nothing-else-through-edge")
 
     def __init__(
         self, engines: Engines, stops: Stops, points: NDArray[np.float64], flat: FlatRegions | None = None
@@ -67,7 +68,7 @@ class LoopOffers(Offers):
         return isinstance(pick, tuple)
 
     def flat_border(self, edge: Edge) -> set[Edge]:
-        """Return the likeliest border of a flat region beside an edge, by its edges; empty: there is none."""
+        """Return the edges of the likeliest border of a flat region beside an edge, or nothing."""
         border = next(self._flat.borders(edge), ()) if self._flat is not None else ()
         return {undirected(pair) for pair in zip(border, border[1:] + border[:1], strict=True)}
 
@@ -152,7 +153,7 @@ def find_offers(
     kept
         The vertices of seams and kept wires: what leads across them is less likely.
     last
-        What was taken last: that is likely to be taken again; None: nothing yet.
+        The last kind of loop that was added, because the next one is likely of the same kind. None at first.
     flat
         Finds the borders of flat regions beside the edge; None: they are not offered.
 
@@ -230,7 +231,7 @@ def corners(live: LiveWire, loop: Sequence[int], points: NDArray[np.float64]) ->
 
 
 def _straight_on(live: LiveWire, loop: Sequence[int]) -> NDArray[np.int64]:
-    """Return for each vertex of a closed chain the one after it if the chain went straight on there; -1: there is none."""
+    """Return for each vertex of a closed chain its successor if the chain went straight on there, or -1."""
     after = np.full(len(loop), -1, dtype=np.int64)
     at = 0
     for _ in range(_MOST_PIECES):

@@ -66,7 +66,7 @@ class FlatRegions:
             yield from sorted(filter(None, found), key=len)
 
     def _border(self, start: int, angle: float) -> tuple[int, ...]:
-        """Return the border of the region beside a half-edge, from its tail; nothing where there is none, see `borders`."""
+        """Return the border of the region beside a half-edge, from its tail, or nothing. See `borders`."""
         twins, angles, visible = self._sides
         if angles[start] < angle:
             return ()

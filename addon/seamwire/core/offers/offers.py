@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ..base.messages import NOTHING, Message
 from ..network.network import Wire, undirected
 
 if TYPE_CHECKING:
@@ -12,18 +13,18 @@ if TYPE_CHECKING:
 
 
 class Offers:
-    """What one click under the cursor may take, while that is asked for. Who finds it, and how, is for the classes made of this."""
+    """The loops that a click under the cursor may add. Who finds it, and how, is for the classes made of this."""
 
-    SINGLE = ""
+    SINGLE = NOTHING
     """Says that there is only one offer."""
-    NONE = ""
-    """Says that there is none, where that is to be seen without a click."""
+    NONE = NOTHING
+    """The message if there is no offer."""
 
     def __init__(self) -> None:
         self.wanted = False
         """Whether the offers are asked for."""
         self.edge: Pick | None = None
-        """What they are for, an edge with its smaller vertex first."""
+        """The pick, with the smaller vertex of an edge first."""
         self.offers: tuple[Wire, ...] = ()
         """No two alike, the likeliest first; empty: not computed."""
         self.choice = 0
@@ -38,17 +39,17 @@ class Offers:
 
     @property
     def kinds(self) -> tuple[LoopKind, ...]:
-        """What the offers are."""
+        """The kinds of the offers."""
         return tuple(offer.kind for offer in self.offers if offer.kind is not None)
 
     @property
     def missing(self) -> bool:
-        """Whether offers are asked for that are not there."""
+        """Return whether requested offers are missing."""
         return self.wanted and not self.offers
 
     @property
     def unfinished(self) -> bool:
-        """Whether offers are asked for that are not there, or that others may come in place of."""
+        """Return whether requested offers are missing, or may still be replaced."""
         return self.wanted and not (self.offers and self.final)
 
     def takes(self, pick: Pick) -> bool:
@@ -89,11 +90,11 @@ class Offers:
         alike = (place for place, offer in enumerate(offers) if offer.like(self.wire))
         return next(alike, min(self.choice, max(len(offers) - 1, 0)))
 
-    def advance(self) -> str:
+    def advance(self) -> Message:
         """Show the next offer; return why that cannot be, else nothing."""
         if not self.offers:
-            return "There is no loop yet"
+            return Message.of("no-loop-yet")
         if len(self.offers) == 1:
             return self.SINGLE
         self.choice = (self.choice + 1) % len(self.offers)
-        return ""
+        return NOTHING

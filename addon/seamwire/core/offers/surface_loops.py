@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..base.messages import Message, Refused
 from ..network.network import FacePoint, Wire
 from ..solver.solver import for_live
 from .closed_cuts import TakenCut, is_same
@@ -22,8 +23,8 @@ if TYPE_CHECKING:
     from ..solver.solver import ClosedCut, Engines, LiveWire
 
 
-NOTHING_TO_BEND = "There is no closed cut to bend: take one first"
-CUT_IS_GONE = "The cut is not found again on the mesh as it is now: undo, or take another one"
+NOTHING_TO_BEND = "nothing-to-bend"
+CUT_IS_GONE = "cut-is-gone"
 
 
 class SurfaceLoops(Offers):
@@ -37,8 +38,8 @@ class SurfaceLoops(Offers):
         (m, 3) those of the surface; None: nothing is offered.
     """
 
-    SINGLE = "Nothing else is suggested here"
-    NONE = "The shape suggests no closed cut here"
+    SINGLE = Message.of("nothing-else-here")
+    NONE = Message.of("no-closed-cut")
 
     def __init__(self, engines: Engines, triangles: NDArray[np.int32] | None) -> None:
         super().__init__()
@@ -72,7 +73,7 @@ class SurfaceLoops(Offers):
         if self.bends:
             cut = self.bendable(network)
             if cut is None:
-                raise ValueError(NOTHING_TO_BEND)
+                raise Refused(NOTHING_TO_BEND)
             begin = cut.through
             number = self._id_of(cut, live)
             if number is None:
@@ -80,7 +81,7 @@ class SurfaceLoops(Offers):
                 return ()
             found = live.bent_wire(for_live(begin, "SURFACE"), for_live(pick, "SURFACE"), number)
             if found.final and not found.cuts:
-                raise ValueError("No closed cut leads through both points")
+                raise Refused("no-cut-through-both")
         else:
             found = live.closed_wires(for_live(pick, "SURFACE"))
         self.final = found.final
@@ -110,13 +111,13 @@ class SurfaceLoops(Offers):
         return vanish
 
     def bendable(self, network: Network) -> TakenCut | None:
-        """Return the cut taken last of those that a network has still as they were, and that would be found again."""
+        """Return the last cut that the network still has unchanged, and that would be found again."""
         metric = self._metric
         known = (cut for cut in reversed(self._cuts) if cut.id is None or cut.metric == metric)
         return next((cut for cut in known if cut.is_in(network)), None)
 
     def taken(self, network: Network) -> tuple[TakenCut, ...]:
-        """Return the cuts, taken or recalled, that a network has still as they were, the last one at the end."""
+        """Return the cuts that a network still has unchanged, in the order in which they were added or recalled."""
         return tuple(cut for cut in self._cuts if cut.is_in(network))
 
     def recall(self, cuts: Iterable[TakenCut]) -> None:
@@ -136,7 +137,7 @@ class SurfaceLoops(Offers):
         apart = {each.id: is_same(cut.course, _course(each)) for each in found.cuts}
         same = {number: gap for number, gap in apart.items() if gap is not None}
         if not same:
-            raise ValueError(CUT_IS_GONE)
+            raise Refused(CUT_IS_GONE)
         nearest = min(same, key=same.__getitem__)
         self._cuts[self._cuts.index(cut)] = replace(cut, id=nearest, metric=self._metric)
         return nearest
@@ -146,7 +147,7 @@ class SurfaceLoops(Offers):
         return self._engines.strengths["SURFACE"], self._engines.strokes
 
     def aim(self, pick: Pick | None) -> bool:
-        """Ask for the offers for a pick, or for none; where a cut was taken just now, there are none until another pick."""
+        """Request the offers for a pick, or stop. After a cut was added, the next offers need another pick."""
         if pick != self._taken:
             self._taken = None
         return super().aim(None if self._taken is not None else pick)

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 import numpy as np
 
 from ..base.geometry import barycentric, nearest_on_segments
+from ..base.messages import Refused
 from ..network.network import FacePoint, vertices_of
 
 if TYPE_CHECKING:
@@ -27,8 +28,8 @@ if TYPE_CHECKING:
 NEAR = 0.05
 """A cut that passes a vertex or an edge nearer than that, as part of an edge or of a triangle's height, goes through it: no slivers."""
 WIDE = 0.25
-"""Of two cuts that part and meet again only one is left where they are nowhere farther apart, as part of the heights of the
-triangles that they cross: curves that run side by side touch here and there, and would enclose islands of next to no area."""
+"""Two cuts that part and meet again are merged if they are nowhere farther apart than this fraction of the heights of the triangles that
+they cross. Otherwise curves that run side by side would enclose tiny islands."""
 OFF = 0.25
 """How far from the mesh a curve's points may be, as part of the longest side of the triangle beside. Mirror images of curves are off
 if the halves of a mesh are cut into other triangles, and so are the curves of slid wires. The cuts lie on the mesh all the same."""
@@ -52,8 +53,8 @@ _STRAIGHT = 1e-2
 """The cost of a step over a triangle in which the curve has no point; curves found on other triangles need such steps."""
 
 
-class CutError(ValueError):
-    """A curve cannot be cut into the mesh; the text is a sentence for the artist."""
+class CutError(Refused):
+    """A curve cannot be cut into the mesh."""
 
 
 class Faces(Protocol):
@@ -97,7 +98,7 @@ class Node:
         """Return the node of barycentric coordinates, moved to an edge or a vertex that it is near to."""
         kept = [(int(v), float(w)) for v, w in zip(vertices, weights, strict=True) if w > near]
         if len(kept) < 3:
-            # What is near an edge may still be near one of its ends.
+            # Points near an edge may still be near one of its ends.
             total = sum(w for _, w in kept)
             kept = [(v, w / total) for v, w in kept if w > near * total]
         kept.sort()
@@ -133,7 +134,7 @@ _Trail = tuple[Piece, "_Trail"] | None
 
 @dataclass
 class CutPlan:
-    """What is to be done to the mesh.
+    """The changes to the mesh.
 
     Parameters
     ----------
@@ -164,7 +165,7 @@ class CutPlan:
         return list(dict.fromkeys(node for segment in self.segments() for node in segment))
 
     def node_at(self, vertices: Sequence[int], weights: Sequence[float]) -> Node | None:
-        """Return the node at barycentric coordinates, or the one that was moved away from there; None: there is none."""
+        """Return the node at barycentric coordinates, or the one that was moved away from there, or None."""
         wanted = Node.between(vertices, weights, NEAR)
         same = (node for node in self.nodes() if node.vertices == wanted.vertices and node.near(wanted))
         return next(same, None)
@@ -187,9 +188,8 @@ def plan(faces: Faces, curves: Iterable[Curve], images: Mapping[int, int] | None
         The mesh.
     curves
         For each, the vertex that it begins at, or a corner of the triangle that it begins in, or the point in a triangle;
-        and its points, (k, 3). An end inside a polygon that no other curve leads on from goes back to the last edge. A third
-        item is the vertex that a curve ends at, if its last point lies there, or the point in a triangle: other vertices
-        and edges may lie in the same place.
+        and its points, (k, 3). An end inside a polygon that no other curve leads on from goes back to the last edge. A third item is the
+        vertex or the point in a triangle where a curve ends, because other vertices and edges may lie in the same place.
     images
         For each curve that is a mirror image, by its number, the number of the curve before it that it is an image of.
         The image of a curve that is left out is not cut either, and not named.
@@ -309,7 +309,7 @@ def _walk(faces: Faces, start: Spot, points: NDArray[np.float64], end: Spot | No
         if more_ways and step.here is not None:
             heapq.heappush(waiting, (cost + more_ways[0][0], -step.number, next(order), step, more_ways))
     if arrived is None:
-        raise CutError(f"A wire does not run over the mesh near vertex {farthest.on.vertices[0]}")
+        raise CutError("off-mesh-near", vertex=farthest.on.vertices[0])
     return _pieces_of(arrived.trail)
 
 
@@ -580,7 +580,7 @@ class _Route:
     Attributes
     ----------
     nodes
-        What they pass, the first and the last node included.
+        The nodes that they pass, including both ends.
     pieces
         Their numbers.
     length

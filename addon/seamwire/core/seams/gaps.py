@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import functools
 import heapq
+import math
 from dataclasses import dataclass, field
 from itertools import islice
 from typing import TYPE_CHECKING
@@ -155,8 +156,11 @@ class _Ways:
             done.add(vertex)
             yield vertex, distance
             beside = self.beside(vertex)
-            steps = np.linalg.norm(self._points[beside] - self._points[vertex], axis=1)
-            for other, so_far in zip(beside.tolist(), (distance + steps).tolist(), strict=True):
+            # A vertex has few neighbors: calls of NumPy would take longer than the sums.
+            x, y, z = self._points[vertex].tolist()
+            for other, (a, b, c) in zip(beside.tolist(), self._points[beside].tolist(), strict=True):
+                a, b, c = a - x, b - y, c - z
+                so_far = distance + math.sqrt(a * a + b * b + c * c)
                 if so_far <= longest and so_far < reached.get(other, np.inf):
                     reached[other] = so_far
                     if before is not None:
@@ -165,7 +169,7 @@ class _Ways:
 
 
 def _gap_at(mesh: _Ways, cuts: _Ways, end: int, longest: float, most_looked_at: int) -> Gap | None:
-    """Return the gap at the end of a cut; None: there is none up to that length."""
+    """Return the gap at the end of a cut, or None if there is no gap up to that length."""
     along = dict(cuts.nearest(end, _DETOUR * longest))
     before: dict[int, int] = {}
     for vertex, distance in islice(mesh.nearest(end, longest, before), most_looked_at):

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where the vertices of a snapped chain of edges slide to, so that the edges lie on the curve they were snapped from.
 
-Each vertex moves within the faces around it, as far as no face turns over or gets thin; those on features of the shape, on the
-border and where the caller says so stay. Knows neither Blender nor the library.
+Each vertex moves within the faces around it, as long as no face flips or gets thin. Vertices on features, on the border, and those that
+the caller names stay. Knows neither Blender nor the library.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ def plan(faces: Faces, courses: Iterable[Course], fixed: Collection[int] = ()) -
     faces
         The mesh.
     courses
-        The ends of a chain stay, for there are seeds.
+        The ends of a chain stay, because they are seeds.
     fixed
         Other vertices that stay.
     """

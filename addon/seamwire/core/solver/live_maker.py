@@ -26,12 +26,12 @@ class Triangulated(Protocol):
 
 
 class LiveMaker:
-    """Makes the library's live wires on a mesh, on one surface, which they build on threads of their own.
+    """Makes the library's live wires on a mesh. They share one surface, which they build in their own threads.
 
     Parameters
     ----------
     mesh
-        What they run on.
+        The mesh that wires run on.
     """
 
     def __init__(self, mesh: Triangulated) -> None:
@@ -53,7 +53,7 @@ class LiveMaker:
         Raises
         ------
         ValueError
-            Where the mesh is none that wires can run on.
+            If wires cannot run on the mesh.
         """
         assert self._first is not None
         self._first.wait_for_surface()

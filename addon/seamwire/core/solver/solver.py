@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Literal, Protocol, get_args
 
+from ..base.messages import NOTHING, Message
 from ..network.network import FOLLOWS, FacePoint
 from .defaults import CLAMP_PERCENTILE, STRENGTHS
 
@@ -22,7 +23,7 @@ MetricName = Literal["feature", "campen", "pottmann_kovacs", "concave", "euclide
 """What draws wires to features, as the library calls it."""
 
 Kind = Literal["min", "max", "concave", "euclidean"]
-"""What a wire follows, as the library calls it: a direction of curvature, concave creases, or nothing."""
+"""The library's name for what a wire follows: a direction of curvature, concave creases, or nothing."""
 _KINDS: tuple[Kind, ...] = get_args(Kind)
 _KINDS_OF: Mapping[MetricName, tuple[Kind, ...]] = {"concave": ("concave", "euclidean"), "euclidean": ("euclidean",)}
 
@@ -74,7 +75,7 @@ class Chain(Protocol):
 
 
 class Loop(Chain, Protocol):
-    """A closed chain of edges; no vertices where there is none, or where it is not `final` yet."""
+    """A closed chain of edges. It has no vertices if there is no chain, or if it is not `final` yet."""
 
     final: bool
 
@@ -115,7 +116,7 @@ class FittedChain(Chain, Protocol):
 
 
 class EmbeddingReport(Protocol):
-    """What the library says of a mesh that wires run across."""
+    """The library's report about a mesh that wires run across."""
 
     invalid_left: int
 
@@ -132,7 +133,7 @@ def for_live(pick: Pick, along: Along) -> End:
 
 
 class LiveWire(Protocol):
-    """What a session asks of ``seamwire_core.LiveWire``.
+    """The part of ``seamwire_core.LiveWire`` that a session uses.
 
     Only `wait` waits. Until the library has built its surface, the others answer that nothing is there yet and nothing
     final; where it cannot be built, all raise ValueError.
@@ -165,7 +166,7 @@ class LiveWire(Protocol):
         """Return the chain of edges that fits a line; along edges only."""
 
     def fork(self) -> LiveWire:
-        """Return live wires with a seed of their own and the same metric."""
+        """Return live wires with a separate seed and the same metric."""
 
     def set_metric(
         self, metric: MetricName, *, max_anisotropy: float | None = None, clamp_percentile: float | None = None
@@ -179,7 +180,7 @@ class LiveWire(Protocol):
         """Return how strong the features are at the vertices; None as long as that is computed."""
 
     def embeddings(self) -> Sequence[EmbeddingReport | None]:
-        """Return what became of the metrics' embeddings; None where there is none, or not yet."""
+        """Return reports about the embeddings of the metrics. None if there is no embedding yet."""
 
     @property
     def surface(self) -> Surface | None:
@@ -199,8 +200,6 @@ class Engines:
     ----------
     make
         Makes those of one way, with that way's strength of `STRENGTHS` and `CLAMP_PERCENTILE`.
-    strengths
-        Largest anisotropy of the metric, where it is to be another one.
     make_stroke
         Makes of a stroke what the live wires take.
     """
@@ -208,13 +207,12 @@ class Engines:
     def __init__(
         self,
         make: Callable[[Along], LiveWire],
-        strengths: Mapping[Along, float],
         make_stroke: Callable[[Stroke], object],
     ) -> None:
         self._make = make
         self._lives: dict[Along, LiveWire] = {}
         self._cuts: LiveWire | None = None
-        self.strengths: dict[Along, float] = {**STRENGTHS, **strengths}
+        self.strengths: dict[Along, float] = dict(STRENGTHS)
         self.metric: MetricName = "feature"
         self.clamp = CLAMP_PERCENTILE
         self._make_stroke = make_stroke
@@ -253,6 +251,11 @@ class Engines:
         if strengths["SURFACE"] != before[1]["SURFACE"]:
             self._tell_cuts()
 
+    @property
+    def computes(self) -> tuple[object, ...]:
+        """What wires are computed with, as `Options.computes` has it."""
+        return self.metric, self.strengths["EDGES"], self.strengths["SURFACE"], self.clamp
+
     def follow(self, strokes: Sequence[Stroke]) -> None:
         """Compute with other strokes from here on; forks that were made before keep theirs."""
         self._strokes, self._made = tuple(strokes), {}
@@ -273,15 +276,14 @@ class Engines:
             self._made[metric] = [self._make_stroke(stroke) for stroke in meant if stroke is not None]
         return self._made[metric]
 
-    def warning(self, along: Along) -> str:
-        """Return that wires which run one way have to lead around triangles; empty where they have not, or it was said."""
+    def warning(self, along: Along) -> Message:
+        """Return a message if wires must lead around invalid triangles. Empty if not, or if it was returned before."""
         reports = (report for report in self.get(along).embeddings() if report is not None)
         count = max((report.invalid_left for report in reports), default=0)
         if count <= self._told:
-            return ""
+            return NOTHING
         self._told = count
-        what = "1 triangle" if count == 1 else f"{count} triangles"
-        return f"{what} could not be made valid: wires lead around {'it' if count == 1 else 'them'}"
+        return Message.of("invalid-triangles", count=count)
 
     def _tell_cuts(self) -> None:
         if self._cuts is not None:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Networks as files: JSON, one seed, wire or stroke a line; docs/network-format.md and network.schema.json say what is in them.
 
-A wire and a stroke are there as the mesh itself keeps them, see `serialization`, with numbers in place of what is packed there, and
-with what it takes to find them on another mesh: where their vertices are, what way the surface faces there, how sharp it is.
+Wires and strokes are stored as in the mesh, see `serialization`, but with plain numbers. The file also has the positions, normals and
+sharpness at their vertices, which locate them on another mesh.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, get_args
 import numpy as np
 
 from ..base.geometry import Moments, creases, vertex_normals
+from ..base.messages import NOTHING, Message, Refused
 from ..network.network import FacePoint, place_of, undirected
 from ..solver.defaults import CLAMP_PERCENTILE
 from ..solver.solver import MetricName
@@ -33,8 +34,8 @@ FORMAT = "seamwire-network"
 VERSION = 1
 
 
-class NetworkFileError(ValueError):
-    """A file cannot be used; the text is a sentence for the artist."""
+class NetworkFileError(Refused):
+    """A file cannot be used."""
 
 
 @dataclass(frozen=True)
@@ -95,17 +96,17 @@ class Course:
     creases: NDArray[np.float64]
 
     @property
-    def name(self) -> str:
+    def name(self) -> Message:
         """How it is called in messages: by its seeds."""
         record = self.record
         if record["closed"]:
-            return f"loop at vertex {record['vertices'][0]}"
-        return f"wire {_text_of(record['start'])} to {_text_of(record['end'])}"
+            return Message.of("loop-name", vertex=record["vertices"][0])
+        return Message.of("wire-name", start=_text_of(record["start"]), end=_text_of(record["end"]))
 
 
 @dataclass(frozen=True)
 class NetworkFile:
-    """What a file holds.
+    """The content of a file.
 
     Parameters
     ----------
@@ -226,22 +227,21 @@ class NetworkFile:
         Raises
         ------
         NetworkFileError
-            Where it is none, was written by a later version, or is damaged: it says where.
+            If it is not such a file, is damaged, or a later version wrote it. The message says where.
         """
         try:
             data = json.loads(text)
         except (ValueError, RecursionError) as error:
-            where = f", line {error.lineno}" if isinstance(error, json.JSONDecodeError) else ""
-            raise NetworkFileError(f"The file is damaged: it is no JSON{where}") from error
+            if isinstance(error, json.JSONDecodeError):
+                raise NetworkFileError("file-no-json-at", line=error.lineno) from error
+            raise NetworkFileError("file-no-json") from error
         if not isinstance(data, dict) or data.get("format") != FORMAT:
-            raise NetworkFileError("The file holds no Seamwire network")
+            raise NetworkFileError("file-no-network")
         version = data.get("version")
         if type(version) is not int or version < 1:
-            raise NetworkFileError("The file is damaged: its version is no number")
+            raise NetworkFileError("file-no-version")
         if version > VERSION:
-            raise NetworkFileError(
-                f"The file was written by a newer Seamwire: it is of version {version}, and this one reads {VERSION}"
-            )
+            raise NetworkFileError("file-by-newer", version=version, known=VERSION)
         try:
             where = "mesh"
             mesh = data["mesh"]
@@ -263,13 +263,13 @@ class NetworkFile:
                 where = f"stroke {number}"
                 strokes.append(_stroke_record(row, origin.vertices))
         except serialization.DAMAGED as error:
-            raise NetworkFileError(f"The file is damaged: {where}") from error
+            raise NetworkFileError("file-damaged", where=where) from error
         return cls(origin, metric, clamp, tuple(seeds), tuple(courses), tuple(strokes))
 
     # On the same mesh
 
-    def problem_with(self, count: int, edges: NDArray[np.int32]) -> str:
-        """Say in words why a mesh is not the one that it was drawn on, by its numbers; empty where it is.
+    def problem_with(self, count: int, edges: NDArray[np.int32]) -> Message:
+        """Return why a mesh is not the one that it was drawn on, by its numbers; nothing if it is.
 
         Parameters
         ----------
@@ -279,13 +279,13 @@ class NetworkFile:
             (e, 2) its edges.
         """
         if count != self.origin.vertices:
-            return f"The network is of a mesh with {self.origin.vertices} vertices, and this one has {count}"
+            return Message.of("other-vertices", count=self.origin.vertices, here=count)
         there = {undirected((one, two)) for one, two in edges.tolist()}
         for course in self.courses:
             for edge in _edges_of(course.record):
                 if edge not in there:
-                    return f"The network is of a mesh with other edges: there is no edge {edge[0]}-{edge[1]} here"
-        return ""
+                    return Message.of("other-edges", pick=edge)
+        return NOTHING
 
     def wires(self, points: NDArray[np.float64], to_object: NDArray[np.float64]) -> list[Wire]:
         """Return its wires on the mesh that it was drawn on, by their numbers; see `problem_with`.
@@ -375,7 +375,7 @@ def _point(stored: object) -> NDArray[np.float64]:
 
 
 _PACKED = ("curve", "places", "ends")
-"""What a wire's record has that its row in a file writes in another way, or that follows from the rest."""
+"""Fields of a wire's record that its row in a file writes differently, or that follow from other fields."""
 
 
 def _wire_row(course: Course) -> Mapping[str, object]:

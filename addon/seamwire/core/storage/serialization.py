@@ -18,8 +18,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..base.messages import NOTHING, Message, Refused
 from ..base.spatial_hash import SpatialHash
-from ..network.network import FOLLOWS, LOOP_NAMES, FacePoint, Network, Wire, undirected
+from ..network.network import FOLLOWS, LOOP_KINDS, FacePoint, Network, Wire, undirected
 from ..network.strokes import Stroke
 
 if TYPE_CHECKING:
@@ -53,8 +54,8 @@ DAMAGED = (
 """What reading raises where a text is not what it should be."""
 
 
-class UnreadableError(ValueError):
-    """A mesh's text cannot be read; the text is a sentence for the artist."""
+class UnreadableError(Refused):
+    """A mesh's text cannot be read."""
 
 
 class NewerError(UnreadableError):
@@ -64,8 +65,8 @@ class NewerError(UnreadableError):
 class Archive:
     """Records of wires and strokes, and which of them each label of an edge stands for, all by their numbers.
 
-    A label stands for its members: the number of a wire that runs along the edge, the same negative for an image of that
-    wire, the number of a stroke that begins there, `WAS_SEAM`. One with a single member is that number itself.
+    A label stands for its members: the number of a wire along the edge, its negative for an image of the wire, the number of a stroke
+    that begins there, or `WAS_SEAM`. One with a single member is that number itself.
     """
 
     def __init__(self) -> None:
@@ -80,7 +81,7 @@ class Archive:
         Raises
         ------
         NewerError, UnreadableError
-            Where it was written by a later version, or is none.
+            If a later version wrote it, or if it is not a network.
         """
         archive = cls()
         if not text:
@@ -90,7 +91,7 @@ class Archive:
             if name != FORMAT:
                 raise ValueError
             if version != str(VERSION):
-                raise NewerError("The wires of this mesh were drawn with a newer Seamwire: they stay as they are")
+                raise NewerError("stored-by-newer")
             (body,) = rest
             data = json.loads(zlib.decompress(base64.b64decode(body, validate=True)))
             archive.wires = {_number(number): checked_wire(record) for number, record in data["wires"].items()}
@@ -99,7 +100,7 @@ class Archive:
         except NewerError:
             raise
         except DAMAGED as error:
-            raise UnreadableError("The wires stored with this mesh cannot be read; its seams are untouched") from error
+            raise UnreadableError("stored-unreadable") from error
         return archive
 
     def text(self, labels: Iterable[int]) -> str:
@@ -116,11 +117,23 @@ class Archive:
         body = json.dumps(data, separators=(",", ":")).encode()
         return f"{FORMAT} {VERSION} {base64.b64encode(zlib.compress(body, 9)).decode()}"
 
-    def merge(self, other: Archive) -> None:
-        """Take in the records of another archive."""
+    def merge(self, other: Archive) -> bool:
+        """Take in the records of another archive.
+
+        Returns
+        -------
+        bool
+            False if a number stands for something else there: then nothing is taken in, because labels would change what they mean.
+        """
+        kinds = (self.wires, self.strokes, self._sets)
+        for own, more in zip(kinds, (other.wires, other.strokes, other._sets), strict=True):
+            for number, what in more.items():
+                if any(number in kind and (kind is not own or kind[number] != what) for kind in kinds):
+                    return False
         self.wires.update(other.wires)
         self.strokes.update(other.strokes)
         self._sets.update(other._sets)
+        return True
 
     def knows(self, label: int) -> bool:
         """Whether what a label stands for is here."""
@@ -159,7 +172,7 @@ class Archive:
 
 
 def _number(text: str) -> int:
-    """Return the number of a record; raises ValueError where it is none."""
+    """Return the number of a record. Raise ValueError if it is not a number."""
     number = int(text)
     if not _FIRST_NUMBER <= number <= 0x7FFFFFFF:
         raise ValueError
@@ -242,7 +255,7 @@ def _stored(pick: Pick) -> int | tuple[int, int]:
 
 
 def pick_of(stored: int | list[int]) -> Pick:
-    """Return a pick as it was stored."""
+    """Return a stored pick."""
     if isinstance(stored, list):
         one, two = stored
         return int(one), int(two)
@@ -283,7 +296,7 @@ def wire_of(record: Record, points: NDArray[np.float64], to_object: NDArray[np.f
     """
     vertices, closed = tuple(record["vertices"]), record["closed"]
     curve = stored_curve(record, vertices, points @ to_object.T, to_object)
-    through = undirected(pick_of(record["through"])) if record.get("kind") in LOOP_NAMES else None
+    through = undirected(pick_of(record["through"])) if record.get("kind") in LOOP_KINDS else None
     heading = None if record["heading"] is None else pick_of(record["heading"])
     return Wire(
         record["along"],
@@ -402,10 +415,10 @@ def stroke_of(item: Mapping[str, Any], points: NDArray[np.float64], number_of: M
 def matched(
     numbers: NDArray[np.int64], places: NDArray[np.float64], points: NDArray[np.float64], same_numbers: bool
 ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
-    """Return each stored vertex's number now, -1 where there is none, and whether it is where it was.
+    """Return the current number of each stored vertex, or -1, and whether its position is unchanged.
 
-    With `same_numbers` they count more than places: a mesh that was moved by a cell of its own pattern has other vertices in
-    the old places.
+    With `same_numbers`, numbers count more than positions. A mesh that moved by one cell of its pattern has other vertices in the old
+    positions.
     """
     if not len(numbers) or not len(points) or not np.isfinite(places).all():
         return np.full(len(numbers), -1), np.zeros(len(numbers), dtype=bool)
@@ -427,26 +440,26 @@ def matched(
 
 def load_first_version(
     text: str, points: NDArray[np.float64], edges: NDArray[np.int32], seams: NDArray[np.int32]
-) -> tuple[Network, str]:
+) -> tuple[Network, Message]:
     """Read a network of version 1.
 
     Parameters
     ----------
     text
-        What that wrote.
+        The stored text.
     points
         (n, 3) vertices, stretched as the object's matrix stretches them.
     edges
         (e, 2) visible edges.
     seams
-        (k, 2) those that are seams: a wire whose edges are not all seams is none.
+        (k, 2) the edges that are seams. A wire needs seams on all of its edges.
 
     Returns
     -------
     network
         The wires and strokes that are there.
     problem
-        In words, what could not be found; an empty string: nothing is missing.
+        What could not be found.
     """
     try:
         data = json.loads(text)
@@ -459,13 +472,13 @@ def load_first_version(
         network = max(tries, key=lambda one: len(one.wires))
         stored = sum(bool(item["marks"]) for item in data["wires"])
     except DAMAGED:
-        return Network(), "The wires stored with this mesh cannot be read; its seams are untouched"
+        return Network(), Message.of("stored-unreadable")
     missing = stored - len(network.wires)
-    return network, f"{missing} of {stored} stored wires are seams no more, or hidden" if missing else ""
+    return network, Message.of("stored-missing", missing=missing, stored=stored) if missing else NOTHING
 
 
 class _FirstVersion:
-    """A network of version 1, to be found on a mesh; anything of `DAMAGED` is raised where it is none."""
+    """A network of version 1, to be found on a mesh. Damaged text raises an error of `DAMAGED`."""
 
     def __init__(
         self, data: Record, points: NDArray[np.float64], edges: NDArray[np.int32], seams: NDArray[np.int32]
@@ -513,7 +526,7 @@ class _FirstVersion:
         vertices = tuple(self._number_of[vertex] for vertex in stored)
         kind = item.get("kind")
         # A click offers other things now than it did.
-        through = undirected(self._pick(item["through"])) if kind in LOOP_NAMES else None
+        through = undirected(self._pick(item["through"])) if kind in LOOP_KINDS else None
         heading = None if item["heading"] is None else self._pick(item["heading"])
         start, end = self._pick(item["start"]), self._pick(item["end"])
         curve = np.array(item["curve"], dtype=np.float64).reshape(-1, 3) if "curve" in item else None

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..network.network import LOOP_NAMES, Network, Wire, undirected
+from ..network.network import LOOP_KINDS, Network, Wire, undirected
 from . import serialization
 from .serialization import WAS_SEAM, Archive, Record
 
@@ -90,7 +90,7 @@ class Found:
     known
         The claims to edges that stand for those.
     broken
-        The claims of wires that are none any more: what they ran along has changed.
+        The claims of former wires, whose edges have changed.
     unknown
         How many labels stand for what no record tells.
 
@@ -107,7 +107,7 @@ class Found:
 
 @dataclass(frozen=True)
 class Plan:
-    """What a mesh's edges are to be.
+    """The wanted labels of a mesh's edges.
 
     Parameters
     ----------
@@ -269,8 +269,8 @@ def _trail(edges: list[Edge], closed: bool) -> list[int] | None:
 def _directed(trail: list[int], record: Record, places: NDArray[np.float64]) -> tuple[int, ...]:
     """Return a trail in the direction of the stored wire, and a loop from where that begins.
 
-    Where its ends have not moved, they tell; else the order of the vertices' numbers, which deleting others, copying and
-    joining leave as it was; else places, as well as they can.
+    If its ends have not moved, they decide. Otherwise the order of the vertex numbers decides, because deleting, copying and joining keep
+    it. Otherwise positions decide.
     """
     first, second = np.array(record["ends"], dtype=np.float64)
     by_place = _as_placed(trail, bool(record["closed"]), first, second, places)
@@ -300,7 +300,7 @@ def _as_placed(
         trail = trail[begin:] + trail[:begin]
         back = np.linalg.norm(places[[trail[1], trail[-1]]] - second, axis=1)
         return trail if back[0] <= back[1] else [trail[0], *trail[:0:-1]]
-    # What was moved as a whole is turned to where it came from: its middle does not count.
+    # A part that moved as a whole is rotated back, and its center does not count.
     ends = places[[trail[0], trail[-1]]]
     shift = ends.mean(axis=0) - 0.5 * (first + second)
     forth = np.linalg.norm(ends[0] - shift - first) + np.linalg.norm(ends[1] - shift - second)
@@ -366,13 +366,13 @@ class _Wires:
 
     def _through(self, row: int) -> Edge | None:
         piece = self._pieces[row]
-        if piece.record.get("kind") not in LOOP_NAMES or not piece.unchanged:
+        if piece.record.get("kind") not in LOOP_KINDS or not piece.unchanged:
             return None
         found = self._edge_now(row, serialization.pick_of(piece.record["through"]))
         return None if found is None else _edge(found)
 
     def _edge_now(self, row: int, stored: Edge) -> Edge | None:
-        """Return a stored edge by the numbers that one piece knows; None: it is none of those with a label."""
+        """Return a stored edge by the numbers of one piece, or None if it has no label."""
         one, two = (self._numbers[row].get(vertex) for vertex in stored)
         if one is None or two is None or _edge((one, two)) not in self._edges:
             return None
@@ -552,7 +552,7 @@ class _Change:
         elif ours or self.rest:
             wanted = was_seam or (self.seam and bool(wires(others)))
         else:
-            wanted = self.seam  # whatever it is, it is no wire's of the session
+            wanted = self.seam  # it belongs to no wire of the session
         members = self.after | others
         unknown = others and WAS_SEAM in self.before and not ours  # a member of a label that is not ours to change
         if unknown or (was_seam and wires(members)):
@@ -588,7 +588,7 @@ def seams_beside(
     labels
         Its labels.
     archive
-        What they stand for.
+        The meaning of the labels.
     known
         The claims of the wires that are there, see `Found`; None: of all that have a record, broken ones too.
     """

@@ -60,7 +60,7 @@ TEMPORARY = "Анна Müller/Temp"
 
 
 def run(code: str, tmp_path: Path) -> list[str]:
-    """Return the lines that the code printed in a Python with a temporary folder of its own."""
+    """Return the lines that the code printed in a Python with a separate temporary folder."""
     wheels, folder, temporary = tmp_path / "Räder und Nähte", tmp_path / "_native", tmp_path / TEMPORARY
     for made in (wheels, temporary / "seamwire_core-former"):
         made.mkdir(parents=True)

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How the compiled part is found, and what is said where it is not."""
+"""How the compiled part is found, and the message if it is missing."""
 
 from __future__ import annotations
 
+import gc
 import sys
 import sysconfig
+import weakref
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -33,6 +35,24 @@ def test_an_installed_module_comes_first(tmp_path: Path, monkeypatch: pytest.Mon
     sys.modules.pop(native.NAME)
     monkeypatch.syspath_prepend(tmp_path / "installed")
     assert native.load(tmp_path / "own").where == "installed"
+
+
+def test_importing_keeps_no_caller_in_memory(tmp_path: Path) -> None:
+    (tmp_path / f"{native.NAME}.py").write_text("")
+
+    class Held:
+        """The files that a caller has made."""
+
+    def call() -> weakref.ref[Held]:
+        held = Held()
+        native.load(tmp_path)
+        return weakref.ref(held)
+
+    gc.disable()
+    try:
+        assert call()() is None
+    finally:
+        gc.enable()
 
 
 def test_without_the_module_the_sentence_says_what_to_install(tmp_path: Path) -> None:

@@ -15,7 +15,7 @@ HERE = f"cp{sys.version_info.major}{sys.version_info.minor}"
 
 @pytest.fixture(autouse=True)
 def no_module(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """A name that nothing else on the path has: these tests load modules of their own."""
+    """A name that nothing else on the path has, because these tests load their own modules."""
     monkeypatch.setattr(native, "NAME", "seamwire_core_of_a_test")
     path = sys.path.copy()
     yield

@@ -9,11 +9,14 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from seamwire.core.drawing.options import Options
+from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.fields.crests import Crests
 from seamwire.core.network.network import Along, FacePoint, Pick
 from seamwire.core.offers.surface_loops import SurfaceLoops
 from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
+from setting import use
 
 core = pytest.importorskip("seamwire_core")
 
@@ -50,7 +53,7 @@ class Sheet:
                 surface, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE
             )
 
-        self.session = Session(make, self.points, along, edges=surface.edges, triangles=self.triangles)
+        self.session = Session(make, self.points, Options(along=along), edges=surface.edges, triangles=self.triangles)
 
     @property
     def ridge(self) -> int:
@@ -63,7 +66,7 @@ class Sheet:
         """Return a place in the middle of it: a vertex beside it, or along edges an edge."""
         start, end = self.crests.starts[self.ridge : self.ridge + 2]
         place = (start + end) // 2
-        if self.session.along == "SURFACE":
+        if self.session.options.along == "SURFACE":
             return int(self.crests.vertices[place])
         mine = self.crests.vertices[start:end].tolist()
         real = {tuple(edge) for edge in core.Surface(self.points, self.triangles).edges.tolist()}
@@ -80,12 +83,12 @@ def sheet(request: pytest.FixtureRequest) -> Sheet:
 @pytest.mark.parametrize("finish", ["SNAP", "CUT"])
 def test_one_click_takes_a_ridge_as_far_as_it_is_one(sheet: Sheet, finish: str) -> None:
     session, pick = sheet.session, sheet.pick()
-    session.finish = finish
+    use(session, finish=finish)
     session.use_crests(sheet.crests, True)
     session.hover(pick, loop=True)
-    assert session.loop_offers[0] == "RIDGE"
-    np.testing.assert_array_equal(session.loop_preview.points, sheet.crests.line(sheet.ridge)[0])
-    assert session.loop_preview.edges() == []
+    assert session.picture.offered.kinds[0] == "RIDGE"
+    np.testing.assert_array_equal(session.picture.one(Role.OFFER).points, sheet.crests.line(sheet.ridge)[0])
+    assert session.picture.one(Role.OFFER).edges() == []
     assert session.click(pick)
     session.wait()
     wires = session.wires
@@ -93,7 +96,8 @@ def test_one_click_takes_a_ridge_as_far_as_it_is_one(sheet: Sheet, finish: str) 
     curve = np.concatenate([wire.points for wire in wires])
     inside = (curve[:, 1] > 0.06) & (curve[:, 1] < 0.94)
     assert (
-        np.abs(curve[inside, 0] - top(curve[inside, 1])).max() < (1.0 if sheet.session.along == "SURFACE" else 1.5) / N
+        np.abs(curve[inside, 0] - top(curve[inside, 1])).max()
+        < (1.0 if sheet.session.options.along == "SURFACE" else 1.5) / N
     )
     whole = sheet.crests.line(sheet.ridge)[0]
     assert np.ptp(curve[:, 1]) > np.ptp(whole[:, 1]) - 2.0 / N
@@ -102,9 +106,9 @@ def test_one_click_takes_a_ridge_as_far_as_it_is_one(sheet: Sheet, finish: str) 
     for one, other in pairwise(wires):
         assert one.end == other.start
     assert {wire.kind for wire in wires} == {None}
-    assert {wire.along for wire in wires} == {session.along}
+    assert {wire.along for wire in wires} == {session.options.along}
     assert len(session.seeds()) == len(wires) + 1
-    if session.along == "SURFACE":
+    if session.options.along == "SURFACE":
         assert {wire.finish for wire in wires} == {finish}
         assert isinstance(wires[0].start, FacePoint) == (finish == "CUT")
     assert session.edges_to_mark()
@@ -131,11 +135,11 @@ def test_where_ridges_are_not_seen_they_come_last(sheet: Sheet) -> None:
     session.use_crests(sheet.crests, False)
     session.hover(sheet.pick(), loop=True)
     session.wait()
-    assert session.loop_offers[-1] == "RIDGE"
-    assert session.loop_offers.count("RIDGE") == 1
-    if sheet.session.along == "EDGES":
-        assert len(session.loop_offers) > 1
-        # What is before it is taken as without it, and knows nothing of it.
+    assert session.picture.offered.kinds[-1] == "RIDGE"
+    assert session.picture.offered.kinds.count("RIDGE") == 1
+    if sheet.session.options.along == "EDGES":
+        assert len(session.picture.offered.kinds) > 1
+        # Wires before it do not depend on it.
         session.click(sheet.pick())
         session.wait()
         (wire,) = session.wires
@@ -169,13 +173,13 @@ def test_toggling_goes_through_what_is_offered_beside_a_ridge(steps: int, kept: 
     session.use_crests(sheet.crests, True)
     session.hover(sheet.pick(), loop=True)
     session.wait()
-    kinds = session.loop_offers
+    kinds = session.picture.offered.kinds
     assert len(kinds) > 2
     assert kinds[0] == "RIDGE"
     for _ in range(steps):
         session.next_candidate()
-    shown = session.loop_preview
-    assert session.loop_choice == kinds[steps]
+    shown = session.picture.one(Role.OFFER)
+    assert session.picture.offered.kind == kinds[steps]
     assert session.click(sheet.pick())
     session.wait()
     assert session.edges_to_mark() == sorted(shown.edges())
@@ -186,7 +190,7 @@ def test_a_ridge_that_is_seen_does_not_wait_for_what_else_is_offered() -> None:
     session, pick = sheet.session, sheet.pick()
     session.use_crests(sheet.crests, True)
     session.hover(pick, loop=True)
-    assert session.loop_choice == "RIDGE"
+    assert session.picture.offered.kind == "RIDGE"
     assert session.click(pick)
     assert "loop" not in {queued.kind for queued in session._queue}
     session.wait()
@@ -201,10 +205,10 @@ def test_where_neither_a_ridge_nor_a_cut_is_offered_it_is_said_however_late_ridg
     while session.computing:
         for live in session._working():
             live.wait()
-        # What it finds is final now, before the session has looked.
+        # Its result is final before the session has looked.
         session.use_crests(sheet.crests, False)
         session.poll()
-    assert session.loop_preview is None
+    assert session.picture.one(Role.OFFER) is None
     assert session.message == SurfaceLoops.NONE
 
 
@@ -214,13 +218,13 @@ def test_ridges_that_are_known_later_are_offered_then(sheet: Sheet) -> None:
     session.hover(sheet.pick(), loop=True)
     session.wait()
     assert session.wants_crests
-    assert "RIDGE" not in session.loop_offers
+    assert "RIDGE" not in session.picture.offered.kinds
     before = session.revision
     session.use_crests(sheet.crests, True)
-    assert session.loop_offers[0] == "RIDGE"
+    assert session.picture.offered.kinds[0] == "RIDGE"
     assert session.revision > before
     session.use_crests(None, True)
-    assert "RIDGE" not in session.loop_offers
+    assert "RIDGE" not in session.picture.offered.kinds
     session.hover(sheet.pick())
     assert not session.wants_crests
 
@@ -232,10 +236,10 @@ def test_what_was_taken_is_not_offered_again_until_the_cursor_was_elsewhere(shee
     session.click(pick)
     session.wait()
     session.hover(pick, loop=True)
-    assert "RIDGE" not in session.loop_offers
+    assert "RIDGE" not in session.picture.offered.kinds
     session.hover(3 * (N + 1) + 3, loop=True)
     session.hover(pick, loop=True)
-    assert session.loop_offers[0] == "RIDGE"
+    assert session.picture.offered.kinds[0] == "RIDGE"
 
 
 @pytest.mark.parametrize("computed", [False, True], ids=["while it is computed", "then"])
@@ -274,7 +278,7 @@ def test_a_ridge_leaves_the_chain_that_is_drawn_as_it_is(sheet: Sheet) -> None:
 def test_away_from_ridges_nothing_is_said_of_them(sheet: Sheet) -> None:
     session = sheet.session
     session.use_crests(sheet.crests, True)
-    place: Pick = 20 * (N + 1) + 26 if session.along == "SURFACE" else (20 * (N + 1) + 26, 20 * (N + 1) + 27)
+    place: Pick = 20 * (N + 1) + 26 if session.options.along == "SURFACE" else (20 * (N + 1) + 26, 20 * (N + 1) + 27)
     session.hover(place, loop=True)
     session.wait()
-    assert "RIDGE" not in session.loop_offers
+    assert "RIDGE" not in session.picture.offered.kinds

@@ -7,8 +7,11 @@ from dataclasses import replace
 
 import pytest
 from fake_live import FakeLive
-from seamwire.core.drawing.session import Intent, Session
+from seamwire.core.drawing.intent import Intent
+from seamwire.core.drawing.picture import Role, SeedRole
+from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Network, Snap
+from setting import use
 from table import SIZE, Table, chain, corner, courses, paper
 
 # Joining and closing
@@ -19,8 +22,8 @@ def test_a_click_on_a_wire_joins_it_there_and_ends_the_chain() -> None:
     session.start(30)
     bottom = session.wires[0]
     session.hover(Snap(1, "WIRE", bottom))
-    assert session.intent is Intent.JOIN
-    assert session.hovered_wire is bottom
+    assert session.picture.intent is Intent.JOIN
+    assert session.picture.one(Role.HOVERED) is bottom
     assert session.click(Snap(1, "WIRE", bottom))
     assert session.seed is None
     assert courses(session) == [(0, 1), (1, 2, 3), (3, 9, 15, 21), (30, 31, 25, 19, 13, 7, 1)]
@@ -42,7 +45,7 @@ def test_a_join_on_a_seam_ends_the_chain() -> None:
     session = Table(seams=[(4, 10)]).session
     session.click(0)
     session.hover(Snap((4, 10), "SEAM"))
-    assert session.intent is Intent.JOIN
+    assert session.picture.intent is Intent.JOIN
     session.click(Snap((4, 10), "SEAM"))
     assert session.seed is None
     assert len(session.wires) == 1
@@ -52,7 +55,7 @@ def test_a_chain_can_begin_on_a_wire() -> None:
     session = corner().session
     session.end_chain()
     session.hover(Snap(2, "WIRE", session.wires[0]))
-    assert session.intent is Intent.BRANCH
+    assert session.picture.intent is Intent.BRANCH
     session.click(Snap(2, "WIRE", session.wires[0]))
     session.click(14)
     assert courses(session) == [(0, 1, 2), (2, 3), (3, 9, 15, 21), (2, 8, 14)]
@@ -63,8 +66,8 @@ def test_a_chain_goes_on_from_its_last_seed_in_its_direction() -> None:
     session = table.session
     session.end_chain()
     session.hover(Snap(21, "SEED"))
-    assert session.intent is Intent.CONTINUE
-    assert session.hovered_seed == 21
+    assert session.picture.intent is Intent.CONTINUE
+    assert session.picture.seed_as(SeedRole.HOVERED) == 21
     session.click(Snap(21, "SEED"))
     assert table.lives["EDGES"].seeded == ((15, 21), True)
     session.click(22)
@@ -78,7 +81,7 @@ def test_a_click_on_the_first_seed_closes_the_loop() -> None:
     session = corner().session
     assert session.closing_point == 0
     session.hover(Snap(0, "SEED"))
-    assert session.intent is Intent.CLOSE
+    assert session.picture.intent is Intent.CLOSE
     session.click(Snap(0, "SEED"))
     assert session.wires[-1].start == 21
     assert session.wires[-1].end == 0
@@ -112,7 +115,7 @@ def test_a_chain_of_one_wire_is_not_closed_by_going_back_along_it() -> None:
     session.click(0)
     session.click(3)
     assert not session.close()
-    assert "back" in session.message
+    assert "back" in str(session.message)
     assert len(session.wires) == 1
     session.undo()
     session.click(9)
@@ -126,7 +129,7 @@ def test_without_a_chain_there_is_nothing_to_close() -> None:
     assert not session.close()
     session.click(0)
     assert not session.close()
-    assert "draw a wire first" in session.message
+    assert "draw a wire first" in str(session.message)
 
 
 def test_a_chain_that_began_on_an_edge_is_closed_over_its_other_end() -> None:
@@ -157,11 +160,11 @@ def test_dropping_the_last_wire_leaves_the_live_one_at_its_place() -> None:
     table = corner()
     session = table.session
     session.hover(23)
-    assert session.active is not None
+    assert session.picture.active is not None
     session.drop(session.wires[-1])
     assert session.seed == 21
     assert table.lives["EDGES"].seeded == (21, False), "there is no direction to go on in"
-    assert session.active.vertices == (21, 22, 23)
+    assert session.picture.active.vertices == (21, 22, 23)
 
 
 def test_a_seed_put_into_a_wire_makes_two_of_it() -> None:
@@ -186,7 +189,7 @@ def test_an_edge_seed_in_a_wire_belongs_to_the_part_before_it() -> None:
 def test_a_seed_is_not_put_at_a_wires_end_or_beside_it(pick: int | tuple[int, int]) -> None:
     session = corner().session
     assert not session.insert(session.wires[0], pick)
-    assert "No seed can be put" in session.message
+    assert "No seed can be put" in str(session.message)
     assert len(session.wires) == 2
 
 
@@ -259,7 +262,7 @@ def test_after_the_second_way_of_half_a_wire_the_third_is_computed() -> None:
     session = Table(ready=(True, True, True)).session
     session.click(0)
     session.hover(21)
-    while session.active.follow != 1:
+    while session.picture.active.follow != 1:
         session.next_candidate()
     session.click(21)
     assert courses(session) == [(0, 6, 12, 18, 19, 20, 21)]
@@ -272,7 +275,7 @@ def test_after_the_second_way_of_half_a_wire_the_third_is_computed() -> None:
 def test_a_straight_wire_has_no_other_way() -> None:
     session = corner().session
     assert not session.retrace(session.wires[0])
-    assert "same edges" in session.message
+    assert "same edges" in str(session.message)
 
 
 def test_the_other_way_of_half_a_wire_is_computed() -> None:
@@ -303,7 +306,7 @@ def test_dropping_waits_for_nothing_that_was_asked_of_the_wire() -> None:
     session.drop(session.wires[0])
     table.compute()
     assert courses(session) == [(9, 15, 21)]
-    assert session.message == ""
+    assert str(session.message) == ""
 
 
 def test_undo_takes_back_what_waits_for_a_wires_other_way() -> None:
@@ -329,7 +332,7 @@ def test_a_stored_loop_that_no_click_took_has_no_other_way() -> None:
     session = Table().session
     mesh.open(session)
     assert not session.retrace(session.wires[0])
-    assert "loop" in session.message
+    assert "loop" in str(session.message)
 
 
 # Running to the end
@@ -340,10 +343,10 @@ def test_a_wire_runs_straight_on_to_the_boundary() -> None:
     session.click(7)
     session.hover(9)
     assert session.run_to_end(preview=True)
-    assert session.end_preview.vertices == (7, 8, 9, 10, 11)
-    assert session.intent is Intent.RUN
+    assert session.picture.one(Role.EXTENSION).vertices == (7, 8, 9, 10, 11)
+    assert session.picture.intent is Intent.RUN
     session.hover(19)
-    assert session.end_preview.vertices == (7, 13, 19, 25, 31), "the preview follows the cursor"
+    assert session.picture.one(Role.EXTENSION).vertices == (7, 13, 19, 25, 31), "the preview follows the cursor"
     assert session.click(19)
     assert courses(session) == [(7, 13, 19, 25, 31)]
     assert session.seed is None
@@ -383,14 +386,14 @@ def test_without_a_cursor_it_goes_on_from_the_last_edge() -> None:
 def test_without_a_direction_it_says_what_it_needs() -> None:
     session = Table().session
     assert not session.run_to_end()
-    assert "seed first" in session.message
+    assert "seed first" in str(session.message)
     session.click(0)
     session.hover(None)
     assert not session.run_to_end()
-    assert "Point" in session.message
-    session.switch("SURFACE")
+    assert "Point" in str(session.message)
+    use(session, along="SURFACE")
     assert not session.run_to_end(preview=True)
-    assert "along edges" in session.message
+    assert "along edges" in str(session.message)
 
 
 def test_the_preview_of_the_end_can_be_let_go() -> None:
@@ -398,7 +401,7 @@ def test_the_preview_of_the_end_can_be_let_go() -> None:
     session.hover(22)
     session.run_to_end(preview=True)
     assert session.stop_preview()
-    assert session.end_preview is None
+    assert session.picture.one(Role.EXTENSION) is None
     assert session.click(22)
     assert courses(session)[-1] == (21, 22)
 
@@ -414,26 +417,26 @@ def test_running_on_waits_for_the_wire() -> None:
     assert courses(session) == [(6, 7, 8, 9, 10, 11)]
 
 
-# What a click would do
+# The effect of a click
 
 
 def test_the_intent_follows_what_is_going_on() -> None:
     table = Table()
     session = table.session
-    assert session.intent is Intent.NOTHING
+    assert session.picture.intent is Intent.NOTHING
     session.hover(0)
-    assert session.intent is Intent.SEED
+    assert session.picture.intent is Intent.SEED
     session.click(0)
-    assert session.intent is Intent.NOTHING, "the wire would end where it begins"
+    assert session.picture.intent is Intent.NOTHING, "the wire would end where it begins"
     session.hover(3)
-    assert session.intent is Intent.KEEP
+    assert session.picture.intent is Intent.KEEP
     session.hover(None)
-    assert session.intent is Intent.NOTHING
+    assert session.picture.intent is Intent.NOTHING
     session.hover((14, 15), loop=True)
-    assert session.intent is Intent.LOOP
+    assert session.picture.intent is Intent.LOOP
     table.lives["EDGES"].ready = (False, False)
     session.hover(4)
-    assert session.intent is Intent.WAIT
+    assert session.picture.intent is Intent.WAIT
 
 
 def test_a_preview_is_seen_and_not_kept() -> None:
@@ -452,7 +455,7 @@ def test_a_preview_is_seen_and_not_kept() -> None:
     session = Session(lambda _: live, table.points)
     session.click(0)
     session.hover(7)
-    assert session.active.vertices == (0, 1, 7)
+    assert session.picture.active.vertices == (0, 1, 7)
     session.click(7)
     assert session.wires == ()
     live.ready = (True, True)

@@ -27,7 +27,7 @@ def test_without_a_live_wire_it_goes_on_from_the_edge_before_the_seed() -> None:
 
 
 def test_without_a_direction_it_is_refused() -> None:
-    with pytest.raises(ValueError, match="Point where the wire is to run"):
+    with pytest.raises(ValueError, match="Point at where the wire should run"):
         extension().find(Network(seed=Seed(0)), None, True)
 
 

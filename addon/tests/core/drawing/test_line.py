@@ -10,8 +10,12 @@ import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from seamwire.core.drawing.intent import Intent
-from seamwire.core.drawing.session import CLAMP_PERCENTILE, STRENGTHS, Session
+from seamwire.core.drawing.options import Options
+from seamwire.core.drawing.picture import Role
+from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Along, FacePoint, Snap, undirected
+from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
+from setting import stronger, use
 from table import Table
 
 core = pytest.importorskip("seamwire_core")
@@ -36,7 +40,15 @@ def session(along: Along = "EDGES", seams: object = (), **options: object) -> Se
         mesh = points, grid_triangles(SIZE), grid_edges(SIZE)
         return core.LiveWire(*mesh, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE)
 
-    made = Session(live, points, along, edges=grid_edges(SIZE), triangles=grid_triangles(SIZE), seams=seams, **options)
+    made = Session(
+        live,
+        points,
+        Options(along=along),
+        edges=grid_edges(SIZE),
+        triangles=grid_triangles(SIZE),
+        seams=seams,
+        **options,
+    )
     made.wait()
     return made
 
@@ -98,26 +110,26 @@ def chain_of(drawing: Session) -> list[int]:
 def test_a_line_is_kept_as_wires_along_its_edges_in_one_step() -> None:
     drawing = session()
     drawing.line_begin(ROW[0])
-    assert drawing.intent is Intent.DRAW
+    assert drawing.picture.intent is Intent.DRAW
     points, faces = line((2, 5), (9, 5), (9, 10), wobble=0.2)
     half = len(points) // 2
     drawing.line_to(points[:half], faces[:half], None)
-    shown = [wire.vertices for wire in drawing.following]
+    shown = [wire.vertices for wire in drawing.picture.all(Role.FOLLOWING)]
     assert shown == [HOOK[: len(shown[0])]]
     assert 4 <= len(shown[0]) <= 8
     assert drawing.wires == ()
-    np.testing.assert_array_equal(drawing.drawn, points[:half])
+    np.testing.assert_array_equal(drawing.picture.line, points[:half])
     drawing.line_to(points, faces, None)
-    assert [wire.vertices for wire in drawing.following] == [HOOK]
+    assert [wire.vertices for wire in drawing.picture.all(Role.FOLLOWING)] == [HOOK]
     assert drawing.line_end()
     drawing.wait()
     assert chain_of(drawing) == list(HOOK)
     assert drawing.seed is None, "a line is a chain of its own"
     assert not drawing.drawing
-    assert drawing.following == ()
+    assert drawing.picture.all(Role.FOLLOWING) == ()
     assert drawing.undo()
     assert drawing.wires == ()
-    assert not drawing.can_undo
+    assert not drawing.picture.can_undo
     assert drawing.redo()
     assert chain_of(drawing) == list(HOOK)
 
@@ -146,10 +158,10 @@ def test_a_line_that_is_cancelled_leaves_all_as_it_was() -> None:
     network = drawing.network
     drawing.line_begin(at(3, 7))
     drawing.line_to(*line((3, 7), (9, 7)), None)
-    assert drawing.following
+    assert drawing.picture.all(Role.FOLLOWING)
     assert drawing.line_cancel()
     assert drawing.network == network
-    assert drawing.following == ()
+    assert drawing.picture.all(Role.FOLLOWING) == ()
     assert not drawing.line_cancel()
     assert not drawing.line_end()
     assert not drawing.line_to(*line((3, 7), (9, 7)), None)
@@ -160,7 +172,7 @@ def test_undo_forgets_a_line_before_it_undoes() -> None:
     drawing = session()
     draw(drawing, ROW[0], line((2, 5), (9, 5)))
     drawing.line_begin(at(3, 7))
-    assert drawing.can_undo
+    assert drawing.picture.can_undo
     assert drawing.undo()
     assert not drawing.drawing
     assert len(drawing.wires) == 1
@@ -227,8 +239,8 @@ def test_marking_mirror_and_strength_are_those_of_other_wires() -> None:
     points = hills()
     points[:, 0] -= (SIZE - 1) / 2
     drawing = session()
-    drawing.toggle_marking()
-    drawing.change_strength(2)
+    use(drawing, clear=not drawing.options.clear)
+    stronger(drawing, 2)
     draw(drawing, ROW[0], line((2, 5), (9, 5)))
     assert not drawing.wires[0].marks
     assert drawing.wires[0].strength == drawing.strength
@@ -239,8 +251,8 @@ def test_a_line_too_short_says_so_and_is_no_step() -> None:
     drawing = session()
     draw(drawing, ROW[0], line((2, 5), (2.2, 5)))
     assert drawing.wires == ()
-    assert "farther" in drawing.message
-    assert not drawing.can_undo
+    assert "farther" in str(drawing.message)
+    assert not drawing.picture.can_undo
 
 
 def test_a_long_line_stays_as_it_was_but_for_its_end() -> None:
@@ -255,7 +267,7 @@ def test_a_long_line_stays_as_it_was_but_for_its_end() -> None:
     for count in range(2, len(points) + 1, 40):
         drawing.line_to(points[:count], faces[:count], None)
     drawing.line_to(points, faces, None)
-    vertices = drawing.following[0].vertices
+    vertices = drawing.picture.all(Role.FOLLOWING)[0].vertices
     assert len(vertices) > 205
     assert vertices[:16] == tuple(range(16))
     assert vertices[-1] == at(14, 7)
@@ -269,7 +281,7 @@ def test_a_line_drawn_before_the_mesh_is_known_is_fitted_when_it_is() -> None:
     drawing.line_begin(0)
     points = np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]])
     drawing.line_to(points, np.zeros(3, dtype=np.int32), None)
-    assert drawing.following == ()
+    assert drawing.picture.all(Role.FOLLOWING) == ()
     drawing.line_end()
     assert drawing.waiting_clicks == 1
     assert drawing.wires == ()
@@ -290,7 +302,7 @@ def test_clicks_and_lines_wait_for_a_line_that_is_not_computed_yet() -> None:
     drawing.line_end()
     drawing.click(20)
     assert drawing.waiting_clicks == 3
-    assert [wire.vertices for wire in drawing.following] == [(0, 1, 2), (12, 13, 14)]
+    assert [wire.vertices for wire in drawing.picture.all(Role.FOLLOWING)] == [(0, 1, 2), (12, 13, 14)]
     drawing.wait()
     assert [wire.vertices for wire in drawing.wires] == [(0, 1, 2), (12, 13, 14)]
     assert drawing.seed == 20
@@ -310,7 +322,7 @@ def apart(points: NDArray[np.float64], curve: NDArray[np.float64]) -> float:
 @pytest.mark.parametrize("finish", ["SNAP", "CUT"])
 def test_across_the_surface_wires_keep_near_to_the_line(finish: str) -> None:
     drawing = session("SURFACE")
-    drawing.finish = finish
+    use(drawing, finish=finish)
     points, faces = line((2, 5), (9, 5), (9, 10), (5, 12))
     begin = at(2, 5)
     drawing.line_begin(begin)
@@ -339,7 +351,7 @@ def test_across_the_surface_a_line_where_the_live_wire_runs_is_one_wire() -> Non
     drawing.hover(at(12, 9))
     drawing.wait()
     drawing.hover(at(12, 9))
-    live = drawing.active
+    live = drawing.picture.active
     drawing.end_chain()
     steps = np.linspace(0.0, 1.0, 8)[:, None]
     dense = np.concatenate([a + steps * (b - a) for a, b in itertools.pairwise(live.points)])
@@ -354,7 +366,7 @@ def test_across_the_surface_lines_end_where_they_are_led_to() -> None:
     draw(drawing, at(2, 2), line((2, 2), (8.8, 2.4)), Snap(at(9, 3), "SEAM"))
     assert drawing.wires[-1].end == at(9, 3)
     assert drawing.line_begin(Snap((at(2, 2), at(3, 2)))) is False
-    assert "not at edge" in drawing.message
+    assert "not at edge" in str(drawing.message)
 
 
 def test_across_the_surface_a_line_goes_on_from_the_live_wire() -> None:

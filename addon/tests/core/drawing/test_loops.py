@@ -9,10 +9,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points
-from seamwire.core.drawing.session import Intent, Session
+from seamwire.core.drawing.intent import Intent
+from seamwire.core.drawing.picture import Role
+from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Network, Snap, Wire
 from seamwire.core.network.stops import Stops
 from seamwire.core.network.symmetry import Symmetry
+from setting import use
 from table import SIZE, Table, chain, paper
 
 ROW = (12, 13, 14, 15, 16, 17)
@@ -22,16 +25,16 @@ LOOP = (14, 15, 21, 27, 26, 20)
 
 
 def shown(session: Session) -> tuple[int, ...]:
-    return session.loop_preview.vertices
+    return session.picture.one(Role.OFFER).vertices
 
 
 def test_the_closed_loop_comes_first_then_the_strip() -> None:
     session = Table().session
     session.hover((14, 15), loop=True)
-    assert session.loop_offers == ("CLOSED", "STRIP"), "the strip without stops is the strip"
-    assert session.loop_choice == "CLOSED"
+    assert session.picture.offered.kinds == ("CLOSED", "STRIP"), "the strip without stops is the strip"
+    assert session.picture.offered.kind == "CLOSED"
     assert shown(session) == LOOP
-    assert session.intent is Intent.LOOP
+    assert session.picture.intent is Intent.LOOP
 
 
 def first_offer(edge: tuple[int, int], *before: tuple[tuple[int, int], str], **options: object) -> str:
@@ -39,11 +42,11 @@ def first_offer(edge: tuple[int, int], *before: tuple[tuple[int, int], str], **o
     session = Table(**options).session
     for other, kind in before:
         session.hover(other, loop=True)
-        while session.loop_choice != kind:
+        while session.picture.offered.kind != kind:
             assert session.next_candidate()
         assert session.loop(other)
     session.hover(edge, loop=True)
-    return session.loop_choice
+    return session.picture.offered.kind
 
 
 def test_a_loop_with_corners_comes_after_what_goes_straight_on() -> None:
@@ -68,7 +71,7 @@ def test_a_loop_across_wires_or_seams_comes_later() -> None:
 def test_where_there_is_no_closed_loop_the_strip_is_taken() -> None:
     session = Table().session
     session.hover((14, 20), loop=True)
-    assert session.loop_offers == ("STRIP",)
+    assert session.picture.offered.kinds == ("STRIP",)
     assert session.loop((14, 20))
     (wire,) = session.wires
     assert wire.vertices == COLUMN
@@ -76,13 +79,13 @@ def test_where_there_is_no_closed_loop_the_strip_is_taken() -> None:
     assert (wire.start, wire.end) == (2, 32)
     assert session.edges_to_mark() == chain(*COLUMN)
     assert session.seeds() == [2, 32]
-    assert session.message == ""
+    assert str(session.message) == ""
 
 
 def test_a_strip_ends_at_seams_and_the_whole_one_is_offered_next() -> None:
     session = Table(seams=[(8, 9), (26, 25)]).session
     session.hover((14, 20), loop=True)
-    assert session.loop_offers == ("STRIP", "WHOLE")
+    assert session.picture.offered.kinds == ("STRIP", "WHOLE")
     assert shown(session) == (8, 14, 20, 26)
     assert session.next_candidate()
     assert shown(session) == COLUMN
@@ -96,7 +99,7 @@ def test_a_strip_ends_where_its_own_edge_meets_a_seam() -> None:
 
 def test_a_strip_ends_at_kept_wires_and_their_images() -> None:
     session = Table(centred=True).session
-    session.set_mirror([1])  # what is drawn on row 1 is on row 4 as well
+    use(session, mirror=[1])  # what is drawn on row 1 is on row 4 as well
     session.click(7)
     session.click(10)
     session.end_chain()
@@ -108,10 +111,10 @@ def test_a_strip_ends_on_the_mirrors_plane_unless_it_runs_along_it() -> None:
     table = Table()
     table.points[:, 0] -= 2.0
     session = Session(table.session._engines._make, table.points, edges=grid_edges(SIZE))
-    session.set_mirror([0])
+    use(session, mirror=[0])
     session.hover((15, 16), loop=True)
     session.next_candidate()
-    assert session.loop_choice == "STRIP"
+    assert session.picture.offered.kind == "STRIP"
     assert shown(session) == (14, 15, 16, 17)
     session.hover((14, 20), loop=True)
     assert shown(session) == COLUMN
@@ -120,7 +123,7 @@ def test_a_strip_ends_on_the_mirrors_plane_unless_it_runs_along_it() -> None:
 def test_of_an_edge_that_is_a_seam_already_the_whole_strip_is_offered() -> None:
     session = Table(seams=[(14, 20)]).session
     session.hover((14, 20), loop=True)
-    assert session.loop_offers == ("WHOLE",)
+    assert session.picture.offered.kinds == ("WHOLE",)
 
 
 def test_toggling_goes_around_and_stays_while_the_edge_is_the_same() -> None:
@@ -128,16 +131,16 @@ def test_toggling_goes_around_and_stays_while_the_edge_is_the_same() -> None:
     session.hover((14, 15), loop=True)
     kinds = []
     for _ in range(4):
-        kinds.append(session.loop_choice)
+        kinds.append(session.picture.offered.kind)
         before = session.revision
         assert session.next_candidate()
         assert session.revision > before
         session.hover((15, 14), loop=True)
     assert kinds == ["CLOSED", "STRIP", "CLOSED", "STRIP"]
-    assert session.loop_choice == "CLOSED"
+    assert session.picture.offered.kind == "CLOSED"
     session.next_candidate()
     session.hover((15, 16), loop=True)
-    assert session.loop_choice == "CLOSED", "another edge begins with its default"
+    assert session.picture.offered.kind == "CLOSED", "another edge begins with its default"
 
 
 @pytest.mark.parametrize("keep", ["click", "loop"])
@@ -153,18 +156,18 @@ def test_what_is_chosen_is_kept(keep: str) -> None:
 def test_a_single_offer_has_no_next() -> None:
     session = Table().session
     session.hover((14, 20), loop=True)
-    assert session.loop_offers == ("STRIP",)
+    assert session.picture.offered.kinds == ("STRIP",)
     assert not session.next_candidate()
-    assert "Nothing else" in session.message
+    assert "Nothing else" in str(session.message)
     session.hover(None)
-    assert session.loop_offers == ()
-    assert session.loop_choice is None
+    assert session.picture.offered.kinds == ()
+    assert session.picture.offered.kind is None
 
 
 def test_between_two_seams_the_strip_is_the_edge_alone() -> None:
     session = Table(seams=[(14, 15), (20, 21)]).session
     session.hover((14, 20), loop=True)
-    assert session.loop_offers == ("STRIP", "WHOLE")
+    assert session.picture.offered.kinds == ("STRIP", "WHOLE")
     assert shown(session) == (14, 20)
 
 
@@ -207,7 +210,7 @@ def test_over_a_kept_loops_edge_the_cursor_finds_its_offers_and_a_click_replaces
 def test_clearing_takes_the_same_strip_away() -> None:
     session = Table().session
     session.loop((14, 20))
-    session.toggle_marking()
+    use(session, clear=not session.options.clear)
     session.loop((14, 20))
     assert session.edges_to_mark() == []
     assert session.edges_to_clear() == chain(*COLUMN)
@@ -242,10 +245,10 @@ def test_while_the_loop_is_computed_nothing_is_offered_yet() -> None:
     table = Table(ready=(False, False))
     session = table.session
     session.hover((14, 15), loop=True)
-    assert session.loop_preview is None
+    assert session.picture.one(Role.OFFER) is None
     assert session.computing
     assert not session.next_candidate()
-    assert "no loop yet" in session.message
+    assert "no loop yet" in str(session.message)
     table.compute()
     assert shown(session) == LOOP
 
@@ -312,9 +315,9 @@ def test_an_edge_that_is_none_is_refused_in_words() -> None:
     live = table.lives["EDGES"]
     session = Session(lambda _: NoEdge(), table.points)
     assert not session.loop((0, 20))
-    assert "no edge" in session.message
+    assert "no edge" in str(session.message)
     session.hover((0, 20), loop=True)
-    assert session.loop_preview is None
+    assert session.picture.one(Role.OFFER) is None
 
 
 @pytest.mark.parametrize("order", [range(SIZE**2), range(SIZE**2)[::-1]])
@@ -366,7 +369,7 @@ def test_a_stored_loop_is_previewed_with_its_offers() -> None:
     session = Table().session
     mesh.open(session)
     session.hover((15, 14), loop=True)
-    assert session.loop_offers == ("CLOSED", "STRIP")
+    assert session.picture.offered.kinds == ("CLOSED", "STRIP")
     assert session.next_candidate()
     assert session.loop((15, 14))
     assert [wire.vertices for wire in session.wires] == [ROW], "in place, not beside it"

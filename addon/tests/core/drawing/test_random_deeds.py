@@ -11,9 +11,12 @@ import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from paper_mesh import PaperMesh
-from seamwire.core.drawing.session import CLAMP_PERCENTILE, STRENGTHS, Intent, Session
+from seamwire.core.drawing.intent import Intent
+from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Edge, Network, Pick, Snap
+from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
 from seamwire.core.storage.wire_labels import Plan
+from setting import stronger, use
 
 core = pytest.importorskip("seamwire_core")
 
@@ -51,9 +54,9 @@ class Monkey:
         )
         self.mesh = PaperMesh(self.points, EDGES, triangles=grid_triangles(SIZE), seams={(40, 41), (41, 53)})
         self.plain: set[Edge] = set(self.mesh.seams)
-        """What is to be a seam whether wires run along it or not."""
+        """The edges that are seams with or without wires."""
         self.begun = Network()
-        """What the session goes back to when all is undone."""
+        """The state of the session after everything is undone."""
         self.saved = [(self.mesh.snapshot(), set(self.plain))]
         session = self.session
         self.deeds: list[Callable[[], object]] = [
@@ -75,11 +78,11 @@ class Monkey:
             session.end_chain,
             session.close,
             lambda: session.run_to_end(preview=self.dice.random() < 0.5),
-            lambda: session.switch(self.dice.choice(["EDGES", "EDGES", "SURFACE"])),
-            lambda: session.change_strength(self.dice.choice([-1, 1])),
-            lambda: session.set_metric(self.dice.choice(["feature", "campen", "euclidean"])),
-            lambda: session.set_mirror(self.dice.choice([(), (0,), (0, 1)])),
-            session.toggle_marking,
+            lambda: use(session, along=self.dice.choice(["EDGES", "EDGES", "SURFACE"])),
+            lambda: stronger(session, self.dice.choice([-1, 1])),
+            lambda: use(session, metric=self.dice.choice(["feature", "campen", "euclidean"])),
+            lambda: use(session, mirror=self.dice.choice([(), (0,), (0, 1)])),
+            lambda: use(session, clear=not session.options.clear),
             self.with_wire(session.retrace),
             self.with_wire(session.drop),
             self.with_wire(lambda wire: session.insert(wire, self.dice.choice(wire.vertices))),
@@ -156,7 +159,7 @@ class Monkey:
     def open(self) -> None:
         self.mesh.open(self.session, self.mesh.archive)
         self.begun = self.session.network
-        assert not self.session.can_undo
+        assert not self.session.picture.can_undo
 
     def undo_in_mesh(self) -> None:
         """Let Blender take back what was written, while no chain is drawn."""
@@ -179,10 +182,10 @@ class Monkey:
             if wire.along == "EDGES":
                 around = [*wire.vertices, *wire.vertices[:1]] if wire.closed else list(wire.vertices)
                 assert np.array_equal(wire.points, self.points[around])
-        assert (session.loop_choice is None) == (session.loop_offers == ())
+        assert (session.picture.offered.kind is None) == (session.picture.offered.kinds == ())
         offers = session._loops.offers
         assert len({frozenset(offer.edges()) for offer in offers}) == len(offers)
-        assert (session.intent is Intent.MOVE) == session.dragging
+        assert (session.picture.intent is Intent.MOVE) == session.dragging
 
 
 def looks(network: Network) -> set[tuple[object, ...]]:
@@ -204,7 +207,7 @@ def test_whatever_is_done_the_network_is_sound_and_undo_leads_back(seed: int) ->
     session.end_chain()
     session.wait()
     left = 1000
-    while session.can_undo and left:
+    while session.picture.can_undo and left:
         session.undo()
         left -= 1
     assert left
@@ -212,9 +215,9 @@ def test_whatever_is_done_the_network_is_sound_and_undo_leads_back(seed: int) ->
     assert [one.id for one in session.strokes] == [one.id for one in monkey.begun.strokes]
     for stroke in session.strokes:
         session.erase(stroke)
-    session.switch("EDGES")
-    session.set_metric("feature")
-    session.set_strength("EDGES", STRENGTHS["EDGES"])
+    use(session, along="EDGES")
+    use(session, metric="feature")
+    use(session, strength_edges=STRENGTHS["EDGES"])
     session.start(0)
     session.hover(SIZE**2 - 1)
     session.wait()
@@ -222,4 +225,4 @@ def test_whatever_is_done_the_network_is_sound_and_undo_leads_back(seed: int) ->
     fresh.start(0)
     fresh.hover(SIZE**2 - 1)
     fresh.wait()
-    assert session.active.vertices == fresh.active.vertices, "the strokes left no trace"
+    assert session.picture.active.vertices == fresh.picture.active.vertices, "the strokes left no trace"

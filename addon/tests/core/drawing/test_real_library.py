@@ -8,8 +8,12 @@ import pytest
 from fake_live import grid_edges
 from numpy.typing import NDArray
 from paper_mesh import PaperMesh
-from seamwire.core.drawing.session import CLAMP_PERCENTILE, STRENGTHS, Session
+from seamwire.core.drawing.options import Options
+from seamwire.core.drawing.picture import Role
+from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Along, Snap
+from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
+from setting import stronger, use
 
 core = pytest.importorskip("seamwire_core")
 
@@ -42,7 +46,7 @@ def draw(along: Along = "EDGES", ready: bool = True) -> Session:
         on = (core.Surface(*mesh),) if ready else mesh
         return core.LiveWire(*on, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE)
 
-    return Session(make, points, along, edges=grid_edges(SIZE))
+    return Session(make, points, Options(along=along), edges=grid_edges(SIZE))
 
 
 def straight(x: int, y0: int, y1: int) -> tuple[int, ...]:
@@ -62,6 +66,20 @@ def test_a_wire_along_the_ridge_is_kept(ready: bool) -> None:
     session.click(at(0, 8))
     session.wait()
     assert [wire.vertices for wire in session.wires] == [straight(0, -8, 8)]
+
+
+@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
+def test_another_strength_keeps_the_surface_and_its_curvatures(along: Along) -> None:
+    session = draw(along)
+    click(session, at(0, -8))
+    surface = session._engines.get(along).surface
+    strength = session.feature_strength()
+    for steps in (1, -2):
+        assert session.change_strength(steps)
+        assert np.shares_memory(session.feature_strength(), strength)
+        session.wait()
+        assert np.shares_memory(session.feature_strength(), strength)
+        assert np.shares_memory(session._engines.get(along).surface.points, surface.points)
 
 
 def test_a_dragged_seed_leads_its_wires() -> None:
@@ -139,13 +157,13 @@ def test_another_strength_is_computed_in_the_background() -> None:
     click(session, at(-4, -8))
     session.hover(at(-4, 8))
     session.wait()
-    weak = session.active
-    session.change_strength(-20)
+    weak = session.picture.active
+    stronger(session, -20)
     assert session.strength == 1.0
     session.wait()
-    assert session.active.vertices == straight(-4, -8, 8), "without a pull the straight way is the shortest"
+    assert session.picture.active.vertices == straight(-4, -8, 8), "without a pull the straight way is the shortest"
     assert weak.vertices
-    session.set_metric("euclidean")
+    use(session, metric="euclidean")
     session.wait()
     session.click(at(-4, 8))
     assert session.wires[0].vertices == straight(-4, -8, 8)
@@ -157,7 +175,7 @@ def test_a_wire_runs_on_over_the_ridge_to_the_boundary() -> None:
     session.hover(at(0, -4))
     session.wait()
     assert session.run_to_end(preview=True)
-    assert session.end_preview.vertices == straight(0, -8, 10)
+    assert session.picture.one(Role.EXTENSION).vertices == straight(0, -8, 10)
     assert session.run_to_end()
     assert session.wires[0].vertices == straight(0, -8, 10)
 
@@ -175,7 +193,7 @@ def test_loops_are_found_in_the_background() -> None:
     session = Session(lambda _: core.LiveWire(surface, along="edges"), points, edges=edges)
     session.hover((24 * 8, 24 * 8 + 1), loop=True)
     session.wait()
-    assert sorted(session.loop_preview.vertices) == list(range(24 * 8, 24 * 9))
+    assert sorted(session.picture.one(Role.OFFER).vertices) == list(range(24 * 8, 24 * 9))
     session.hover(None)
     assert not session.computing
     session.loop((24 * 4, 24 * 4 + 1))
@@ -192,7 +210,7 @@ def test_loops_are_found_in_the_background() -> None:
 def test_mirrored_wires_lie_on_the_other_side_of_the_ridge() -> None:
     session = draw()
     assert 0 in session.symmetric_axes
-    session.set_mirror((0,))
+    use(session, mirror=(0,))
     click(session, at(3, -5), at(7, 5))
     assert len(session.edges_to_mark()) == 2 * len(session.wires[0].edges())
     session.start(at(0, -8))
@@ -205,7 +223,7 @@ def test_wires_of_the_library_come_back_from_the_mesh_and_can_be_dragged() -> No
     session = draw()
     mesh = PaperMesh(ridge(), grid_edges(SIZE))
     click(session, at(0, -8), at(0, 8))
-    session.switch("SURFACE")
+    use(session, along="SURFACE")
     session.start(at(-6, -6))
     click(session, at(7, -4))
     mesh.write(session, adopt=True)
@@ -230,7 +248,7 @@ def test_wires_of_the_library_come_back_from_the_mesh_and_can_be_dragged() -> No
 def test_a_seed_off_the_surface_is_refused_in_words() -> None:
     session = draw()
     assert not session.click(SIZE * SIZE)
-    assert str(SIZE * SIZE) in session.message
+    assert str(SIZE * SIZE) in str(session.message)
     click(session, at(0, 0))
     assert not session.click(SIZE * SIZE)
-    assert session.message
+    assert str(session.message)

@@ -10,91 +10,22 @@ import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from paper_mesh import PaperMesh
-from seamwire.core.drawing.session import CLAMP_PERCENTILE, STRENGTHS, Session
+from real_sessions import AROUND, RINGS, ball, halves, meridian, session_on, sides, tube
+from seamwire.core.drawing.picture import Role
+from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Along
 from seamwire.core.offers.edge_loops import corners
+from setting import use
 
 core = pytest.importorskip("seamwire_core")
-
-AROUND = 16
-RINGS = 9
-"""Rings of the tube and of the ball; vertex ring * AROUND + i."""
-
-
-def session_on(
-    points: NDArray[np.float64],
-    triangles: NDArray[np.int32],
-    edges: NDArray[np.int32] | None = None,
-    ready: bool = True,
-    **options: object,
-) -> Session:
-    surface = core.Surface(points, triangles, edges)
-
-    def make(way: Along) -> object:
-        on = (surface,) if ready else (points, triangles, edges)
-        return core.LiveWire(*on, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE)
-
-    return Session(make, points, edges=surface.edges if edges is None else edges, triangles=triangles, **options)
-
-
-def quads_between_rings() -> NDArray[np.int32]:
-    start = np.arange(AROUND)
-    after = np.roll(start, -1)
-    square = np.stack([start, after, after + AROUND, start + AROUND], axis=1)
-    return np.concatenate([square + ring * AROUND for ring in range(RINGS - 1)]).astype(np.int32)
-
-
-def halves(quads: NDArray[np.int32]) -> NDArray[np.int32]:
-    return np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
-
-
-def sides(faces: NDArray[np.int32]) -> NDArray[np.int32]:
-    pairs = np.concatenate(
-        [np.stack([faces[:, i], np.roll(faces, -1, axis=1)[:, i]], axis=1) for i in range(faces.shape[1])]
-    )
-    return np.unique(np.sort(pairs, axis=1), axis=0)
-
-
-def circles(heights: NDArray[np.float64], radii: NDArray[np.float64]) -> NDArray[np.float64]:
-    angles = np.arange(AROUND) * 2.0 * np.pi / AROUND
-    return np.concatenate(
-        [
-            np.stack([r * np.cos(angles), r * np.sin(angles), np.full(AROUND, z)], axis=1)
-            for z, r in zip(heights, radii, strict=True)
-        ]
-    )
-
-
-def tube(**options: object) -> Session:
-    points = circles(np.linspace(-2.0, 2.0, RINGS), np.ones(RINGS))
-    quads = quads_between_rings()
-    return session_on(points, halves(quads), sides(quads), **options)
-
-
-def ball(**options: object) -> Session:
-    """Return a session on a sphere of RINGS rings and two poles."""
-    angles = np.linspace(0.0, np.pi, RINGS + 2)[1:-1]
-    points = np.vstack([circles(-np.cos(angles), np.sin(angles)), [0.0, 0.0, -1.0], [0.0, 0.0, 1.0]])
-    quads = quads_between_rings()
-    first = np.arange(AROUND)
-    low = np.stack([np.roll(first, -1), first, np.full(AROUND, AROUND * RINGS)], axis=1)
-    top = first + AROUND * (RINGS - 1)
-    high = np.stack([top, np.roll(top, -1), np.full(AROUND, AROUND * RINGS + 1)], axis=1)
-    caps = np.concatenate([low, high]).astype(np.int32)
-    edges = np.unique(np.concatenate([sides(quads), sides(caps)]), axis=0)
-    return session_on(points, np.concatenate([halves(quads), caps]), edges, **options)
-
-
-def meridian(at: int) -> list[int]:
-    return [ring * AROUND + at for ring in range(RINGS)]
 
 
 def hovered(session: Session, edge: tuple[int, int]) -> list[tuple[str, list[int]]]:
     session.hover(edge, loop=True)
     session.wait()
     found = []
-    for _ in session.loop_offers:
-        found.append((session.loop_choice, sorted(session.loop_preview.vertices)))
+    for _ in session.picture.offered.kinds:
+        found.append((session.picture.offered.kind, sorted(session.picture.one(Role.OFFER).vertices)))
         session.next_candidate()
     return found
 
@@ -190,8 +121,8 @@ def test_a_way_past_poles_that_meets_no_seam_closes_around_the_ball() -> None:
     session.wait()
     great_circle = {*meridian(0), *meridian(AROUND // 2), AROUND * RINGS, AROUND * RINGS + 1}
     shown = []
-    for _ in session.loop_offers:
-        shown.append((session.loop_preview.closed, set(session.loop_preview.vertices)))
+    for _ in session.picture.offered.kinds:
+        shown.append((session.picture.one(Role.OFFER).closed, set(session.picture.one(Role.OFFER).vertices)))
         session.next_candidate()
     assert (True, great_circle) in shown
 
@@ -240,7 +171,7 @@ def test_the_strip_of_a_stored_network_can_be_moved() -> None:
     session = tube()
     edge = (3 * AROUND + 2, 4 * AROUND + 2)
     hovered(session, edge)
-    while session.loop_choice != "STRIP":
+    while session.picture.offered.kind != "STRIP":
         session.next_candidate()
     session.loop(edge)
     points = session._points
@@ -289,11 +220,11 @@ LEFT, RIGHT = 15 * SIZE + 5, 15 * SIZE + 25
 
 
 def wire_between(session: Session, along: Along) -> NDArray[np.float64]:
-    session.switch(along)
+    use(session, along=along)
     session.start(LEFT)
     session.hover(RIGHT)
     session.wait()
-    points = session.active.points.copy()
+    points = session.picture.active.points.copy()
     session.end_chain()
     return points
 
@@ -344,10 +275,10 @@ def test_the_live_wire_follows_a_stroke_while_it_is_live() -> None:
     session.wait()
     session.draw_stroke(gate(), faces_under(gate()))
     session.wait()
-    assert set(map(tuple, session.active.points[:, :2])) == GATE
+    assert set(map(tuple, session.picture.active.points[:, :2])) == GATE
     session.undo()
     session.wait()
-    assert session.active.points[:, 1].max() == 15.0
+    assert session.picture.active.points[:, 1].max() == 15.0
 
 
 def test_strokes_reach_wires_whose_seeds_are_moved() -> None:
@@ -399,7 +330,7 @@ def test_any_stroke_on_the_mesh_leaves_wires_that_can_be_drawn(points: NDArray[n
     assert session.draw_stroke(points, faces_under(points))
     for along in ("EDGES", "SURFACE"):
         assert len(wire_between(session, along)) > 2
-    assert session.message == ""
+    assert str(session.message) == ""
 
 
 @pytest.mark.parametrize("ready", [False, True])
@@ -414,12 +345,12 @@ def test_what_the_library_refuses_is_said_and_undone_without_a_loss(ready: bool)
     session.hover(LEFT + 3 * SIZE)
     session.draw_stroke(gate(), faces_under(gate()))
     session.wait()
-    assert "off the mesh" in session.message
+    assert "off the mesh" in str(session.message)
     assert not session.computing
     assert not session.click(LEFT + 3 * SIZE)
     assert len(session.wires) == 1
     assert session.undo()
     session.wait()
-    assert session.message == ""
-    assert session.active is not None
+    assert str(session.message) == ""
+    assert session.picture.active is not None
     assert session.click(LEFT + 3 * SIZE)

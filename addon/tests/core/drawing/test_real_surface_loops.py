@@ -8,9 +8,12 @@ from collections import Counter
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from seamwire.core.drawing.session import CLAMP_PERCENTILE, STRENGTHS, Session
+from seamwire.core.drawing.options import Options
+from seamwire.core.drawing.picture import Role
+from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Along, Edge, FacePoint, Snap
 from seamwire.core.offers.surface_loops import SurfaceLoops
+from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
 
 core = pytest.importorskip("seamwire_core")
 
@@ -50,7 +53,7 @@ def session(triangles: NDArray[np.int32]) -> Session:
             surface, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE
         )
 
-    return Session(make, points, "SURFACE", edges=surface.edges, triangles=triangles)
+    return Session(make, points, Options(along="SURFACE"), edges=surface.edges, triangles=triangles)
 
 
 def is_closed(edges: list[Edge]) -> bool:
@@ -66,8 +69,8 @@ def islands(session: Session, triangles: NDArray[np.int32]) -> int:
 def test_one_click_cuts_the_limb_in_two(session: Session, triangles: NDArray[np.int32]) -> None:
     session.hover(WAIST, loop=True)
     session.wait()
-    assert session.loop_offers[0] == "ACROSS"
-    preview = session.loop_preview
+    assert session.picture.offered.kinds[0] == "ACROSS"
+    preview = session.picture.one(Role.OFFER)
     assert np.abs(preview.points[:, 2]).max() < 0.06
     assert session.click(WAIST)
     assert session.edges_to_mark() == sorted(preview.edges())

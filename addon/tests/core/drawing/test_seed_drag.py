@@ -24,5 +24,5 @@ def test_a_dragged_seed_takes_its_wires_along_once_they_are_computed() -> None:
 
 
 def test_only_a_seed_is_dragged() -> None:
-    with pytest.raises(ValueError, match="There is no seed to move at vertex 3"):
+    with pytest.raises(ValueError, match="No seed to move at vertex 3"):
         SeedDrag(Grid().engines, Network((CORNER,)), 3, POINTS)

@@ -5,8 +5,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from seamwire.core.drawing.session import CLAMP_PERCENTILE, STRENGTHS, Session
+from seamwire.core.drawing.options import Options
+from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Along, FacePoint, Snap
+from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
+from setting import use
 
 core = pytest.importorskip("seamwire_core")
 
@@ -29,8 +32,8 @@ def session() -> Session:
             surface, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE
         )
 
-    session = Session(make, points, "SURFACE", edges=surface.edges, triangles=triangles)
-    session.set_straight(True)
+    session = Session(make, points, Options(along="SURFACE"), edges=surface.edges, triangles=triangles)
+    use(session, straight=True)
     return session
 
 
@@ -49,11 +52,11 @@ def aim(session: Session, end: int = END, seen: tuple[float, float, float] | Non
 
 def test_it_leads_the_candidates_and_a_click_keeps_it(session: Session) -> None:
     aim(session)
-    assert session.straight_active
-    assert session.candidate_number == 0
-    assert len(session.others) >= 1
-    assert off_plane(session, session.active.points) < 1e-9
-    assert min(off_plane(session, wire.points) for wire in session.others) > 0.02
+    assert session.picture.choice.straight
+    assert session.picture.choice.number == 0
+    assert len(session.picture.others) >= 1
+    assert off_plane(session, session.picture.active.points) < 1e-9
+    assert min(off_plane(session, wire.points) for wire in session.picture.others) > 0.02
     assert session.click(Snap(END, seen_along=DOWN))
     (wire,) = session.wires
     assert off_plane(session, wire.points) < 1e-9
@@ -90,13 +93,13 @@ def test_the_wire_that_closes_a_chain_is_straight_too(session: Session) -> None:
 
 def test_the_wheel_goes_on_to_the_others_and_round(session: Session) -> None:
     aim(session)
-    ways = [session.active]
-    for _ in range(len(session.others)):
+    ways = [session.picture.active]
+    for _ in range(len(session.picture.others)):
         assert session.next_candidate()
-        ways.append(session.active)
-    assert not session.straight_active
+        ways.append(session.picture.active)
+    assert not session.picture.choice.straight
     assert session.next_candidate()
-    assert session.straight_active
+    assert session.picture.choice.straight
     assert len({way.points.tobytes() for way in ways}) == len(ways)
 
 
@@ -126,17 +129,17 @@ def test_it_follows_the_view(session: Session) -> None:
     session.wait()
     normal = np.cross(session._points[END] - session._points[START], tilted)
     normal /= np.linalg.norm(normal)
-    assert session.straight_active
-    assert np.abs((session.active.points - session._points[START]) @ normal).max() < 1e-9
+    assert session.picture.choice.straight
+    assert np.abs((session.picture.active.points - session._points[START]) @ normal).max() < 1e-9
 
 
 def test_switched_off_the_others_are_as_ever(session: Session) -> None:
     aim(session)
-    others = session.others
-    session.set_straight(False)
+    others = session.picture.others
+    use(session, straight=False)
     session.wait()
-    assert not session.straight_active
-    assert {wire.points.tobytes() for wire in (session.active, *session.others)} == {
+    assert not session.picture.choice.straight
+    assert {wire.points.tobytes() for wire in (session.picture.active, *session.picture.others)} == {
         wire.points.tobytes() for wire in others
     }
 
@@ -145,8 +148,8 @@ def test_switched_off_the_others_are_as_ever(session: Session) -> None:
 def test_where_there_is_none_the_others_are_as_ever(session: Session, behind: bool) -> None:
     seen = tuple((session._points[END] - session._points[START]).tolist())
     aim(session, seen=seen if behind else None)
-    assert not session.straight_active
-    assert session.active is not None
+    assert not session.picture.choice.straight
+    assert session.picture.active is not None
     assert session.click(Snap(END))
     assert off_plane(session, session.wires[0].points) > 0.02
 
@@ -157,31 +160,31 @@ def test_points_of_faces_are_its_ends_too(session: Session) -> None:
     session.start(START)
     session.hover(Snap(point, seen_along=DOWN))
     session.wait()
-    assert session.straight_active
+    assert session.picture.choice.straight
     a, b = session._points[START, :2], (np.array(point.weights) @ session._points[triangle])[:2]
     normal = np.array([a[1] - b[1], b[0] - a[0]]) / np.linalg.norm(b - a)
-    assert np.abs((session.active.points[:, :2] - a) @ normal).max() < 1e-9
+    assert np.abs((session.picture.active.points[:, :2] - a) @ normal).max() < 1e-9
 
 
 @pytest.mark.parametrize("to_vertex", [False, True], ids=["to a point", "to a vertex"])
 def test_between_near_points_it_is_offered_where_it_is_to_be_cut(session: Session, to_vertex: bool) -> None:
-    session.finish = "CUT"
+    use(session, finish="CUT")
     triangle = session._triangles[100]
     one, two = (FacePoint(100, tuple(triangle.tolist()), weights) for weights in ((0.6, 0.2, 0.2), (0.57, 0.22, 0.21)))
     end = int(triangle[0]) if to_vertex else two
     session.start(one)
     session.hover(Snap(end, seen_along=DOWN))
     session.wait()
-    assert session.straight_active
+    assert session.picture.choice.straight
     assert session.click(Snap(end, seen_along=DOWN))
     (wire,) = session.wires
     assert wire.vertices == (triangle[0],)
     assert (wire.start, wire.end) == (one, end)
     assert session.edges_to_mark() == []
     session.end_chain()
-    session.finish = "SNAP"
+    use(session, finish="SNAP")
     session.start(one)
     session.hover(Snap(end, seen_along=DOWN))
     session.wait()
     assert not session.click(Snap(end, seen_along=DOWN))
-    assert "meets no edge" in session.message
+    assert "Too short to become a seam" in str(session.message)

@@ -8,9 +8,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fake_live import FakeCuts, FakeLive, grid_edges
-from seamwire.core.drawing.session import Intent, Session
+from seamwire.core.drawing.intent import Intent
+from seamwire.core.drawing.options import Options
+from seamwire.core.drawing.picture import Role
+from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import FacePoint
 from seamwire.core.offers.surface_loops import NOTHING_TO_BEND, SurfaceLoops
+from setting import use
 from table import SIZE, Table, chain
 
 RIGHT = (8, 9, 10, 16, 22, 21, 20, 14)
@@ -29,24 +33,24 @@ def edges(*ring: int) -> list[tuple[int, int]]:
 def test_the_best_cut_is_shown_and_toggling_goes_through_the_others() -> None:
     session = table().session
     session.hover(8, loop=True)
-    assert session.loop_offers == ("ACROSS", "HANDLE")
-    preview = session.loop_preview
+    assert session.picture.offered.kinds == ("ACROSS", "HANDLE")
+    preview = session.picture.one(Role.OFFER)
     assert preview.vertices == RIGHT
     assert preview.closed
     np.testing.assert_array_equal(preview.points[0], preview.points[-1])
-    assert session.intent is Intent.LOOP
+    assert session.picture.intent is Intent.LOOP
     assert session.next_candidate()
-    assert (session.loop_preview.vertices, session.loop_choice) == (LEFT, "HANDLE")
+    assert (session.picture.one(Role.OFFER).vertices, session.picture.offered.kind) == (LEFT, "HANDLE")
     assert session.next_candidate()
-    assert session.loop_preview.vertices == RIGHT
+    assert session.picture.one(Role.OFFER).vertices == RIGHT
     session.hover(8)
-    assert session.loop_preview is None
+    assert session.picture.one(Role.OFFER) is None
 
 
 @pytest.mark.parametrize("keep", ["click", "loop"])
 def test_the_cut_that_is_shown_is_kept_as_a_closed_chain_of_wires(keep: str) -> None:
     session = table().session
-    session.finish = "CUT"
+    use(session, finish="CUT")
     session.hover(8, loop=True)
     session.next_candidate()
     assert getattr(session, keep)(8)
@@ -72,7 +76,7 @@ def test_of_cuts_along_the_same_edges_one_is_offered(monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(FakeLive, "closed_wires", first_twice)
     session = table().session
     session.hover(8, loop=True)
-    assert session.loop_offers == ("ACROSS", "HANDLE")
+    assert session.picture.offered.kinds == ("ACROSS", "HANDLE")
     session.next_candidate()
     session.click(8)
     assert session.edges_to_mark() == edges(*LEFT)
@@ -92,11 +96,11 @@ def test_cuts_that_run_apart_along_the_same_edges_are_two_where_they_are_to_be_c
 
     monkeypatch.setattr(FakeLive, "closed_wires", one_beside_it)
     session = table().session
-    session.finish = finish
+    use(session, finish=finish)
     session.hover(8, loop=True)
-    assert len(session.loop_offers) == count
+    assert len(session.picture.offered.kinds) == count
     session.next_candidate()
-    shown = session.loop_preview
+    shown = session.picture.one(Role.OFFER)
     session.click(8)
     np.testing.assert_array_equal(session.wires[0].points[0], shown.points[0])
 
@@ -107,27 +111,27 @@ def test_after_it_was_taken_it_is_not_offered_again_until_another_point() -> Non
     session.click(8)
     session.hover(8, loop=True)
     session.poll()
-    assert session.loop_preview is None
+    assert session.picture.one(Role.OFFER) is None
     session.hover(9, loop=True)
-    assert session.loop_preview is not None
+    assert session.picture.one(Role.OFFER) is not None
     session.hover(8, loop=True)
-    assert session.loop_preview is not None
+    assert session.picture.one(Role.OFFER) is not None
 
 
 def test_where_nothing_suggests_one_it_says_so_until_it_is_not_asked_for_any_more() -> None:
     session = table(islands=(8,)).session
     session.hover(8, loop=True)
-    assert session.loop_preview is None
+    assert session.picture.one(Role.OFFER) is None
     assert session.message == SurfaceLoops.NONE
     revision = session.revision
     session.hover(8, loop=True)
     session.poll()
     assert session.revision == revision, "nothing new to be seen"
     session.hover(9, loop=True)
-    assert session.message == ""
+    assert str(session.message) == ""
     session.hover(8, loop=True)
     session.hover(8)
-    assert session.message == ""
+    assert str(session.message) == ""
     assert not session.loop(8)
     assert session.message == SurfaceLoops.NONE
 
@@ -136,8 +140,8 @@ def test_until_it_is_computed_nothing_is_shown_and_a_click_waits() -> None:
     it = table(metric_ready=(False, False))
     session = it.session
     session.hover(8, loop=True)
-    assert session.loop_preview is None
-    assert session.message == ""
+    assert session.picture.one(Role.OFFER) is None
+    assert str(session.message) == ""
     assert session.computing
     assert session.loop(8)
     assert session.waiting_clicks == 1
@@ -150,13 +154,13 @@ def test_what_is_there_early_is_shown_and_refined_while_the_cursor_rests() -> No
     it = table(metric_ready=(False, False), early=True)
     session = it.session
     session.hover(8, loop=True)
-    assert session.loop_preview.vertices == LEFT
+    assert session.picture.one(Role.OFFER).vertices == LEFT
     assert session.computing
     revision = session.revision
     session.poll()
     assert session.revision == revision, "the same is not drawn anew"
     it.compute()
-    assert session.loop_preview.vertices == RIGHT
+    assert session.picture.one(Role.OFFER).vertices == RIGHT
     assert not session.computing
 
 
@@ -186,13 +190,13 @@ def test_the_cut_that_was_chosen_stays_the_one_though_another_comes_before_it(
     session = it.session
     session.hover(8, loop=True)
     session.next_candidate()
-    assert session.loop_preview.vertices == LEFT
+    assert session.picture.one(Role.OFFER).vertices == LEFT
     if clicks_early:
         session.click(8)
     it.compute()
     if not clicks_early:
-        assert session.loop_offers == ("ACROSS", "HANDLE", "HANDLE")
-        assert session.loop_preview.vertices == LEFT
+        assert session.picture.offered.kinds == ("ACROSS", "HANDLE", "HANDLE")
+        assert session.picture.one(Role.OFFER).vertices == LEFT
         session.click(8)
     assert session.edges_to_mark() == edges(*LEFT)
 
@@ -209,14 +213,14 @@ def test_a_cut_that_meets_no_edge_is_kept_only_where_it_is_to_be_cut(monkeypatch
     monkeypatch.setattr(FakeLive, "closed_wires", within_faces)
     session = table().session
     assert not session.loop(8)
-    assert session.message == "The cut meets no edge that could be a seam"
+    assert str(session.message) == "No edge is left for the seam of this cut"
     assert session.wires == ()
-    assert not session.can_undo
-    assert not session.can_bend
-    session.finish = "CUT"
+    assert not session.picture.can_undo
+    assert not session.picture.can_bend
+    use(session, finish="CUT")
     assert session.loop(8)
     assert len(session.wires) == 3
-    assert session.can_bend
+    assert session.picture.can_bend
 
 
 @pytest.mark.parametrize("drawn", ["marking", "clearing", "cutting", "mirroring"])
@@ -225,18 +229,18 @@ def test_a_bent_cut_does_to_the_mesh_what_the_cut_did(drawn: str) -> None:
 
     def switch() -> None:
         if drawn == "clearing":
-            session.toggle_marking()
+            use(session, clear=not session.options.clear)
         elif drawn == "cutting":
-            session.finish = "SNAP" if session.finish == "CUT" else "CUT"
+            use(session, finish="SNAP" if session.options.finish == "CUT" else "CUT")
         elif drawn == "mirroring":
-            session.set_mirror(() if session.mirror_axes else (0,))
+            use(session, mirror=() if session.options.mirror else (0,))
 
     switch()
     assert session.loop(8)
     before = session.wires[0]
     switch()
     if drawn == "marking":
-        session.toggle_marking()
+        use(session, clear=not session.options.clear)
     assert session.bend(28)
     assert {(wire.marks, wire.finish, wire.mirror) for wire in session.wires} == {
         (before.marks, before.finish, before.mirror)
@@ -245,16 +249,16 @@ def test_a_bent_cut_does_to_the_mesh_what_the_cut_did(drawn: str) -> None:
 
 def test_cuts_are_found_in_the_concave_metric_whatever_wires_are() -> None:
     it = table()
-    it.session.set_metric("campen")
+    use(it.session, metric="campen")
     it.session.hover(8, loop=True)
     assert it.lives["SURFACE"].metrics == [("concave", 20.0, None)]
-    it.session.set_strength("SURFACE", 40.0)
+    use(it.session, strength_surface=40.0)
     assert it.lives["SURFACE"].metrics[-1] == ("concave", 40.0, None)
 
 
 def test_a_cut_clears_seams_where_wires_do() -> None:
     session = table(seams=edges(*RIGHT)).session
-    session.toggle_marking()
+    use(session, clear=not session.options.clear)
     session.loop(8)
     assert session.edges_to_clear() == edges(*RIGHT)
 
@@ -262,17 +266,17 @@ def test_a_cut_clears_seams_where_wires_do() -> None:
 def test_edges_have_none_across_the_surface_and_points_none_along_edges() -> None:
     session = table().session
     assert not session.loop((8, 9))
-    assert "not through edge 8-9" in session.message
-    session.switch("EDGES")
+    assert "not through edge 8-9" in str(session.message)
+    use(session, along="EDGES")
     assert not session.loop(8)
-    assert "not through vertex 8" in session.message
+    assert "not through vertex 8" in str(session.message)
 
 
 def test_without_triangles_there_is_none() -> None:
     made = table()
-    session = Session(made.session._engines._make, made.points, "SURFACE", edges=grid_edges(SIZE))
+    session = Session(made.session._engines._make, made.points, Options(along="SURFACE"), edges=grid_edges(SIZE))
     session.hover(8, loop=True)
-    assert session.loop_preview is None
+    assert session.picture.one(Role.OFFER) is None
 
 
 BOX = (8, 9, 10, 16, 22, 21, 20, 14)
@@ -289,11 +293,11 @@ def taken_at_8() -> Table:
 def test_a_cut_that_was_taken_is_shown_bent_and_a_click_keeps_it_in_place_of_the_other() -> None:
     it = taken_at_8()
     session = it.session
-    session.finish = "CUT"
+    use(session, finish="CUT")
     session.hover(28, bend=True)
-    assert session.bending
-    assert session.loop_preview.vertices == (8, 9, 10, 16, 22, 28, 27, 26, 20, 14)
-    assert session.loop_choice == "ACROSS"
+    assert session.picture.offered.bends
+    assert session.picture.one(Role.OFFER).vertices == (8, 9, 10, 16, 22, 28, 27, 26, 20, 14)
+    assert session.picture.offered.kind == "ACROSS"
     assert session.edges_to_mark() == edges(*RIGHT), "until the click"
     assert session.click(28)
     assert session.edges_to_mark() == edges(8, 9, 10, 16, 22, 28, 27, 26, 20, 14)
@@ -301,8 +305,8 @@ def test_a_cut_that_was_taken_is_shown_bent_and_a_click_keeps_it_in_place_of_the
     assert session.seeds() == [8, 28]
     assert it.lives["SURFACE"].bent[-1] == (8, 28, (0, 0))
     session.hover(28)
-    assert not session.bending
-    assert session.loop_preview is None
+    assert not session.picture.offered.bends
+    assert session.picture.one(Role.OFFER) is None
 
 
 def test_undo_brings_back_the_cut_as_it_was_and_it_can_be_bent_elsewhere() -> None:
@@ -342,31 +346,31 @@ def test_the_one_of_several_cuts_that_was_taken_is_the_one_that_is_bent() -> Non
 def test_what_is_not_there_as_it_was_taken_is_not_bent() -> None:
     session = table().session
     assert not session.bend(28)
-    assert session.message == NOTHING_TO_BEND
+    assert session.message.code == NOTHING_TO_BEND
     session = taken_at_8().session
-    assert session.can_bend
+    assert session.picture.can_bend
     session.drop(session.wires[1])
-    assert not session.can_bend
+    assert not session.picture.can_bend
     session.hover(28, bend=True)
-    assert session.loop_preview is None
-    assert session.message == NOTHING_TO_BEND
+    assert session.picture.one(Role.OFFER) is None
+    assert session.message.code == NOTHING_TO_BEND
     session.undo()
-    assert session.can_bend, "it is there again"
-    session.set_strength("SURFACE", 40.0)
-    assert not session.can_bend, "other cuts would be found by now"
+    assert session.picture.can_bend, "it is there again"
+    use(session, strength_surface=40.0)
+    assert not session.picture.can_bend, "other cuts would be found by now"
 
 
 def test_where_none_leads_it_says_so_and_the_cut_stays() -> None:
     session = taken_at_8().session
     session.hover(11, bend=True)
-    assert session.message == "No closed cut leads through both points"
+    assert str(session.message) == "No closed cut leads through both points"
     revision = session.revision
     session.poll()
     assert session.revision == revision, "nothing new to be seen"
     assert not session.bend(11)
     assert session.edges_to_mark() == edges(*RIGHT)
     session.hover(16)
-    assert session.message == ""
+    assert str(session.message) == ""
 
 
 def test_what_is_said_of_bending_goes_with_it_where_a_wire_is_live() -> None:
@@ -374,10 +378,10 @@ def test_what_is_said_of_bending_goes_with_it_where_a_wire_is_live() -> None:
     session.click(8)
     session.hover(28)
     session.hover(28, bend=True)
-    assert session.message == NOTHING_TO_BEND
+    assert session.message.code == NOTHING_TO_BEND
     revision = session.revision
     session.hover(28)
-    assert session.message == ""
+    assert str(session.message) == ""
     assert session.revision > revision
 
 
@@ -386,7 +390,7 @@ def test_bending_waits_until_it_is_computed() -> None:
     session = it.session
     it.lives["SURFACE"].ready = (False, False)
     session.hover(28, bend=True)
-    assert session.loop_preview is None
+    assert session.picture.one(Role.OFFER) is None
     assert session.bend(28)
     assert session.waiting_clicks == 1
     assert session.edges_to_mark() == edges(*RIGHT)
@@ -398,7 +402,7 @@ def test_bending_waits_until_it_is_computed() -> None:
 def test_edges_are_not_bent_to_and_along_edges_nothing_is() -> None:
     session = taken_at_8().session
     assert not session.bend((27, 28))
-    session.switch("EDGES")
+    use(session, along="EDGES")
     assert not session.bend(28)
-    assert not session.can_bend
+    assert not session.picture.can_bend
     assert session.edges_to_mark() == edges(*RIGHT)

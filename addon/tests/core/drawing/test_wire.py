@@ -5,28 +5,30 @@ from __future__ import annotations
 
 import pytest
 from grid import POINTS, SIZE, Grid
+from seamwire.core.base.messages import Message
+from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.wire import CandidateWires
 from seamwire.core.network.network import Network, Seed, Snap
 
 
-def aimed(at: int, **options: object) -> tuple[CandidateWires, str]:
-    """Return the wires from vertex 0 to another, and what was said."""
+def aimed(at: int, **options: object) -> tuple[CandidateWires, Message]:
+    """Return the wires from vertex 0 to another, and the message."""
     candidates = CandidateWires(Grid(**options).engines, POINTS)
     candidates.sow(Seed(0), "EDGES")
-    return candidates, candidates.aim(Snap(at), Network(seed=Seed(0)), "EDGES")
+    return candidates, candidates.aim(Snap(at), Network(seed=Seed(0)), Options())
 
 
 def test_the_shorter_one_is_active_until_the_other_is_brought_forward() -> None:
     candidates, _ = aimed(8, shorter=1)
     assert candidates.active.vertices == (0, 6, 7, 8)
-    assert candidates.advance() == ""
+    assert str(candidates.advance()) == ""
     assert candidates.active.vertices == (0, 1, 2, 8)
     assert candidates.others[0].vertices == (0, 6, 7, 8)
 
 
 def test_there_is_no_other_where_both_run_alike_or_nothing_is_computed() -> None:
-    assert aimed(3)[0].advance() == "All wires run along the same edges here"
-    assert aimed(8, ready=(False, False))[0].advance() == "There is no next candidate yet"
+    assert str(aimed(3)[0].advance()) == "All wires run along the same edges here"
+    assert str(aimed(8, ready=(False, False))[0].advance()) == "No other candidate found yet"
 
 
 def test_the_one_that_is_there_is_shown_while_the_other_is_computed() -> None:
@@ -39,7 +41,7 @@ def test_the_one_that_is_there_is_shown_while_the_other_is_computed() -> None:
 def test_what_no_wire_reaches_is_said() -> None:
     candidates, message = aimed(8, islands=(8,))
     assert candidates.active is None
-    assert message == "No wire reaches vertex 8"
+    assert str(message) == "No wire reaches vertex 8"
 
 
 def test_a_seed_that_is_not_there_is_refused() -> None:
@@ -59,7 +61,7 @@ def test_of_three_the_leading_one_is_active_and_the_others_come_forward_in_turn(
         assert len(candidates.others) == 2
         seen.append(candidates.active.follow)
         assert candidates.others[0].follow == (seen[-1] + 1) % 3
-        assert candidates.advance() == ""
+        assert str(candidates.advance()) == ""
     assert seen == [2, 0, 1]
     assert candidates.active.follow == 2
 
@@ -92,6 +94,6 @@ def test_a_wire_that_another_metric_has_not_is_brought_forward_no_more() -> None
     candidates.sow(Seed(0), "EDGES")
     candidates.chosen = 2
     grid.lives["EDGES"].ready = (True, True)
-    candidates.aim(Snap(14), Network(seed=Seed(0)), "EDGES")
+    candidates.aim(Snap(14), Network(seed=Seed(0)), Options())
     assert candidates.chosen is None
     assert candidates.active.follow == 0

@@ -61,7 +61,7 @@ def test_the_line_at_a_pick_is_the_one_that_crosses_there(crests: Crests) -> Non
         assert crests.line_at((a, b)) == crests.line_at((b, a)) == line
         assert crests.line_at(a) == line
         assert crests.line_at(FacePoint(face, (0, 1, 2), (1.0, 0.0, 0.0))) == line
-    # In the middle between top and bottom there is none.
+    # The middle between top and bottom has no crest.
     assert crests.line_at(20 * 41 + 15) is None
     assert crests.line_at((20 * 41 + 15, 20 * 41 + 16)) is None
 

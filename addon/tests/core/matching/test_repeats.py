@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
-from seamwire.core.matching.repeats import Repeats
+from seamwire.core.matching.repeats import Repeats, connected_groups
 from seamwire.core.network.network import Edge, Wire
 
 SIZE = 6
@@ -107,3 +107,13 @@ def test_wires_are_moved_with_what_they_know() -> None:
     ((moved,),) = repeats.of([loop], points)
     assert moved.through == (COUNT + 7, COUNT + 8)
     assert len(moved.points) == 5
+
+
+def test_groups_are_wires_that_share_vertices_and_each_comes_once() -> None:
+    points = patch()
+    chains = ((0, 1), (1, 2), (2, 8), (20, 21))
+    one, two, three, apart = (Wire("EDGES", chain, points[list(chain)], *chain) for chain in chains)
+    wires = [one, apart, two, three]
+    assert connected_groups([three], wires) == [[two, three, one]]
+    assert connected_groups([one, three, apart], wires) == [[one, two, three], [apart]]
+    assert connected_groups([], wires) == []

@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 from fake_live import grid_points, grid_triangles
 from numpy.typing import NDArray
+from seamwire.core.drawing.picture import Role
 from seamwire.core.network.strokes import OffMeshError, drawn, into_triangles, on_mesh, through_vertices
 from seamwire.words.seed_text import draw_strokes, parse_strokes
+from setting import use
 from table import SIZE, Table, paper
 
 MESH, TRIANGLES = grid_points(SIZE), grid_triangles(SIZE)
@@ -100,9 +102,9 @@ def test_what_is_no_stroke_is_refused_in_words(points: list, faces: list, why: s
     session = Table().session
     revision = session.revision
     assert not session.draw_stroke(points, faces)
-    assert why in session.message
+    assert why in str(session.message)
     assert session.strokes == ()
-    assert not session.can_undo
+    assert not session.picture.can_undo
     assert session.revision > revision
 
 
@@ -134,7 +136,7 @@ def test_a_stroke_is_a_step() -> None:
     assert live.strokes[-1] == (one,)
     assert session.undo()
     assert live.strokes[-1] == ()
-    assert not session.can_undo
+    assert not session.picture.can_undo
     assert session.redo()
     assert session.redo()
     assert live.strokes[-1] == (one, two)
@@ -165,7 +167,7 @@ def test_an_erased_stroke_is_gone_until_undo() -> None:
     assert session.strokes == (two,)
     assert table.lives["EDGES"].strokes[-1] == (two,)
     assert not session.erase(one)
-    assert "not there" in session.message
+    assert "not there" in str(session.message)
     assert session.undo()
     assert session.strokes == (one, two)
 
@@ -178,7 +180,7 @@ def test_a_stroke_is_for_the_active_wire_while_one_is_live() -> None:
     session.next_candidate()
     stroke(session, (0.5, 0.2), (4.5, 0.2))
     assert [one.acts_on for one in session.strokes] == ["min", "max"]
-    assert session.active.vertices == (0, 6, 7), "the wire that it is for stays the active one"
+    assert session.picture.active.vertices == (0, 6, 7), "the wire that it is for stays the active one"
     session.end_chain()
     stroke(session, (0.5, 0.2), (4.5, 0.2))
     assert session.strokes[-1].acts_on == "both"
@@ -192,12 +194,12 @@ def test_a_stroke_that_comes_back_brings_its_wire_forward() -> None:
     stroke(session, (0.5, 0.2), (4.5, 0.2))
     session.undo()
     session.redo()
-    assert session.active.vertices == (0, 6, 7), "as when it was drawn"
+    assert session.picture.active.vertices == (0, 6, 7), "as when it was drawn"
     session.erase(session.strokes[0])
     session.next_candidate()
-    assert session.active.vertices == (0, 1, 7)
+    assert session.picture.active.vertices == (0, 1, 7)
     session.undo()
-    assert session.active.vertices == (0, 6, 7)
+    assert session.picture.active.vertices == (0, 6, 7)
 
 
 def test_the_live_wire_follows_and_kept_ones_stay() -> None:
@@ -209,10 +211,10 @@ def test_the_live_wire_follows_and_kept_ones_stay() -> None:
     kept = session.wires
     stroke(session, (0.5, 0.2), (4.5, 0.2))
     assert session.computing
-    assert session.active is not None, "the former wire is seen until there is another"
-    assert session.preliminary
+    assert session.picture.active is not None, "the former wire is seen until there is another"
+    assert session.picture.one(Role.COMPUTING) is not None
     table.compute()
-    assert not session.preliminary
+    assert not session.picture.one(Role.COMPUTING) is not None
     assert session.wires == kept
     assert session.seed == (2, 3)
 
@@ -234,7 +236,7 @@ def test_live_wires_made_later_know_the_strokes() -> None:
     table = Table()
     session = table.session
     stroke(session, (0.5, 0.2), (4.5, 0.2))
-    session.switch("SURFACE")
+    use(session, along="SURFACE")
     assert table.lives["SURFACE"].strokes == [session.strokes]
 
 
@@ -254,7 +256,7 @@ def test_strokes_are_stored_and_found_again() -> None:
         assert (before.faces == after.faces).all()
         assert (before.vertices == after.vertices).all()
         assert (before.attracts, before.acts_on, before.radius) == (after.attracts, after.acts_on, after.radius)
-    assert not again.can_undo
+    assert not again.picture.can_undo
     assert again.erase(again.strokes[0])
     mesh.write(again)
     assert len(mesh.read().network.strokes) == 1

@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from seamwire.core.base.spatial_hash import SpatialHash
+from seamwire.core.drawing.picture import Role
 from seamwire.core.network.network import Wire
 from seamwire.core.network.symmetry import TOLERANCE, Symmetry
+from setting import use
 from table import SIZE, Table, chain
 
 
@@ -450,11 +452,11 @@ def test_topology_of_nothing_and_of_broken_meshes() -> None:
 def test_mirrored_edges_are_marked_and_cleared() -> None:
     session = Table(centred=True).session
     assert session.symmetric_axes == (0, 1)
-    session.set_mirror([0])
+    use(session, mirror=[0])
     session.click(0)
     session.click(1)
     assert session.edges_to_mark() == [(0, 1), (4, 5)]
-    session.toggle_marking()
+    use(session, clear=not session.options.clear)
     session.start(4)
     session.click(5)
     assert session.edges_to_mark() == []
@@ -464,18 +466,18 @@ def test_mirrored_edges_are_marked_and_cleared() -> None:
 
 def test_mirroring_is_for_wires_kept_from_then_on_and_no_step() -> None:
     session = Table(centred=True).session
-    assert session.set_mirror((0,))
-    assert not session.can_undo
+    assert use(session, mirror=(0,))
+    assert not session.picture.can_undo
     session.click(0)
     session.click(1)
     session.end_chain()
-    assert session.set_mirror(())
+    assert use(session, mirror=())
     assert session.edges_to_mark() == [(0, 1), (4, 5)], "the kept wire keeps its images"
     session.click(12)
     session.click(13)
     assert session.edges_to_mark() == [(0, 1), (4, 5), (12, 13)]
     session.undo()
-    assert session.mirror_axes == ()
+    assert session.options.mirror == ()
     assert session.edges_to_mark() == [(0, 1), (4, 5)]
     session.redo()
     assert session.edges_to_mark() == [(0, 1), (4, 5), (12, 13)]
@@ -486,19 +488,19 @@ def test_after_the_mirror_was_set_undo_does_not_stop_at_steps_that_changed_nothi
     session.click(0)
     session.adopt(session.network, [])
     session.start(0)
-    assert not session.can_undo
-    session.set_mirror((0,))
-    assert not session.can_undo
+    assert not session.picture.can_undo
+    use(session, mirror=(0,))
+    assert not session.picture.can_undo
     assert not session.undo()
 
 
 def test_a_wires_images_are_those_of_when_it_was_kept_and_follow_its_course() -> None:
     session = Table(centred=True).session
-    session.set_mirror((0,))
+    use(session, mirror=(0,))
     session.click(0)
     session.click(8)
     session.end_chain()
-    session.set_mirror((1,))
+    use(session, mirror=(1,))
     (wire,) = session.wires
     assert wire.mirror == (0,)
     assert sorted(wire.images) == chain(5, 4, 3, 9)
@@ -516,17 +518,19 @@ def test_a_wires_images_are_those_of_when_it_was_kept_and_follow_its_course() ->
 def test_running_on_ends_where_the_wire_meets_its_image() -> None:
     table = Table(centred=True)
     session = table.session
-    session.set_mirror((0,))
+    use(session, mirror=(0,))
     session.click(12)
     session.hover(13)
     session.run_to_end(preview=True)
-    assert session.end_preview.vertices == (12, 13, 14, 15, 16), "its image begins at 17 and leads to 16"
+    assert session.picture.one(Role.EXTENSION).vertices == (12, 13, 14, 15, 16), (
+        "its image begins at 17 and leads to 16"
+    )
 
 
 @pytest.mark.parametrize("axes", [(), (0,), (0, 1)])
 def test_a_dragged_seeds_images_move_with_it(axes: tuple[int, ...]) -> None:
     session = Table(centred=True).session
-    session.set_mirror(axes)
+    use(session, mirror=axes)
     session.click(0)
     session.click(1)
     session.drag(1)

@@ -22,13 +22,13 @@ def loops(grid: Grid) -> LoopOffers:
 
 def test_each_offer_is_shown_in_turn() -> None:
     offers = loops(Grid())
-    assert offers.advance() == "There is no loop yet"
+    assert str(offers.advance()) == "No loop found yet"
     offers.aim(EDGE)
     assert offers.missing
     assert offers.show(EDGE, offers.find(EDGE, Network()))
     first = offers.wire
     assert set(offers.kinds) >= {"CLOSED", "STRIP"}
-    assert offers.advance() == ""
+    assert str(offers.advance()) == ""
     assert offers.wire is not first
     for _ in offers.offers[1:]:
         offers.advance()

@@ -7,10 +7,10 @@ import itertools
 
 import numpy as np
 import pytest
+from real_sessions import AROUND, RINGS, ball, meridian, tube
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Wire, undirected
 from seamwire.core.seams.seam_wires import seam_chains, wires_between
-from test_real_loops import AROUND, RINGS, ball, meridian, tube
 
 core = pytest.importorskip("seamwire_core")
 
@@ -50,7 +50,7 @@ def redrawn(session: Session, wires: list[Wire]) -> list[list[int]]:
             session.start(wire.start)
         session.hover(wire.end)
         session.wait()
-        if session.active.vertices != wire.vertices:
+        if session.picture.active.vertices != wire.vertices:
             session.next_candidate()
         session.click(wire.end)
         session.wait()

@@ -19,7 +19,8 @@ class Made:
 
     def __init__(self, strengths: dict[Along, float] | None = None) -> None:
         self.lives: list[FakeLive] = []
-        self.engines = Engines(self._make, strengths or {}, lambda stroke: ("stroke", stroke))
+        self.engines = Engines(self._make, lambda stroke: ("stroke", stroke))
+        self.engines.use("feature", {**STRENGTHS, **(strengths or {})}, CLAMP_PERCENTILE)
 
     def _make(self, along: Along) -> FakeLive:
         self.lives.append(FakeLive(SIZE, along))
@@ -75,12 +76,12 @@ def test_triangles_that_wires_lead_around_are_told_of_once() -> None:
         made.engines.get(along)
         made.lives[-1].holes = (1, 3)
     made.lives[-1].ready = (True, False)
-    assert made.engines.warning("EDGES") == ""
-    assert made.engines.warning("SURFACE") == "1 triangle could not be made valid: wires lead around it"
-    assert made.engines.warning("SURFACE") == ""
+    assert not made.engines.warning("EDGES")
+    assert str(made.engines.warning("SURFACE")) == "1 triangle could not be made valid: wires go around it"
+    assert not made.engines.warning("SURFACE")
     made.lives[-1].ready = (True, True)
-    assert made.engines.warning("SURFACE").startswith("3 triangles could not")
-    assert made.engines.warning("SURFACE") == ""
+    assert str(made.engines.warning("SURFACE")).startswith("3 triangles could not")
+    assert not made.engines.warning("SURFACE")
 
 
 def told(made: Made) -> list[list[str]]:

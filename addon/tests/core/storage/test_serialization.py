@@ -25,6 +25,7 @@ from seamwire.core.storage.serialization import (
     load_first_version,
 )
 from seamwire.core.storage.wire_labels import Found
+from setting import use
 from table import SIZE, Table, chain, paper
 
 EDGES = grid_edges(SIZE)
@@ -42,7 +43,7 @@ FIRST_SEAMS = {
     *chain(27, 28, 29),
     *chain(0, 1, 2, 8),
 }
-"""What the first version left as seams: its wires and their images; 22-23 and 18-19 it cleared."""
+"""The seams that the first version left: its wires and their images. It cleared 22-23 and 18-19."""
 
 
 def drawn(**options: object) -> PaperMesh:
@@ -53,7 +54,7 @@ def drawn(**options: object) -> PaperMesh:
         session.click(pick)
     session.end_chain()
     session.loop((25, 26))
-    session.switch("SURFACE")
+    use(session, along="SURFACE")
     for pick in (30, 32):
         session.click(pick)
     session.draw_stroke(vertices=[1, 8, 20], attracts=False)
@@ -128,7 +129,7 @@ def test_a_text_stays_small() -> None:
     assert len(mesh.text) < 100 * 100 + 4 * vertices, f"{len(mesh.text)} bytes of 100 wires, {vertices} vertices"
 
 
-# Texts that are none
+# Texts without a network
 
 
 @pytest.mark.parametrize("version", [3, 10, "2.1", "x"])
@@ -222,10 +223,10 @@ def test_what_a_click_offered_in_another_version_does_not_matter() -> None:
 def test_which_of_the_wires_one_is_and_what_a_stroke_is_for_are_kept(follow: int) -> None:
     table = Table(ready=(True, True, True))
     session = table.session
-    session.switch("SURFACE")
+    use(session, along="SURFACE")
     session.click(0)
     session.hover(14)
-    while session.active.follow != follow:
+    while session.picture.active.follow != follow:
         session.next_candidate()
     session.draw_stroke(vertices=[1, 2, 3])
     session.click(14)
@@ -236,7 +237,7 @@ def test_which_of_the_wires_one_is_and_what_a_stroke_is_for_are_kept(follow: int
     assert [stroke.acts_on for stroke in network.strokes] == [("min", "max", "concave")[follow]]
 
 
-# The second version, as it was stored once
+# The second version, as stored by an earlier release
 
 
 def second() -> PaperMesh:
@@ -295,7 +296,7 @@ def first(seams: set[tuple[int, int]] = FIRST_SEAMS, mesh: PaperMesh | None = No
 
 def test_a_text_of_version_1_is_read_for_ever() -> None:
     network, problem = first()
-    assert problem == ""
+    assert not problem
     assert [(wire.along, wire.vertices, wire.start, wire.end, wire.kind) for wire in network.wires] == [
         ("EDGES", (0, 6, 7, 13, 14), (0, 6), (13, 14), None),
         ("EDGES", (14, 15, 21), (13, 14), 21, None),
@@ -334,7 +335,7 @@ def test_wires_of_the_first_version_go_over_to_labels_with_their_images() -> Non
 
 def test_images_of_the_first_version_that_are_no_seams_are_none() -> None:
     network, problem = first(FIRST_SEAMS - {(1, 2)})
-    assert problem == ""
+    assert not problem
     session = Table(centred=True).session
     session.adopt(network, sorted(FIRST_SEAMS - {(1, 2)}))
     assert set(session.edges_to_mark()) == FIRST_SEAMS - {(1, 2)}
@@ -342,7 +343,7 @@ def test_images_of_the_first_version_that_are_no_seams_are_none() -> None:
 
 def test_a_wire_of_the_first_version_whose_edges_are_seams_no_more_is_none() -> None:
     network, problem = first(FIRST_SEAMS - {(30, 31)})
-    assert problem == "1 of 6 stored wires are seams no more, or hidden"
+    assert str(problem) == "1 of 6 stored wires are hidden or no longer seams"
     assert (30, 31, 32) not in [wire.vertices for wire in network.wires]
     assert len(network.wires) == 5
 
@@ -351,7 +352,7 @@ def test_the_first_version_is_found_by_places_where_numbers_have_changed() -> No
     mesh = paper(centred=True, seams=set(FIRST_SEAMS))
     where = mesh.renumber(np.random.default_rng(3).permutation(SIZE**2))
     network, problem = first(mesh.seams, mesh)
-    assert problem == ""
+    assert not problem
     assert network.wires[1].vertices == tuple(where[[14, 15, 21]].tolist())
     assert network.wires[1].start == tuple(where[[13, 14]].tolist())
 
@@ -360,7 +361,7 @@ def test_the_first_version_is_found_by_numbers_where_the_mesh_was_moved_by_a_cel
     mesh = paper(centred=True)
     mesh.places[:, 0] += 1.0
     network, problem = first(FIRST_SEAMS, mesh)
-    assert problem == ""
+    assert not problem
     assert network.wires[0].vertices == (0, 6, 7, 13, 14)
 
 
@@ -368,7 +369,7 @@ def test_the_first_version_on_a_part_of_the_mesh_has_seeds_that_are_there() -> N
     mesh = paper(centred=True, seams=set(FIRST_SEAMS))
     where = mesh.delete_vertices([13])
     network, problem = first(mesh.seams, mesh)
-    assert problem == "1 of 6 stored wires are seams no more, or hidden"
+    assert str(problem) == "1 of 6 stored wires are hidden or no longer seams"
     wire = next(wire for wire in network.wires if wire.vertices == tuple(where[[14, 15, 21]].tolist()))
     assert (wire.start, wire.heading) == (where[14], None), "the edge that it began on is gone"
 
@@ -412,7 +413,7 @@ def test_what_is_no_network_of_the_first_version_is_told_in_words(spoil: Callabl
     mesh = paper(centred=True)
     network, problem = load_first_version(text, mesh.points, mesh.edges, np.array(sorted(FIRST_SEAMS)))
     assert network == Network()
-    assert "cannot be read" in problem
+    assert "cannot be read" in str(problem)
 
 
 def test_on_an_empty_mesh_nothing_is_found() -> None:
@@ -428,3 +429,19 @@ def test_places_that_are_no_numbers_match_nothing() -> None:
     data["coordinates"] = np.full((len(data["vertices"]), 3), np.nan).tolist()
     mesh = paper(centred=True)
     assert load_first_version(json.dumps(data), mesh.points, mesh.edges, np.array(sorted(FIRST_SEAMS)))[0].wires == ()
+
+
+def test_archives_whose_numbers_stand_for_different_things_are_not_merged() -> None:
+    one, other, third = Archive(), Archive(), Archive()
+    number = one.add_stroke({"order": 1})
+    other.strokes[number] = {"order": 2}  # the same 31 bits
+    assert not one.merge(other)
+    assert one.strokes == {number: {"order": 1}}, "what was known stays"
+    third.wires[number] = {"vertices": [0, 1]}
+    assert not one.merge(third), "a number of a stroke is none of a wire"
+    assert one.wires == {}
+    again = Archive()
+    again.add_stroke({"order": 1})
+    more = again.add_stroke({"order": 3})
+    assert one.merge(again)
+    assert set(one.strokes) == {number, more}

@@ -13,6 +13,7 @@ from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Edge, Network, Snap, Wire
 from seamwire.core.storage import wire_labels
 from seamwire.core.storage.serialization import WAS_SEAM, Archive, NewerError
+from setting import use
 from table import SIZE, Table, chain, courses, paper
 
 
@@ -65,7 +66,7 @@ def test_a_wire_is_seams_and_labels_and_comes_back() -> None:
         for name in ("along", "start", "end", "closed", "marks", "heading", "follow", "strength", "stored", "images"):
             assert getattr(wire, name) == getattr(was, name), name
         assert np.array_equal(wire.points, was.points)
-    assert not again.can_undo
+    assert not again.picture.can_undo
 
 
 def test_what_is_written_twice_changes_nothing() -> None:
@@ -125,7 +126,7 @@ def test_wires_that_cross_are_two_wires() -> None:
 def mirrored() -> PaperMesh:
     mesh = paper(centred=True)
     session = Table(centred=True).session
-    session.set_mirror((0,))
+    use(session, mirror=(0,))
     session.click(0)
     session.click(8)
     mesh.write(session)
@@ -202,7 +203,7 @@ def test_what_clears_an_edge_of_a_hidden_wire_takes_it_from_that() -> None:
     mesh, _ = drawn((0, 3))
     mesh.hide((0, 1))
     session = opened(mesh)
-    session.toggle_marking()
+    use(session, clear=not session.options.clear)
     session.click(2)
     session.click(3)
     mesh.write(session)
@@ -216,7 +217,7 @@ def test_what_clears_an_edge_of_a_hidden_wire_takes_it_from_that() -> None:
 def test_a_wire_that_clears_leaves_the_rest_of_those_it_crosses_as_seams() -> None:
     mesh, session = drawn((0, 3), (12, 15))
     session = opened(mesh)
-    session.toggle_marking()
+    use(session, clear=not session.options.clear)
     session.click(1)
     session.click(2)
     mesh.write(session, adopt=True)
@@ -232,7 +233,7 @@ def test_a_wire_and_what_clears_a_part_of_it_may_be_of_one_drawing() -> None:
     session.click(0)
     session.click(3)
     session.end_chain()
-    session.toggle_marking()
+    use(session, clear=not session.options.clear)
     session.click(1)
     session.click(2)
     session.start(7)
@@ -244,7 +245,7 @@ def test_a_wire_and_what_clears_a_part_of_it_may_be_of_one_drawing() -> None:
 
 def test_what_is_left_of_a_cleared_wire_is_a_seam_under_others_too() -> None:
     mesh, session = drawn((0, 3), (2, 5))
-    session.toggle_marking()
+    use(session, clear=not session.options.clear)
     session.click(0)
     session.click(1)
     mesh.write(session, adopt=True)
@@ -660,7 +661,7 @@ def test_an_objects_scale_does_not_matter(stretch: np.ndarray) -> None:
     session.click(0)
     session.click(9)
     session.draw_stroke(vertices=[1, 8, 20])
-    session.switch("EDGES")
+    use(session, along="EDGES")
     session.start(30)
     session.click(33)
     mesh.write(session)

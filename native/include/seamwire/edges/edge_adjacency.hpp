@@ -8,12 +8,12 @@
 
 namespace seamwire {
 
-/// The real edges around each vertex of a surface, and what it costs to turn from one to another: 1 - cos kappa, where
-/// kappa is the discrete geodesic curvature, pi |left - right| / (left + right) of the face angles on either side
-/// (Polthier and Schmies, "Straightest Geodesics on Polyhedral Surfaces", 1998). On a boundary it is zero along the
-/// boundary, else pi minus the angle between the edges; where the faces at a vertex are no single umbrella (an edge
-/// with three faces, a bow-tie, a loose edge) it is the angle by which the chain turns in space. Immutable, so any
-/// number of threads may use it.
+/// The real edges around each vertex of a surface, and the cost of turning from one edge to another, 1 - cos kappa.
+/// Here kappa is the discrete geodesic curvature, pi |left - right| / (left + right) of the face angles on either side.
+/// It is from Polthier and Schmies, "Straightest Geodesics on Polyhedral Surfaces" (1998). On a boundary, kappa is zero
+/// along the boundary, and otherwise pi minus the angle between the edges. If the faces at a vertex are not a single
+/// umbrella, kappa is the angle by which the chain turns in space. Examples are an edge with three faces, a bow-tie and
+/// a loose edge. Immutable, so any number of threads may use it.
 class EdgeAdjacency;
 
 /// Throws Cancelled.

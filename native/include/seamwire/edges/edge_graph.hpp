@@ -18,7 +18,7 @@ namespace seamwire {
 
 /// A chain of real edges. It repeats no vertex, except that one from a forward seed may end where it began.
 struct EdgeChain {
-  std::vector<std::int32_t> vertices;  ///< in order, picked edges included; empty: there is none
+  std::vector<std::int32_t> vertices;  ///< in order, picked edges included; empty: no chain
   /// The chain's cost: metric length of the model scaled to the unit cube, plus turning.
   double length = std::numeric_limits<double>::infinity();
 };

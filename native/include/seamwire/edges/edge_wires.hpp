@@ -9,7 +9,7 @@
 
 namespace seamwire {
 
-/// What was picked: a vertex `a` (b = -1), or the edge between `a` and `b`.
+/// A picked vertex `a` (b = -1), or the picked edge between `a` and `b`.
 struct Pick {
   std::int32_t a = -1;  ///< the vertex, or one end of the edge
   std::int32_t b = -1;  ///< the other end; -1: a vertex
@@ -32,12 +32,12 @@ class EdgeWires {
   /// Runs the search, nearest first; to be called once. Throws Cancelled: what was found until then can be asked for.
   void run(const Task& task = {});
 
-  /// Whether trace() gives the cheapest chain already, or tells for sure that there is none. Throws InvalidInput where
-  /// the target is not a vertex or an edge of the surface.
+  /// Whether trace() gives the cheapest chain already, or knows that no chain exists. Throws InvalidInput where the
+  /// target is not a vertex or an edge of the surface.
   bool is_final(const Pick& target) const;
 
-  /// The cheapest chain to a target, both picks included. A picked edge has no direction: the better of both. The seed
-  /// itself is a chain of its own. Behind a forward seed, a target at the seed's first vertex closes the chain there.
+  /// The cheapest chain to a target, both picks included. A picked edge has no direction: the better of both. The chain
+  /// to the seed is the seed itself. Behind a forward seed, a target at the seed's first vertex closes the chain there.
   /// Takes time in proportion to the chain. Throws InvalidInput where the target is not a vertex or an edge of the
   /// surface.
   ///

@@ -24,16 +24,17 @@ struct FittedChain {
   std::vector<double> places;
 };
 
-/// The chain of real edges that fits a line best, from the vertex nearest to its first point to the one nearest to its
-/// last: what is drawn beyond half an edge does not count. Of all chains that go along the line from its beginning to
-/// its end it has the least sum of
-///   l (1 + 32 d^2 / h^2) + h / 4 (1 - cos kappa),
-/// where l is an edge's length, d^2 the mean square distance of its ends and its middle to the line, kappa the turn
-/// onto it (EdgeAdjacency), and h the median length of the edges at the faces that the line runs through. A step along
-/// an edge may go back by h + l / 2 on the line and ahead by 2 h + 3 l / 2, and only that part of the line counts for
-/// it, so lines may cross themselves and come back beside themselves. Where a line turns back over itself, so does the
-/// chain, and what is passed both ways falls away. A line that ends where it began gives a closed chain, its first
-/// vertex given again at the end.
+/// Finds the chain of real edges that fits a line best. It leads from the vertex nearest to the line's first point to
+/// the vertex nearest to its last point. Parts of the line beyond half an edge do not count. Of all chains that go
+/// along the line from its beginning to its end it has the least sum of
+///   l (1 + 32 d^2 / h^2) + h / 4 (1 - cos kappa).
+///
+/// In it, l is an edge's length, and d^2 the mean square distance of its ends and its middle to the line. The turn onto
+/// the edge is kappa (EdgeAdjacency). Of the edges at the faces that the line crosses, h is the median length. A step
+/// along an edge may go back by h + l / 2 on the line and ahead by 2 h + 3 l / 2. Only that part of the line counts for
+/// the step. So lines may cross themselves and come back beside themselves. Where a line turns back over itself, so
+/// does the chain, and edges that it passes both ways are dropped. A line that ends where it began gives a closed
+/// chain, its first vertex given again at the end.
 ///
 /// `begin`, `end`: vertices where it begins and ends instead, which should be near the line's. Where no edges lead all
 /// along the line (a gap between components, a hole) the chain ends where they end. A line shorter than half an edge

@@ -7,11 +7,11 @@
 
 namespace seamwire {
 
-/// The cheapest closed chain through an edge, without repeated vertices; the first vertex is not given twice. Empty
-/// where there is none. As for EdgeWires::trace(), a cheapest walk that crosses itself is replaced by another chain.
+/// The cheapest closed chain through an edge, without repeated vertices; the first vertex is not given twice. Empty if
+/// no such chain exists. As for EdgeWires::trace(), a cheapest walk that crosses itself is replaced by another chain.
 ///
-/// `edge`: two vertices in either order. `turning`: q, not negative. Nothing dearer than going around a face beside the
-/// edge is found, which costs some 4 `turning` edges: for larger rings on finer meshes take a larger `turning`.
+/// `edge`: two vertices in either order. `turning`: q, not negative. Going around a face beside the edge costs about 4
+/// `turning` edges, and no more expensive chain is found. For larger rings on finer meshes, take a larger `turning`.
 /// Throws InvalidInput where there is no such edge or `turning` is wrong; Cancelled.
 EdgeChain shortest_cycle(const EdgeGraph& graph, const Edge& edge, double turning = 20.0, const Task& task = {});
 

@@ -13,7 +13,7 @@
 
 namespace seamwire {
 
-/// What the priority of an invalid triangle, and sigma, are measured by.
+/// The measure for the priority of an invalid triangle, and for sigma.
 enum class Perimeter { kMetric, kEuclidean };
 
 /// How far the subdivision goes.
@@ -32,9 +32,9 @@ struct EmbedOptions {
   /// face stay. nullopt: all faces. The work is proportional to these faces, but all points are copied, because
   /// vertices keep their numbers. If one of the faces has no area, the work is that for all faces.
   std::optional<std::vector<std::int32_t>> faces = std::nullopt;
-  /// The length in the metric that `max_error` compares the sizes of triangles with. Give that of another embedding
-  /// (Embedding::mean_edge_length) to refine a part of the surface, or the surface in a changed metric, in the same
-  /// way. 0: the mean length of an edge of the faces to embed.
+  /// The length in the metric that `max_error` compares the sizes of triangles with. 0 is the mean length of an edge of
+  /// the faces to embed. Give the length of another embedding (Embedding::mean_edge_length) to refine in the same way.
+  /// That is useful for a part of the surface, or for a changed metric.
   double mean_edge_length = 0.0;
 
   /// Member by member.
@@ -52,8 +52,8 @@ struct Resolution {
   /// as the budget or the cap allows.
   std::size_t unmet = 0;
   /// Eta, the largest |ln| of the ratio between a vector's length at a corner of a triangle and in the triangle.
-  /// Proved: where there are no holes, distances are within a factor of e^eta of those in the metric that varies
-  /// linearly in each triangle of the embedding between the forms at its corners.
+  /// Proved: without holes, distances are within a factor of e^eta of those in a metric that varies linearly. It varies
+  /// in each triangle of the embedding, between the forms at its corners.
   double largest_deviation = 0.0;
 };
 
@@ -113,11 +113,11 @@ struct Embedding {
 /// \throws Cancelled
 Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions& options = {}, const Task& task = {});
 
-/// The embedding in another metric, made from that in a former one by bisecting anew only what touches the vertices
-/// where the two metrics differ. The result is that of embed(surface, metric, options), but for the numbers of new
-/// vertices and triangles: which bisections a triangle undergoes depends on those triangles alone with which it is
-/// bisected together. So these are made anew with it, and those that they then run into. All else costs is comparing
-/// the metrics, vertex by vertex.
+/// Embeds a surface in another metric, from its embedding in a former one. Only triangles around vertices where the two
+/// metrics differ are bisected anew. The result is that of embed(surface, metric, options), except for the numbers of
+/// new vertices and triangles. The bisections of a triangle depend only on the triangles that are bisected together
+/// with it. So these are made anew too, and the triangles that they then reach. Otherwise the cost is comparing the
+/// metrics, vertex by vertex.
 ///
 /// If `old` is not local, or the normals of the metrics differ, this is embed(). An embedding is not local if it has
 /// holes, a `max_error`, only some faces, or the work of another scheme than the first, or if the surface has

@@ -50,15 +50,15 @@ struct Flattening {
 /// (1963) by projected Newton steps. Islands are solved on several threads; the result does not depend on the number of
 /// threads.
 ///
-/// `cuts`: vertex pairs of either order; pairs that are no real edges of the surface cut nothing. Islands are the
+/// `cuts`: vertex pairs of either order; pairs that are not real edges of the surface cut nothing. Islands are the
 /// segments of face_segments(), except that the surface is cut open along non-manifold and unorientable edges, too: a
-/// segment that only such edges hold together becomes several islands. A segment's first part keeps its number, and
-/// the further parts are numbered after all segments.
+/// segment that only such edges hold together becomes several islands. A segment's first part keeps its number, and the
+/// further parts are numbered after all segments.
 ///
 /// An island without a boundary or with handles is opened along short additional paths of edges, which FlatIsland
 /// counts. So is an island that double precision cannot map otherwise, such as a long tube with one end closed. A
-/// triangle that the surface left out (degenerate or duplicate) gets the UVs that its vertices have in its island, or
-/// the island's center for a vertex that the island does not have.
+/// triangle that the surface left out (degenerate or duplicate) gets the UVs that its vertices have in its island. A
+/// vertex that is not in the island gets the island's center.
 ///
 /// Throws InvalidInput for a vertex out of range, a start of the wrong size or with numbers that are not finite, and an
 /// island that no opening makes possible to map. Throws Cancelled within about 20 ms at 100,000 triangles, and within

@@ -15,7 +15,7 @@ namespace seamwire {
 /// The UVs of each triangle's corners, in the order of its vertices.
 using CornerUvs = std::vector<std::array<Eigen::Vector2d, 3>>;
 
-/// What a UV map does to a surface.
+/// Measures of a UV map of a surface.
 struct MapReport {
   /// The symmetric Dirichlet energy E_d: its mean over the area of the surface after the whole map has been scaled
   /// uniformly such that this is lowest. The worst triangles, .1 % of the area, and flipped ones are left out. 4 for an

@@ -37,7 +37,7 @@ class CorridorPaths {
   CorridorPaths(CorridorPaths&&) noexcept;             ///< leaves one that may only be destroyed
   CorridorPaths& operator=(CorridorPaths&&) noexcept;  ///< as moving
 
-  std::int32_t seed() const;  ///< the vertex that paths begin at; -1: a point that is none
+  std::int32_t seed() const;  ///< the vertex that paths begin at; -1: another point
   /// A path as DistanceField::trace() gives one. Throws InvalidInput for a target out of range; Cancelled, after which
   /// the object can be used as before.
   IntrinsicPath path(std::int32_t target, const Task& task = {});

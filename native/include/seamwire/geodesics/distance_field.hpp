@@ -31,18 +31,18 @@ struct IntrinsicPath {
   double length = std::numeric_limits<double>::infinity();  ///< sum of the segments' lengths
 };
 
-/// What the work of a solve consisted of; the same for the same input on every machine.
+/// Counts the work of a solve. The counts are the same for the same input on every machine.
 struct GeodesicCounters {
   std::size_t lists = 0;    ///< window lists propagated
   std::size_t windows = 0;  ///< windows propagated
 };
 
-/// Distances from a seed, or from the nearest of several sources, to every point of an IntrinsicMesh, with what it
-/// takes to trace the paths; exact, or from a bounded number of windows (ExactGeodesics makes both). Immutable; copies
-/// share the data.
+/// Distances from a seed, or from the nearest of several sources, to every point of an IntrinsicMesh. It also traces
+/// the paths. ExactGeodesics makes exact fields, and fields from a bounded number of windows. Immutable; copies share
+/// the data.
 class DistanceField {
  public:
-  std::int32_t seed() const;  ///< the vertex that distances are from; -1: several, or a point that is none
+  std::int32_t seed() const;  ///< the vertex that distances are from; -1: several, or another point
   /// What distances are from, as given.
   const std::vector<SurfacePoint>& sources() const;
   bool is_exact() const;                     ///< or from a bounded number of windows
@@ -57,8 +57,8 @@ class DistanceField {
   const std::vector<double>& distances() const;
 
   /// The shortest path from the seed to a vertex, in time proportional to the triangles it crosses. Its length is the
-  /// distance to rounding (1e-9 of it in the tests). Where the field is not exact, it is a real path all the same, with
-  /// its true length: the shortest one within the triangles around the path that the field tells; it may be longer than
+  /// distance to rounding (1e-9 of it in the tests). If the field is not exact, it is still a real path, with its true
+  /// length. It is the shortest path within the triangles around the path that the field tells. It may be longer than
   /// the geodesic, but not shorter.
   ///
   /// Throws InvalidInput for a vertex out of range; Cancelled, where the path takes long.

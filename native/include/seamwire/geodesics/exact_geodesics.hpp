@@ -18,8 +18,8 @@ namespace detail {
 class GeodesicMesh;  // the solver's own form of the mesh
 }
 
-/// What a solve is for: it may stop when it knows that much. The front looks back by no more than the mesh's longest
-/// edge, so what it saves is less where that is long.
+/// When a solve may stop. The front looks back by no more than the mesh's longest edge, so what it saves is less where
+/// that is long.
 struct SolveOptions {
   /// Distances beyond it are not wanted: they are given as infinite. 0 or more.
   double max_distance = std::numeric_limits<double>::infinity();
@@ -28,18 +28,18 @@ struct SolveOptions {
   std::vector<SurfacePoint> targets;
 };
 
-/// Solver for repeated seeds on one mesh: the triangle-oriented wavefront of Qin et al., "Fast and Exact Discrete
-/// Geodesic Computation Based on Triangle-Oriented Wavefront Propagation" (2016), with the filter of Xin and Wang
-/// (2009), on edge lengths alone. solve() may be called from several threads at once.
+/// Solver for repeated seeds on one mesh, from edge lengths alone. Its wavefront is that of Qin et al., "Fast and Exact
+/// Discrete Geodesic Computation Based on Triangle-Oriented Wavefront Propagation" (2016). Its filter is that of Xin
+/// and Wang (2009). solve() may be called from several threads at once.
 class ExactGeodesics {
  public:
-  /// Throws InvalidInput for a length that is not positive and finite, a triangle that fails the triangle inequality,
-  /// or twins that do not match; Cancelled.
+  /// Throws InvalidInput for a length that is not positive and finite, for a triangle that fails the triangle
+  /// inequality, or for twins without match. Throws Cancelled.
   explicit ExactGeodesics(const IntrinsicMesh& mesh, const Task& task = {});
-  /// The same as from `mesh` alone, in less time where most of it, numbers included, is as in `former_mesh`, which
-  /// `former` was made from: as the mesh of an embedding made by re_embed() from another one is. What is the same is
-  /// shared with `former`. Throws what the other constructor throws, and InvalidInput where `former_mesh` differs in
-  /// size from what `former` was made from.
+  /// The same as from `mesh` alone, in less time if most of it equals `former_mesh`, including the numbers. `former`
+  /// was made from `former_mesh`. The mesh of an embedding made by re_embed() is such a mesh. Equal parts are shared
+  /// with `former`. Throws what the other constructor throws. Throws InvalidInput if `former_mesh` differs in size from
+  /// the mesh that `former` was made from.
   ExactGeodesics(const ExactGeodesics& former, const IntrinsicMesh& former_mesh, const IntrinsicMesh& mesh,
                  const Task& task = {});
   /// Throws InvalidInput for a seed out of range; Cancelled.

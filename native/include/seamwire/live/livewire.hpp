@@ -37,10 +37,10 @@ struct LiveMetrics {
 
 /// Returns the metrics of a family, as the tool offers their wires.
 ///
-/// - kFeature: M_min and M_max; across the surface, the concave metric comes first.
+/// - kFeature: M_min and M_max. Across the surface, the concave metric comes first.
 /// - kCampen, kPottmannKovacs: M_min and M_max.
-/// - kConcave: the concave metric, then the Euclidean one, whose closed cuts help out where nothing is concave.
-/// - kEuclidean: the Euclidean metric, whatever the strength.
+/// - kConcave: The concave metric, then the Euclidean one. Its closed cuts help out where nothing is concave.
+/// - kEuclidean: The Euclidean metric. The strength does not matter.
 ///
 /// Throws InvalidInput for a strength that is not as metric.hpp says.
 LiveMetrics live_metrics(MetricFamily family, const Strength& strength, Along along = Along::kSurface);
@@ -78,7 +78,7 @@ struct LiveWires {
   /// The number of the wire to be offered first, see LiveMetrics. If that wire turns out not to reach the target, it is
   /// the shortest of all wires.
   int active = 0;
-  bool settled = false;  ///< whether `active` is final, and stays the active one whatever the others will be
+  bool settled = false;  ///< whether `active` is final, and stays the active one
   /// Whether all are.
   bool final() const { return std::ranges::all_of(wires, &LiveCandidate::final); }
   /// Whether all are solved: what follows a moving cursor need not wait for more.
@@ -87,7 +87,7 @@ struct LiveWires {
 
 /// A closed chain of edges.
 struct LiveLoop {
-  std::vector<std::int32_t> vertices;  ///< the first one is not given twice; empty: there is none, or not yet
+  std::vector<std::int32_t> vertices;  ///< the first one is not given twice; empty: no chain, or not yet
   double length = std::numeric_limits<double>::infinity();  ///< as an EdgeChain has it
   bool final = false;                                       ///< false: still being computed
 };
@@ -121,21 +121,21 @@ struct LiveEmbedding {
   double worst_clamp = 1.0;       ///< by that factor at most, 1 or more
 };
 
-/// Some metrics of a surface, each prepared on a thread of its own; seed, then a wire in each to any target (Section
-/// 5). Where there are fewer processors than metrics, the last ones wait until the work on the leading one is done.
+/// Wires from a seed to any target, one in each of several metrics of a surface (Section 5). Each metric has its own
+/// thread. Where there are fewer processors than metrics, the last ones wait until the work on the leading one is done.
 ///
 /// Any number of threads may call the members at once, except that nobody may use an object while it is moved or
 /// destroyed. Only wait() and wait_for_surface() wait for the computation. Metrics, strokes and seed are those that
 /// were set last.
 ///
-/// Where the surface is still being built, the members keep what they are given and answer that nothing is there yet
-/// and nothing final; an edge that turns out not to be part of the surface is refused at a later call. Where it cannot
-/// be built, each member throws what the constructor of Surface threw.
+/// While the surface is being built, the members keep what they are given. They answer that nothing is there yet and
+/// nothing is final. An edge that turns out not to be part of the surface is refused at a later call. If the surface
+/// cannot be built, each member throws what the constructor of Surface threw.
 class LiveWire {
  public:
   /// Throws InvalidInput for options that are not as said above and in metric.hpp.
   explicit LiveWire(const SurfaceContext& context, const LiveWireOptions& options = {});
-  /// On a context of its own. Throws InvalidInput, too, if there is no surface.
+  /// On its own context. Throws InvalidInput, too, if there is no surface.
   explicit LiveWire(std::shared_ptr<const Surface> surface, const LiveWireOptions& options = {});
   /// Builds the surface on its own threads, from the arguments of Surface's constructor, and returns at once.
   LiveWire(std::vector<Vector> points, std::vector<Triangle> triangles,
@@ -148,7 +148,7 @@ class LiveWire {
   /// either does not change the other.
   LiveWire fork() const;
   /// Another one on the same surface, which is built once, with the curvatures and whatever else does not depend on the
-  /// options. It has metrics of its own, no strokes and no seed. Throws InvalidInput as the constructors do.
+  /// options. It has its own metrics, no strokes and no seed. Throws InvalidInput as the constructors do.
   LiveWire sibling(const LiveWireOptions& options) const;
 
   /// The surface with all that depends on it alone.
@@ -159,7 +159,7 @@ class LiveWire {
   bool wait_for_surface(double seconds = std::numeric_limits<double>::infinity()) const;
 
   /// Changes the metrics in the background, and then seeds again: until then wires are those of the former metrics, and
-  /// not final. What is prepared of a metric that stays is kept. Throws InvalidInput as the constructors do.
+  /// not final. A metric that stays is not prepared again. Throws InvalidInput as the constructors do.
   void set_metrics(const LiveMetrics& metrics);
   /// The strokes that change the metric from here on, instead of those before; as set_metrics(). What apply_scribbles()
   /// throws for them comes out of the calls that ask for results.
@@ -196,9 +196,9 @@ class LiveWire {
   /// of the first metric come first. On a large surface, a rough version of them comes even before. Neither is final.
   /// Throws InvalidInput if the point is not on the surface.
   LiveClosedWires closed_wires(const SurfacePoint& through);
-  /// One of the closed cuts through a point, by its LiveClosedWire::id, bent to a second point (BentWires) in its
-  /// metric; none if there is no such cut, or it does not lead there. Asked for as the others, and never there before
-  /// it is final.
+  /// Bends one of the closed cuts through a point to a second point, in the cut's metric (BentWires). `cut` is its
+  /// LiveClosedWire::id. The answer is empty if there is no such cut, or if it does not lead there. Asked for as the
+  /// others, and never there before it is final.
   LiveClosedWires bent_wire(const SurfacePoint& through, const SurfacePoint& second, const ClosedCutId& cut = {});
   /// seamwire::extend_straight(), with the way's length in the unit cube; no vertices until the edge adjacency is
   /// computed.

@@ -12,7 +12,7 @@ namespace seamwire {
 
 /// Which crest lines are kept.
 struct CrestLineOptions {
-  /// Of a line, the least integral of |k1| along it: in radians, so it does not hang on the size of the model.
+  /// Of a line, the least integral of |k1| along it. It is in radians, so it does not depend on the size of the model.
   double least_strength = 1.0;
   /// Of its points, the least share by which curvature has fallen one radius of curvature away on both sides. Lines
   /// that noise draws on a sphere, cylinder or torus, where curvature does not fall, have none. In [0, 1).
@@ -33,12 +33,13 @@ struct CrestLines {
   std::vector<std::int32_t> faces;   ///< per point: the caller's face to the next one; -1 for a line's last point
 };
 
-/// Yoshizawa, Belyaev, Seidel, "Fast and robust detection of crest lines on meshes" (2005): where the larger curvature
-/// k1 is largest along its own direction d1, e = dk1 / dd1 = 0. e comes from the derivative of the curvature tensor in
-/// each face (Rusinkiewicz 2004, Section 4), averaged over the faces around a vertex by their areas; lines from its
-/// signs in each triangle as in Hildebrandt, Polthier, Wardetzky, "Smooth feature lines on surface meshes" (2005).
-/// Ridges have k1 > 0, valleys k1 < 0. Their strength is the paper's integral of curvature; the paper's second
-/// threshold, by how far the surface is from a cyclide of Dupin, is least_drop here (docs/method/curvature.md).
+/// Finds crest lines as Yoshizawa, Belyaev, Seidel, "Fast and robust detection of crest lines on meshes" (2005). On
+/// them, the larger curvature k1 is largest along its own direction d1, so e = dk1 / dd1 = 0. e comes from the
+/// derivative of the curvature tensor in each face (Rusinkiewicz 2004, Section 4). It is averaged over the faces around
+/// a vertex by their areas. Lines follow from its signs in each triangle, as in Hildebrandt, Polthier, Wardetzky,
+/// "Smooth feature lines on surface meshes" (2005). Ridges have k1 > 0, valleys k1 < 0. Their strength is the paper's
+/// integral of curvature. The paper's second threshold is how far the surface is from a cyclide of Dupin. Here,
+/// least_drop takes its place (docs/method/curvature.md).
 ///
 /// `curvature`: of principal_curvatures(), or better smoothed. Throws InvalidInput for curvatures of another size and
 /// options out of range; Cancelled.

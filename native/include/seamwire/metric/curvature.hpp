@@ -30,9 +30,9 @@ std::vector<Vector> vertex_normals(const Surface& surface);
 /// Throws Cancelled.
 Curvature principal_curvatures(const Surface& surface, const Task& task = {});
 
-/// Curvatures averaged over about `radius` (unit: the side of the cube): the curvature tensors of neighbors, turned by
-/// the least rotation between their normals and weighted by the area around them, averaged over 1-rings
-/// max(1, (radius / median edge)^2) times, 400 times at most. The normals stay. Throws InvalidInput for curvatures of
+/// Averages curvatures over about `radius` (unit: the side of the cube). Curvature tensors are averaged over 1-rings
+/// max(1, (radius / median edge)^2) times, 400 times at most. The tensors of neighbors are turned by the least rotation
+/// between their normals, and weighted by the area around them. The normals stay. Throws InvalidInput for curvatures of
 /// another size and a radius that is not positive and finite; Cancelled.
 Curvature smoothed_curvatures(const Surface& surface, const Curvature& curvature, double radius, const Task& task = {});
 

@@ -60,17 +60,17 @@ Metric campen_metric(const Surface& surface, const Curvature& curvature, Follow 
 /// one.
 Metric pottmann_kovacs_metric(const Surface& surface, const Curvature& curvature, Follow follow,
                               const Strength& strength, const Task& task = {});
-/// Short along concave creases and, less so, ridges: the metric whose single wires come nearest to the cuts that people
-/// make (docs/method/metric.md). With s = |k1| - |k2|, halved where k1 > 0 (convex), l1 = 1 + 0.03 t s, l2 = 1 / l1
-/// and c(k) = 1 / (1 + t (1 / (0.3 + 0.7 exp(-max(0, -k) / 16)) - 1)): M = l1 c(k2)^2 d1 d1^T + l2 c(k1)^2 d2 d2^T.
-/// Normals must point outwards; curvatures are best those of smoothed_curvatures() with a radius of 0.01. `strength`:
-/// t, 0 is the Euclidean metric, 1 what was measured; InvalidInput where it is negative or not finite, as above for the
-/// rest.
+/// Short along concave creases and, less so, ridges. Its single wires come nearest to the cuts that people make
+/// (docs/method/metric.md). M = l1 c(k2)^2 d1 d1^T + l2 c(k1)^2 d2 d2^T. In it, l1 = 1 + 0.03 t s, l2 = 1 / l1, and
+/// s = |k1| - |k2|, halved where k1 > 0 (convex). The factor is c(k) = 1 / (1 + t (1 / (0.3 + 0.7 exp(-max(0, -k) /
+/// 16)) - 1)). Normals must point outwards; curvatures are best those of smoothed_curvatures() with a radius of 0.01.
+/// `strength`: t, 0 is the Euclidean metric, 1 what was measured; InvalidInput where it is negative or not finite, as
+/// above for the rest.
 Metric concave_metric(const Surface& surface, const Curvature& curvature, double strength = 1.0, const Task& task = {});
 /// The Euclidean metric: the identity on every tangent plane.
 Metric euclidean_metric(const Surface& surface, const Curvature& curvature, const Task& task = {});
 
-/// A tensor with its normal, and the norm it gives to any vector: g(e)^2 = e^T M e + sqrt(l1 l2) (n.e)^2, the "ambient"
+/// A tensor with its normal. It gives any vector the norm g(e)^2 = e^T M e + sqrt(l1 l2) (n.e)^2. This is the "ambient"
 /// reading of the norm of an edge, which need not be tangent (docs/method/metric.md says why).
 struct TensorAt {
   Vector normal;           ///< unit, or zero
@@ -91,8 +91,8 @@ struct PrincipalAxes {
   Vector e1 = Vector::Zero();  ///< unit, the direction of l1
   Vector e2 = Vector::Zero();  ///< unit, the direction of l2
 };
-/// Those of a tensor. Any two directions where the eigenvalues are equal; ones and zero vectors where the normal is
-/// zero.
+/// Finds the principal axes of a tensor. The directions are any two if the eigenvalues are equal. If the normal is
+/// zero, the eigenvalues are 1 and the directions are zero.
 PrincipalAxes principal_axes(const TensorAt& at);
 /// In the middle between two: the mean of the normals, normalised (of opposite ones, the first), and of the tensors,
 /// each turned by the least rotation onto that normal. Its anisotropy is at most that of the ends.

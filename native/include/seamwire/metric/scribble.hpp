@@ -12,8 +12,8 @@
 
 namespace seamwire {
 
-/// What the paths of a metric follow: the direction of least curvature, that of most curvature, concave creases
-/// (concave_metric()), or nothing (euclidean_metric()).
+/// The directions that paths of a metric follow: least curvature, most curvature, concave creases (concave_metric()),
+/// or nothing (euclidean_metric()).
 enum class MetricKind { kMin, kMax, kConcave, kEuclidean };
 
 /// A stroke drawn on a surface: wires near it run as it does (Section 5 of the paper).
@@ -36,18 +36,19 @@ struct Scribble {
   friend bool operator==(const Scribble&, const Scribble&) = default;
 };
 
-/// The metric after the scribbles, applied in their order: at all corners of the triangles that a stroke crosses, and
-/// the vertices it runs along, the tensor has the eigenvalues (eta, 1 / eta), the minor eigenvector along the drawn
-/// line (its chord over two edges). That tensor is carried on, ring by ring, turned by the least rotation from normal
-/// to normal, and blended with what was there with the weight 1 - r / k (r: the ring; with a radius: 1 - distance /
-/// radius, but 1 along the stroke). So of two strokes that cross, the later one wins along its own line, and without
-/// scribbles the result is `metric`, bit for bit.
+/// Applies scribbles to a metric, in their order. A stroke changes the tensors at all corners of the triangles that it
+/// crosses, and at the vertices it runs along. There the eigenvalues become (eta, 1 / eta), with the minor eigenvector
+/// along the drawn line (its chord over two edges). That tensor is carried on, ring by ring, and turned by the least
+/// rotation from normal to normal. It is blended with the former tensor with the weight 1 - r / k in ring r. With a
+/// radius, the weight is 1 - distance / radius, but 1 along the stroke. So of two strokes that cross, the later one
+/// wins along its own line. Without scribbles the result is `metric`, bit for bit.
 ///
-/// Points further apart than a triangle are joined along the vertices nearest to the straight line between them; where
-/// none lead there (another component, the far side of a hole) the stroke has a gap. A stroke that crosses itself takes
-/// at each vertex the direction of its nearest part, of equal ones the later. A stroke without movement has no
-/// direction and changes nothing, and vertices without a normal are left as they are. `kind`: that of the metric; takes
-/// only the scribbles meant for it. nullopt: takes all. (The paper changes the metric of the active wire.)
+/// Points further apart than a triangle are joined along the vertices nearest to the straight line between them. The
+/// stroke has a gap where no vertices lead there, as to another component or the far side of a hole. A stroke that
+/// crosses itself takes at each vertex the direction of its nearest part, of equal ones the later. A stroke without
+/// movement has no direction and changes nothing, and vertices without a normal are left as they are. `kind`: that of
+/// the metric; takes only the scribbles meant for it. nullopt: takes all. (The paper changes the metric of the active
+/// wire.)
 ///
 /// Throws InvalidInput, naming scribble and point, for a point that is not finite, or whose face or vertex is missing
 /// or out of range. A point may also be too far from the mesh: farther from its face or vertex than a twentieth of the

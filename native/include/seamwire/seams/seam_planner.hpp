@@ -18,7 +18,7 @@
 
 namespace seamwire {
 
-/// What a SeamPlanner knows of a surface.
+/// Options of a SeamPlanner.
 struct SeamPlannerOptions {
   Along along = Along::kSurface;  ///< where wires run
   /// Strength of the two feature metrics that wires across the surface minimize.
@@ -29,9 +29,9 @@ struct SeamPlannerOptions {
   /// The axis, 0 to 2, whose plane through the origin mirrors the surface; -1 if seams need not be symmetric. A surface
   /// that is not symmetric is planned as with -1.
   int mirror = -1;
-  /// What a seam costs at each vertex, as a factor; infinity keeps seams away. Empty: 1 everywhere.
+  /// The cost of a seam at each vertex, as a factor; infinity keeps seams away. Empty: 1 everywhere.
   std::vector<double> weights = {};
-  /// Existing seams, which stay, as vertex pairs. Pairs that are no edges of two triangles cut nothing.
+  /// Existing seams, which stay, as vertex pairs. Pairs that are not edges of two triangles cut nothing.
   std::vector<Edge> seams = {};
 };
 
@@ -42,7 +42,7 @@ struct SeamGoal {
   double distortion = 4.2;
   /// Minimum number of islands. There are fewer if too few limbs can be separated.
   std::size_t islands = 0;
-  /// Whether limbs are parted at their necks, as islands of their own.
+  /// Whether limbs are parted at their necks, as separate islands.
   bool parts = false;
   /// How many Newton steps on the whole surface the search may take; 0: 4000.
   std::size_t steps = 0;
@@ -87,7 +87,7 @@ class SeamPlanner {
  public:
   /// Measures the surface, on several threads. Throws InvalidInput for options that are not as described; Cancelled.
   explicit SeamPlanner(const SurfaceContext& context, const SeamPlannerOptions& options = {}, const Task& task = {});
-  /// Measures a surface in a context of its own.
+  /// Measures a surface in its own context.
   explicit SeamPlanner(std::shared_ptr<const Surface> surface, const SeamPlannerOptions& options = {},
                        const Task& task = {});
 

@@ -19,10 +19,9 @@ struct RayHit {
 
 /// Finds the first triangle that a ray meets, from either side.
 ///
-/// A tree of boxes is built on a thread of its own. Until it is there every triangle is looked at: the answers are the
-/// same from the start, and one takes some milliseconds where it takes microseconds later. Triangles without an area,
-/// or with a corner that is not finite, are met by no ray. Copies share the tree; the last one to go stops the
-/// building.
+/// A separate thread builds a tree of boxes. Until it is there every triangle is looked at: the answers are the same
+/// from the start, and one takes some milliseconds where it takes microseconds later. Triangles without an area, or
+/// with a corner that is not finite, are met by no ray. Copies share the tree; the last one to go stops the building.
 class RayTree {
  public:
   /// Throws InvalidInput where a triangle has a vertex that is not there.

@@ -9,11 +9,11 @@
 
 namespace seamwire {
 
-/// The segments into which cuts along edges part a surface: a number for each of the caller's triangles, 0 for the
-/// segment of the most triangles (of equals, the one with the first triangle), and so on. Triangles that share an edge
-/// are in one segment unless it is cut; all of them where it has three or more. `cut_edges`: vertex pairs of either
-/// order; those that are no real edges, as the diagonals of polygons, cut nothing. Throws InvalidInput for a vertex out
-/// of range.
+/// Finds the segments into which cuts along edges part a surface. Returns the number of the segment of each of the
+/// caller's triangles. Segment 0 has the most triangles, and so on. Of segments of equal size, the one with the first
+/// triangle comes first. Triangles that share an edge are in one segment unless the edge is cut. This holds for all
+/// triangles at an edge of three or more. `cut_edges`: vertex pairs of either order. Pairs that are not real edges,
+/// such as diagonals of polygons, cut nothing. Throws InvalidInput for a vertex out of range.
 std::vector<std::int32_t> face_segments(const Surface& surface, std::span<const Edge> cut_edges);
 
 }  // namespace seamwire

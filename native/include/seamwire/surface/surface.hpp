@@ -18,7 +18,7 @@ namespace detail {
 struct HalfEdgeMesh;  // in src/surface/half_edge_mesh.hpp
 }
 
-/// What was odd about the input. Nothing here is an error: the surface was built all the same.
+/// Lists unusual parts of the input. Nothing here is an error: the surface was built all the same.
 struct SurfaceReport {
   /// Edges with three or more faces. Geodesics cross them from each face to each other one. Normals and curvature end
   /// there as at a boundary, and so do islands.
@@ -43,16 +43,17 @@ struct SurfaceReport {
 /// A triangle mesh as people have it: boundaries, several components, isolated vertices, zero-area faces, mixed
 /// orientation, edges with three or more faces, duplicate faces. Keeps the caller's numbers of vertices and faces.
 ///
-/// The half-edge mesh inside is manifold and consistently oriented: where the input is not, it is cut open, and a
-/// vertex whose faces form several fans is a half-edge vertex for each of them (a `corner fan`). To a path the fans are
-/// one vertex, and siblings() tells which faces meet at the edges where the mesh is cut open.
+/// The half-edge mesh inside is manifold and consistently oriented. Where the input is not, the mesh is cut open. A
+/// vertex whose faces form several fans is one half-edge vertex for each fan (a `corner fan`). To a path the fans are
+/// one vertex. siblings() tells which faces meet at the edges where the mesh is cut open.
 class Surface {
  public:
-  /// `points`: finite. `triangles`: vertex numbers in [0, points.size()). `edges`: the real edges where faces are
-  /// polygons that have been triangulated, and edges without a face; nullopt: every edge of a triangle. Throws
-  /// InvalidInput, naming the element, for a coordinate that is not finite or above 1e150 in size, an index out of
-  /// range, an edge from a vertex to itself, or a mesh without any edge; Cancelled where `task` tells it to, within
-  /// about a tenth of a second at a million faces.
+  /// `points`: finite. `triangles`: vertex numbers in [0, points.size()). `edges`: the real edges if faces are
+  /// triangulated polygons, and edges without a face. nullopt: every edge of a triangle.
+  ///
+  /// Throws InvalidInput, naming the element, for a coordinate that is not finite or above 1e150 in size, and for an
+  /// index out of range. Throws InvalidInput, too, for an edge from a vertex to itself, or a mesh without any edge.
+  /// Throws Cancelled within about a tenth of a second at a million faces.
   Surface(std::vector<Vector> points, std::vector<Triangle> triangles,
           std::optional<std::vector<Edge>> edges = std::nullopt, const Task& task = {});
 
@@ -68,8 +69,8 @@ class Surface {
   /// The real edges: unique, smaller vertex first, sorted.
   const std::vector<Edge>& edges() const { return edges_; }
 
-  /// Multiply the caller's coordinates by this to fit the model into the unit cube (Section 3 of the paper): one over
-  /// the longest side of the bounding box of the vertices in use; 1 where that is zero.
+  /// Multiply the caller's coordinates by this to fit the model into the unit cube (Section 3 of the paper). It is one
+  /// over the longest side of the bounding box of the vertices in use, or 1 if that side is zero.
   double scale() const { return scale_; }
 
   /// The manifold mesh inside, for the library itself: its type is no part of the interface.
@@ -94,7 +95,7 @@ class Surface {
   /// edges whose faces were all left out.
   const std::vector<Edge>& loose_edges() const { return loose_edges_; }
 
-  /// What was odd about the input.
+  /// Unusual parts of the input.
   const SurfaceReport& report() const { return report_; }
 
  private:

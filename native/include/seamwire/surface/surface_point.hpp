@@ -7,8 +7,8 @@
 namespace seamwire {
 
 /// A point of a triangle mesh: a vertex, or a point of a face by barycentric coordinates, one for each of its corners,
-/// in their order. A coordinate that is exactly 0 says that the point is on the edge opposite to that corner; where two
-/// are, the point is the third corner. One below 2^-53, which the sum of the others does not notice, counts as 0.
+/// in their order. If a coordinate is exactly 0, the point is on the edge opposite to that corner. If two are 0, the
+/// point is the third corner. A coordinate below 2^-53, which the sum of the others does not notice, counts as 0.
 struct SurfacePoint {
   std::int32_t face = -1;               ///< not looked at where `vertex` says which point it is
   std::array<double, 3> barycentric{};  ///< 0 or more; their sum is 1 within 1e-9, and is made 1 by dividing by it

@@ -17,11 +17,10 @@ struct Triangulation {
   std::vector<std::int32_t> polygons;  ///< the polygon of each triangle
 };
 
-/// Triangulates triangles and quads as Blender does: a quad from its first corner to its third, unless one
-/// of the two triangles would lie on the other, else from the second to the fourth; there also where a corner lies on
-/// the line between two others and a triangle would have no area. `corners`: vertices, polygon by polygon; `sizes`: how
-/// many each polygon has, 3 or 4. Throws InvalidInput for other sizes, where they do not add up to the number of
-/// corners, and for a vertex out of range.
+/// Triangulates triangles and quads as Blender does. A quad is cut from its first corner to its third. It is cut from
+/// the second to the fourth if one of the two triangles would lie on the other, or would have no area. `corners`:
+/// vertices, polygon by polygon; `sizes`: how many each polygon has, 3 or 4. Throws InvalidInput for other sizes, where
+/// they do not add up to the number of corners, and for a vertex out of range.
 Triangulation triangulate(std::span<const Vector> points, std::span<const std::int32_t> corners,
                           std::span<const std::int32_t> sizes);
 

@@ -36,9 +36,9 @@ class BentWires {
   BentWires(BentWires&&) noexcept;             ///< leaves one that may only be destroyed
   BentWires& operator=(BentWires&&) noexcept;  ///< as moving
 
-  /// The cut through a point of the embedding (EmbeddedPoints finds it) as well. Nothing where none leads there: from
-  /// another part of the surface, or from the place that was taken out. Throws InvalidInput for a point that is none;
-  /// Cancelled.
+  /// Finds the cut that also leads through a second point of the embedding (EmbeddedPoints finds such points). Returns
+  /// nullopt if no cut leads there: from another part of the surface, or from the place that was taken out. Throws
+  /// InvalidInput if the point is not on the embedding; Cancelled.
   std::optional<BentWire> through(const SurfacePoint& second, const Task& task = {}) const;
 
  private:

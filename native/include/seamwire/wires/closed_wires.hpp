@@ -49,9 +49,10 @@ struct ClosedCutId {
   bool operator==(const ClosedCutId&) const = default;  ///< whether both are the same
 };
 
-/// What to offer, at most `count`, of the closed cuts that closed_wires() found through one point in several metrics:
-/// the best in each metric, in their order, then the others, first those of the first metric. One that is like an
-/// earlier one, on average within 3 % of its length of it, is left out. Throws InvalidInput for a cut without points.
+/// Chooses at most `count` of the closed cuts that closed_wires() found through one point in several metrics. The best
+/// cut of each metric comes first, in the order of the metrics. The other cuts follow, those of the first metric first.
+/// A cut that is like an earlier one, on average within 3 % of its length, is left out. Throws InvalidInput for a cut
+/// without points.
 std::vector<ClosedCutId> choose_closed_wires(std::span<const std::vector<ClosedWire>> metrics, std::size_t count = 3);
 
 }  // namespace seamwire

@@ -23,8 +23,8 @@ class EmbeddedPoints {
   EmbeddedPoints(EmbeddedPoints&&) noexcept;             ///< leaves one that may only be destroyed
   EmbeddedPoints& operator=(EmbeddedPoints&&) noexcept;  ///< as moving
 
-  /// The same point as one of the embedding, in time proportional to the parts of its face. What is on an edge of the
-  /// caller's, is on an edge of the embedding; vertices keep their numbers. Nothing where the embedding has a hole, or
+  /// The same point as one of the embedding, in time proportional to the parts of its face. A point on an edge of the
+  /// surface is on an edge of the embedding. Vertices keep their numbers. Nothing where the embedding has a hole, or
   /// the face no area.
   ///
   /// Throws InvalidInput, which begins with `what`, for a vertex or a face out of range, and for barycentric

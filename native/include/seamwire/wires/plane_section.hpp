@@ -25,8 +25,8 @@ struct PlaneSection {
 /// shortest one. The result has no points if the curve through one point ends at a boundary, or closes, before it
 /// reaches the other point.
 ///
-/// Throws InvalidInput if a point is not on the surface, if the direction is not finite, or if there is no such plane:
-/// the points are the same, or one lies behind the other along the direction.
+/// Throws InvalidInput if a point is not on the surface, or if the direction is not finite. Throws InvalidInput, too,
+/// if there is no such plane: the points are the same, or one lies behind the other along the direction.
 PlaneSection plane_section(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to,
                            const Vector& direction);
 

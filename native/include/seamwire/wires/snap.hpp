@@ -29,13 +29,13 @@ class SnapGraph {
   std::shared_ptr<const detail::SnapData> data_;
 };
 
-/// The path of real edges (Surface::edges()) from wire.from to wire.to that stays close to the wire and hardly zigzags:
-/// of all paths along the edges of the polygons that the wire crosses, and of the polygons that share an edge with
-/// those, the one with the least sum of its integral of the distance to the wire and of 1/2 (|u| |v| - u v) for every
-/// two edges u, v that follow each other. Where these do not connect the ends, of the polygons around them, ring by
-/// ring. Connected, without a repeated vertex. Empty where the wire is, or where no path of edges leads.
-/// Takes time proportional to the faces crossed. Throws InvalidInput for a wire whose points do not lie in its faces of
-/// the surface, and a graph of a surface with other numbers of vertices, faces or edges; Cancelled.
+/// Finds a path of real edges (Surface::edges()) from wire.from to wire.to that stays close to the wire and hardly
+/// zigzags. Its edges are those of the polygons that the wire crosses, and of the polygons that share an edge with
+/// these. If they do not connect the ends, the polygons around them are added, ring by ring. The path minimizes a sum:
+/// its integral of the distance to the wire, and 1/2 (|u| |v| - u v) for any two consecutive edges u and v. It is
+/// connected and repeats no vertex. It is empty if the wire is empty, or if no path of edges leads there. Takes time
+/// proportional to the faces crossed. Throws InvalidInput for a wire whose points do not lie in its faces of the
+/// surface, and a graph of a surface with other numbers of vertices, faces or edges; Cancelled.
 std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire,
                                         const Task& task = {});
 

@@ -13,8 +13,8 @@ namespace seamwire {
 
 /// A geodesic on the caller's surface, from `from` to `to`.
 struct Wire {
-  std::int32_t from = -1;              ///< the caller's vertex; -1: a point that is none
-  std::int32_t to = -1;                ///< the caller's vertex; -1: a point that is none
+  std::int32_t from = -1;              ///< the caller's vertex; -1: another point
+  std::int32_t to = -1;                ///< the caller's vertex; -1: another point
   std::vector<Vector> points;          ///< in the caller's coordinates; empty where `to` is unreachable
   std::vector<std::int32_t> vertices;  ///< per point: the caller's vertex it is, or -1
   std::vector<std::int32_t> faces;     ///< the caller's face that each segment lies in; -1 along an edge without a face

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What there is to tell the artist, as codes and values. The words are not here, see ``words/messages.py``."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+
+@dataclass(frozen=True)
+class Message:
+    """Something to tell. It is false if there is nothing to tell.
+
+    Parameters
+    ----------
+    code
+        What happened.
+    values
+        The names and values that the words need.
+    """
+
+    code: str = ""
+    values: tuple[tuple[str, object], ...] = ()
+
+    @classmethod
+    def of(cls, code: str, **values: object) -> Message:
+        """Return the message with a code and values."""
+        return cls(code, tuple(values.items()))
+
+    def __bool__(self) -> bool:
+        return bool(self.code)
+
+    def __str__(self) -> str:
+        return _wording(self)
+
+
+NOTHING = Message()
+"""There is nothing to tell."""
+
+
+class Refused(ValueError):  # noqa: N818 - the base of errors, which end in Error
+    """Something cannot be done.
+
+    Parameters
+    ----------
+    code, values
+        Why, as `Message.of` takes them.
+    """
+
+    def __init__(self, code: str, **values: object) -> None:
+        super().__init__(code)
+        self.message = Message.of(code, **values)
+
+    def __str__(self) -> str:
+        return str(self.message)
+
+
+def message_of(error: Exception) -> Message:
+    """Return what an error tells; errors of the library bring their own words."""
+    return error.message if isinstance(error, Refused) else Message.of("library", text=str(error))
+
+
+def word_with(wording: Callable[[Message], str]) -> None:
+    """Let messages become text by a function."""
+    global _wording
+    _wording = wording
+
+
+def _bare(message: Message) -> str:
+    return " ".join((message.code, *(f"{name}={value}" for name, value in message.values)))
+
+
+_wording: Callable[[Message], str] = _bare

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a drawing asks of the mesh."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..network.network import Network, Wire
+
+
+@dataclass(frozen=True)
+class Change:
+    """A network that has become another one. The mesh marks and clears the edges of wires, and slides, cuts or takes back cuts.
+
+    Parameters
+    ----------
+    before, after
+        The networks.
+    """
+
+    before: Network
+    after: Network
+
+    def __bool__(self) -> bool:
+        return self.after.wires != self.before.wires or self.after.strokes != self.before.strokes
+
+    @cached_property
+    def drawn(self) -> int:
+        """How many wires are new."""
+        known = {wire.id for wire in self.before.wires}
+        return sum(wire.id not in known for wire in self.after.wires)
+
+    @cached_property
+    def changed(self) -> frozenset[int]:
+        """The numbers of the wires that are new or have another course."""
+        same = {id(wire) for wire in self.before.wires}
+        return frozenset(wire.id for wire in self.after.wires if id(wire) not in same)
+
+    def finishes(self, wire: Wire) -> bool:
+        """Whether the seam of a wire is to lie where the wire runs, rather than on the edges beside it."""
+        return wire.id in self.changed and wire.along == "SURFACE" and wire.marks and wire.finish != "SNAP"

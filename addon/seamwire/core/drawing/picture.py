@@ -1,0 +1,300 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Everything that is to be seen of a drawing, at one moment."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from enum import Enum, auto
+from typing import TYPE_CHECKING
+
+from ..base.messages import NOTHING, Message
+from ..network.network import Network, Snap, undirected
+from .intent import Intent
+from .options import Options
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ..islands.islands import Islands
+    from ..network.network import Edge, Finish, LoopKind, Pick, Wire
+    from ..network.strokes import Stroke
+    from .drawn_line import DrawnLine
+    from .seed_drag import SeedDrag
+    from .wire import CandidateWires
+
+
+class Role(Enum):
+    """The role of a wire in a picture. Later roles lie above earlier ones."""
+
+    KEPT = auto()
+    HOVERED = auto()
+    """The kept wire under the cursor; it is also there as a kept one."""
+    OTHER = auto()
+    """A candidate that a click would not keep."""
+    MOVED = auto()
+    """A kept wire that follows a dragged seed."""
+    FOLLOWING = auto()
+    """A wire that follows a line that is drawn."""
+    COMPUTING = auto()
+    """The wire that a click would keep, while it is still being computed."""
+    ACTIVE = auto()
+    """The wire that a click would keep."""
+    OFFER = auto()
+    """The loop that a click would add."""
+    EXTENSION = auto()
+    """The live wire with its way on to the end."""
+
+
+LIVE = frozenset(Role) - {Role.KEPT, Role.HOVERED, Role.OTHER}
+"""The roles of wires that are shown with their mirror images and the edges that they would mark."""
+
+
+class SeedRole(Enum):
+    """The role of a seed in a picture. Later roles lie above earlier ones."""
+
+    PLACED = auto()
+    LIVE = auto()
+    """The live wire begins there."""
+    CLOSING = auto()
+    """A wire that leads there closes the chain."""
+    HOVERED = auto()
+    """It is under the cursor, or dragged."""
+
+
+@dataclass(frozen=True)
+class ShownWire:
+    """A wire in a picture.
+
+    Parameters
+    ----------
+    wire
+        How it runs.
+    role
+        The role.
+    images
+        The edges of its mirror images.
+    finish
+        How it becomes a seam.
+    """
+
+    wire: Wire
+    role: Role
+    images: tuple[Edge, ...] = ()
+    finish: Finish = "SNAP"
+
+
+@dataclass(frozen=True)
+class ShownSeed:
+    """A seed in a picture."""
+
+    pick: Pick
+    role: SeedRole = SeedRole.PLACED
+
+
+@dataclass(frozen=True)
+class Choice:
+    """One of several candidates: its place among them from 0, how many there are, and whether it is the straight one."""
+
+    number: int = 0
+    count: int = 1
+    straight: bool = False
+
+
+@dataclass(frozen=True)
+class Offered:
+    """The loops that a click offers: their kinds, the likeliest first, the number of the shown one, and whether it bends a cut."""
+
+    kinds: tuple[LoopKind, ...] = ()
+    number: int = 0
+    bends: bool = False
+
+    @property
+    def kind(self) -> LoopKind | None:
+        """The kind of the shown one."""
+        return self.kinds[self.number] if self.number < len(self.kinds) else None
+
+
+@dataclass(frozen=True)
+class Work:
+    """The running computation: whether there is one, its finished fraction, and the number of waiting clicks."""
+
+    computing: bool = False
+    progress: float = 1.0
+    waiting: int = 0
+
+
+@dataclass(frozen=True)
+class Picture:
+    """Everything that is to be seen of a drawing. Overlay, text and status bar read nothing else.
+
+    Parameters
+    ----------
+    options
+        The settings.
+    revision, network_revision
+        Grow with every change of what is seen, and of the kept wires.
+    wires, seeds
+        From bottom to top.
+    strokes
+        The strokes that wires follow or avoid.
+    line
+        The line that is being drawn, (k, 3).
+    target
+        The pick under the cursor.
+    seed
+        Where the live wire begins; None between chains.
+    choice, offered
+        Which candidate, and which offer, is shown.
+    intent
+        The effect of a click.
+    can_close, can_bend, can_undo, can_redo
+        What else could be done.
+    strength
+        How strongly the shown wires follow the shape.
+    work
+        The running computation.
+    message
+        What there is to tell.
+    islands, pointed_island
+        The islands that seams make, the gaps in seams, and the island under the cursor.
+    stroke
+        The stroke that is being drawn: its points, (k, 3), and whether wires will follow it.
+    front
+        Whether the object is the one under the cursor: text tells of that one.
+    keys
+        The table of keys, while it is shown: each key with what it does.
+    """
+
+    options: Options = field(default_factory=Options)
+    revision: int = 0
+    network_revision: int = 0
+    wires: tuple[ShownWire, ...] = ()
+    seeds: tuple[ShownSeed, ...] = ()
+    strokes: tuple[Stroke, ...] = ()
+    line: NDArray[np.float64] | None = None
+    target: Snap | None = None
+    seed: Pick | None = None
+    choice: Choice = Choice()
+    offered: Offered = Offered()
+    intent: Intent = Intent.NOTHING
+    can_close: bool = False
+    can_bend: bool = False
+    can_undo: bool = False
+    can_redo: bool = False
+    strength: float = 1.0
+    work: Work = Work()
+    message: Message = NOTHING
+    islands: Islands | None = None
+    pointed_island: int | None = None
+    stroke: tuple[NDArray[np.float64], bool] | None = None
+    front: bool = True
+    keys: tuple[tuple[str, str], ...] | None = None
+
+    def all(self, role: Role) -> tuple[Wire, ...]:
+        """Return the wires with a role."""
+        return tuple(shown.wire for shown in self.wires if shown.role is role)
+
+    def one(self, *roles: Role) -> Wire | None:
+        """Return the first wire with one of some roles."""
+        return next((shown.wire for shown in self.wires if shown.role in roles), None)
+
+    def seed_as(self, role: SeedRole) -> Pick | None:
+        """Return the seed with a role."""
+        return next((shown.pick for shown in self.seeds if shown.role is role), None)
+
+    @property
+    def active(self) -> Wire | None:
+        """The wire that a click would keep, computed or not."""
+        return self.one(Role.ACTIVE, Role.COMPUTING)
+
+    @property
+    def others(self) -> tuple[Wire, ...]:
+        """The other candidates, in the order in which they come forward."""
+        return self.all(Role.OTHER)[::-1]
+
+
+def kept_wires(network: Network, moved: Iterable[Wire]) -> tuple[ShownWire, ...]:
+    """Return the kept wires of a picture, without those that follow a dragged seed."""
+    ids = {wire.id for wire in moved}
+    return tuple(ShownWire(wire, Role.KEPT, tuple(wire.images or ())) for wire in network.wires if wire.id not in ids)
+
+
+def shown_wires(
+    kept: tuple[ShownWire, ...],
+    network: Network,
+    options: Options,
+    candidates: CandidateWires,
+    drag: SeedDrag | None,
+    lines: Iterable[DrawnLine],
+    offer: Wire | None,
+    extension: Wire | None,
+    images: Callable[[Wire], Iterable[Wire]],
+) -> tuple[ShownWire, ...]:
+    """Return the wires of a picture, from bottom to top.
+
+    Parameters
+    ----------
+    kept
+        The kept wires, see `kept_wires`.
+    network
+        The same as a network.
+    options
+        The settings.
+    candidates, drag, lines, offer, extension
+        Everything live: the live wire, a dragged seed, drawn lines, the offered loop, and the way to the end.
+    images
+        Returns the mirror images of a wire.
+    """
+    moved = () if drag is None else drag.moved
+    target = candidates.target
+    hovered = None if target is None or target.to != "WIRE" else network.find(target.wire)
+    following = [
+        replace(wire, marks=options.marking, mirror=network.mirror) for drawn in lines for wire in drawn.line.wires
+    ]
+    active = candidates.active
+    role = Role.ACTIVE if candidates.active_final else Role.COMPUTING
+
+    def live(wire: Wire, role: Role, finish: Finish) -> ShownWire:
+        edges = tuple(edge for image in images(wire) for edge in image.edges())
+        return ShownWire(wire, role, edges, finish)
+
+    return (
+        *kept,
+        *([] if hovered is None else [ShownWire(hovered, Role.HOVERED)]),
+        *(ShownWire(wire, Role.OTHER) for wire in reversed(candidates.others)),
+        *(live(wire, Role.MOVED, wire.finish) for wire in moved),
+        *(live(wire, Role.FOLLOWING, options.finish) for wire in following),
+        *([] if active is None else [live(active, role, options.finish)]),
+        *([] if offer is None else [live(offer, Role.OFFER, options.finish)]),
+        *([] if extension is None else [live(extension, Role.EXTENSION, "SNAP")]),
+    )
+
+
+def shown_seeds(
+    placed: Iterable[Pick], live: Pick | None, closing: Pick | None, hovered: Pick | None, begins: Iterable[Pick]
+) -> tuple[ShownSeed, ...]:
+    """Return the seeds of a picture, from bottom to top.
+
+    Parameters
+    ----------
+    placed
+        All of the network.
+    live, closing, hovered
+        Those with another role.
+    begins
+        Where wires begin that follow a drawn line.
+    """
+    found = [
+        ShownSeed(pick, SeedRole.LIVE if pick == live else SeedRole.PLACED)
+        for pick in placed
+        if pick not in (hovered, closing)
+    ]
+    found += [ShownSeed(undirected(pick)) for pick in begins]
+    if closing is not None:
+        found.append(ShownSeed(closing, SeedRole.CLOSING))
+    if hovered is not None and hovered != closing:
+        found.append(ShownSeed(hovered, SeedRole.HOVERED))
+    return tuple(found)

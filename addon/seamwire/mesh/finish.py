@@ -1,0 +1,318 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a drawing asks of the mesh, done: wires slid onto, cut into faces, and cuts taken back.
+
+Each function takes the session of an object and returns the session that goes on: afterwards vertices may have other numbers.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..core.base.messages import message_of
+from ..core.network.network import FacePoint, vertices_of
+from ..core.seams.cut import NEAR, CutError
+from ..core.seams.seam_wires import wires_between
+from ..core.seams.slide import plan as plan_slide
+from . import cut as mesh_cut
+from . import slide as mesh_slide
+from .object_session import ObjectSession
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterable, Iterator, Mapping
+
+    from numpy.typing import NDArray
+
+    from ..core.drawing.change import Change
+    from ..core.network.network import Edge, Network, Pick, Wire
+    from ..core.offers.closed_cuts import TakenCut
+    from ..core.seams.cut import CutPlan
+    from .cut import Cut
+
+
+@dataclass(frozen=True)
+class Finished:
+    """What became of wires across the surface when their chain ended.
+
+    Parameters
+    ----------
+    slid, moved
+        How many wires were slid onto, and how many vertices were.
+    cut, edges, uncut
+        How many wires were cut into the faces, how many edges they run along, and how many faces could not be cut.
+    left_out
+        How many wires and mirror images were not cut, because they do not run over the mesh.
+    problem
+        Why nothing was cut.
+    taken_back
+        How many edges of former cuts went, where nothing was cut in their place.
+    """
+
+    slid: int = 0
+    moved: int = 0
+    cut: int = 0
+    edges: int = 0
+    uncut: int = 0
+    left_out: int = 0
+    problem: str = ""
+    taken_back: int = 0
+
+    def __bool__(self) -> bool:
+        return self != Finished()
+
+
+def apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession | None, Finished]:
+    """Let the mesh do what a change asks, once it has the wires: slide, cut, and take back cuts that are wires' no more.
+
+    Parameters
+    ----------
+    mesh
+        The session, which ends if anything is done.
+    change
+        Of the session's network.
+
+    Returns
+    -------
+    ObjectSession
+        The session that goes on; None if the mesh must be read again for one.
+    Finished
+        What was done.
+    """
+    wires = [wire for wire in mesh.session.wires if change.finishes(wire)]
+    slides = [wire for wire in wires if wire.finish == "SLIDE"]
+    cuts = [wire for wire in wires if wire.finish == "CUT"]
+    moved = 0
+    if slides:
+        drawn = {wire.vertices for wire in cuts}
+        mesh, moved = slide(mesh, slides)
+        if moved:
+            cuts = [wire for wire in mesh.session.wires if wire.vertices in drawn]
+    finished = Finished(len(slides), moved)
+    if not cuts:
+        taken_back = _take_back(mesh, change.before)
+        return None if taken_back else mesh, replace(finished, taken_back=taken_back)
+    try:
+        mesh, done = cut(mesh, plan_cut(mesh, cuts), cuts, kept=True, before=change.before)
+    except CutError as error:
+        return mesh, replace(finished, problem=str(error))
+    return mesh, replace(finished, cut=done.wires, edges=len(done.edges), uncut=done.uncut, left_out=done.left_out)
+
+
+def slide(mesh: ObjectSession, wires: Collection[Wire]) -> tuple[ObjectSession, int]:
+    """Slide the vertices of snapped wires, and of their mirror images, onto the wires. The mesh has these wires.
+
+    Returns
+    -------
+    ObjectSession
+        The session that goes on.
+    int
+        How many vertices were moved.
+    """
+    own = {wire: [wire, *mesh.session.mirrored(wire)] for wire in wires}
+    courses = [(image.vertices, image.points) for images in own.values() for image in images]
+    seams = {edge for images in own.values() for image in images for edge in image.edges()}
+    stiff = mesh_slide.stiff_vertices(mesh.cage, {vertex for chain, _ in courses for vertex in chain}, seams)
+    moves = plan_slide(mesh_cut.CageFaces(mesh.cage, mesh.arrays), courses, stiff)
+    if not moves:
+        return mesh, 0
+    mesh_slide.carry_out(mesh.obj, mesh.cage, moves)
+    # The stored wire has the positions of its vertices. It is written again with the same curve.
+    after = ObjectSession(mesh.obj)
+    curve_of = {wire.vertices: wire.points for wire in wires}
+    network = after.session.network
+    kept = [
+        wire.changed(points=curve_of[wire.vertices]) if wire.vertices in curve_of else wire for wire in network.wires
+    ]
+    after.session.adopt(replace(network, wires=tuple(kept)), after.plain_seams)
+    _go_on_with(after, mesh.session.taken_cuts)
+    after.write(after.plan())
+    return after, len(moves)
+
+
+def plan_cut(mesh: ObjectSession, wires: Iterable[Wire]) -> CutPlan:
+    """Find what wires across the surface and their mirror images cut, and try it on a copy of the edit mesh.
+
+    The plan leaves out wires that do not run over the mesh, by their numbers here, and mirror images, by higher numbers.
+
+    Raises
+    ------
+    CutError
+        If no wire runs over the mesh, or nothing is cut.
+    """
+    wires = list(wires)
+    images = [
+        (number, image) for number, wire in enumerate(wires) for image in mesh.session.mirrored(wire, curves=True)
+    ]
+    curves = [
+        (_spot(own.start, own.vertices[0]), own.points, _spot(own.end, own.vertices[-1]))
+        for own in (*wires, *(image for _, image in images))
+    ]
+    originals = {len(wires) + row: number for row, (number, _) in enumerate(images)}
+    plan = mesh_cut.plan(mesh.cage, mesh.arrays, curves, originals)
+    if not plan.segments():
+        raise CutError("no-wire-leaves-face")
+    mesh_cut.rehearse(mesh.cage, plan)
+    return plan
+
+
+def cut(
+    mesh: ObjectSession,
+    plan: CutPlan,
+    wires: Collection[Wire],
+    kept: bool = False,
+    before: Network | None = None,
+    taken: Collection[TakenCut] | None = None,
+    crumb: float = 0.0,
+) -> tuple[ObjectSession, Cut]:
+    """Cut the mesh; what was cut are wires along its edges then, between the seeds of those across the surface.
+
+    Vertices, edges and faces have other numbers then.
+
+    Parameters
+    ----------
+    mesh
+        The session, which ends.
+    plan
+        From `plan_cut`.
+    wires
+        The same as for `plan_cut`. Wires that are not cut stay wires across the surface.
+    kept
+        Whether the mesh has these wires already: their snapped edges cease to be seams.
+    before
+        A network that the mesh had: what wires of it were cut along that are there no more is taken back first.
+    taken
+        The closed cuts that are among these wires; None: those of the session.
+    crumb
+        The part of the mesh's area below which an island beside the cuts becomes part of a larger one.
+
+    Returns
+    -------
+    ObjectSession
+        The session that goes on.
+    Cut
+        What was done.
+
+    Raises
+    ------
+    CutError
+        If no wire can be cut once former cuts were taken back. These cuts are gone then, and the wires are snapped to edges.
+    """
+    taken = mesh.session.taken_cuts if taken is None else taken
+    skipped = sum(number < len(wires) for number in plan.left_out)
+    wires = [wire for number, wire in enumerate(wires) if number not in plan.left_out]
+    images = [replace(image, mirror=()) for wire in wires for image in mesh.session.mirrored(wire, curves=True)]
+    if kept:
+        for wire in wires:
+            mesh.session.drop(wire)
+        mesh.write(mesh.plan())
+    left = [] if before is None else _left_cuts(mesh, before)
+    if left:
+        # Edges of images too, because there is no chain of edges to mirror yet.
+        both = (*wires, *images)
+        places = mesh_cut.PickedPlaces(mesh.cage, {end for wire in both for end in (wire.start, wire.end)})
+        mesh_cut.take_back(mesh.cage, left)
+        after = ObjectSession(mesh.obj)
+        placed: list[Wire] = []
+        try:
+            placed = _placed(after, both, places)
+            again = plan_cut(after, placed)
+        except ValueError as error:
+            _draw_again(after, placed[: len(wires)])
+            raise CutError("cut-taken-back", why=message_of(error)) from error
+        missing = [placed[number] for number in again.left_out if number < len(wires)]
+        _draw_again(after, missing)
+        after, done = cut(after, again, placed, taken=taken)
+        return after, replace(done, wires=len(wires) - len(missing), left_out=skipped + done.left_out)
+    seeds = {end for wire in wires for end in (wire.start, wire.end)}
+    done = mesh_cut.carry_out(mesh.cage, plan, seeds, crumb)
+    after = ObjectSession(mesh.obj)
+    claimed = {edge for wire in after.session.wires for edge in wire.claims()}
+    after.take_over(_cut_wires(after, {edge for edge in done.edges if edge not in claimed}, wires, done.seeds))
+    _go_on_with(after, taken)
+    after.write(after.plan())
+    return after, replace(done, wires=len(wires), left_out=len(plan.left_out))
+
+
+def _go_on_with(mesh: ObjectSession, taken: Iterable[TakenCut]) -> None:
+    """Let closed cuts that were taken before the mesh was changed be bent on it."""
+    own = (each.of(mesh.session.network) for each in taken)
+    mesh.session.recall_cuts(each for each in own if each is not None)
+
+
+def _take_back(mesh: ObjectSession, before: Network) -> int:
+    """Take back what wires of a network before were cut along that are there no more; return how many edges went."""
+    left = _left_cuts(mesh, before)
+    return mesh_cut.take_back(mesh.cage, left) if left else 0
+
+
+def _left_cuts(mesh: ObjectSession, before: Network) -> list[Edge]:
+    """Return the edges that wires of a network were cut along and that have lost their seams."""
+    own = {edge for wire in before.wires if wire.is_cut for edge in wire.claims()}
+    return [edge for edge in sorted(own) if not mesh.cage.is_seam(edge)]
+
+
+def _placed(mesh: ObjectSession, wires: Iterable[Wire], places: mesh_cut.PickedPlaces) -> list[Wire]:
+    """Return wires across a mesh from which cuts were taken back, the same surface, as wires across this mesh."""
+
+    def seed_at(pick: Pick, place: NDArray[np.float64]) -> int | FacePoint:
+        vertex = places.vertex(pick)
+        if vertex is not None:
+            return vertex
+        point = mesh.finder(places.faces(pick))((mesh.arrays.to_object @ place).tolist())
+        return point.vertex if max(point.weights) > 1.0 - NEAR else point
+
+    placed = []
+    for wire in wires:
+        start, end = seed_at(wire.start, wire.points[0]), seed_at(wire.end, wire.points[-1])
+        vertices = (*vertices_of(start), *vertices_of(end))
+        placed.append(wire.changed(vertices=vertices, start=start, end=end, images=()))
+    return placed
+
+
+def _draw_again(mesh: ObjectSession, wires: Collection[Wire]) -> None:
+    """Draw wires across the surface once more between their seeds, snapped to edges, because their former edges may be gone."""
+    if not wires:
+        return
+    session = mesh.session
+    for wire in wires:
+        options = replace(session.options, along="SURFACE", finish=wire.finish, mirror=wire.mirror)
+        session.follow(replace(options, strength_surface=wire.strength) if wire.strength else options)
+        for seed in (wire.start, wire.end):
+            session.click(seed)
+            session.wait()
+        session.end_chain()
+    mesh.write(mesh.plan())
+
+
+def _cut_wires(
+    mesh: ObjectSession, edges: set[Edge], wires: Collection[Wire], seeds: Mapping[int | FacePoint, int]
+) -> Iterator[Wire]:
+    """Yield wires along edges that others were cut along, between their seeds; what is the image of one is no other."""
+    pairs = np.array(sorted(edges), dtype=np.int32).reshape(-1, 2)
+    between = list(wires_between(pairs, set(seeds.values()), mesh.arrays.points))
+    origin = {frozenset((seeds.get(wire.start), seeds.get(wire.end))): wire for wire in wires}
+    mirrors = {wire.mirror for wire in wires}
+    shared = mirrors.pop() if len(mirrors) == 1 else ()
+    between.sort(key=lambda wire: frozenset((wire.start, wire.end)) not in origin)
+    left = set(edges)
+    for wire in between:
+        if left.isdisjoint(wire.edges()):
+            continue
+        own = origin.get(frozenset((wire.start, wire.end)))
+        left.difference_update(wire.edges())
+        wire = replace(wire, finish="CUT", mirror=shared, images=())
+        if own is not None:
+            wire = replace(wire, follow=own.follow, strength=own.strength, mirror=own.mirror)
+        images = {edge for image in mesh.session.mirrored(wire) for edge in image.edges()}
+        if left.issuperset(images):
+            left.difference_update(images)
+            yield replace(wire, images=None)
+        else:
+            yield replace(wire, mirror=())
+
+
+def _spot(pick: Pick, vertex: int) -> int | FacePoint:
+    """Return where a curve begins or ends: a point in a triangle, or else the vertex that its edges begin or end at."""
+    return pick if isinstance(pick, FacePoint) else vertex

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sessions with the library's own live wires, on a tube and a ball."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from seamwire.core.drawing.session import Session
+from seamwire.core.network.network import Along
+from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
+
+core = pytest.importorskip("seamwire_core")
+
+AROUND = 16
+RINGS = 9
+"""Rings of the tube and of the ball; vertex ring * AROUND + i."""
+
+
+def session_on(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    edges: NDArray[np.int32] | None = None,
+    ready: bool = True,
+    **options: object,
+) -> Session:
+    surface = core.Surface(points, triangles, edges)
+
+    def make(way: Along) -> object:
+        on = (surface,) if ready else (points, triangles, edges)
+        return core.LiveWire(*on, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE)
+
+    return Session(make, points, edges=surface.edges if edges is None else edges, triangles=triangles, **options)
+
+
+def quads_between_rings() -> NDArray[np.int32]:
+    start = np.arange(AROUND)
+    after = np.roll(start, -1)
+    square = np.stack([start, after, after + AROUND, start + AROUND], axis=1)
+    return np.concatenate([square + ring * AROUND for ring in range(RINGS - 1)]).astype(np.int32)
+
+
+def halves(quads: NDArray[np.int32]) -> NDArray[np.int32]:
+    return np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+
+
+def sides(faces: NDArray[np.int32]) -> NDArray[np.int32]:
+    pairs = np.concatenate(
+        [np.stack([faces[:, i], np.roll(faces, -1, axis=1)[:, i]], axis=1) for i in range(faces.shape[1])]
+    )
+    return np.unique(np.sort(pairs, axis=1), axis=0)
+
+
+def circles(heights: NDArray[np.float64], radii: NDArray[np.float64]) -> NDArray[np.float64]:
+    angles = np.arange(AROUND) * 2.0 * np.pi / AROUND
+    return np.concatenate(
+        [
+            np.stack([r * np.cos(angles), r * np.sin(angles), np.full(AROUND, z)], axis=1)
+            for z, r in zip(heights, radii, strict=True)
+        ]
+    )
+
+
+def tube(**options: object) -> Session:
+    points = circles(np.linspace(-2.0, 2.0, RINGS), np.ones(RINGS))
+    quads = quads_between_rings()
+    return session_on(points, halves(quads), sides(quads), **options)
+
+
+def ball(**options: object) -> Session:
+    """Return a session on a sphere of RINGS rings and two poles."""
+    angles = np.linspace(0.0, np.pi, RINGS + 2)[1:-1]
+    points = np.vstack([circles(-np.cos(angles), np.sin(angles)), [0.0, 0.0, -1.0], [0.0, 0.0, 1.0]])
+    quads = quads_between_rings()
+    first = np.arange(AROUND)
+    low = np.stack([np.roll(first, -1), first, np.full(AROUND, AROUND * RINGS)], axis=1)
+    top = first + AROUND * (RINGS - 1)
+    high = np.stack([top, np.roll(top, -1), np.full(AROUND, AROUND * RINGS + 1)], axis=1)
+    caps = np.concatenate([low, high]).astype(np.int32)
+    edges = np.unique(np.concatenate([sides(quads), sides(caps)]), axis=0)
+    return session_on(points, np.concatenate([halves(quads), caps]), edges, **options)
+
+
+def meridian(at: int) -> list[int]:
+    return [ring * AROUND + at for ring in range(RINGS)]
