@@ -37,6 +37,7 @@ _PARTS = (
     "operators.undo_steps",
     "operators.draw",
     "operators.hover",
+    "operators.card",
     "ui.keymap",
     "ui.properties",
     "ui.toolbar",

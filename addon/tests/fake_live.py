@@ -291,7 +291,7 @@ class FakeLive:
 
     def fork(self) -> FakeLive:
         ready = self.fork_ready or (True,) * len(self.ready)
-        fork = FakeLive(self.size, self.along, ready, self.shorter, self.islands)
+        fork = FakeLive(self.size, self.along, ready, self.shorter, self.islands, boxes=self.boxes)
         self.forks.append(fork)
         return fork
 

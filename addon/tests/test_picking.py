@@ -429,3 +429,26 @@ def test_depth_tells_which_object_is_in_front() -> None:
     high = find.depth(view, moved(0.0, 0.0, 1.0), at)
     assert high == pytest.approx(low - 2.0)
     assert find.depth(view, HERE, (1.0, 1.0)) is None
+
+
+def test_an_edge_is_crossed_by_the_one_at_its_end_nearer_to_the_cursor() -> None:
+    view, picker = from_above(), Picker(grid())
+
+    def crossing(x: float, y: float) -> tuple[int, ...]:
+        snap = picker.snap(view, HERE, pixel(view, (x, y, 0.0)), vertices_only=False, edges_only=True)
+        assert set(snap.pick) == {12, 13}
+        assert not snap.is_close_call
+        return tuple(sorted(snap.crossing))
+
+    assert crossing(0.15, 0.03) == (12, 17)
+    assert crossing(0.15, -0.03) == (7, 12)
+    assert crossing(0.35, 0.03) == (13, 18)
+
+
+def test_edges_of_a_few_pixels_are_a_close_call() -> None:
+    picker = Picker(grid(41))
+    for half, is_close in ((1.25, True), (0.25, False)):
+        view = from_above(half)
+        at = pixel(view, (0.025, 0.004, 0.0))
+        assert picker.snap(view, HERE, at, vertices_only=False, edges_only=True).is_close_call is is_close
+        assert not picker.snap(view, HERE, at, vertices_only=False).is_close_call, "only loops need to know"

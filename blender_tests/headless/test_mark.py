@@ -231,7 +231,7 @@ def test_an_object_of_which_nothing_is_visible_keeps_no_other_from_being_marked(
             bpy.ops.mesh.seamwire_mark(chains="20 24", objects=names)
     bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.mesh.hide()
-    with pytest.raises(RuntimeError, match="Nothing is visible of any of the objects"):
+    with pytest.raises(RuntimeError, match="No object has anything visible"):
         bpy.ops.mesh.seamwire_mark(chains="20 24", objects="*")
 
 
@@ -301,7 +301,7 @@ def test_what_can_be_reached_is_marked_and_the_rest_said(capfd: pytest.CaptureFi
         ("0 0", "EDGES", "'0' comes twice in a row: a wire needs two different ends"),
         ("0 1 6-7 7-6", "EDGES", "'7-6' comes twice in a row"),
         ("0 6-25", "EDGES", "no vertex 25"),
-        ("0-1 4", "SURFACE", "seeds are vertices"),
+        ("0-1 4", "SURFACE", "Seeds across the surface must be vertices"),
         ("0 24", "EDGES", "Vertex 24 is hidden"),
         ("0 18-19", "EDGES", None),
         ("0 19-24", "EDGES", "hidden"),
@@ -424,7 +424,7 @@ def test_across_the_surface_closed_cuts_are_taken_through_vertices_and_places() 
         mark(loops=str(tip))
     with pytest.raises(RuntimeError, match="not through edge 3-4"):
         mark(loops="3-4")
-    with pytest.raises(RuntimeError, match="leave out what to take"):
+    with pytest.raises(RuntimeError, match="Take applies only along edges"):
         mark(loops="3", take="STRIP")
 
 

@@ -446,9 +446,9 @@ def test_what_a_newer_version_wrote_stays_byte_by_byte_and_is_said(
     forget(monkeypatch)
     mesh = session_on(drawn)
     assert mesh.session.wires == ()
-    assert "newer Seamwire" in mesh.problem
+    assert "newer version of Seamwire" in mesh.problem
     mark("54 62")
-    assert capfd.readouterr().out.count("newer Seamwire") == 1
+    assert capfd.readouterr().out.count("newer version of Seamwire") == 1
     assert drawn.data.seamwire_wires == NEWER
     assert session_on(drawn).cage.labels().same_as(labels)
     assert seams(drawn) == sorted([*marked, *chain(*range(54, 63))]), "what is drawn are plain seams"
@@ -498,7 +498,7 @@ def test_each_operator_tells_of_wires_that_it_cannot_read(
     capfd.readouterr()
     with suppress(RuntimeError):  # without wires some have nothing to do
         getattr(bpy.ops.mesh, f"seamwire_{operator}")(**options.get(operator, {}))
-    assert capfd.readouterr().out.count("newer Seamwire") == 1
+    assert capfd.readouterr().out.count("newer version of Seamwire") == 1
 
 
 @pytest.mark.parametrize("text", ["seamwire 2 not base64", "seamwire 2 AAAA", "nonsense", "{"])

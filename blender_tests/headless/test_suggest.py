@@ -558,7 +558,7 @@ def test_what_is_flat_needs_no_seam_and_gets_uvs(capfd: pytest.CaptureFixture[st
     assert suggest(unwrap=False) == {"CANCELLED"}
     assert not obj.data.uv_layers
     assert suggest() == {"FINISHED"}
-    assert "No seam is needed: 1 island unwrapped" in capfd.readouterr().out
+    assert "No seam needed: 1 island unwrapped" in capfd.readouterr().out
     assert seams(obj) == []
     assert np.ptp(uv_map.read_uvs(obj), axis=0).min() > 0.9
     assert energy(obj) == pytest.approx(4.0, abs=1e-4)

@@ -73,11 +73,11 @@ def test_seams_of_wires_and_those_not_selected_stay_what_they_were(seamed: bpy.t
 def test_what_there_is_nothing_to_take_over_of_is_said() -> None:
     obj = add_grid(9)
     edit()
-    with pytest.raises(RuntimeError, match="No edge is a seam without a wire"):
+    with pytest.raises(RuntimeError, match="No seams to convert"):
         bpy.ops.mesh.seamwire_take_over()
     mark(obj, ROW)
     bpy.ops.mesh.select_all(action="DESELECT")
-    with pytest.raises(RuntimeError, match="No selected edge is a seam without a wire"):
+    with pytest.raises(RuntimeError, match="No selected seams to convert"):
         bpy.ops.mesh.seamwire_take_over(selected=True)
     assert seams(obj) == ROW
     assert wired(obj) == []

@@ -80,7 +80,7 @@ def test_a_mesh_that_was_moved_and_scaled_is_found_and_one_undo_takes_it_back(he
     leave()
     target.data.transform(Matrix.Translation((4.0, 0.0, 1.0)) @ Matrix.Rotation(0.4, 4, "Z") @ Matrix.Scale(2.0, 4))
     choose(source, target)
-    with pytest.raises(RuntimeError, match="No wire has a place"):
+    with pytest.raises(RuntimeError, match="No wire could be placed"):
         bpy.ops.mesh.seamwire_transfer(align=False)
     before = snapshot(target)
     bpy.ops.ed.undo_push(message="Before")
@@ -145,10 +145,10 @@ def test_what_is_wrong_is_said_and_nothing_changes(heads: Pair) -> None:
         ({"source": "Nobody"}, "No object is named Nobody"),
         ({"source": target.name}, "Select one other mesh object"),
         ({"place": "NUMBERS"}, "to a mesh with 507 vertices, but this one has"),
-        ({"place": "PAIRS"}, "the objects have 0 vertex groups in common"),
+        ({"place": "PAIRS"}, "the objects share 0 vertex groups"),
         ({"pairs": "1-2 3"}, "'3' is not a pair"),
-        ({"pairs": "1-2 3-4 5-999999"}, "vertex 999999 is no vertex"),
-        ({"place": "NUMBERS", "mirror": "X"}, "A network is mirrored onto a surface"),
+        ({"pairs": "1-2 3-4 5-999999"}, "vertex 999999 is not on"),
+        ({"place": "NUMBERS", "mirror": "X"}, "Mirror needs Place: Nearest Surface"),
     ):
         with pytest.raises(RuntimeError, match=message):
             bpy.ops.mesh.seamwire_transfer(**options)

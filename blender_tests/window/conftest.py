@@ -6,11 +6,13 @@ from collections.abc import Iterator
 import desk as desks
 import pytest
 import ui as driver
+from seamwire.mesh.settings import preferences
 
 
 def watched(hand: driver.Ui) -> Iterator[driver.Ui]:
     """Hand it out; after the test, nothing that the add-on's operators, panels or drawing raised may be left."""
     driver.take_errors()
+    preferences().show_card = False  # it would lie over what tests look at
     yield hand
     hand.wait()
     errors = driver.take_errors()

@@ -40,9 +40,9 @@ from seam_drags import Hand
 from seams_engine import SeamwireEngine
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
+from seamwire.core.network.symmetry import Symmetry
 from seamwire.core.offers.edge_loops import find_offers, past_poles  # these know no Blender
 from seamwire.core.offers.flat_regions import FlatRegions
-from seamwire.core.network.symmetry import Symmetry
 
 if TYPE_CHECKING:
     from seamwire.core.network import LoopKind

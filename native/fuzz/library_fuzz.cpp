@@ -454,6 +454,7 @@ void check_edge_wires(Bytes& from, const Patience& patience, const Surface& surf
     require(wires.is_final(target), "a search that has ended knows all");
     check_chain(surface, wires.trace(target).vertices);
   }
+  if (surface.edges().empty()) return;
   const Edge& edge = surface.edges()[static_cast<std::size_t>(from.below(surface.edges().size()))];
   std::vector<std::int32_t> stops;
   for (std::int32_t left = from.below(3); left > 0; --left) stops.push_back(from.below(surface.vertex_count()));

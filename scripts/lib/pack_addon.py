@@ -62,6 +62,8 @@ def pack(output: Path, wheels: list[Path], platforms: list[str]) -> Path:
         archive.writestr("seamwire/blender_manifest.toml", manifest(wheels, platforms))
         for name in ("LICENSE", "THIRD-PARTY.md"):
             archive.write(ROOT / name, f"seamwire/{name}")
+        for page in sorted((ROOT / "docs" / "guide").glob("*.md")):
+            archive.write(page, f"seamwire/guide/{page.name}")
         for wheel in wheels:
             archive.write(wheel, f"seamwire/wheels/{wheel.name}", zipfile.ZIP_STORED)
     return path

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..core.base.messages import message_of
 from ..core.network.network import FacePoint, vertices_of
-from ..core.seams.cut import NEAR, CutError
+from ..core.seams.cut_nodes import NEAR, CutError
 from ..core.seams.seam_wires import wires_between
 from ..core.seams.slide import plan as plan_slide
 from . import cut as mesh_cut
@@ -78,7 +78,7 @@ def apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession | None, Fi
     ObjectSession
         The session that goes on; None if the mesh must be read again for one.
     Finished
-        What was done.
+        The counts of everything that was done.
     """
     wires = [wire for wire in mesh.session.wires if change.finishes(wire)]
     slides = [wire for wire in wires if wire.finish == "SLIDE"]
@@ -192,7 +192,7 @@ def cut(
     ObjectSession
         The session that goes on.
     Cut
-        What was done.
+        The result of the cut.
 
     Raises
     ------

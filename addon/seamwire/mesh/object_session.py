@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..core.network.network import Finish, Network, Wire
+    from ..core.network.network import Along, Finish, Network, Wire
     from ..core.network.strokes import Stroke
     from .settings import SeamwireSettings
 
@@ -145,6 +145,11 @@ class ObjectSession:
         """Return the settings as they are now, for this object."""
         return snapshot(settings, self.cage.mesh, self._best_finish)
 
+    @property
+    def best_along(self) -> Along:
+        """How wires run here before the artist chooses: across the surface where they are best cut into the faces."""
+        return "SURFACE" if self._best_finish == "CUT" else "EDGES"
+
     @functools.cached_property
     def _best_finish(self) -> Finish:
         return best_finish(self.arrays.polygons)
@@ -246,7 +251,7 @@ class ObjectSession:
         self._newer = self._damaged = False
         try:
             own = Archive.parse(self.cage.mesh.seamwire_wires)
-            # Where numbers of the mesh stand for something else in this Blender, it gets an archive of its own.
+            # If numbers of the mesh stand for something else in this Blender, the mesh gets a separate archive.
             self._archive = _archive if _archive.merge(own) else own
         except serialization.NewerError as error:
             self._newer, self.problem = True, str(error)

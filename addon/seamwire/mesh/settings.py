@@ -83,6 +83,11 @@ def _changed(_settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> 
                 area.tag_redraw()
 
 
+def _along_changed(settings: SeamwireSettings, context: bpy.types.Context) -> None:
+    settings.along_is_automatic = False
+    _changed(settings, context)
+
+
 def strength_property(along: Along) -> object:
     """Return the property for the strength along edges or across the surface."""
     return bpy.props.FloatProperty(
@@ -99,7 +104,12 @@ class SeamwireSettings(bpy.types.PropertyGroup):
     """How wires are drawn: keys write these properties, and sessions follow snapshots of them."""
 
     along: bpy.props.EnumProperty(
-        name="Along", description="How wires run on the mesh", items=ALONG_ITEMS, update=_changed
+        name="Along", description="How wires run on the mesh", items=ALONG_ITEMS, update=_along_changed
+    )
+    along_is_automatic: bpy.props.BoolProperty(
+        name="Along Is Automatic",
+        description="The mesh decides whether wires run along edges, until the artist chooses",
+        options={"HIDDEN"},
     )
     strength_edges: strength_property("EDGES")
     strength_surface: strength_property("SURFACE")
@@ -219,6 +229,16 @@ def snapshot(settings: SeamwireSettings, mesh: bpy.types.Mesh | None = None, aut
     if values["finish"] == "AUTO":
         values["finish"] = auto
     return Options(**values, mirror=() if mesh is None else mirror_axes(mesh))
+
+
+def start_along(settings: SeamwireSettings, along: Along) -> bool:
+    """Let wires run along edges or across the surface unless the artist has chosen; return whether that is a change."""
+    is_chosen = settings.is_property_set("along") and not settings.along_is_automatic
+    if is_chosen or settings.along == along:
+        return False
+    settings.along = along
+    settings.along_is_automatic = True
+    return True
 
 
 def mirror_axes(mesh: bpy.types.Mesh) -> tuple[int, ...]:

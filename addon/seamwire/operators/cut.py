@@ -42,7 +42,7 @@ def cut_wires(
     live_unwrap
         Whether to follow Blender's Live Unwrap.
     """
-    from ..core.seams.cut import CutError
+    from ..core.seams.cut_nodes import CutError
     from ..mesh import edit_mesh, finish
 
     plans, problems = {}, []

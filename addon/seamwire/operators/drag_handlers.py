@@ -211,7 +211,7 @@ class LineHold:
         return self._view.session.line_to(points, triangles, snap)
 
     def starts_chain(self) -> bool:
-        """Take the line out of the session; return whether what is live is a chain of its own, to be kept before the line."""
+        """Take the line out of the session. Return whether the live wires are a separate chain, which is kept before the line."""
         session = self._view.session
         self._line = session.line_release()
         live = session.seed is not None and not session.waiting_clicks

@@ -442,7 +442,7 @@ class Chain:
     def _release(self, place: Place | None) -> None:
         hold, self._hold = self._hold, None
         assert hold is not None
-        # What was live before a line is a chain of its own, with a step of its own in Blender's undo.
+        # The wires that were live before a line become a separate chain, with a separate step in Blender's undo.
         if not (isinstance(hold, LineHold) and hold.starts_chain()) or self._keep_chain():
             hold.release()
         if isinstance(hold, StrokeHold) and hold.missed:

@@ -126,7 +126,7 @@ class MESH_OT_seamwire_transfer(EditMeshOperator, bpy.types.Operator):
             pairs = transfer.pairs_of_groups(source, target)
             if len(pairs) < 3:
                 raise ValueError(
-                    f"Give at least three pairs of vertices: the objects share only {count(len(pairs), 'vertex group')}"
+                    f"Give at least three pairs of vertices: the objects share {count(len(pairs), 'vertex group')}"
                 )
         drawn = self.open_mesh(source)
         network = transfer.network_of(drawn, settings(context))

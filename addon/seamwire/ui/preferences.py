@@ -57,6 +57,11 @@ class _Properties:
         description="Show the number of islands and other information in the 3D view",
         default=True,
     )
+    show_card: bpy.props.BoolProperty(
+        name="First Steps",
+        description="Show a card with the first steps in the 3D view until it is closed",
+        default=True,
+    )
 
 
 class SeamwirePreferences(_Properties, bpy.types.AddonPreferences):
@@ -73,6 +78,7 @@ class SeamwirePreferences(_Properties, bpy.types.AddonPreferences):
         column.prop(self, "line_width")
         column.prop(self, "tint")
         column.prop(self, "show_text")
+        column.prop(self, "show_card")
         layout.column(heading="Mouse").prop(self, "wheel_switches")
         column = layout.column(heading="Colors")
         column.prop(self, "theme_colors")

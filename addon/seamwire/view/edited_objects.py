@@ -115,6 +115,7 @@ class EditedObjects:
         self.refresh()
         if self.front is None or not self.front.mesh.alive():
             self.front = self.of(bpy.context.active_object)
+        chosen.start_along(chosen.settings(), self.front.mesh.best_along)
 
     def clear(self) -> None:
         """Forget all objects, draw nothing any more and follow Blender no more."""
@@ -168,6 +169,8 @@ class EditedObjects:
         if self.problem:
             return
         view, snap = (None, None) if place is None else self.find(place)
+        if view is not None and chosen.start_along(chosen.settings(), view.mesh.best_along):
+            view, snap = self.find(place)
         self.point_at(view, place)
         if self.front is not None and view is not self.front:
             self.front.session.hover(None)

@@ -27,6 +27,12 @@ _DISC = np.linspace(0.0, 2.0 * np.pi, 25)
 _FONT = 0
 _BORDERS = 8
 """The number of clipping borders to cache drawings for. Each view has its own border, or no border."""
+_HIDDEN_DASH = 4.0
+"""Pixels of a dash where the mesh lies before a line, and of the gap after it."""
+_HIDDEN_WIDTH = 0.55
+"""How wide a line is there, as part of its width elsewhere."""
+_MOST_DASHED = 20_000
+"""Segments that are dashed there: of more, each move of the view would take long."""
 _OVER = 1.5
 """Pixels by which what is drawn over faces is nearer than they are."""
 
@@ -156,6 +162,7 @@ class Lines:
         self._seen_from = b""
         # Light dashes are seen on a light surface by the dark gaps between them.
         self._ground = self._make(ends) if style.dash and style.halo else None
+        self._hidden: tuple[bytes, gpu.types.GPUBatch | None] = (b"", None)
         self._batch = None if style.dash else self._make(ends)
         self._within = _Within(self._inside)
 
@@ -193,6 +200,31 @@ class Lines:
                 self._shader.uniform_float("lineWidth", width * eye.scale)
                 self._shader.uniform_float("color", color)
                 self._batch.draw(self._shader)
+
+    def draw_hidden(self, eye: Eye, opacity: float) -> None:
+        """Draw what the mesh lies before, in thin dashes: nobody should take it for a line on the surface."""
+        lines = self._within.of(eye)
+        if lines is not self:
+            lines.draw_hidden(eye, opacity)
+            return
+        style = self.style
+        if style.soft or len(self._ends) > _MOST_DASHED:
+            self.draw(eye, opacity, rim=False)
+            return
+        if not len(self._ends):
+            return
+        if self._hidden[0] != eye.key:
+            self._hidden = eye.key, self._make(dashes(self._ends, eye.on_screen, _HIDDEN_DASH * eye.scale))
+        batch = self._hidden[1]
+        if batch is None:
+            return
+        with gpu.matrix.push_pop():
+            gpu.matrix.load_matrix(eye.lifted(style.lift))
+            self._shader.bind()
+            self._shader.uniform_float("viewportSize", eye.size)
+            self._shader.uniform_float("lineWidth", max(1.0, _HIDDEN_WIDTH * style.width) * eye.scale)
+            self._shader.uniform_float("color", (*style.color[:3], style.color[3] * opacity))
+            batch.draw(self._shader)
 
 
 def layers(style: Style, opacity: float, rim: bool) -> list[tuple[Color, float]]:

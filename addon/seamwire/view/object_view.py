@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from typing import TYPE_CHECKING
+from weakref import WeakMethod
 
 import bpy
 import numpy as np
@@ -23,7 +24,7 @@ from .stretch_heat import StretchHeat
 from .theme import HUES
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
@@ -51,6 +52,12 @@ def let_blender_tell() -> None:
     """Make Blender report pending changes of meshes now, instead of after all waiting events."""
     for layer in {window.view_layer for window in bpy.context.window_manager.windows} or {bpy.context.view_layer}:
         layer.update()
+
+
+def weak(look: Callable[[], Picture]) -> Callable[[], Picture]:
+    """Return a method as a function that does not keep its object alive."""
+    held = WeakMethod(look)
+    return lambda: held()()
 
 
 class ObjectView:
@@ -91,7 +98,7 @@ class ObjectView:
         self._front = True
         self._keys: tuple[Row, ...] | None = None
         self.overlay = Overlay(
-            self._look,
+            weak(self._look),  # what was prepared for a view is freed with it, and not when Python looks for cycles
             obj,
             arrays.points,
             arrays.to_object,

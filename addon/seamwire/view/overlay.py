@@ -135,18 +135,13 @@ class Overlay:
             self._draw_tint(eye, picture.islands)
         if self._views is not None:
             self._views.draw_lines(eye)
-        passes = [("NONE", False)] if picture.options.xray else [("GREATER", True), ("LESS_EQUAL", False)]
-        for test, hidden in passes:
-            with blended(test):
+        xray = picture.options.xray
+        for hidden in (True, False):
+            with blended("GREATER" if hidden else "LESS_EQUAL"):
                 for sheet in sheets:
-                    for lines in sheet.lines:
-                        lines.draw(eye, lines.style.hidden if hidden else 1.0, rim=not hidden)
+                    _draw_lines(sheet, eye, hidden, xray)
                 for sheet in sheets:
-                    for style, places in sheet.dots:
-                        inside = eye.shows(places)
-                        shown = places if inside is None else places[inside]
-                        if len(shown):
-                            draw_dots(style, shown, eye, style.hidden if hidden else 1.0, rim=not hidden)
+                    _draw_dots(sheet, eye, hidden, xray)
 
     def _draw_tint(self, eye: Eye, found: Islands | None) -> None:
         if found is None or self._looks.tint <= 0.0:
@@ -276,6 +271,24 @@ class Overlay:
             return
         styles = {"WIRE": looks.dot_on_wire, "SEAM": looks.dot_on_seam, "FEATURE": looks.dot_on_feature}
         sheet.dot(styles.get(snap.to, looks.dot), snap.pick)
+
+
+def _draw_lines(sheet: _Sheet, eye: Eye, hidden: bool, xray: bool) -> None:
+    """Draw the lines of a sheet: what the mesh lies before, or the rest."""
+    for lines in sheet.lines:
+        if hidden:
+            lines.draw_hidden(eye, 1.0 if xray else lines.style.hidden)
+        else:
+            lines.draw(eye)
+
+
+def _draw_dots(sheet: _Sheet, eye: Eye, hidden: bool, xray: bool) -> None:
+    """Draw the dots of a sheet: what the mesh lies before, or the rest."""
+    for style, places in sheet.dots:
+        inside = eye.shows(places)
+        shown = places if inside is None else places[inside]
+        if len(shown):
+            draw_dots(style, shown, eye, style.hidden if hidden and not xray else 1.0, rim=xray or not hidden)
 
 
 def free_room(area: bpy.types.Area, region: bpy.types.Region) -> tuple[float, float, float, float]:

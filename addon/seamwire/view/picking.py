@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from ..core.base.mesh_arrays import Arrays
     from ..core.drawing.session import Session
     from ..core.fields.crests import Crests
-    from ..core.network.network import Pick, Wire
+    from ..core.network.network import Edge, Pick, Wire
     from ..core.network.strokes import Stroke
     from .viewport import View
 
@@ -45,6 +45,12 @@ FEATURE_REACH = 10.0
 """Pixels in which the strongest feature is looked for."""
 FEATURE_QUANTILE = 0.75
 """A vertex counts as a feature from this share of all vertices' strengths on: on a plain nothing is stronger than noise."""
+SHORT_EDGE = 12.0
+"""Pixels below which an edge is too short to point at."""
+_STRAIGHT_COSINE = 0.9
+"""An edge that turns off by less than some 25 degrees does not cross another one..."""
+_SAME_COSINE = 0.05
+"""...and edges cross equally well if these cosines differ by less."""
 _MAX_NEAR = 400
 """Vertices that are looked at for a feature: what a far view has within a few pixels more than this, nobody can tell apart."""
 _MOST_TRIED = 4
@@ -290,6 +296,8 @@ class Picker:
         crest = None if crests is None else self._crest_at(view, placement, cursor, crests, anywhere, xray, scale)
         if crest is not None:
             return Snap(crest, "FEATURE")
+        if edges_only and isinstance(pick, tuple):
+            return self._with_crossing(view, placement, cursor, pick, scale)
         if strength is None:
             return Snap(pick)
         feature = self._feature_at(view, placement, cursor, pick, strength, xray, scale)
@@ -550,6 +558,31 @@ class Picker:
             return None
         pair = (int(pairs[index, 0]), int(pairs[index, 1]))
         return pair if end is None or edges_only else pair[end]
+
+    def _with_crossing(
+        self, view: View, placement: _Placement, cursor: tuple[float, float], edge: Edge, scale: float
+    ) -> Snap:
+        """Return the snap of an edge with the edge that crosses it at its end nearer to the cursor."""
+        seen = self._pixels(view, placement, [*edge])
+        end = edge[int(np.argmin(np.linalg.norm(seen - np.asarray(cursor), axis=1)))]
+        start = edge[0] if end == edge[1] else edge[1]
+        pairs = self._all_edges[self._edges_at.rows([end])]
+        ends = pairs.sum(axis=1) - end
+        ends = ends[ends != start]
+        ways = self._in_object(self._points[[start, *ends]]) - self._in_object(self._points[end])
+        lengths = np.linalg.norm(ways, axis=1)
+        if not len(ends) or lengths.min() <= 0.0:
+            return Snap(edge)
+        cosines = np.abs(ways[1:] @ ways[0]) / (lengths[1:] * lengths[0])
+        if cosines.min() > _STRAIGHT_COSINE:
+            return Snap(edge)
+        best = ends[cosines <= cosines.min() + _SAME_COSINE]
+        places = self._pixels(view, placement, best)
+        here = self._pixels(view, placement, [end])
+        _, gaps = nearest_on_segments(cursor, np.broadcast_to(here, places.shape), places)
+        at = int(np.argmin(np.where(np.isnan(gaps), np.inf, gaps)))
+        sizes = np.linalg.norm([seen[1] - seen[0], places[at] - here[0]], axis=1)
+        return Snap(edge, crossing=(end, int(best[at])), is_close_call=bool(sizes.min() < SHORT_EDGE * scale))
 
     def _point_at(
         self, view: View, placement: _Placement, cursor: tuple[float, float], scale: float

@@ -80,9 +80,10 @@ class _Shown:
         if self._lines is None:
             pieces = [np.stack([curve[:-1], curve[1:]], axis=1) for curve in self._curves if len(curve) > 1]
             self._lines = Lines(looks.kept, np.concatenate([np.empty((0, 2, 3)), *pieces]))
-        for test, opacity in (("GREATER", looks.kept.hidden), ("LESS_EQUAL", 1.0)):
-            with blended(test):
-                self._lines.draw(eye, opacity, rim=opacity == 1.0)
+        with blended("GREATER"):
+            self._lines.draw_hidden(eye, looks.kept.hidden)
+        with blended("LESS_EQUAL"):
+            self._lines.draw(eye)
 
 
 class PlanPreview:

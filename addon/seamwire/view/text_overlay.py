@@ -56,7 +56,11 @@ def lines(picture: Picture) -> list[str]:
         found.append(LOOP_NAMES[offered.kind].capitalize() + which)
     if picture.active is not None and choice.count > 1:
         follows = _CONCAVE_FOLLOWS if options.metric == "concave" else _FOLLOWS
-        which = "Straight in the view" if choice.straight else follows[picture.active.follow]
+        which = follows[picture.active.follow]
+        if choice.straight:
+            which = "Straight in the view"
+        elif choice.around:
+            which = "Around the limb"
         found.append(f"{which} ({choice.number + 1} of {choice.count})")
     if islands is not None:
         found.append(_islands(islands))

@@ -6,7 +6,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..core.drawing.picture import Role
 from .keys import Action, Bindings, Key
 from .names import LOOP_NAMES, count
 
@@ -139,6 +138,9 @@ def _offer(kind: LoopKind) -> str:
 
 def _wires(picture: Picture) -> Iterator[Deed]:
     """Yield what other keys do to wires."""
+    # Imported late, because it needs NumPy, and Blender's start should not wait for that.
+    from ..core.drawing.picture import Role
+
     is_along_edges = picture.options.along == "EDGES"
     if picture.seed is not None:
         if picture.can_close:

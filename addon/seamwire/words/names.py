@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
 LOOP_NAMES: Mapping[LoopKind, str] = {
     "CLOSED": "closed loop",
+    "CROSSING": "crossing loop",
     "STRIP": "strip",
     "PAST": "strip past poles",
     "WHOLE": "whole strip",

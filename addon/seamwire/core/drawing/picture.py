@@ -96,11 +96,12 @@ class ShownSeed:
 
 @dataclass(frozen=True)
 class Choice:
-    """One of several candidates: its place among them from 0, how many there are, and whether it is the straight one."""
+    """One of several candidates: its place among them from 0, how many there are, whether it is straight, or around a limb."""
 
     number: int = 0
     count: int = 1
     straight: bool = False
+    around: bool = False
 
 
 @dataclass(frozen=True)

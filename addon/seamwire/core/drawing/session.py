@@ -116,7 +116,7 @@ class Session:
         self._engines.use(options.metric, options.strengths, options.clamp)
         self._network = Network(mirror=options.mirror)
         self._history = History()
-        self._candidates = CandidateWires(self._engines, points)
+        self._candidates = CandidateWires(self._engines, points, edges)
         flat = None if triangles is None or edges is None else FlatRegions(points, triangles, edges)
         self._edge_loops = LoopOffers(self._engines, self._stops, points, flat)
         self._cuts = SurfaceLoops(self._engines, triangles)
@@ -167,6 +167,7 @@ class Session:
         asked = target.pick if (loop or bend) and target is not None and self._loops.takes(target.pick) else None
         if asked is not None and undirected(asked) == self._crest_taken:
             asked = None
+        self._edge_loops.point_at(target)
         self.revision += self._loops.aim(asked)
         self._show_offers()
 
@@ -223,6 +224,7 @@ class Session:
             return self._cut_around(target)
         if undirected(edge) == self._crest_taken:
             return True  # of a double click, the first press took the ridge
+        self._edge_loops.point_at(target)
         shown = self._loops
         seen, choice = (shown.wire, shown.choice) if shown.edge == undirected(edge) else (None, 0)
         on_crest = seen is not None and seen.kind in CREST_KINDS
@@ -231,7 +233,7 @@ class Session:
         self._take_back_click(edge)
         if on_crest:
             return self._along_crest(edge)
-        own = self._network.taken_through(edge)
+        own = self._edge_loops.taken_through(self._network, edge)
         if own is not None and own.marks == self.options.marking:
             # Of a double click, the first press took it already.
             return not choice or self._retrace_offer(own, choice)
@@ -244,6 +246,7 @@ class Session:
         if not loops or (seen is None and offers[0].kind in CREST_KINDS):
             return self._along_crest(edge)
         wire = replace(taken(loops, min(choice, len(loops) - 1), self.options.marking), mirror=self._network.mirror)
+        self._edge_loops.took(edge, wire)
         return self._change(replace(self._network, wires=(*self.wires, wire)))
 
     def _cut_around(self, target: Snap) -> bool:
@@ -556,7 +559,7 @@ class Session:
         return self._refuse("no-line-drawn") if drawn is None else self.line_keep(drawn)
 
     def line_release(self) -> DrawnLine | None:
-        """Let go of the line that is being drawn, to keep it with `line_keep`; None: there is none."""
+        """Release the line that is being drawn, to keep it with `line_keep`. Return None if no line is drawn."""
         drawn, self._line = self._line, None
         self.revision += drawn is not None
         return drawn
@@ -761,6 +764,7 @@ class Session:
         """
         self._calm()
         self._stops.set_seams(seams)
+        self._edge_loops.forget()
         self._retraces.clear()
         self._history.forget()
         # Wires of the first version do not know their images: they are what is a seam of them still.
@@ -961,7 +965,7 @@ class Session:
             None if self._line is None else self._line.line.points,
             target,
             self.seed,
-            Choice(live.number, 1 + len(live.others), live.straight_active),
+            Choice(live.number, 1 + len(live.others), live.straight_active, live.ring_active),
             Offered(self._loops.kinds, self._loops.choice, self._bends),
             self._intent,
             self.closing_point is not None,
@@ -1168,6 +1172,8 @@ class Session:
         if not wire.leaves_trace:
             return self._refuse("wire-too-short")
         network = self._network.joined(target, self._points).with_drawn(wire, target.pick, ending is not None)
+        for joint in reversed(live.ring.joints if live.ring_active else ()):
+            network = network.with_seed_in(wire, joint, self._points) or network
         if not self._change(network):
             return False
         self.message = self.message or self._engines.warning(self.options.along)
@@ -1201,7 +1207,7 @@ class Session:
         """Return what a click on an edge may take, first what one has `kept`; nothing, too, while it is computed."""
         self._read_progress()
         try:
-            # What a click on an edge offers is found along edges, however wires run now.
+            # Offers at an edge are found along edges, even if wires run across the surface.
             offers = self._edge_loops if isinstance(pick, tuple) else self._cuts
             self._cuts.into_faces = self._into_faces
             return self._with_crest(pick, offers.find(pick, self._network, kept), kept)
@@ -1228,6 +1234,11 @@ class Session:
             self._edge_loops.stop_waiting()
             self._cuts.stop_waiting()
         loops = self._loops
+        if loops.wanted and self.target is not None and not loops.takes(self.target.pick):
+            # A click may have moved the target since. Nothing would ever be found for it.
+            self.revision += bool(loops.offers)
+            loops.wanted = False
+            loops.clear()
         if loops.unfinished and self.target is not None:
             self.revision += loops.show(self.target.pick, self._find_offers(self.target.pick))
         none = bool(loops.NONE) and loops.missing and loops.final and not self._cuts.bends
@@ -1347,7 +1358,7 @@ class Session:
     def _working(self) -> list[LiveWire]:
         """Return the live wires that compute something for what is shown or waits."""
         drag = [] if self._drag is None else self._drag.lives()
-        # What a click on an edge offers is found along edges, however wires run now.
+        # Offers at an edge are found along edges, even if wires run across the surface.
         offers = [self._engines.get("EDGES")] if any(queued.kind == "offer" for queued in self._queue) else []
         asks = [queued.snap.pick for queued in self._queue if queued.kind in {"loop", "bend"}]
         waits = any(self._cuts.takes(pick) for pick in asks)
@@ -1355,7 +1366,8 @@ class Session:
         lines = [queued.line for queued in self._queue if queued.line is not None]
         lines += [] if self._line is None else [self._line]
         drawn = [live for one in lines for live in one.line.lives()]
-        return [self._engines.get(self.options.along), *offers, *cuts, *self._retraces.lives(), *drag, *drawn]
+        ring = self._candidates.ring.lives
+        return [self._engines.get(self.options.along), *ring, *offers, *cuts, *self._retraces.lives(), *drag, *drawn]
 
     def _read_progress(self) -> None:
         """Look how much is computed; before wires are asked for: what is not final after the work is done stays so."""

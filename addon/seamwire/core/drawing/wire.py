@@ -10,6 +10,7 @@ import numpy as np
 from ..base.messages import NOTHING, Message, message_of
 from ..network.network import FacePoint, Network, Snap, Wire, distinct
 from ..solver.solver import by_number, for_live
+from .ring import RingSearch
 from .straight import straight_wire
 
 if TYPE_CHECKING:
@@ -29,11 +30,14 @@ class CandidateWires:
         Compute them.
     points
         (n, 3) vertices of the mesh.
+    edges
+        (e, 2) edges of the mesh, for wires that lead around a limb; None: there are none along edges.
     """
 
-    def __init__(self, engines: Engines, points: NDArray[np.float64]) -> None:
+    def __init__(self, engines: Engines, points: NDArray[np.float64], edges: NDArray[np.int32] | None = None) -> None:
         self._engines = engines
         self._points = points
+        self.ring = RingSearch(engines, points, edges)
         self.target: Snap | None = None
         self.wires: tuple[Wire | None, ...] = ()
         self.finals: tuple[bool, ...] = ()
@@ -164,6 +168,8 @@ class CandidateWires:
             self.wires = tuple(
                 self._along_edges(wire, follow, seed, target.pick, avoid) for follow, wire in enumerate(wires)
             )
+        if network.closes(target):
+            self._add_ring(network, target, along)
         if self.chosen is not None and self.chosen >= len(self.wires):
             self.chosen = None  # the metric that is used now has no such wire
         is_reached = not self.final or any(self.wires)
@@ -177,6 +183,23 @@ class CandidateWires:
         if self._straight is not None:
             self.wires, self.finals = (*self.wires, self._straight), (*self.finals, True)
             self.leading, self.settled = len(self.wires) - 1, True
+
+    @property
+    def ring_active(self) -> bool:
+        """Whether the wire that a click would keep closes the chain around the limb."""
+        return self.ring.wire is not None and self.active is self.ring.wire
+
+    def _add_ring(self, network: Network, target: Snap, along: Along) -> None:
+        """Add the wire that closes the chain around the limb, as the leading one."""
+        is_found = self.ring.find(network, target, along)
+        ring = self.ring.wire
+        same = next((at for at, wire in enumerate(self.wires) if ring is not None and wire and wire.like(ring)), None)
+        if same is not None:
+            self.leading, self.settled = same, self.finals[same]
+        if same is not None or (is_found and ring is None):
+            return
+        self.wires, self.finals = (*self.wires, ring), (*self.finals, is_found)
+        self.leading, self.settled = len(self.wires) - 1, is_found
 
     def _along_edges(
         self, candidate: Candidate, follow: int, seed: Seed, target: Pick, avoid: int | None

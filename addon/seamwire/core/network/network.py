@@ -79,13 +79,13 @@ FOLLOWS: tuple[Literal["min", "max", "concave"], ...] = ("min", "max", "concave"
 """The library's names of wires, by `Wire.follow`: along the least curvature, along the most curvature, or along concave creases (only
 across the surface). Files have these numbers."""
 
-LoopKind = Literal["CLOSED", "STRIP", "PAST", "WHOLE", "FLAT", "ACROSS", "HANDLE", "RIDGE", "VALLEY"]
-"""A loop that a click adds as a whole. On an edge: the closed loop of the metric, the straight strip up to what is there already, the
-same
-past poles, the whole strip, the border of a flat region. On a point of the surface: a closed cut that separates, or one around or
-through a handle, which does not. On both: a ridge or a valley as far as it is one."""
+LoopKind = Literal["CLOSED", "CROSSING", "STRIP", "PAST", "WHOLE", "FLAT", "ACROSS", "HANDLE", "RIDGE", "VALLEY"]
+"""What a click takes as a whole. On an edge: the closed loop of the metric, the loop or strip that crosses the edge, the straight strip
+up to what is there already, the same past poles, the whole strip, the border of a flat region. On a point of the surface: a closed cut
+that separates, or one around or through a handle, which does not. On both: a ridge or a valley as far as it is one."""
 
-LOOP_KINDS: tuple[LoopKind, ...] = get_args(LoopKind)
+LOOP_KINDS: frozenset[LoopKind] = frozenset(get_args(LoopKind)) - {"CROSSING"}
+"""The kinds of kept loops. A crossing loop is kept as a closed loop or a strip."""
 
 _ids = itertools.count()
 
@@ -104,12 +104,18 @@ class Snap:
         The wire, where it belongs to one.
     seen_along
         The direction from the viewer to it, in the coordinates of the session's points; None: it is not looked at.
+    crossing
+        The edge that crosses a picked edge at its end nearer to the cursor. Only loops need it.
+    is_close_call
+        Whether these two edges are too short on the screen to point at one of them.
     """
 
     pick: Pick
     to: Literal["MESH", "SEED", "WIRE", "SEAM", "FEATURE"] = "MESH"
     wire: Wire | None = None
     seen_along: tuple[float, float, float] | None = field(default=None, compare=False)
+    crossing: Edge | None = field(default=None, compare=False)
+    is_close_call: bool = field(default=False, compare=False)
 
     @classmethod
     def of(cls, what: Snap | Pick) -> Snap:

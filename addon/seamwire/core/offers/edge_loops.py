@@ -12,6 +12,7 @@ from ..base.messages import Message
 from ..network.network import Wire, undirected
 from ..network.stops import ranked
 from ..network.symmetry import among
+from .crossing import Direction, Directions, as_crossing, as_kept, is_loop_of
 from .offers import Offers
 
 if TYPE_CHECKING:
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..network.network import Edge, LoopKind, Network, Pick
+    from ..network.network import Edge, LoopKind, Network, Pick, Snap
     from ..network.stops import Stops
     from ..solver.solver import Engines, LiveWire
     from .flat_regions import FlatRegions
@@ -33,6 +34,8 @@ Fitted to what artists' seams consist of, see docs/method/edges.md."""
 _MOST_CORNERS, _MOST_CROSSINGS = 3, 4
 """More than these say no more."""
 _CORNER_COSINE = 0.5
+_MOST_KNOWN = 64
+"""So many edges whose offers are remembered."""
 _MOST_PIECES = 64
 """Straight pieces of a loop that are looked at: over triangles it may have as many as edges."""
 
@@ -62,6 +65,39 @@ class LoopOffers(Offers):
         self._stops = stops
         self._points = points
         self._flat = flat
+        self._snap: Snap | None = None
+        self._metric: tuple[object, ...] = ()
+        self._known: dict[Edge, tuple[Wire, ...]] = {}
+        self._directions = Directions()
+        self._taken: tuple[Pick | None, Wire | None] = (None, None)
+
+    def point_at(self, snap: Snap | None) -> None:
+        """Learn which edge crosses the picked one at the cursor."""
+        before, self._snap = self._snap, snap
+        if before is not None and snap is not None and self.edge == undirected(snap.pick):
+            self.final = self.final and before.crossing == snap.crossing
+
+    def aim(self, pick: Pick | None) -> bool:
+        """Ask for the offers for a pick, or for none; return whether others vanish because of that."""
+        if pick is None:
+            self._directions.forget()
+        elif self.edge != undirected(pick):
+            self._directions.was_shown(self.wire, self.choice > 0)
+        return super().aim(pick)
+
+    def took(self, edge: Edge, wire: Wire) -> None:
+        """Remember which wire a click on an edge took, even if it crosses the edge."""
+        self._taken = undirected(edge), wire
+
+    def taken_through(self, network: Network, edge: Edge) -> Wire | None:
+        """Return the newest wire of a network that a click on an edge took."""
+        pick, wire = self._taken
+        last = network.find(wire) if pick == undirected(edge) else None
+        return network.taken_through(edge) if last is None or last.through is None else last
+
+    def forget(self) -> None:
+        """Forget what was found: the seams of the mesh are others now."""
+        self._known.clear()
 
     def takes(self, pick: Pick) -> bool:
         """Whether it is an edge."""
@@ -92,29 +128,85 @@ class LoopOffers(Offers):
         self.final = True
         if not isinstance(pick, tuple):
             return ()
-        own = kept or network.taken_through(pick)
+        own = kept or self.taken_through(network, pick)
         if own is not None and own.offers:
             return own.all_offers()
         # Wires that were stored have lost their offers: they are those of a click made without them.
         if own is not None:
             network = network.without(own)
+        offers = self._through(pick, network)
+        if not self.final:
+            return ()
+        if own is not None:
+            return (replace(own, offers=()), *others(own, offers))
+        return self._with_crossing(pick, offers, network)
+
+    def _through(self, edge: Edge, network: Network) -> tuple[Wire, ...]:
+        """Return what leads through an edge, the likeliest first; nothing, too, while it is computed, see `final`.
+
+        The library computes one loop at a time. What it found is remembered as long as nothing else changes.
+        """
+        engines = self._engines
+        metric = network, engines.metric, engines.strengths["EDGES"], engines.clamp
+        if metric != self._metric or len(self._known) > _MOST_KNOWN:
+            self._metric = metric
+            self._known.clear()
+        if edge not in self._known:
+            offers, self.final = self._compute(edge, network)
+            if not self.final:
+                return ()
+            self._known[edge] = offers
+        return self._known[edge]
+
+    def _compute(self, edge: Edge, network: Network) -> tuple[tuple[Wire, ...], bool]:
         # An edge that is taken already stops itself: what remains to be offered there is more than that.
-        stops = None if self._stops.taken(network, pick) else self._stops.of(network, None, pick)
-        offers, self.final = find_offers(
+        stops = None if self._stops.taken(network, edge) else self._stops.of(network, None, edge)
+        return find_offers(
             self._engines.get("EDGES"),
-            pick,
+            edge,
             stops,
             self._points,
             self._engines.strengths["EDGES"],
             kept=self._stops.kept(network),
-            last=next((wire.kind for wire in reversed(network.wires) if wire.kind is not None), None),
+            last=_last_kind(network),
             flat=self._flat,
         )
-        return offers if own is None or not self.final else (replace(own, offers=()), *others(own, offers))
+
+    def _with_crossing(self, edge: Edge, offers: tuple[Wire, ...], network: Network) -> tuple[Wire, ...]:
+        """Return offers with the loop that crosses the edge at the cursor: second, or first where edges are short."""
+        snap = self._snap
+        if snap is None or snap.crossing is None or not offers or undirected(snap.pick) != undirected(edge):
+            return offers
+        found = self._through(snap.crossing, network)
+        if not self.final:
+            return () if snap.is_close_call else offers
+        known = [set(offer.edges()) for offer in offers]
+        across = (wire for wire in found if wire.kind != "FLAT" and not is_loop_of(wire, edge))
+        crossing = next((wire for wire in across if set(wire.edges()) not in known), None)
+        if crossing is None:
+            return offers
+        first, *rest = offers
+        both = [first, as_crossing(crossing)]
+        if snap.is_close_call and self._directions.crossing_first(
+            self._direction(first, edge, network), self._direction(crossing, snap.crossing, network)
+        ):
+            both.reverse()
+        return (*both, *rest)
+
+    def _direction(self, wire: Wire, edge: Edge, network: Network) -> Direction:
+        live, kept = self._engines.get("EDGES"), ranked(self._stops.kept(network))
+        unlikeliness = _unlikeliness(live, wire, self._points, kept, _last_kind(network) or "CLOSED")
+        return Direction(wire, unlikeliness, self._points[[*edge]])
+
+
+def _last_kind(network: Network) -> LoopKind | None:
+    """Return what a click on an edge took last; None: nothing yet."""
+    return next((wire.kind for wire in reversed(network.wires) if wire.kind is not None), None)
 
 
 def taken(offers: tuple[Wire, ...], choice: int, marks: bool) -> Wire:
     """Return an offer as a wire to be kept, with the others in their order, the next one first."""
+    offers = tuple(as_kept(offer) for offer in offers)
     return offers[choice].anew(marks=marks, offers=offers[choice + 1 :] + offers[:choice])
 
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from .cut import Faces
+    from .cut_nodes import Faces
 
 FEATURE_ANGLE = 30.0
 """Degrees: a vertex of an edge where triangles meet at more lies on a feature."""

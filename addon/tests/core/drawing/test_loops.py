@@ -158,7 +158,7 @@ def test_a_single_offer_has_no_next() -> None:
     session.hover((14, 20), loop=True)
     assert session.picture.offered.kinds == ("STRIP",)
     assert not session.next_candidate()
-    assert "Nothing else" in str(session.message)
+    assert session.message.code == "nothing-else-through-edge"
     session.hover(None)
     assert session.picture.offered.kinds == ()
     assert session.picture.offered.kind is None
@@ -248,7 +248,7 @@ def test_while_the_loop_is_computed_nothing_is_offered_yet() -> None:
     assert session.picture.one(Role.OFFER) is None
     assert session.computing
     assert not session.next_candidate()
-    assert "no loop yet" in str(session.message)
+    assert session.message.code == "no-loop-yet"
     table.compute()
     assert shown(session) == LOOP
 
@@ -447,3 +447,15 @@ def test_stops_are_the_vertices_of_seams_wires_and_their_images(axes: tuple[int,
     for edge in edges.tolist():
         assert stops.taken(network, tuple(edge[::-1])) == (tuple(edge) in pairs)
     assert Stops([], symmetry).of(Network(), None, (0, 1)).tolist() == []
+
+
+def test_loops_that_were_asked_for_on_an_edge_are_given_up_once_a_vertex_is_under_the_cursor() -> None:
+    session = Table().session
+    session.click(0)
+    session.hover((14, 15), loop=True)
+    session.click(7)
+    session.use_crests(None, True)
+    session.poll()
+    assert not session.computing, "waiting would never end"
+    session.hover((14, 15), loop=True)
+    assert session.picture.offered.kinds

@@ -129,7 +129,7 @@ def test_an_only_wire_is_not_dragged_to_nothing() -> None:
     session.end_chain()
     session.drag(3)
     assert not session.drag_to(Snap(0, "SEED"))
-    assert "drop it instead" in str(session.message)
+    assert "remove it instead" in str(session.message)
     assert courses(session) == [(0, 1, 2, 3)]
     assert not session.drag_end()
     assert courses(session) == [(0, 1, 2, 3)]

@@ -75,7 +75,7 @@ def test_another_strength_keeps_the_surface_and_its_curvatures(along: Along) -> 
     surface = session._engines.get(along).surface
     strength = session.feature_strength()
     for steps in (1, -2):
-        assert session.change_strength(steps)
+        assert stronger(session, steps)
         assert np.shares_memory(session.feature_strength(), strength)
         session.wait()
         assert np.shares_memory(session.feature_strength(), strength)

@@ -141,16 +141,16 @@ def test_where_it_fits_as_well_turned_that_is_said_and_every_seed_is_doubtful(fi
     target = replace(flat, points=flat.points + np.array([5.0, -2.0, 1.0]))
     found = by_surface(file, target)
     assert found.lost == []
-    assert [text for text in found.doubts if "fits as well" in str(text)] == found.doubts != []
+    assert [text for text in found.doubts if "network also fits" in str(text)] == found.doubts != []
     assert {transfer.degree_of(seed.confidence) for seed in found.seeds} == {"DOUBTFUL"}
     assert by_surface(file, flat).doubts == [], "it lies on it as it is"
 
 
 def test_what_only_lies_elsewhere_is_not_called_turned() -> None:
     shifted = replace(Similarity.none(), shift=np.array([2.0, 0.0, 0.0]))
-    assert str(Aligned(Similarity.none(), shifted).doubt).startswith("moved to another place the network fits as well")
+    assert str(Aligned(Similarity.none(), shifted).doubt).startswith("the network also fits in another place")
     turned = replace(shifted, rotation=np.diag([-1.0, -1.0, 1.0]))
-    assert str(Aligned(Similarity.none(), turned).doubt).startswith("turned by 180 degrees the network fits as well")
+    assert str(Aligned(Similarity.none(), turned).doubt).startswith("the network also fits if rotated by 180 degrees")
 
 
 def test_it_is_mirrored(file: NetworkFile) -> None:
@@ -187,7 +187,7 @@ def test_what_has_no_place_is_told_and_left_out(file: NetworkFile) -> None:
     used = np.unique(half)
     target = Shape(whole.points, half, whole.edges[np.isin(whole.edges, used).all(axis=1)])
     found = by_surface(file, target, align=False)
-    assert any("loop" in text and "has no place" in text for text in map(str, found.lost))
+    assert any("loop" in text and "could not be placed" in text for text in map(str, found.lost))
     assert any(seed.vertex is None and str(seed.message).endswith("not placed (0.00)") for seed in found.seeds) or any(
         seed.vertex is None for seed in found.seeds
     )
@@ -302,7 +302,7 @@ def test_by_numbers_the_same_edges_are_marked_and_another_mesh_is_refused(file: 
     found = by_numbers(file, posed)
     wanted = {edge for one in network().wires for edge in one.edges()}
     assert {tuple(edge) for edge in transfer.seams(found).tolist()} == wanted
-    with pytest.raises(NetworkFileError, match="of a mesh with 656 vertices"):
+    with pytest.raises(NetworkFileError, match="a mesh with 656 vertices"):
         by_numbers(file, tube(12, 30))
 
 

@@ -167,7 +167,7 @@ def test_an_erased_stroke_is_gone_until_undo() -> None:
     assert session.strokes == (two,)
     assert table.lives["EDGES"].strokes[-1] == (two,)
     assert not session.erase(one)
-    assert "not there" in str(session.message)
+    assert "no longer exists" in str(session.message)
     assert session.undo()
     assert session.strokes == (one, two)
 

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from polygons import Polygons
-from seamwire.core.seams.cut import NEAR, CutError, CutPlan, Node, plan
+from seamwire.core.seams.cut import CutPlan, plan
+from seamwire.core.seams.cut_nodes import NEAR, CutError, Node
 
 
 def grid(size: int, dice: np.random.Generator | None = None) -> Polygons:

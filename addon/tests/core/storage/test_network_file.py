@@ -111,7 +111,7 @@ def test_the_schema_holds(network: Network) -> None:
     [
         (lambda d: d.update(format="other"), "no Seamwire network"),
         (lambda d: d.update(version=2), "it has version 2, and this one reads up to 1"),
-        (lambda d: d.update(version="one"), "its version is no number"),
+        (lambda d: d.update(version="one"), "its version is not a number"),
         (lambda d: d.pop("mesh"), "damaged: mesh"),
         (lambda d: d["seeds"][1].update(pick=[1, "a"]), "damaged: seed 2"),
         (lambda d: d["seeds"][0].update(place=[0.0, float("nan"), 0.0]), "damaged: seed 1"),
@@ -131,7 +131,7 @@ def test_what_is_damaged_is_refused_with_where(network: Network, change: object,
 
 @pytest.mark.parametrize("text", ["", "{", "[" * 100_000, "null", '{"format": "seamwire-network"'])
 def test_what_is_no_json_is_refused(text: str) -> None:
-    with pytest.raises(NetworkFileError, match=r"damaged: it is no JSON|no Seamwire network"):
+    with pytest.raises(NetworkFileError, match=r"damaged: (it|line 1) is not valid JSON|no Seamwire network"):
         NetworkFile.parse(text)
 
 

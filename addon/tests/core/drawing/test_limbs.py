@@ -1,0 +1,236 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""With Alt held, both directions are offered. Two seeds on one side of a limb close around it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from polygon_meshes import arrays_of, grid_places, grid_polygons
+from seamwire.core.base.mesh_arrays import Arrays
+from seamwire.core.drawing.session import Session
+from seamwire.core.network.network import Along, Snap
+from seamwire.core.solver.live_maker import LiveMaker
+from seamwire.view.picking import Picker
+from seamwire.view.viewport import View
+from setting import use
+
+pytest.importorskip("seamwire_core")
+
+AROUND, RINGS = 16, 40
+"""Of the limbs; vertex ring * AROUND + i."""
+
+
+def limb(shift: float = 0.0) -> Arrays:
+    """Return a closed limb along y with round ends; `shift` twists its rings, so that lengthwise edges run aslant."""
+    turns = 2.0 * np.pi * np.arange(AROUND) / AROUND
+    heights = np.linspace(-2.0, 2.0, RINGS)
+    radii = 0.5 * np.sqrt(1.0 - (np.maximum(np.abs(heights) - 1.6, 0.0) / 0.45) ** 2)
+    rings = [
+        (r * np.sin(turns + shift * i), np.full(AROUND, h), r * np.cos(turns + shift * i))
+        for i, (h, r) in enumerate(zip(heights, radii, strict=True))
+    ]
+    places = np.concatenate([np.stack(ring, axis=1) for ring in rings])
+    places = np.vstack([places, [0.0, -2.05, 0.0], [0.0, 2.05, 0.0]])
+    after = [(i, (i + 1) % AROUND) for i in range(AROUND)]
+    polygons = [
+        (AROUND * k + a, AROUND * k + b, AROUND * (k + 1) + b, AROUND * (k + 1) + a)
+        for k in range(RINGS - 1)
+        for a, b in after
+    ]
+    low, high = AROUND * RINGS, AROUND * RINGS + 1
+    polygons += [(low, b, a) for a, b in after]
+    polygons += [(high, low - AROUND + a, low - AROUND + b) for a, b in after]
+    return arrays_of(places, polygons)
+
+
+class Alt:
+    """A session on a mesh that is seen along z, and a cursor with Alt held."""
+
+    def __init__(self, arrays: Arrays, pixels_a_unit: float) -> None:
+        self.arrays = arrays
+        make = LiveMaker(arrays)
+        self.session = Session(make, arrays.points, edges=arrays.edges, triangles=arrays.triangles)
+        half = 200.0 / pixels_a_unit
+        self.view = View(400.0, 400.0, np.diag([1.0 / half, 1.0 / half, -0.1, 1.0]))
+        self.picker = Picker(arrays)
+
+    def snap(self, x: float, y: float) -> Snap:
+        """Return what is under the cursor at a place of the scene."""
+        at = self.view.to_pixels(np.array([[x, y, 0.0]]))[0]
+        found = self.picker.snap(
+            self.view, np.eye(4), (float(at[0]), float(at[1])), vertices_only=False, edges_only=True
+        )
+        assert found is not None
+        return found
+
+    def over(self, x: float, y: float) -> list[set[int]]:
+        """Point at a place and return the vertices of the first two offers."""
+        self.session.hover(self.snap(x, y), loop=True)
+        self.session.wait()
+        return [set(offer.vertices) for offer in self.session._loops.offers[:2]]
+
+
+def ring(number: int) -> set[int]:
+    return set(range(AROUND * number, AROUND * (number + 1)))
+
+
+def spots(count: int = 40) -> list[tuple[float, float]]:
+    """Return places all over the front of the limb's straight part."""
+    dice = np.random.default_rng(3)
+    return np.stack([dice.uniform(-0.35, 0.35, count), dice.uniform(-1.4, 1.4, count)], axis=1).tolist()
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.05])
+def test_where_edges_are_long_the_picked_loop_comes_first_and_the_crossing_one_second(shift: float) -> None:
+    alt = Alt(limb(shift), 200.0)
+    for x, y in spots(15):
+        snap = alt.snap(x, y)
+        assert not snap.is_close_call
+        first, second = alt.over(x, y)
+        assert set(snap.pick) <= first
+        assert snap.crossing is not None
+        assert set(snap.crossing) <= second
+        is_lengthwise = abs(snap.pick[0] - snap.pick[1]) == AROUND
+        around = second if is_lengthwise else first
+        assert around == ring(min(around) // AROUND)
+        assert len(first & second) in {1, 2}, "they meet under the cursor, and perhaps at the back"
+
+
+def test_zoomed_out_the_ring_around_a_limb_comes_first_wherever_the_cursor_is() -> None:
+    alt = Alt(limb(), 40.0)
+    picked = set()
+    for x, y in spots():
+        snap = alt.snap(x, y)
+        assert snap.is_close_call
+        picked.add(abs(snap.pick[0] - snap.pick[1]) == AROUND)
+        first, second = alt.over(x, y)
+        assert first == ring(min(first) // AROUND)
+        assert not second <= first
+    assert picked == {False, True}, "edges of both directions were nearest to the cursor"
+
+
+def test_a_chosen_direction_stays_while_the_cursor_moves_over_short_edges() -> None:
+    alt = Alt(limb(), 40.0)
+    alt.over(0.0, 0.0)
+    assert alt.session.next_candidate()
+    for x, y in spots():
+        first, second = alt.over(x, y)
+        assert second == ring(min(second) // AROUND)
+        assert first != second
+    alt.session.hover(alt.snap(0.0, 0.0))
+    first, _ = alt.over(0.1, 0.0)
+    assert first == ring(min(first) // AROUND), "Alt was released: the likelier one again"
+
+
+def test_on_a_plain_where_no_direction_is_likelier_the_last_one_stays() -> None:
+    alt = Alt(arrays_of(grid_places(81), grid_polygons(81)), 150.0)
+    alt.over(0.013, 0.0)
+
+    def is_row() -> bool:
+        rows = {vertex // 81 for vertex in alt.session._loops.wire.vertices}
+        return len(rows) == 1
+
+    began = is_row()
+    for step in range(1, 30):
+        alt.over(0.013 + 0.007 * step, 0.009 * step)
+        assert is_row() == began
+
+
+def test_a_crossing_loop_is_kept_as_a_loop_through_its_own_edge_and_a_second_press_changes_nothing() -> None:
+    alt = Alt(limb(), 200.0)
+    session = alt.session
+    snap = next(one for one in (alt.snap(x, y) for x, y in spots()) if abs(one.pick[0] - one.pick[1]) == AROUND)
+    session.hover(snap, loop=True)
+    session.wait()
+    assert session.next_candidate()
+    assert session.picture.offered.kind == "CROSSING"
+    assert session.loop(snap)
+    (wire,) = session.wires
+    assert wire.kind == "CLOSED"
+    assert wire.through in wire.edges()
+    assert set(wire.vertices) == ring(min(wire.vertices) // AROUND)
+    session.hover(snap, loop=True)
+    session.wait()
+    assert session.loop(snap)
+    assert session.wires == (wire,)
+    assert session.retrace(wire)
+    assert set(session.wires[0].vertices) != set(wire.vertices)
+
+
+def test_of_a_click_that_nothing_was_shown_for_the_first_offer_is_kept() -> None:
+    alt = Alt(limb(), 40.0)
+    snap = next(one for one in (alt.snap(x, y) for x, y in spots()) if abs(one.pick[0] - one.pick[1]) == AROUND)
+    alt.session.loop(snap)
+    alt.session.wait()
+    (wire,) = alt.session.wires
+    assert set(wire.vertices) == ring(min(wire.vertices) // AROUND)
+
+
+def closing(alt: Alt, first: int, second: int, along: Along = "EDGES") -> Session:
+    """Draw a wire between two vertices, and point at the first one to close the chain there."""
+    session = alt.session
+    use(session, along=along)
+    for pick in (first, second):
+        session.hover(pick)
+        session.wait()
+        session.click(pick)
+        session.wait()
+    session.hover(Snap(first, "SEED"))
+    session.wait()
+    return session
+
+
+def turns_around(session: Session) -> bool:
+    """Whether the wires lead once around the limb's axis, y."""
+    points = np.concatenate([wire.points[:-1] for wire in session.wires])
+    angles = np.arctan2(points[:, 0], points[:, 2])
+    steps = np.diff(np.append(angles, angles[0]))
+    return bool(abs(((steps + np.pi) % (2.0 * np.pi) - np.pi).sum()) > np.pi)
+
+
+@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
+@pytest.mark.parametrize("second", [AROUND * 20 + 5, AROUND * 24 + 4, AROUND * 18 + 3])
+def test_two_seeds_on_one_side_of_a_limb_close_around_it_first_and_in_front_after_w(along: Along, second: int) -> None:
+    first = AROUND * 20
+    session = closing(Alt(limb(), 200.0), first, second, along)
+    others = [{*wire.vertices} for wire in session._candidates.others]
+    assert session.close()
+    session.wait()
+    assert turns_around(session)
+    assert session.seed is None
+    assert session.wires[0].vertices[0] == session.wires[-1].vertices[-1] == first
+    assert session.undo()
+    session.hover(Snap(first, "SEED"))
+    session.wait()
+    assert others
+    assert session.next_candidate()
+    assert {*session.picture.active.vertices} == others[0]
+
+
+def test_the_wire_around_a_limb_stays_around_it_when_a_seed_is_moved() -> None:
+    session = closing(Alt(limb(), 200.0), AROUND * 20, AROUND * 24 + 4)
+    assert session.picture.choice.around
+    assert session.close()
+    session.drag(Snap(AROUND * 24 + 4, "SEED"))
+    session.drag_to(AROUND * 25 + 4)
+    session.drag_end()
+    session.wait()
+    assert turns_around(session)
+
+
+def test_on_a_plain_a_chain_closes_beside_itself() -> None:
+    session = closing(Alt(arrays_of(grid_places(21), grid_polygons(21)), 150.0), 21 * 10 + 5, 21 * 13 + 9)
+    assert not session.picture.choice.around
+    assert session.close()
+    assert len(session.wires) == 2
+
+
+def test_a_chain_of_several_wires_closes_as_it_was_drawn() -> None:
+    alt = Alt(limb(), 200.0)
+    session = closing(alt, AROUND * 20, AROUND * 20 + 4)
+    session.hover(AROUND * 24 + 4)
+    session.wait()
+    session.click(AROUND * 24 + 4)
+    session.hover(Snap(AROUND * 20, "SEED"))
+    session.wait()
+    assert not session.picture.choice.around
