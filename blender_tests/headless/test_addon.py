@@ -16,12 +16,12 @@ def test_without_the_compiled_part_the_operator_says_so(monkeypatch: pytest.Monk
     from seamwire.core.base import native
 
     def fail() -> None:
-        raise native.NativeError("Seamwire's compiled part is missing: install the package")
+        raise native.NativeError("no-build", name="seamwire_core", version="3.11", system="linux")
 
     monkeypatch.setattr(native, "load", fail)
     obj = add_grid(3)
     edit()
-    with pytest.raises(RuntimeError, match="install the package"):
+    with pytest.raises(RuntimeError, match="Seamwire's compiled part"):
         bpy.ops.mesh.seamwire_mark(chains="0 2")
     assert seams(obj) == []
 

@@ -410,9 +410,8 @@ def test_gaps_in_seams_are_shown_until_they_are_closed(desk: Desk) -> None:
     desk.choose()
     draw(desk, 36, 44)
     draw(desk, 4, 22)
-    found = edited.front.overlay
-    desk.ui.wait_until(lambda: found._islands.newest.gaps == ())
-    assert found._islands.newest.count == 2, "as far from the row as the cut is long: a dart"
+    desk.ui.wait_until(lambda: edited.front.islands.newest.gaps == ())
+    assert edited.front.islands.newest.count == 2, "as far from the row as the cut is long: a dart"
     draw(desk, 22, 31)
     desk.ui.move(desk.at(60))
     view = edited.front

@@ -203,6 +203,13 @@ def settings() -> bpy.types.PropertyGroup:
     return of_tool()
 
 
+def show_card(shown: bool) -> None:
+    """Show the card of first steps, or not."""
+    from seamwire.mesh.settings import preferences
+
+    preferences().show_card = shown
+
+
 def session() -> object | None:
     """Return the session of the chain that is drawn, or of what is pointed at."""
     from seamwire.operators.report import running
@@ -447,7 +454,13 @@ def tool(film: Film) -> None:
     film.filming = False
     stage(film)
     film.at = film.vertex(0.0, -0.6, 0.80)
+    show_card(True)
+    film.ui.space.show_gizmo = True
     start(film)
+    film.ui.wait(20, redraw=True)
+    film.picture(f"tool-{version}-card", step=8)
+    film.ui.space.show_gizmo = False
+    show_card(False)
     film.ui.wait(20, redraw=True)
     film.picture(f"tool-{version}-before", step=8)
     for kind, name in (("menu", "VIEW3D_MT_seamwire"), ("panel", "VIEW3D_PT_seamwire_overlays")):
@@ -867,6 +880,7 @@ def looks(film: Film) -> None:
 
 
 addon_utils.enable("seamwire", default_set=True)
+show_card(False)
 kind, target = sys.argv[sys.argv.index("--") + 1 :]
 parts = (animation, limbs, character, guide, tool, cut, stretch, views, looks)
 part = next(part for part in parts if part.__name__ == kind)

@@ -24,7 +24,6 @@ from ..core.storage import serialization, wire_labels
 from ..core.storage.network_file import NetworkFile
 from ..core.storage.serialization import Archive, UnreadableError
 from ..core.storage.wire_labels import EdgeLabels, Found, Places
-from ..words import messages as _messages  # noqa: F401 - gives errors their words
 from . import edit_mesh
 from .settings import mirror_axes, snapshot
 

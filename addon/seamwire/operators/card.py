@@ -78,10 +78,8 @@ class SEAMWIRE_GGT_card(bpy.types.GizmoGroup):
 
     @classmethod
     def setup_keymap(cls, configuration: bpy.types.KeyConfig) -> bpy.types.KeyMap:
-        """Let a press click the card: by default it would have to become a drag."""
-        keys = configuration.keymaps.new(name=cls.bl_label, space_type="VIEW_3D", region_type="WINDOW")
-        keys.keymap_items.new("gizmogroup.gizmo_tweak", "LEFTMOUSE", "PRESS", any=True)
-        return keys
+        """Let a press click the card. Blender's own keys do; keys of ours would stay after the add-on is disabled."""
+        return configuration.keymaps.new(name="Generic Gizmo")
 
     def setup(self, _context: bpy.types.Context) -> None:
         """Make it."""

@@ -26,8 +26,11 @@ _LINE = 1.4
 _BESIDE = 22.0
 _ABOVE = 8.0
 _NAVIGATION = (8.2, 21.0)
-"""In sizes of the text: the width of icons, the least and the most of texts, a row's height, a line's height, what the text in the
-corner of the view needs, its height, and the width and height of Blender's navigation buttons in the upper right corner."""
+"""Measures in sizes of the text.
+
+In this order: the width of icons, the least and largest width of texts, the height of a row, and the height of a line. Then the width and
+height of the text in the corner of the view. Last the width and height of Blender's navigation buttons in the upper right corner.
+"""
 
 
 @dataclass(frozen=True)
@@ -112,7 +115,7 @@ def laid_out(
     steps
         Icons and texts of the gestures.
     link
-        The text of the link; empty: there is none.
+        The text of the link, or an empty text for no link.
     room
         Left, bottom, width and height.
     size
@@ -180,7 +183,7 @@ def _at_size(
 
 
 def wrapped(text: str, width: float, measure: Callable[[str], float]) -> tuple[str, ...]:
-    """Break a text between words into lines that are no wider than `width`, unless a word is."""
+    """Break a text between words into lines of at most `width`. A longer word gets its own line."""
     lines: list[str] = []
     for word in text.split():
         if lines and measure(f"{lines[-1]} {word}") <= width:

@@ -25,7 +25,7 @@ _METRICS = {
     "euclidean": "shortest ways",
 }
 _FOLLOWS = ("Least curvature", "Most curvature", "Concave creases")
-_CONCAVE_FOLLOWS = ("Concave creases", "Shortest way")
+_FOLLOWS_IN = {"concave": ("Concave creases", "Shortest way"), "euclidean": ("Shortest way",)}
 
 
 def _islands(islands: Islands) -> str:
@@ -55,7 +55,7 @@ def lines(picture: Picture) -> list[str]:
         which = f" ({offered.number + 1} of {len(offered.kinds)})" if len(offered.kinds) > 1 else ""
         found.append(LOOP_NAMES[offered.kind].capitalize() + which)
     if picture.active is not None and choice.count > 1:
-        follows = _CONCAVE_FOLLOWS if options.metric == "concave" else _FOLLOWS
+        follows = _FOLLOWS_IN.get(options.metric, _FOLLOWS)
         which = follows[picture.active.follow]
         if choice.straight:
             which = "Straight in the view"

@@ -142,7 +142,7 @@ class Looks:
             marked=Style(faint(kept, 0.9), 2.5, halo=1.0, hidden=0.15, lift=3.0),
             will_mark=Style(faint(mixed(kept, active, 0.25), 0.9), 2.5, halo=1.0, hidden=0.15, lift=3.0),
             clear=Style(clear, 3.5, halo=2.0, dash=7.0, lift=5.0),
-            mirrored=Style(faint(kept, 0.8), 2.3, halo=1.5, hidden=0.2, lift=3.5),
+            mirrored=Style(faint(kept, 0.8), 2.0, halo=1.5, hidden=0.2, lift=3.5),
             line=Style(faint(white, 0.45), 1.5, hidden=0.4, lift=8.0),
             mirrored_live=Style(faint(active, 0.95), 3.5, halo=2.0, hidden=0.2, lift=5.0),
             hovered=Style(white, 9.5, halo=2.0, hidden=0.15, lift=3.0),

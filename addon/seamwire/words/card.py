@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 from typing import Literal
 
@@ -22,6 +23,7 @@ _PLACES = ("guide/index.md", "../../docs/guide/index.md")
 """Where the guide lies, in a package and in a checkout."""
 
 
+@cache
 def guide() -> str:
     """Return the address of the guide; an empty string if there is none."""
     here = Path(__file__).parents[1]

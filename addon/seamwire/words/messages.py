@@ -118,6 +118,8 @@ def sentence(message: Message) -> str:
     """Return the sentence of a message, or an empty text for an empty message."""
     if not message:
         return ""
+    if message.code not in SENTENCES:
+        return message.code  # an error must not hide behind another one
     return _formatter.vformat(SENTENCES[message.code], (), dict(message.values))
 
 

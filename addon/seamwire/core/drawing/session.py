@@ -455,7 +455,9 @@ class Session:
             why = drag.message
             self._aim_again()
             return self._refuse(why) if why else True
-        return self._change(drag.network.joined(drag.target, self._points))
+        # The mirror may have changed while the seed was dragged.
+        network = replace(drag.network, mirror=self.options.mirror)
+        return self._change(network.joined(drag.target, self._points))
 
     def drag_cancel(self) -> bool:
         """Let the dragged seed go back to where it was."""
@@ -651,8 +653,8 @@ class Session:
         if seed is not None and not self._sow(seed):
             why = self.message
             self._set(replace(self._network, seed=None))
-        self.message = why
         self._aim_again()
+        self.message = why or self.message
         return not why
 
     def _compute_anew(self) -> None:

@@ -194,12 +194,15 @@ class CandidateWires:
         is_found = self.ring.find(network, target, along)
         ring = self.ring.wire
         same = next((at for at, wire in enumerate(self.wires) if ring is not None and wire and wire.like(ring)), None)
-        if same is not None:
-            self.leading, self.settled = same, self.finals[same]
-        if same is not None or (is_found and ring is None):
+        if ring is None:
+            if not is_found and self.wires:
+                # The leading wire is shown meanwhile, but a click waits.
+                self.finals = (*self.finals[: self.leading], False, *self.finals[self.leading + 1 :])
+                self.settled = False
             return
-        self.wires, self.finals = (*self.wires, ring), (*self.finals, is_found)
-        self.leading, self.settled = len(self.wires) - 1, is_found
+        if same is None:
+            self.wires, self.finals, same = (*self.wires, ring), (*self.finals, is_found), len(self.wires)
+        self.leading, self.settled = same, self.finals[same]
 
     def _along_edges(
         self, candidate: Candidate, follow: int, seed: Seed, target: Pick, avoid: int | None

@@ -207,6 +207,21 @@ def test_two_seeds_on_one_side_of_a_limb_close_around_it_first_and_in_front_afte
     assert {*session.picture.active.vertices} == others[0]
 
 
+@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
+def test_a_click_while_the_way_around_a_limb_is_searched_waits_for_it(along: Along) -> None:
+    first, second = AROUND * 20, AROUND * 24 + 4
+    alt = Alt(limb(), 200.0)
+    session = closing(alt, first, second, along)
+    session.hover(None)
+    session._candidates.ring.forget()
+    session.hover(Snap(first, "SEED"))
+    assert session.computing
+    assert not session._candidates.decided
+    session.click(Snap(first, "SEED"))
+    session.wait()
+    assert turns_around(session)
+
+
 def test_the_wire_around_a_limb_stays_around_it_when_a_seed_is_moved() -> None:
     session = closing(Alt(limb(), 200.0), AROUND * 20, AROUND * 24 + 4)
     assert session.picture.choice.around

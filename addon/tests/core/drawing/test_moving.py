@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from seamwire.core.drawing.intent import Intent
 from seamwire.core.network.network import Snap
+from setting import use
 from table import Table, corner, courses
 
 
@@ -29,6 +30,15 @@ def test_a_dragged_seeds_wires_follow_on_both_sides() -> None:
     assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
     assert session.redo()
     assert session.seeds() == [0, 2, 21]
+
+
+def test_a_mirror_that_is_set_while_a_seed_is_dragged_stays() -> None:
+    session = corner().session
+    session.drag(3)
+    session.drag_to(4)
+    assert use(session, mirror=(0,))
+    assert session.drag_end()
+    assert session.network.mirror == session.options.mirror == (0,)
 
 
 def test_wires_arrive_and_leave_as_their_neighbours_do() -> None:

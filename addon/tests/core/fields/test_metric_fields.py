@@ -100,7 +100,9 @@ def test_what_is_asked_for_again_in_another_way_is_made_of_what_is_there() -> No
 @pytest.mark.parametrize("follow", ["min", "max"])
 def test_distances_are_as_long_as_the_wires_of_the_same_settings(metric: str, follow: str) -> None:
     points, triangles = torus()
-    live = sw.LiveWire(points, triangles, max_anisotropy=8.0, clamp_percentile=95.0, metric=metric, along="surface")
+    live = sw.LiveWire(
+        points, triangles, max_anisotropy=8.0, clamp_percentile=95.0, metric=metric, along="surface", max_error=0.0
+    )
     live.seed(3)
     live.wait()
     wires, _ = by_number(live.wires(250))
@@ -114,7 +116,7 @@ def test_distances_are_as_long_as_the_wires_of_the_same_settings(metric: str, fo
 def test_strokes_are_part_of_the_metric_as_they_are_of_wires() -> None:
     points, triangles = torus()
     stroke = sw.Scribble(points[[83, 84, 85, 86]], vertices=[83, 84, 85, 86], rings=3)
-    live = sw.LiveWire(points, triangles, max_anisotropy=8.0, along="surface")
+    live = sw.LiveWire(points, triangles, max_anisotropy=8.0, along="surface", max_error=0.0)
     live.set_scribbles([stroke])
     live.seed(3)
     live.wait()
