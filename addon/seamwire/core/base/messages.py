@@ -26,7 +26,7 @@ class Message:
     values: tuple[tuple[str, object], ...] = ()
 
     @classmethod
-    def of(cls, code: str, **values: object) -> Message:
+    def of(cls, code: str, /, **values: object) -> Message:
         """Return the message with a code and values."""
         return cls(code, tuple(values.items()))
 
@@ -41,26 +41,30 @@ NOTHING = Message()
 """There is nothing to tell."""
 
 
-class Refused(ValueError):  # noqa: N818 - the base of errors, which end in Error
-    """Something cannot be done.
+class Told(Exception):  # noqa: N818 - the base of errors, which end in Error
+    """An error with a message for the artist.
 
     Parameters
     ----------
-    code, values
-        Why, as `Message.of` takes them.
+    why, values
+        The message, or its code and values.
     """
 
-    def __init__(self, code: str, **values: object) -> None:
-        super().__init__(code)
-        self.message = Message.of(code, **values)
+    def __init__(self, why: str | Message, /, **values: object) -> None:
+        self.message = Message.of(why, **values) if isinstance(why, str) else why
+        super().__init__(self.message.code)
 
     def __str__(self) -> str:
         return str(self.message)
 
 
+class Refused(Told, ValueError):
+    """Something cannot be done."""
+
+
 def message_of(error: Exception) -> Message:
     """Return what an error tells; errors of the library bring their own words."""
-    return error.message if isinstance(error, Refused) else Message.of("library", text=str(error))
+    return error.message if isinstance(error, Told) else Message.of("library", text=str(error))
 
 
 def word_with(wording: Callable[[Message], str]) -> None:

@@ -15,7 +15,7 @@ from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .messages import Message
+from .messages import Told
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -29,21 +29,8 @@ IS_EXTENSION = __package__.startswith("bl_ext.")
 """Whether this is an extension of Blender 4.2 or later, which installs the wheel of an extension itself."""
 
 
-class NativeError(ImportError):
-    """The compiled part cannot be used.
-
-    Parameters
-    ----------
-    code, values
-        Why, as `Message.of` takes them.
-    """
-
-    def __init__(self, code: str, **values: object) -> None:
-        super().__init__(code)
-        self.message = Message.of(code, **values)
-
-    def __str__(self) -> str:
-        return str(self.message)
+class NativeError(Told, ImportError):
+    """The compiled part cannot be used."""
 
 
 def load(folder: Path = FOLDER, wheels: Path = WHEELS) -> ModuleType:

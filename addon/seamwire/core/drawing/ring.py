@@ -168,7 +168,8 @@ class RingSearch:
         seed = network.seed
         assert seed is not None
         begin = seed.begins("SURFACE")
-        live = self._engines.cuts()
+        # A live wire answers only its newest request, and offers are asked for at the same time.
+        live = self._engines.cuts().fork()
         self.lives = (live,)
         first, second = for_live(end, "SURFACE"), for_live(begin, "SURFACE")
         found = yield from _final(lambda: live.closed_wires(first))

@@ -222,6 +222,26 @@ def test_a_click_while_the_way_around_a_limb_is_searched_waits_for_it(along: Alo
     assert turns_around(session)
 
 
+def test_offers_and_the_way_around_a_limb_are_found_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    # So large that neither is computed before the other is asked for.
+    monkeypatch.setitem(globals(), "AROUND", 96)
+    monkeypatch.setitem(globals(), "RINGS", 160)
+    first, second = AROUND * 80, AROUND * 96 + 24
+    session = closing(Alt(limb(), 200.0), first, second, "SURFACE")
+    session.hover(None)
+    session._candidates.ring.forget()
+    session.hover(Snap(first, "SEED"), loop=True)
+    for _ in range(100):
+        for live in session._working():
+            live.wait()
+        session.poll()
+        if not session.computing:
+            break
+    assert not session.computing
+    assert session._candidates.ring.wire is not None
+    assert session._loops.offers
+
+
 def test_the_wire_around_a_limb_stays_around_it_when_a_seed_is_moved() -> None:
     session = closing(Alt(limb(), 200.0), AROUND * 20, AROUND * 24 + 4)
     assert session.picture.choice.around
