@@ -36,7 +36,7 @@ class Desk:
             edit()
         ui.look_from_top(distance=4.0)
         self.before = snapshot(obj)
-        bpy.ops.ed.undo_push(message="Before")  # calls from Python leave no steps of their own
+        bpy.ops.ed.undo_push(message="Before")  # calls from Python leave no undo steps
 
     @property
     def obj(self) -> bpy.types.Object:
@@ -87,14 +87,14 @@ class Desk:
         return None if at is None else (at.x, at.y)
 
     def left_clean(self) -> bool:
-        """Whether no chain is being drawn, and the status bar and the handlers are as they were."""
+        """Whether no chain is being drawn, and the status bar and the handlers are unchanged."""
         status = getattr(STATUSBAR_HT_header, "_draw_orig", STATUSBAR_HT_header.draw)
         handlers = [*bpy.app.handlers.save_pre, *bpy.app.handlers.load_pre]
         left = [handler for handler in handlers if "modal" in handler.__module__]
         return not self.running and STATUSBAR_HT_header.draw is status and not left
 
     def unchanged(self) -> bool:
-        """Whether the mesh is as it was when it came."""
+        """Whether the mesh is unchanged."""
         return snapshot(self.obj) == self.before
 
 

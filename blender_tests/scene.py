@@ -72,8 +72,8 @@ GATE_RIDGE = [
 def add_gate() -> bpy.types.Object:
     """Make a grid of 17 x 17 vertices with a ridge up, across and down again, and one spike far from it.
 
-    From foot to foot of the ridge wires follow it, a way twice as long as straight; with a low strength, in the shortest
-    ways' metric, and where the clamp lets the weakest features count as the ridge does, they run straight.
+    From foot to foot of the ridge wires follow it, on a path twice as long as straight. They run straight with a low
+    strength, in the metric of shortest paths, and if the clamp lets the weakest features count as much as the ridge.
     """
     obj = add_grid(GATE_SIDE)
     for v in obj.data.vertices:
@@ -86,7 +86,7 @@ def add_gate() -> bpy.types.Object:
 
 
 def head(obj: bpy.types.Object, count: int) -> list[int]:
-    """Return vertices of Suzanne's head, spread over it: her eyes are parts of their own."""
+    """Return vertices of Suzanne's head, spread over it: her eyes are separate parts."""
     bm = bmesh.new()
     bm.from_mesh(obj.data)
     bm.verts.ensure_lookup_table()

@@ -23,8 +23,8 @@ def leave(code: int) -> NoReturn:
 def play(what: Callable[[], int]) -> None:
     """Begin something as soon as Blender's window stands, and end the process with the exit code that it returns.
 
-    It must not hold Blender's event loop, or no event would ever reach the tool: it runs in a greenlet of its own that a timer
-    resumes, and each of its waits (``Ui.wait``) switches back to Blender.
+    It must not hold Blender's event loop, or no event would ever reach the tool. So it runs in a separate greenlet that a timer
+    resumes. Each of its waits (``Ui.wait``) switches back to Blender.
     """
     import greenlet
     import ui
@@ -40,7 +40,7 @@ def play(what: Callable[[], int]) -> None:
             return 0.0
         try:
             code = player.switch()
-        except BaseException:  # whatever it is, the process must end with a failure and not wait for its time limit
+        except BaseException:  # the process must end with a failure and not wait for its time limit
             traceback.print_exc()
             leave(3)
         if player.dead:

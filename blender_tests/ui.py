@@ -49,7 +49,7 @@ def _collect_unhandled(kind: type[BaseException], error: BaseException, trace: T
 
 
 def _collect_from_methods(cls: type) -> None:
-    # What an operator or a panel raises is only printed. Blender looks these methods up at each call, so it finds the wrappers, and it
+    # Blender only prints errors of operators and panels. Blender looks these methods up at each call, so it finds the wrappers, and it
     # counts the arguments that they name.
     for name in ("invoke", "modal"):
         if name in cls.__dict__:

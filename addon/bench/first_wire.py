@@ -48,8 +48,8 @@ def memory() -> float:
 def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, float]]:
     """Do what the tool does from its start to the first wire; return the milliseconds of each step.
 
-    Reading the mesh; starting the computation in other threads; being ready for a seed; from the click to the first wire; to both final
-    wires; and from a move of the cursor to the next wire.
+    The first three are for reading the mesh, for starting the computation in other threads, and until a seed can be given. The others are
+    from the click to the first wire, from the click to both final wires, and from a move of the cursor to the next wire.
     """
     from seamwire.core.drawing import session
     from seamwire.core.drawing.options import Options

@@ -5,9 +5,9 @@ Each model of the folder, as ``native/bench/seam_clicks.py`` expects it, gets it
 model: decimated to a half and to a quarter of its triangles, remeshed with voxels, and subdivided. The first variant is also tried
 moved, rotated and scaled, and bent by a sixth of a circle, with eight pairs of vertices.
 
-Each line has the share of marked edges whose middles lie within one edge of the artist's seams, the share of the artist's edges within
-one edge of the marked ones, the number of wires without a place, and the seconds. "One edge" is the longer of the target's edge there
-and the artist's mean edge.
+Each line has four numbers. The first is the share of marked edges whose middles lie within one edge of the artist's seams. The second is
+the share of the artist's edges within one edge of the marked ones. Then come the number of wires without a place, and the seconds.
+"One edge" is the longer of the target's edge there and the artist's mean edge.
 """
 
 import itertools

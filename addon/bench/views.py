@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Times of the views of the metric in Blender's window: ``scripts/bench-blender --views LEVELS`` runs this.
 
-Suzanne, subdivided several times (4: 126,000 faces). For each view: the time to compute it in its thread; the processor time of Blender's
-thread to switch it on and to draw it; and the elapsed time of a redraw, with and without the view in the same run. Medians of nine.
+Suzanne, subdivided several times (4: 126,000 faces). Each view has three times. The first is
+the time to compute it in its thread. The second is the processor time of Blender's thread to switch it on and to draw it. The third is the
+elapsed time of a redraw, with and without the view in the same run. All are medians of nine.
 """
 
 from __future__ import annotations

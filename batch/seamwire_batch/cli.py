@@ -19,9 +19,9 @@ from . import process, tables
 from .jobs import PARTS, Job, Journal, Machine, Options, UsageError, find_assets, is_done
 
 EPILOG = """\
-Exit codes: 0, all assets are done; 1, some are not, the table says why; 2, nothing was begun. A run that was ended goes on where it was
-when it is started again: what is done is left alone unless the asset, the network, the source or the options have changed; what failed
-is left alone unless --retry is given. Assets are never written to.
+Exit codes: 0 if all assets are done, 1 if some are not and the table says why, 2 if nothing was begun. A run that was ended goes on when it
+is started again. Finished assets are left alone unless the asset, the network, the source or the options have changed. Failed assets are
+left alone unless --retry is given. Assets are never written to.
 """
 _ON_PICTURES = 200
 """The most assets on one contact sheet."""
@@ -212,7 +212,7 @@ def on_dask(scheduler: str) -> Engine:
                 job = job_of.pop(future)
                 try:
                     record = future.result()
-                except Exception as error:  # whatever the cluster does to a task costs that asset
+                except Exception as error:  # any fault of the cluster costs only that asset
                     record = process.lost(job, fingerprint, f"{type(error).__name__}: {error}")
                 yield record
 
@@ -220,7 +220,7 @@ def on_dask(scheduler: str) -> Engine:
 
 
 def read_source(options: Options, machine: Machine, out: Path, name: str) -> dict[str, str]:
-    """Make networks of the objects of a source asset, in a Blender of its own; return their files' stems by the objects' names."""
+    """Make networks of the objects of a source asset, in a separate Blender; return their files' stems by the objects' names."""
     folder = out / PARTS / f"source-{name}"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
@@ -283,7 +283,7 @@ def work(arguments: argparse.Namespace) -> int:
     journal = Journal(out, shard)
     records = {} if arguments.fresh else journal.read()
     if not shard:
-        # What a run left that was killed.
+        # The remains of a run that was killed.
         shutil.rmtree(out / PARTS, ignore_errors=True)
     fingerprint = options.fingerprint()
     jobs = [Job(str(path), name, str(out), options, machine) for path, name in assets]

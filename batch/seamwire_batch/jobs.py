@@ -18,7 +18,7 @@ PARTS = ".parts"
 
 
 class UsageError(Exception):
-    """What was asked for cannot be done; the text is a sentence."""
+    """The request cannot be fulfilled; the text is a sentence."""
 
 
 @dataclass(frozen=True)
@@ -144,7 +144,7 @@ def find_assets(given: Iterable[str], out: Path, recursive: bool) -> list[tuple[
         elif path.suffix.lower() not in SUFFIXES:
             raise UsageError(f"{text}: neither a folder nor one of {', '.join(SUFFIXES)}")
         else:
-            some = [(path, path.name)]  # one that is not there is a failure of its own, in the table
+            some = [(path, path.name)]  # a missing asset fails alone, in the table
         for file, name in some:
             if out in file.parents:
                 if path.is_dir():
@@ -171,14 +171,14 @@ def stamp_of(path: Path) -> str:
 
 
 class Journal:
-    """What was done, a line of JSON each: a run that was killed has lost at most its last line.
+    """The record of a run, a line of JSON for each asset: a run that was killed has lost at most its last line.
 
     Parameters
     ----------
     out
         The folder of results.
     shard
-        Which of several runs at once this is, each of which writes a file of its own; 0: the only one.
+        The number of this run among several at once, each of which writes a separate file; 0 for a single run.
     """
 
     def __init__(self, out: Path, shard: int = 0) -> None:
@@ -199,7 +199,7 @@ class Journal:
         return records
 
     def add(self, record: dict[str, Any]) -> None:
-        """Write a record to the disk, on a line of its own also behind one that was torn."""
+        """Write a record to the disk, on a new line also behind a torn one."""
         record = {**record, "time": time.time()}
         with self._path.open("ab+") as file:
             torn = file.tell() > 0 and self._last(file) != b"\n"

@@ -40,7 +40,7 @@ PALETTE = (
 
 @dataclass(frozen=True)
 class Network:
-    """What was marked on a model.
+    """The marks on a model.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ class Scene:
     obj
         The unwrapped model, in object mode.
     network
-        What was marked on it.
+        The marks on the model.
     triangles, polygon_of
         Its triangles and the polygon that each lies in.
     size

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One asset in a process of its own: what it does to itself it does to nobody else."""
+"""One asset in a separate process, so that its faults hurt no other asset."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def _record(job: Job, fingerprint: str) -> dict[str, Any]:
 
 
 class _folder:  # noqa: N801 - reads as a statement
-    """A folder of its own among the results, gone in the end."""
+    """A temporary folder among the results."""
 
     def __init__(self, out: Path) -> None:
         (out / PARTS).mkdir(parents=True, exist_ok=True)
@@ -92,10 +92,10 @@ def start(machine: Machine, told: dict[str, Any], folder: Path) -> tuple[str, di
     Returns
     -------
     status
-        ``done``; ``failed``: it says why; ``crashed``, ``hung``, ``memory``: it was ended by a fault of its own, by the limit, by
-        want of memory.
+        ``done``; ``failed``: it says why; ``crashed``, ``hung``, ``memory``: a fault, the time limit or
+        a lack of memory ended it.
     result
-        What the worker wrote, at least `error` and `warnings`.
+        The worker's answer, with at least `error` and `warnings`.
     """
     (folder / "job.json").write_text(json.dumps(told), encoding="utf-8")
     with (folder / "log.txt").open("wb") as log:

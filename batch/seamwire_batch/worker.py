@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One asset in Blender: ``blender --background --factory-startup --python worker.py -- JOB``, or Python with ``bpy``.
 
-JOB is a JSON file of `jobs.Job`; what was done goes into ``result.json`` of the job's folder, whole or not at all, beside the files that
-were made. What the asset cannot have is an error in there; a Blender that ends without is a crash.
+JOB is a JSON file of `jobs.Job`. The result goes into ``result.json`` of the job's folder, whole or not at all, beside the files that were
+made. Failures of the asset are errors in that file. If Blender ends without the file, it has crashed.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ def enable_addon(folder: str | None) -> None:
     for name in names:
         module = addon_utils.enable(name, default_set=True)
         if module is not None:
-            # By one name, whatever it is installed as.
+            # By one name, however it is installed.
             for part in pkgutil.walk_packages(module.__path__, f"{name}."):
                 importlib.import_module(part.name)
             for known in [known for known in sys.modules if known == name or known.startswith(f"{name}.")]:
@@ -291,7 +291,7 @@ class Run:
         if done != {"FINISHED"}:
             self.warnings.append(f"{obj.name}: nothing was marked")
 
-    # What it has then
+    # The results
 
     def _measured(self, objects: list[bpy.types.Object]) -> dict[str, Any]:
         """Return the counts of seams and islands, and how many times longer or larger triangles are in the map on average and at worst."""

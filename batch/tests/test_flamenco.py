@@ -30,7 +30,7 @@ function compiled(settings) {
     return JSON.stringify(made);
 }
 """
-"""What a job compiler script has from Flamenco, as far as https://flamenco.blender.org/usage/job-types/ tells of it."""
+"""The functions that a job compiler script has from Flamenco, as far as https://flamenco.blender.org/usage/job-types/ tells of it."""
 
 
 def script() -> Any:  # noqa: ANN401 - quickjs has no types

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Islands that seams make: those that are no discs are selected, all are stored."""
+"""Islands that seams make can be stored, and islands that need another cut can be selected."""
 
 import math
 from functools import partial

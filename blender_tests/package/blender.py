@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A Blender to install the package in, with user folders of its own. Used from outside Blender.
+"""A Blender to install the package in, with separate user folders. Used from outside Blender.
 
 ``python blender.py PROGRAM NAME USER PACKAGE`` installs the package there and enables the add-on.
 """

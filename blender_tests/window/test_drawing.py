@@ -59,7 +59,7 @@ def test_wires_are_drawn_kept_and_marked(desk: Desk) -> None:
 
 
 def test_a_chain_is_one_step_of_undo_named_for_what_it_did(desk: Desk, capfd: pytest.CaptureFixture[str]) -> None:
-    bpy.ops.ed.undo_push(message="Before")  # calls from Python leave no steps of their own
+    bpy.ops.ed.undo_push(message="Before")  # calls from Python leave no undo steps
     session, ui = desk.start(), desk.ui
     name = desk.obj.name
     ui.click(desk.at(0), ctrl=True)

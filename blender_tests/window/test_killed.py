@@ -87,7 +87,7 @@ def test_what_was_saved_of_two_hundred_wires_is_there_after_a_kill(ui: driver.Ui
 
 
 def test_blender_saves_what_was_drawn_by_itself_once_edit_mode_is_left(ui: driver.Ui, tmp_path: Path) -> None:
-    """Blender's own autosave holds the mesh as it was when edit mode was left last: nothing of ours keeps it from running."""
+    """Blender's own autosave has the mesh from before edit mode, and nothing of ours keeps it from running."""
     files = bpy.context.preferences.filepaths
     before = files.temporary_directory, files.use_auto_save_temporary_files, files.auto_save_time
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "drawn.blend"))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Events of every kind in no order, Blender's own keys between ours: nothing is raised, nothing but seams and what Blender's keys
-change is changed, and the network is what the seams are.
+"""Events of every kind in random order, with Blender's own keys between ours.
+
+No error is raised. Only seams change, and what Blender's keys change. The network agrees with the seams.
 
 SEAMWIRE_MONKEYS=4 lets four of them play with each keymap, 9,600 events in all; one does otherwise.
 """

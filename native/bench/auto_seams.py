@@ -10,17 +10,17 @@ NAME.METHOD.npz. The library plans and flattens our maps, each model in a separa
 
 These methods are ours:
 
-- ours: the plan at the planner's default bound;
-- tree: the slits that the planner begins with;
-- ours 4.1: the plan at the bound of OptCuts, on models that have a map of OptCuts;
-- ours as artist: the plan at the energy of the artist's own map, where the model's file has it;
-- ours as artist flattened: the plan at the energy of the artist's seams, flattened by the library;
+- ours: the plan at the planner's default bound.
+- tree: the slits that the planner begins with.
+- ours 4.1: the plan at the bound of OptCuts, on models that have a map of OptCuts.
+- ours as artist: the plan at the energy of the artist's own map, where the model's file has it.
+- ours as artist flattened: the plan at the energy of the artist's seams, flattened by the library.
 - artist: the artist's seams, flattened by the library.
 
 "artist as published" is the artist's own map.
 
 The program prints Markdown tables: our maps of each model, the seams of each model and method, the medians of all methods, and the goals
-beside what was reached. --page replaces the tables of Markdown pages, between comments "begin NAME" and "end NAME".
+beside the results. --page replaces the tables of Markdown pages, between comments "begin NAME" and "end NAME".
 
 --sheets draws a picture of each model with a row for each of the methods ours, artist, xatlas and optcuts. With --blind the rows are
 shuffled and have letters instead of names. The file key.json in the same folder has the names. The program needs numpy, scipy, and

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What Blender itself offers for picking chains of edges.
 
-Blender's *Pick Shortest Path* in edge mode is Dijkstra's algorithm over edges, where a step from an edge to the next costs
-(|a| + |b|) (1 + (2 - sqrt|cos|) / 2), with the angle between the two, or, by *Topology Distance*, 1. *Edge Loop Select* goes straight on at
-vertices of four edges, and along boundaries. *Select Linked Flat Faces* takes the faces around one that are reached over edges where
-neighbors meet in less than an angle, *Select Boundary Loop* their border; *Select Sharp Edges* takes all edges where they meet in more.
+- *Pick Shortest Path* in edge mode is Dijkstra's algorithm over edges. A step from an edge to the next costs
+  (|a| + |b|) (1 + (2 - sqrt|cos|) / 2), with the angle between the two, or 1 with *Topology Distance*.
+- *Edge Loop Select* goes straight on at vertices of four edges, and along boundaries.
+- *Select Linked Flat Faces* takes the faces around one that are reached over edges where faces meet in less than an angle.
+- *Select Boundary Loop* takes the border of these faces.
+- *Select Sharp Edges* takes all edges where faces meet in more than an angle.
 """
 
 from itertools import pairwise

@@ -2,8 +2,8 @@
 //
 // Surface_mesh_shortest_path of CGAL (GPL; the exact algorithm of Xin and Wang, 2009), for peers.py:
 //   cgal_bench MESH.off SEED...
-// prints the seconds of processor time that building takes, the mesh from points and triangles and the solver on it,
-// then those of each seed, a line each: the sequence tree, and asking for the distance of every vertex.
+// Prints seconds of processor time. The first line is for building the mesh from points and triangles, and the solver.
+// Then comes a line for each seed: the sequence tree, and asking for the distance of every vertex.
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_shortest_path.h>

@@ -3,9 +3,9 @@
 
     python native/bench/closing.py [--side N] [--repeats N] [--seconds S]
 
-A torus of 2 N^2 triangles; for wires across the surface and along edges a LiveWire is made and seeded, and its last reference dropped at a
-random moment up to S seconds later: medians, and the most, on the clock until that line is left. Beside it, how long the process then
-still works for what was given up. live_stop_bench measures the destructor itself. Needs numpy, and seamwire_core on the path.
+The mesh is a torus of 2 N^2 triangles. For wires across the surface and along edges, a LiveWire is made and seeded. Its last reference is
+dropped at a random moment up to S seconds later. The program prints the median and the largest time on the clock until that line is left,
+and how long the process then still works. live_stop_bench measures the destructor itself. Needs numpy, and seamwire_core on the path.
 """
 
 import argparse

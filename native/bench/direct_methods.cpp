@@ -46,8 +46,8 @@ class Front {
 
 double norm(const Eigen::Matrix3d& form, const Vector& v) { return std::sqrt(v.dot(form * v)); }
 
-// The least of da + z (db - da) + |p - z q| over z in [0, 1], where qq, pq and pp are the products of p and q: the
-// distance at p from a segment q with linear distances on it.
+// The distance at p from a segment q with linear distances on it: the least of da + z (db - da) + |p - z q| over z in
+// [0, 1]. qq, pq and pp are the products of p and q.
 double from_segment(double da, double db, double qq, double pq, double pp) {
   const double slope = db - da;
   double z = slope > 0 ? 0.0 : 1.0;

@@ -11,8 +11,9 @@
 #include "seamwire/surface/intrinsic_mesh.hpp"
 #include "seamwire/surface/surface.hpp"
 
-/// The methods that Section 2.3 of the paper argues against, small and plain, to measure beside: each gives the
-/// distances from one seed at all vertices, of the model scaled to the unit cube; infinite where it does not come.
+/// Plain versions of the methods that Section 2.3 of the paper argues against, for comparison. Each gives the distances
+/// from one seed at all vertices, of the model scaled to the unit cube. Distances are infinite at vertices that it does
+/// not reach.
 namespace seamwire::bench {
 
 /// A surface with a metric, as these methods read it. All read the same one: a quadratic form at each vertex, the
@@ -46,10 +47,10 @@ std::vector<double> steiner_dijkstra(const MetricSurface& surface, std::int32_t 
 /// the least rotations from vertex to vertex along the path to its end. The sum cuts corners where the surface bends.
 std::vector<double> short_term_vector_dijkstra(const MetricSurface& surface, std::int32_t seed, int memory);
 
-/// Sethian, Vladimirsky, "Ordered Upwind Methods for Static Hamilton-Jacobi Equations" (2003): a vertex takes its
-/// distance, by its own form, from segments of the accepted front as far away as the longest edge beside it times the
-/// anisotropy: that of its own tensor, which the bound needs; the largest of all, as they state it, makes vertices
-/// where the metric is round look over features. Vectors there are sums of edges, turned to its normal.
+/// Sethian, Vladimirsky, "Ordered Upwind Methods for Static Hamilton-Jacobi Equations" (2003). A vertex takes its
+/// distance, by its own form, from segments of the accepted front. It looks as far as the longest edge beside it times
+/// the anisotropy of its own tensor, which the bound needs. The paper takes the largest anisotropy of all, which makes
+/// vertices where the metric is round look over features. Vectors there are sums of edges, turned to its normal.
 std::vector<double> ordered_upwind(const MetricSurface& surface, std::int32_t seed);
 
 /// Crane, Weischedel, Wardetzky, "Geodesics in Heat" (2013), with the Laplacian of the faces in their forms; time step:

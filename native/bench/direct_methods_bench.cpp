@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The methods of Section 2.3 of the paper beside exact geodesics on the embedding: error and time, a line a method,
-// mesh and maximum anisotropy, columns apart by tabs:
+// The methods of Section 2.3 of the paper beside exact geodesics on the embedding:
 //   direct_methods_bench [--seeds N] [--most-faces N] MESH...
-// MESH is a file or "torus", "sphere": made here, with 20,000 triangles. Metric: M_min of eq. 5; on the sphere, which
-// has no curvature lines, along the parallels. The problem that all approximate: the mesh's polyhedron, with forms
-// between vertices as repeated halving of edges has them (refined()). The reference is the exact solver on the
-// embedding of the mesh cut into fours as often as --most-faces (1,400,000) allows. How good that is: the same of the
-// mesh cut once less; and, from the first seed, Dijkstra over 7 and 15 Steiner points an edge of the mesh cut once,
-// extrapolated, which shares nothing with the embedding. Errors: mean and 95 % over the vertices, of these the medians
-// over the seeds. Times are of the processor, one thread, medians over the seeds; what is built once a metric is told
-// apart.
+// Prints error and time, a line for each method, mesh and maximum anisotropy, with tabs between columns. MESH is a
+// file, or "torus" or "sphere", which are made here with 20,000 triangles.
+//
+// The metric is M_min of eq. 5. On the sphere, which has no curvature lines, it runs along the parallels. All methods
+// approximate the same problem: the mesh's polyhedron, with forms between vertices as repeated halving of edges gives
+// them (refined()).
+//
+// The reference is the exact solver on the embedding of a finer mesh: the mesh cut into fours as often as --most-faces
+// (1,400,000) allows. Two checks show how good the reference is. The first is the same solver with one cut less. The
+// second is Dijkstra over 7 and 15 Steiner points for each edge of the mesh cut once, extrapolated, from the first
+// seed. It shares nothing with the embedding.
+//
+// Errors are the mean and the 95th percentile over the vertices, as medians over the seeds. Times are processor time of
+// one thread, as medians over the seeds. The time to build what each metric needs once is separate.
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdio>

@@ -2,7 +2,7 @@
 //
 // Edge wires and loops: the time to make the graph, for a seed, a trace, a loop.
 //   edge_wires_bench [MESH.obj ...] [Google Benchmark's options]
-// Without a mesh: a bumpy torus of some 200 000 edges, once of quads and once of triangles.
+// Without a MESH it uses a bumpy torus of some 200 000 edges, once of quads and once of triangles.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How long the first path after a click takes, and how much longer than the geodesic it is; a line a mesh:
+// Measures how long the first path after a click takes, and how much longer than the geodesic it is:
 //   first_wire_bench [--loop LEVELS] [--metric euclidean|min|max] [--anisotropy A] [--targets N] [--seeds N]
 //   [--corridor VERTICES] [--windows N] MESH...
-// From vertex 0 and others (5 seeds unless told) to N targets each, the farthest among them. `first` are paths right
-// after the click, each by an object of its own; `next` those of one object that is asked for one target after the
-// other.
+// Prints a line for each mesh. Paths lead from vertex 0 and other seeds (5 by default) to N targets each, the farthest
+// among them. `first` paths come right after the click, each from a new object. `next` paths come from one object that
+// is asked for one target after the other.
 #include <cmath>
 #include <cstdio>
 #include <random>

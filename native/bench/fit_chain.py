@@ -3,11 +3,14 @@
 
     python native/bench/fit_chain.py [--sizes 100 300 700] [--edges 10 50 200 400] [--repeats N]
 
-Needs SciPy. The mesh is a wavy square of SIZE x SIZE quads, the line a spiral of so many edges, with a wobble of a fifth of an edge and
-six points an edge, as a hand draws it. With SciPy: the vertices within 1.5 edges of the line by a k-d tree of the mesh, which is made
-before the clock starts, their edges by a sparse matrix, lengths l (1 + 32 d^2 / h^2) by a k-d tree of the line, and Dijkstra's
-algorithm; it knows neither turns nor progress along the line, so it goes astray where the line comes by again. Prints medians of both,
-in milliseconds, their ratio within the same run, and how many edges the chain has.
+Needs SciPy. The mesh is a wavy square of SIZE x SIZE quads. The line is a spiral of so many edges with six points for each edge, and a
+wobble of a fifth of an edge, as a hand draws it.
+
+The comparison uses SciPy. A k-d tree of the mesh, made before the clock starts, finds the vertices within 1.5 edges of the line. A sparse
+matrix has their edges, with lengths l (1 + 32 d^2 / h^2) from a k-d tree of the line. Dijkstra's algorithm then finds the chain. It ignores
+turns and progress along the line, so it goes astray where the line comes by again.
+
+Prints medians of both in milliseconds, their ratio within the same run, and how many edges the chain has.
 """
 
 from __future__ import annotations

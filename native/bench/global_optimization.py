@@ -3,10 +3,12 @@
 
     python native/bench/global_optimization.py [--anisotropy A]... MESH...
 
-Campen, Heistermann and Kobbelt (Practical anisotropic geodesy, 2013) make triangles valid without more of them: edge lengths are changed
-as little as can be, by least squares, under the triangle inequalities, here with OSQP (Stellato et al., OSQP: an operator splitting
-solver for quadratic programs, 2020). A line a mesh and A: seconds of that and of `embed`, medians of three; what became of the lengths;
-and, from five seeds, how far distances at the vertices differ from ours, and how far wires to 40 vertices run from ours, in mean edge
+Campen, Heistermann and Kobbelt (Practical anisotropic geodesy, 2013) make triangles valid without adding triangles. They change edge
+lengths as little as possible, by least squares under the triangle inequalities. Here OSQP solves that (Stellato et al., OSQP: an operator
+splitting solver for quadratic programs, 2020).
+
+Prints a line for each mesh and A. It has the seconds of that and of `embed` (medians of three) and the changes of the lengths. From five
+seeds, it has the differences of distances at the vertices from ours, and the distances of wires to 40 vertices from ours, in mean edge
 lengths. With ``--arrays IN.npz OUT.npz`` a mesh and its metric's lengths are read, and the changed ones written, with the seconds.
 """
 

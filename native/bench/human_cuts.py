@@ -10,11 +10,11 @@ vertex is joined to those a third and a half of the boundary's length further on
 along the wire to the nearest point of the boundary, in percent of the length of the person's boundary between the two vertices. Models are
 weighted alike; intervals hold 95 % of 2000 bootstrap samples of models. Needs numpy, and seamwire_core on the path.
 
-With --clicks, what one click gives: `LiveWire.closed_wires` for the concave metric from vertices of closed boundaries, so many a model;
-and what two give: the nearest of its loops, bent to the vertex of the boundary that is farthest from it. Distances are between closed
-lines there, in thousandths of the unit cube: the mean, over 200 points evenly along each of the two, of how far the other one is.
-Another person's line is the one of his or hers that is nearest to the first person's. Times are of the processor, all threads. Either
-half is every second of the models.
+With --clicks, it measures the results of one click and of two, from so many vertices of closed boundaries for each model. One click is
+`LiveWire.closed_wires` in the concave metric. The second click bends the nearest of its loops to the vertex of the boundary that is
+farthest from it. Distances are between closed lines, in thousandths of the unit cube. They are the mean distance to the other line, over
+200 points evenly along each of the two. Another person's line is the one of that person that is nearest to the first person's. Times are
+processor time of all threads. Either half is every second model.
 """
 
 import argparse
@@ -92,7 +92,7 @@ class Boundary:
 
 @dataclass(frozen=True)
 class Arc:
-    """What a person drew between two vertices of a boundary."""
+    """A line that a person drew between two vertices of a boundary."""
 
     start: int
     end: int
@@ -191,11 +191,11 @@ def measure(
 
 @dataclass(frozen=True)
 class Click:
-    """What one click gave, in thousandths of the unit cube."""
+    """The result of one click, in thousandths of the unit cube."""
 
-    first: float  # distance of the first loop from the person's line; inf: there is none
+    first: float  # distance of the first loop from the person's line; inf without loops
     best: float  # of the best of three
-    bent: float  # of what a second click makes of the nearest one, where the person's line is farthest from it
+    bent: float  # of the nearest one, after a second click where the person's line is farthest from it
     others: tuple[float, ...]  # of each other person's nearest line
     shown_time: float  # milliseconds until there are loops
     final_time: float  # and until they are final

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Exact geodesics on edge lengths beside those of Kirsanov's code, the algorithm of Surazhsky et al., "Fast Exact and
-// Approximate Geodesics on Meshes" (2005), which the paper used; one line a mesh:
+// Exact geodesics on edge lengths beside those of Kirsanov's code. It is the algorithm that the paper used, Surazhsky
+// et al., "Fast Exact and Approximate Geodesics on Meshes" (2005). Prints one line for each mesh:
 //   lengths_bench [--loop LEVELS] [--metric euclidean|min|max] [--anisotropy A] [--seeds N] MESH...
 // Both get the same triangles, lengths and seeds, vertex 0 and N - 1 others (5 unless told); one thread, medians of
-// processor time. Building what is built once is told apart, and counted in the second ratio.
+// processor time. The time to build is separate, and counts in the second ratio.
 //
 // That code takes positions, but from a vertex it looks at lengths and angles alone: so these are set to ours.
 // Its headers use memcpy() and do not say so.

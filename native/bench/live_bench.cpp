@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What an artist waits for besides seeding, some lines a mesh:
+// Measures the waiting times of an artist besides seeding:
 //   live_bench [--loop LEVELS] [--anisotropy A] [--repeats N] MESH...
-// - cancel: from the request to stop until the work has ended, at random moments; processor time of the working thread,
-//   and time on the clock, which other programs lengthen; for geodesics, wires along edges, embedding and quick paths
-// - two metrics: seeding both on two threads, to the slower one alone
-// - a wire: tracing one path; tracing both, mapping them to the surface and snapping them to edges
-// - embedding, and doing it again after a stroke of 1, 4, 16 and 64 edges; and all that lies between the end of a
-//   stroke and the first wire, part by part on one thread, and by the clock in a live wire
-// - a live wire made anew and seeded, and seeded again: until a wire is shown, until the one that a click keeps is
-//   settled, and until all are final; on the clock, and the processor time of all threads
+//
+// Prints some lines for each mesh.
+//
+// - Cancel: from the request to stop, at a random moment, until the work has ended. It measures geodesics, wires along
+//   edges, embedding and quick paths, in processor time of the working thread and on the clock.
+//
+// - Two metrics: seeding both on two threads, compared with the slower one alone.
+//
+// - A wire: tracing one path. Also tracing both, mapping them to the surface and snapping them to edges.
+//
+// - Embedding, and embedding again after a stroke of 1, 4, 16 and 64 edges. Also all work between the end of a stroke
+//   and the first wire, part by part on one thread, and on the clock in a live wire.
+//
+// - A live wire made and seeded, and seeded again. It measures the time until a wire is shown, until the wire that a
+//   click keeps is settled, and until all are final, on the clock and in processor time of all threads.
 #include <pthread.h>
 
 #include <algorithm>
@@ -131,7 +138,7 @@ void measure_two_metrics(const ExactGeodesics& first, const ExactGeodesics& seco
 struct Waits {
   std::array<std::vector<double>, 3> clock, processor;
 
-  /// Asks as a cursor would that rests on a vertex, from a call on that began the work at that time.
+  /// Asks as a resting cursor over a vertex would, after a call that began the work at `start`.
   void add(const LiveWire& live, std::int32_t to, Clock::time_point start, double processor_start) {
     for (std::size_t reached = 0; reached < 3;) {
       const LiveWires now = live.wires({to});

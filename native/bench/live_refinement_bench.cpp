@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What refining the corridor of a live wire gives and costs, one line a mesh and metric:
+// Measures the gain and the cost of refining the corridor of a live wire, one line for each mesh and metric:
 //   live_refinement_bench [--loop LEVELS] [--anisotropy A] [--max-error E] [--wires N] MESH...
-// - regret: how much longer than the shortest distance a wire is when its length is integrated in the metric,
-//   interpolated in each given face as an embedding does it. The distance is that in an embedding of the whole surface
+//
+// - Regret: how much longer a wire is than the shortest distance. The wire's length is integrated in the metric,
+//   interpolated in each given face as an embedding does it. The distance comes from an embedding of the whole surface
 //   with a max_error of 0.001.
-// - time on the clock from asking for the wire to a target until it is final, with the field there already
+//
+// - Time on the clock from the request for a wire to a target until it is final, if the field is ready.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What a LiveWire that is given up in the middle of its work still takes:
+// Measures how long a LiveWire still takes if it is destroyed in the middle of its work:
 //   live_stop_bench [--loop LEVELS] [--repeats N] [--seconds S] MESH...
-// For wires across the surface and along edges, with the surface still to be built: a LiveWire is made and seeded, and
-// destroyed at a random moment up to S seconds later. A line each, and two for all: time on the clock until the
+// A LiveWire is made, seeded, and destroyed at a random moment up to S seconds later, for wires across the surface and
+// along edges. Its surface is still to be built. Prints a line each, and two for all: time on the clock until the
 // destructor has returned, which other programs lengthen, and processor time of the whole process until then.
 #include <chrono>
 #include <cstdio>

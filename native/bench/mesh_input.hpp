@@ -22,7 +22,7 @@
 #include "seamwire/metric/curvature.hpp"
 #include "seamwire/metric/metric.hpp"
 
-/// What the benchmarks on files share.
+/// Functions that the benchmarks on files share.
 namespace seamwire::bench {
 
 struct DoubleTraits : OpenMesh::DefaultTraits {

@@ -4,11 +4,14 @@
     python native/bench/peers.py MESH... [--loop LEVELS]... [--repeats N] [--seeds N] [--skip NAME] [--most-faces N]
         [--programs build/bench/native/bench] [--plot GROWTH.svg]
 
-Needs numpy, pygeodesic and potpourri3d, and seamwire_core on the path; CGAL's solver is a program of its own, and our own benchmark adds
-what it counts. All get the same triangles and the same seeds, one thread. Prints processor time: what is built once, from points and
-triangles until a seed can be given, and the median of a solve; how many times as long the others take, for a solve alone and for both; how
-far their distances are from ours, and the exponent with which the time of a solve grows with the faces; --plot draws that. Exact peers are
-left out above --most-faces. Peers run in a process of their own: some of them abort on meshes that are not manifold.
+Needs numpy, pygeodesic and potpourri3d, and seamwire_core on the path. CGAL's solver is a separate program. Our own benchmark adds its
+counts. All solvers get the same triangles and seeds, and one thread.
+
+Prints processor time: the time to build from points and triangles until a seed can be given, and the median of a solve. Then follows how
+many times as long the others take, for a solve alone and for both, and how far their distances are from ours. Last comes the exponent with
+which the time of a solve grows with the faces. --plot draws that.
+
+Exact peers are left out above --most-faces. Peers run in a separate process, because some of them abort on meshes that are not manifold.
 """
 
 import argparse
@@ -33,7 +36,7 @@ Solve = Callable[[int], Array]
 
 
 class Result(NamedTuple):
-    """What one solver took, in seconds of processor time, and the distances from each seed, where it tells them."""
+    """The time of one solver in seconds of processor time, and its distances from each seed, if it returns them."""
 
     built: float
     solved: float

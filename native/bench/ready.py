@@ -3,10 +3,12 @@
 
     python native/bench/ready.py [--side N] [--repeats N]
 
-A bumpy torus of 2 N^2 triangles; for wires across the surface and along edges a LiveWire is made and seeded at once, and the wires to a
-far vertex are asked for every millisecond: seconds on the clock until its surface is there, until the first of the two wires, and until
-both are final; then until another one, without a seed, is ready for one, and the processor time of all that. Medians, and the first run of
-the process, whose memory the system has yet to find. Needs numpy, and seamwire_core on the path.
+The mesh is a bumpy torus of 2 N^2 triangles. For wires across the surface and along edges, a LiveWire is made and seeded at once. Then the
+wires to a far vertex are requested every millisecond.
+
+Prints seconds on the clock until the surface is built, until the first of the two wires, and until both are final. Then it prints the
+seconds until another LiveWire, without a seed, is ready for one, and the processor time of everything. These are medians. The first run of
+the process is separate, because the system has yet to find its memory. Needs numpy, and seamwire_core on the path.
 """
 
 import argparse

@@ -15,8 +15,8 @@ Needs SciPy. Presses of a mouse button are counted:
   past poles up to seams drawn before, a whole strip, the border of a flat region, wherever one lies in the seams as a whole, and a
   single edge.
 - Beside the presses, the turns from one candidate to the next: of wires, and of the loop gesture's offers as below.
-- How often what the loop gesture is to take is what it offers first, and how many notches of the wheel it takes: over the edges of what is
-  taken, about twelve of each, after what was taken before.
+- How often the wanted loop is the first offer of the loop gesture, and how many notches of the wheel it takes. This is measured over about
+  twelve edges of each wanted loop, after the loops before it.
 - With --drags: a press for a line that is drawn by dragging along the seams, as far as a hand can in one view, wherever that takes fewer
   presses than clicks: with an exact hand, and with one that wobbles by a fifth of an edge (`seam_drags.py`).
 - The same, mirrored: where the mesh is symmetric, edges whose images are seams too are drawn once, if that takes fewer clicks. Blender's
@@ -111,7 +111,7 @@ class Seamwire:
     Parameters
     ----------
     mesh
-        What is drawn on.
+        The mesh to draw on.
     past_poles, flat
         The way past poles, borders of flat regions are offered too.
     wobble

@@ -3,8 +3,8 @@
 
     python native/bench/seam_gaps.py SEAMS
 
-SEAMS is as for seam_clicks.py. Of each chain of eight edges or more one edge is taken out, not near its ends, and put back before the
-next; the gap is found where its two sides are one of those that are told.
+SEAMS is as for seam_clicks.py. In each chain of eight edges or more, one edge that is not near
+its ends is removed, and put back before the next. The gap counts as found if its two sides are among the reported gaps.
 """
 
 from __future__ import annotations

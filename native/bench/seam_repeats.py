@@ -3,8 +3,8 @@
 
     python native/bench/seam_repeats.py SEAMS
 
-SEAMS is as for seam_clicks.py. The components are gone through by their size, the largest first; one that is no repeat of a former one
-is drawn, and all its repeats are taken.
+SEAMS is as for seam_clicks.py. The components are visited by size, the largest first. A component that does not repeat a former one is
+drawn, and all its repeats are taken.
 """
 
 from __future__ import annotations

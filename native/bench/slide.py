@@ -3,9 +3,9 @@
 
     python native/bench/slide.py MESH.obj...
 
-24 wires a mesh between random vertices (M_min, A = 20, seeds 1 to 4), one after another on the mesh as it is. Distances are from nine
-points an edge to the wire, in mean edge lengths; turning is in radians a mean edge length. "Off the surface": the largest distance of a
-new edge from the surface as it was, in mean edge lengths.
+24 wires on each mesh between random vertices (M_min, A = 20, seeds 1 to 4), one after another, each on the original mesh. Distances are
+from nine points of each edge to the wire, in mean edge lengths. Turning is in radians for each mean edge length. "Off the surface" is the
+largest distance of a new edge from the original surface, in mean edge lengths.
 """
 
 from __future__ import annotations

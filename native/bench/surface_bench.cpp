@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From triangles to an embedding: one line a mesh and metric, with the milliseconds of each step, and the columns of
-// Fig. 8 of the paper: invalid triangles before, triangles added, and invalid ones left. Then the tree for rays: the
-// milliseconds of building it, and the microseconds of a ray.
+// From triangles to an embedding: one line for each mesh and metric, with the milliseconds of each step. The columns
+// are those of Fig. 8 of the paper: invalid triangles before, triangles added, and invalid ones left. Then follows the
+// tree for rays: the milliseconds of building it, and the microseconds of a ray.
 //   surface_bench [--anisotropy=A]... [MESH[+LEVELS]]... [Google Benchmark's options]
 // MESH is a file that OpenMesh reads; +2 subdivides it twice, after Loop. Without a mesh: a bumpy torus of 20 000
 // faces, and the same subdivided once. A is 20 if not given. --benchmark_counters_tabular=true makes it a table.

@@ -8,8 +8,8 @@ motions are counted while a wire is live:
 
 - a candidate: the second of the two wires is the artist's, so one notch or one press of W brings it forward;
 - notches of zooming: the view begins with the whole object in a window 1080 pixels high, seen from the front of each edge. An edge can
-  be clicked where it is so many pixels long; the one clicked before is the middle of the view, and one that lies outside is zoomed out
-  for, then in again. A notch is a factor of 1.2, as in Blender. Turning and moving the view are not counted.
+  be clicked if it is so many pixels long. The edge clicked before is the middle of the view. For an edge outside the view, the hand zooms
+  out and then in again. A notch is a factor of 1.2, as in Blender. Turning and moving the view are not counted.
 """
 
 from __future__ import annotations

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the library does with any mesh and any parameters: it refuses them with InvalidInput, or what it finds agrees
-// with itself. libFuzzer makes the bytes (scripts/fuzz); the test `fuzz_cases` runs those that once found something.
+//
+// Any mesh and any parameters: the library refuses them with InvalidInput, or its answers agree with each other.
+// libFuzzer makes the bytes (scripts/fuzz); the test `fuzz_cases` runs those that once found something.
 
 #include <algorithm>
 #include <array>

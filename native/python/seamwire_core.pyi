@@ -110,9 +110,9 @@ class Embedding:
     worst_clamp: float
     hit_cap: bool
     unreachable: NDArray[np.int32]
-    estimated_error: float | None  # of distances, on average; this and the next two: None if max_error was 0
-    unmet: int | None  # triangles that miss the max_error
-    largest_deviation: float | None  # eta: distances are within a factor of e^eta
+    estimated_error: float | None  # of distances, on average (None if max_error was 0)
+    unmet: int | None  # triangles that miss the max_error (None if it was 0)
+    largest_deviation: float | None  # eta: distances are within a factor of e^eta (None if max_error was 0)
     mean_edge_length: float  # of the surface, in the metric
     def with_lengths(self, lengths: ArrayLike) -> Embedding:
         """Return the same triangles with other lengths of `edges`, (e,)."""

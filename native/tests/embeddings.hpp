@@ -53,7 +53,7 @@ inline Scribble random_scribble(const Surface& surface, std::mt19937& random, un
   return scribble;
 }
 
-/// A metric that no smooth surface has: at each vertex a direction of its own, at anisotropy A.
+/// A metric that no smooth surface has: a random direction at each vertex, at anisotropy A.
 inline Metric random_metric(const Surface& surface, double a, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> angle(0, std::numbers::pi);

@@ -11,7 +11,7 @@
 
 #include "seamwire/geodesics/exact_geodesics.hpp"
 
-/// What a path over an intrinsic mesh is, found out without the solver's help.
+/// Properties of a path over an intrinsic mesh, computed without the solver's help.
 namespace seamwire::paths {
 
 inline std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }

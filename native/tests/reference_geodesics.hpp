@@ -14,9 +14,9 @@
 #include "seamwire/surface/intrinsic_mesh.hpp"
 
 /// Exact distances the plain way, to compare with. A shortest path is a chain of straight lines that bends at vertices
-/// only. So: Dijkstra over the vertices, where from each vertex at which a path may bend all straight lines are
-/// followed over the surface, triangle by triangle, as far as the farthest vertex can be. No window is ever compared
-/// with another one, nothing is dropped but what is too far away.
+/// only. So this is Dijkstra's algorithm over the vertices. From each vertex at which a path may bend, all straight
+/// lines are followed over the surface, triangle by triangle, as far as the farthest vertex can be. No window is ever
+/// compared with another one, nothing is dropped but what is too far away.
 namespace seamwire::reference {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();

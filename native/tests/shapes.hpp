@@ -114,8 +114,8 @@ inline Mesh torus(int nu, int nv, double large = 0.35, double small = 0.15) {
   });
 }
 
-/// A band of n squares of two triangles each whose end is glued to its start after half a turn, at the edge (0, 1), the
-/// only one where its faces do not agree on a side.
+/// A band of n squares of two triangles each. Its end is glued to its start after half a turn, at the edge (0, 1), the
+/// only edge where its faces do not agree on a side.
 inline Mesh moebius(int n) {
   Mesh mesh;
   for (int i = 0; i < n; ++i) {
@@ -156,7 +156,7 @@ Mesh without(Mesh mesh, const Remove& remove) {
   return mesh;
 }
 
-/// A mesh of quads, with their sides as its real edges: triangulated, the diagonals are none.
+/// A mesh of quads, with their sides as its real edges. The diagonals of its triangles are not real edges.
 struct QuadMesh {
   std::vector<Vector> points;
   std::vector<std::array<std::int32_t, 4>> quads;

@@ -7,14 +7,14 @@ from typing import NamedTuple
 
 
 class Portable(NamedTuple):
-    """What a Windows DLL or program names: the DLLs it imports, and its own functions and data."""
+    """The names in a Windows DLL or program: the DLLs it imports, and its own functions and data."""
 
     imports: list[str]
     exports: list[str]
 
 
 class MachO(NamedTuple):
-    """What a macOS library tells: the processor, the libraries it loads, the oldest system it runs on, and whether it is signed.
+    """The data of a macOS library: the processor, the libraries it loads, the oldest system it runs on, and whether it is signed.
 
     ``looked_up`` are the symbols that it names no library for: they have to be in the program that loads it.
     """
@@ -32,7 +32,7 @@ def read_portable(path: Path) -> Portable:
     Raises
     ------
     ValueError
-        Where it is none for x86-64.
+        If the file is not for x86-64.
     """
     data = path.read_bytes()
     (header,) = struct.unpack_from("<I", data, 0x3C) if data[:2] == b"MZ" else (0,)
@@ -72,7 +72,7 @@ def read_macho(path: Path) -> MachO:
     Raises
     ------
     ValueError
-        Where it is none for one 64-bit processor.
+        If the file is not for one 64-bit processor.
     """
     data = path.read_bytes()
     magic, processor, _, _, commands = struct.unpack_from("<5I", data)

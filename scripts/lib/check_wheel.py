@@ -36,7 +36,7 @@ LINUX_SYSTEM = re.compile(r"(ld-linux-aarch64|lib(c|m|dl|rt|pthread))\.so\.\d")
 
 
 def faults_of_elf(module: Path, machine: str, newest: tuple[int, int]) -> list[str]:
-    """Return a sentence for each thing that Linux on that processor with that glibc does not have."""
+    """Return a sentence for each feature that is missing on Linux with that processor and glibc."""
     with module.open("rb") as file:
         elf = ELFFile(file)
         found = elf["e_machine"]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # shellcheck shell=bash disable=SC2034
-# What the scripts share; to be sourced. Sets the working folder to the top of the project.
+# Shared by the scripts; to be sourced. Sets the working folder to the top of the project.
 
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -76,7 +76,7 @@ once() {
   printf '%s\n' "$print" >"$stamp"
 }
 
-# with_window COMMAND...: runs it on a virtual display of its own, drawn by the processor. What is on the display can be read from
+# with_window COMMAND...: runs it on a new virtual display, drawn by the processor. The contents of the display can be read from
 # $SEAMWIRE_SCREEN, an X window dump that the X server writes to.
 with_window() {
   local folder code=0

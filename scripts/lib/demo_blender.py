@@ -98,7 +98,7 @@ def suggest(obj: bpy.types.Object) -> pictures.Network:
 
 
 def stretch(obj: bpy.types.Object, points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Return for each triangle how much longer the longest direction in the unwrapping is than the shortest: 1 is none."""
+    """Return for each triangle how many times longer its longest direction in the unwrapping is than its shortest."""
     from seamwire.core.islands.stretch import Stretch
 
     mesh = obj.data

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 SIGMA = 0.001
-"""What the paper stops at in Campen's and Pottmann's metrics (Section 4.1)."""
+"""Where the paper stops subdividing in Campen's and Pottmann's metrics (Section 4.1)."""
 UP_IS_Z = {"nefertiti"}
 """Models whose files have z up; the others' is y."""
 VIEWS = {

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes the tool's icon, addon/seamwire/icons/seamwire.draw.dat: ``python3 scripts/lib/make_icon.py``.
 
-The format is that of Blender's own toolbar icons: "VCO", a zero, width and height (255), two bytes for where it starts, then the corners of
-all triangles, a byte for x and y each, y upwards, then a color of four bytes for each corner. As theirs, it is a cube of grey lines with
-what the tool does in green: a wire that runs over the cube's edge from one seed to another.
+The format is that of Blender's own toolbar icons: "VCO", a zero, width and height (255), and two bytes for where it starts. Then follow the
+corners of all triangles, with a byte for x and y each and y upwards, and a color of four bytes for each corner. Like theirs, it is a cube
+of grey lines with what the tool does in green: a wire that runs over the cube's edge from one seed to another.
 """
 
 from itertools import pairwise

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Packs the add-on with wheels of its compiled part: ``pack_addon.py --platform PLATFORM --output FOLDER WHEEL...``.
 
-Makes FOLDER/seamwire-VERSION-PLATFORM.zip, with one folder at its top: so it installs as an extension in Blender 4.2 and later, and as an
-add-on in Blender 3.4 and later, where the add-on unpacks the wheel that fits by itself.
+Makes FOLDER/seamwire-VERSION-PLATFORM.zip, with one folder at its top. So it installs as an extension in Blender 4.2 and later, and as an
+add-on in Blender 3.4 and later. There the add-on unpacks the wheel that fits by itself.
 """
 
 import argparse
@@ -53,7 +53,7 @@ def pack(output: Path, wheels: list[Path], platforms: list[str]) -> Path:
         sys.exit(f"not wheels of seamwire_core {version}: {', '.join(others)}")
     path = output / f"seamwire-{version}-{'-'.join(platforms)}.zip"
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
-        # Blender 3.4 removes the version before only where the folder has an entry of its own.
+        # Blender 3.4 removes the version before only if the folder has a separate entry.
         archive.writestr("seamwire/", b"")
         for file in sorted(ADDON.rglob("*")):
             inside = file.relative_to(ADDON)

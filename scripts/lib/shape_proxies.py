@@ -19,8 +19,8 @@ def shape_proxies(
 ) -> NDArray[np.int32]:
     """Return the region of each triangle, (m,): Cohen-Steiner, Alliez, Desbrun, "Variational shape approximation" (2004).
 
-    Lloyd's iteration in the metric L2,1 (Section 3): regions grow from a face each over the mesh, always on where the triangle's normal
-    differs least from that of the region's proxy, weighted by its area; proxies become the mean normals of their regions.
+    Lloyd's iteration in the metric L2,1 (Section 3). Regions grow over the mesh from one face each, always to the triangle whose normal
+    differs least from that of the region's proxy, weighted by area. Proxies become the mean normals of their regions.
 
     Parameters
     ----------

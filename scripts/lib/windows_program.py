@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A Windows Python under Wine, behind a command line of this system: ``windows_program.py FOLDER [ARGUMENT OF PYTHON...]``.
 
-FOLDER is one that ``scripts/lib/make_windows_python`` made. Where arguments and the environment name files of this system by their whole
-path, the program gets Windows' names of them. What it prints, errors too, comes out of the standard output, its lines ended as here; the
-exit code is its own.
+FOLDER is one that ``scripts/lib/make_windows_python`` made. If arguments and the environment name files of this system by their whole
+path, the program gets Windows' names of them. Its output, errors included, appears on the standard output, with the line ends of this
+system. The exit code is that of the program.
 """
 
 import os

@@ -273,8 +273,8 @@ def read(obj: bpy.types.Object) -> Arrays:
         Where no edge is visible.
     """
     obj.update_from_editmode()  # the mesh then has the edit mesh's data, by the same numbers
-    # From 4.1 on all of a mesh are attributes, which are read ten times as fast as its items are, but which the mesh
-    # does not show in edit mode. Its copy does, and shares the data: it costs nothing.
+    # From 4.1 on, all data of a mesh are attributes, which can be read ten times as fast as its items. But in edit mode
+    # the mesh does not show them. A copy does, and costs nothing because it shares the data.
     shared = obj.data.copy() if bpy.app.version >= (4, 1, 0) else None
     try:
         columns = _Items(obj.data) if shared is None else _Attributes(shared)

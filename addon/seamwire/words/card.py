@@ -25,7 +25,7 @@ _PLACES = ("guide/index.md", "../../docs/guide/index.md")
 
 @cache
 def guide() -> str:
-    """Return the address of the guide; an empty string if there is none."""
+    """Return the address of the guide; an empty string if it is missing."""
     here = Path(__file__).parents[1]
     found = next((path.resolve() for place in _PLACES if (path := here / place).is_file()), None)
     return "" if found is None else found.as_uri()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The interpreter ends while threads of it are in the library: quietly, whatever they are at."""
+"""The interpreter ends while threads of it are in the library: quietly, in the middle of any work."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def test_threads_in_long_work(name: str) -> None:
 
 
 def test_a_callback_that_python_ends_in_the_middle() -> None:
-    """The callback sleeps on when the wait for it is over, and wakes when it may not run Python any more."""
+    """The callback still sleeps when nobody waits for it any more, and wakes when it may not run Python any more."""
     prepare, _ = WORK["a field"]
     call = "sw.distance_field(e, 0, progress=lambda fraction: time.sleep(1.3))"
     ended = quit_during(prepare, call, delay=0.2, teardown=1.5)
@@ -109,7 +109,7 @@ def test_threads_that_hand_over_arrays(name: str) -> None:
 
 
 def test_work_that_returns_when_the_wait_for_it_is_over() -> None:
-    """Those that come back when Python is being torn down sleep until the process ends."""
+    """Threads that come back when Python is being torn down sleep until the process ends."""
     call = "sw.RayTree(p, t).wait()"  # which nothing stops
     ended = quit_during("p, t = meshes.grid(1000)", call, delay=0.05, teardown=3.0, threads=4)
     assert (ended.returncode, ended.stderr) == (0, "")

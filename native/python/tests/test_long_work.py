@@ -107,8 +107,8 @@ def test_other_threads_run_meanwhile(
         "live wire that builds its surface": lambda: sw.LiveWire(points, triangles).wait_for_surface(),
         "change of a live wire": change,
     }
-    # The system may stop the other thread for a while too, so one of many tries that goes without that is enough; on a
-    # busy machine none does, nor for what certainly runs without the lock.
+    # The system may stop the other thread for a while too, so one of many tries without such a stop is enough. On a busy
+    # machine no try succeeds, not even for work that certainly runs without the lock.
     if any(longest_hold(works[call]) < 1e-3 for _ in range(30)):
         return
     many = bytes(20_000_000)

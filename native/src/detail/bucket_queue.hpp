@@ -10,12 +10,13 @@
 
 namespace seamwire::detail {
 
-/// A priority queue for searches in which no key is less than those already taken out: buckets of equal width, after
-/// Dial, "Algorithm 360: Shortest-path forest with topological ordering" (1969). A state whose every step in costs more
-/// than a bucket's width cannot get better once its bucket is the lowest, so such states come out of that bucket in any
-/// order (Goldberg, "A simple shortest path algorithm with linear average time", 2001: the caliber). The few others of
-/// the lowest bucket are in a heap, and come out last. Keys beyond the last bucket wait in a list. The order depends on
-/// the calls alone.
+/// A priority queue for searches in which no key is less than those already taken out. It has buckets of equal width,
+/// after Dial, "Algorithm 360: Shortest-path forest with topological ordering" (1969).
+///
+/// If every step into a state costs more than a bucket's width, the state cannot get better once its bucket is the
+/// lowest. Such states come out of that bucket in any order (Goldberg, "A simple shortest path algorithm with linear
+/// average time", 2001: the caliber). The few others of the lowest bucket are in a heap, and come out last. Keys beyond
+/// the last bucket wait in a list. The order depends on the calls alone.
 class BucketQueue {
  public:
   struct Entry {

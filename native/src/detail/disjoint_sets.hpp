@@ -15,7 +15,7 @@ class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
 
-  /// Adds the next number, as a set of its own, and returns it.
+  /// Adds the next number as a new set, and returns it.
   std::int32_t add() {
     parent_.push_back(static_cast<std::int32_t>(parent_.size()));
     return parent_.back();

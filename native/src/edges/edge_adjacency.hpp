@@ -25,7 +25,7 @@ class EdgeAdjacency {
   std::int32_t twin(std::int32_t e) const { return twin_[e]; }
   std::int32_t tail(std::int32_t e) const { return head(twin(e)); }
 
-  /// The directed edge from a to b; -1 if there is none.
+  /// The directed edge from a to b; -1 if they have no edge.
   std::int32_t find(std::int32_t a, std::int32_t b) const;
 
   /// 1 - cos kappa of a chain that arrives against `back` and leaves over `out`, both directed edges from one vertex.
@@ -46,13 +46,15 @@ class EdgeAdjacency {
   }
 
  private:
-  /// A vector for each directed edge such that the turn between two of a vertex is 1 plus their product:
-  /// - in a closed umbrella of total angle T, the edge at angle a is the unit vector at 2 pi a / T, since then
-  ///   -cos(2 pi (a - b) / T) = cos(pi |left - right| / T);
-  /// - in an open umbrella it is the unit vector at a itself: the turn is pi minus the angle between. The third
-  /// components
-  ///   of the two boundary edges make their own turn zero and are invisible to the other edges, which have none;
-  /// - elsewhere it is the edge's direction in space.
+  /// A vector for each directed edge, such that the turn between two edges of a vertex is 1 plus their product.
+  ///
+  /// In a closed umbrella of total angle T, the edge at angle a is the unit vector at 2 pi a / T. Then
+  /// -cos(2 pi (a - b) / T) = cos(pi |left - right| / T).
+  ///
+  /// In an open umbrella it is the unit vector at a itself, and the turn is pi minus the angle between. The third
+  /// components of the two boundary edges make their own turn zero. The other edges have no third component.
+  ///
+  /// Elsewhere it is the edge's direction in space.
   struct Direction {
     double x, y, z;
   };

@@ -34,7 +34,7 @@ class EdgeGraph {
   double length(std::int32_t e) const { return lengths_[e]; }
   double mean_length() const { return mean_length_; }
 
-  /// Makes the edges nearest to a scribble cheap to follow, or, where it repels, as dear as the metric has them.
+  /// Makes the edges nearest to a scribble cheap to follow. If it repels, they cost what the metric says.
   void follow(const Surface& surface, const Metric& metric, const Scribble& scribble);
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The search behind wires along edges and shortest cycles: Dijkstra's over directed edges, so that the cost of a step
-// may depend on the step before (Caldwell, "On finding minimum routes in a network with turn penalties", 1961); with a
-// lower bound of the remaining cost it is the A* search of Hart, Nilsson and Raphael (1968).
+// The search behind wires along edges and shortest cycles. It is Dijkstra's algorithm over directed edges, so that the
+// cost of a step may depend on the step before (Caldwell, "On finding minimum routes in a network with turn penalties",
+// 1961). With a lower bound of the remaining cost it is the A* search of Hart, Nilsson and Raphael (1968).
 #pragma once
 
 #include <algorithm>
@@ -50,9 +50,9 @@ struct EdgeState {
 /// The cheapest walk may cross itself: where edges are much shorter than the mean, going round a small circle is
 /// cheaper than a sharp turn. A step to a vertex that the chain has already visited is therefore refused, and the next
 /// best way into that directed edge is taken. The first chain to arrive at a vertex is never refused, and it goes on
-/// over all the vertex's other edges, so a chain to every edge in reach is found: the cheapest walk's where that has no
-/// repeated vertex, else one whose beginnings are the search's own chains (the cheapest of all simple chains is
-/// NP-hard).
+/// over all the vertex's other edges. So a chain to every edge in reach is found. If the cheapest walk repeats no
+/// vertex, the chain is that walk. Otherwise its beginnings are the search's own chains, because finding the cheapest
+/// of all simple chains is NP-hard.
 ///
 /// One thread runs it; what is settled does not change any more, and others may read that meanwhile.
 class EdgeSearch {

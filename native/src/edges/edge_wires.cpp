@@ -28,7 +28,7 @@ struct EdgeWires::Run {
   Run(std::shared_ptr<const EdgeGraph> on, const Pick& from, double turning)
       : graph(std::move(on)), seed(from), search(*graph, turning) {}
 
-  /// Of the directed edges that lead to a target, the settled one that costs least; -1: there is none.
+  /// Of the directed edges that lead to a target, the settled one that costs least; -1 if no edge is settled.
   std::int32_t best(const Pick& target) const {
     std::int32_t found = -1;
     const auto consider = [&](std::int32_t e) {

@@ -192,7 +192,7 @@ FittedChain ChainFit::chain_to(std::int32_t label, std::int32_t begin) const {
   return chain.vertices.size() < 2 ? FittedChain{} : chain;
 }
 
-/// The median length of the edges at the corners of the line's faces; 0 where there are none.
+/// The median length of the edges at the corners of the line's faces; 0 without edges.
 double median_edge(const Surface& surface, const EdgeAdjacency& adjacency, const DrawnLine& line) {
   std::vector<std::int32_t> vertices;
   std::int32_t last = -1;

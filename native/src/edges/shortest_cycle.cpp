@@ -14,8 +14,7 @@ using namespace detail;
 
 namespace {
 
-/// What the closed chain a -> b -> c (-> d) -> a costs at the least, over all c and d: where the search for a
-/// cycle may stop.
+/// The least cost of a closed chain a -> b -> c (-> d) -> a over all c and d. The search for a cycle may stop there.
 double cheapest_small_cycle(const EdgeGraph& graph, std::int32_t ab, double turn_cost) {
   const std::int32_t a = graph.tail(ab), b = graph.head(ab);
   const auto turn = [&](std::int32_t from, std::int32_t to) { return turn_cost * graph.turn(graph.twin(from), to); };

@@ -16,12 +16,12 @@
 namespace seamwire::detail {
 namespace {
 
-// How much dearer it is for a chain to be off the line than to be long.
+// How much more it costs a chain to be off the line than to be long.
 constexpr double kOffLine = 4.0;
 // A chain may leave the line by this many times the length of the edge it leaves over.
 constexpr double kCorridor = 2.5;
-// A chain is sought for this many edges of the line at a time: long enough not to wind between two rows of edges beside
-// the line, short enough for a line that comes back to itself.
+// A chain is sought for this many edges of the line at a time. It is long enough not to wind between two rows of edges
+// beside the line, and short enough for a line that comes back to itself.
 constexpr double kEdgesAtATime = 24.0;
 // Points of the line nearer to each other than this part of an edge say nothing more about it.
 constexpr double kPointsPerEdge = 4.0;

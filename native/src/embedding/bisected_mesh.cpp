@@ -370,7 +370,7 @@ TensorAt BisectedMesh::midpoint(std::int32_t h) const {
   return midpoint_tensor({a, tensor_at(tail(h)).tensor}, {b, tensor_at(tip(h)).tensor});
 }
 
-// Each triangle gets a middle of its own, with the normal on its own side.
+// Each triangle gets a separate middle, with the normal on that side.
 void BisectedMesh::bisect_siblings(std::int32_t h) {
   std::vector<std::int32_t> sides{h}, at_start, at_end;
   for_each_beyond(h, [&](std::int32_t other) { sides.push_back(other); });
@@ -594,7 +594,7 @@ Embedding BisectedMesh::to_embedding(bool is_scheme_local) && {
   return out;
 }
 
-// Those that are left keep their order.
+// The remaining triangles keep their order.
 void BisectedMesh::remove_triangles(const std::vector<std::int32_t>& sorted) {
   const auto count = static_cast<std::int32_t>(corners.size());
   std::vector<std::int32_t> moved(corners.size(), 0);

@@ -52,8 +52,8 @@ enum class EdgeRule {
   kMiddle,
 };
 
-/// A surface's triangles, which are bisected in place, with the lengths of their edges in a metric. What is bisected,
-/// and in which order, is decided elsewhere (bisection.hpp, length_repair.hpp).
+/// A surface's triangles, which are bisected in place, with the lengths of their edges in a metric. Other parts decide
+/// which triangles to bisect, and in which order (bisection.hpp, length_repair.hpp).
 ///
 /// Half-edge 3 f + i runs from corner i of triangle f to the next corner. The first vertices are those of the surface's
 /// half-edge mesh (its corner fans), the others midpoints of edges in the order in which they are made. Of the halves
@@ -194,7 +194,7 @@ class BisectedMesh {
   std::vector<MetricNode> new_nodes_;
   std::vector<TensorAt> tensors_;  // of the new vertices
   // In the embedding, the number of a new vertex among the new ones. Where an edge with siblings is bisected, each of
-  // its triangles has a vertex of its own here, as it has corner fans of its own. Empty without siblings.
+  // its triangles has a separate vertex here, as it has separate corner fans. Empty without siblings.
   std::vector<std::int32_t> number_of_new_;
   std::vector<Vector> points_;     // in the caller's coordinates, the caller's vertices first
   std::vector<bool> is_turned_;    // per fan: its side is the other one than its vertex's normal's; empty: none
@@ -218,8 +218,8 @@ inline void BisectedMesh::set_length(std::int32_t h, double length) {
   for_each_beyond(h, [&](std::int32_t other) { lengths[other] = length; });
 }
 
-/// A triangle is valid where its longest edge is shorter than the others together by this fraction: exact geodesics
-/// unfold it, and the square root in the unfolding leaves half of its digits.
+/// A triangle is valid if its longest edge is shorter than the others together by this fraction. Exact geodesics unfold
+/// triangles, and the square root in the unfolding leaves half of the digits.
 inline constexpr double kValidityMargin = 1e-10;
 
 inline bool BisectedMesh::is_valid(std::int32_t f) const {

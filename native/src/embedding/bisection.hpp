@@ -42,7 +42,7 @@ class ActiveFaces {
   /// Faces that are as given once more, after BisectedMesh::undo().
   void reset(const std::vector<std::int32_t>& faces);
   void add_conflict(std::int32_t one, std::int32_t other);
-  /// The faces in conflicts, which are then forgotten. What was bisected until now counts as bisected before.
+  /// The faces in conflicts, which are then forgotten. Triangles bisected until now count as bisected before.
   std::vector<std::int32_t> take_conflicts(const BisectedMesh& mesh);
   bool has_conflicts() const { return !conflicts_.empty(); }
   /// How often a face was made ready.
@@ -50,7 +50,7 @@ class ActiveFaces {
 
  private:
   enum class State : std::uint8_t {
-    kGiven,   ///< as it was given
+    kGiven,   ///< not bisected yet
     kActive,  ///< bisected, or to be looked at, in this run
     kKept,    ///< bisected before, and to stay so
   };
@@ -61,8 +61,8 @@ class ActiveFaces {
   std::size_t activations_ = 0;
 };
 
-/// Bisects invalid triangles of a mesh, those of the largest perimeter first, until none is left that a scheme bisects;
-/// after them, if the scheme is kResolving, valid triangles, those of the largest error_score() first.
+/// Bisects invalid triangles of a mesh, the largest perimeter first, until no triangle is left that the scheme bisects.
+/// If the scheme is kResolving, valid triangles follow, the largest error_score() first.
 class Bisection {
  public:
   /// `active`: nullptr for the whole surface. Options and active faces must outlive it.

@@ -17,8 +17,8 @@ inline constexpr double kScorePerError = 10.0;
 /// forms at its corners. The size is the root of its area in the metric, divided by the mesh's mean edge length.
 double error_score(const BisectedMesh& mesh, std::int32_t f);
 
-/// What the valid triangles of a mesh are like when bisection has ended, with `tolerance` as the largest score wanted.
-/// Throws Cancelled.
+/// Measures how well the valid triangles of a mesh resolve the metric when bisection has ended. `tolerance` is the
+/// largest score wanted. Throws Cancelled.
 Resolution measure_resolution(const BisectedMesh& mesh, double tolerance, const Task& task, double progress);
 
 }  // namespace seamwire::detail

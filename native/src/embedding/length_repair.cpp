@@ -30,8 +30,8 @@ std::int32_t longest_edge(const BisectedMesh& mesh, std::int32_t f) {
   return std::ranges::max(std::array{3 * f, 3 * f + 1, 3 * f + 2}, {}, key);
 }
 
-// Sets the length of the edge h from the middle of an edge to the apex: as measured, but within what the triangle
-// inequality leaves between the edge's halves and the other two sides.
+// Sets the length of the edge h from the middle of an edge to the apex. The measured length is clamped so that the
+// triangle inequality holds with the edge's halves and the other two sides.
 void set_clamped_length(BisectedMesh& mesh, std::int32_t h, double half, double next_side, double last_side,
                         LengthRepair& repair) {
   const double low = std::max(std::abs(half - next_side), std::abs(half - last_side));

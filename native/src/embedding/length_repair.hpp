@@ -24,8 +24,8 @@ struct LengthRepair {
 bool needs_length_repair(const BisectedMesh& mesh, const EmbedOptions& options, std::int32_t f);
 std::size_t count_needing_repair(const BisectedMesh& mesh, const EmbedOptions& options);
 
-/// Bisects each triangle that needs it once more, at its longest edge, and clamps the lengths of the new edges so that
-/// its parts are valid: docs/method/embedding.md, "Why it ends". Throws Cancelled.
+/// Bisects each triangle that needs it once more, at its longest edge. Clamps the lengths of the new edges so that its
+/// parts are valid (docs/method/embedding.md, "Why it ends"). Throws Cancelled.
 LengthRepair repair_lengths(BisectedMesh& mesh, const EmbedOptions& options, const Task& task, double progress);
 
 }  // namespace seamwire::detail

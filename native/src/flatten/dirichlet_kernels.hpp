@@ -4,9 +4,9 @@
 // turn into vector instructions. They are compiled for several instruction sets, and all of them give the same bits.
 //
 // A triangle's map is written in complex numbers: f(z) = p z + q conj(z), with z in the plane of the rest triangle.
-// The singular values of its Jacobian are |p| + |q| and |p| - |q|. If the hat function of corner k has the complex
-// derivative P_k, then p is the sum of P_k u_k and q the sum of conj(P_k) u_k over the corners' UVs u_k. The rest shape
-// is known by P_1 and P_2, because the three derivatives add up to zero.
+// The singular values of its Jacobian are |p| + |q| and |p| - |q|. Let P_k be the complex derivative of the hat
+// function of corner k, and u_k the corner's UV. Then p is the sum of P_k u_k, and q the sum of conj(P_k) u_k. The rest
+// shape is known by P_1 and P_2, because the three derivatives add up to zero.
 #pragma once
 
 #include <cstddef>
@@ -40,7 +40,7 @@ struct DirichletKernels {
   void (*energies)(const RestShapes& rest, const Sides& sides, std::size_t count, double* energies);
   /// All triangles have to be counter-clockwise.
   void (*derivatives)(const RestShapes& rest, const Sides& sides, std::size_t count, Derivatives& out);
-  /// Writes the least positive step along `moves` at which each triangle has no area; infinite if there is none (Smith
+  /// Writes the least positive step along `moves` at which each triangle has no area; infinite if it always has (Smith
   /// and Schaefer 2015, Section 3.3).
   void (*first_flips)(const Sides& sides, const Sides& moves, std::size_t count, double* steps);
 };

@@ -60,7 +60,7 @@ LocalPoints local_points(const Island& island, std::span<const Vector> points) {
   return local;
 }
 
-/// What is known of an island before it is mapped.
+/// The data of an island before it is mapped.
 class Problem {
  public:
   Problem(const Island& island, std::span<const Vector> points, const Task& task)
@@ -198,7 +198,7 @@ class Minimizer {
     }
   }
   const std::vector<double>& map() const { return map_; }
-  /// The last map without a barrier that is a good start with one; empty if there is none.
+  /// The last map without a barrier that is a good start with one; empty without such a map.
   const std::vector<double>& last_apart() const { return last_apart_; }
   std::size_t steps() const { return steps_; }
 

@@ -43,7 +43,7 @@ class Outline {
   };
   Slope slope(const Pair& pair, std::span<const double> map) const;
 
-  /// The least step in (0, most] along a direction at which a vertex meets an edge; `most` if there is none.
+  /// The least step in (0, most] along a direction at which a vertex meets an edge; `most` if they do not meet.
   double first_contact(std::span<const double> map, std::span<const double> direction, double most) const;
 
  private:

@@ -43,7 +43,7 @@ class SymmetricDirichlet {
   /// semidefinite (Smith, de Goes and Kim 2019), to the values of a matrix.
   void add_derivatives(std::span<const double> map, std::span<const TriangleBlocks> blocks, std::span<double> gradient,
                        std::span<double> values) const;
-  /// The least positive step along a direction at which a triangle has no area; infinite if there is none.
+  /// The least positive step along a direction at which a triangle has no area; infinite if all keep theirs.
   double first_flip(std::span<const double> map, std::span<const double> direction) const;
 
   /// Moves the rest shapes of strongly distorted triangles towards the map, so that no triangle's energy exceeds

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A path at once, in three steps:
-// 1. distances d from the seed along hops, as far as the target;
-// 2. from the target back, the vertices v of the corridor, those of the least d(v) + (distance along hops to the
-//    target): Hart, Nilsson, Raphael, "A Formal Basis for the Heuristic Determination of Minimum Cost Paths" (A*,
-//    1968), whose estimate is exact here, so that no vertex is looked at but those of the corridor and their
-//    neighbors;
-// 3. the exact wavefront over the triangles at those vertices, as a mesh of their own.
-// For a seed or a target within a face, the first two are from or to the corner of the face that is nearest. Where few
-// windows of a list go on, the third gives paths to all corners, and the path is the shortest one around these.
+// 1. Compute distances d from the seed along hops, as far as the target.
+// 2. Search back from the target for the corridor: the vertices v with the least d(v) + (distance along hops to the
+//    target). This is A* (Hart, Nilsson, Raphael, "A Formal Basis for the Heuristic Determination of Minimum Cost
+//    Paths", 1968). The estimate is exact here, so the search visits only the corridor and its neighbors.
+// 3. Run the exact wavefront over the triangles at those vertices, as a separate mesh.
+// If the seed or the target lies within a face, the first two steps use the nearest corner of that face. If only few
+// windows of a list are kept, the third step gives paths to all corners, and the path is the shortest one around these.
 #include "seamwire/geodesics/corridor_paths.hpp"
 
 #include <algorithm>
@@ -110,7 +109,7 @@ void CorridorPaths::Impl::find_corridor(const PlacedPoint& to, const Task& task)
   corridor.clear();
   queue.clear();
 
-  // What is farther from the seed than the target may not be known yet; then the rest of the path is at least as long.
+  // Distances beyond the target may not be known yet. The rest of the path is then at least as long.
   const float reach = from_seed.at(target);
   const auto length_over = [&](std::int32_t v) {
     return static_cast<double>(to_target[v]) + static_cast<double>(std::min(from_seed.at(v), reach));

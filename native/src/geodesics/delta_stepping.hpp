@@ -12,10 +12,10 @@
 
 namespace seamwire::detail {
 
-/// Distances along hops (GeodesicMesh::hops) from a seed, computed outwards as far as they are asked for, by
-/// delta-stepping: buckets of distances instead of a heap, whose vertices are settled in any order and, if need be,
-/// again (Meyer, Sanders, "Delta-stepping: a parallelizable shortest path algorithm", 2003). In single precision: they
-/// say where to look for a path, not how long it is.
+/// Distances along hops (GeodesicMesh::hops) from a seed, computed outwards as far as they are asked for.
+/// Delta-stepping keeps buckets of distances instead of a heap. The vertices of a bucket are settled in any order, and
+/// again if necessary (Meyer, Sanders, "Delta-stepping: a parallelizable shortest path algorithm", 2003). Single
+/// precision is enough, because distances only tell where to look for a path.
 class DeltaStepping {
  public:
   DeltaStepping(const GeodesicMesh& mesh, std::int32_t seed);

@@ -16,7 +16,7 @@ namespace seamwire::detail {
 namespace {
 
 /// A vertex that is flat up to rounding must not be a pseudo-source: every one of them would emit windows that nothing
-/// needs. What is lost behind a vertex with 1e-7 too much is of second order, 1e-14 of the length.
+/// needs. The error behind a vertex with 1e-7 too much is of second order, 1e-14 of the length.
 constexpr double kFlatness = 1e-7;
 
 /// Lengths computed from coordinates may miss the triangle inequality by rounding where the corners are in line.
@@ -163,8 +163,8 @@ double foot(double base, double left, double right) {
   return square / (2 * base);
 }
 
-/// Hops are in a unit of their own where the longest is longer than 2 to this, or shorter than the inverse: 2^80 times
-/// the number of vertices is still far below 2^128, where single precision ends.
+/// Hops have a separate unit if the longest is longer than 2 to this power, or shorter than the inverse. 2^80 times the
+/// number of vertices is still far below 2^128, where single precision ends.
 constexpr int kMostHopExponent = 80;
 
 /// What lengths are multiplied by to give those of hops: a power of two; 1, unless sums of them might leave the range
@@ -460,7 +460,8 @@ std::optional<GeodesicMesh> GeodesicMesh::patched(const IntrinsicMesh& before, c
   if (!before.siblings.empty() || !mesh.siblings.empty()) return std::nullopt;
   const auto vertices = index(mesh.vertex_count), former_vertices = vertex_count();
 
-  // What is other than before: by its own numbers, or because it, or what it names, gets another internal number.
+  // Entries that differ from before, because their numbers changed, or because they or what they name get another
+  // internal number.
   InsertionMap faces;
   const Poll comparing(task, 0.0, 0.5, common);
   for (std::size_t f = 0; f < common; ++f) {

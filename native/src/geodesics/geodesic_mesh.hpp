@@ -18,8 +18,8 @@ namespace seamwire::detail {
 
 /// The mesh as the wavefront reads it: every triangle unfolded into the frame of each of its half-edges, in one cache
 /// line each. Vertices and faces are renumbered breadth first, so that a front touches memory that lies together: they
-/// have an internal number here, and an external one in the IntrinsicMesh. All numbers are internal but where it is
-/// said.
+/// have an internal number here, and an external one in the IntrinsicMesh. All numbers are internal unless a comment
+/// says otherwise.
 ///
 /// The frame of a half-edge has its tail at the origin, its tip at (length, 0), its own triangle above and the triangle
 /// that paths come from below.

@@ -106,7 +106,7 @@ class Tracer {
     const std::size_t before = mesh_.vertex_count() + sources_.points().size();
     return static_cast<std::size_t>(source) < before ? nullptr : &crossings_[static_cast<std::size_t>(source) - before];
   }
-  /// The vertex or the point where a path began, whatever it came over.
+  /// The vertex or the point where a path began, whichever crossings it came over.
   std::int32_t origin(std::int32_t source) const {
     while (const SiblingCrossing* last = last_crossing(source)) source = last->source;
     return source;

@@ -22,9 +22,9 @@ IntrinsicPath trace_records(const SolvedDistances& solved, const std::vector<Tra
                             const std::vector<SiblingCrossing>& crossings, const PlacedPoint& target,
                             const Task& task = {});
 
-/// The shortest path from a source to a target, within the triangles at the vertices of paths between them, at the ends
-/// of the edges these cross and around the faces of source and target; all in internal numbers. Of `path` only the
-/// points count: it may be several, one after the other.
+/// The shortest path from a source to a target within a corridor: the triangles at the vertices of `path`, at the ends
+/// of the edges that it crosses, and around the faces of source and target. All numbers are internal. Only the points
+/// of `path` count, so it may be several paths, one after the other.
 IntrinsicPath shorten(const GeodesicMesh& mesh, SubmeshCutter& cutter, const IntrinsicPath& path,
                       const PlacedPoint& source, const PlacedPoint& target, const Task& task);
 

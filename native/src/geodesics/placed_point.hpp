@@ -41,7 +41,7 @@ inline Point2 position(const GeodesicMesh& mesh, std::int32_t h, const std::arra
   return {tip * edge.length + apex * edge.apex_x, apex * edge.apex_y};
 }
 
-/// Barycentric coordinates with the sum 1. Throws InvalidInput, which begins with `what`, for those that are none.
+/// Barycentric coordinates with the sum 1. Throws InvalidInput, which begins with `what`, if they are invalid.
 std::array<double, 3> checked_barycentric(const std::array<double, 3>& barycentric, const std::string& what);
 
 /// A SurfacePoint in internal numbers: a vertex, or a point in one face, or in all faces of an edge. Where faces have
@@ -58,8 +58,7 @@ struct PlacedPoint {
   static PlacedPoint at_vertex(std::int32_t v) { return {.vertex = v, .faces = {}}; }
   /// A point of one face, and of those on the other side of what edges it is on.
   static PlacedPoint in_face(const GeodesicMesh& mesh, const InFace& first);
-  /// Throws InvalidInput, which begins with `what`, for a vertex or a face out of range and for coordinates that are
-  /// none.
+  /// Throws InvalidInput, which begins with `what`, for a vertex or a face out of range and for invalid coordinates.
   static PlacedPoint of(const GeodesicMesh& mesh, const SurfacePoint& point, const std::string& what);
 
   PathPoint path_point() const;
@@ -75,8 +74,8 @@ struct PlacedPoint {
       }
     }
   }
-  /// Straight lines that leave its faces: calls enter(h, p, left) for each half-edge h that they enter a next face
-  /// over, in whose frame the point is p, below it; they leave their face over the half-edge `left`.
+  /// Follows straight lines out of its faces. Calls enter(h, p, left) for each half-edge h over which they enter a next
+  /// face. In the frame of h the point is p, below it. The lines leave their face over the half-edge `left`.
   template <class Enter>
   void for_each_exit(const GeodesicMesh& mesh, const Enter& enter) const {
     for (const InFace& in : faces) {

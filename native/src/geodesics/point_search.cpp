@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Distances between the vertices, from those at the vertices. A shortest path from a point p is straight until it meets
-// a vertex or a source, so the distance of p is the least sum of a straight line from p to a vertex and that vertex's
+// a vertex or a source. So the distance of p is the least sum of a straight line to a vertex and that vertex's
 // distance. The search sends beams from p over the surface, bounded by the vertices they have passed, nearest first.
 //
-// What makes it short: distances change by no more than one walks, so a path from p over the point x is not shorter
+// The search is short because distances change by no more than one walks. A path from p over the point x is not shorter
 // than |px| - |xv| + d(v) for any vertex v. Of the vertices that bound a beam, those beside the shortest path alone
 // leave room for a path that is not longer than the best one found. Beams away from it end after a few triangles.
 #include "geodesics/point_search.hpp"

@@ -11,7 +11,7 @@
 
 namespace seamwire::detail {
 
-/// What a solve has found, as far as points between the vertices need it.
+/// The results of a solve that points between the vertices need.
 struct SolvedDistances {
   const GeodesicMesh& mesh;
   const std::vector<double>& distances;  ///< exact, in external numbers
@@ -29,7 +29,7 @@ struct StraightStart {
   IntrinsicPath path;  ///< from the point to there, in internal numbers; its length is the straight part's
 };
 
-/// Finds the distance of a point that is no vertex, and how its shortest path begins.
+/// Finds the distance of a point between the vertices, and how its shortest path begins.
 StraightStart find_straight_start(const SolvedDistances& solved, const PlacedPoint& point, const Task& task);
 
 }  // namespace seamwire::detail

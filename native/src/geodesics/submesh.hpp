@@ -11,11 +11,11 @@
 
 namespace seamwire::detail {
 
-/// Triangles of a mesh as a mesh of their own, without hops. Its external numbers are its internal ones. Paths may bend
-/// at its border as at any other boundary; on the whole mesh they are paths all the same.
+/// Some triangles of a mesh as a separate mesh, without hops. Its external numbers are its internal ones. Paths may
+/// bend at its border as at any other boundary; on the whole mesh they are paths all the same.
 struct Submesh {
   std::shared_ptr<const GeodesicMesh> mesh;
-  std::vector<std::int32_t> vertices, faces;  ///< the whole mesh's number of each of its own
+  std::vector<std::int32_t> vertices, faces;  ///< the number of each in the whole mesh
 };
 
 /// Cuts submeshes out of a mesh, in time proportional to their size. The mesh has to outlive the cutter.

@@ -12,8 +12,8 @@ struct TraceRecord {
   /// face. Along an edge: x is its length.
   double x = 0.0, y = 0.0;
   std::int32_t half_edge = kNone;  ///< crossed last (>= 0); ~h: straight along half-edge h; kNone: the seed, or none
-  /// The vertex the path runs straight from; the number of vertices plus k: the point in a face that is source k; the
-  /// number of vertices and sources plus k: whatever crossing k came from.
+  /// The vertex from which the path runs straight. The number of vertices plus k stands for source k, a point in a
+  /// face. The number of vertices and sources plus k stands for the origin of crossing k.
   std::int32_t source = -1;
 
   static constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::min();

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The triangle-oriented wavefront of Qin, Han, Yu, Yu, Zhang, "Fast and Exact Discrete Geodesic Computation Based on
-// Triangle-Oriented Wavefront Propagation" (2016), with the window filter of Xin, Wang, "Improving Chen and Han's
+// The triangle-oriented wavefront (Qin, Han, Yu, Yu, Zhang, "Fast and Exact Discrete Geodesic Computation Based on
+// Triangle-Oriented Wavefront Propagation", 2016). The window filter is by Xin, Wang, "Improving Chen and Han's
 // Algorithm on the Discrete Geodesic Problem" (2009).
 //
 // A window says: through the interval [b0, b1] of this half-edge the source (x, y) is seen in a straight line, when the
 // triangles in between are unfolded. The front carries lists of windows from triangle to triangle, vertex by vertex in
 // the order of their distance. A shortest path may bend at pseudo-sources only (GeodesicMesh::is_pseudo_source), which
 // emit windows themselves, and so do sources, vertices and points in faces. Windows that no shortest path can come
-// through are dropped. Those that stay may overlap: only neighbors in a list are compared, and only on the edge itself.
-// Sources emit windows (window_emission), lists are sorted and pruned (window_pruning) and cross triangles
-// (triangle_crossing). The arithmetic is in window_kernels.
+// through are dropped. The remaining windows may overlap, because only neighbors in a list are compared, and only on
+// the edge itself. Sources emit windows (window_emission), lists are sorted and pruned (window_pruning) and cross
+// triangles (triangle_crossing). The arithmetic is in window_kernels.
 //
 // A path through what is dropped is longer than another path, or as long up to rounding. In the latter case a sliver
 // may be lost, next to a path of the same length.
 //
 // Over an edge with siblings (IntrinsicMesh::siblings) windows go on into every other face at it. None of the rules
 // depends on the number of faces below a list's edge. The filter and the comparison of neighbors look only at points of
-// that edge. "One angle, two sides" looks only at paths within the triangle above it: a ray that crosses the shortest
-// path to the apex there is no shorter behind the crossing, wherever the two come from. A list is sorted before its
-// windows are compared, so they may arrive in any order.
+// that edge. The rule "one angle, two sides" looks only at paths within the triangle above it. A ray that crosses the
+// shortest path to the apex there is no shorter behind the crossing, wherever the two come from. A list is sorted
+// before its windows are compared, so they may arrive in any order.
 #include "geodesics/wavefront.hpp"
 
 #include <algorithm>
@@ -187,8 +187,8 @@ class Wavefront {
     }
     ready.clear();
   }
-  /// Nearest first, so that of sources that lie behind each other each emits once; in another order a source that is
-  /// relaxed by many others in turn would relax as many behind it each time, and so on.
+  /// Nearest first, so that of sources that lie behind each other each emits once. In another order many sources may
+  /// relax the same source in turn, and it would then relax all sources behind it each time.
   void emit_again() {
     while (!front_.improved_sources().empty()) {
       const std::int32_t v = front_.improved_sources().pop();

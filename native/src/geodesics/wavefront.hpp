@@ -12,7 +12,7 @@
 
 namespace seamwire::detail {
 
-/// What a solve finds, one entry for each vertex of the GeodesicMesh.
+/// The result of a solve, one entry for each vertex of the GeodesicMesh.
 struct WavefrontResult {
   std::vector<double> distances;
   std::vector<TraceRecord> records;
@@ -28,10 +28,12 @@ struct WavefrontEnd {
   std::vector<PlacedPoint> targets;  ///< none: at max_distance only
 };
 
-/// Distances from the nearest of some sources to all vertices. `windows_kept`: 0, or the number of windows of a list
-/// that go on: those around the one that is shortest at the apex, the outer two stretched over what the others covered.
-/// 0 keeps all and is exact; otherwise distances are approximate, and records only say roughly where the path comes
-/// from, but every vertex that is connected to a source has both. Throws Cancelled.
+/// Distances from the nearest of some sources to all vertices. Throws Cancelled.
+///
+/// `windows_kept` is the number of windows of a list that go on. 0 keeps all and is exact. Otherwise the windows around
+/// the one that is shortest at the apex are kept, and the outer two are stretched over what the others covered. Then
+/// distances are approximate, and records only tell roughly where the path comes from. But every vertex that is
+/// connected to a source has both.
 WavefrontResult propagate_wavefront(const GeodesicMesh& mesh, const SourcePoints& sources, const Task& task,
                                     std::uint32_t windows_kept = 0, const WavefrontEnd& end = {});
 /// The same from a vertex.

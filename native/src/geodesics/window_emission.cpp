@@ -42,7 +42,7 @@ void WindowEmission::emit(std::int32_t v) {
 }
 
 /// The corner in which the shortest path arrives at v, named by the half-edge that leaves v there, and its angle from
-/// that half-edge; -1 at a source and where it comes along a loose edge.
+/// that half-edge. -1 at a source, and if the path comes along a loose edge.
 std::pair<std::int32_t, double> WindowEmission::arrival_at(std::int32_t v) const {
   const TraceRecord& record = front_.record(v);
   if (is_next_to_source(v, record)) return {-1, 0.0};

@@ -62,8 +62,8 @@ SEAMWIRE_INLINE void compare_all(const Pairs& pairs, std::size_t count) {
     const bool i_wins = (more0 <= 0) & (more1 <= 0) & (is_monotone | (yi > yj) | ((gap > 0) & is_gap_wide));
     const bool j_wins = (more0 >= 0) & (more1 >= 0) & (is_monotone | (yi < yj) | ((gap < 0) & is_gap_wide)) & !i_wins;
     // Where both are equally far, d_i + |s_i - b| = d_j + |s_j - b|, squared twice. One of the roots belongs to the
-    // equation's mirror image; of two in the interval it is the one that misses the condition under which squaring
-    // loses nothing: p b + q = gap |s_j - b|, and gap + |s_j - b| is not negative.
+    // equation's mirror image. If both lie in the interval, it is the one that does not fulfill p b + q = gap |s_j - b|
+    // with gap + |s_j - b| not negative.
     const double p = xj - xi, q = 0.5 * (norm_i - norm_j - gap2);
     const double a = p * p - gap2, b = p * q + gap2 * xj, c = q * q - gap2 * norm_j;
     const double root = std::sqrt(most(b * b - a * c, 0.0));

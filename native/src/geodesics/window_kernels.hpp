@@ -17,7 +17,7 @@ namespace seamwire::detail {
 inline constexpr double kLeastWidth = 1e-12;
 /// Two windows are compared once their overlap is this part of the narrower one: less is not worth the roots.
 inline constexpr double kLeastOverlap = 0.5;
-/// Where a window's path to the apex bends, and closer to an end of the base than this part of it, it is the path over
+/// A window's path to the apex may bend closer to an end of the base than this fraction of it. It is then the path over
 /// that end, whose length is known better from the end itself.
 inline constexpr double kCornerWidth = 1e-9;
 
@@ -74,7 +74,7 @@ struct Pairs {
   }
 };
 
-/// What becomes of windows that cross a side; their distances and sources stay as they were.
+/// The windows that result where windows cross a side. Their distances and sources do not change.
 struct ChildWindows {
   static constexpr std::size_t kColumns = 4;
   double *b0, *b1, *x, *y;

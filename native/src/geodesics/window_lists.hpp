@@ -12,8 +12,9 @@
 
 namespace seamwire::detail {
 
-/// Windows side by side, an array a field: the interval [b0, b1] of a half-edge through which a source is seen, the
-/// source unfolded into the half-edge's frame (y < 0), its distance and its vertex. A view: somebody else's memory.
+/// Windows side by side, with an array for each field: the interval [b0, b1] of a half-edge through which a source is
+/// seen, the source unfolded into the half-edge's frame (y < 0), its distance and its vertex. This is a view of another
+/// owner's memory.
 struct Windows {
   double *b0, *b1, *x, *y, *distance;
   std::int32_t* source;
@@ -60,7 +61,7 @@ struct WindowBlock {
 class WindowBlocks {
  public:
   static constexpr std::uint32_t kSmallest = 8;
-  /// So many entries may be read, whatever they are, behind the last window of a list.
+  /// So many entries behind the last window of a list may be read. Their values do not matter.
   static constexpr std::size_t kPadding = 8;
 
   WindowBlock take(std::size_t at_least) {

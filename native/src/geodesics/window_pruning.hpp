@@ -38,8 +38,8 @@ class WindowPruning {
 
 // Used for each list, and so inline.
 
-/// Cuts the windows of pairs, the left and the right one, back to where they are nearer than the other. What is cut
-/// off is reached sooner by a path that exists, whatever becomes of its window, so all pairs can be compared at once.
+/// Cuts the windows of pairs, the left and the right one, back to where they are nearer than the other. Parts that are
+/// cut off are reached sooner by an existing path, even if its own window is cut. So all pairs can be compared at once.
 template <class PairAt>
 inline void WindowPruning::compare_pairs(const Windows& w, std::size_t count, const PairAt& pair_at) {
   const std::size_t stride = count + kPadding;

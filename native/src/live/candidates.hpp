@@ -32,10 +32,10 @@ LiveCandidate snapped_candidate(const Prepared& prepared, Wire wire, const Task&
 LiveCandidate candidate_between(const Prepared& prepared, Wire wire, const WireEnd& seed, const WireEnd& target,
                                 const Task& task = {});
 
-/// The wire of a field to a target; without points if there is none. Throws Cancelled.
+/// The wire of a field to a target; without points if no wire leads there. Throws Cancelled.
 Wire wire_of(const SeedSolution& solution, const WireEnd& target, const Task& task = {});
 
-/// The candidate of a solution to a target; without points if there is none. It is not marked as final.
+/// The candidate of a solution to a target; without points if no wire leads there. It is not marked as final.
 LiveCandidate candidate_of(const SeedSolution& solution, const WireEnd& target);
 
 }  // namespace seamwire::detail

@@ -25,7 +25,7 @@ struct BendPlace {
 };
 
 /// Finds the closed wires through a point in the metrics of a live wire, and bends them. Keeps what it found for one
-/// point, so that the next question about it is answered at once. For one thread at a time; has none of its own.
+/// point, so that the next question about it is answered at once. For one thread at a time. It starts no threads.
 class ClosedCutSearch {
  public:
   using Show = std::function<void(LiveClosedWires)>;
@@ -46,7 +46,7 @@ class ClosedCutSearch {
     DistanceField field;
     std::vector<ClosedWire> cuts;
   };
-  /// The closed wires through a point, as far as they were asked for, and what bends one of them.
+  /// The closed wires through a point, as far as they were requested, and the object that bends one of them.
   struct Around {
     WireEnd through;
     std::vector<std::optional<InMetric>> in;  // of the metrics

@@ -10,8 +10,8 @@
 
 namespace seamwire::detail {
 
-/// Objects that are no longer needed and take long to free. Callers hand them over; a worker frees them, so that no
-/// caller waits for that.
+/// Discarded objects that take long to free. Callers hand them over; a worker frees them, so that no caller waits for
+/// that.
 class Discards {
  public:
   using Objects = std::vector<std::shared_ptr<const void>>;

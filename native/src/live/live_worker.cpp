@@ -92,7 +92,7 @@ LiveWorker::Known LiveWorker::wire(const WireEnd& target) {
   return {.candidate = std::move(candidate), .first_length = length};
 }
 
-/// Euclidean lengths are exact in any embedding, and along edges there is none.
+/// Euclidean lengths are exact in any embedding, and wires along edges have no embedding.
 bool LiveWorker::refines() const {
   if (settings_.along != Along::kSurface || settings_.max_error == 0) return false;
   const std::shared_ptr<const SeedRequest> newest = seeds_.newest();
@@ -167,7 +167,7 @@ bool LiveWorker::build_surface() {
   }
 }
 
-/// Does one job; false if there is none.
+/// Does one job; returns false if no job waits.
 bool LiveWorker::work() {
   if (!discards_.take().empty()) return true;
   if (const std::optional<SeedBox::Job> job = seeds_.take()) {

@@ -24,7 +24,7 @@
 
 namespace seamwire::detail {
 
-/// What a closed wire leads through: along edges an edge, across the surface one point, or two.
+/// The place that a closed wire leads through: an edge (along edges), or one or two points (across the surface).
 using LoopPlace = std::variant<Edge, WireEnd, BendPlace>;
 /// The closed wires: along edges one chain, across the surface cuts.
 using LoopAnswer = std::variant<EdgeChain, LiveClosedWires>;
@@ -51,7 +51,7 @@ class LiveWorker {
   /// Drops the solution of the former seed. The caller has checked the seed; an edge only if there is a surface.
   void seed(const WireEnd& seed, bool forward);
 
-  /// What is known of a wire now.
+  /// The current knowledge of a wire.
   struct Known {
     std::optional<LiveCandidate> candidate;                         ///< nullopt: nothing yet
     double first_length = std::numeric_limits<double>::infinity();  ///< of the wire before it is refined

@@ -113,11 +113,11 @@ LiveSettings settings_of(const LiveWireOptions& options) {
 
 }  // namespace
 
-/// What the members of a LiveWire have in common.
+/// The state that the members of a LiveWire share.
 struct LiveWire::Impl {
   using Workers = std::vector<std::shared_ptr<LiveWorker>>;
 
-  /// What was set last.
+  /// The settings that were made last.
   struct State {
     std::shared_ptr<MetricSet> metrics;
     Workers workers;  // one for each metric, or more: metrics may have become fewer

@@ -15,7 +15,7 @@
 
 namespace seamwire::detail {
 
-/// What one thread asks another to do: the newest request counts, and what is done for an older one is stopped.
+/// Requests of one thread to another. Only the newest request counts, and work for an older one is stopped.
 ///
 /// One thread posts requests and reads answers, another takes jobs and answers them. Neither waits in a member.
 /// Requests and answers that are replaced go to `discards`, because freeing them may take long.
@@ -28,9 +28,9 @@ class Mailbox {
     std::shared_ptr<const Request> request;
     std::stop_token stop;  ///< requested once the answer is no longer wanted
   };
-  /// What is known of the requests.
+  /// The current state of the requests.
   struct Reading {
-    std::shared_ptr<const Answer> answer;  ///< the last one that was kept; null if there is none
+    std::shared_ptr<const Answer> answer;  ///< the last one that was kept, or null
     std::int64_t number = 0;               ///< of the request that it answers
     bool is_newest = false;                ///< whether that is the newest request
     bool is_finished = true;               ///< whether the newest request needs no more work

@@ -16,13 +16,13 @@
 #include "seamwire/edges/edge_graph.hpp"
 #include "seamwire/live/livewire.hpp"
 
-/// What a live wire computes before there is a seed, each part once, whoever asks for it first.
+/// The parts that a live wire computes before the first seed. Each is computed once, when it is first needed.
 namespace seamwire::detail {
 
 /// Fractions of the first seed's work, preparation included, at which its parts begin.
 inline constexpr double kEmbedBegins = 0.1, kSolveBegins = 0.5;
 
-/// What one metric needs for any seed: along edges the last, across the surface the others.
+/// The data that one metric needs for any seed: the last member along edges, the others across the surface.
 struct Prepared {
   MetricSpec spec;
   std::shared_ptr<const Surface> surface;
@@ -43,7 +43,7 @@ class MetricSet {
   std::size_t count() const { return metrics.wires.size(); }
   /// Whether the wire of the first metric is offered first, whichever is shorter.
   bool first_leads() const;
-  /// What is prepared of a metric; null if it is not, or there is no such metric.
+  /// The prepared data of a metric; null if it is not prepared, or does not exist.
   std::shared_ptr<const Prepared> peek(std::size_t metric) const;
   /// Fraction of a metric's preparation that is done; 0 if there is no such metric.
   double fraction(std::size_t metric) const;

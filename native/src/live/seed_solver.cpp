@@ -69,8 +69,8 @@ void SeedSolver::make_way(const std::stop_token& stop) {
   if (makes_way_) right_of_way_->wait(stop);
 }
 
-/// Finds wires to the targets that are asked for meanwhile between the steps of the search for the field. A thread of
-/// its own would take turns with the search all the same.
+/// Finds wires to the targets that are asked for meanwhile between the steps of the search for the field. A separate
+/// thread would still take turns with the search.
 std::shared_ptr<const SeedSolution> SeedSolver::find_field(const SeedBox::Job& job,
                                                            const std::shared_ptr<const Prepared>& prepared, Task task) {
   const EmbeddedSurface& on = *prepared->embedded;

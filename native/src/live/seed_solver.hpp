@@ -18,7 +18,7 @@
 
 namespace seamwire::detail {
 
-/// How wires run, whatever the metric.
+/// Settings of wires in every metric.
 struct LiveSettings {
   Along along;
   double turning;

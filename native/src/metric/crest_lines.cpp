@@ -111,8 +111,8 @@ std::array<double, 3> form_in(const Eigen::Vector2d& d, double k1, double k2) {
   return {k1 * x * x + k2 * y * y, (k1 - k2) * x * y, k1 * y * y + k2 * x * x};
 }
 
-// At each vertex the derivatives of k1 along d1 and of k2 along d2: those of the form with all three arguments the same
-// principal direction, for the change of d1 itself lies along d2, and the form of both is zero.
+// At each vertex the derivatives of k1 along d1 and of k2 along d2. They are the derivatives of the form with the same
+// principal direction in all three arguments: the change of d1 itself lies along d2, and the form of both is zero.
 struct Extremalities {
   std::vector<double> e1, e2;
 };
@@ -399,7 +399,7 @@ class Tracer {
         if (is_used[s] == 0 && at_edge[side][1] == -1) follow(static_cast<std::int32_t>(s), side);
       }
     }
-    // What is left is closed.
+    // The remaining lines are closed.
     for (std::size_t s = 0; s < segments_.size(); ++s) {
       if (is_used[s] == 0) follow(static_cast<std::int32_t>(s), segments_[s].sides[0]);
     }

@@ -121,8 +121,8 @@ std::vector<Vector> fan_normals(const Surface& surface, const Task& task) {
   return normals;
 }
 
-// For each fan 1 or -1: fans of one vertex need not agree on which side of the surface is outside (where a one-sided
-// surface is cut they cannot), so the vertex takes the side of the first that has a normal.
+// For each fan 1 or -1. Fans of one vertex need not agree on which side of the surface is outside, and where a
+// one-sided surface is cut they cannot. So the vertex takes the side of the first fan that has a normal.
 struct VertexNormals {
   std::vector<Vector> normals;
   std::vector<signed char> side_of_fan;

@@ -17,8 +17,9 @@ using namespace detail;
 
 namespace {
 
-// Differences of curvature up to this fraction of the largest curvature (and of 1, the curvature of a sphere as wide as
-// the model is) are rounding: planes and spheres have no features to scale a metric by.
+// Differences of curvature up to this fraction of the largest curvature count as rounding. So do differences up to this
+// fraction of 1, the curvature of a sphere as wide as the model. Planes and spheres have no features to scale a metric
+// by.
 constexpr double kNoDifference = 1e-9;
 
 // Smallest beta, as a fraction of the largest k1^2: where k1 = k2 = 0 the norm would vanish without it.

@@ -32,7 +32,7 @@ namespace {
 // A point may be this far from its face, as a fraction of the model's longest side: a smoothed stroke leaves the faces
 // a little, coordinates of another space are far off.
 constexpr double kOffMesh = 0.05;
-// How much dearer it is for the chain of vertices between two points to be off the line than to be long.
+// How much more it costs the chain of vertices between two points to be off the line than to be long.
 constexpr double kOffLine = 4.0;
 // The chain may leave the line between two points by that line's length, and by this many edges.
 constexpr double kCorridor = 4.0;
@@ -40,12 +40,12 @@ constexpr double kCorridor = 4.0;
 constexpr std::size_t kMostLookedAt = 50'000;
 // A segment that stays this close to a triangle's edge, in barycentric coordinates, is not inside.
 constexpr double kInside = 1e-6;
-// A direction shorter than this fraction of what it is projected from is none.
+// A projected direction shorter than this fraction of the original does not count as a direction.
 constexpr double kNoDirection = 1e-6;
 
 std::string name(std::size_t scribble) { return "scribble " + std::to_string(scribble); }
 
-/// What is around a vertex.
+/// The surroundings of a vertex.
 class Neighbors {
  public:
   explicit Neighbors(const Surface& surface) : surface_(surface) {
@@ -287,9 +287,9 @@ std::vector<std::int32_t> Scribbler::join(std::int32_t from, std::int32_t to, co
   return {};
 }
 
-// The corners of the triangles that the stroke crosses, and the vertices it runs along, each once. All corners, not the
-// nearest ones alone: tensors that differ at the corners of one triangle make up a metric there that is neither's, and
-// the wire would leave the stroke by most of an edge.
+// The corners of the triangles that the stroke crosses, and the vertices it runs along, each once. All corners count,
+// not only the nearest ones. If the tensors at the corners of a triangle differ, the metric in it follows neither of
+// them, and the wire would leave the stroke by most of an edge.
 std::vector<Reached> Scribbler::along(const Scribble& given, const std::vector<Vector>& points, const DrawnLine& line) {
   std::vector<Reached> reached;
   std::vector<std::pair<std::int32_t, std::size_t>> found;  // a vertex and the segment it was found for
@@ -340,8 +340,8 @@ bool Scribbler::direct(const DrawnLine& line, Reached& reached) const {
   return true;
 }
 
-// The vertices next to a ring, with the mean of the directions there, as lines without a sense, turned onto their own
-// tangent planes. marks_ numbers the `known` vertices of all rings so far.
+// The vertices next to a ring, with the mean of the directions there. Directions are lines without a sense, turned onto
+// the tangent plane of each vertex. marks_ numbers the `known` vertices of all rings so far.
 std::vector<Reached> Scribbler::next_ring(const std::vector<Reached>& ring, const DrawnLine& line, std::size_t known) {
   struct Sum {
     Vector u, v;                    // basis of the tangent plane

@@ -58,7 +58,7 @@ std::vector<double> openness(const PlanMesh& mesh, const Visibility& visibility,
   return both;
 }
 
-/// What a place costs for how visible it is.
+/// The price of a place, by its visibility.
 double price_at(double open) {
   const double seen = kHidden + (1.0 - kHidden) * std::pow(std::min(open, kMostOpen), 3);
   const double face = ramp(open, kFace, kFaceWidth);

@@ -13,7 +13,7 @@
 
 namespace seamwire::detail {
 
-/// What a seam costs along each edge of a mesh.
+/// The price of a seam along each edge of a mesh.
 ///
 /// The price is the edge's length times how visible it is. Sharp edges, ridges of thin parts and hollows are cheaper.
 /// Faces with eyes, lips and a nose are open to the front and to the sky alike, and are several times as expensive.

@@ -12,7 +12,7 @@ namespace seamwire::detail {
 /// A closed cut around a limb, with its mirror image.
 struct NeckRing {
   std::vector<std::int32_t> loop;   ///< vertices in order, each once
-  std::vector<std::int32_t> image;  ///< empty if there is none
+  std::vector<std::int32_t> image;  ///< empty without a mirror image
   double narrowness = 0.0;          ///< how many times longer a ring a little farther on, either way, is
   double area = 0.0;                ///< what it parts, as a share of the surface
 };

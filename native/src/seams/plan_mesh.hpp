@@ -45,7 +45,7 @@ struct PlanMesh {
   std::int32_t start(std::int32_t half_edge) const { return triangles[half_edge / 3][half_edge % 3]; }
   std::int32_t end(std::int32_t half_edge) const { return triangles[half_edge / 3][(half_edge + 1) % 3]; }
   bool is_boundary(std::int32_t edge) const { return twins[half_edge_of[edge]] < 0; }
-  /// The real edge between two vertices, the one with the smaller number if there are two; -1 if there is none.
+  /// The real edge between two vertices, the one with the smaller number if there are two; -1 if they have no edge.
   std::int32_t edge_between(std::int32_t a, std::int32_t b) const;
 };
 
@@ -70,7 +70,7 @@ std::vector<Vector> vertex_normals(const PlanMesh& mesh, std::span<const FaceFra
 /// A third of the area of the triangles around each vertex.
 std::vector<double> vertex_areas(const PlanMesh& mesh, std::span<const FaceFrame> frames);
 
-/// The median length of the edges; 0 if there are none.
+/// The median length of the edges; 0 without edges.
 double median_length(const PlanMesh& mesh);
 
 /// The connected pieces of a mesh that is cut along some edges: the piece of each face, numbered by first faces.

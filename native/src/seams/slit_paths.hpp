@@ -34,9 +34,9 @@ class TurningPaths {
   template <class EdgePrice>
   void find(std::span<const std::uint8_t> from, const EdgePrice& edge_price, double turning, std::int32_t until);
 
-  /// The price of the path to a vertex: 0 at a start, infinite if there is none.
+  /// The price of the path to a vertex: 0 at a start, infinite if no path leads there.
   double price(std::int32_t vertex) const { return price_[vertex]; }
-  /// The vertices of the path to a vertex; empty if there is none.
+  /// The vertices of the path to a vertex; empty if no path leads there.
   std::vector<std::int32_t> path(std::int32_t vertex) const;
 
  private:
@@ -110,9 +110,9 @@ class SlitPaths {
   SlitPaths(const PlanMesh& mesh, const EdgePrices& prices, const Reflection* reflection,
             std::span<const std::uint8_t> from, std::span<const std::uint8_t> ends, const Rules& rules);
 
-  /// The price of the path to a vertex: 0 on the cut, infinite if there is none.
+  /// The price of the path to a vertex: 0 on the cut, infinite if no path leads there.
   double price(std::int32_t vertex) const { return paths_.price(vertex); }
-  /// The vertices of the path, from the cut to a vertex; empty if there is none.
+  /// The vertices of the path, from the cut to a vertex; empty if no path leads there.
   std::vector<std::int32_t> path(std::int32_t vertex) const { return paths_.path(vertex); }
 
  private:
@@ -120,8 +120,8 @@ class SlitPaths {
 };
 
 /// The cheapest chain of edges from one vertex to another along a line of points: at `spread` from the line an edge
-/// costs twice its price, farther away still more. Except at its ends the chain avoids `barred` vertices. Empty if
-/// there is none.
+/// costs twice its price, farther away still more. Except at its ends the chain avoids `barred` vertices. Empty if no
+/// chain exists.
 std::vector<std::int32_t> chain_along(const PlanMesh& mesh, std::span<const Vector> line, double spread,
                                       std::int32_t from, std::int32_t to, std::span<const std::uint8_t> barred,
                                       const EdgePrices& prices);

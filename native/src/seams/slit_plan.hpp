@@ -19,7 +19,7 @@ namespace seamwire::detail {
 /// A crack in the surface, with its mirror image.
 struct Slit {
   std::vector<std::int32_t> path;   ///< vertices from the cut outwards
-  std::vector<std::int32_t> image;  ///< the same on the other side of the mirror plane; empty if there is none
+  std::vector<std::int32_t> image;  ///< the same on the other side of the mirror plane, or empty
   /// Whether it has to stay whole: it is needed for a piece to be a disc.
   bool is_needed = false;
 };
@@ -46,7 +46,7 @@ struct SlitProblem {
   std::vector<double> areas;         ///< of the mesh's triangles
 
   const Reflection* mirror() const { return reflection ? &*reflection : nullptr; }
-  /// What a chain of edges costs.
+  /// The price of a chain of edges.
   double price(std::span<const std::int32_t> chain) const;
   double price(const Slit& slit) const;
 };

@@ -54,7 +54,7 @@ struct Cutback {
   }
 };
 
-/// What is known of a plan that was tried.
+/// The results of a plan that was tried.
 struct Trial {
   double energy = kNever;
   double price = 0.0;
@@ -176,7 +176,7 @@ std::vector<Slit> Search::candidates(const SlitPlan& plan, bool is_thorough) con
   return found;
 }
 
-/// What a plan gains over another one, down to a bound on the energy, for what it costs more.
+/// The gain of a plan over another one, down to a bound on the energy, divided by the additional cost.
 double Search::gain_ratio(const SlitPlan& before, const Trial& after, double bound) const {
   const double price = std::max(after.price - before.price, 0.0) + kChoicePrice * problem_.prices.of_slit;
   const double whole = (before.energy - after.energy) / price;

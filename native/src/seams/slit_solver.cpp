@@ -34,7 +34,7 @@ SlitPlan SlitSolver::solve_changed(std::vector<Slit> slits, const SlitPlan& befo
                                    std::span<const std::int32_t> pieces, double most, const Task& task) const {
   SlitPlan plan{.slits = std::move(slits), .maps = before.maps};
   const Cut cut = cut_of(problem_, plan.slits, roots_);
-  // What the energies of the solved pieces may add up to depends on the others.
+  // The bound on the energies of the solved pieces depends on the others.
   double others = 0.0, area = 0.0, all_before = 0.0;
   for (std::size_t p = 0; p < plan.maps.size(); ++p) {
     area += problem_.by_piece[p].area;

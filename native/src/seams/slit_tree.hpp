@@ -18,9 +18,9 @@ struct SlitTree {
 /// Slits that make every piece a disc, and, with `has_tips`, lead to the tips of its limbs.
 ///
 /// Tips are local maxima of the mean geodesic distance (Hilaga et al. 2001). Handles are cut along the shortest loops
-/// (Erickson and Whittlesey 2005). From the boundary, or from a hidden vertex in the middle of a closed piece, slits
-/// lead to further boundary loops and tips, each time to the one that is cheapest to reach. On several threads. Throws
-/// Cancelled.
+/// (Erickson and Whittlesey 2005). Slits start at the boundary, or at a hidden vertex in the middle of a closed piece.
+/// They lead to further boundary loops and tips, each time to the one that is cheapest to reach. It uses several
+/// threads. Throws Cancelled.
 SlitTree grow_tree(const SlitProblem& problem, bool has_tips, const Task& task);
 
 }  // namespace seamwire::detail

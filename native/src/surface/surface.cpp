@@ -315,8 +315,8 @@ void cut_unorientable(const Faces& faces, const std::vector<bool>& flipped, Glui
   std::ranges::sort(cut);
 }
 
-// Corners of one vertex whose faces are glued to each other around it, numbered in the order of their vertices, so
-// that on a clean mesh the numbers of fans and vertices are the same.
+// Corners of one vertex whose faces are glued to each other around it. Fans are numbered in the order of their
+// vertices, so on a clean mesh the numbers of fans and vertices agree.
 struct Fans {
   std::vector<Index> of_corner;
   std::vector<Index> vertex;
@@ -363,9 +363,9 @@ Fans find_fans(std::size_t vertex_count, const Faces& faces, const std::vector<I
   return fans;
 }
 
-// Links the half-edges directly. OpenMesh's add_face() finds edges by their end points, so it would glue or refuse two
-// edges between the same two fans, which the slit along a cut edge has; half-edges as such hold them. Every fan is one
-// disk or half-disk by construction, so that nothing here can fail.
+// Links the half-edges directly. OpenMesh's add_face() finds edges by their end points. The slit along a cut edge has
+// two edges between the same two fans, and add_face() would glue or refuse them. Half-edges can represent them. Every
+// fan is one disk or half-disk by construction, so nothing here can fail.
 void link_half_edges(const std::vector<Vector>& points, const Faces& faces, const std::vector<Index>& twin,
                      const std::vector<bool>& flipped, const Fans& fans, HalfEdgeMesh& mesh, const Task& task) {
   using OpenMesh::FaceHandle;

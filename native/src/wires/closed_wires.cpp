@@ -46,8 +46,8 @@ constexpr double kFartherThanBest = 1.0;
 constexpr double kMostTurn = 2.0;
 /// How much a minimum of J lies below the pass to a lower one.
 constexpr double kLeastPersistence = 0.05;
-/// What the angles of a loop's triangle (the seed and the ends of the edge) are more than those of a flat one: the
-/// curvature that it encloses (Gauss-Bonnet), at least.
+/// The least excess of the angles of a loop's triangle (the seed and the ends of the edge) over those of a flat
+/// triangle. The excess is the curvature that the loop encloses (Gauss-Bonnet).
 constexpr double kLeastExcess = 0.5;
 /// Of a loop's length: how far the middles of its two halves are from each other at least, and two loops on average.
 constexpr double kLeastWidth = 0.02, kLeastApart = 0.03;
@@ -386,9 +386,9 @@ std::vector<CutLocus::Rated> CutLocus::minima(std::vector<Rated> rated) const {
   return lasting;
 }
 
-/// Points of the embedding on a sphere about the place on an edge at which wires over its ends are equally long: where
-/// the sphere crosses edges, between these places in each triangle, and towards what is beyond it of the triangles at
-/// the edge.
+/// Points of the embedding on a sphere about the place on an edge at which wires over its ends are equally long. These
+/// are the points where the sphere crosses edges, points between them in each triangle, and points of the triangles at
+/// the edge towards their parts beyond the sphere.
 std::vector<SurfacePoint> CutLocus::around(std::int32_t half_edge, double radius) const {
   const auto point = [this](std::int32_t v) { return Vector(unit_ * embedding_.points[v]); };
   const std::int32_t a = mesh_.tail(half_edge), b = mesh_.tip(half_edge);

@@ -19,9 +19,9 @@ class LoopParts {
   /// Takes time proportional to the mesh. Throws Cancelled.
   LoopParts(const IntrinsicMesh& mesh, const std::vector<double>& distances, const Task& task);
 
-  /// Cuts the mesh along the edges of the loop that a half-edge closes, and returns for each face and hole whether it
-  /// is connected to the face of the half-edge (kLeft), only to what lies beyond the half-edge (kRight), or to neither.
-  /// Nothing is kRight where the loop does not separate.
+  /// Cuts the mesh along the edges of the loop that a half-edge closes. Returns for each face and hole whether it is
+  /// connected to the face of the half-edge (kLeft), only to the other side (kRight), or to neither. Nothing is kRight
+  /// if the loop does not separate.
   std::vector<std::uint8_t> side_of(std::int32_t half_edge) const;
 
  private:

@@ -118,7 +118,7 @@ class Band {
 
   const std::vector<std::int32_t>& edges() const { return edges_.numbers(); }
 
-  /// What the wire runs over: the polygons it crosses, the edges it follows.
+  /// Adds the parts of the mesh that the wire runs over: the polygons it crosses, and the edges it follows.
   void add(const Wire& wire) {
     for (std::size_t i = 0; i < wire.faces.size(); ++i) {
       if (wire.faces[i] >= 0) {
@@ -172,14 +172,15 @@ class Band {
   std::size_t widened_ = 0;  // edges whose surroundings are there
 };
 
-/// What a turn costs in 1 - its cosine and in the lengths of the edges on both sides of it: see docs/method/wires.md.
+/// The cost of a turn, as a factor of 1 - its cosine and of the lengths of the edges on both sides of it. See
+/// docs/method/wires.md.
 constexpr double kTurning = 0.5;
 
 /// Dijkstra's algorithm over the directed edges of a band, since a turn belongs to two edges.
 ///
-/// Nearly all of the time goes into the integrals that are the edges' costs, so an edge waits in the queue with a lower
-/// bound of its cost, which the distances of its ends give, and the integral is taken when it comes out and may still
-/// count.
+/// The costs of edges are integrals, and nearly all of the time goes into them. So an edge waits in the queue with a
+/// lower bound of its cost, from the distances of its ends. The integral is computed when the edge comes out and may
+/// still count.
 class BandSearch {
  public:
   BandSearch(const Surface& surface, const std::vector<std::int32_t>& edges, const Wire& wire)

@@ -10,9 +10,9 @@
 
 namespace seamwire::detail {
 
-/// The edges of a mesh's triangles, each as one of its half-edges; and what lies on their sides: triangles, and beyond
-/// a boundary the hole that it surrounds, as one more face, numbered after them. A boundary goes on over an edge with
-/// two triangles that cannot be oriented alike, and ends at an edge with three or more.
+/// The edges of a mesh's triangles, each as one of its half-edges, and the faces on both sides. Beyond a boundary lies
+/// the hole that it surrounds, as one more face, numbered after the triangles. A boundary goes on over an edge with two
+/// triangles that cannot be oriented alike, and ends at an edge with three or more.
 struct MeshEdges {
   /// `task` is told of a tenth.
   MeshEdges(const IntrinsicMesh& mesh, const Task& task);

@@ -16,7 +16,7 @@ using namespace detail;
 
 namespace {
 
-/// Sine of the largest angle between pieces of one line. What is left out changes the length by its square, which is
+/// Sine of the largest angle between pieces of one line. Omitted turns change the length by their square, which is
 /// nothing in double precision.
 constexpr double kCollinear = 1e-11;
 

@@ -16,8 +16,8 @@ struct WirePiece {
   SurfacePoint end;  ///< of the last piece not looked at
 };
 
-/// A wire cut into pieces of about the same length, which begin and end within faces: `count`, or fewer where it runs
-/// along edges without a face, or there is nothing to it. Its ends are to be vertices.
+/// A wire cut into `count` pieces of about the same length, which begin and end within faces. There are fewer pieces if
+/// the wire runs along edges without a face, or has no length. Its ends must be vertices.
 std::vector<WirePiece> cut_in_pieces(const Surface& surface, const Wire& wire, std::size_t count);
 
 }  // namespace seamwire::detail

@@ -48,7 +48,7 @@ std::vector<shapes::Named> slivers(double aspect) {
           {"flat torus", shapes::bumpy(squeezed(shapes::torus(24, 12), 1 / aspect, 2), 0.002)}};
 }
 
-/// At each vertex a direction of its own, at anisotropy `a`.
+/// A random direction at each vertex, at anisotropy `a`.
 Metric random_metric(const Surface& surface, const Curvature& curvature, double a) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> angle(0, std::numbers::pi);

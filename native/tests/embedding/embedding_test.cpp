@@ -124,7 +124,7 @@ TEST(Embed, NamesTheFacesThatHolesAreIn) {
   ASSERT_GT(embedding.invalid_left, 0U);
   EXPECT_FALSE(embedding.hole_faces.empty());
   EXPECT_LE(embedding.hole_faces.size(), embedding.invalid_left);
-  // What is missing of a face's area is a hole.
+  // Missing area of a face is a hole.
   std::map<std::int32_t, double> areas;
   const auto area = [](const std::vector<Vector>& points, const Triangle& t) {
     return (points[at(t[1])] - points[at(t[0])]).cross(points[at(t[2])] - points[at(t[0])]).norm() / 2;
@@ -339,8 +339,8 @@ TEST(Embed, FlipsFacesWithACornerOnTheOppositeEdge) {
   }
 }
 
-// As above, with vertex 4 off the diagonal by a part of its length: a face is flipped away where the report lists it,
-// and bisected as any other where it does not, from whichever corner it is given.
+// As above, with vertex 4 off the diagonal by a part of its length. A face is flipped away if the report lists it, and
+// otherwise bisected as any other, from whichever corner it is given.
 TEST(Embed, RemovesTheFacesThatTheReportListsAndNoOthers) {
   int listed = 0, others = 0;
   for (const double part : {1e-13, 1e-11, 1e-10, 0.9e-9, 1.1e-9, 1e-8, 1e-7}) {

@@ -334,7 +334,7 @@ TEST(MaxError, IsMeasuredInTheFirstLengthAfterAStroke) {
   }
 }
 
-// Some faces of a surface as a surface of their own, in the same unit cube because of an edge.
+// Some faces of a surface as a separate surface, in the same unit cube because of an edge.
 struct Part {
   Part(const Mesh& mesh, const Metric& by, const std::vector<std::int32_t>& faces) : mesh(mesh) {
     std::vector<Triangle> triangles;
@@ -374,7 +374,7 @@ TEST(EmbedFaces, IsEmbeddingTheSurfaceOfTheseFaces) {
       EXPECT_EQ(embedding.invalid_before, expected.invalid_before);
       EXPECT_TRUE(embedding.unreachable.empty());
       EXPECT_FALSE(embedding.is_local);
-      // A face of its own may be turned over, so its sides may come in another order.
+      // A separate face may be turned over, so its sides may come in another order.
       std::vector<double> a = embedding.mesh.lengths, b = expected.mesh.lengths;
       std::ranges::sort(a);
       std::ranges::sort(b);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A check on speed that no other program on the machine disturbs: what the algorithms count of their own work on
-// meshes made here. Where a change makes the numbers better, or worse on purpose, set them anew: a failing test prints
+// A check on speed that no other program on the machine disturbs: the algorithms' counts of their work on meshes made
+// here. Where a change makes the numbers better, or worse on purpose, set them anew: a failing test prints
 // the row to put in place of the old one. Two per cent are for compilers that round differently.
 #include <gtest/gtest.h>
 

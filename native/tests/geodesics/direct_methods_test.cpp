@@ -94,7 +94,7 @@ TEST(DirectMethods, ShortTermVectorsAreBetweenEdgesAndTheStraightLine) {
   EXPECT_LT(all.highest, kRounding);
 }
 
-// What is linear between two points of a convex function, as the distance here, is above it.
+// A linear interpolation between two points of a convex function, as the distance is here, lies above it.
 TEST(DirectMethods, MarchingMethodsAreNeverTooShortOnThePlane) {
   const Errors upwind = errors(64, ordered_upwind), edges = errors(64, edge_dijkstra);
   const Errors marching = errors(64, [](const MetricSurface& s, std::int32_t seed) {
@@ -196,7 +196,7 @@ TEST(DirectMethods, HeatConvergesWhereTrianglesAreRound) {
 }
 
 TEST(DirectMethods, WhereTrianglesAreObtuseHeatNeedsALongerTimeStep) {
-  // Along the diagonals of the squares that are no edges.
+  // Along the diagonals of the squares without an edge.
   const Surface surface = plane(64);
   const Metric metric = embeddings::plane_metric(surface, 20.0, 1.0 / 20.0, std::numbers::pi / 4);
   const MetricSurface input = metric_surface(surface, metric);
@@ -255,7 +255,7 @@ TEST_F(DirectMethodsOnTheTorus, SteinerPointsConvergeToTheReference) {
   const double close = difference(steiner_dijkstra(surface, 0, 11), reference).is_longer;
   EXPECT_GT(close, 0.0);
   EXPECT_LT(close, wide / 2);
-  // What the extrapolation leaves is no more than what either still moves when the surface is cut.
+  // The error of the extrapolation is no more than the change of either when the surface is cut.
   EXPECT_LT(std::abs(close - (wide - close) / 3), error(exact(1)));
 }
 

@@ -136,7 +136,8 @@ TEST(EmbeddedDistance, OnACylinderConvergesToThatOfItsUnrolledPlane) {
 
 // Geodesics on a torus of radii R and r from the point v = pi of its inner equator, after Clairaut. The metric is
 // E dv^2 + G du^2. Geodesics that leave the groove where G is least have c^2 < min G, so they run on in v and never
-// turn: the distance to a point beyond the groove is the least over its images under full turns, of one geodesic each.
+// turn. The distance to a point beyond the groove is the least over its images under full turns, with one geodesic
+// each.
 struct ClairautTorus {
   double large, small, gamma;
   Follow follow;
@@ -296,7 +297,7 @@ TEST(EmbeddedDistance, IsWhatPathsOverPointsOnTheEdgesFallTowards) {
     above /= static_cast<double>(d.size() - 1);
     EXPECT_LT(above, bound) << m;
     EXPECT_LT(above, last) << m;
-    // They fall towards the distance of their own interpolation of the norm, which differs by the order of h^2.
+    // They fall towards the distance of another interpolation of the norm, which differs by the order of h^2.
     EXPECT_GT(above, -1e-3) << m;
     last = above;
   }
@@ -343,8 +344,8 @@ TEST(EmbeddedDistance, DoesNotDependOnTheScaleOfTheInput) {
 }
 
 TEST(EmbeddedDistance, GoesStraightOverFacesWithoutAnArea) {
-  // A jittered grid where one vertex more lies on an edge, for one of the edge's two faces only, and another one at the
-  // place of a vertex: distances are those of the plane.
+  // A jittered grid with an additional vertex on an edge, for one of the edge's two faces only, and another one at the
+  // place of a vertex. Distances are those of the plane.
   Mesh mesh = shapes::grid(8, 0.3);
   std::vector<Triangle> triangles;
   const std::int32_t on_edge = static_cast<std::int32_t>(mesh.points.size()), twin = on_edge + 1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What holds for exact geodesics on any mesh: they are those of a plain solver of another kind, no path over points on
-// the edges is shorter, traced paths are as long as the distances, and distances are symmetric in their ends.
+// Properties of exact geodesics on any mesh. They agree with a plain solver of another kind, and no path over points on
+// the edges is shorter. Traced paths are as long as the distances. Distances are symmetric in their ends.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -83,9 +83,9 @@ Mesh grid_with_fins(std::mt19937& random) {
   return mesh;
 }
 
-/// One of several kinds of lengths for a mesh: those of its points, of its points in stretched space, and such that no
-/// surface in space has them, but each triangle fulfils the triangle inequality: between 1 and 2, or the sum of two
-/// radii, one of each end, which makes needles.
+/// One of several kinds of lengths for a mesh: those of its points, those of its points in stretched space, and lengths
+/// that no surface in space has. The latter fulfill the triangle inequality. They lie between 1 and 2, or are sums of
+/// two radii, one of each end, which makes needles.
 IntrinsicMesh with_lengths(const Mesh& mesh, unsigned kind, std::mt19937& random) {
   switch (kind % 4U) {
     case 0:

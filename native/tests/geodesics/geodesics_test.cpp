@@ -156,8 +156,8 @@ TEST_P(ExactOn, EmbeddedLengths) {
   }
 }
 
-// Bounded fields on lengths of all kinds: every vertex that is connected has a real path, as long as it says, never
-// shorter than the geodesic, and the bounds that previews are to keep hold: 5 % for any vertex, 0.1 % on average.
+// Bounded fields on lengths of all kinds. Every connected vertex has a real path, as long as its distance and never
+// shorter than the geodesic. The bounds for previews hold: 5 % for any vertex, 0.1 % on average.
 TEST_P(ExactOn, BoundedFieldsHaveRealPathsNearTheShortest) {
   const auto [name, mesh] = exactness_meshes(2)[static_cast<std::size_t>(GetParam())];
   SCOPED_TRACE(name);
@@ -221,7 +221,7 @@ TEST(Geodesics, SingleTriangle) {
 }
 
 TEST(Geodesics, ConeUnrollsToAPlane) {
-  // Six equilateral triangles less one: the angle at the tip is 300 degrees, so two rim vertices three apart see each
+  // Six equilateral triangles less one. The angle at the tip is 300 degrees. So two rim vertices three apart see each
   // other over the tip at 150 degrees, in a straight line of length 2 sin(75 degrees).
   shapes::Mesh mesh;
   mesh.points.assign(6, Vector::Zero());
@@ -401,8 +401,8 @@ TEST(Geodesics, RepeatedSolvesAgreeToTheBit) {
   EXPECT_EQ(counters.windows, counters_again.windows);
 }
 
-// The filter and the two-sides rule keep the windows to some twenty a triangle on meshes of this size; without one of
-// them they are several times as many, and without both they never end.
+// The filter and the two-sides rule keep the windows to some twenty a triangle on meshes of this size. Without one of
+// them there are several times as many, and without both the search never ends.
 TEST(Geodesics, WindowsStayFew) {
   for (const shapes::Mesh& mesh : {shapes::grid(100, 0.2), shapes::grid(100)}) {
     EXPECT_LT(ExactGeodesics(intrinsic(mesh)).solve(5000).counters().windows, 32u * 20000u);
@@ -431,9 +431,9 @@ TEST(Geodesics, ProgressRisesAndCancelEndsTheWork) {
   EXPECT_THROW(geodesics.solve(0, task), Cancelled);
 }
 
-/// A strip of needles over the seed, 0, with a chain of loose edges above it that the front has passed before it meets
-/// the first vertex of the chain, 4, from below: straight over the needles it is at 2, and was taken to be at 3. From
-/// each vertex of the chain two ways lead to the next, which are nearly as long.
+/// A strip of needles over the seed, 0, with a chain of loose edges above it. The front has passed the chain before it
+/// meets the first vertex of the chain, 4, from below. Straight over the needles this vertex is at 2, and it was taken
+/// to be at 3. From each vertex of the chain two ways lead to the next, which are nearly as long.
 struct ChainOverNeedles {
   static constexpr int kLinks = 34, kLeaves = 20'000;
   IntrinsicMesh mesh;

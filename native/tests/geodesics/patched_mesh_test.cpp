@@ -42,7 +42,7 @@ auto said_by(const GeodesicMesh& mesh, std::int32_t h) {
                     external(mesh, edge.left), external(mesh, edge.right), mesh.angle(h));
 }
 
-// All that a row of a vertex says, in external numbers, whatever the order.
+// The entries of a row of a vertex, in external numbers, without their order.
 auto sorted(auto row) {
   std::sort(row.begin(), row.end());
   return row;

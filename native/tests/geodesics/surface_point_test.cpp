@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Sources and targets between the vertices. What is compared with: a mesh that has the point as a vertex.
+// Sources and targets between the vertices. The reference is a mesh that has the point as a vertex.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>

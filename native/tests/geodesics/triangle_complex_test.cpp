@@ -430,8 +430,8 @@ struct DoubleCover {
   }
 };
 
-/// A grid of nu x nv cells closed in u, and in v with a reversal of u: a Klein bottle; not closed in v, and in u with a
-/// reversal of v: a Moebius strip.
+/// A grid of nu x nv cells. A Klein bottle is closed in u, and in v with a reversal of u. A Moebius strip is not closed
+/// in v, and closed in u with a reversal of v.
 Mesh one_sided(int nu, int nv, bool is_klein) {
   Mesh mesh;
   const auto at = [&](int i, int j) {

@@ -70,7 +70,7 @@ BaseTriangle any_triangle(std::mt19937& random) {
   return {uniform(random, 0.5, 1.5), uniform(random, -0.3, 1.3), uniform(random, 0.1, 1)};
 }
 
-/// What the kernels made of a list, with room behind each column.
+/// The result of the kernels for a list, with room behind each column.
 struct Made {
   std::vector<double> memory;
   std::vector<std::int64_t> alive;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What a live wire does where threads cannot be made, and where it frees its memory. A program of its own, because it
-// puts functions in the place of the system's.
+// Live wires where threads cannot be made, and the places where they free their memory. This is a separate program,
+// because it puts functions in the place of the system's.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <pthread.h>

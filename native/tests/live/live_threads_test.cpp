@@ -44,7 +44,7 @@ Scribble stroke_on(const Surface& surface, std::int32_t from) {
   return stroke;
 }
 
-/// Calls each of some functions over and over on a thread of its own, `times` times, with the number of the call.
+/// Calls each of some functions over and over on a separate thread, `times` times, with the number of the call.
 void call_at_once(const std::vector<std::function<void(int)>>& functions, int times) {
   std::vector<std::jthread> threads;
   for (const auto& function : functions) {

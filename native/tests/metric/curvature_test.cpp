@@ -16,7 +16,7 @@ namespace {
 
 using shapes::Mesh;
 
-// What every result must be, whatever the surface.
+// Properties of every result on any surface.
 void expect_sound(const Surface& surface, const Curvature& curvature) {
   ASSERT_EQ(curvature.k1.size(), surface.vertex_count());
   ASSERT_EQ(curvature.k2.size(), surface.vertex_count());
@@ -199,7 +199,7 @@ TEST(Curvature, IsSmoothAcrossTheCutOfAOneSidedSurface) {
 }
 
 TEST(Curvature, SkipsFacesThatAreInLineButForRounding) {
-  // A plane askew, with coordinates in 32 bits, and each square's middle on its diagonal in a face of its own.
+  // A plane askew, with coordinates in 32 bits, and each square's middle on its diagonal in a separate face.
   Mesh mesh = shapes::grid(8);
   const std::size_t count = mesh.triangles.size();
   for (std::size_t f = 0; f < count; f += 2) {

@@ -363,8 +363,7 @@ TEST(Scribble, TheListAloneDecides) {
   Metric step = base;
   for (const Scribble& scribble : scribbles) step = apply_scribbles(surface, step, {{scribble}});
   EXPECT_EQ(step.tensors, all.tensors);
-  // Removed from the list, a scribble leaves no trace, bit for bit; in another order they make another metric, whatever
-  // the order was before.
+  // A scribble removed from the list leaves no trace, bit for bit. Scribbles in another order make another metric.
   const std::vector<Scribble> without{scribbles[0], scribbles[2]}, reordered{scribbles[2], scribbles[0], scribbles[1]};
   const Metric two = apply_scribbles(surface, apply_scribbles(surface, base, {{scribbles[0]}}), {{scribbles[2]}});
   scribbles.erase(scribbles.begin() + 1);

@@ -11,7 +11,7 @@
 
 namespace seamwire::detail {
 
-/// What a test wants to know of a SlitProblem's surface.
+/// Options of a SlitProblem for a test.
 struct ProblemOptions {
   int mirror = -1;
   std::optional<Vector> front = std::nullopt;

@@ -21,7 +21,7 @@ using namespace detail;
 
 namespace {
 
-/// All pieces are discs, and chains are joined by real edges that are no seams yet.
+/// All pieces are discs, and chains are joined by real edges between the seams.
 void expect_discs(const SlitProblem& problem, const SlitTree& tree) {
   const Cut cut = cut_of(problem, tree.slits, tree.roots);
   for (std::int32_t p = 0; p < problem.pieces.count; ++p) EXPECT_TRUE(open_piece(problem, cut, p)) << "piece " << p;

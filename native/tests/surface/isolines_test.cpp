@@ -63,7 +63,7 @@ TEST(Isolines, OfDistancesOnAPlaneAreChordsOfCircles) {
   }
 }
 
-// What is seen of a closed surface ends nowhere: each end is the beginning of the next segment, to the last bit.
+// Isolines of a closed surface end nowhere: each end is the beginning of the next segment, to the last bit.
 TEST(Isolines, OnAClosedSurfaceAreClosed) {
   for (const bool is_at_vertices : {false, true}) {
     const Surface surface = shapes::icosphere(3).surface();

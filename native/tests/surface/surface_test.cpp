@@ -49,8 +49,8 @@ void expect_sound_siblings(const Surface& surface) {
   EXPECT_EQ(static_cast<std::size_t>(std::ranges::count_if(surface.siblings(), [](auto h) { return h >= 0; })), count);
 }
 
-// What every surface must be, whatever it was made of: a manifold, consistently linked half-edge mesh of the caller's
-// faces, nothing lost and nothing twice.
+// Every surface must be a manifold, consistently linked half-edge mesh of the caller's faces, with nothing lost and
+// nothing twice.
 void expect_sound(const Surface& surface) {
   expect_sound_siblings(surface);
   const HalfEdgeMesh& mesh = surface.half_edges();
@@ -119,7 +119,7 @@ void expect_sound(const Surface& surface) {
     EXPECT_EQ(surface.twins()[h], mesh.is_boundary(beyond) ? -1 : number.at(beyond.idx()));
   }
 
-  // What the input's edges connect stays reachable: every edge has a face or is loose, and none is both.
+  // Vertices that the input's edges connect stay reachable: every edge either has a face or is loose.
   std::set<Edge> input(surface.edges().begin(), surface.edges().end());
   for (const Triangle& t : surface.triangles()) {
     for (int i = 0; i < 3; ++i) {

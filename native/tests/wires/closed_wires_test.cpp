@@ -40,8 +40,8 @@ struct Solved {
   Embedding embedding;
 };
 
-/// A closed surface of revolution about the z axis: n cells around, `rows` from pole to pole along a profile, which
-/// tells the distance from the axis and the height for u in [0, 1]. The last two vertices are the poles.
+/// A closed surface of revolution about the z axis, with n cells around and `rows` from pole to pole. The profile gives
+/// the distance from the axis and the height for u in [0, 1]. The last two vertices are the poles.
 shapes::Mesh revolution(int n, int rows, const std::function<std::array<double, 2>(double)>& profile) {
   shapes::Mesh mesh = shapes::parametric(n, rows - 2, true, false, [&](double u, double v) {
     const auto [r, z] = profile((1 + v * (rows - 2)) / rows);

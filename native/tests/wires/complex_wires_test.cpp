@@ -187,7 +187,7 @@ TEST(ComplexWires, AClosedCutAroundATubeSeparatesUnlessAnotherSheetJoinsItsSides
   ASSERT_FALSE(around.empty());
   EXPECT_TRUE(around.front().separates);
 
-  // A fin: it hangs on one side.
+  // A fin on one side.
   Mesh with_fin = tube;
   const Vector a = tube.points[8], b = tube.points[index(n + 8)];
   const auto outwards = [](const Vector& p) { return Vector(1.5 * p.x(), 1.5 * p.y(), p.z()); };

@@ -31,7 +31,7 @@ def get(cache: Path, name: str, **environment: str) -> tuple[int, str]:
 
 
 def test_one_that_does_not_start_is_a_failure(tmp_path: Path) -> None:
-    # A library that Blender needs, and that is none.
+    # A file with the name of a library that Blender needs.
     libraries = tmp_path / "libraries"
     libraries.mkdir()
     (libraries / "libpython3.11.so.1.0").write_text("no library")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The rooms of the library: a file includes headers of its own room and of the rooms below only."""
+"""The rooms of the library: a file includes only headers of the same room and of the rooms below."""
 
 import re
 from pathlib import Path

@@ -83,7 +83,7 @@ def as_crossing(wire: Wire) -> Wire:
 
 
 def as_kept(wire: Wire) -> Wire:
-    """Return an offer as it is kept: a loop that crosses the picked edge is a loop through one of its own edges."""
+    """Return an offer as it is kept: a loop that crosses the picked edge is kept as a closed loop or a strip."""
     return replace(wire, kind="CLOSED" if wire.closed else "STRIP") if wire.kind == "CROSSING" else wire
 
 

@@ -144,7 +144,7 @@ class LoopOffers(Offers):
     def _through(self, edge: Edge, network: Network) -> tuple[Wire, ...]:
         """Return what leads through an edge, the likeliest first; nothing, too, while it is computed, see `final`.
 
-        The library computes one loop at a time. What it found is remembered as long as nothing else changes.
+        The library computes one loop at a time. The loops found are remembered as long as nothing else changes.
         """
         engines = self._engines
         metric = network, engines.metric, engines.strengths["EDGES"], engines.clamp
