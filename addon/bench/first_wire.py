@@ -51,7 +51,7 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     The first three are for reading the mesh, for starting the computation in other threads, and until a seed can be given. The others are
     from the click to the first wire, from the click to both final wires, and from a move of the cursor to the next wire.
     """
-    from seamwire.core.drawing import session
+    from seamwire.core.drawing import drawing, session
     from seamwire.core.drawing.options import Options
     from seamwire.core.solver.live_maker import LiveMaker
     from seamwire.mesh import edit_mesh
@@ -63,7 +63,7 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     edit_mesh.Cage(obj)  # as the tool does
     arrays = edit_mesh.read(obj)
     steps["read"] = watch.lap()
-    wires = session.Session(LiveMaker(arrays), arrays.points, Options(along=along))
+    wires = session.Session(drawing.Drawing(LiveMaker(arrays), arrays.points, Options(along=along)))
     picking.Picker(arrays).depth(viewport.View(1.0, 1.0, np.eye(4)), obj.matrix_world, (0.5, 0.5))
     steps["begun"] = watch.lap()
     wires.wait()

@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 from fake_live import FakeLive, grid_edges, grid_points
-from seamwire.core.network.network import Along, Wire
+from seamwire.core.drawing.drawing import Drawing
+from seamwire.core.network.network import Along, Network, Wire
 from seamwire.core.network.symmetry import Symmetry
 from seamwire.core.solver.solver import Engines
 
@@ -23,6 +24,15 @@ class Grid:
             return self.lives[way]
 
         self.engines = Engines(make, lambda stroke: stroke)
+        self.make = make
+
+    def drawing(self, network: Network, seams: list[tuple[int, int]] = ()) -> Drawing:
+        """Return a drawing with a network, on the grid with its middle at the origin."""
+        points = POINTS.copy()
+        points[:, :2] -= (SIZE - 1) / 2
+        drawing = Drawing(self.make, points, edges=grid_edges(SIZE), seams=seams, make_stroke=lambda stroke: stroke)
+        drawing.network = network
+        return drawing
 
 
 def wire(*vertices: int, **options: object) -> Wire:

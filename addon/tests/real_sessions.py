@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Along
 from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
@@ -30,7 +31,9 @@ def session_on(
         on = (surface,) if ready else (points, triangles, edges)
         return core.LiveWire(*on, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE)
 
-    return Session(make, points, edges=surface.edges if edges is None else edges, triangles=triangles, **options)
+    return Session(
+        Drawing(make, points, edges=surface.edges if edges is None else edges, triangles=triangles, **options)
+    )
 
 
 def quads_between_rings() -> NDArray[np.int32]:

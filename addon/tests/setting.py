@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sessions that are told of other settings."""
+"""What tests do to sessions."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
 from seamwire.core.drawing.session import Session
+from seamwire.core.network.network import Pick, Wire
 
 
 def use(session: Session, **changes: object) -> bool:
@@ -17,3 +18,16 @@ def stronger(session: Session, steps: int) -> bool:
     """Change the strength by some steps, as keys do; return whether there was another one."""
     options = session.options.stepped(steps)
     return options != session.options and session.follow(options)
+
+
+def insert(session: Session, wire: Wire, pick: Pick) -> bool:
+    """Put a seed into a kept wire, as a chain that begins there does; return whether that was done."""
+    session._flow.calm()
+    network = session.kept.with_seed_in(wire, pick, session.drawing.points)
+    return network is not None and session._flow.change(network)
+
+
+def end_line(session: Session) -> bool:
+    """Release the line that is drawn and keep its wires, as releasing the button does; return whether that was done."""
+    line = session.line_release()
+    return line is not None and session.line_keep(line)

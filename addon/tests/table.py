@@ -7,6 +7,7 @@ import itertools
 
 from fake_live import FakeLive, grid_edges, grid_points, grid_triangles
 from paper_mesh import PaperMesh
+from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Along
@@ -30,13 +31,15 @@ class Table:
         if centred:
             self.points[:, :2] -= (SIZE - 1) / 2
         self.session = Session(
-            make,
-            self.points,
-            Options(along=along),
-            edges=grid_edges(SIZE),
-            seams=seams,
-            triangles=grid_triangles(SIZE),
-            make_stroke=lambda one: one,
+            Drawing(
+                make,
+                self.points,
+                Options(along=along),
+                edges=grid_edges(SIZE),
+                seams=seams,
+                triangles=grid_triangles(SIZE),
+                make_stroke=lambda one: one,
+            )
         )
 
     def compute(self) -> None:

@@ -6,6 +6,7 @@ from dataclasses import replace
 import bpy
 import pytest
 from scene import add_grid, edit
+from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.session import Session
 from seamwire.core.solver.live_maker import LiveMaker
 from seamwire.mesh import edit_mesh
@@ -20,7 +21,7 @@ def session() -> Session:
     obj = add_grid(9)
     edit()
     arrays = edit_mesh.read(obj)
-    session = Session(LiveMaker(arrays), arrays.points)
+    session = Session(Drawing(LiveMaker(arrays), arrays.points))
     session.wait()
     return session
 

@@ -86,15 +86,15 @@ def test_escape_and_the_right_button_forget_a_line_and_keep_the_chain(desk: Desk
     ui.wait_until(lambda: len(session.wires) == 1)
     for cancel in ("ESC", "RIGHTMOUSE"):
         press_and_draw(desk, desk.at(36), desk.at(40))
-        assert session.drawing
+        assert session.draws_line
         assert session.picture.all(Role.FOLLOWING)
         ui.event(cancel, "PRESS")
         ui.event(cancel, "RELEASE")
-        assert not session.drawing
+        assert not session.draws_line
         assert session.picture.all(Role.FOLLOWING) == ()
         ui.event("LEFTMOUSE", "RELEASE")
         assert len(session.wires) == 1
-        assert session.seed_place == 4, "the live wire goes on"
+        assert session.drawing.seed_place == 4, "the live wire goes on"
     ui.key("RET")
     assert seams(desk.obj) == chain(0, 1, 2, 3, 4)
 
@@ -116,9 +116,9 @@ def test_a_line_from_the_live_seed_goes_on_with_the_chain(desk: Desk, monkeypatc
     # The line begins at the place of the last click.
     monkeypatch.setattr(bpy.context.preferences.inputs, "mouse_double_click_time", 1)
     drag(desk, desk.at(4), desk.at(40))
-    ui.wait_until(lambda: session.seed_place == 40)
+    ui.wait_until(lambda: session.drawing.seed_place == 40)
     ui.click(desk.at(44))
-    ui.wait_until(lambda: session.seed_place == 44)
+    ui.wait_until(lambda: session.drawing.seed_place == 44)
     ui.key("RET")
     assert seams(desk.obj) == sorted(chain(0, 1, 2, 3, 4) + chain(4, 13, 22, 31, 40) + chain(*range(40, 45)))
 

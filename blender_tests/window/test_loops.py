@@ -24,7 +24,7 @@ def offer(desk: Desk, *edge: int) -> tuple[float, float]:
     desk.ui.wait_until(lambda: not session.computing)
     desk.ui.move(place)
     desk.ui.event("LEFT_ALT", "PRESS", place, alt=True)
-    desk.ui.wait_until(lambda: session.picture.one(Role.OFFER) is not None)
+    desk.ui.wait_until(lambda: session.picture.one(Role.OFFER) is not None and not session.computing)
     return place
 
 

@@ -186,14 +186,14 @@ def test_shift_and_the_wheel_change_the_strength_and_say_it(cone: Desk) -> None:
     session, ui = cone.start(), cone.ui
     ui.move(cone.at(40))
     ui.wheel(up=True, shift=True)
-    assert session.strength == 12.5
+    assert session.drawing.strength == 12.5
     assert settings().strength_edges == 12.5
     assert "Strength 12.5" in said(cone)
     ui.wheel(up=False, shift=True)
-    assert session.strength == 10.0
+    assert session.drawing.strength == 10.0
     settings().strength_edges = 40.0
     ui.move(cone.at(41))
-    assert session.strength == 40.0, "the header's setting reaches the chain"
+    assert session.drawing.strength == 40.0, "the header's setting reaches the chain"
 
 
 @pytest.mark.smoke

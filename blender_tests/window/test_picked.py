@@ -64,7 +64,7 @@ def roof(ui: driver.Ui) -> Iterator[Desk]:
 @pytest.mark.smoke
 def test_snapping_takes_the_feature_near_the_cursor(roof: Desk) -> None:
     session, ui = roof.start(), roof.ui
-    ui.wait_until(lambda: session.feature_strength() is not None)
+    ui.wait_until(lambda: session.drawing.feature_strength() is not None)
     x, y = roof.at(40)
     beside, above = (x + 7.0, y + 1.0), (roof.at(67)[0] + 7.0, roof.at(67)[1] + 1.0)
     ui.move(beside)
@@ -141,7 +141,7 @@ def test_escape_ends_work_that_takes_long(desk: Desk, monkeypatch: pytest.Monkey
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(36))
     ui.wait_until(lambda: not session.computing)
-    engine = session._engines.get(session.options.along)
+    engine = session.drawing.engines.get(session.options.along)
     nothing = type("Nothing", (), {"points": [], "vertices": [], "length": 0.0, "final": False})()
     answer = type("Wires", (), {"wires": (nothing, nothing), "active": 0, "settled": False, "final": False})()
 
@@ -158,7 +158,7 @@ def test_escape_ends_work_that_takes_long(desk: Desk, monkeypatch: pytest.Monkey
             return answer
 
     endless = Endless()
-    monkeypatch.setitem(session._engines._lives, "EDGES", endless)
+    monkeypatch.setitem(session.drawing.engines._lives, "EDGES", endless)
     ui.click(desk.at(44))
     assert session.waiting_clicks == 1
     assert "Computing 25 %, 1 click waiting" in said()

@@ -336,7 +336,7 @@ def test_the_network_follows_subdividing_and_duplicating(desk: Desk) -> None:
 def test_what_is_prepared_is_kept_from_one_chain_to_the_next(desk: Desk) -> None:
     session = desk.choose()
     draw(desk, 36, 44)
-    engine = session._engines.get(session.options.along)
+    engine = session.drawing.engines.get(session.options.along)
     choose(desk.ui, "builtin.select_box")
     choose(desk.ui)
     bpy.ops.object.mode_set(mode="OBJECT")
@@ -344,7 +344,7 @@ def test_what_is_prepared_is_kept_from_one_chain_to_the_next(desk: Desk) -> None
         edit()
     draw(desk, 0, 8)
     assert desk.session is session
-    assert session._engines.get(session.options.along) is engine
+    assert session.drawing.engines.get(session.options.along) is engine
 
 
 def test_a_mesh_is_read_once_until_it_changes(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:

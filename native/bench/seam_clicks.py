@@ -151,7 +151,10 @@ class Seamwire:
         return frozenset()
 
     def notches(self, wanted: Edges, stops: frozenset[int], last: LoopKind | None) -> tuple[list[int], LoopKind | None]:
-        """Return the place of what is taken among what its edges offer, for each edge that offers it, and what it is."""
+        """Return the turns from the first offer to the wanted one, for each edge that offers it, and its kind.
+
+        The tool shows the crossing loop second, so every later offer takes one more turn.
+        """
         places, kind = [], None
         for edge in sorted(wanted)[:: max(1, len(wanted) // _EDGES_TRIED)]:
             final = False
@@ -162,7 +165,7 @@ class Seamwire:
                 self.engine.live.wait()
             place = next((i for i, offer in enumerate(offers) if set(offer.edges()) == wanted), None)
             if place is not None:
-                places.append(place)
+                places.append(place + (place > 0))
                 kind = kind or offers[place].kind
         return places, kind
 

@@ -13,6 +13,7 @@ import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
+from ..core.drawing.drawing import Drawing
 from ..core.drawing.options import Options
 from ..core.drawing.session import Session
 from ..core.network.network import FacePoint, edges_after
@@ -81,13 +82,15 @@ class ObjectSession:
         self.arrays = edit_mesh.read(obj)
         self.make_live = LiveMaker(self.arrays)
         self.session = Session(
-            self.make_live,
-            self.arrays.points,
-            options or Options(mirror=mirror_axes(obj.data)),
-            edges=self.arrays.edges,
-            to_object=self.arrays.to_object,
-            triangles=self.arrays.triangles,
-            topology=obj.data.use_mirror_topology,
+            Drawing(
+                self.make_live,
+                self.arrays.points,
+                options or Options(mirror=mirror_axes(obj.data)),
+                edges=self.arrays.edges,
+                to_object=self.arrays.to_object,
+                triangles=self.arrays.triangles,
+                topology=obj.data.use_mirror_topology,
+            )
         )
         self.problem = ""
         self.generation = 0
@@ -115,7 +118,7 @@ class ObjectSession:
 
     def _look_for_symmetry(self) -> None:
         try:
-            self.symmetric = self.session.symmetric_axes
+            self.symmetric = self.session.drawing.symmetry.symmetric_axes
         except Exception as error:
             traceback.print_exc()
             self.symmetry_problem = f"The mesh could not be checked for symmetry: {error}"

@@ -41,7 +41,7 @@ def network_of(source: ObjectSession, settings: SeamwireSettings) -> NetworkFile
         Where it has no seams.
     """
     session = source.session
-    found = tuple(session.wires_along(source.plain_seams))
+    found = tuple(session.drawing.wires_along(source.plain_seams))
     if not session.wires and not found:
         raise ValueError(f"{source.obj.name} has no seams")
     return source.network_file(settings, found)

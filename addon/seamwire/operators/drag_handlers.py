@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..core.drawing.drawn_line import DrawnLine
+    from ..core.drawing.line import LineGesture
     from ..core.network.network import Snap
     from ..view.object_view import ObjectView
     from ..view.viewport import Place, View
@@ -184,7 +184,7 @@ class LineHold:
         self._click = click
         self._note = note
         self._trail: Trail | None = None
-        self._line: DrawnLine | None = None
+        self._line: LineGesture | None = None
 
     def move(self, place: Place, threshold: float) -> bool:
         """Draw on to where the mouse is now."""
@@ -196,7 +196,7 @@ class LineHold:
             self._trail = Trail(self._view, self._place, ends_at_rim=False)
         self._trail.to(place)
         # A key may have ended the line in the meantime.
-        return self._view.session.drawing and self._draw()
+        return self._view.session.draws_line and self._draw()
 
     def follow(self, place: Place) -> None:
         """Take note of where the mouse was between two moves."""

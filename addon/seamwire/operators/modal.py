@@ -535,7 +535,7 @@ class Chain:
         elif action in {Action.STRONGER, Action.WEAKER}:
             self._change_strength(1 if action is Action.STRONGER else -1)
         elif action is Action.CLOSE:
-            first = session.closing_point
+            first = session.kept.closing_point
             session.close(None if first is None else self.view.seen_along(place.view, first))
         elif action is Action.EXTEND:
             session.run_to_end(preview=session.picture.one(Role.EXTENSION) is None)

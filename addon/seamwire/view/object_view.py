@@ -183,12 +183,12 @@ class ObjectView:
     def _follow_views(self) -> None:
         session, options = self.session, self.options
         crests = options.snap or session.wants_crests
-        self.views.follow(options, self._source(), session.metric_strokes, crests)
+        self.views.follow(options, self._source(), session.drawing.engines.strokes, crests)
         session.use_crests(self.views.crests, options.show_crests)
 
     def _source(self) -> Source | None:
         """Return where distances are shown from: the seed of the chain, else the active vertex, else the last seed."""
-        pick = self.session.seed_place
+        pick = self.session.drawing.seed_place
         if pick is None and self.mesh.alive():
             pick = self.mesh.cage.active_vertex()
         if pick is None:
@@ -226,7 +226,7 @@ class ObjectView:
         across = options.along == "SURFACE"
         mirrored = not plain and options.mirror and self.mesh.symmetric is not None
         if options.snap and self._strength is None:
-            self._strength = self.session.feature_strength()
+            self._strength = self.session.drawing.feature_strength()
         snap = self._picker.snap(
             view,
             self.obj.matrix_world,
@@ -236,7 +236,7 @@ class ObjectView:
             anywhere=across and options.marking and options.finish == "CUT",
             session=None if plain else self.session,
             xray=options.xray,
-            preferred=self.session.on_mirror() if mirrored else frozenset(),
+            preferred=self.session.drawing.symmetry.on_plane(self.session.options.mirror) if mirrored else frozenset(),
             strength=self._strength if options.snap and not plain else None,
             # A loop leads through what is seen: a ridge that is shown is as good as under the cursor.
             crests=self.views.crests if (options.show_crests and across if plain else options.snap) else None,

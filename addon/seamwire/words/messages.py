@@ -56,7 +56,6 @@ SENTENCES = {
     "no-next-candidate": "No other candidate found yet",
     "no-other-way-to-seed": "No other path to this seed",
     "no-run-across": "Extend to End works along edges, not across the surface",
-    "no-seed-into-wire": "The wire cannot get a seed at {pick}",
     "no-seed-moves": "No seed is being moved",
     "no-seed-to-move": "No seed to move at {pick}",
     "no-triangles": "Lines across the surface need the triangles of the mesh",

@@ -3,6 +3,7 @@
 
 import pytest
 from polygon_meshes import arrays_of, grid_places, grid_polygons
+from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
 from seamwire.core.solver.live_maker import LiveMaker
@@ -17,7 +18,7 @@ pytest.importorskip("seamwire_core")
 def session() -> Session:
     """A session on a grid; vertex y * 9 + x is column x of row y."""
     arrays = arrays_of(grid_places(9), grid_polygons(9))
-    session = Session(LiveMaker(arrays), arrays.points)
+    session = Session(Drawing(LiveMaker(arrays), arrays.points))
     session.wait()
     return session
 

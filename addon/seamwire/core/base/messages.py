@@ -58,7 +58,7 @@ class Told(Exception):  # noqa: N818 - the base of errors, which end in Error
         return str(self.message)
 
 
-class Refused(Told, ValueError):
+class Refused(Told, ValueError):  # noqa: N818 - the same
     """Something cannot be done."""
 
 

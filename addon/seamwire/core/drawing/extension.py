@@ -1,74 +1,82 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The live wire extended straight on until it meets a seam, a wire, the boundary, the mirror or itself."""
+"""The extension: the live wire runs straight on until it meets a seam, a wire, the boundary, the mirror or itself."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from ..base.messages import Refused
+from ..base.messages import NOTHING, Message, Refused, message_of
 from ..network.network import Wire
+from .gesture import Gesture
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from ..network.network import Edge, Network, Seed
-    from ..network.stops import Stops
-    from ..solver.solver import Engines, LiveWire
+    from ..network.network import Edge, Seed
+    from ..solver.solver import LiveWire
+    from .drawing import Drawing
+    from .gesture import Committed
+    from .wire import WireGesture
 
 
-class Extension:
-    """The live wire with its way on to the end, while it is asked for. Along edges only.
+class Extension(Gesture):
+    """The live wire with its way to the end. Along edges only.
 
     Parameters
     ----------
-    engines
-        Find the way.
-    stops
-        Where it ends.
-    points
-        (n, 3) vertices of the mesh.
+    drawing
+        The state that gestures share.
+    live
+        Has the live wire.
     """
 
-    def __init__(self, engines: Engines, stops: Stops, points: NDArray[np.float64]) -> None:
-        self._engines = engines
-        self._stops = stops
-        self._points = points
+    def __init__(self, drawing: Drawing, live: WireGesture) -> None:
+        self._drawing = drawing
+        self._live = live
         self.wanted = False
         """Whether it is asked for."""
         self.wire: Wire | None = None
-        """The one that is shown."""
+        """The extended wire that is shown."""
+        self.message = NOTHING
+        """Why there is no way to the end, if that is known."""
 
-    def clear(self) -> None:
-        """Show none, and ask for none."""
+    def poll(self) -> bool:
+        """Show the extended wire while it is asked for. Return whether it runs elsewhere than before."""
+        if not self.wanted:
+            return False
+        before, self.wire = self.wire, self.find(self._live.candidates.active)
+        if before is None or self.wire is None:
+            return before is not self.wire
+        return not before.like(self.wire)
+
+    def commit(self) -> Committed:
+        """Return the network with the extended wire, which ends the chain."""
+        candidates = self._live.candidates
+        if candidates.target is not None and not candidates.active_final and self._live.computing:
+            self.wanted = False
+            return self
+        wire = self.find(candidates.active)
+        if wire is None:
+            raise Refused(self.message or Message.of("no-way-on"))
+        return replace(self._drawing.with_wires(wire), seed=None)
+
+    def cancel(self) -> None:
+        """Show nothing, and ask for nothing."""
         self.wanted, self.wire = False, None
 
-    def show(self, wire: Wire | None) -> bool:
-        """Show what was found; return whether it runs elsewhere than what was shown before."""
-        before, self.wire = self.wire, wire
-        if before is None or wire is None:
-            return before is not wire
-        return not before.like(wire)
-
-    def find(self, network: Network, active: Wire | None, marks: bool) -> Wire | None:
-        """Return the live wire with its way on; None where there is no way on.
+    def find(self, active: Wire | None) -> Wire | None:
+        """Return a live wire with its way to the end, or None if there is no way or no direction.
 
         Parameters
         ----------
-        network
-            The wires that there are and the live wire's seed.
         active
-            The live wire; None: the way begins at the seed.
-        marks
-            Whether it is to mark seams, or to clear them.
-
-        Raises
-        ------
-        ValueError
-            Where it has no direction yet, or is not part of the surface.
+            The live wire. If None, the way begins at the seed.
         """
-        seed = network.seed
+        drawing = self._drawing
+        network, seed = drawing.network, drawing.network.seed
+        self.message = NOTHING
         if seed is None:
             return None
         if active is not None:
@@ -76,11 +84,16 @@ class Extension:
         elif seed.forward and isinstance(seed.pick, tuple):
             edge = seed.pick
         else:
-            raise Refused("point-where-to-run")
-        stops = self._stops.of(network, active, edge[1:])
-        wire = extended(self._engines.get("EDGES"), seed, active, edge, stops, self._points)
-        strength = self._engines.strengths["EDGES"]
-        return wire and replace(wire, marks=marks, mirror=network.mirror, strength=strength)
+            self.message = Message.of("point-where-to-run")
+            return None
+        stops = drawing.stops.of(network, active, edge[1:])
+        try:
+            wire = extended(drawing.engines.get("EDGES"), seed, active, edge, stops, drawing.points)
+        except ValueError as error:  # the edge is not part of the surface
+            self.message = message_of(error)
+            return None
+        strength = drawing.engines.strengths["EDGES"]
+        return wire and replace(wire, marks=drawing.options.marking, mirror=network.mirror, strength=strength)
 
 
 def extended(

@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from ..islands.islands import Islands
     from ..network.network import Edge, Finish, LoopKind, Pick, Wire
     from ..network.strokes import Stroke
-    from .drawn_line import DrawnLine
+    from .candidates import CandidateWires
+    from .line import LineGesture
     from .seed_drag import SeedDrag
-    from .wire import CandidateWires
 
 
 class Role(Enum):
@@ -229,7 +229,7 @@ def shown_wires(
     options: Options,
     candidates: CandidateWires,
     drag: SeedDrag | None,
-    lines: Iterable[DrawnLine],
+    lines: Iterable[LineGesture],
     offer: Wire | None,
     extension: Wire | None,
     images: Callable[[Wire], Iterable[Wire]],
@@ -252,9 +252,7 @@ def shown_wires(
     moved = () if drag is None else drag.moved
     target = candidates.target
     hovered = None if target is None or target.to != "WIRE" else network.find(target.wire)
-    following = [
-        replace(wire, marks=options.marking, mirror=network.mirror) for drawn in lines for wire in drawn.line.wires
-    ]
+    following = [replace(wire, marks=options.marking, mirror=network.mirror) for line in lines for wire in line.wires]
     active = candidates.active
     role = Role.ACTIVE if candidates.active_final else Role.COMPUTING
 

@@ -1,76 +1,55 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Kept wires that take another course between their seeds, as soon as it is computed."""
+"""Retracing: a kept wire takes another course between its seeds."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ..base.messages import Refused
-from .seed_drag import Courses, Leg
+from .gesture import Gesture
+from .seed_drag import Leg
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
     from ..network.network import Network, Wire
-    from ..solver.solver import Engines, LiveWire
+    from ..solver.solver import LiveWire
+    from .drawing import Drawing
+    from .gesture import Committed
 
 
-class Retraces:
-    """The kept wires that are to take their next way, while that is computed.
+class Retrace(Gesture):
+    """A kept wire that takes its next way, that of another metric, as soon as it is computed.
 
     Parameters
     ----------
-    engines
-        Have the live wires that those of the legs are forks of.
-    points
-        (n, 3) vertices of the mesh.
+    drawing
+        The state that gestures share.
+    wire
+        A wire of the network; not a loop.
+
+    Raises
+    ------
+    ValueError
+        If its start is not part of the surface.
     """
 
-    def __init__(self, engines: Engines, points: NDArray[np.float64]) -> None:
-        self._engines = engines
-        self._points = points
-        self._legs: list[Leg] = []
+    def __init__(self, drawing: Drawing, wire: Wire) -> None:
+        self._drawing = drawing
+        self._leg = Leg(drawing.engines.get(wire.along).fork(), drawing.network, wire.uncut(), "end", drawing.points)
 
-    def __len__(self) -> int:
-        return len(self._legs)
-
-    def add(self, network: Network, wire: Wire) -> None:
-        """Begin with one more wire of a network, not a loop.
-
-        Raises
-        ------
-        ValueError
-            Where its start is not part of the surface.
-        """
-        self._legs.append(Leg(self._engines.get(wire.along).fork(), network, wire, "end", self._points))
-
-    def drop_last(self) -> bool:
-        """Forget the wire that was added last; return whether there was one."""
-        return bool(self._legs) and self._legs.pop() is not None
-
-    def clear(self) -> None:
-        """Forget all."""
-        self._legs.clear()
+    def commit(self) -> Committed:
+        """Return the network with the wire's next way, or None if the wire is gone."""
+        wire = self._leg.wire
+        courses = self._leg.trace(wire.end, wire.end)
+        if not courses.final:
+            return self
+        network = self._drawing.network
+        own = network.find(wire)
+        return None if own is None else retraced(network, own, courses.others(own))
 
     def lives(self) -> list[LiveWire]:
-        """Return what computes them."""
-        return [leg.live for leg in self._legs]
-
-    def poll(self) -> Iterator[tuple[Wire, Courses | ValueError]]:
-        """Yield each old wire whose new courses are ready, or the reason why it has none, and forget it."""
-        for leg in list(self._legs):
-            try:
-                courses = leg.trace(leg.wire.end, leg.wire.end)
-            except ValueError as error:
-                self._legs.remove(leg)
-                yield leg.wire, error
-                continue
-            if courses.final:
-                self._legs.remove(leg)
-                yield leg.wire, courses
+        """Return the live wires that compute for it."""
+        return [self._leg.live]
 
 
 def retraced(network: Network, own: Wire, others: tuple[Wire, ...]) -> Network:

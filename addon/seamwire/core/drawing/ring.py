@@ -52,7 +52,7 @@ class RingSearch:
         self.lives: tuple[LiveWire, ...] = ()
         """What computes now."""
         self.wire: Wire | None = None
-        """What was found."""
+        """The wire around the limb, once it is found."""
         self.joints: tuple[int, ...] = ()
         """The vertices where it needs seeds, so that it stays around the limb."""
 

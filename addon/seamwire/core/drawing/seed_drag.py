@@ -11,13 +11,16 @@ import numpy as np
 from ..base.messages import NOTHING, Message, Refused, message_of
 from ..network.network import FacePoint, Network, Snap, Wire, distinct, undirected, vertices_of
 from ..solver.solver import by_number, for_live
-from .wire import only_vertices
+from .candidates import only_vertices
+from .gesture import Gesture
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..network.network import Edge, End, Pick
-    from ..solver.solver import Candidate, Engines, LiveWire
+    from ..solver.solver import Candidate, LiveWire
+    from .drawing import Drawing
+    from .gesture import Committed
 
 
 @dataclass(frozen=True)
@@ -130,27 +133,26 @@ def _fixed_seed(network: Network, wire: Wire, moving: End) -> tuple[Pick, bool, 
     return (after.vertices[1], after.vertices[0]), True, 1
 
 
-class SeedDrag:
-    """A seed of a network on its way to somewhere else.
+class SeedDrag(Gesture):
+    """A seed of the network that is dragged, and the wires that follow it.
 
     Parameters
     ----------
-    engines
-        Have the live wires that those of the legs are forks of.
-    network
-        As it was before.
-    seed
-        The seed that is dragged, a pick that wires of the network have as their end, or that of the live wire.
-    points
-        (n, 3) vertices of the mesh.
+    drawing
+        The state that gestures share.
+    grip
+        The seed. On a wire, a seed is put there first, in the same step for undo.
 
     Raises
     ------
     ValueError
-        Where there is no seed, or a wire's other end is not part of the surface.
+        If there is no seed, or if a wire's other end is not part of the surface.
     """
 
-    def __init__(self, engines: Engines, network: Network, seed: Pick, points: NDArray[np.float64]) -> None:
+    def __init__(self, drawing: Drawing, grip: Snap) -> None:
+        self._drawing = drawing
+        seed = grip.pick
+        network = drawing.network.joined(grip, drawing.points)
         # Wires that were cut go across the surface anew.
         own = {wire.id for wire, _ in network.at(seed)}
         network = replace(network, wires=tuple(wire.uncut() if wire.id in own else wire for wire in network.wires))
@@ -163,9 +165,12 @@ class SeedDrag:
         self.seed = seed
         self.target: Snap | None = None
         self.final = True
-        self._solved = True
+        self.solved = True
+        """Whether each wire that follows is the shortest one."""
         self.ending = False
+        """Whether the seed was released, and stays where it is as soon as its wires are computed."""
         self.message = NOTHING
+        engines, points = drawing.engines, drawing.points
         self.legs = [Leg(engines.get(wire.along).fork(), network, wire, end, points) for wire, end in ends]
 
     @property
@@ -180,37 +185,49 @@ class SeedDrag:
         return tuple(wire for wire in self.network.wires if wire.id in own)
 
     def lives(self) -> list[LiveWire]:
-        """Return what computes the wires."""
+        """Return the live wires that compute for it."""
         return [leg.live for leg in self.legs]
 
     def poll(self) -> bool:
-        """Take in what was computed since; return whether the wires run elsewhere now."""
+        """Take in what was computed. Return whether the wires run elsewhere now."""
         if self.final or self.target is None:
             return False
         before = self.network
-        self.to(self.target)
+        self.aim(self.target)
         return self.network is not before
 
-    def to(self, target: Snap) -> bool:
-        """Lead the wires to another place. If that fails, tell why in `message` and keep the old wires."""
+    def aim(self, target: Snap | None) -> Message:
+        """Lead the wires to another place. If that fails, the old wires stay. Return why."""
+        if target is None:
+            return self.message
         self.target = target
-        self.final = self._solved = True
+        self.final = self.solved = True
         self.message = self._refusal(target.pick)
         if self.message:
-            return False
+            return self.message
         try:
             courses = self._courses(target.pick)
         except ValueError as error:
             self.message = message_of(error)
-            return False
-        if not self._solved:
-            return False
+            return self.message
         missing = [leg for leg in self.legs if leg.wire.id not in courses]
-        if missing:
+        if self.solved and missing:
             self.message = Message.of("no-wire-between", start=missing[0].stays, pick=target.pick)
-            return False
-        self.network = self._with_seed(self.before.with_courses(courses), target.pick)
-        return True
+        elif self.solved:
+            self.network = self._with_seed(self.before.with_courses(courses), target.pick)
+        return self.message
+
+    def commit(self) -> Committed:
+        """Return the network with the seed where it is now."""
+        if not self.final:
+            return self
+        if self.message:
+            raise Refused(self.message)
+        if self.target is None:
+            return None
+        # The mirror may have changed while the seed was dragged.
+        network = replace(self.network, mirror=self._drawing.options.mirror)
+        return network.joined(self.target, self._drawing.points)
 
     def _refusal(self, pick: Pick) -> Message:
         if isinstance(pick, tuple) and any(leg.wire.along == "SURFACE" for leg in self.legs):
@@ -233,7 +250,7 @@ class SeedDrag:
             else:
                 found = leg.trace(pick, pick)
             self.final &= found.final
-            self._solved &= found.solved
+            self.solved &= found.solved
             wire = found.following(leg.wire.follow)
             if wire is None:
                 continue

@@ -9,6 +9,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from seamwire.core.drawing.drawing import Drawing
+from seamwire.core.drawing.loop import LoopGesture
 from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
@@ -53,7 +55,9 @@ class Sheet:
                 surface, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE
             )
 
-        self.session = Session(make, self.points, Options(along=along), edges=surface.edges, triangles=self.triangles)
+        self.session = Session(
+            Drawing(make, self.points, Options(along=along), edges=surface.edges, triangles=self.triangles)
+        )
 
     @property
     def ridge(self) -> int:
@@ -192,7 +196,7 @@ def test_a_ridge_that_is_seen_does_not_wait_for_what_else_is_offered() -> None:
     session.hover(pick, loop=True)
     assert session.picture.offered.kind == "RIDGE"
     assert session.click(pick)
-    assert "loop" not in {queued.kind for queued in session._queue}
+    assert not any(isinstance(waiting.gesture, LoopGesture) for waiting in session._gestures.queue)
     session.wait()
     assert session.wires
     assert {wire.closed for wire in session.wires} == {False}
@@ -203,7 +207,7 @@ def test_where_neither_a_ridge_nor_a_cut_is_offered_it_is_said_however_late_ridg
     session = sheet.session
     session.hover(20 * (N + 1) + 26, loop=True)
     while session.computing:
-        for live in session._working():
+        for live in session._gestures.lives():
             live.wait()
         # Its result is final before the session has looked.
         session.use_crests(sheet.crests, False)

@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
+from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import FacePoint, Snap, place_of
@@ -26,7 +27,7 @@ def session(finish: str = "CUT") -> Session:
     def make(way: str) -> object:
         return core.LiveWire(surface, along=way.lower(), metric="euclidean")
 
-    made = Session(make, POINTS, Options(along="SURFACE"), edges=grid_edges(SIZE), triangles=TRIANGLES)
+    made = Session(Drawing(make, POINTS, Options(along="SURFACE"), edges=grid_edges(SIZE), triangles=TRIANGLES))
     use(made, finish=finish)
     return made
 
@@ -139,10 +140,12 @@ def test_over_a_mirror_a_wire_without_edges_has_its_image() -> None:
     centred = POINTS - (1.0, 1.0, 0.0)
     surface = core.Surface(centred, TRIANGLES, grid_edges(SIZE))
     on = Session(
-        lambda way: core.LiveWire(surface, along=way.lower(), metric="euclidean"),
-        centred,
-        Options(along="SURFACE"),
-        edges=grid_edges(SIZE),
+        Drawing(
+            lambda way: core.LiveWire(surface, along=way.lower(), metric="euclidean"),
+            centred,
+            Options(along="SURFACE"),
+            edges=grid_edges(SIZE),
+        )
     )
     use(on, finish="CUT")
     use(on, mirror=[0])

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from polygon_meshes import arrays_of, grid_places, grid_polygons
 from seamwire.core.base.mesh_arrays import Arrays
+from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Along, Snap
 from seamwire.core.solver.live_maker import LiveMaker
@@ -49,7 +50,7 @@ class Alt:
     def __init__(self, arrays: Arrays, pixels_a_unit: float) -> None:
         self.arrays = arrays
         make = LiveMaker(arrays)
-        self.session = Session(make, arrays.points, edges=arrays.edges, triangles=arrays.triangles)
+        self.session = Session(Drawing(make, arrays.points, edges=arrays.edges, triangles=arrays.triangles))
         half = 200.0 / pixels_a_unit
         self.view = View(400.0, 400.0, np.diag([1.0 / half, 1.0 / half, -0.1, 1.0]))
         self.picker = Picker(arrays)
@@ -67,7 +68,7 @@ class Alt:
         """Point at a place and return the vertices of the first two offers."""
         self.session.hover(self.snap(x, y), loop=True)
         self.session.wait()
-        return [set(offer.vertices) for offer in self.session._loops.offers[:2]]
+        return [set(offer.vertices) for offer in self.session._gestures.loop.offers.offers[:2]]
 
 
 def ring(number: int) -> set[int]:
@@ -127,7 +128,7 @@ def test_on_a_plain_where_no_direction_is_likelier_the_last_one_stays() -> None:
     alt.over(0.013, 0.0)
 
     def is_row() -> bool:
-        rows = {vertex // 81 for vertex in alt.session._loops.wire.vertices}
+        rows = {vertex // 81 for vertex in alt.session._gestures.loop.offers.wire.vertices}
         return len(rows) == 1
 
     began = is_row()
@@ -193,7 +194,7 @@ def turns_around(session: Session) -> bool:
 def test_two_seeds_on_one_side_of_a_limb_close_around_it_first_and_in_front_after_w(along: Along, second: int) -> None:
     first = AROUND * 20
     session = closing(Alt(limb(), 200.0), first, second, along)
-    others = [{*wire.vertices} for wire in session._candidates.others]
+    others = [{*wire.vertices} for wire in session._gestures.wire.candidates.others]
     assert session.close()
     session.wait()
     assert turns_around(session)
@@ -213,10 +214,10 @@ def test_a_click_while_the_way_around_a_limb_is_searched_waits_for_it(along: Alo
     alt = Alt(limb(), 200.0)
     session = closing(alt, first, second, along)
     session.hover(None)
-    session._candidates.ring.forget()
+    session._gestures.wire.candidates.ring.forget()
     session.hover(Snap(first, "SEED"))
     assert session.computing
-    assert not session._candidates.decided
+    assert not session._gestures.wire.candidates.decided
     session.click(Snap(first, "SEED"))
     session.wait()
     assert turns_around(session)
@@ -229,17 +230,17 @@ def test_offers_and_the_way_around_a_limb_are_found_at_once(monkeypatch: pytest.
     first, second = AROUND * 80, AROUND * 96 + 24
     session = closing(Alt(limb(), 200.0), first, second, "SURFACE")
     session.hover(None)
-    session._candidates.ring.forget()
+    session._gestures.wire.candidates.ring.forget()
     session.hover(Snap(first, "SEED"), loop=True)
     for _ in range(100):
-        for live in session._working():
+        for live in session._gestures.lives():
             live.wait()
         session.poll()
         if not session.computing:
             break
     assert not session.computing
-    assert session._candidates.ring.wire is not None
-    assert session._loops.offers
+    assert session._gestures.wire.candidates.ring.wire is not None
+    assert session._gestures.loop.offers.offers
 
 
 def test_the_wire_around_a_limb_stays_around_it_when_a_seed_is_moved() -> None:

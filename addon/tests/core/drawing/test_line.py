@@ -9,13 +9,14 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
+from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.intent import Intent
 from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Along, FacePoint, Snap, undirected
 from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
-from setting import stronger, use
+from setting import end_line, stronger, use
 from table import Table
 
 core = pytest.importorskip("seamwire_core")
@@ -41,13 +42,15 @@ def session(along: Along = "EDGES", seams: object = (), **options: object) -> Se
         return core.LiveWire(*mesh, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE)
 
     made = Session(
-        live,
-        points,
-        Options(along=along),
-        edges=grid_edges(SIZE),
-        triangles=grid_triangles(SIZE),
-        seams=seams,
-        **options,
+        Drawing(
+            live,
+            points,
+            Options(along=along),
+            edges=grid_edges(SIZE),
+            triangles=grid_triangles(SIZE),
+            seams=seams,
+            **options,
+        )
     )
     made.wait()
     return made
@@ -90,7 +93,7 @@ def draw(
     for move in range(1, moves + 1):
         count = max(2, len(points) * move // moves)
         drawing.line_to(points[:count], faces[:count], end if move == moves else None)
-    drawing.line_end()
+    end_line(drawing)
     drawing.wait()
 
 
@@ -121,11 +124,11 @@ def test_a_line_is_kept_as_wires_along_its_edges_in_one_step() -> None:
     np.testing.assert_array_equal(drawing.picture.line, points[:half])
     drawing.line_to(points, faces, None)
     assert [wire.vertices for wire in drawing.picture.all(Role.FOLLOWING)] == [HOOK]
-    assert drawing.line_end()
+    assert end_line(drawing)
     drawing.wait()
     assert chain_of(drawing) == list(HOOK)
     assert drawing.seed is None, "a line is a chain of its own"
-    assert not drawing.drawing
+    assert not drawing.draws_line
     assert drawing.picture.all(Role.FOLLOWING) == ()
     assert drawing.undo()
     assert drawing.wires == ()
@@ -163,7 +166,7 @@ def test_a_line_that_is_cancelled_leaves_all_as_it_was() -> None:
     assert drawing.network == network
     assert drawing.picture.all(Role.FOLLOWING) == ()
     assert not drawing.line_cancel()
-    assert not drawing.line_end()
+    assert not end_line(drawing)
     assert not drawing.line_to(*line((3, 7), (9, 7)), None)
     assert drawing.network == network
 
@@ -174,7 +177,7 @@ def test_undo_forgets_a_line_before_it_undoes() -> None:
     drawing.line_begin(at(3, 7))
     assert drawing.picture.can_undo
     assert drawing.undo()
-    assert not drawing.drawing
+    assert not drawing.draws_line
     assert len(drawing.wires) == 1
 
 
@@ -188,7 +191,7 @@ def test_a_line_begun_elsewhere_ends_the_chain_and_one_begun_at_its_seed_goes_on
     draw(drawing, Snap(at(4, 1), "SEED"), line((4, 1), (9, 1)))
     assert chain_of(drawing) == [at(x, 1) for x in range(1, 10)]
     assert drawing.seed is not None
-    assert drawing.seed_place == at(9, 1)
+    assert drawing.drawing.seed_place == at(9, 1)
     assert drawing.wires[1].heading == (at(3, 1), at(4, 1)), "its first wire goes on from the one before"
     drawing.click(at(9, 4))
     drawing.wait()
@@ -243,7 +246,7 @@ def test_marking_mirror_and_strength_are_those_of_other_wires() -> None:
     stronger(drawing, 2)
     draw(drawing, ROW[0], line((2, 5), (9, 5)))
     assert not drawing.wires[0].marks
-    assert drawing.wires[0].strength == drawing.strength
+    assert drawing.wires[0].strength == drawing.drawing.strength
     assert drawing.edges_to_clear() == sorted(undirected(pair) for pair in itertools.pairwise(ROW))
 
 
@@ -282,7 +285,7 @@ def test_a_line_drawn_before_the_mesh_is_known_is_fitted_when_it_is() -> None:
     points = np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]])
     drawing.line_to(points, np.zeros(3, dtype=np.int32), None)
     assert drawing.picture.all(Role.FOLLOWING) == ()
-    drawing.line_end()
+    end_line(drawing)
     assert drawing.waiting_clicks == 1
     assert drawing.wires == ()
     drawing.wait()
@@ -295,11 +298,11 @@ def test_clicks_and_lines_wait_for_a_line_that_is_not_computed_yet() -> None:
     three = np.zeros(3, dtype=np.int32)
     drawing.line_begin(0)
     drawing.line_to(np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]]), three, None)
-    drawing.line_end()
+    end_line(drawing)
     table.lives["EDGES"].fork_ready = (True, True)  # the second is computed, and comes second all the same
     drawing.line_begin(12)
     drawing.line_to(np.array([[0.0, 2, 0], [1, 2, 0], [2, 2, 0]]), three, None)
-    drawing.line_end()
+    end_line(drawing)
     drawing.click(20)
     assert drawing.waiting_clicks == 3
     assert [wire.vertices for wire in drawing.picture.all(Role.FOLLOWING)] == [(0, 1, 2), (12, 13, 14)]
@@ -329,7 +332,7 @@ def test_across_the_surface_wires_keep_near_to_the_line(finish: str) -> None:
     for count in range(8, len(points) + 8, 8):
         drawing.line_to(points[:count], faces[:count], None)
         drawing.poll()
-    drawing.line_end()
+    end_line(drawing)
     drawing.wait()
     wires = drawing.wires
     assert 2 <= len(wires) <= 12

@@ -9,13 +9,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points
+from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.intent import Intent
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Network, Snap, Wire
 from seamwire.core.network.stops import Stops
 from seamwire.core.network.symmetry import Symmetry
-from setting import use
+from setting import insert, use
 from table import SIZE, Table, chain, paper
 
 ROW = (12, 13, 14, 15, 16, 17)
@@ -110,7 +111,7 @@ def test_a_strip_ends_at_kept_wires_and_their_images() -> None:
 def test_a_strip_ends_on_the_mirrors_plane_unless_it_runs_along_it() -> None:
     table = Table()
     table.points[:, 0] -= 2.0
-    session = Session(table.session._engines._make, table.points, edges=grid_edges(SIZE))
+    session = Session(Drawing(table.session.drawing.engines._make, table.points, edges=grid_edges(SIZE)))
     use(session, mirror=[0])
     session.hover((15, 16), loop=True)
     session.next_candidate()
@@ -285,7 +286,7 @@ def test_what_goes_on_from_a_strip_stays_when_that_takes_its_next_offer() -> Non
 def test_a_seed_in_a_strip_makes_two_ordinary_wires_of_it() -> None:
     session = Table().session
     session.loop((14, 20))
-    assert session.insert(session.wires[0], 14)
+    assert insert(session, session.wires[0], 14)
     assert [wire.vertices for wire in session.wires] == [(2, 8, 14), (14, 20, 26, 32)]
     assert [wire.offers for wire in session.wires] == [(), ()]
 
@@ -313,7 +314,7 @@ def test_an_edge_that_is_none_is_refused_in_words() -> None:
 
     table = Table()
     live = table.lives["EDGES"]
-    session = Session(lambda _: NoEdge(), table.points)
+    session = Session(Drawing(lambda _: NoEdge(), table.points))
     assert not session.loop((0, 20))
     assert "no edge" in str(session.message)
     session.hover((0, 20), loop=True)

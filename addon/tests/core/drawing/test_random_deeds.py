@@ -11,12 +11,13 @@ import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from paper_mesh import PaperMesh
+from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.intent import Intent
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Edge, Network, Pick, Snap
 from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
 from seamwire.core.storage.wire_labels import Plan
-from setting import stronger, use
+from setting import end_line, insert, stronger, use
 
 core = pytest.importorskip("seamwire_core")
 
@@ -46,11 +47,13 @@ class Monkey:
             )
 
         self.session = Session(
-            live,
-            self.points,
-            edges=EDGES,
-            seams=[(40, 41), (41, 53)],
-            triangles=grid_triangles(SIZE),
+            Drawing(
+                live,
+                self.points,
+                edges=EDGES,
+                seams=[(40, 41), (41, 53)],
+                triangles=grid_triangles(SIZE),
+            )
         )
         self.mesh = PaperMesh(self.points, EDGES, triangles=grid_triangles(SIZE), seams={(40, 41), (41, 53)})
         self.plain: set[Edge] = set(self.mesh.seams)
@@ -73,7 +76,7 @@ class Monkey:
             session.drag_cancel,
             lambda: session.line_begin(self.snap()),
             *[self.line_on] * 3,
-            *[session.line_end] * 2,
+            *[lambda: end_line(session)] * 2,
             session.line_cancel,
             session.end_chain,
             session.close,
@@ -85,7 +88,7 @@ class Monkey:
             lambda: use(session, clear=not session.options.clear),
             self.with_wire(session.retrace),
             self.with_wire(session.drop),
-            self.with_wire(lambda wire: session.insert(wire, self.dice.choice(wire.vertices))),
+            self.with_wire(lambda wire: insert(session, wire, self.dice.choice(wire.vertices))),
             self.erase,
             *[self.store] * 2,
             self.undo_in_mesh,
@@ -183,7 +186,7 @@ class Monkey:
                 around = [*wire.vertices, *wire.vertices[:1]] if wire.closed else list(wire.vertices)
                 assert np.array_equal(wire.points, self.points[around])
         assert (session.picture.offered.kind is None) == (session.picture.offered.kinds == ())
-        offers = session._loops.offers
+        offers = session._gestures.loop.offers.offers
         assert len({frozenset(offer.edges()) for offer in offers}) == len(offers)
         assert (session.picture.intent is Intent.MOVE) == session.dragging
 

@@ -8,12 +8,13 @@ import pytest
 from fake_live import grid_edges
 from numpy.typing import NDArray
 from paper_mesh import PaperMesh
+from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Along, Snap
 from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
-from setting import stronger, use
+from setting import insert, stronger, use
 
 core = pytest.importorskip("seamwire_core")
 
@@ -46,7 +47,7 @@ def draw(along: Along = "EDGES", ready: bool = True) -> Session:
         on = (core.Surface(*mesh),) if ready else mesh
         return core.LiveWire(*on, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE)
 
-    return Session(make, points, Options(along=along), edges=grid_edges(SIZE))
+    return Session(Drawing(make, points, Options(along=along), edges=grid_edges(SIZE)))
 
 
 def straight(x: int, y0: int, y1: int) -> tuple[int, ...]:
@@ -72,14 +73,14 @@ def test_a_wire_along_the_ridge_is_kept(ready: bool) -> None:
 def test_another_strength_keeps_the_surface_and_its_curvatures(along: Along) -> None:
     session = draw(along)
     click(session, at(0, -8))
-    surface = session._engines.get(along).surface
-    strength = session.feature_strength()
+    surface = session.drawing.engines.get(along).surface
+    strength = session.drawing.feature_strength()
     for steps in (1, -2):
         assert stronger(session, steps)
-        assert np.shares_memory(session.feature_strength(), strength)
+        assert np.shares_memory(session.drawing.feature_strength(), strength)
         session.wait()
-        assert np.shares_memory(session.feature_strength(), strength)
-        assert np.shares_memory(session._engines.get(along).surface.points, surface.points)
+        assert np.shares_memory(session.drawing.feature_strength(), strength)
+        assert np.shares_memory(session.drawing.engines.get(along).surface.points, surface.points)
 
 
 def test_a_dragged_seed_leads_its_wires() -> None:
@@ -159,7 +160,7 @@ def test_another_strength_is_computed_in_the_background() -> None:
     session.wait()
     weak = session.picture.active
     stronger(session, -20)
-    assert session.strength == 1.0
+    assert session.drawing.strength == 1.0
     session.wait()
     assert session.picture.active.vertices == straight(-4, -8, 8), "without a pull the straight way is the shortest"
     assert weak.vertices
@@ -190,7 +191,7 @@ def test_loops_are_found_in_the_background() -> None:
     )
     edges = np.unique(np.sort(np.concatenate([quads[:, [0, 1]], quads[:, [1, 2]], quads[:, [2, 3]]]), axis=1), axis=0)
     surface = core.Surface(points, np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]), edges)
-    session = Session(lambda _: core.LiveWire(surface, along="edges"), points, edges=edges)
+    session = Session(Drawing(lambda _: core.LiveWire(surface, along="edges"), points, edges=edges))
     session.hover((24 * 8, 24 * 8 + 1), loop=True)
     session.wait()
     assert sorted(session.picture.one(Role.OFFER).vertices) == list(range(24 * 8, 24 * 9))
@@ -199,7 +200,7 @@ def test_loops_are_found_in_the_background() -> None:
     session.loop((24 * 4, 24 * 4 + 1))
     session.wait()
     assert sorted(session.wires[0].vertices) == list(range(24 * 4, 24 * 5))
-    session.insert(session.wires[0], 24 * 4)
+    insert(session, session.wires[0], 24 * 4)
     session.drag(24 * 4)
     session.drag_to(24 * 6)
     session.wait()
@@ -209,7 +210,7 @@ def test_loops_are_found_in_the_background() -> None:
 
 def test_mirrored_wires_lie_on_the_other_side_of_the_ridge() -> None:
     session = draw()
-    assert 0 in session.symmetric_axes
+    assert 0 in session.drawing.symmetry.symmetric_axes
     use(session, mirror=(0,))
     click(session, at(3, -5), at(7, 5))
     assert len(session.edges_to_mark()) == 2 * len(session.wires[0].edges())

@@ -49,7 +49,7 @@ def test_along_a_limb_the_strip_comes_first_and_a_loop_with_corners_last() -> No
 
 def test_corners_are_where_straight_ways_leave_a_loop() -> None:
     session = tube()
-    live, points = session._engines.get("EDGES"), session._points
+    live, points = session.drawing.engines.get("EDGES"), session.drawing.points
     live.wait()
     ring = list(range(4 * AROUND, 5 * AROUND))
     assert corners(live, ring, points) == 0
@@ -70,7 +70,7 @@ def test_where_three_edges_meet_a_loop_has_no_corner() -> None:
     points = np.concatenate([square, square + np.array([0.0, 0.0, 1.0])])
     points += np.random.default_rng(1).normal(0.0, 0.1, points.shape)
     session = session_on(points, halves(quads), sides(quads))
-    live = session._engines.get("EDGES")
+    live = session.drawing.engines.get("EDGES")
     live.wait()
     assert [corners(live, quad[::turn].tolist(), points) for quad in quads for turn in (1, -1)] == [0] * 12
 
@@ -174,8 +174,8 @@ def test_the_strip_of_a_stored_network_can_be_moved() -> None:
     while session.picture.offered.kind != "STRIP":
         session.next_candidate()
     session.loop(edge)
-    points = session._points
-    mesh = PaperMesh(points, session._symmetry._edges)
+    points = session.drawing.points
+    mesh = PaperMesh(points, session.drawing.symmetry._edges)
     mesh.write(session)
     again = tube()
     mesh.open(again)

@@ -8,6 +8,7 @@ from collections import Counter
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
@@ -53,7 +54,7 @@ def session(triangles: NDArray[np.int32]) -> Session:
             surface, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE
         )
 
-    return Session(make, points, Options(along="SURFACE"), edges=surface.edges, triangles=triangles)
+    return Session(Drawing(make, points, Options(along="SURFACE"), edges=surface.edges, triangles=triangles))
 
 
 def is_closed(edges: list[Edge]) -> bool:
@@ -62,7 +63,7 @@ def is_closed(edges: list[Edge]) -> bool:
 
 def islands(session: Session, triangles: NDArray[np.int32]) -> int:
     cuts = np.array(session.edges_to_mark(), dtype=np.int32)
-    surface = core.Surface(session._points, triangles)
+    surface = core.Surface(session.drawing.points, triangles)
     return len(np.unique(core.face_segments(surface, cuts)))
 
 

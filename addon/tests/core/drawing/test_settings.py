@@ -26,15 +26,15 @@ def test_a_clearing_wire_takes_edges_from_those_before_it() -> None:
 def test_strength_goes_in_steps_between_its_limits() -> None:
     table = Table()
     session = table.session
-    assert session.strength == 10.0
+    assert session.drawing.strength == 10.0
     stronger(session, 2)
-    assert session.strength == pytest.approx(15.625)
+    assert session.drawing.strength == pytest.approx(15.625)
     assert table.lives["EDGES"].metrics == [("feature", 15.625, 99.0)]
     stronger(session, 50)
-    assert session.strength == 100.0
+    assert session.drawing.strength == 100.0
     assert not stronger(session, 1)
     stronger(session, -100)
-    assert session.strength == 1.0
+    assert session.drawing.strength == 1.0
 
 
 def test_each_way_of_running_has_its_own_strength_and_both_the_metric() -> None:
@@ -43,10 +43,10 @@ def test_each_way_of_running_has_its_own_strength_and_both_the_metric() -> None:
     stronger(session, 1)
     use(session, metric="campen")
     use(session, along="SURFACE")
-    assert session.strength == 20.0
+    assert session.drawing.strength == 20.0
     assert table.lives["SURFACE"].metrics == [("campen", 20.0, 99.0)]
     use(session, along="EDGES")
-    assert session.strength == 12.5
+    assert session.drawing.strength == 12.5
 
 
 def test_another_clamp_is_another_metric_for_both_ways() -> None:
@@ -90,6 +90,6 @@ def test_the_metric_stays_while_a_seed_moves() -> None:
     session = corner().session
     session.drag(3)
     stronger(session, 1)
-    assert session.strength == 10.0
+    assert session.drawing.strength == 10.0
     session.drag_cancel()
-    assert session.strength == 12.5, "it is taken over when the seed is let go"
+    assert session.drawing.strength == 12.5, "it is taken over when the seed is let go"

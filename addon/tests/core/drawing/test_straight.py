@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Along, FacePoint, Snap
@@ -32,14 +33,14 @@ def session() -> Session:
             surface, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE
         )
 
-    session = Session(make, points, Options(along="SURFACE"), edges=surface.edges, triangles=triangles)
+    session = Session(Drawing(make, points, Options(along="SURFACE"), edges=surface.edges, triangles=triangles))
     use(session, straight=True)
     return session
 
 
 def off_plane(session: Session, points: np.ndarray, start: int = START, end: int = END) -> float:
     """Return how far points are, seen from above, from the line between two vertices."""
-    a, b = session._points[[start, end], :2]
+    a, b = session.drawing.points[[start, end], :2]
     normal = np.array([a[1] - b[1], b[0] - a[0]]) / np.linalg.norm(b - a)
     return float(np.abs((points[:, :2] - a) @ normal).max())
 
@@ -60,7 +61,7 @@ def test_it_leads_the_candidates_and_a_click_keeps_it(session: Session) -> None:
     assert session.click(Snap(END, seen_along=DOWN))
     (wire,) = session.wires
     assert off_plane(session, wire.points) < 1e-9
-    chain = session._points[list(wire.vertices)]
+    chain = session.drawing.points[list(wire.vertices)]
     assert wire.vertices[0] == START
     assert wire.vertices[-1] == END
     assert off_plane(session, chain) < 2.0 / (SIDE - 1), "its seam keeps within an edge of it"
@@ -69,7 +70,7 @@ def test_it_leads_the_candidates_and_a_click_keeps_it(session: Session) -> None:
 
 
 def test_it_is_there_at_once_while_others_are_computed(session: Session) -> None:
-    session._engines.get("SURFACE").wait_for_surface()
+    session.drawing.engines.get("SURFACE").wait_for_surface()
     session.start(START)
     assert session.click(Snap(END, seen_along=DOWN))
     assert session.waiting_clicks == 0
@@ -127,10 +128,10 @@ def test_it_follows_the_view(session: Session) -> None:
     tilted = (0.3, 0.1, -1.0)
     session.hover(Snap(END, seen_along=tilted))
     session.wait()
-    normal = np.cross(session._points[END] - session._points[START], tilted)
+    normal = np.cross(session.drawing.points[END] - session.drawing.points[START], tilted)
     normal /= np.linalg.norm(normal)
     assert session.picture.choice.straight
-    assert np.abs((session.picture.active.points - session._points[START]) @ normal).max() < 1e-9
+    assert np.abs((session.picture.active.points - session.drawing.points[START]) @ normal).max() < 1e-9
 
 
 def test_switched_off_the_others_are_as_ever(session: Session) -> None:
@@ -146,7 +147,7 @@ def test_switched_off_the_others_are_as_ever(session: Session) -> None:
 
 @pytest.mark.parametrize("behind", [False, True], ids=["not looked at", "one behind the other"])
 def test_where_there_is_none_the_others_are_as_ever(session: Session, behind: bool) -> None:
-    seen = tuple((session._points[END] - session._points[START]).tolist())
+    seen = tuple((session.drawing.points[END] - session.drawing.points[START]).tolist())
     aim(session, seen=seen if behind else None)
     assert not session.picture.choice.straight
     assert session.picture.active is not None
@@ -155,13 +156,13 @@ def test_where_there_is_none_the_others_are_as_ever(session: Session, behind: bo
 
 
 def test_points_of_faces_are_its_ends_too(session: Session) -> None:
-    triangle = session._triangles[100]
+    triangle = session.drawing.triangles[100]
     point = FacePoint(100, tuple(triangle.tolist()), (0.2, 0.3, 0.5))
     session.start(START)
     session.hover(Snap(point, seen_along=DOWN))
     session.wait()
     assert session.picture.choice.straight
-    a, b = session._points[START, :2], (np.array(point.weights) @ session._points[triangle])[:2]
+    a, b = session.drawing.points[START, :2], (np.array(point.weights) @ session.drawing.points[triangle])[:2]
     normal = np.array([a[1] - b[1], b[0] - a[0]]) / np.linalg.norm(b - a)
     assert np.abs((session.picture.active.points[:, :2] - a) @ normal).max() < 1e-9
 
@@ -169,7 +170,7 @@ def test_points_of_faces_are_its_ends_too(session: Session) -> None:
 @pytest.mark.parametrize("to_vertex", [False, True], ids=["to a point", "to a vertex"])
 def test_between_near_points_it_is_offered_where_it_is_to_be_cut(session: Session, to_vertex: bool) -> None:
     use(session, finish="CUT")
-    triangle = session._triangles[100]
+    triangle = session.drawing.triangles[100]
     one, two = (FacePoint(100, tuple(triangle.tolist()), weights) for weights in ((0.6, 0.2, 0.2), (0.57, 0.22, 0.21)))
     end = int(triangle[0]) if to_vertex else two
     session.start(one)

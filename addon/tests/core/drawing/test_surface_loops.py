@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fake_live import FakeCuts, FakeLive, grid_edges
+from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.intent import Intent
 from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.picture import Role
@@ -274,7 +275,9 @@ def test_edges_have_none_across_the_surface_and_points_none_along_edges() -> Non
 
 def test_without_triangles_there_is_none() -> None:
     made = table()
-    session = Session(made.session._engines._make, made.points, Options(along="SURFACE"), edges=grid_edges(SIZE))
+    session = Session(
+        Drawing(made.session.drawing.engines._make, made.points, Options(along="SURFACE"), edges=grid_edges(SIZE))
+    )
     session.hover(8, loop=True)
     assert session.picture.one(Role.OFFER) is None
 

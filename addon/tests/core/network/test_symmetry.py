@@ -12,7 +12,7 @@ from seamwire.core.base.spatial_hash import SpatialHash
 from seamwire.core.drawing.picture import Role
 from seamwire.core.network.network import Wire
 from seamwire.core.network.symmetry import TOLERANCE, Symmetry
-from setting import use
+from setting import insert, use
 from table import SIZE, Table, chain
 
 
@@ -451,7 +451,7 @@ def test_topology_of_nothing_and_of_broken_meshes() -> None:
 
 def test_mirrored_edges_are_marked_and_cleared() -> None:
     session = Table(centred=True).session
-    assert session.symmetric_axes == (0, 1)
+    assert session.drawing.symmetry.symmetric_axes == (0, 1)
     use(session, mirror=[0])
     session.click(0)
     session.click(1)
@@ -506,7 +506,7 @@ def test_a_wires_images_are_those_of_when_it_was_kept_and_follow_its_course() ->
     assert sorted(wire.images) == chain(5, 4, 3, 9)
     assert session.retrace(wire)
     assert sorted(session.wires[0].images) == chain(5, 11, 10, 9)
-    assert session.insert(session.wires[0], 6)
+    assert insert(session, session.wires[0], 6)
     assert [sorted(one.images) for one in session.wires] == [chain(5, 11), chain(11, 10, 9)]
     assert [one.mirror for one in session.wires] == [(0,), (0,)]
     assert [image.vertices for image in session.mirrored(session.wires[0])] == [(5, 11)]

@@ -103,7 +103,7 @@ def test_cuts_through_a_point_around_other_limbs_are_others_and_one_that_strays_
 def test_where_none_runs_there_it_says_so() -> None:
     session = taken()
     it = after_cutting(session, as_cut(session))
-    it.lives["SURFACE"] = it.session._engines.cuts()
+    it.lives["SURFACE"] = it.session.drawing.engines.cuts()
     it.lives["SURFACE"].islands = (8,)
     assert not it.session.bend(28)
     assert it.session.message.code == CUT_IS_GONE

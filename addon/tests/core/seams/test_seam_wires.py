@@ -69,7 +69,7 @@ def test_what_was_drawn_is_found_again_with_as_few_seeds() -> None:
         session.click(end)
         session.wait()
     seams = np.array([edge for wire in session.wires for edge in wire.edges()])
-    wires = list(tube().wires_along(seams))
+    wires = list(tube().drawing.wires_along(seams))
     assert len(wires) <= 2
     assert sorted(edge for wire in wires for edge in wire.edges()) == sorted(map(tuple, seams.tolist()))
 
@@ -82,7 +82,7 @@ def test_wires_run_as_the_seams_do_and_can_be_drawn_again_from_their_seeds(name:
         "there and back": [*meridian(3)[1:6], *meridian(4)[5:0:-1]],
     }[name]
     seams = np.array([undirected(pair) for pair in itertools.pairwise(chain)])
-    wires = list(ball().wires_along(seams))
+    wires = list(ball().drawing.wires_along(seams))
     assert sorted(edge for wire in wires for edge in wire.edges()) == sorted(map(tuple, seams.tolist()))
     assert all(one.end == two.start for one, two in itertools.pairwise(wires))
     assert redrawn(ball(), wires) == [list(wire.vertices) for wire in wires]
@@ -91,9 +91,9 @@ def test_wires_run_as_the_seams_do_and_can_be_drawn_again_from_their_seeds(name:
 
 def test_straight_seams_take_the_fewest_seeds_there_can_be() -> None:
     seams = np.array([undirected(pair) for pair in zip(meridian(3), meridian(3)[1:], strict=False)])
-    assert [(wire.start, wire.end) for wire in tube().wires_along(seams)] == [(meridian(3)[0], meridian(3)[-1])]
+    assert [(wire.start, wire.end) for wire in tube().drawing.wires_along(seams)] == [(meridian(3)[0], meridian(3)[-1])]
 
 
 def test_a_seam_that_is_no_edge_of_the_surface_is_refused() -> None:
     with pytest.raises(ValueError, match=str(AROUND * RINGS + 50)):
-        list(tube().wires_along(np.array([(0, AROUND * RINGS + 50)])))
+        list(tube().drawing.wires_along(np.array([(0, AROUND * RINGS + 50)])))

@@ -6,8 +6,8 @@ from __future__ import annotations
 import pytest
 from grid import POINTS, SIZE, Grid
 from seamwire.core.base.messages import Message
+from seamwire.core.drawing.candidates import CandidateWires
 from seamwire.core.drawing.options import Options
-from seamwire.core.drawing.wire import CandidateWires
 from seamwire.core.network.network import Network, Seed, Snap
 
 

@@ -1,0 +1,245 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The candidate wires: the ways from the seed to what is under the cursor, until one of them is kept."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..base.messages import NOTHING, Message, message_of
+from ..network.network import FacePoint, Network, Snap, Wire, distinct
+from ..solver.solver import by_number, for_live
+from .ring import RingSearch
+from .straight import straight_wire
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..network.network import Along, Pick, Seed
+    from ..solver.solver import Candidate, Engines
+    from .options import Options
+
+
+class CandidateWires:
+    """The pick under the cursor, and a wire from the seed to it for each metric.
+
+    Parameters
+    ----------
+    engines
+        Compute them.
+    points
+        (n, 3) vertices of the mesh.
+    edges
+        (e, 2) edges of the mesh. If None, no wire along edges leads around a limb.
+    """
+
+    def __init__(self, engines: Engines, points: NDArray[np.float64], edges: NDArray[np.int32] | None = None) -> None:
+        self._engines = engines
+        self._points = points
+        self.ring = RingSearch(engines, points, edges)
+        self.target: Snap | None = None
+        self.wires: tuple[Wire | None, ...] = ()
+        self.finals: tuple[bool, ...] = ()
+        self.leading = 0
+        """The one that is the active one unless the artist brings another forward."""
+        self.settled = True
+        """Whether it is computed, and stays the leading one."""
+        self.chosen: int | None = None
+        """The one that the artist brought forward."""
+        self._straight: Wire | None = None
+
+    @property
+    def final(self) -> bool:
+        """Whether all wires are computed."""
+        return all(self.finals)
+
+    @property
+    def active_index(self) -> int:
+        """Which of them a click would keep."""
+        index = self.leading if self.chosen is None else self.chosen
+        # While that one is not computed and another is, show the one there is.
+        there = (at for at in self._order(index) if self.wires[at] is not None)
+        return next(there, index)
+
+    @property
+    def active(self) -> Wire | None:
+        """The wire that a click would keep."""
+        return self.wires[self.active_index] if self.wires else None
+
+    @property
+    def others(self) -> tuple[Wire, ...]:
+        """The different other wires, in the order in which they follow the active one."""
+        return distinct(self.wires[at] for at in self._order(self.active_index))[1:]
+
+    @property
+    def number(self) -> int:
+        """The place of the active wire among those that run differently, beginning with the leading one, from 0."""
+        active = self.active
+        ways = distinct(self.wires[at] for at in self._order(self.leading))
+        return next((place for place, way in enumerate(ways) if active is not None and way.like(active)), 0)
+
+    @property
+    def active_final(self) -> bool:
+        """Whether the wire that a click would keep is computed."""
+        return self.active is not None and self.finals[self.active_index]
+
+    def _order(self, first: int) -> list[int]:
+        """Return the wires' numbers in the order in which they come forward, from one of them on."""
+        count = len(self.wires)
+        return [(first + step) % count for step in range(count)]
+
+    @property
+    def decided(self) -> bool:
+        """Whether the wire that a click would keep is computed, and will not be another one when the rest is."""
+        index = self.active_index
+        return self.active_final and (self.final or index == self.chosen or (self.settled and index == self.leading))
+
+    @property
+    def shown(self) -> tuple[object, ...]:
+        """What changes when something else is to be seen."""
+        return self.target, self.leading, self.finals, self.wires
+
+    def is_aimed_at(self, target: Snap | None, straight: bool) -> bool:
+        """Whether a target is what is under the cursor already, looked at from where it is now if wires are to be straight there."""
+        if target != self.target:
+            return False
+        return not straight or target is None or target.seen_along == self.target.seen_along
+
+    def clear(self) -> None:
+        """Show no wires, and what is under the cursor still."""
+        self.wires, self.finals, self.settled = (), (), True
+        self._straight = None
+
+    def reset(self) -> None:
+        """Forget which wires there were: those of another metric, or way of running, are others."""
+        self.clear()
+        self.chosen, self.leading = None, 0
+
+    def sow(self, seed: Seed, along: Along) -> None:
+        """Let wires that run one way begin at a seed from here on.
+
+        Raises
+        ------
+        ValueError
+            Where the seed is not part of the surface.
+        """
+        begin = for_live(seed.begins(along), along)
+        self._engines.get(along).seed(begin, forward=seed.forward and along == "EDGES")
+
+    def advance(self) -> Message:
+        """Bring the next wire forward; return why that cannot be, else nothing."""
+        others = self.others
+        if not others:
+            same = self.final and self.active is not None
+            return Message.of("same-edges" if same else "no-next-candidate")
+        self.chosen = next(at for at, wire in enumerate(self.wires) if wire is others[0])
+        return NOTHING
+
+    @property
+    def straight_active(self) -> bool:
+        """Whether the wire that a click would keep is the one that is straight in the view."""
+        return self._straight is not None and self.active is self._straight
+
+    def aim(self, target: Snap | None, network: Network, options: Options) -> Message:
+        """Find the wires from a network's seed to a target. Return the reason for a failure, otherwise an empty message."""
+        along = options.along
+        self.target = target
+        self.clear()
+        seed = network.seed
+        if seed is None or target is None or seed.at(target.pick, along):
+            return NOTHING
+        if along == "SURFACE" and isinstance(target.pick, tuple):
+            return only_vertices(target.pick)
+        goal, avoid = _goal(target, network, along)
+        try:
+            found = self._engines.get(along).wires(for_live(goal, along))
+        except ValueError as error:
+            return message_of(error)
+        wires, self.leading = by_number(found)
+        self.finals = tuple(wire.final for wire in wires)
+        self.settled = found.settled
+        if along == "SURFACE":
+            begin = seed.begins("SURFACE")
+            self.wires = tuple(across(wire, follow, begin, target.pick) for follow, wire in enumerate(wires))
+            if options.straight:
+                self._add_straight(begin, target)
+        else:
+            self.wires = tuple(
+                self._along_edges(wire, follow, seed, target.pick, avoid) for follow, wire in enumerate(wires)
+            )
+        if network.closes(target):
+            self._add_ring(network, target, along)
+        if self.chosen is not None and self.chosen >= len(self.wires):
+            self.chosen = None  # the metric that is used now has no such wire
+        is_reached = not self.final or any(self.wires)
+        return NOTHING if is_reached else Message.of("no-wire-reaches", pick=target.pick)
+
+    def _add_straight(self, begin: Pick, target: Snap) -> None:
+        if target.seen_along is None:
+            return
+        live = self._engines.get("SURFACE")
+        self._straight = straight_wire(live, begin, target.pick, target.seen_along, self.leading)
+        if self._straight is not None:
+            self.wires, self.finals = (*self.wires, self._straight), (*self.finals, True)
+            self.leading, self.settled = len(self.wires) - 1, True
+
+    @property
+    def ring_active(self) -> bool:
+        """Whether the wire that a click would keep closes the chain around the limb."""
+        return self.ring.wire is not None and self.active is self.ring.wire
+
+    def _add_ring(self, network: Network, target: Snap, along: Along) -> None:
+        """Add the wire that closes the chain around the limb, as the leading one."""
+        is_found = self.ring.find(network, target, along)
+        ring = self.ring.wire
+        same = next((at for at, wire in enumerate(self.wires) if ring is not None and wire and wire.like(ring)), None)
+        if ring is None:
+            if not is_found and self.wires:
+                # The leading wire is shown meanwhile, but a click waits.
+                self.finals = (*self.finals[: self.leading], False, *self.finals[self.leading + 1 :])
+                self.settled = False
+            return
+        if same is None:
+            self.wires, self.finals, same = (*self.wires, ring), (*self.finals, is_found), len(self.wires)
+        self.leading, self.settled = same, self.finals[same]
+
+    def _along_edges(
+        self, candidate: Candidate, follow: int, seed: Seed, target: Pick, avoid: int | None
+    ) -> Wire | None:
+        vertices = tuple(int(v) for v in candidate.vertices)
+        if seed.forward:
+            vertices = vertices[1:]  # the edge before the seed belongs to the wire before
+        if avoid in vertices:
+            vertices = vertices[: vertices.index(avoid) + 1]
+        if len(vertices) < 2:
+            return None
+        heading = seed.pick if seed.forward and isinstance(seed.pick, tuple) else None
+        points = self._points[list(vertices)]
+        return Wire("EDGES", vertices, points, seed.place, target, heading=heading, follow=follow)
+
+
+def across(candidate: Candidate, follow: int, begin: Pick, end: Pick) -> Wire | None:
+    """Return the library's wire across the surface from one pick to another, or None."""
+    vertices = tuple(int(v) for v in candidate.vertices)
+    # Between points of one face there may be no edge to snap to.
+    least = 1 if isinstance(begin, FacePoint) or isinstance(end, FacePoint) else 2
+    if len(vertices) < least or len(candidate.points) < 2:
+        return None
+    points = np.array(candidate.points, dtype=np.float64)
+    return Wire("SURFACE", vertices, points, begin, end, follow=follow)
+
+
+def _goal(target: Snap, network: Network, along: Along) -> tuple[Pick, int | None]:
+    """Return where the wires to a target lead, and a vertex where they may end before."""
+    if along == "EDGES" and isinstance(target.pick, tuple) and network.closes(target):
+        # The chain left its first edge over one end: the wire that closes it arrives at the other.
+        for wire, end in network.at(target.pick):
+            if end == "start" and wire.heading is None:
+                return wire.vertices[0], wire.vertices[1]
+    return target.pick, None
+
+
+def only_vertices(edge: Pick) -> Message:
+    """Say that wires across the surface do not end at edges."""
+    return Message.of("no-edge-across", pick=edge)

@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The network that is drawn, with the mesh, the settings, and the engines that compute wires."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from ..base.messages import NOTHING, Message
+from ..network.history import History
+from ..network.mirror_images import MirrorImages
+from ..network.network import Network, undirected
+from ..network.stops import Stops
+from ..network.strokes import for_library
+from ..network.symmetry import Symmetry
+from ..seams.seam_wires import seam_chains, waiting, wires_along
+from ..solver.solver import Engines
+from .options import Options
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+
+    from ..network.network import Along, Pick, Wire
+    from ..network.strokes import Stroke
+    from ..solver.solver import LiveWire
+
+
+class Drawing:
+    """The state that all gestures of a session share.
+
+    Parameters
+    ----------
+    make_live
+        Makes the live wires for one way of running; called once for each way that is used, and once for closed cuts.
+    points
+        (n, 3) coordinates of the mesh's vertices.
+    options
+        The settings to begin with.
+    edges
+        (e, 2) the visible edges. If None, any two vertices may share an edge.
+    seams
+        (k, 2) the edges that are seams but no wires: wires that run straight on end there.
+    to_object
+        (3, 3) takes `points` to object coordinates, where mirroring happens. If None, they are object coordinates.
+    triangles
+        (m, 3) the triangles that the surface was made of. If None, strokes run through vertices only.
+    make_stroke
+        Converts a stroke for the live wires.
+    topology
+        Whether mirrored vertices are found by the connections of the mesh, see `Symmetry`.
+
+    Attributes
+    ----------
+    network
+        The kept wires, the live wire's seed, and the mirror.
+    options
+        The settings.
+    history
+        The steps for undo.
+    progress
+        The finished fraction of the running work. The session reads it before wires are asked for.
+    """
+
+    def __init__(
+        self,
+        make_live: Callable[[Along], LiveWire],
+        points: NDArray[np.float64],
+        options: Options = Options(),  # noqa: B008 - it cannot be changed
+        *,
+        edges: NDArray[np.int32] | None = None,
+        seams: ArrayLike = (),
+        to_object: NDArray[np.float64] | None = None,
+        triangles: NDArray[np.int32] | None = None,
+        make_stroke: Callable[[Stroke], object] = for_library,
+        topology: bool = False,
+    ) -> None:
+        self.points = points
+        self.edges = edges
+        self.triangles = triangles
+        self.options = options
+        self.symmetry = Symmetry(points, edges, to_object, topology, triangles)
+        self.images = MirrorImages(self.symmetry)
+        self.stops = Stops(seams, self.symmetry)
+        self.engines = Engines(make_live, make_stroke)
+        self.engines.use(options.metric, options.strengths, options.clamp)
+        self.network = Network(mirror=options.mirror)
+        self.history = History()
+        self.progress = 0.0
+        self.revision = 0
+        """Grows with every change of the kept wires."""
+
+    @property
+    def strength(self) -> float:
+        """How strongly wires follow the shape now: the metric's largest anisotropy."""
+        return self.engines.strengths[self.options.along]
+
+    @property
+    def seed_place(self) -> Pick | None:
+        """The place where the live wire's seed is shown; None between chains."""
+        seed = self.network.seed
+        return None if seed is None else undirected(seed.shown(self.options.along))
+
+    @property
+    def into_faces(self) -> bool:
+        """Whether new wires across the surface are to be cut into the faces."""
+        return self.options.marking and self.options.finish == "CUT"
+
+    def as_drawn(self, wire: Wire, like: Wire | None = None) -> Wire:
+        """Return a wire with the settings of a new one: marks, mirror, strength, and finish.
+
+        Parameters
+        ----------
+        wire
+            The wire.
+        like
+            The kept wire that it replaces and takes these settings from, except the strength.
+        """
+        if like is not None:
+            return replace(wire, marks=like.marks, mirror=like.mirror, strength=self.strength, finish=like.finish)
+        return replace(
+            wire,
+            marks=self.options.marking,
+            mirror=self.network.mirror,
+            strength=self.strength,
+            finish=self.options.finish if wire.along == "SURFACE" and self.options.marking else "SNAP",
+        )
+
+    def with_wires(self, *wires: Wire) -> Network:
+        """Return the network with more wires."""
+        return replace(self.network, wires=(*self.network.wires, *wires))
+
+    def seeds(self, network: Network) -> list[Pick]:
+        """Return every seed of a network, each once, in the order they were placed."""
+        ends = network.seeds()
+        if network.seed is not None:
+            ends.append(network.seed.shown(self.options.along))
+        return list({undirected(pick): None for pick in ends})
+
+    def wires_along(self, seams: NDArray[np.int32]) -> Iterator[Wire]:
+        """Yield wires that run along seams, (k, 2), as few as possible. None of them is kept.
+
+        Raises
+        ------
+        ValueError
+            If an edge is not part of the surface.
+        """
+        live = self.engines.get("EDGES").fork()
+        for chain in seam_chains(seams):
+            yield from waiting(live, wires_along(live, chain, self.points, self.engines.strengths["EDGES"]))
+
+    def feature_strength(self) -> NDArray[np.float64] | None:
+        """Return the feature strength of each vertex, (n,), or None while it is computed."""
+        return self.engines.get(self.options.along).feature_strength()
+
+    def set(self, network: Network) -> None:
+        """Go on to a network, without a step for undo."""
+        before, self.network = self.network, network
+        if before.strokes != network.strokes:
+            self.engines.follow(network.strokes)
+        self.revision += before.wires != network.wires or before.mirror != network.mirror
+
+    def step(self, network: Network) -> Message:
+        """Go on to a network, with a step for undo. Return a warning, or an empty message."""
+        self.history.step(self.network)
+        lasting = network.lasting()
+        self.set(self.images.complete(lasting))
+        gone = Message.of("wire-went") if lasting is not network else NOTHING
+        return self.images.warning(self.network) or gone

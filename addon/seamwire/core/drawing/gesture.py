@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The base of all gestures."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+from ..base.messages import NOTHING, Message
+from ..network.network import Network
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from ..network.network import Snap
+    from ..solver.solver import LiveWire
+
+
+class Gesture:
+    """One way to change the network with the cursor. It knows the drawing and no session.
+
+    The session aims it, polls it while the library computes, and goes on to the network that it commits.
+    """
+
+    chosen: int | None = None
+    """The number of the candidate that stays the active one after the commit; None: the leading one."""
+
+    @property
+    def told(self) -> Message:
+        """The message after its network was committed."""
+        return NOTHING
+
+    def aim(self, target: Snap | None) -> Message:
+        """Point at a target, or at nothing. Return why nothing can be done there, or an empty message."""
+        return NOTHING
+
+    def poll(self) -> bool:
+        """Take in what was computed. Return whether the picture has changed."""
+        return False
+
+    def commit(self) -> Committed:
+        """Return the network with what the gesture does.
+
+        Raises
+        ------
+        ValueError
+            If it cannot be done.
+        """
+        raise NotImplementedError
+
+    def cancel(self) -> None:
+        """Show nothing, and ask for nothing."""
+
+    def lives(self) -> Sequence[LiveWire]:
+        """Return the live wires that compute for it."""
+        return ()
+
+
+Committed: TypeAlias = Network | Gesture | None
+"""The next network. While it is computed, the gesture that waits for it. None if nothing is left to do."""
+
+
+@dataclass(frozen=True)
+class Waiting:
+    """A committed gesture that waits for the library, and the pick that it was committed at."""
+
+    gesture: Gesture
+    target: Snap | None

@@ -1,0 +1,313 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The loop gesture: a click keeps a whole loop, strip, closed cut, ridge or valley."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from ..base.messages import NOTHING, Message, Refused, message_of
+from ..fields.crests import CREST_KINDS
+from ..network.network import FacePoint, Snap, undirected
+from ..offers.edge_loops import LoopOffers, taken
+from ..offers.flat_regions import FlatRegions
+from ..offers.surface_loops import SurfaceLoops
+from .gesture import Gesture
+from .line import LineGesture
+
+if TYPE_CHECKING:
+    from ..fields.crests import Crests
+    from ..network.network import Edge, Pick, Wire
+    from ..offers.offers import Offers
+    from ..solver.solver import LiveWire
+    from .drawing import Drawing
+    from .gesture import Committed
+    from .wire import WireGesture
+
+
+class LoopGesture(Gesture):
+    """The loops that a click at the cursor offers, along edges or across the surface.
+
+    Parameters
+    ----------
+    drawing
+        The state that gestures share.
+    live
+        Knows the pick under the cursor.
+
+    Attributes
+    ----------
+    edges, cuts
+        The offers along edges, and across the surface.
+    problem
+        Why there were no offers when they were last looked for, if that is known.
+    """
+
+    def __init__(self, drawing: Drawing, live: WireGesture) -> None:
+        self._drawing = drawing
+        self._live = live
+        points, triangles, edges = drawing.points, drawing.triangles, drawing.edges
+        flat = None if triangles is None or edges is None else FlatRegions(points, triangles, edges)
+        self.edges = LoopOffers(drawing.engines, drawing.stops, points, flat)
+        self.cuts = SurfaceLoops(drawing.engines, triangles)
+        self.problem = NOTHING
+        self.crests: Crests | None = None
+        self._crests_first = False
+        self._crest_taken: Pick | None = None
+        self._target: Snap | None = None
+        self._seen: Wire | None = None
+        self._choice = 0
+
+    @property
+    def offers(self) -> Offers:
+        """The offers for the way that wires run."""
+        return self.edges if self._drawing.options.along == "EDGES" else self.cuts
+
+    @property
+    def final(self) -> bool:
+        """Whether all offers are computed."""
+        return self.edges.final and self.cuts.final
+
+    @property
+    def bends(self) -> bool:
+        """Whether a click would take the last closed cut, bent."""
+        return self.cuts.bends and self.cuts.wanted
+
+    def takes(self, target: Snap) -> bool:
+        """Whether a click at a target takes the offer that is shown."""
+        return self.offers.wire is not None and self.offers.edge == undirected(target.pick)
+
+    # Offers
+
+    def hover(self, target: Snap | None, loop: bool, bend: bool) -> bool:
+        """Ask for offers at a target. Return whether others vanish.
+
+        Parameters
+        ----------
+        target
+            The pick under the cursor, or None.
+        loop
+            Whether loops are asked for.
+        bend
+            Whether the last closed cut is to be bent to the target instead.
+        """
+        if target is None or undirected(target.pick) != self._crest_taken:
+            self._crest_taken = None
+        vanish = self.cuts.bend(bend)
+        asked = target.pick if (loop or bend) and target is not None and self.offers.takes(target.pick) else None
+        if asked is not None and undirected(asked) == self._crest_taken:
+            asked = None
+        self.edges.point_at(target)
+        return self.offers.aim(asked) or vanish
+
+    def poll(self) -> bool:
+        """Show the offers at the cursor as soon as they are computed. Return whether they are new."""
+        offers, target = self.offers, self._live.candidates.target
+        self.problem = NOTHING
+        if target is None:
+            return False
+        if offers.wanted and not offers.takes(target.pick):
+            # A click may have moved the target since. Nothing would ever be found for it.
+            vanish = bool(offers.offers)
+            offers.wanted = False
+            offers.clear()
+            return vanish
+        return offers.unfinished and offers.show(target.pick, self.find(target.pick))
+
+    def stop_waiting(self) -> None:
+        """Compute no offers that nobody asks for any more, in both ways of running."""
+        self.edges.stop_waiting()
+        self.cuts.stop_waiting()
+
+    def use_crests(self, crests: Crests | None, first: bool) -> bool:
+        """Offer ridges and valleys, as the first or as the last offer. Return whether offers have to be found again."""
+        if crests is self.crests and first == self._crests_first:
+            return False
+        self.crests, self._crests_first = crests, first
+        if self.offers.wanted:
+            self.offers.final = False
+        return self.offers.wanted
+
+    def find(self, pick: Pick, kept: Wire | None = None) -> tuple[Wire, ...]:
+        """Return what a click on a pick may take, or nothing while it is computed.
+
+        Parameters
+        ----------
+        pick
+            An edge has the offers along edges, even if wires run across the surface.
+        kept
+            A kept wire that such a click took, which then comes first.
+        """
+        self.problem = NOTHING
+        offers = self.edges if isinstance(pick, tuple) else self.cuts
+        self.cuts.into_faces = self._drawing.into_faces
+        try:
+            return self._with_crest(pick, offers.find(pick, self._drawing.network, kept), kept)
+        except ValueError as error:
+            self.problem = message_of(error)
+            return ()
+
+    def _with_crest(self, pick: Pick, offers: tuple[Wire, ...], kept: Wire | None) -> tuple[Wire, ...]:
+        """Return offers with the ridge or valley at a pick: first if these are shown, otherwise last."""
+        if self.cuts.bends and not isinstance(pick, tuple):
+            return offers
+        # A click must not take the first known loop while others are still computed.
+        ready = offers or (self.edges if isinstance(pick, tuple) else self.cuts).final or self._crests_first
+        crest = self.crests.offer(pick) if self.crests is not None and kept is None and ready else None
+        if crest is None or undirected(pick) == self._crest_taken:
+            return offers
+        return (crest, *offers) if self._crests_first else (*offers, crest)
+
+    # Clicks
+
+    def aim(self, target: Snap | None) -> Message:
+        """Choose the offer that is shown at a target, or the first one if none is shown."""
+        self._target = target
+        if target is None:
+            return NOTHING
+        self.cuts.bend(False)
+        if not self.offers.takes(target.pick):
+            code = "no-loop-through" if self._drawing.options.along == "EDGES" else "no-cut-through"
+            return Message.of(code, pick=target.pick)
+        self.edges.point_at(target)
+        shown = self.edges
+        self._seen, self._choice = None, 0
+        if shown.edge == undirected(target.pick) and shown.wire is not None:
+            self._seen, self._choice = shown.wire, shown.choice
+            if self._seen.kind not in CREST_KINDS:
+                self._choice -= shown.offers[0].kind in CREST_KINDS
+        return NOTHING
+
+    def commit(self) -> Committed:
+        """Return the network with what is offered at the target."""
+        assert self._target is not None
+        pick = self._target.pick
+        if self._drawing.options.along == "SURFACE":
+            done = self.commit_cut(self._target)
+        elif undirected(pick) == self._crest_taken or not isinstance(pick, tuple):
+            done = None
+        else:
+            done = self._along_edges(pick)
+        if done is not self:
+            self._target = None
+        return done
+
+    def _along_edges(self, edge: Edge) -> Committed:
+        options, network = self._drawing.options, self._drawing.network
+        if self._seen is not None and self._seen.kind in CREST_KINDS:
+            return self._along_crest(edge)
+        own = self.edges.taken_through(network, edge)
+        if own is not None and own.marks == options.marking:
+            # The first press of a double click took it already.
+            return NextOffer(self._drawing, self, own, self._choice).commit() if self._choice else None
+        # It is read first: offers that are missing when all work is done stay missing.
+        progress = self._drawing.engines.get("EDGES").progress()
+        offers = self.find(edge)
+        if not offers:
+            if progress < 1.0 or not self.edges.final:
+                return self
+            raise Refused(self.problem or Message.of("no-edges-run-on", pick=edge))
+        loops = tuple(offer for offer in offers if offer.kind not in CREST_KINDS)
+        if not loops or (self._seen is None and offers[0].kind in CREST_KINDS):
+            return self._along_crest(edge)
+        wire = replace(taken(loops, min(self._choice, len(loops) - 1), options.marking), mirror=network.mirror)
+        self.edges.took(edge, wire)
+        return self._drawing.with_wires(wire)
+
+    def commit_cut(self, target: Snap) -> Committed:
+        """Return the network with the closed cut through a target, or with the last one bent to it."""
+        pick, network = target.pick, self._drawing.network
+        offers = self.find(pick)
+        offer = offers[self.cuts.choice_among(pick, offers)] if offers else None
+        if offer is not None and offer.kind in CREST_KINDS:
+            return self._along_crest(pick)
+        if not self.cuts.final:
+            return self
+        if offer is None:
+            raise Refused(self.problem or self.cuts.NONE)
+        before = self.cuts.bendable(network) if self.cuts.bends else None
+        like = None if before is None else before.wires[0]
+        wires = tuple(self._drawing.as_drawn(piece.anew(), like) for piece in self.cuts.pieces(offer))
+        wires = tuple(wire for wire in wires if wire.leaves_trace)
+        if not wires:
+            raise Refused("cut-meets-no-edge")
+        for wire in () if before is None else before.wires:
+            network = network.without(wire)
+        self.cuts.take(pick, offer, wires, before)
+        return replace(network, wires=(*network.wires, *wires))
+
+    def _along_crest(self, pick: Pick) -> Committed:
+        """Return the network with wires along the ridge or valley at a pick."""
+        drawing = self._drawing
+        number = None if self.crests is None else self.crests.line_at(pick)
+        if self.crests is None or number is None or drawing.triangles is None:
+            raise Refused("no-crest-at", pick=pick)
+        points, triangles = self.crests.line(number)
+        first = FacePoint.at(points[0], int(triangles[0]), drawing.triangles, drawing.points)
+        begin: Pick = first if drawing.into_faces and drawing.options.along == "SURFACE" else first.vertex
+        line = LineGesture(drawing, Snap(begin), apart=True)
+        line.draw(points, triangles, None)
+        line.finish()
+        self.cuts.was_taken(pick)
+        self.edges.wanted = False
+        self._crest_taken = undirected(pick)
+        return line.commit()
+
+    def forget_crest(self) -> None:
+        """Offer the ridge or valley again that was taken last: it may be gone."""
+        self._crest_taken = None
+
+    def cancel(self) -> None:
+        """Show no offers, and ask for none."""
+        for offers in (self.edges, self.cuts):
+            offers.wanted = False
+            offers.clear()
+
+    def lives(self) -> list[LiveWire]:
+        """Return the live wires that compute closed cuts. Loops along edges come from the live wire's."""
+        asked = (
+            self._drawing.options.along == "SURFACE" and self._target is not None and self.cuts.takes(self._target.pick)
+        )
+        return [self._drawing.engines.cuts()] if self.cuts.wanted or asked else []
+
+
+class NextOffer(Gesture):
+    """A wire that a click on an edge took becomes the next offer of that click.
+
+    Parameters
+    ----------
+    drawing
+        The state that gestures share.
+    loops
+        Finds the offers.
+    wire
+        A wire of the network with an edge that it was taken through.
+    steps
+        How many offers further.
+    """
+
+    def __init__(self, drawing: Drawing, loops: LoopGesture, wire: Wire, steps: int = 1) -> None:
+        self._drawing = drawing
+        self._loops = loops
+        self._wire = wire
+        self._flow = steps
+
+    def commit(self) -> Committed:
+        """Return the network with the next offer in place of the wire."""
+        network = self._drawing.network
+        own = network.find(self._wire)
+        if own is None:
+            raise Refused("wire-is-gone")
+        assert own.through is not None
+        if not own.offers:
+            offers = self._loops.find(own.through, own)[1:]
+            if not self._loops.edges.final:
+                return self
+            if not offers:
+                raise Refused(self._loops.problem or Message.of("nothing-else-through-edge"))
+            own = replace(own, offers=offers)
+        return network.with_wire(own).with_next_offer(own, self._flow)
+
+    def lives(self) -> list[LiveWire]:
+        """Return the live wires that compute for it. Offers at an edge are found along edges."""
+        return [self._drawing.engines.get("EDGES")]

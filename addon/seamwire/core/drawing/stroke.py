@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The stroke gesture: live wires follow or avoid a stroke from here on."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from ..network.network import FOLLOWS
+from ..network.strokes import Stroke, drawn, through_vertices
+from .gesture import Gesture
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from ..network.strokes import ActsOn
+    from .drawing import Drawing
+    from .gesture import Committed
+    from .wire import WireGesture
+
+
+class StrokeGesture(Gesture):
+    """A stroke that live wires follow or avoid. Kept wires stay as they are.
+
+    Parameters
+    ----------
+    drawing
+        The state that gestures share.
+    live
+        Knows the active wire.
+    points
+        (n, 3) the points that a hand drew on the surface. They are smoothed a little.
+    faces
+        (n,) the triangle of each point.
+    vertices
+        (n,) the vertices that the stroke runs through, instead of both.
+    attracts
+        Whether wires follow the stroke. Otherwise they avoid it.
+    acts_on
+        The wires that it is meant for. If None, the active one while a wire is live, otherwise both.
+    radius
+        How far it reaches, in the points' units. If None, ten rings of vertices.
+
+    Raises
+    ------
+    OffMeshError
+        If the stroke does not lie on the mesh.
+    """
+
+    def __init__(
+        self,
+        drawing: Drawing,
+        live: WireGesture,
+        points: ArrayLike | None = None,
+        faces: ArrayLike | None = None,
+        *,
+        vertices: ArrayLike | None = None,
+        attracts: bool = True,
+        acts_on: ActsOn | None = None,
+        radius: float | None = None,
+    ) -> None:
+        self._drawing = drawing
+        if vertices is not None:
+            course = through_vertices(vertices, drawing.points)
+        elif points is None or faces is None or drawing.triangles is None:
+            raise TypeError("neither points nor vertices")
+        else:
+            course = drawn(points, faces, drawing.points, drawing.triangles)
+        candidates = live.candidates
+        # The wire that the stroke is for stays the active one, even if another is shorter now.
+        self.chosen = candidates.chosen
+        if acts_on is None and drawing.network.seed is not None and not candidates.straight_active:
+            self.chosen = candidates.active_index
+            acts_on = FOLLOWS[self.chosen]
+        self._stroke = Stroke(*course, attracts=attracts, acts_on=acts_on or "both", radius=radius)
+
+    def commit(self) -> Committed:
+        """Return the network with the stroke."""
+        network = self._drawing.network
+        return replace(network, strokes=(*network.strokes, self._stroke))
