@@ -10,8 +10,8 @@ from scene import chain, seams, snapshot
 from seamwire.core.drawing.picture import Role
 from seamwire.mesh import cut
 from seamwire.mesh.settings import settings
-from seamwire.operators.report import running
 from seamwire.view.edited_objects import edited
+from seamwire.words.notices import Notice, Notices
 from stored import agree, chains, session_on
 
 
@@ -102,17 +102,25 @@ def test_drawing_goes_on_after_a_cut_on_the_mesh_as_it_is(cutting: Desk) -> None
 def test_an_error_while_cutting_loses_no_wire_and_undo_leads_back(
     cutting: Desk, monkeypatch: pytest.MonkeyPatch, where: str
 ) -> None:
+    reported: list[Notice] = []
+    take = Notices.take
+
     def fail(*_: object) -> None:
         raise ZeroDivisionError("on purpose")
 
+    def note(notices: Notices) -> list[Notice]:
+        reported.extend(found := take(notices))
+        return found
+
+    monkeypatch.setattr(Notices, "take", note)
     monkeypatch.setattr(cut, *{"before": ("plan", fail), "within": ("_split", fail)}[where])
     session, ui = cutting.start(), cutting.ui
     ui.click(cutting.at(0), ctrl=True)
     ui.click(cutting.at(44))
     ui.wait_until(lambda: len(session.wires) == 1)
-    (drawing,) = running
     ui.key("RET")
-    assert len(drawing.errors) == 1 and "on purpose" in drawing.errors[0]
+    (error,) = [notice for notice in reported if notice.level == "ERROR"]
+    assert "on purpose" in error.text
     assert cutting.left_clean()
     if where == "before":
         assert seams(cutting.obj), "the wire, along edges"

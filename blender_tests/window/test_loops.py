@@ -24,6 +24,7 @@ def offer(desk: Desk, *edge: int) -> tuple[float, float]:
     desk.ui.wait_until(lambda: not session.computing)
     desk.ui.move(place)
     desk.ui.event("LEFT_ALT", "PRESS", place, alt=True)
+    # The first offers are there at once. The others come when the wires are computed.
     desk.ui.wait_until(lambda: session.picture.one(Role.OFFER) is not None and not session.computing)
     return place
 

@@ -102,7 +102,7 @@ def test_what_cannot_be_simulated_is_let_through(desk: Desk, kind: str) -> None:
     with desk.ui.override():
         assert desk.chain.handle(bpy.context, handed)
     assert desk.session.revision == before
-    assert not desk.chain.idle
+    assert not desk.chain.state.is_idle
     finish(desk)
 
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..words.names import count
+from ..words.reports import gaps, left_out
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -73,14 +74,3 @@ def cut_wires(
     )
     operator.report({"INFO"}, ", ".join(done))
     return {"FINISHED"}
-
-
-def gaps(uncut: int) -> str:
-    """Return the warning for faces that could not be cut."""
-    return f"{count(uncut, 'face')} could not be cut: the seams have gaps there"
-
-
-def left_out(number: int) -> str:
-    """Return the warning for wires or mirror images that were not cut."""
-    why = "it does not run over the mesh" if number == 1 else "they do not run over the mesh"
-    return f"{count(number, 'wire or mirror image', 'wires or mirror images')} not cut: {why}"

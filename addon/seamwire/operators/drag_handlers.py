@@ -11,8 +11,6 @@ import numpy as np
 from . import undo_steps
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from numpy.typing import NDArray
 
     from ..core.drawing.line import LineGesture
@@ -36,8 +34,8 @@ class Hold(Protocol):
     def move(self, place: Place, threshold: float) -> bool:
         """Follow the mouse; a drag begins beyond the threshold, in pixels. Returns whether it is still held."""
 
-    def release(self) -> None:
-        """Do what was meant."""
+    def release(self) -> str:
+        """Do what was meant. Return the title of the step of undo, or an empty text if nothing was done."""
 
     def cancel(self) -> bool:
         """Cancel without a change, and return whether there was a drag."""
@@ -56,16 +54,13 @@ class SeedHold:
         The dragged thing.
     place
         Where the button was pressed.
-    note
-        Told what was done, in words.
     """
 
-    def __init__(self, button: str, view: ObjectView, snap: Snap, place: Place, note: Callable[[str], None]) -> None:
+    def __init__(self, button: str, view: ObjectView, snap: Snap, place: Place) -> None:
         self.button = button
         self._view = view
         self._snap = snap
         self._place = place
-        self._note = note
         self._dragging = False
 
     def move(self, place: Place, threshold: float) -> bool:
@@ -80,14 +75,13 @@ class SeedHold:
         session.drag_to(self._view.snap(place.view, place.cursor))
         return True
 
-    def release(self) -> None:
+    def release(self) -> str:
         """Leave the seed there, or click."""
         if self._dragging:
             self._view.session.drag_end()
-            self._note(undo_steps.MOVE_SEED)
-        else:
-            self._view.session.click(self._snap)
-            self._note(undo_steps.DRAW_WIRES)
+            return undo_steps.MOVE_SEED
+        self._view.session.click(self._snap)
+        return undo_steps.DRAW_WIRES
 
     def cancel(self) -> bool:
         """Let the seed go back."""
@@ -162,27 +156,13 @@ class LineHold:
         The pick under the mouse.
     place
         Where the button was pressed.
-    click
-        Does what a click does there.
-    note
-        Told what was done, in words.
     """
 
-    def __init__(
-        self,
-        button: str,
-        view: ObjectView,
-        snap: Snap,
-        place: Place,
-        click: Callable[[], None],
-        note: Callable[[str], None],
-    ) -> None:
+    def __init__(self, button: str, view: ObjectView, snap: Snap, place: Place) -> None:
         self.button = button
         self._view = view
         self._snap = snap
         self._place = place
-        self._click = click
-        self._note = note
         self._trail: Trail | None = None
         self._line: LineGesture | None = None
 
@@ -217,13 +197,15 @@ class LineHold:
         live = session.seed is not None and not session.waiting_clicks
         return self._line is not None and live and not session.goes_on_from(self._snap)
 
-    def release(self) -> None:
+    def release(self) -> str:
         """Keep the wires that follow the line, or click."""
         if self._trail is None:
-            self._click()
-        elif self._line is not None:
-            self._view.session.line_keep(self._line)
-            self._note(undo_steps.DRAW_LINE)
+            self._view.session.click(self._snap)
+            return undo_steps.DRAW_WIRES
+        if self._line is None:
+            return ""
+        self._view.session.line_keep(self._line)
+        return undo_steps.DRAW_LINE
 
     def cancel(self) -> bool:
         """Forget the line."""
@@ -275,12 +257,12 @@ class StrokeHold:
         self._view.stroke = (np.array(self._trail.points).reshape(-1, 3), self._attracts)
         return True
 
-    def release(self) -> None:
+    def release(self) -> str:
         """Let the wires follow it, or keep off."""
         self._view.stroke = None
         trail = self._trail
-        if trail is None or self.missed:
-            return
+        if trail is None or len(trail.points) < 2:
+            return ""
         points, triangles = trail.points, trail.triangles
         near = math.dist(self._first.cursor, trail.last.cursor) <= self._reach
         if near and not trail.left and self._farthest > CLOSE_LENGTH * self._reach and len(points) > 2:
@@ -288,13 +270,9 @@ class StrokeHold:
         self._view.session.draw_stroke(
             np.array(points), np.array(triangles), attracts=self._attracts, radius=self._view.stroke_radius
         )
+        return undo_steps.GUIDE_STROKE if self._attracts else undo_steps.AVOID_STROKE
 
     def cancel(self) -> bool:
         """Forget it."""
         self._view.stroke = None
         return self._trail is not None
-
-    @property
-    def missed(self) -> bool:
-        """Whether nothing was drawn."""
-        return self._trail is None or len(self._trail.points) < 2

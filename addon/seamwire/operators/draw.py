@@ -13,7 +13,7 @@ from ..mesh.settings import ALONG_ITEMS, notices, settings
 from ..words.keys import Action, Key
 from .edit_mesh_operator import NeedsEditMode
 from .navigation import takes
-from .report import running
+from .report import running, tell
 
 if TYPE_CHECKING:
     from .modal import Chain
@@ -90,7 +90,7 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
             if not done and self.first in _FOR_BLENDER:
                 self._chain.drop()
                 return {"PASS_THROUGH"}
-            if self._chain.idle and self.first != "NONE":
+            if self._chain.state.is_idle and self.first != "NONE":
                 return self._finish(context)
         except Exception as error:
             return self._failed(error)
@@ -115,7 +115,7 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
                 self.report({"WARNING"}, f"{trouble}: the chain has ended")
                 return self._finish(context) | {"PASS_THROUGH"}
             passes = chain.handle(context, event)
-            if chain.idle:
+            if chain.state.is_idle:
                 result = self._finish(context)
                 return result | {"PASS_THROUGH"} if passes else result
             return {"PASS_THROUGH"} if passes else {"RUNNING_MODAL"}
@@ -131,24 +131,21 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
             self.report({"WARNING"}, mesh.problem)
             mesh.problem = ""
         if mesh.obj.modifiers:
-            chain.message = "Modifiers are ignored"
+            chain.state.say("Modifiers are ignored")
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
         try:
-            self._chain.finish(context)
+            has_kept = self._chain.finish(context)
         except ValueError as error:
             self._chain.drop()
             self.report({"WARNING"}, f"{error}: the wires of this chain were not kept")
             return {"CANCELLED"}
-        for told in self._chain.told:
-            self.report({"INFO"}, told)
-        for error in self._chain.errors:
-            self.report({"ERROR"}, error)
-        return {"FINISHED"} if self._chain.told else {"CANCELLED"}
+        tell(self, self._chain.state.notices)
+        return {"FINISHED"} if has_kept else {"CANCELLED"}
 
     def _failed(self, error: Exception) -> set[str]:
         traceback.print_exc()
-        previews = self._chain.previews
+        previews = bool(self._chain.state.peek)
         try:
             self._chain.drop()
         except Exception:

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, ClassVar
 import bpy
 
 from ..mesh.settings import ALONG_ITEMS, FINISH_ITEMS, METRIC_ITEMS
+from ..words.reports import summary
 from .cut import cut_wires
 from .edit_mesh_operator import EditMeshOperator
-from .report import summary
 from .slide import slide_wires
 
 if TYPE_CHECKING:

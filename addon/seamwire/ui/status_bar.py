@@ -25,7 +25,8 @@ def status_of(chain: Chain) -> Status:
     """Return the state of a chain."""
     symmetric = chain.view.mesh.symmetric
     offers = symmetric if symmetric and not chain.session.options.mirror else ()
-    return Status(chain.session.picture, chain.keys, chain.message, "".join("XYZ"[axis] for axis in offers))
+    axes = "".join("XYZ"[axis] for axis in offers)
+    return Status(chain.session.picture, chain.state.keys, chain.state.notices.hint, axes)
 
 
 def status_drawer(status: Status) -> Callable[[bpy.types.Header, bpy.types.Context], None]:

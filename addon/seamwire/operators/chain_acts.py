@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The table of what a chain does for each meaning of an event."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..view.edited_objects import edited
+from ..words.keys import Action
+from . import chain_gestures as gestures
+from . import chain_keys as keys
+from .chain_events import Given, Sign
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .chain_state import ChainState
+
+
+def _tick(state: ChainState, _given: Given) -> None:
+    edited.poll()
+    if state.is_ending and not state.waits:
+        state.is_ending = False
+        state.end()
+
+
+def _end(state: ChainState, _given: Given) -> None:
+    state.end()
+
+
+def _cancel(state: ChainState, _given: Given) -> None:
+    state.end(wait=False)
+
+
+def _remove(state: ChainState, given: Given) -> bool:
+    """Remove what is under the mouse. If there is nothing, Blender's own meaning of the key changes the mesh."""
+    is_removed = gestures.remove(state, given)
+    if not is_removed:
+        state.end()
+    return not is_removed
+
+
+def _nothing(_state: ChainState, _given: Given) -> None:
+    """Leave everything as it is."""
+
+
+_ACTS: dict[Action | Sign, Callable[[ChainState, Given], bool | None]] = {
+    Action.CLICK: gestures.click,
+    Action.NEW_CHAIN: gestures.click,
+    Action.LOOP: gestures.click,
+    Action.BEND: gestures.click,
+    Action.REMOVE: _remove,
+    Action.GUIDE: gestures.begin_stroke,
+    Action.AVOID: gestures.begin_stroke,
+    Action.END: _end,
+    Action.CANCEL: _cancel,
+    Action.NEXT: keys.swap,
+    Action.STRONGER: keys.change_strength,
+    Action.WEAKER: keys.change_strength,
+    Action.CLOSE: keys.close,
+    Action.EXTEND: keys.extend,
+    Action.CLEAR: keys.toggle_clear,
+    Action.XRAY: keys.toggle_xray,
+    Action.MIRROR: keys.cycle_mirror,
+    Action.SWITCH: keys.switch,
+    Action.SNAP: keys.toggle_snap,
+    Action.KEYS: keys.toggle_keys,
+    Action.UNDO: keys.undo,
+    Action.REDO: keys.redo,
+    Sign.TICK: _tick,
+    Sign.RELEASE: gestures.release,
+    Sign.AWAY: gestures.leave,
+    Sign.DRAG: gestures.drag,
+    Sign.TRACE: gestures.trace,
+    Sign.HOVER: gestures.hover,
+    Sign.ZOOM: gestures.zoom,
+    Sign.OTHER_TOOL: _end,
+    Sign.NOTHING: _nothing,
+    Sign.REPEAT: _nothing,
+}
+"""What is done. Acts that return True let Blender have the event too."""
+_FIRST = {**_ACTS, Action.REMOVE: gestures.remove, Action.NEXT: gestures.retrace}
+"""What is done with a press that begins a chain. Acts that return False have found nothing to act on."""
+_BLENDERS = frozenset({Sign.TICK, Sign.AWAY, Sign.HOVER, Sign.OTHER_TOOL, Sign.NOTHING})
+"""Signs that Blender always receives too."""
+
+
+def act(state: ChainState, given: Given) -> bool:
+    """Do what an event asks for, and return whether Blender is to have it too."""
+    if isinstance(given.what, Action):
+        state.say("")
+        if given.what is not Action.NEXT:
+            state.peek = ""
+    return bool(_ACTS[given.what](state, given)) or given.what in _BLENDERS
+
+
+def act_first(state: ChainState, given: Given) -> bool:
+    """Do what begins a chain, and return whether there was something to do it to."""
+    if given.place is None:
+        return False
+    state.has_begun = True
+    if given.what is Action.BEND and not gestures.can_bend(state):
+        return False
+    return _FIRST[given.what](state, given) is not False

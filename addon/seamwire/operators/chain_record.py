@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How the wires of a chain get into the mesh when the chain ends, and out of it when the chain is dropped."""
+
+from __future__ import annotations
+
+import traceback
+from typing import TYPE_CHECKING
+
+import bpy
+
+from ..core.drawing.change import Change
+from ..core.network.network import Network
+from ..mesh import finish
+from ..view.edited_objects import edited
+from ..words.names import count
+from ..words.reports import gaps, left_out, summary
+from . import undo_steps
+from .unwrap import unwrap_after_chain
+
+if TYPE_CHECKING:
+    from ..view.object_view import ObjectView
+    from ..words.notices import Notices
+
+
+class ChainRecord:
+    """What a chain drew on one object at a time.
+
+    Parameters
+    ----------
+    notices
+        Receives a report for each step of undo.
+
+    Attributes
+    ----------
+    view
+        The object that is drawn on. None if nothing has been drawn since the last step.
+    has_kept
+        Whether the chain has changed a mesh.
+    """
+
+    def __init__(self, notices: Notices) -> None:
+        self._notices = notices
+        self._before = Network()
+        self._titles: list[str] = []
+        self._is_saved = False
+        self.view: ObjectView | None = None
+        self.has_kept = False
+
+    def begin(self, view: ObjectView) -> None:
+        """Draw on an object from now on."""
+        self.view, self._before = view, view.session.network
+
+    def note(self, title: str) -> None:
+        """Note what was done, by a title of `undo_steps`."""
+        if title not in self._titles:
+            self._titles.append(title)
+
+    def trouble(self, reason: str) -> str:
+        """Follow a change of the mesh by others.
+
+        Parameters
+        ----------
+        reason
+            Another reason why the chain cannot go on, or an empty text.
+
+        Returns
+        -------
+        str
+            Why the chain cannot go on, or an empty text.
+        """
+        view = self.view
+        if view is None or not (view.stale or not view.mesh.alive()):
+            return reason
+        # Blender reports a change of the mesh. Others may mark seams.
+        obj = bpy.data.objects.get(view.name)
+        if obj is None:
+            self.view = None
+            return "The object was removed"
+        if not view.mesh.follow_change(obj):
+            return reason or "The mesh was changed"
+        view.was_read()
+        view.renew()
+        return reason
+
+    def keep(self, context: bpy.types.Context, undo_step: bool = True, waits: bool = False) -> None:
+        """End the chains of all objects, and write what was drawn as a step of Blender's undo.
+
+        Parameters
+        ----------
+        context
+            With the mode of the window.
+        undo_step
+            Whether to push the step.
+        waits
+            Whether to wait for the last wire first.
+
+        Raises
+        ------
+        ValueError
+            If an edge is gone. Then the mesh is unchanged.
+        """
+        # The object that is drawn on comes first, because outside Edit Mode it is not among the views.
+        if self.view is not None:
+            if waits:
+                self.view.session.wait()
+            self.view.session.end_chain()
+        for view in edited.views():
+            view.session.end_chain()
+        view, before = self.view, self._before
+        title = self._titles[0] if len(self._titles) == 1 else undo_steps.DRAW_SEVERAL
+        self._titles.clear()
+        if view is None or not (self._is_saved or Change(before, view.session.network)):
+            self.view = None
+            return
+        change = Change(before, view.session.network)
+        marked, cleared = _write(view, adopt=True)
+        self.view, self._is_saved, problem = None, False, ""
+        try:
+            finished = _apply(view, change)
+        except Exception as error:
+            # The wires are in the mesh by now. Undo must lead back from a change that stopped halfway.
+            traceback.print_exc()
+            edited.forget(view)
+            finished = ""
+            self._notices.add(
+                "ERROR", f"Wires are kept, but cutting or sliding them ended on an error, undo leads back: {error}"
+            )
+        if undo_step:
+            if (marked or cleared) and context.mode == "EDIT_MESH":
+                problem = unwrap_after_chain(context)
+            undo_steps.push(title)
+        self.has_kept = True
+        done = finished or summary(change.drawn, marked, cleared)
+        self._notices.add("INFO", f"{title}: {done}{problem and f'. {problem}'}")
+
+    def save(self) -> None:
+        """Write the wires so far to the mesh, so that Blender saves them. The chain goes on."""
+        if self.view is not None:
+            _write(self.view, adopt=False)
+            self._is_saved = True
+
+    def drop(self) -> None:
+        """Undo everything since the last step."""
+        view, self.view = self.view, None
+        if view is not None and view.mesh.alive():
+            view.mesh.drop_changes(self._before)
+            if self._is_saved:
+                _write(view, adopt=True)
+
+
+def _write(view: ObjectView, adopt: bool) -> tuple[int, int]:
+    plan = view.mesh.plan()
+    counts = view.mesh.write(plan, adopt)
+    if view.mesh.alive():
+        view.renew()
+        view.was_read()
+    return counts
+
+
+def _apply(view: ObjectView, change: Change) -> str:
+    """Let the mesh do what a change asks, and return what was done, in words."""
+    if not view.mesh.alive():
+        return ""
+    _, done = finish.apply(view.mesh, change)
+    if not done:
+        return ""
+    edited.forget(view)
+    parts = []
+    if done.slid:
+        parts.append(f"{count(done.slid, 'wire')} slid, {count(done.moved, 'vertex', 'vertices')} moved")
+    if done.cut:
+        parts.append(f"{count(done.cut, 'wire')} cut, {count(done.edges, 'edge')} marked")
+    if done.uncut:
+        parts.append(gaps(done.uncut))
+    if done.left_out:
+        parts.append(left_out(done.left_out))
+    if done.problem:
+        parts.append(f"not cut: {done.problem}")
+    if done.taken_back:
+        parts.append("cut taken back")
+    return ", ".join(parts)

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The state of a chain between two events: what is held, what was drawn, and whether it is about to end."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import bpy
+
+from ..view.edited_objects import edited
+from ..words.notices import Notices
+from .chain_record import ChainRecord
+
+if TYPE_CHECKING:
+    from ..core.drawing.session import Session
+    from ..view.object_view import ObjectView
+    from ..words.keys import Bindings
+    from .drag_handlers import Hold
+
+
+class ChainState:
+    """The state of a chain.
+
+    Parameters
+    ----------
+    keys
+        What each key does.
+
+    Attributes
+    ----------
+    notices
+        What there is to report when the chain ends, and the hint about the last key.
+    record
+        What was drawn since the last step of undo.
+    hold
+        The thing that a pressed button drags.
+    has_begun
+        Whether there was something to do. From then on the chain ends when it is idle.
+    peek
+        The key that shows the loop under the mouse while it is held, or an empty text.
+    is_ending
+        Whether the chain ends as soon as its last wire is computed.
+    shows_keys
+        Whether the table of keys is shown.
+    """
+
+    def __init__(self, keys: Bindings) -> None:
+        self.keys = keys
+        self.notices = Notices()
+        self.record = ChainRecord(self.notices)
+        self.hold: Hold | None = None
+        self.has_begun = False
+        self.peek = ""
+        self.is_ending = False
+        self.shows_keys = False
+
+    @property
+    def view(self) -> ObjectView:
+        """The object that was pointed at last."""
+        if edited.front is None:
+            edited.front = edited.of(bpy.context.active_object)
+        return edited.front
+
+    @property
+    def session(self) -> Session:
+        """The session of this object."""
+        return self.view.session
+
+    @property
+    def waits(self) -> bool:
+        """Whether a click waits for its wire."""
+        return any(view.session.waiting_clicks for view in edited.views())
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether the chain has begun, and nothing is live, dragged or waited for any more. Then it ends."""
+        return (
+            self.has_begun
+            and not self.peek
+            and self.hold is None
+            and not any(
+                view.session.seed is not None or view.session.waiting_clicks or view.session.dragging
+                for view in edited.views()
+            )
+        )
+
+    def say(self, hint: str) -> None:
+        """Show the result of a key in the status bar."""
+        self.notices.hint = hint
+
+    def draw_on(self, view: ObjectView) -> None:
+        """Draw on this object. Wires drawn on another object become a separate chain."""
+        edited.front = view
+        if self.record.view is not view:
+            if self.record.view is not None:
+                self.keep()
+            self.record.begin(view)
+
+    def keep(self) -> None:
+        """Keep what was drawn as a separate step of undo."""
+        self.record.keep(bpy.context, waits=self.is_ending)
+
+    def cancel_hold(self) -> bool:
+        """Cancel what is dragged, and return whether there was something."""
+        hold, self.hold = self.hold, None
+        dragged = hold is not None and hold.cancel()
+        # A released drag may still wait.
+        return any([view.session.drag_cancel() for view in edited.views()]) or dragged or hold is not None
+
+    def end(self, wait: bool = True) -> None:
+        """Let go of everything that is live.
+
+        Parameters
+        ----------
+        wait
+            Whether clicks that wait for their wires are done first. Otherwise they are forgotten.
+        """
+        self.has_begun, self.peek = True, ""
+        if self.cancel_hold():
+            return
+        if wait and self.waits:
+            self.is_ending = True
+            self.say("Ending as soon as the last wire is computed")
+            return
+        self.is_ending = False
+        for view in edited.views():
+            view.session.stop_preview()
+            view.session.end_chain()

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The one way in which text reaches the artist outside the 3D view: reports, and a hint in the status bar."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+LEVELS = ("INFO", "WARNING", "ERROR")
+
+
+@dataclass(frozen=True)
+class Notice:
+    """Something to report.
+
+    Parameters
+    ----------
+    level
+        How Blender shows it.
+    text
+        The report.
+    """
+
+    level: Literal["INFO", "WARNING", "ERROR"]
+    text: str
+
+
+class Notices:
+    """What waits to be reported, and what the status bar shows.
+
+    Attributes
+    ----------
+    hint
+        The result of the last key, for the status bar. It is empty if there is none.
+    """
+
+    def __init__(self) -> None:
+        self.hint = ""
+        self._waiting: list[Notice] = []
+
+    def add(self, level: Literal["INFO", "WARNING", "ERROR"], text: str) -> None:
+        """Add something to report."""
+        self._waiting.append(Notice(level, text))
+
+    def take(self) -> list[Notice]:
+        """Return what waits to be reported, errors last, and forget it."""
+        waiting, self._waiting = self._waiting, []
+        return sorted(waiting, key=lambda notice: LEVELS.index(notice.level))

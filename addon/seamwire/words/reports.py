@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What operators report of wires that became seams."""
+
+from __future__ import annotations
+
+from .names import count
+
+
+def summary(wires: int, marked: int, cleared: int, touched: int = 0) -> str:
+    """Return a report. `touched` is the number of edges below new wires, including edges that were already seams."""
+    parts = [count(wires, "wire")]
+    if marked or not cleared:
+        parts.append(f"{count(marked, 'edge')} marked")
+    if cleared:
+        parts.append(f"{count(cleared, 'edge')} cleared")
+    already = touched - marked - cleared
+    if already > 0:
+        parts.append(f"{already} already seams" if not cleared else f"{already} unchanged")
+    return ", ".join(parts)
+
+
+def gaps(uncut: int) -> str:
+    """Return the warning for faces that could not be cut."""
+    return f"{count(uncut, 'face')} could not be cut: the seams have gaps there"
+
+
+def left_out(number: int) -> str:
+    """Return the warning for wires or mirror images that were not cut."""
+    why = "it does not run over the mesh" if number == 1 else "they do not run over the mesh"
+    return f"{count(number, 'wire or mirror image', 'wires or mirror images')} not cut: {why}"
