@@ -19,8 +19,8 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from seamwire.core.base.mesh_arrays import Arrays
 from seamwire.core.network.network import Wire
-from seamwire.view.picking import Picker
-from seamwire.view.viewport import View
+from seamwire.core.picking.picker import Picker
+from seamwire.core.picking.view import View
 
 SIDES = (317, 513, 1025)
 """Vertices along a side: a hundred thousand, a quarter of a million and a million quads."""

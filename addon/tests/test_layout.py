@@ -14,7 +14,19 @@ from blender_refusal import BLENDERS
 from seamwire.words.messages import SENTENCES
 
 ROOT = Path(__file__).parent.parent / "seamwire"
-ROOMS = ("base", "network", "solver", "storage", "matching", "seams", "islands", "fields", "offers", "drawing")
+ROOMS = (
+    "base",
+    "network",
+    "solver",
+    "storage",
+    "matching",
+    "seams",
+    "islands",
+    "fields",
+    "offers",
+    "drawing",
+    "picking",
+)
 """The rooms of the core; each imports from itself and from those before it."""
 FLOORS = (*(f"core.{room}" for room in ROOMS), "words", "mesh", "view", "operators", "ui")
 KNOWN_CYCLES = {

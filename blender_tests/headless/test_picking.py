@@ -8,9 +8,9 @@ import pytest
 from mathutils import Euler, Matrix, Vector
 from mathutils.bvhtree import BVHTree
 from scene import add_grid, add_suzanne, edit
+from seamwire.core.picking.picker import Picker
+from seamwire.core.picking.view import View
 from seamwire.mesh import edit_mesh
-from seamwire.view.picking import Picker
-from seamwire.view.viewport import View
 
 pytestmark = pytest.mark.every_blender
 

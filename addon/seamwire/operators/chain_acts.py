@@ -78,9 +78,9 @@ _ACTS: dict[Action | Sign, Callable[[ChainState, Given], bool | None]] = {
     Sign.NOTHING: _nothing,
     Sign.REPEAT: _nothing,
 }
-"""What is done. Acts that return True let Blender have the event too."""
+"""The function for each meaning. If it returns True, Blender has the event too."""
 _FIRST = {**_ACTS, Action.REMOVE: gestures.remove, Action.NEXT: gestures.retrace}
-"""What is done with a press that begins a chain. Acts that return False have found nothing to act on."""
+"""The function for a press that begins a chain. If it returns False, it has found nothing to act on."""
 _BLENDERS = frozenset({Sign.TICK, Sign.AWAY, Sign.HOVER, Sign.OTHER_TOOL, Sign.NOTHING})
 """Signs that Blender always receives too."""
 

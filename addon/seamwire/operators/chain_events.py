@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class Sign(Enum):
-    """What an event means if it is not the action of a key."""
+    """The meaning of an event that is not the action of a key."""
 
     TICK = auto()
     """Time for another look at running work."""

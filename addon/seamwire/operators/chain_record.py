@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 class ChainRecord:
-    """What a chain drew on one object at a time.
+    """The wires that a chain drew, on one object at a time.
 
     Parameters
     ----------

@@ -31,7 +31,7 @@ class ChainState:
     notices
         What there is to report when the chain ends, and the hint about the last key.
     record
-        What was drawn since the last step of undo.
+        The wires drawn since the last step of undo.
     hold
         The thing that a pressed button drags.
     has_begun

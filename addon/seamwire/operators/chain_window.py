@@ -13,7 +13,7 @@ TICK = 0.008
 
 
 class ChainWindow:
-    """What a chain changes in a window.
+    """A window with everything that a chain changes in it.
 
     Parameters
     ----------

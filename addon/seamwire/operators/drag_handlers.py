@@ -15,8 +15,9 @@ if TYPE_CHECKING:
 
     from ..core.drawing.line import LineGesture
     from ..core.network.network import Snap
+    from ..core.picking.view import View
     from ..view.object_view import ObjectView
-    from ..view.viewport import Place, View
+    from ..view.viewport import Place
 
 STEP = 3.0
 """Pixels between two looks at the surface under a stroke: a hand moves the mouse farther from one event to the next."""

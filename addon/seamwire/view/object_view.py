@@ -12,13 +12,14 @@ import numpy as np
 
 from ..core.base import native
 from ..core.islands import islands
+from ..core.picking.picker import Picker
+from ..core.picking.plain import REACH
 from ..core.seams.gaps import GapFinder
 from ..core.solver.solver import for_live
 from ..mesh import settings as chosen
 from ..mesh.object_session import ObjectSession
 from .metric_views import MetricViews
 from .overlay import Overlay
-from .picking import REACH, Picker, stroke_at
 from .shown_islands import ShownIslands
 from .stretch_heat import StretchHeat
 from .theme import HUES
@@ -34,8 +35,8 @@ if TYPE_CHECKING:
     from ..core.fields.metric_fields import Source
     from ..core.network.network import Pick, Snap
     from ..core.network.strokes import Stroke
+    from ..core.picking.view import View
     from .text_overlay import Row
-    from .viewport import View
 
 
 def in_bounds(obj: bpy.types.Object, view: View, cursor: tuple[float, float]) -> bool:
@@ -265,16 +266,9 @@ class ObjectView:
 
     def stroke_at(self, view: View, cursor: tuple[float, float]) -> Stroke | None:
         """Return the stroke under the cursor."""
-        matrix = self.obj.matrix_world
-        return stroke_at(
-            self.session.strokes,
-            view,
-            matrix,
-            self.mesh.arrays.to_object,
-            cursor,
-            bpy.context.preferences.system.ui_scale,
-            lambda place: self.options.xray or self._picker.sees(view, matrix, place),
-        )
+        scale = bpy.context.preferences.system.ui_scale
+        matrix, strokes = self.obj.matrix_world, self.session.strokes
+        return self._picker.stroke_at(strokes, view, matrix, cursor, xray=self.options.xray, scale=scale)
 
     def show(self, front: bool, help_rows: Sequence[Row] | None) -> None:
         """Let the overlay follow."""

@@ -31,7 +31,7 @@ class Notices:
     Attributes
     ----------
     hint
-        The result of the last key, for the status bar. It is empty if there is none.
+        The result of the last key, for the status bar, or an empty text.
     """
 
     def __init__(self) -> None:

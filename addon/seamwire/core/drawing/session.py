@@ -13,12 +13,12 @@ from ..base.messages import NOTHING, Message, Refused, message_of
 from ..network.network import Snap
 from ..network.strokes import OffMeshError
 from .candidates import only_vertices
+from .flow import Flow
 from .line import LineGesture
 from .loop import NextOffer
 from .painter import Painter
 from .retrace import Retrace, retraced
 from .seed_drag import SeedDrag
-from .flow import Flow
 from .stroke import StrokeGesture
 
 if TYPE_CHECKING:

@@ -10,9 +10,9 @@ from seamwire.core.base.mesh_arrays import Arrays
 from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Along, Snap
+from seamwire.core.picking.picker import Picker
+from seamwire.core.picking.view import View
 from seamwire.core.solver.live_maker import LiveMaker
-from seamwire.view.picking import Picker
-from seamwire.view.viewport import View
 from setting import use
 
 pytest.importorskip("seamwire_core")

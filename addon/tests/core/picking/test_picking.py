@@ -8,8 +8,11 @@ import pytest
 from polygon_meshes import arrays_of, grid_places, grid_polygons
 from seamwire.core.base.mesh_arrays import Arrays
 from seamwire.core.network.network import FacePoint, Pick, Snap, Wire
-from seamwire.view.picking import Picker, nearest_edge
-from seamwire.view.viewport import View
+from seamwire.core.picking.picker import Picker
+from seamwire.core.picking.segments import nearest_edge
+from seamwire.core.picking.sight import Sight
+from seamwire.core.picking.surface import Surface
+from seamwire.core.picking.view import View
 
 pytest.importorskip("seamwire_core")
 
@@ -156,8 +159,9 @@ def test_the_place_on_the_surface_is_given_as_the_mesh_has_it() -> None:
     weights = np.linalg.solve(np.column_stack([corners[:, :2], np.ones(3)]).T, (*point[:2], 1.0))
     assert weights.min() > -1e-6, "it lies in the triangle named"
     assert find.surface_at(view, matrix, pixel(view, (3.0, 0.0, -1.0))) is None
-    assert find.sees(view, matrix, np.array((0.2, 0.4, 0.0)))
-    assert not find.sees(view, matrix, np.array((0.2, 0.4, -0.5)))
+    surface, sight = Surface(arrays), Sight.of(view, matrix, (0.0, 0.0))
+    assert surface.sees(sight, np.array((0.2, 0.4, 0.0)))
+    assert not surface.sees(sight, np.array((0.2, 0.4, -0.5)))
 
 
 def test_the_direction_of_view_is_given_as_the_mesh_has_it() -> None:

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Ridges, valleys and strong features near the cursor."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..network.network import FacePoint
+from .segments import Segments
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from numpy.typing import NDArray
+
+    from ..fields.crests import Crests
+    from ..network.network import Pick
+    from .sight import Sight
+    from .surface import Surface
+
+FEATURE_REACH = 10.0
+"""Pixels in which the strongest feature is looked for."""
+FEATURE_QUANTILE = 0.75
+"""A vertex counts as a feature from this share of all vertices' strengths on: on a plain nothing is stronger than noise."""
+_MOST_TRIED = 4
+"""So many of the vertices near the cursor are tried for one that is not hidden."""
+
+
+class FeaturePicker:
+    """Finds features near the cursor.
+
+    Parameters
+    ----------
+    surface
+        The mesh.
+    """
+
+    def __init__(self, surface: Surface) -> None:
+        self._surface = surface
+        self._strength: tuple[object, float] = (None, 0.0)
+        self._crests: tuple[Crests | None, Segments] = (None, Segments([]))
+
+    def preferred_at(self, sight: Sight, pick: Pick, preferred: Collection[int]) -> int | None:
+        """Return the nearest of the preferred vertices within reach, going over the mesh from what is under the cursor."""
+        near = self._surface.vertices_near(sight, pick, FEATURE_REACH * sight.scale)
+        for vertex in sorted((v for v in near if v in preferred), key=near.__getitem__)[:_MOST_TRIED]:
+            if self._can_pick(sight, vertex):
+                return vertex
+        return None
+
+    def strongest_at(self, sight: Sight, pick: Pick, strength: NDArray[np.float64]) -> int | None:
+        """Return the vertex of the strongest feature within reach, going over the mesh from what is under the cursor."""
+        if self._strength[0] is not strength:
+            self._strength = (strength, float(np.quantile(strength, FEATURE_QUANTILE)) if len(strength) else 0.0)
+        near = self._surface.vertices_near(sight, pick, FEATURE_REACH * sight.scale)
+        for vertex in sorted(near, key=lambda v: -strength[v])[:_MOST_TRIED]:
+            if strength[vertex] <= self._strength[1]:
+                return None
+            if self._can_pick(sight, vertex):
+                return vertex
+        return None
+
+    def crest_at(self, sight: Sight, crests: Crests, anywhere: bool) -> Pick | None:
+        """Return the nearest point of a ridge or valley within reach of the cursor.
+
+        Parameters
+        ----------
+        sight
+            The cursor, and the object under it.
+        crests
+            The ridges and valleys.
+        anywhere
+            Whether the point may lie within a triangle. Otherwise it is a vertex beside it that is as near.
+        """
+        surface = self._surface
+        if self._crests[0] is not crests:
+            ends = surface.in_object(crests.segments.reshape(-1, 3)).reshape(-1, 2, 3)
+            self._crests = crests, Segments(list(ends))
+        for piece, seen in self._crests[1].near(sight, FEATURE_REACH * sight.scale):
+            if not surface.can_pick(sight, seen):
+                continue
+            place, triangle, vertex = crests.place_at(piece, surface.to_points @ seen)
+            if anywhere:
+                return FacePoint.at(place, triangle, surface.triangles, surface.points)
+            pixel = surface.pixels(sight, [vertex])[0]
+            if np.linalg.norm(pixel - np.asarray(sight.cursor)) <= FEATURE_REACH * sight.scale:
+                return vertex
+        return None
+
+    def _can_pick(self, sight: Sight, vertex: int) -> bool:
+        return self._surface.can_pick(sight, self._surface.to_object @ self._surface.points[vertex])

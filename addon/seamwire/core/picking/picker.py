@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a click would take on the visible part of an edit mesh: a seed, a wire, a seam, a feature, or the plain mesh."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..network.network import Snap, place_of
+from .drawn import DrawnPicker, stroke_at
+from .features import FeaturePicker
+from .plain import PlainPicker
+from .sight import Sight
+from .surface import Surface
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from ..base.mesh_arrays import Arrays
+    from ..drawing.session import Session
+    from ..fields.crests import Crests
+    from ..network.network import Pick
+    from ..network.strokes import Stroke
+    from .view import View
+
+
+class Picker:
+    """Finds what is under the cursor on one edit mesh.
+
+    In all methods, `matrix` is the object's (4, 4) matrix, which may rotate, scale and shear. `cursor` is in pixels from the region's
+    bottom left.
+
+    Parameters
+    ----------
+    arrays
+        The edit mesh.
+    seams
+        (s, 2) the edges that are seams and that no wire runs along.
+    """
+
+    def __init__(self, arrays: Arrays, seams: ArrayLike = ()) -> None:
+        self._surface = Surface(arrays)
+        self._plain = PlainPicker(self._surface)
+        self._features = FeaturePicker(self._surface)
+        self._drawn = DrawnPicker(self._surface, seams)
+
+    def wait(self) -> None:
+        """Wait until the threads have finished."""
+        self._surface.wait()
+
+    def set_seams(self, seams: ArrayLike) -> None:
+        """Take other edges, (s, 2), as the seams that no wire runs along."""
+        self._drawn.set_seams(seams)
+
+    def snap(
+        self,
+        view: View,
+        matrix: ArrayLike,
+        cursor: tuple[float, float],
+        *,
+        vertices_only: bool,
+        edges_only: bool = False,
+        anywhere: bool = False,
+        session: Session | None = None,
+        xray: bool = False,
+        preferred: frozenset[int] = frozenset(),
+        strength: NDArray[np.float64] | None = None,
+        crests: Crests | None = None,
+        scale: float = 1.0,
+    ) -> Snap | None:
+        """Return what a click would take: a seed before a wire, a wire before a seam, a seam before the plain mesh.
+
+        Parameters
+        ----------
+        view, matrix, cursor
+            The view, the object and the pixel.
+        vertices_only, edges_only
+            Find vertices of the mesh alone, or edges.
+        anywhere
+            Of vertices alone, find only those that are meant. Otherwise find the point of the surface under the cursor.
+        session
+            Whose seeds and wires can be found. Without it, neither these nor seams are found.
+        xray
+            Find what lies behind faces too; the nearest on the screen.
+        preferred
+            Vertices that are taken before anything else of the plain mesh if they are as near as features may be.
+        strength
+            (n,) how strong the feature is at each vertex. The strongest one nearby is taken.
+        crests
+            Ridges and valleys. What lies on one nearby is taken before anything else of the plain mesh.
+        scale
+            Of the display.
+        """
+        sight = Sight.of(view, matrix, cursor, scale, xray)
+        if sight is None:
+            return None
+        if session is not None:
+            found = self._drawn.at(sight, session)
+            if found is not None:
+                return found
+        if xray:
+            pick = self._plain.through(sight, vertices_only)
+        else:
+            pick = self._plain.point_at(sight) if anywhere else None
+            if pick is None:
+                pick = self._plain.at(sight, vertices_only, edges_only)
+        if pick is None:
+            return None
+        vertex = self._features.preferred_at(sight, pick, preferred) if preferred else None
+        if vertex is not None:
+            return Snap(vertex)
+        crest = None if crests is None else self._features.crest_at(sight, crests, anywhere)
+        if crest is not None:
+            return Snap(crest, "FEATURE")
+        if edges_only and isinstance(pick, tuple):
+            return self._plain.with_crossing(sight, pick)
+        feature = None if strength is None else self._features.strongest_at(sight, pick, strength)
+        return Snap(pick) if feature is None else Snap(feature, "FEATURE")
+
+    def pick(
+        self,
+        view: View,
+        matrix: ArrayLike,
+        cursor: tuple[float, float],
+        vertices_only: bool,
+        scale: float = 1.0,
+        edges_only: bool = False,
+    ) -> Pick | None:
+        """Return the edge or the vertex under the cursor.
+
+        Parameters
+        ----------
+        view, matrix, cursor
+            The view, the object and the pixel.
+        vertices_only, edges_only
+            Find vertices alone, or edges.
+        scale
+            Of the display.
+
+        Returns
+        -------
+        int, tuple of int or None
+            A vertex, an edge by its vertices, or nothing.
+        """
+        sight = Sight.of(view, matrix, cursor, scale)
+        return None if sight is None else self._plain.at(sight, vertices_only, edges_only)
+
+    def stroke_at(
+        self,
+        strokes: Sequence[Stroke],
+        view: View,
+        matrix: ArrayLike,
+        cursor: tuple[float, float],
+        xray: bool = False,
+        scale: float = 1.0,
+    ) -> Stroke | None:
+        """Return the stroke under the cursor. `strokes` are given oldest first."""
+        sight = Sight.of(view, matrix, cursor, scale, xray)
+        return None if sight is None else stroke_at(strokes, sight, self._surface)
+
+    def seen_along(self, view: View, matrix: ArrayLike, pick: Pick) -> tuple[float, float, float] | None:
+        """Return the direction from the viewer to a pick, in the coordinates of the mesh, or None if it lies behind the viewer."""
+        surface = self._surface
+        sight = Sight.of(view, matrix, (0.0, 0.0))
+        if sight is None:
+            return None
+        pixel = sight.pixels((surface.to_object @ place_of(pick, surface.points))[None])[0]
+        if not np.isfinite(pixel).all():
+            return None
+        near, far = surface.ray(sight, (float(pixel[0]), float(pixel[1])))
+        x, y, z = (far - near).tolist()
+        return x, y, z
+
+    def depth(self, view: View, matrix: ArrayLike, cursor: tuple[float, float]) -> float | None:
+        """Return how far the face under the cursor is from the near plane, in world units, or None beside the mesh."""
+        sight = Sight.of(view, matrix, cursor)
+        hit = None if sight is None else self._surface.cast(sight, cursor)
+        return None if hit is None else float(np.linalg.norm(sight.to_world(hit[1]) - view.ray(cursor)[0]))
+
+    def surface_at(
+        self, view: View, matrix: ArrayLike, cursor: tuple[float, float]
+    ) -> tuple[NDArray[np.float64], int] | None:
+        """Return the point of the surface under the cursor, in the coordinates of the mesh, and its triangle."""
+        sight = Sight.of(view, matrix, cursor)
+        hit = None if sight is None else self._surface.cast(sight, cursor)
+        return None if hit is None else (self._surface.to_points @ hit[1], hit[0])
