@@ -18,7 +18,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from seamwire.core.base.mesh_arrays import Arrays
-from seamwire.core.network.network import Wire
+from seamwire.core.network.wires import Wire
 from seamwire.core.picking.picker import Picker
 from seamwire.core.picking.view import View
 

@@ -6,7 +6,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Pick, Wire
+from seamwire.core.network.picks import Pick
+from seamwire.core.network.wires import Wire
 
 
 def use(session: Session, **changes: object) -> bool:

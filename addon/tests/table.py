@@ -10,7 +10,7 @@ from paper_mesh import PaperMesh
 from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Along
+from seamwire.core.network.picks import Along
 
 SIZE = 6
 

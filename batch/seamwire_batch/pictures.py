@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import NDArray
-    from seamwire.core.network.network import Wire
+    from seamwire.core.network.wires import Wire
 
 FRONT, BACK = (-60.0, 18.0), (125.0, 18.0)
 """Azimuth and elevation of the cameras, degrees."""

@@ -9,7 +9,7 @@ import pytest
 import ui as driver
 from desk import Desk, leave
 from scene import add_object, seams
-from seamwire.core.network.network import FacePoint
+from seamwire.core.network.picks import FacePoint
 from seamwire.mesh.settings import settings
 from seamwire.operators.report import running
 from seamwire.ui import status_bar

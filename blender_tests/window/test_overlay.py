@@ -21,7 +21,9 @@ from scene import add_grid, add_object, edit
 from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.picture import Offered, Picture, Role, ShownWire, shown_seeds
 from seamwire.core.islands.islands import IslandMaker
-from seamwire.core.network.network import Edge, Snap, Wire
+from seamwire.core.network.network import Snap
+from seamwire.core.network.picks import Edge
+from seamwire.core.network.wires import Wire
 from seamwire.mesh import edit_mesh
 from seamwire.view.overlay import Overlay
 from seamwire.view.shown_islands import ShownIslands

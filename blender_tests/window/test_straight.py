@@ -12,7 +12,7 @@ from bpy_extras.view3d_utils import location_3d_to_region_2d
 from desk import ORANGE, Desk, leave, shows
 from mathutils import Euler, Vector
 from scene import add_object, seams
-from seamwire.core.network.network import Wire
+from seamwire.core.network.wires import Wire
 from seamwire.mesh.settings import settings
 from seamwire.view.edited_objects import edited
 

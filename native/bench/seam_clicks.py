@@ -45,7 +45,7 @@ from seamwire.core.offers.edge_loops import find_offers, past_poles  # these kno
 from seamwire.core.offers.flat_regions import FlatRegions
 
 if TYPE_CHECKING:
-    from seamwire.core.network.network import LoopKind
+    from seamwire.core.network.wires import LoopKind
 
 Pair = tuple[int, int]
 Edges = frozenset[Pair]

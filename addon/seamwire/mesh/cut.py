@@ -16,14 +16,14 @@ import bmesh
 import numpy as np
 from mathutils import Vector
 
-from ..core.network.network import FacePoint, vertices_of
+from ..core.network.picks import FacePoint, vertices_of
 from ..core.seams import cut
 from .edit_mesh import LABELS
 from .unwrap import JOINED, UNWRAPPED
 
 if TYPE_CHECKING:
     from ..core.base.mesh_arrays import Arrays
-    from ..core.network.network import Edge, Pick
+    from ..core.network.picks import Edge, Pick
     from ..core.seams.cut import Curve, CutPlan, Node
     from .edit_mesh import Cage
 

@@ -18,7 +18,7 @@ import numpy as np
 from ..core.base import native
 from ..core.base.mesh_arrays import Arrays
 from ..core.base.triangulation import without_flat_triangles
-from ..core.network.network import vertices_of
+from ..core.network.picks import vertices_of
 from ..core.seams.gaps import triangles_at
 from ..core.storage.wire_labels import EdgeLabels
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from mathutils import Matrix
     from numpy.typing import NDArray
 
-    from ..core.network.network import Pick
+    from ..core.network.picks import Pick
 
 LABELS = ".seamwire"
 """The layer of the edges that holds their labels, see `core.wire_labels`. Blender does not show names that begin so."""

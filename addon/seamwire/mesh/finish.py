@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..core.base.messages import message_of
-from ..core.network.network import FacePoint, vertices_of
+from ..core.network.picks import FacePoint, vertices_of
 from ..core.seams.cut_nodes import NEAR, CutError
 from ..core.seams.seam_wires import wires_between
 from ..core.seams.slide import plan as plan_slide
@@ -26,7 +26,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.drawing.change import Change
-    from ..core.network.network import Edge, Network, Pick, Wire
+    from ..core.network.network import Network
+    from ..core.network.picks import Edge, Pick
+    from ..core.network.wires import Wire
     from ..core.offers.closed_cuts import TakenCut
     from ..core.seams.cut import CutPlan
     from .cut import Cut

@@ -16,12 +16,13 @@ from mathutils.bvhtree import BVHTree
 from ..core.drawing.drawing import Drawing
 from ..core.drawing.options import Options
 from ..core.drawing.session import Session
-from ..core.network.network import FacePoint, edges_after
+from ..core.network.network import edges_after
+from ..core.network.picks import FacePoint
 from ..core.network.strokes import on_mesh
 from ..core.offers.closed_cuts import CutMemory
 from ..core.seams.suggestion import best_finish
 from ..core.solver.live_maker import LiveMaker
-from ..core.storage import serialization, wire_labels
+from ..core.storage import label_reader, serialization, wire_labels
 from ..core.storage.network_file import NetworkFile
 from ..core.storage.serialization import Archive, UnreadableError
 from ..core.storage.wire_labels import EdgeLabels, Found, Places
@@ -33,8 +34,10 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..core.network.network import Along, Finish, Network, Wire
+    from ..core.network.network import Network
+    from ..core.network.picks import Along, Finish
     from ..core.network.strokes import Stroke
+    from ..core.network.wires import Wire
     from .settings import SeamwireSettings
 
 FIRST_VERSION = "seamwire"
@@ -226,7 +229,7 @@ class ObjectSession:
         """Go on with the network that labels tell of."""
         self._learn(labels)
         self._labels = labels
-        self._found = Found() if self._newer else wire_labels.read(labels, self._archive, self.places)
+        self._found = Found() if self._newer else label_reader.read(labels, self._archive, self.places)
         network = self._found.network
         stored = self.cage.mesh.get(FIRST_VERSION)
         if isinstance(stored, str) and not len(labels.labels):

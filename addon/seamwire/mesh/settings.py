@@ -14,7 +14,7 @@ from ..core.solver.defaults import CLAMP_PERCENTILE, CLAMP_RANGE, STRENGTH_RANGE
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ..core.network.network import Along, Finish
+    from ..core.network.picks import Along, Finish
 
 ADDON = __package__.rpartition(".")[0]
 """The add-on's name in this Blender."""

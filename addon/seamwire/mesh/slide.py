@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..core.network.network import Edge
+    from ..core.network.picks import Edge
     from ..core.seams.slide import Move
     from .edit_mesh import Cage
 

@@ -31,7 +31,8 @@ if TYPE_CHECKING:
     import seamwire_core
     from numpy.typing import NDArray
 
-    from ..core.network.network import Along, Finish, Wire
+    from ..core.network.picks import Along, Finish
+    from ..core.network.wires import Wire
     from ..core.seams.suggestion import Request
 
 

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     import bpy
 
     from ..core.base.mesh_arrays import Arrays
-    from ..core.matching.transfer import Transfer
-    from ..core.network.network import Edge
+    from ..core.matching.transferred import Transfer
+    from ..core.network.picks import Edge
     from ..core.storage.network_file import NetworkFile
     from .settings import SeamwireSettings
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     import bpy
 
-    from ..core.network.network import Wire
+    from ..core.network.wires import Wire
     from ..mesh.object_session import ObjectSession
 
 

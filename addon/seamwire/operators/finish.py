@@ -13,7 +13,7 @@ from .edit_mesh_operator import EditMeshOperator, description_of_item
 from .slide import slide_wires
 
 if TYPE_CHECKING:
-    from ..core.network.network import Wire
+    from ..core.network.wires import Wire
     from ..mesh.object_session import ObjectSession
 
 

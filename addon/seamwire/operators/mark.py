@@ -15,7 +15,8 @@ from .slide import slide_wires
 
 if TYPE_CHECKING:
     from ..core.drawing.options import Options
-    from ..core.network.network import Pick, Wire
+    from ..core.network.picks import Pick
+    from ..core.network.wires import Wire
     from ..mesh.object_session import ObjectSession
     from ..words.seed_text import VertexStroke
 
@@ -191,7 +192,7 @@ class MESH_OT_seamwire_mark(EditMeshOperator, bpy.types.Operator):
 
     def _read(self, mesh: ObjectSession) -> tuple[list[list[Pick]], list[Pick], list[VertexStroke]]:
         """Return chains, loops and strokes. Raise ValueError if they cannot be drawn."""
-        from ..core.network.network import FacePoint
+        from ..core.network.picks import FacePoint
         from ..words import seed_text
 
         if self.finish == "CUT" and self.clear and self.along == "SURFACE":

@@ -11,7 +11,7 @@ from ..words.names import count
 from .edit_mesh_operator import EditMeshOperator
 
 if TYPE_CHECKING:
-    from ..core.network.network import Wire
+    from ..core.network.wires import Wire
     from ..mesh.object_session import ObjectSession
 
 

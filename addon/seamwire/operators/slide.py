@@ -10,7 +10,7 @@ from ..words.names import count
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
 
-    from ..core.network.network import Wire
+    from ..core.network.wires import Wire
     from ..mesh.object_session import ObjectSession
 
 

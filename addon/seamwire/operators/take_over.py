@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from ..core.network.network import Wire
+    from ..core.network.wires import Wire
     from ..mesh.object_session import ObjectSession
 
 

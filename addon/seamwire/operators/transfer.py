@@ -12,7 +12,7 @@ from ..words.names import DEGREE_NAMES, count
 from .edit_mesh_operator import EditMeshOperator
 
 if TYPE_CHECKING:
-    from ..core.matching.transfer import Transfer
+    from ..core.matching.transferred import Transfer
     from ..mesh.object_session import ObjectSession
 
 PLACE_ITEMS = (
@@ -39,7 +39,7 @@ def write_and_report(
     operator: bpy.types.Operator, context: bpy.types.Context, mesh: ObjectSession, found: Transfer
 ) -> set[str]:
     """Write the wires to the mesh, and report how certain each seed is and what is missing."""
-    from ..core.matching.transfer import DEGREES
+    from ..core.matching.transferred import DEGREES
     from ..mesh import edit_mesh
     from ..mesh.transfer import write
 

@@ -33,7 +33,8 @@ if TYPE_CHECKING:
     from ..core.drawing.picture import Picture
     from ..core.drawing.session import Session
     from ..core.fields.metric_fields import Source
-    from ..core.network.network import Pick, Snap
+    from ..core.network.network import Snap
+    from ..core.network.picks import Pick
     from ..core.network.strokes import Stroke
     from ..core.picking.view import View
     from .text_overlay import Row

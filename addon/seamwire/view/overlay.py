@@ -10,7 +10,7 @@ import numpy as np
 from mathutils import Matrix
 
 from ..core.drawing.picture import LIVE, Role, SeedRole
-from ..core.network.network import place_of
+from ..core.network.picks import place_of
 from . import legend, text_overlay
 from .gpu_draw import Eye, Faces, Lines, blended, draw_dots
 from .theme import Looks, Style, hue_colors
@@ -22,7 +22,8 @@ if TYPE_CHECKING:
 
     from ..core.drawing.picture import Picture, ShownWire
     from ..core.islands.islands import Islands
-    from ..core.network.network import Edge, Pick, Snap
+    from ..core.network.network import Snap
+    from ..core.network.picks import Edge, Pick
     from .metric_views import MetricViews
     from .stretch_heat import StretchHeat
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from ..core.drawing.picture import Picture
-    from ..core.network.network import LoopKind
+    from ..core.network.wires import LoopKind
 
 Hint = tuple[str, str]
 """The name of one of Blender's icons, and a text."""

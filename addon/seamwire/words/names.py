@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from ..core.network.network import LoopKind, Pick
+    from ..core.network.picks import Pick
+    from ..core.network.wires import LoopKind
 
 LOOP_NAMES: Mapping[LoopKind, str] = {
     "CLOSED": "closed loop",

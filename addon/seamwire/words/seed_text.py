@@ -10,12 +10,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..core.drawing.picture import Role
-from ..core.network.network import undirected
+from ..core.network.picks import undirected
 from .names import LOOP_NAMES, pick_name
 
 if TYPE_CHECKING:
     from ..core.drawing.session import Session
-    from ..core.network.network import Edge, LoopKind, Pick
+    from ..core.network.picks import Edge, Pick
+    from ..core.network.wires import LoopKind
 
 _TOKENS = re.compile(r"\([^()]*\)|[^\s,()]+|[()]")
 _TOKEN = re.compile(r"(\d+)(?:-(\d+))?")

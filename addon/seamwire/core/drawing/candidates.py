@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.messages import NOTHING, Message, message_of
-from ..network.network import FacePoint, Network, Snap, Wire, distinct
+from ..network.network import Network, Snap
+from ..network.picks import FacePoint
+from ..network.wires import Wire, distinct
 from ..solver.solver import by_number, for_live
 from .ring import RingSearch
 from .straight import straight_wire
@@ -16,7 +18,8 @@ from .straight import straight_wire
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..network.network import Along, Pick, Seed
+    from ..network.network import Seed
+    from ..network.picks import Along, Pick
     from ..solver.solver import Candidate, Engines
     from .options import Options
 

@@ -8,7 +8,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ..network.network import Network, Wire
+    from ..network.network import Network
+    from ..network.wires import Wire
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from ..base.messages import NOTHING, Message
 from ..network.history import History
 from ..network.mirror_images import MirrorImages
-from ..network.network import Network, undirected
+from ..network.network import Network
+from ..network.picks import undirected
 from ..network.stops import Stops
 from ..network.strokes import for_library
 from ..network.symmetry import Symmetry
@@ -23,8 +24,9 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
-    from ..network.network import Along, Pick, Wire
+    from ..network.picks import Along, Pick
     from ..network.strokes import Stroke
+    from ..network.wires import Wire
     from ..solver.solver import LiveWire
 
 

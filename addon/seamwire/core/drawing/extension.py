@@ -7,14 +7,15 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ..base.messages import NOTHING, Message, Refused, message_of
-from ..network.network import Wire
+from ..network.wires import Wire
 from .gesture import Gesture
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from ..network.network import Edge, Seed
+    from ..network.network import Seed
+    from ..network.picks import Edge
     from ..solver.solver import LiveWire
     from .drawing import Drawing
     from .gesture import Committed

@@ -7,7 +7,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ..base.messages import NOTHING, Message, Refused, message_of
-from ..network.network import FOLLOWS, Network, undirected
+from ..network.network import Network
+from ..network.picks import undirected
+from ..network.wires import FOLLOWS
 from .gesture import Gesture, Waiting
 from .gestures import Gestures
 from .line import LineGesture
@@ -15,7 +17,8 @@ from .line import LineGesture
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from ..network.network import Pick, Seed, Snap
+    from ..network.network import Seed, Snap
+    from ..network.picks import Pick
     from .drawing import Drawing
     from .options import Options
     from .seed_drag import SeedDrag

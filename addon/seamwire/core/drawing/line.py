@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.messages import Message, Refused
-from ..network.network import vertices_of
+from ..network.picks import vertices_of
 from ..network.symmetry import among
 from .gesture import Gesture
 from .line_wires import EdgeLine, SurfaceLine
@@ -17,7 +17,9 @@ from .line_wires import EdgeLine, SurfaceLine
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..network.network import Edge, Network, Pick, Seed, Snap, Wire
+    from ..network.network import Network, Seed, Snap
+    from ..network.picks import Edge, Pick
+    from ..network.wires import Wire
     from ..solver.solver import LiveWire
     from .drawing import Drawing
     from .gesture import Committed

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from ..base.messages import NOTHING, Message, message_of
-from ..network.network import FacePoint, Wire
+from ..network.picks import FacePoint
 from ..network.symmetry import among
+from ..network.wires import Wire
 from ..seams.seam_wires import wires_along
 from ..solver.solver import by_number, for_live
 from .candidates import across
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..network.network import Edge, Pick
+    from ..network.picks import Edge, Pick
     from ..solver.solver import Candidates, Engines, LiveWire
 
 _MOST_EDGES = 200

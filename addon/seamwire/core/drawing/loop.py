@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 from ..base.messages import NOTHING, Message, Refused, message_of
 from ..fields.crests import CREST_KINDS
-from ..network.network import FacePoint, Snap, undirected
+from ..network.network import Snap
+from ..network.picks import FacePoint, undirected
 from ..offers.edge_loops import LoopOffers, taken
 from ..offers.flat_regions import FlatRegions
 from ..offers.surface_loops import SurfaceLoops
@@ -17,7 +18,8 @@ from .line import LineGesture
 
 if TYPE_CHECKING:
     from ..fields.crests import Crests
-    from ..network.network import Edge, Pick, Wire
+    from ..network.picks import Edge, Pick
+    from ..network.wires import Wire
     from ..offers.offers import Offers
     from ..solver.solver import LiveWire
     from .drawing import Drawing

@@ -11,7 +11,7 @@ from ..solver.defaults import CLAMP_PERCENTILE, CLAMP_RANGE, STRENGTH_RANGE, STR
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from ..network.network import Along, Finish
+    from ..network.picks import Along, Finish
     from ..solver.solver import MetricName
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..network.network import undirected
+from ..network.picks import undirected
 from .intent import Intent
 from .picture import Choice, Offered, Picture, Work, kept_wires, shown_seeds, shown_wires
 

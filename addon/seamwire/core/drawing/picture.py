@@ -8,7 +8,8 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING
 
 from ..base.messages import NOTHING, Message
-from ..network.network import Network, Snap, undirected
+from ..network.network import Network, Snap
+from ..network.picks import undirected
 from .intent import Intent
 from .options import Options
 
@@ -19,8 +20,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..islands.islands import Islands
-    from ..network.network import Edge, Finish, LoopKind, Pick, Wire
+    from ..network.picks import Edge, Finish, Pick
     from ..network.strokes import Stroke
+    from ..network.wires import LoopKind, Wire
     from .candidates import CandidateWires
     from .line import LineGesture
     from .seed_drag import SeedDrag

@@ -11,7 +11,8 @@ from .gesture import Gesture
 from .seed_drag import Leg
 
 if TYPE_CHECKING:
-    from ..network.network import Network, Wire
+    from ..network.network import Network
+    from ..network.wires import Wire
     from ..solver.solver import LiveWire
     from .drawing import Drawing
     from .gesture import Committed

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.geometry import nearest_on_segments
-from ..network.network import Wire, place_of, undirected, vertices_of
+from ..network.picks import place_of, undirected, vertices_of
+from ..network.wires import Wire
 from ..offers.edge_loops import corners
 from ..solver.solver import by_number, for_live
 
@@ -19,7 +20,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from ..network.network import Along, Edge, Network, Pick, Snap
+    from ..network.network import Network, Snap
+    from ..network.picks import Along, Edge, Pick
     from ..solver.solver import ClosedCut, Engines, LiveWire
 
     Found = TypeVar("Found")

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.messages import NOTHING, Message, Refused, message_of
-from ..network.network import FacePoint, Network, Snap, Wire, distinct, undirected, vertices_of
+from ..network.network import Network, Snap
+from ..network.picks import FacePoint, undirected, vertices_of
+from ..network.wires import Wire, distinct
 from ..solver.solver import by_number, for_live
 from .candidates import only_vertices
 from .gesture import Gesture
@@ -17,7 +19,7 @@ from .gesture import Gesture
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..network.network import Edge, End, Pick
+    from ..network.picks import Edge, End, Pick
     from ..solver.solver import Candidate, LiveWire
     from .drawing import Drawing
     from .gesture import Committed

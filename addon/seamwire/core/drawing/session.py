@@ -28,8 +28,10 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from ..fields.crests import Crests
-    from ..network.network import Edge, Network, Pick, Wire
+    from ..network.network import Network
+    from ..network.picks import Edge, Pick
     from ..network.strokes import Stroke
+    from ..network.wires import Wire
     from ..offers.closed_cuts import TakenCut
     from .drawing import Drawing
     from .gesture import Gesture

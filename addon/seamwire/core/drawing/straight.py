@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base import native
-from ..network.network import FacePoint, Wire
+from ..network.picks import FacePoint
+from ..network.wires import Wire
 from ..solver.solver import for_live
 
 if TYPE_CHECKING:
-    from ..network.network import Pick
+    from ..network.picks import Pick
     from ..solver.solver import LiveWire
 
     Direction = tuple[float, float, float]

@@ -6,8 +6,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from ..network.network import FOLLOWS
 from ..network.strokes import Stroke, drawn, through_vertices
+from ..network.wires import FOLLOWS
 from .gesture import Gesture
 
 if TYPE_CHECKING:

@@ -7,7 +7,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ..base.messages import NOTHING, Message, Refused
-from ..network.network import FacePoint, Network
+from ..network.network import Network
+from ..network.picks import FacePoint
 from .candidates import CandidateWires, only_vertices
 from .gesture import Gesture
 from .intent import Intent

@@ -9,13 +9,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..network.network import FacePoint, Wire
+from ..network.picks import FacePoint
+from ..network.wires import Wire
 
 if TYPE_CHECKING:
     import seamwire_core
     from numpy.typing import NDArray
 
-    from ..network.network import LoopKind, Pick
+    from ..network.picks import Pick
+    from ..network.wires import LoopKind
 
 CREST_KINDS: tuple[LoopKind, ...] = ("RIDGE", "VALLEY")
 """What their offers are."""

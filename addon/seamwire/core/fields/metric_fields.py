@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from ..base.newest import Newest
-from ..network.network import FOLLOWS
+from ..network.wires import FOLLOWS
 from ..solver.solver import kinds_of
 from .crests import Crests
 

@@ -9,14 +9,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.messages import NOTHING, Message
-from .network import Network, Wire, net_effect
+from .network import Network, net_effect
+from .wires import Wire
 
 if TYPE_CHECKING:
     from collections.abc import Collection
 
     from numpy.typing import ArrayLike
 
-    from .network import Edge
+    from .picks import Edge
     from .symmetry import Symmetry
 
 

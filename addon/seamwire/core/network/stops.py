@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .network import undirected
+from .picks import undirected
 from .symmetry import among
 
 if TYPE_CHECKING:
@@ -16,8 +16,10 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from .network import Edge, Network, Wire
+    from .network import Network
+    from .picks import Edge
     from .symmetry import Symmetry
+    from .wires import Wire
 
 _BITS = 32
 _LOW = (1 << _BITS) - 1

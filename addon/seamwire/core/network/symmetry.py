@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.spatial_hash import SpatialHash
-from .network import Wire
+from .wires import Wire
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .network import Pick
+    from .picks import Pick
 
 TOLERANCE = 2e-5
 """How far from its mirror image a vertex may be where no edges are known, in object coordinates: as Blender has it."""

@@ -9,14 +9,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.geometry import nearest_on_segments
-from ..network.network import place_of
+from ..network.picks import place_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from numpy.typing import NDArray
 
-    from ..network.network import Network, Pick, Wire
+    from ..network.network import Network
+    from ..network.picks import Pick
+    from ..network.wires import Wire
     from ..storage.wire_labels import Places
 
 _SAME = 0.125

@@ -13,7 +13,8 @@ from ..base.geometry import nearest_on_segments
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from ..network.network import Edge, Wire
+    from ..network.picks import Edge
+    from ..network.wires import Wire
 
 _MUCH_SHORTER = 0.8
 """Loops whose lengths differ by less count as equally long."""

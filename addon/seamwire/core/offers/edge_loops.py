@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.messages import Message
-from ..network.network import Wire, undirected
+from ..network.picks import undirected
 from ..network.stops import ranked
 from ..network.symmetry import among
+from ..network.wires import Wire
 from .crossing import Direction, Directions, as_crossing, as_kept, is_loop_of
 from .offers import Offers
 
@@ -20,8 +21,10 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..network.network import Edge, LoopKind, Network, Pick, Snap
+    from ..network.network import Network, Snap
+    from ..network.picks import Edge, Pick
     from ..network.stops import Stops
+    from ..network.wires import LoopKind
     from ..solver.solver import Engines, LiveWire
     from .flat_regions import FlatRegions
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..network.network import Edge
+    from ..network.picks import Edge
 
 FLAT_ANGLES = (30.0, 15.0, 50.0)
 """Degrees below which two faces are of one region; what most borders in artists' seams belong to comes first."""

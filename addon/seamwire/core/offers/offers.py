@@ -6,10 +6,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..base.messages import NOTHING, Message
-from ..network.network import Wire, undirected
+from ..network.picks import undirected
+from ..network.wires import Wire
 
 if TYPE_CHECKING:
-    from ..network.network import LoopKind, Network, Pick
+    from ..network.network import Network
+    from ..network.picks import Pick
+    from ..network.wires import LoopKind
 
 
 class Offers:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.messages import Message, Refused
-from ..network.network import FacePoint, Wire
+from ..network.picks import FacePoint
+from ..network.wires import Wire
 from ..solver.solver import for_live
 from .closed_cuts import TakenCut, is_same
 from .offers import Offers
@@ -19,7 +20,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..network.network import LoopKind, Network, Pick
+    from ..network.network import Network
+    from ..network.picks import Pick
+    from ..network.wires import LoopKind
     from ..solver.solver import ClosedCut, Engines, LiveWire
 
 

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.geometry import nearest_on_segments
-from ..network.network import Snap, place_of
+from ..network.network import Snap
+from ..network.picks import place_of
 from .segments import Segments
 from .view import Projected
 
@@ -20,8 +21,9 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from ..drawing.session import Session
-    from ..network.network import Pick, Wire
+    from ..network.picks import Pick
     from ..network.strokes import Stroke
+    from ..network.wires import Wire
     from .sight import Sight
     from .surface import Surface
 

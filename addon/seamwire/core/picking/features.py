@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..network.network import FacePoint
+from ..network.picks import FacePoint
 from .segments import Segments
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..fields.crests import Crests
-    from ..network.network import Pick
+    from ..network.picks import Pick
     from .sight import Sight
     from .surface import Surface
 

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..network.network import Snap, place_of
+from ..network.network import Snap
+from ..network.picks import place_of
 from .drawn import DrawnPicker, stroke_at
 from .features import FeaturePicker
 from .plain import PlainPicker
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from ..base.mesh_arrays import Arrays
     from ..drawing.session import Session
     from ..fields.crests import Crests
-    from ..network.network import Pick
+    from ..network.picks import Pick
     from ..network.strokes import Stroke
     from .view import View
 

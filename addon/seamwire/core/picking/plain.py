@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.geometry import nearest_on_segments
-from ..network.network import FacePoint, Snap
+from ..network.network import Snap
+from ..network.picks import FacePoint
 from .segments import VERTEX_RADIUS, VERTEX_SHARE, Segments, nearest_edge
 from .surface import MAX_NEAR
 from .view import Projected
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..network.network import Edge, Pick
+    from ..network.picks import Edge, Pick
     from .sight import Sight
     from .surface import Surface
 

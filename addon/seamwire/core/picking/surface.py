@@ -9,13 +9,13 @@ import numpy as np
 
 from ..base import native
 from ..base.incidence import Incidence
-from ..network.network import FacePoint, vertices_of
+from ..network.picks import FacePoint, vertices_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from ..base.mesh_arrays import Arrays
-    from ..network.network import Pick
+    from ..network.picks import Pick
     from .sight import Sight
 
 MAX_NEAR = 400

@@ -22,7 +22,7 @@ from .cut_walk import in_polygon, is_side, walk
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..network.network import Edge
+    from ..network.picks import Edge
 
 
 @dataclass

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from ..base.messages import Refused
-from ..network.network import FacePoint
+from ..network.picks import FacePoint
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ..base.geometry import barycentric, nearest_on_segments
-from ..network.network import FacePoint, vertices_of
+from ..network.picks import FacePoint, vertices_of
 from .cut_nodes import FLAT, NEAR, OFF, ON, CutError, Faces, Node, Piece, Spot, Trail
 
 if TYPE_CHECKING:

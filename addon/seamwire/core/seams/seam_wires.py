@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..network.network import Wire
+from ..network.wires import Wire
 from ..solver.solver import by_number
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..network.network import Edge
+    from ..network.picks import Edge
     from ..solver.solver import LiveWire
 
 _MISSES = 24

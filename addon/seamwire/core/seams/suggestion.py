@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..network.network import FOLLOWS, Wire
+from ..network.wires import FOLLOWS, Wire
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     import seamwire_core
     from numpy.typing import NDArray
 
-    from ..network.network import Along, Finish
+    from ..network.picks import Along, Finish
     from ..network.strokes import Stroke
 
 STRETCH = 0.17

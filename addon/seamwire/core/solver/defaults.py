@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ..network.network import Along
+    from ..network.picks import Along
 
 STRENGTHS: Mapping[Along, float] = {"EDGES": 10.0, "SURFACE": 20.0}
 """The metric's largest anisotropy to begin with: how strongly wires are drawn to features; docs/method/defaults.md says why."""

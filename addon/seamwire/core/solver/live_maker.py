@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import seamwire_core
     from numpy.typing import NDArray
 
-    from ..network.network import Along
+    from ..network.picks import Along
     from .solver import LiveWire
 
 

@@ -8,7 +8,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Literal, Protocol, get_args
 
 from ..base.messages import NOTHING, Message
-from ..network.network import FOLLOWS, FacePoint
+from ..network.picks import FacePoint
+from ..network.wires import FOLLOWS
 from .defaults import CLAMP_PERCENTILE, STRENGTHS
 
 if TYPE_CHECKING:
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
     from seamwire_core import Surface
 
-    from ..network.network import Along, Edge, Pick
+    from ..network.picks import Along, Edge, Pick
     from ..network.strokes import Stroke
 
 MetricName = Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"]

@@ -18,7 +18,7 @@ import numpy as np
 
 from ..base.geometry import Moments, creases, vertex_normals
 from ..base.messages import NOTHING, Message, Refused
-from ..network.network import FacePoint, place_of, undirected
+from ..network.picks import FacePoint, place_of, undirected
 from ..solver.defaults import CLAMP_PERCENTILE
 from ..solver.solver import MetricName
 from . import serialization
@@ -27,8 +27,10 @@ from .serialization import Record
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..network.network import Edge, Network, Pick, Wire
+    from ..network.network import Network
+    from ..network.picks import Edge, Pick
     from ..network.strokes import Stroke
+    from ..network.wires import Wire
 
 FORMAT = "seamwire-network"
 VERSION = 1

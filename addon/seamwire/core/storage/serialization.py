@@ -20,13 +20,15 @@ import numpy as np
 
 from ..base.messages import NOTHING, Message, Refused
 from ..base.spatial_hash import SpatialHash
-from ..network.network import FOLLOWS, LOOP_KINDS, FacePoint, Network, Wire, undirected
+from ..network.network import Network
+from ..network.picks import FacePoint, undirected
 from ..network.strokes import Stroke
+from ..network.wires import FOLLOWS, LOOP_KINDS, Wire
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..network.network import Edge, Pick
+    from ..network.picks import Edge, Pick
     from ..network.strokes import ActsOn
 
 FORMAT = "seamwire"

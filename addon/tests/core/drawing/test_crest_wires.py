@@ -15,7 +15,7 @@ from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.fields.crests import Crests
-from seamwire.core.network.network import Along, FacePoint, Pick
+from seamwire.core.network.picks import Along, FacePoint, Pick
 from seamwire.core.offers.surface_loops import SurfaceLoops
 from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
 from setting import use

@@ -9,7 +9,8 @@ from fake_live import grid_edges, grid_points, grid_triangles
 from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import FacePoint, Snap, place_of
+from seamwire.core.network.network import Snap
+from seamwire.core.network.picks import FacePoint, place_of
 from seamwire.core.storage.serialization import wire_record
 from setting import use
 

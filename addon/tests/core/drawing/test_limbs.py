@@ -9,7 +9,8 @@ from polygon_meshes import arrays_of, grid_places, grid_polygons
 from seamwire.core.base.mesh_arrays import Arrays
 from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Along, Snap
+from seamwire.core.network.network import Snap
+from seamwire.core.network.picks import Along
 from seamwire.core.picking.picker import Picker
 from seamwire.core.picking.view import View
 from seamwire.core.solver.live_maker import LiveMaker

@@ -14,7 +14,8 @@ from seamwire.core.drawing.intent import Intent
 from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Along, FacePoint, Snap, undirected
+from seamwire.core.network.network import Snap
+from seamwire.core.network.picks import Along, FacePoint, undirected
 from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
 from setting import end_line, stronger, use
 from table import Table

@@ -13,9 +13,10 @@ from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.intent import Intent
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Network, Snap, Wire
+from seamwire.core.network.network import Network, Snap
 from seamwire.core.network.stops import Stops
 from seamwire.core.network.symmetry import Symmetry
+from seamwire.core.network.wires import Wire
 from setting import insert, use
 from table import SIZE, Table, chain, paper
 

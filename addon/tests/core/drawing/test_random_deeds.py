@@ -14,7 +14,8 @@ from paper_mesh import PaperMesh
 from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.intent import Intent
 from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Edge, Network, Pick, Snap
+from seamwire.core.network.network import Network, Snap
+from seamwire.core.network.picks import Edge, Pick
 from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
 from seamwire.core.storage.wire_labels import Plan
 from setting import end_line, insert, stronger, use

@@ -13,7 +13,7 @@ from paper_mesh import PaperMesh
 from real_sessions import AROUND, RINGS, ball, halves, meridian, session_on, sides, tube
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Along
+from seamwire.core.network.picks import Along
 from seamwire.core.offers.edge_loops import corners
 from setting import use
 

@@ -12,7 +12,8 @@ from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Along, Edge, FacePoint, Snap
+from seamwire.core.network.network import Snap
+from seamwire.core.network.picks import Along, Edge, FacePoint
 from seamwire.core.offers.surface_loops import SurfaceLoops
 from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
 

@@ -8,7 +8,8 @@ import pytest
 from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Along, FacePoint, Snap
+from seamwire.core.network.network import Snap
+from seamwire.core.network.picks import Along, FacePoint
 from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
 from setting import use
 

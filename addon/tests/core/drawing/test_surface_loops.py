@@ -13,7 +13,7 @@ from seamwire.core.drawing.intent import Intent
 from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import FacePoint
+from seamwire.core.network.picks import FacePoint
 from seamwire.core.offers.surface_loops import NOTHING_TO_BEND, SurfaceLoops
 from setting import use
 from table import SIZE, Table, chain

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from seamwire.core.fields.crests import Crests
 from seamwire.core.fields.metric_fields import FieldMaker, Request
-from seamwire.core.network.network import FacePoint
+from seamwire.core.network.picks import FacePoint
 
 sw = pytest.importorskip("seamwire_core")
 

@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from seamwire.core.base.geometry import nearest_on_segments
-from seamwire.core.matching import transfer
+from seamwire.core.matching import transfer, transferred
 from seamwire.core.matching.placing import Aligned, Landmarks, Shape, Similarity, Surface
 from seamwire.core.matching.transfer import by_landmarks, by_numbers, by_surface, transferred_seams
-from seamwire.core.network.network import Network, Wire
+from seamwire.core.network.network import Network
 from seamwire.core.network.strokes import Stroke
+from seamwire.core.network.wires import Wire
 from seamwire.core.storage.network_file import NetworkFile, NetworkFileError
 
 pytest.importorskip("seamwire_core")
@@ -62,7 +63,7 @@ def file() -> NetworkFile:
     return NetworkFile.parse(NetworkFile.of(network(), SOURCE.points, SOURCE.triangles, SOURCE.edges).text())
 
 
-def off(found: transfer.Transfer, places: NDArray[np.float64]) -> float:
+def off(found: transferred.Transfer, places: NDArray[np.float64]) -> float:
     """Return how far the middles of marked edges are from the network at most; `places` are the target's vertices in its pose."""
     middles = places[transfer.seams(found)].mean(axis=1)
     starts = np.concatenate([SOURCE.points[course[:-1]] for course in COURSES])
@@ -70,7 +71,7 @@ def off(found: transfer.Transfer, places: NDArray[np.float64]) -> float:
     return max(float(nearest_on_segments(place, starts, ends)[1].min()) for place in middles)
 
 
-def pieces(found: transfer.Transfer) -> int:
+def pieces(found: transferred.Transfer) -> int:
     """Return in how many parts the seams hang together."""
     of: dict[int, int] = {}
 
@@ -142,7 +143,7 @@ def test_where_it_fits_as_well_turned_that_is_said_and_every_seed_is_doubtful(fi
     found = by_surface(file, target)
     assert found.lost == []
     assert [text for text in found.doubts if "network also fits" in str(text)] == found.doubts != []
-    assert {transfer.degree_of(seed.confidence) for seed in found.seeds} == {"DOUBTFUL"}
+    assert {transferred.degree_of(seed.confidence) for seed in found.seeds} == {"DOUBTFUL"}
     assert by_surface(file, flat).doubts == [], "it lies on it as it is"
 
 

@@ -10,8 +10,8 @@ import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from seamwire.core.base.spatial_hash import SpatialHash
 from seamwire.core.drawing.picture import Role
-from seamwire.core.network.network import Wire
 from seamwire.core.network.symmetry import TOLERANCE, Symmetry
+from seamwire.core.network.wires import Wire
 from setting import insert, use
 from table import SIZE, Table, chain
 

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from fake_live import FakeCuts, FakeLive
 from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Network, Wire
+from seamwire.core.network.network import Network
+from seamwire.core.network.wires import Wire
 from seamwire.core.offers.closed_cuts import CutMemory, is_same
 from seamwire.core.offers.surface_loops import CUT_IS_GONE, NOTHING_TO_BEND
 from seamwire.core.storage.wire_labels import Places

@@ -8,7 +8,8 @@ from dataclasses import replace
 
 from fake_live import grid_edges, grid_triangles
 from grid import POINTS, SIZE, Grid, symmetry
-from seamwire.core.network.network import Network, undirected
+from seamwire.core.network.network import Network
+from seamwire.core.network.picks import undirected
 from seamwire.core.network.stops import Stops
 from seamwire.core.offers.edge_loops import LoopOffers, taken
 from seamwire.core.offers.flat_regions import FlatRegions

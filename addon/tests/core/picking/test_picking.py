@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 from polygon_meshes import arrays_of, grid_places, grid_polygons
 from seamwire.core.base.mesh_arrays import Arrays
-from seamwire.core.network.network import FacePoint, Pick, Snap, Wire
+from seamwire.core.network.network import Snap
+from seamwire.core.network.picks import FacePoint, Pick
+from seamwire.core.network.wires import Wire
 from seamwire.core.picking.picker import Picker
 from seamwire.core.picking.segments import nearest_edge
 from seamwire.core.picking.sight import Sight

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from real_sessions import AROUND, RINGS, ball, meridian, tube
 from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Wire, undirected
+from seamwire.core.network.picks import undirected
+from seamwire.core.network.wires import Wire
 from seamwire.core.seams.seam_wires import seam_chains, wires_between
 
 core = pytest.importorskip("seamwire_core")

@@ -7,7 +7,7 @@ from typing import get_args
 
 import pytest
 from fake_live import FakeLive, grid_points
-from seamwire.core.network.network import Along
+from seamwire.core.network.picks import Along
 from seamwire.core.network.strokes import ActsOn, Stroke, through_vertices
 from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
 from seamwire.core.solver.solver import Engines, MetricName

@@ -10,8 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points
-from seamwire.core.network.network import FacePoint, Network, Wire
+from seamwire.core.network.network import Network
+from seamwire.core.network.picks import FacePoint
 from seamwire.core.network.strokes import Stroke
+from seamwire.core.network.wires import Wire
 from seamwire.core.storage import network_file
 from seamwire.core.storage.network_file import NetworkFile, NetworkFileError
 

@@ -14,7 +14,8 @@ import numpy as np
 import pytest
 from fake_live import grid_edges
 from paper_mesh import PaperMesh
-from seamwire.core.network.network import Network, Wire
+from seamwire.core.network.network import Network
+from seamwire.core.network.wires import Wire
 from seamwire.core.storage.serialization import (
     FORMAT,
     VERSION,

@@ -10,8 +10,10 @@ import pytest
 from fake_live import grid_edges
 from paper_mesh import PaperMesh
 from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Edge, Network, Snap, Wire
-from seamwire.core.storage import wire_labels
+from seamwire.core.network.network import Network, Snap
+from seamwire.core.network.picks import Edge
+from seamwire.core.network.wires import Wire
+from seamwire.core.storage import label_reader, wire_labels
 from seamwire.core.storage.serialization import WAS_SEAM, Archive, NewerError
 from setting import use
 from table import SIZE, Table, chain, courses, paper
@@ -374,7 +376,7 @@ def test_a_newer_text_leaves_everything_as_it_is() -> None:
     mesh.text = "seamwire 3 something else"
     with pytest.raises(NewerError):
         mesh.read()
-    nothing = wire_labels.read(mesh.marks(), Archive(), mesh.where)
+    nothing = label_reader.read(mesh.marks(), Archive(), mesh.where)
     assert (nothing.network.wires, nothing.unknown) == ((), 1)
     mesh.archive, mesh.found = Archive(), nothing
     before = mesh.snapshot()
@@ -726,6 +728,6 @@ def test_a_thousand_wires_are_read_and_planned() -> None:
     network = Network(tuple(edge_wire(mesh, *row) for row in rows))
     mesh.write(network)
     marks, archive, where = mesh.marks(), Archive.parse(mesh.text), mesh.where
-    now = wire_labels.read(marks, archive, where)
+    now = label_reader.read(marks, archive, where)
     wire_labels.plan(now.network, marks, now, archive, where, mesh.seams.__contains__, mesh.visible)
     assert len(now.network.wires) == 1000

@@ -1,0 +1,394 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Draws wires between seeds that were placed on another mesh.
+
+A wire that would run elsewhere than its original gets seeds in between, as few as keep it near. What cannot be placed is told, and
+nothing is put in its place.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..base.geometry import nearest_on_segments
+from ..base.messages import Message
+from ..network.strokes import Stroke, for_library, on_mesh
+from ..network.wires import LOOP_KINDS, Wire
+from ..solver.defaults import CLAMP_PERCENTILE, STRENGTHS
+from ..solver.live_maker import LiveMaker
+from ..solver.solver import by_number
+from ..storage.network_file import Course, NetworkFile
+from ..storage.serialization import unpacked
+from .placing import DOUBTFUL, Placed, Shape, Surface
+from .transferred import Seed, Transfer
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..network.picks import Along, Edge
+    from ..solver.solver import Candidate, LiveWire
+
+STRAY = 1.0
+"""How many edges a wire may run beside where it is to run before it gets a seed more."""
+
+_MOST_LOST = 0.3
+"""The part of a wire's course that may have no place."""
+
+
+_SLICE = 0.005
+
+
+def spacing_of(course: Course) -> float:
+    """Return the mean distance between two places of a course."""
+    lengths = np.linalg.norm(np.diff(course.places, axis=0), axis=1)
+    return float(lengths.mean()) if len(lengths) else 0.0
+
+
+@dataclass(frozen=True)
+class _Piece:
+    """A part of a wire between two seeds of the network: its vertices on the source, and where they are on the target."""
+
+    course: Course
+    axes: tuple[int, ...]
+    vertices: list[int]
+    triangles: NDArray[np.int64]
+    places: NDArray[np.float64]
+    confidence: NDArray[np.float64]
+    creases: NDArray[np.float64]
+
+    def part(self, begin: int, end: int) -> _Piece:
+        rows = slice(begin, end + 1)
+        return _Piece(
+            self.course, self.axes, self.vertices[rows], self.triangles[rows], self.places[rows], self.confidence[rows],
+            self.creases[rows],
+        )  # fmt: skip
+
+    @property
+    def name(self) -> str:
+        name = self.course.name
+        return f"{name}, mirrored" if self.axes else name
+
+
+Key = tuple[tuple[int, ...], int]
+"""A seed: the axes over which it was mirrored, and its vertex on the source."""
+
+
+class Tracing:
+    """Draws the wires of a network on another mesh.
+
+    Parameters
+    ----------
+    stray
+        How many edges wires may run beside their courses.
+    """
+
+    def __init__(
+        self, file: NetworkFile, target: Shape, surface: Surface, live: LiveMaker, stray: float = STRAY
+    ) -> None:
+        self._file, self._target, self._surface, self._make = file, target, surface, live
+        self._stray = stray
+        self._lives: dict[tuple[Along, float], LiveWire] = {}
+        self._result = Transfer()
+        self._library_strokes: list[object] = []
+        self._vertex_of: dict[Key, int | None] = {}
+
+    def run(
+        self,
+        place: Callable[[Course, tuple[int, ...]], Placed],
+        place_stroke: Callable[[NDArray[np.float64]], Placed],
+        place_on: Callable[[Course, tuple[int, ...], int], Placed] | None = None,
+    ) -> Transfer:
+        """Draw all; parameters say where a course's vertices and a stroke's points are, and where on one part of the target alone."""
+        result = self._result
+        for number, record in enumerate(self._file.strokes, start=1):
+            stroke = self._stroke(record, place_stroke(unpacked(record["points"])))
+            if stroke is None:
+                result.lost.append(Message.of("stroke-lost", number=number))
+            else:
+                result.strokes.append(stroke)
+        self._library_strokes = [for_library(stroke) for stroke in result.strokes]
+        runs = [(course, axes) for course in self._file.courses for axes in _images(course.record["mirror"])]
+        placed = [place(*run) for run in runs]
+        if place_on is not None:
+            for group in _connected(runs):
+                self._keep_together(group, runs, placed, place_on)
+        pieces = [self._placed(*run, found) for run, found in zip(runs, placed, strict=True)]
+        self._find_seeds(pieces)
+        for piece in self._cut(pieces):
+            result.wires += self._wires(piece)
+        return result
+
+    def _keep_together(
+        self,
+        group: list[int],
+        runs: list[tuple[Course, tuple[int, ...]]],
+        placed: list[Placed],
+        place_on: Callable[[Course, tuple[int, ...], int], Placed],
+    ) -> None:
+        """Place what hangs together on the one part of the target that has most of it, as far as it has a place there."""
+        parts = self._surface.parts
+        known = [placed[row].triangles[placed[row].confidence >= DOUBTFUL] for row in group]
+        counts = np.bincount(parts[np.concatenate(known)])
+        if np.count_nonzero(counts) < 2:
+            return
+        part = int(counts.argmax())
+        for row in group:
+            before = placed[row]
+            if (parts[before.triangles] == part).all():
+                continue
+            there = place_on(*runs[row], part)
+            moved = (parts[before.triangles] != part) & (there.confidence >= DOUBTFUL)
+            placed[row] = Placed(
+                np.where(moved, there.triangles, before.triangles),
+                np.where(moved[:, None], there.places, before.places),
+                np.where(moved, there.confidence, before.confidence),
+            )
+
+    def _placed(self, course: Course, axes: tuple[int, ...], placed: Placed) -> _Piece:
+        vertices = list(course.record["vertices"])
+        rows = list(range(len(vertices)))
+        if course.record["closed"]:
+            rows.append(0)
+        return _Piece(
+            course, axes, [vertices[row] for row in rows], placed.triangles[rows], placed.places[rows],
+            placed.confidence[rows], course.creases[rows],
+        )  # fmt: skip
+
+    # Seeds
+
+    def _find_seeds(self, pieces: Sequence[_Piece]) -> None:
+        """Place each vertex where wires end once, so that what met meets."""
+        for piece in pieces:
+            if piece.course.record["closed"]:
+                continue
+            for row in (0, -1):
+                self._seed(piece, row)
+
+    def _seed(self, piece: _Piece, row: int) -> int | None:
+        key = piece.axes, piece.vertices[row]
+        if key not in self._vertex_of:
+            confidence = float(piece.confidence[row])
+            vertex = self._vertex(piece, row) if confidence >= DOUBTFUL else None
+            self._vertex_of[key] = vertex
+            self._result.seeds.append(Seed(key[1], key[0], vertex, confidence))
+        return self._vertex_of[key]
+
+    def _vertex(self, piece: _Piece, row: int) -> int:
+        return self._surface.vertex(int(piece.triangles[row]), piece.places[row], float(piece.creases[row]))
+
+    def _cut(self, pieces: Iterable[_Piece]) -> Iterable[_Piece]:
+        """Yield the pieces, cut wherever another one ends within them."""
+        for piece in pieces:
+            last = len(piece.vertices) - 1
+            inner = [row for row in range(1, last) if (piece.axes, piece.vertices[row]) in self._vertex_of]
+            closed = piece.course.record["closed"]
+            if closed and (inner or (piece.axes, piece.vertices[0]) in self._vertex_of):
+                # Opened where something meets it; the seam is the same.
+                begin = ([0] if (piece.axes, piece.vertices[0]) in self._vertex_of else inner)[0]
+                around = [*range(begin, last), *range(begin + 1)]
+                piece = _Piece(
+                    piece.course, piece.axes, [piece.vertices[row] for row in around], piece.triangles[around],
+                    piece.places[around], piece.confidence[around], piece.creases[around],
+                )  # fmt: skip
+                inner = [row for row in range(1, last) if (piece.axes, piece.vertices[row]) in self._vertex_of] or [
+                    last // 2
+                ]
+            for begin, end in itertools.pairwise([0, *inner, last]):
+                yield piece.part(begin, end)
+
+    # Wires
+
+    def _wires(self, piece: _Piece) -> list[Wire]:
+        lost = float((piece.confidence < DOUBTFUL).mean())
+        if lost > _MOST_LOST:
+            return self._lose(piece, "course-lost", part=lost)
+        if piece.vertices[0] == piece.vertices[-1]:
+            return self._loop(piece)
+        ends = [self._seed(piece, row) for row in (0, -1)]
+        if None in ends:
+            return self._lose(piece, "end-lost")
+        start, end = ends
+        if start == end:
+            return self._lose(piece, "ends-meet", vertex=start)
+        live = self._live(piece)
+        found = self._between(live, piece, start, end)
+        if found is None:
+            return self._lose(piece, "no-way", start=start, end=end)
+        self._result.added += len(found) - 1
+        return found
+
+    def _lose(self, piece: _Piece, why: str, **values: object) -> list[Wire]:
+        self._result.lost.append(Message.of(why, wire=piece.name, **values))
+        return []
+
+    def _between(self, live: LiveWire, piece: _Piece, start: int, end: int) -> list[Wire] | None:
+        """Return wires between two vertices that run where a piece does, in order; None: there is no way."""
+        live.seed(start)
+        best = self._best(live, end, piece.places)
+        if best is None:
+            return None
+        follow, candidate, off, worst = best
+        middle = self._vertex(piece, worst) if 0 < worst < len(piece.vertices) - 1 else start
+        near = self._stray * max(float(self._target.spacing[candidate.vertices].mean()), spacing_of(piece.course) / 2.0)
+        if off > near and middle not in (start, end) and middle not in candidate.vertices:
+            first = self._between(live, piece.part(0, worst), start, middle)
+            second = self._between(live, piece.part(worst, len(piece.vertices) - 1), middle, end)
+            if first is not None and second is not None:
+                return [*first, *second]
+        return [self._wire(piece, candidate, follow)]
+
+    def _best(self, live: LiveWire, end: int, places: NDArray[np.float64]) -> tuple[int, Candidate, float, int] | None:
+        """Return which of both wires runs nearer to a course, it, how far it strays, and from which place most."""
+        found = live.wires(end)
+        while not found.final:
+            live.wait(_SLICE)
+            found = live.wires(end)
+        best = None
+        for follow, candidate in enumerate(by_number(found)[0]):
+            if len(candidate.vertices) < 2:
+                continue
+            off, worst = _strays(self._in_object(candidate.points), places)
+            if best is None or off < best[2]:
+                best = follow, candidate, off, worst
+        return best
+
+    def _in_object(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        return points if self._target.to_object is None else points @ self._target.to_object.T
+
+    def _wire(self, piece: _Piece, candidate: Candidate, follow: int) -> Wire:
+        record = piece.course.record
+        vertices = tuple(candidate.vertices.tolist())
+        return Wire(
+            record["along"], vertices, np.array(candidate.points), vertices[0], vertices[-1],
+            follow=follow, strength=float(record["strength"]), finish=record.get("finish", "SNAP"), images=(),
+        )  # fmt: skip
+
+    def _loop(self, piece: _Piece) -> list[Wire]:
+        """Return a closed wire: the loop of its kind where that runs there, else wires around it."""
+        live = self._live(piece)
+        whole = self._closed(live, piece)
+        if whole is not None:
+            return [whole]
+        count = len(piece.vertices) - 1
+        rows = [0, count // 3, 2 * count // 3] if count >= 3 else [0]
+        corners = list(dict.fromkeys(self._vertex(piece, row) for row in rows))
+        if len(corners) < 3:
+            return self._lose(piece, "loop-too-small")
+        wires: list[Wire] = []
+        for (begin, one), (end, other) in itertools.pairwise(zip([*rows, count], [*corners, corners[0]], strict=True)):
+            found = self._between(live, piece.part(begin, end), one, other)
+            if found is None:
+                return self._lose(piece, "no-way", start=one, end=other)
+            wires += found
+        self._result.added += len(wires)
+        return wires
+
+    def _closed(self, live: LiveWire, piece: _Piece) -> Wire | None:
+        record = piece.course.record
+        if record["along"] != "EDGES" or record.get("kind") not in LOOP_KINDS:
+            return None
+        edge = self._edge(piece)
+        if edge is None:
+            return None
+        if record["kind"] == "CLOSED":
+            loop = live.loop(edge)
+            while not loop.final:
+                live.wait(_SLICE)
+                loop = live.loop(edge)
+            closed = len(loop.vertices) > 2
+        else:
+            live.wait()
+            loop = live.edge_loop(edge, ())
+            closed = loop.closed
+        if not closed:
+            return None
+        chain = loop.vertices.tolist()
+        around = [*chain, chain[0]]
+        points = self._target.points[around]
+        off, _ = _strays(self._in_object(points), piece.places)
+        back, _ = _strays(piece.places, self._in_object(points))
+        if max(off, back) > self._stray * max(float(self._target.spacing[chain].mean()), spacing_of(piece.course)):
+            return None
+        return Wire(
+            "EDGES", tuple(chain), points, edge, edge, closed=True, kind=record["kind"], through=edge, images=(),
+            follow=record["follow"], strength=float(record["strength"]),
+        )  # fmt: skip
+
+    def _edge(self, piece: _Piece) -> Edge | None:
+        """Return the edge of the target through which a loop runs, along its course."""
+        vertex = self._vertex(piece, 0)
+        along = piece.places[1] - piece.places[-2]
+        places, best = self._target.places, None
+        for other in self._target.around.get(vertex, []):
+            step = places[other] - places[vertex]
+            fits = abs(float(step @ along)) / max(float(np.linalg.norm(step)), 1e-300)
+            if best is None or fits > best[0]:
+                best = fits, (min(vertex, other), max(vertex, other))
+        return None if best is None else best[1]
+
+    def _live(self, piece: _Piece) -> LiveWire:
+        """Return live wires that run as those of a piece did."""
+        record = piece.course.record
+        key = record["along"], float(record["strength"])
+        if key not in self._lives:
+            live = self._make(key[0])
+            self._make.wait()
+            metric = self._file.metric, key[1] or STRENGTHS[key[0]], self._file.clamp
+            if metric != ("feature", STRENGTHS[key[0]], CLAMP_PERCENTILE):
+                live.set_metric(metric[0], max_anisotropy=metric[1], clamp_percentile=metric[2])
+            if self._library_strokes:
+                live.set_scribbles(self._library_strokes)
+            self._lives[key] = live
+        return self._lives[key]
+
+    def _stroke(self, record: dict, placed: Placed) -> Stroke | None:
+        rows = np.flatnonzero(placed.confidence >= DOUBTFUL)
+        if len(rows) < 2:
+            return None
+        runs = np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1)
+        rows = max(runs, key=len)
+        if len(rows) < 2:
+            return None
+        shape = self._target
+        points = placed.places[rows]
+        if shape.to_object is not None:
+            points = points @ np.linalg.inv(shape.to_object).T
+        triangles = placed.triangles[rows]
+        stroke = Stroke(
+            points, shape.triangles[triangles], triangles.astype(np.int32), bool(record["attracts"]), record["acts_on"],
+            float(record["eta"]), int(record["rings"]), None if record["radius"] is None else float(record["radius"]),
+        )  # fmt: skip
+        return on_mesh(stroke, shape.points, shape.triangles)
+
+
+def _connected(runs: Sequence[tuple[Course, tuple[int, ...]]]) -> list[list[int]]:
+    """Return which courses, by their rows, hang together on the mesh that they come from."""
+    group_of: dict[Key, list[int]] = {}
+    groups: dict[int, list[int]] = {}
+    for row, (course, axes) in enumerate(runs):
+        merged = [row]
+        for vertex in course.record["vertices"]:
+            other = group_of.get((axes, vertex))
+            if other is not None and other is not merged:
+                merged = [*other, *(one for one in merged if one not in other)]
+        for one in merged:
+            groups[one] = merged
+            for vertex in runs[one][0].record["vertices"]:
+                group_of[runs[one][1], vertex] = merged
+    return list({id(group): group for group in groups.values()}.values())
+
+
+def _images(axes: Sequence[int]) -> list[tuple[int, ...]]:
+    """Return over which axes a wire and its mirror images are mirrored."""
+    return [some for count in range(len(axes) + 1) for some in itertools.combinations(axes, count)]
+
+
+def _strays(curve: NDArray[np.float64], places: NDArray[np.float64]) -> tuple[float, int]:
+    """Return how far the farthest of some places is from a curve, and which one that is."""
+    gaps = [float(nearest_on_segments(place, curve[:-1], curve[1:])[1].min()) for place in places]
+    worst = int(np.argmax(gaps))
+    return gaps[worst], worst

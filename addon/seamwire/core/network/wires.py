@@ -1,0 +1,282 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A wire, and the two wires that a new seed in it makes.
+
+Wires do not change: every edit makes a new one.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Literal, get_args
+
+import numpy as np
+
+from ..base.geometry import nearest_on_segments
+from .picks import Along, Edge, Finish, Pick, undirected
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+FOLLOWS: tuple[Literal["min", "max", "concave"], ...] = ("min", "max", "concave")
+"""The library's names of wires, by `Wire.follow`: along the least curvature, along the most curvature, or along concave creases (only
+across the surface). Files have these numbers."""
+
+LoopKind = Literal["CLOSED", "CROSSING", "STRIP", "PAST", "WHOLE", "FLAT", "ACROSS", "HANDLE", "RIDGE", "VALLEY"]
+"""What a click takes as a whole. On an edge: the closed loop of the metric, the loop or strip that crosses the edge, the straight strip
+up to what is there already, the same past poles, the whole strip, the border of a flat region. On a point of the surface: a closed cut
+that separates, or one around or through a handle, which does not. On both: a ridge or a valley as far as it is one."""
+
+LOOP_KINDS: frozenset[LoopKind] = frozenset(get_args(LoopKind)) - {"CROSSING"}
+"""The kinds of kept loops. A crossing loop is kept as a closed loop or a strip."""
+
+_ids = itertools.count()
+
+
+@dataclass(frozen=True, eq=False)
+class Wire:
+    """A wire from one pick to another, or a closed loop.
+
+    Parameters
+    ----------
+    along
+        How it was found.
+    vertices
+        The edges that it marks: one between each two neighbours in this list, and between last and first of a loop.
+    points
+        (k, 3), the curve as it is drawn; for a loop the first point comes again at the end. Along edges one point for
+        each vertex.
+    start, end
+        The picks at its ends; the same one for a loop.
+    closed
+        Whether it is a loop.
+    marks
+        Whether its edges become seams; else they cease to be seams.
+    mirror
+        The axes, 0 to 2, that it is mirrored over.
+    images
+        The edges that its mirror images mark or clear as well, smaller vertex first; None: not found yet.
+    heading
+        The directed edge that it goes on from, where it begins at the end of another wire.
+    follow
+        Which of the library's wires it is, see `FOLLOWS`.
+    alternatives
+        The others of them that run elsewhere, each once, in the order in which they come forward; they have no
+        alternatives themselves.
+    strength
+        The metric's largest anisotropy when it was found; 0: not known, or it needs none.
+    finish
+        Across the surface, what becomes its seam when its chain ends; along edges "CUT" says that it was cut into the faces.
+    kind
+        The kind of loop that one click on an edge offered, or None if the wire was drawn.
+    through
+        The edge of that click, smaller vertex first.
+    offers
+        What else that click offered, the next one first; they have no offers themselves.
+    stored
+        The number under which the mesh knows it as it runs now; 0: under none yet.
+    id
+        Its own number, kept when its course changes.
+    """
+
+    along: Along
+    vertices: tuple[int, ...]
+    points: NDArray[np.float64]
+    start: Pick
+    end: Pick
+    closed: bool = False
+    marks: bool = True
+    mirror: tuple[int, ...] = ()
+    images: tuple[Edge, ...] | None = None
+    heading: Edge | None = None
+    follow: int = 0
+    alternatives: tuple[Wire, ...] = ()
+    strength: float = 0.0
+    finish: Finish = "SNAP"
+    kind: LoopKind | None = None
+    through: Edge | None = None
+    offers: tuple[Wire, ...] = ()
+    stored: int = 0
+    id: int = field(default_factory=_ids.__next__)
+
+    def edges(self) -> list[Edge]:
+        """Return the edges it marks or clears, in order along the wire."""
+        following = self.vertices[1:] + (self.vertices[:1] if self.closed else ())
+        return [(min(a, b), max(a, b)) for a, b in zip(self.vertices, following, strict=False)]
+
+    def claims(self) -> Iterator[Edge]:
+        """Yield the edges that it and its images mark or clear."""
+        yield from self.edges()
+        yield from self.images or ()
+
+    @property
+    def leaves_trace(self) -> bool:
+        """Whether the mesh keeps it: it runs along an edge, or is to be cut into a face."""
+        return len(self.vertices) > 1 or self.finish == "CUT"
+
+    @property
+    def last_edge(self) -> Edge:
+        """Its last edge in the direction that it runs."""
+        return self.vertices[-2], self.vertices[-1]
+
+    @property
+    def is_cut(self) -> bool:
+        """Whether it was cut into the faces, and runs along edges for that reason alone."""
+        return self.along == "EDGES" and self.finish == "CUT"
+
+    def uncut(self) -> Wire:
+        """Return a wire that was cut as one across the surface, whose other courses run there; any other as it is."""
+        if not self.is_cut:
+            return self
+        return self.changed(along="SURFACE", heading=None, start=self.vertices[0], end=self.vertices[-1])
+
+    def like(self, other: Wire) -> bool:
+        """Whether another wire runs the same way."""
+        if self.along == other.along == "EDGES":
+            return self.vertices == other.vertices
+        return self.points.shape == other.points.shape and bool(np.allclose(self.points, other.points, rtol=1e-6))
+
+    def retraced(self) -> Wire:
+        """Return its next alternative in its place, itself as the last one after that. There must be one."""
+        following, *rest = self.alternatives
+        back = replace(self, alternatives=())
+        return replace(
+            following,
+            id=self.id,
+            marks=self.marks,
+            mirror=self.mirror,
+            finish=self.finish,
+            alternatives=(*rest, back),
+        )
+
+    def drawn(self, **course: object) -> Wire:
+        """Return the wire with another course, which no click on an edge offered."""
+        return self.changed(**course, images=None, alternatives=(), kind=None, through=None, offers=())
+
+    def anew(self, **changes: object) -> Wire:
+        """Return it as another wire, with changes."""
+        return self.changed(**changes, images=None, id=next(_ids))
+
+    def changed(self, **changes: object) -> Wire:
+        """Return it with changes that the mesh does not know yet."""
+        return replace(self, **changes, stored=0)
+
+    def all_offers(self) -> tuple[Wire, ...]:
+        """Return the wire and the other offers of the click on its edge, all without further offers."""
+        return replace(self, offers=()), *self.offers
+
+    def next_offer(self, steps: int = 1) -> Wire:
+        """Return what the click on its edge offered next, or some steps on, in its place."""
+        offers = self.all_offers()
+        offers = offers[steps:] + offers[:steps]
+        return replace(offers[0], id=self.id, marks=self.marks, mirror=self.mirror, offers=offers[1:])
+
+
+def distinct(ways: Iterable[Wire | None]) -> tuple[Wire, ...]:
+    """Return the wires among these without those that run like an earlier one."""
+    found: list[Wire] = []
+    for way in ways:
+        if way is not None and not any(way.like(earlier) for earlier in found):
+            found.append(way)
+    return tuple(found)
+
+
+def split(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[Wire, Wire] | None:
+    """Cut a wire in two where a seed is put into it.
+
+    Parameters
+    ----------
+    wire
+        Any wire. A loop is cut open twice, at the pick and opposite to it.
+    pick
+        One of its vertices or edges; across the surface a vertex of the edges that it marks.
+    points
+        (n, 3) vertices of the mesh.
+
+    Returns
+    -------
+    tuple of Wire or None
+        Both parts in order, the first with the wire's number; None where the pick is not on the wire, or at its end.
+    """
+    if wire.closed:
+        return _split_loop(wire, pick, points)
+    if wire.along == "SURFACE":
+        return _split_curve(wire, pick, points)
+    vertices = wire.vertices
+    ends = _position(vertices, pick)
+    if ends is None:
+        return None
+    before, after = ends
+    # The edge of an edge seed belongs to the part before it, as in a chain that is drawn.
+    if (before == 0 and before == after) or after == len(vertices) - 1:
+        return None
+    seed: Pick = vertices[after] if before == after else (vertices[before], vertices[after])
+    heading = (vertices[after - 1], vertices[after])
+    first = wire.drawn(vertices=vertices[: after + 1], points=wire.points[: after + 1], end=seed)
+    second = wire.drawn(
+        vertices=vertices[after:], points=wire.points[after:], start=seed, heading=heading, id=next(_ids)
+    )
+    return first, second
+
+
+def _position(vertices: tuple[int, ...], pick: Pick) -> tuple[int, int] | None:
+    """Return where a pick lies on a chain of vertices: the indices of its ends, twice the same for a vertex."""
+    if not isinstance(pick, tuple):
+        return (vertices.index(pick),) * 2 if pick in vertices else None
+    for index, pair in enumerate(itertools.pairwise(vertices)):
+        if undirected(pair) == undirected(pick):
+            return index, index + 1
+    return None
+
+
+def _split_loop(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[Wire, Wire] | None:
+    ends = _position(wire.vertices + wire.vertices[:1], pick)
+    if ends is None:
+        return None
+    count = len(wire.vertices)
+    begin = ends[1] % count
+    around = wire.vertices[begin:] + wire.vertices[: begin + 1]
+    middle = count // 2
+    seed: Pick = around[0] if ends[0] == ends[1] else (around[-2], around[-1])
+    first = wire.drawn(
+        vertices=around[: middle + 1],
+        points=points[list(around[: middle + 1])],
+        start=seed,
+        end=around[middle],
+        closed=False,
+        heading=(around[-2], around[-1]),
+    )
+    second = wire.drawn(
+        vertices=around[middle:],
+        points=points[list(around[middle:])],
+        start=around[middle],
+        end=seed,
+        closed=False,
+        heading=(around[middle - 1], around[middle]),
+        id=next(_ids),
+    )
+    return first, second
+
+
+def _split_curve(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[Wire, Wire] | None:
+    if not isinstance(pick, int) or pick not in wire.vertices[1:-1]:
+        return None
+    at = wire.vertices.index(pick)
+    place = points[pick]
+    # The curve passes near the vertex, not through it: it is led there from the nearest of its segments.
+    _, gaps = nearest_on_segments(place, wire.points[:-1], wire.points[1:])
+    nearest = int(np.argmin(gaps))
+    first = wire.drawn(
+        vertices=wire.vertices[: at + 1],
+        points=np.vstack([wire.points[: nearest + 1], place]),
+        end=pick,
+    )
+    second = wire.drawn(
+        vertices=wire.vertices[at:],
+        points=np.vstack([place, wire.points[nearest + 1 :]]),
+        start=pick,
+        heading=None,
+        id=next(_ids),
+    )
+    return first, second
