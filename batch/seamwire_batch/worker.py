@@ -250,8 +250,7 @@ class Run:
                 here = group_middles(obj)
                 pairs = [(groups[name], here[name]) for name in groups if name in here]
         mesh = ObjectSession(obj)
-        if mesh.problem:
-            self.warnings.append(f"{obj.name}: {mesh.problem}")
+        self.warnings.extend(f"{obj.name}: {notice.text}" for notice in mesh.notices.take())
         found = carry_over(
             mesh,
             NetworkFile.parse(Path(network).read_text(encoding="utf-8")),

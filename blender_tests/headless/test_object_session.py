@@ -131,7 +131,7 @@ def test_a_write_knows_the_labels_of_the_mesh_without_looking_at_all_edges(
 def test_a_mesh_without_wires_stays_untouched(grid: bpy.types.Object) -> None:
     before = snapshot(grid)
     mesh = session_on(grid)
-    assert mesh.problem == ""
+    assert mesh.notices.take() == []
     assert mesh.write(mesh.plan()) == (0, 0)
     assert not has_labels(grid)
     assert grid.data.seamwire_wires == ""
@@ -223,7 +223,7 @@ def test_wires_are_found_again_with_their_seeds(grid: bpy.types.Object, monkeypa
     draw(mesh, 36, 40, 44)
     forget(monkeypatch)
     again = session_on(grid)
-    assert again.problem == ""
+    assert again.notices.take() == []
     assert sorted(again.session.seeds()) == [36, 40, 44]
     assert [(wire.start, wire.end) for wire in again.session.wires] == [(36, 40), (40, 44)]
     assert len(again.plain_seams) == 0

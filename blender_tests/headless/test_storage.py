@@ -326,7 +326,7 @@ def test_dissolved_edges_under_a_wire_leave_no_wire_and_no_error(drawn: bpy.type
     bm.verts.ensure_lookup_table()
     bmesh.ops.dissolve_verts(bm, verts=[bm.verts[38]])
     bmesh.update_edit_mesh(drawn.data)
-    assert session_on(drawn).problem == ""
+    assert session_on(drawn).notices.take() == []
     assert len(chains(drawn)) == 2
 
 
@@ -398,7 +398,7 @@ def test_wires_of_the_first_version_are_taken_over(monkeypatch: pytest.MonkeyPat
     edit()
     forget(monkeypatch)
     mesh = session_on(obj)
-    assert mesh.problem == ""
+    assert mesh.notices.take() == []
     assert chains(obj) == [COLUMN, ROW[:5], ROW[4:]]
     assert len(mesh.session.strokes) == 1
     assert agree(obj)
@@ -428,7 +428,7 @@ def test_wires_of_the_second_version_are_read(monkeypatch: pytest.MonkeyPatch) -
     obj.data.seamwire_wires = lines[0]
     edit()
     forget(monkeypatch)
-    assert session_on(obj).problem == ""
+    assert session_on(obj).notices.take() == []
     assert chains(obj) == [column, ROW[:5], ROW[4:]]
     assert sorted(session_on(obj).session.seeds()) == [4, 31, 36, 40, 44]
     assert len(session_on(obj).session.strokes) == 1
@@ -446,7 +446,8 @@ def test_what_a_newer_version_wrote_stays_byte_by_byte_and_is_said(
     forget(monkeypatch)
     mesh = session_on(drawn)
     assert mesh.session.wires == ()
-    assert "newer version of Seamwire" in mesh.problem
+    (notice,) = mesh.notices.take()
+    assert "newer version of Seamwire" in notice.text
     mark("54 62")
     assert capfd.readouterr().out.count("newer version of Seamwire") == 1
     assert drawn.data.seamwire_wires == NEWER
@@ -509,7 +510,8 @@ def test_what_cannot_be_read_is_said_and_the_seams_stay(
     drawn.data.seamwire_wires = text
     forget(monkeypatch)
     mesh = session_on(drawn)
-    assert "cannot be read" in mesh.problem
+    (notice,) = mesh.notices.take()
+    assert "cannot be read" in notice.text
     assert mesh.session.wires == ()
     assert seams(drawn) == marked
     assert drawn.data.seamwire_wires == text, "looking at it changes nothing"
@@ -524,5 +526,6 @@ def test_a_first_version_that_cannot_be_read_is_said_and_stays(monkeypatch: pyte
     edit()
     forget(monkeypatch)
     mesh = session_on(obj)
-    assert "cannot be read" in mesh.problem
+    (notice,) = mesh.notices.take()
+    assert "cannot be read" in notice.text
     assert obj.data["seamwire"] == "{"

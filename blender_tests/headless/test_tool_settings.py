@@ -93,8 +93,8 @@ def test_a_stored_metric_that_the_tool_no_longer_has_becomes_features_and_is_tol
     stored["metric"] = 1  # the number of Campen's metric
     chosen.replace_removed_metric()
     assert tool.metric == "feature"
-    assert len(chosen.notices) == 1
-    assert "wires follow Features" in chosen.notices.pop()
+    (notice,) = chosen.notices.take()
+    assert "wires follow Features" in notice.text
 
 
 @pytest.mark.parametrize("metric", ["feature", "concave", "euclidean"])
@@ -102,7 +102,7 @@ def test_a_stored_metric_that_the_tool_has_stays(tool: chosen.SeamwireSettings, 
     tool.metric = metric
     chosen.replace_removed_metric()
     assert tool.metric == metric
-    assert chosen.notices == []
+    assert chosen.notices.take() == []
 
 
 def test_scripts_can_use_every_metric() -> None:

@@ -26,6 +26,7 @@ from ..core.storage import label_reader, serialization, wire_labels
 from ..core.storage.network_file import NetworkFile
 from ..core.storage.serialization import Archive, UnreadableError
 from ..core.storage.wire_labels import EdgeLabels, Found, Places
+from ..words.notices import Notices
 from . import edit_mesh
 from .settings import mirror_axes, snapshot
 
@@ -63,14 +64,12 @@ class ObjectSession:
 
     Attributes
     ----------
-    problem
-        What there is to say of the wires that came with the mesh, once.
+    notices
+        Problems with the wires that are stored with the mesh.
     generation
         Grows whenever the edit mesh was read anew.
     symmetric
         The axes over which the mesh is symmetric; None while that is not known.
-    symmetry_problem
-        Why that could not be found out.
 
     Raises
     ------
@@ -95,11 +94,11 @@ class ObjectSession:
                 topology=obj.data.use_mirror_topology,
             )
         )
-        self.problem = ""
+        self.notices = Notices()
         self.generation = 0
         self.plain_seams: NDArray[np.int32] = self.arrays.seams
         self.symmetric: tuple[int, ...] | None = None
-        self.symmetry_problem = ""
+        self._symmetry_error: Exception | None = None
         self._looking: threading.Thread | None = None
         self._archive = _archive
         self._labels = EdgeLabels.none()
@@ -124,14 +123,22 @@ class ObjectSession:
             self.symmetric = self.session.drawing.symmetry.symmetric_axes
         except Exception as error:
             traceback.print_exc()
-            self.symmetry_problem = f"The mesh could not be checked for symmetry: {error}"
+            self._symmetry_error = error
             self.symmetric = ()
 
     def symmetric_soon(self) -> tuple[int, ...] | None:
-        """Return the axes over which the mesh is symmetric; None where that takes longer than a moment to find out."""
+        """Return the axes over which the mesh is symmetric, or None if it takes longer than a moment to find out.
+
+        Raises
+        ------
+        ValueError
+            If it cannot be found out.
+        """
         self.look_for_symmetry()
         if self._looking is not None:
             self._looking.join(_MOMENT)
+        if self._symmetry_error is not None:
+            raise ValueError(f"The mesh could not be checked for symmetry: {self._symmetry_error}")
         return self.symmetric
 
     @property
@@ -236,7 +243,8 @@ class ObjectSession:
             network, problem = serialization.load_first_version(
                 stored, self.arrays.points, self.arrays.edges, self.arrays.seams
             )
-            self.problem = str(problem)
+            if problem:
+                self.notices.add("WARNING", str(problem))
         strokes = tuple(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in network.strokes)
         self._set_seams(self.arrays.seams, labels)
         self.session.adopt(replace(network, strokes=strokes), self.plain_seams)
@@ -259,10 +267,12 @@ class ObjectSession:
             # If numbers of the mesh stand for something else in this Blender, the mesh gets a separate archive.
             self._archive = _archive if _archive.merge(own) else own
         except serialization.NewerError as error:
-            self._newer, self.problem = True, str(error)
+            self._newer = True
+            self.notices.add("WARNING", str(error))
             return
         except UnreadableError as error:
-            self._damaged, self.problem = True, str(error)
+            self._damaged = True
+            self.notices.add("WARNING", str(error))
         if all(self._archive.knows(label) for label in np.unique(labels.labels).tolist()):
             return
         for mesh in bpy.data.meshes:

@@ -10,6 +10,7 @@ import bpy
 
 from ..core.drawing.options import Options
 from ..core.solver.defaults import CLAMP_PERCENTILE, CLAMP_RANGE, STRENGTH_RANGE, STRENGTHS
+from ..words.notices import Notices
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -267,8 +268,8 @@ def settings(context: bpy.types.Context | None = None) -> SeamwireSettings:
     return preferences(context).tool
 
 
-notices: list[str] = []
-"""Messages that the next chain reports."""
+notices = Notices()
+"""Reports for the next chain."""
 
 
 def replace_removed_metric() -> None:
@@ -276,7 +277,9 @@ def replace_removed_metric() -> None:
     chosen = settings()
     if not chosen.metric:
         chosen.property_unset("metric")
-        notices.append("The tool no longer offers the metric in your preferences: wires follow Features instead")
+        notices.add(
+            "WARNING", "The tool no longer offers the metric in your preferences: wires follow Features instead"
+        )
 
 
 def tool_is_active(context: bpy.types.Context) -> bool:

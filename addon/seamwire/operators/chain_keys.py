@@ -85,12 +85,13 @@ def switch(state: ChainState, given: Given) -> None:
 def cycle_mirror(state: ChainState, _given: Given) -> None:
     """Mirror over the next axis, over all of them, or over none."""
     session, mesh = state.session, state.view.mesh
-    symmetric = mesh.symmetric_soon()
+    try:
+        symmetric = mesh.symmetric_soon()
+    except ValueError as error:
+        state.say(str(error))
+        return
     if symmetric is None:
         state.say("Still checking the mesh for symmetry")
-        return
-    if mesh.symmetry_problem:
-        state.say(mesh.symmetry_problem)
         return
     ways = [(), *((axis,) for axis in symmetric), *([symmetric] if len(symmetric) > 1 else ())]
     if len(ways) == 1 and not session.options.mirror:

@@ -13,7 +13,7 @@ from ..mesh.settings import ALONG_ITEMS, notices, settings
 from ..words.keys import Action, Key
 from .edit_mesh_operator import NeedsEditMode
 from .navigation import takes
-from .report import running, tell
+from .report import running
 
 if TYPE_CHECKING:
     from .modal import Chain
@@ -85,7 +85,7 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
         # Blender frees an operator whose invoke raised an exception, but would still call its modal method.
         try:
             if self.first != "PEEK":
-                self._tell_problem(self._chain)
+                self._tell_problems(self._chain)
             done = self._begin(event)
             if not done and self.first in _FOR_BLENDER:
                 self._chain.drop()
@@ -122,15 +122,11 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
         except Exception as error:
             return self._failed(error)
 
-    def _tell_problem(self, chain: Chain) -> None:
-        """Report problems with the wires that are stored with the mesh, once."""
-        while notices:
-            self.report({"WARNING"}, notices.pop(0))
-        mesh = chain.view.mesh
-        if mesh.problem:
-            self.report({"WARNING"}, mesh.problem)
-            mesh.problem = ""
-        if mesh.obj.modifiers:
+    def _tell_problems(self, chain: Chain) -> None:
+        """Report problems with the settings and with the wires that are stored with the mesh, once."""
+        notices.tell(self.report)
+        chain.view.mesh.notices.tell(self.report)
+        if chain.view.mesh.obj.modifiers:
             chain.state.say("Modifiers are ignored")
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
@@ -140,7 +136,7 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
             self._chain.drop()
             self.report({"WARNING"}, f"{error}: the wires of this chain were not kept")
             return {"CANCELLED"}
-        tell(self, self._chain.state.notices)
+        self._chain.state.notices.tell(self.report)
         return {"FINISHED"} if has_kept else {"CANCELLED"}
 
     def _failed(self, error: Exception) -> set[str]:

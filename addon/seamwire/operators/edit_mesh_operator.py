@@ -108,8 +108,7 @@ class EditMeshOperator(NeedsEditMode):
         from ..mesh.object_session import ObjectSession
 
         mesh = ObjectSession(obj)
-        if mesh.problem:
-            self.report({"WARNING"}, mesh.problem)
+        mesh.notices.tell(self.report)
         return mesh
 
     def open_meshes(self, context: bpy.types.Context) -> list[ObjectSession]:

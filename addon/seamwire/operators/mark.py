@@ -167,7 +167,7 @@ class MESH_OT_seamwire_mark(EditMeshOperator, bpy.types.Operator):
         self._before[obj.name] = session.wires
         take = None if self.take == "FIRST" else self.take
         problems = [
-            *([mesh.problem] if mesh.problem else []),
+            *(notice.text for notice in mesh.notices.take()),
             *seed_text.draw_strokes(session, strokes),
             *seed_text.draw_chains(session, seeds),
             *seed_text.draw_loops(session, loops, take),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The chain that is being drawn, and the reports of operators."""
+"""The chain that is being drawn, and who shows its status."""
 
 from __future__ import annotations
 
@@ -8,18 +8,9 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    import bpy
-
-    from ..words.notices import Notices
     from .modal import Chain
 
 running: list[Chain] = []
 """The chain that is being drawn."""
 status_makers: list[Callable[[Chain], object]] = []
 """Functions that return what draws the status bar for a chain. The interface adds one."""
-
-
-def tell(operator: bpy.types.Operator, notices: Notices) -> None:
-    """Report everything that waits, once."""
-    for notice in notices.take():
-        operator.report({notice.level}, notice.text)

@@ -240,8 +240,7 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
             except ValueError as error:
                 problem = str(error)
                 continue
-            if suggestion.mesh.problem:
-                self.report({"WARNING"}, suggestion.mesh.problem)
+            suggestion.mesh.notices.tell(self.report)
             if len(suggestion.mesh.arrays.triangles):
                 found.append(suggestion)
         if not found:

@@ -37,8 +37,8 @@ class EditedObjects:
     ----------
     front
         The one that was pointed at last; None: none yet.
-    problem
-        Why nothing lights up under the mouse; an empty string: it does.
+    is_paused
+        Whether nothing lights up under the mouse.
     chain
         Whether a chain is being drawn. The chain then updates the objects, and they are drawn with every tool.
     covered
@@ -53,7 +53,7 @@ class EditedObjects:
         self.front: ObjectView | None = None
         self.chain = False
         self.covered = False
-        self.problem = ""
+        self.is_paused = False
 
     # What there is
 
@@ -132,7 +132,7 @@ class EditedObjects:
         if bpy.app.timers.is_registered(_tick):
             bpy.app.timers.unregister(_tick)
         self.chain = False
-        self.problem = ""
+        self.is_paused = False
         self._error = None
 
     # Pointing
@@ -166,7 +166,7 @@ class EditedObjects:
 
     def hover(self, place: Place | None) -> None:
         """Light up what a click would take, while no chain is being drawn."""
-        if self.problem:
+        if self.is_paused:
             return
         view, snap = (None, None) if place is None else self.find(place)
         if view is not None and chosen.start_along(chosen.settings(), view.mesh.best_along):
@@ -189,7 +189,7 @@ class EditedObjects:
 
     def pause(self) -> None:
         """Light up nothing until the objects are forgotten: doing so raised."""
-        self.problem = "The edge or vertex under the mouse cannot be shown"
+        self.is_paused = True
 
     # How they follow
 

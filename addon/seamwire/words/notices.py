@@ -4,7 +4,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 LEVELS = ("INFO", "WARNING", "ERROR")
 
@@ -39,10 +42,17 @@ class Notices:
         self._waiting: list[Notice] = []
 
     def add(self, level: Literal["INFO", "WARNING", "ERROR"], text: str) -> None:
-        """Add something to report."""
-        self._waiting.append(Notice(level, text))
+        """Add something to report, unless the same text waits already."""
+        notice = Notice(level, text)
+        if notice not in self._waiting:
+            self._waiting.append(notice)
 
     def take(self) -> list[Notice]:
         """Return what waits to be reported, errors last, and forget it."""
         waiting, self._waiting = self._waiting, []
         return sorted(waiting, key=lambda notice: LEVELS.index(notice.level))
+
+    def tell(self, report: Callable[[set[str], str], None]) -> None:
+        """Report what waits, once. `report` takes the level and the text, as operators of Blender do."""
+        for notice in self.take():
+            report({notice.level}, notice.text)
