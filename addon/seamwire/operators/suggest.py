@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import math
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -18,17 +17,12 @@ from .slide import slide_wires
 from .steps import Step, Stepwise
 
 if TYPE_CHECKING:
-    from collections.abc import Generator, Sequence
+    from collections.abc import Generator
 
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from ..core.seams.suggestion import Request
     from ..mesh.suggestion import Suggestion
+    from ..mesh.suggestions import Suggestions, Wanted
     from ..view.plan_preview import PlanPreview
 
-_CUT_CRUMB = 0.25
-"""Cuts that run side by side cross here and there. A piece smaller than this fraction of the smallest planned island is merged."""
 _LIMITS = ("DISTORTION", "ISLANDS", "DISCS")
 """The limits that the interface offers. The others are deprecated."""
 _BLENDERS_FRONT = (0.0, -1.0, 0.0)
@@ -165,17 +159,24 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
 
     def steps(self, context: bpy.types.Context) -> Generator[Step, None, set[str]]:
         """Yield the steps of the search, then mark or cut."""
+        from ..core.base.native import NativeError
         from ..view.plan_preview import PlanPreview
 
         self._follow_older_scripts()
-        suggestions = self._begin(context)
-        if not suggestions:
+        wanted = self._wanted()
+        try:
+            suggestions = self._read(context, wanted)
+        except NativeError as error:
+            self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
+        suggestions.notices.tell(self.report)
+        if not suggestions:
+            raise ValueError(suggestions.problem)
         preview = PlanPreview()
         try:
             for suggestion in suggestions:
                 yield from _step(suggestions, Step("Measuring the shape", suggestion.prepare))
-                work = partial(suggestion.plan, self._request(), is_enough=lambda: self.enough)
+                work = partial(suggestion.plan, wanted.request, is_enough=lambda: self.enough)
                 yield from _step(suggestions, Step("Planning seams", work, _Look(preview, suggestion)))
             yield from _step(suggestions, Step("Marking seams"))
         finally:
@@ -208,12 +209,12 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
     def _warn(self, text: str) -> None:
         self.report({"WARNING"}, text)
 
-    def _request(self) -> Request:
-        """Return the requirements for a plan."""
-        from ..core.seams.suggestion import Request, energy_of
+    def _wanted(self) -> Wanted:
+        """Return what the seams are for. The worst island has the limit of all."""
+        from ..mesh.suggestions import Wanted
 
-        distortion = math.inf if self.limit == "DISCS" else energy_of(0.01 * self.distortion)
-        return Request(distortion, self.islands if self.limit == "ISLANDS" else 0, self.parts)
+        limit = "DISTORTION" if self.limit == "WORST" else self.limit
+        return Wanted(limit, self.distortion, self.islands, self.parts, self.unwrap)
 
     def _front(self, context: bpy.types.Context) -> tuple[float, float, float] | None:
         """Return the direction to the viewer whom seams hide from, in world space, or None to hide from all sides."""
@@ -223,136 +224,51 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
             return _BLENDERS_FRONT
         return tuple(self.view_direction) if any(self.view_direction) else _towards_viewer(context)
 
-    def _begin(self, context: bpy.types.Context) -> list[Suggestion]:
-        """Read the meshes in Edit Mode and report errors. Raises as `_chosen`."""
-        from ..core.base.native import NativeError
-        from ..mesh.suggestion import Options, Suggestion
+    def _read(self, context: bpy.types.Context, wanted: Wanted) -> Suggestions:
+        """Read the meshes in Edit Mode."""
+        from ..mesh.suggestion import Options
+        from ..mesh.suggestions import Suggestions, objects_to_cut
 
         along, finish = (None if chosen == "AUTO" else chosen for chosen in (self.along, self.finish))
         options = Options(along, finish, self.symmetric, self._front(context))
-        found, problem = [], "No face is visible"
-        for obj, faces in self._chosen(context).items():
-            try:
-                suggestion = Suggestion(obj, options, faces)
-            except NativeError as error:
-                self.report({"ERROR"}, str(error))
-                return []
-            except ValueError as error:
-                problem = str(error)
-                continue
-            suggestion.mesh.notices.tell(self.report)
-            if len(suggestion.mesh.arrays.triangles):
-                found.append(suggestion)
-        if not found:
-            self.report({"ERROR"}, problem)
-        return found
+        objects = objects_to_cut(context.objects_in_mode_unique_data, self.limit == "WORST", self.selected)
+        return Suggestions(objects, options, wanted)
 
-    def _chosen(self, context: bpy.types.Context) -> dict[bpy.types.Object, NDArray[np.integer] | None]:
-        """Return the objects to cut, each with the faces whose islands are cut, or None for all islands.
-
-        Raises
-        ------
-        ValueError
-            If the worst island is wanted and there are no UVs.
-        """
-        from ..mesh import edit_mesh
-        from ..mesh.seam_islands import worst_of
-
-        objects = context.objects_in_mode_unique_data
-        if self.limit == "WORST":
-            obj, faces = worst_of(objects)
-            return {obj: faces}
-        if self.selected:
-            return {obj: edit_mesh.selected_faces(obj) for obj in objects}
-        return dict.fromkeys(objects)
-
-    def _carry_out(self, context: bpy.types.Context, suggestions: Sequence[Suggestion]) -> set[str]:
+    def _carry_out(self, context: bpy.types.Context, suggestions: Suggestions) -> set[str]:
         """Write or cut the wires, unwrap, and report."""
-        if not any(suggestion.wires for suggestion in suggestions):
+        if not suggestions.has_wires:
             return self._unwrap_uncut(context, suggestions)
-        across = [suggestion for suggestion in suggestions if suggestion.along == "SURFACE" and suggestion.wires]
-        to_cut = {suggestion.mesh: suggestion.wires for suggestion in across if suggestion.finish == "CUT"}
-        crumb = _CUT_CRUMB * min((suggestion.smallest() for suggestion in across), default=0.0)
+        to_cut = {suggestion.mesh: suggestion.wires for suggestion in suggestions.finished_by("CUT")}
+        crumb = suggestions.crumb
         if to_cut and cut_wires(self, context, to_cut, crumb=crumb, live_unwrap=False) == {"CANCELLED"}:
             return {"CANCELLED"}
-        for suggestion in suggestions:
-            if suggestion.mesh not in to_cut:
-                suggestion.write()
-        slide_wires({suggestion.mesh: suggestion.wires for suggestion in across if suggestion.finish == "SLIDE"})
+        suggestions.write()
+        slide_wires({suggestion.mesh: suggestion.wires for suggestion in suggestions.finished_by("SLIDE")})
         self._unwrap(context, suggestions)
-        self._tell(suggestions)
+        outcome = suggestions.outcome()
+        self.report({"INFO"} if outcome.is_good else {"WARNING"}, outcome.text)
         return {"FINISHED"}
 
-    def _unwrap_uncut(self, context: bpy.types.Context, suggestions: Sequence[Suggestion]) -> set[str]:
+    def _unwrap_uncut(self, context: bpy.types.Context, suggestions: Suggestions) -> set[str]:
         """Unwrap although no seam is needed, report it, and return the operator's result."""
         unwrapped = self._unwrap(context, suggestions) if self.unwrap else 0
-        if not self._is_reached(suggestions):
-            self.report({"WARNING"}, f"No useful seam found: the stretch stays at {self._stretch(suggestions):.0f} %")
+        if not suggestions.is_reached:
+            self.report({"WARNING"}, f"No useful seam found: the stretch stays at {suggestions.stretch:.0f} %")
         elif unwrapped:
             self.report({"INFO"}, f"No seam needed: {count(unwrapped, 'island')} unwrapped")
         else:
             self.report({"INFO"}, "Nothing to add: all islands already unwrap within the limit")
         return {"FINISHED"} if unwrapped else {"CANCELLED"}
 
-    def _unwrap(self, context: bpy.types.Context, suggestions: Sequence[Suggestion]) -> int:
-        """Unwrap if wanted, otherwise follow Blender's Live Unwrap. Return the number of unwrapped islands.
-
-        If the mesh had no seams, all UVs are replaced, so that the new islands fill the UV square.
-        """
+    def _unwrap(self, context: bpy.types.Context, suggestions: Suggestions) -> int:
+        """Unwrap, and report what cannot be unwrapped. Return the number of unwrapped islands."""
         from ..core.base.native import NativeError
-        from ..mesh import edit_mesh
-        from ..mesh.unwrap import unwrap_changed
 
-        if not self.unwrap:
-            edit_mesh.live_unwrap(context)
-            return 0
-        starts = {suggestion.mesh.obj: uvs for suggestion in suggestions if (uvs := suggestion.map()) is not None}
-        is_first = not any(suggestion.had_seams or suggestion.others for suggestion in suggestions)
-        is_whole = {suggestion.mesh.obj for suggestion in suggestions} >= set(context.objects_in_mode_unique_data)
-        every = is_first and is_whole and any(suggestion.wires for suggestion in suggestions)
         try:
-            return unwrap_changed(context, every=every, starts=starts).islands
+            return suggestions.unwrap(context)
         except (ValueError, NativeError) as error:
             self.report({"WARNING"}, str(error))
             return 0
-
-    def _tell(self, suggestions: Sequence[Suggestion]) -> None:
-        """Report the wires, the islands, and the quality of the map."""
-        from ..core.seams.suggestion import mean_stretch
-        from ..mesh.seam_islands import map_quality, missing_cuts
-        from ..words.suggestion import Outcome
-
-        stretch, overlapping = self._stretch(suggestions), None
-        if self.unwrap:
-            maps = [found for suggestion in suggestions if (found := map_quality(suggestion.mesh.obj)) is not None]
-            stretch = 100.0 * mean_stretch([found.energy for found in maps], [found.area for found in maps])
-            overlapping = sum(found.overlapping for found in maps)
-        is_few = self.limit == "ISLANDS" and any(
-            suggestion.best.island_count - suggestion.others < self.islands for suggestion in suggestions
-        )
-        outcome = Outcome(
-            wires=sum(len(suggestion.wires) for suggestion in suggestions),
-            marked=sum(suggestion.marked for suggestion in suggestions),
-            missing=[int(cuts) for suggestion in suggestions for cuts in missing_cuts(suggestion.mesh.obj)],
-            discs_wanted=self.limit == "DISCS",
-            islands_wanted=self.islands if is_few else 0,
-            stretch=stretch,
-            stretch_wanted=0.0 if self._is_reached(suggestions) else self.distortion,
-            overlapping=overlapping,
-        )
-        self.report({"INFO"} if outcome.is_good else {"WARNING"}, outcome.text)
-
-    def _is_reached(self, suggestions: Sequence[Suggestion]) -> bool:
-        """Return whether all plans are within the limit on stretch, if there is one."""
-        return self.limit == "DISCS" or all(suggestion.best.is_reached for suggestion in suggestions)
-
-    @staticmethod
-    def _stretch(suggestions: Sequence[Suggestion]) -> float:
-        """Return the mean stretch of all planned maps in percent."""
-        from ..core.seams.suggestion import mean_stretch
-
-        energies = [float(suggestion.best.energy) for suggestion in suggestions]
-        return 100.0 * mean_stretch(energies, [suggestion.area for suggestion in suggestions])
 
 
 class _Look:
@@ -396,7 +312,7 @@ def _in_units(length: float) -> str:
     return bpy.utils.units.to_string(units.system, "LENGTH", length * units.scale_length, precision=3)
 
 
-def _step(suggestions: Sequence[Suggestion], step: Step) -> Generator[Step, None, None]:
+def _step(suggestions: Suggestions, step: Step) -> Generator[Step, None, None]:
     """Yield one step.
 
     Raises
@@ -405,7 +321,7 @@ def _step(suggestions: Sequence[Suggestion], step: Step) -> Generator[Step, None
         If a mesh changed during the step.
     """
     yield step
-    if not all(suggestion.mesh.alive() for suggestion in suggestions):
+    if not suggestions.are_alive:
         raise ValueError("The mesh changed during the search")
 
 

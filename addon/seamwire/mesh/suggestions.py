@@ -1,0 +1,214 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The search for seams on all objects in Edit Mode, from reading the meshes to unwrapped islands."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+from ..core.seams.suggestion import Request, energy_of, mean_stretch
+from ..words.notices import Notices
+from ..words.suggestion import Outcome
+from . import edit_mesh
+from .seam_islands import map_quality, missing_cuts, worst_of
+from .suggestion import Suggestion
+from .unwrap import unwrap_changed
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator, Mapping
+
+    import bpy
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from .suggestion import Options
+
+_CUT_CRUMB = 0.25
+"""Cuts that run side by side cross here and there. A piece smaller than this fraction of the smallest planned island is merged."""
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What the seams are for.
+
+    Parameters
+    ----------
+    limit
+        When to stop adding seams: at a stretch, at a number of islands within the stretch, or when each island is a disc.
+    stretch
+        The mean stretch in percent.
+    islands
+        The number of islands of each object.
+    parts
+        Whether limbs become separate islands.
+    unwraps
+        Whether to unwrap the islands whose seams have changed. Otherwise Blender's Live Unwrap decides.
+    """
+
+    limit: Literal["DISTORTION", "ISLANDS", "DISCS"] = "DISTORTION"
+    stretch: float = 17.0
+    islands: int = 8
+    parts: bool = False
+    unwraps: bool = True
+
+    @property
+    def request(self) -> Request:
+        """The requirements for a plan."""
+        distortion = math.inf if self.limit == "DISCS" else energy_of(0.01 * self.stretch)
+        return Request(distortion, self.islands if self.limit == "ISLANDS" else 0, self.parts)
+
+
+def objects_to_cut(
+    objects: Collection[bpy.types.Object], worst: bool, selected: bool
+) -> dict[bpy.types.Object, NDArray[np.integer] | None]:
+    """Return the objects to cut, each with the faces whose islands are cut, or None for all islands.
+
+    Parameters
+    ----------
+    objects
+        In Edit Mode.
+    worst
+        Whether only the island that the UV map stretches most is cut.
+    selected
+        Whether only islands with selected faces are cut.
+
+    Raises
+    ------
+    ValueError
+        If the worst island is wanted and there are no UVs.
+    """
+    if worst:
+        obj, faces = worst_of(objects)
+        return {obj: faces}
+    if selected:
+        return {obj: edit_mesh.selected_faces(obj) for obj in objects}
+    return dict.fromkeys(objects)
+
+
+class Suggestions:
+    """Suggested wires for several objects.
+
+    Parameters
+    ----------
+    objects
+        In Edit Mode, each with the faces whose islands are cut, or None for all islands. Objects without visible faces are left out.
+    options
+        How wires are planned.
+    wanted
+        What the seams are for.
+
+    Attributes
+    ----------
+    notices
+        Problems with the wires that are stored with the meshes.
+    problem
+        Why there is no object to cut, if there is none.
+
+    Raises
+    ------
+    native.NativeError
+        If the compiled part is missing.
+    """
+
+    def __init__(
+        self, objects: Mapping[bpy.types.Object, NDArray[np.integer] | None], options: Options, wanted: Wanted
+    ) -> None:
+        self.notices = Notices()
+        self.problem = "No face is visible"
+        self._wanted = wanted
+        self._found: list[Suggestion] = []
+        for obj, faces in objects.items():
+            try:
+                suggestion = Suggestion(obj, options, faces)
+            except ValueError as error:
+                self.problem = str(error)
+                continue
+            for notice in suggestion.mesh.notices.take():
+                self.notices.add(notice.level, notice.text)
+            if len(suggestion.mesh.arrays.triangles):
+                self._found.append(suggestion)
+
+    def __iter__(self) -> Iterator[Suggestion]:
+        return iter(self._found)
+
+    def __len__(self) -> int:
+        return len(self._found)
+
+    @property
+    def are_alive(self) -> bool:
+        """Whether no mesh has changed since it was read."""
+        return all(suggestion.mesh.alive() for suggestion in self)
+
+    @property
+    def has_wires(self) -> bool:
+        """Whether any wire was found."""
+        return any(suggestion.wires for suggestion in self)
+
+    @property
+    def is_reached(self) -> bool:
+        """Whether all plans are within the limit on stretch, if there is one."""
+        return self._wanted.limit == "DISCS" or all(suggestion.best.is_reached for suggestion in self)
+
+    @property
+    def stretch(self) -> float:
+        """The mean stretch of all planned maps in percent."""
+        energies = [float(suggestion.best.energy) for suggestion in self]
+        return 100.0 * mean_stretch(energies, [suggestion.area for suggestion in self])
+
+    @property
+    def crumb(self) -> float:
+        """The fraction of a mesh's area below which islands beside cuts are merged."""
+        smallest = (suggestion.smallest() for suggestion in self if suggestion.along == "SURFACE" and suggestion.wires)
+        return _CUT_CRUMB * min(smallest, default=0.0)
+
+    def finished_by(self, finish: Literal["CUT", "SLIDE"]) -> list[Suggestion]:
+        """Return the suggestions whose wires across the surface become seams in this way."""
+        across = (suggestion for suggestion in self if suggestion.along == "SURFACE" and suggestion.wires)
+        return [suggestion for suggestion in across if suggestion.finish == finish]
+
+    def write(self) -> None:
+        """Keep the wires with the meshes, except wires that are cut."""
+        cut = self.finished_by("CUT")
+        for suggestion in self:
+            if suggestion not in cut:
+                suggestion.write()
+
+    def unwrap(self, context: bpy.types.Context) -> int:
+        """Unwrap if wanted, otherwise follow Blender's Live Unwrap. Return the number of unwrapped islands.
+
+        If the meshes had no seams, all UVs are replaced, so that the new islands fill the UV square.
+
+        Raises
+        ------
+        ValueError, native.NativeError
+            If a map cannot be made.
+        """
+        if not self._wanted.unwraps:
+            edit_mesh.live_unwrap(context)
+            return 0
+        starts = {suggestion.mesh.obj: uvs for suggestion in self if (uvs := suggestion.map()) is not None}
+        is_first = not any(suggestion.had_seams or suggestion.others for suggestion in self)
+        is_whole = {suggestion.mesh.obj for suggestion in self} >= set(context.objects_in_mode_unique_data)
+        return unwrap_changed(context, every=is_first and is_whole and self.has_wires, starts=starts).islands
+
+    def outcome(self) -> Outcome:
+        """Measure the islands and the map."""
+        wanted, stretch, overlapping = self._wanted, self.stretch, None
+        if wanted.unwraps:
+            maps = [found for suggestion in self if (found := map_quality(suggestion.mesh.obj)) is not None]
+            stretch = 100.0 * mean_stretch([found.energy for found in maps], [found.area for found in maps])
+            overlapping = sum(found.overlapping for found in maps)
+        is_few = wanted.limit == "ISLANDS" and any(
+            suggestion.best.island_count - suggestion.others < wanted.islands for suggestion in self
+        )
+        return Outcome(
+            wires=sum(len(suggestion.wires) for suggestion in self),
+            marked=sum(suggestion.marked for suggestion in self),
+            missing=[int(cuts) for suggestion in self for cuts in missing_cuts(suggestion.mesh.obj)],
+            discs_wanted=wanted.limit == "DISCS",
+            islands_wanted=wanted.islands if is_few else 0,
+            stretch=stretch,
+            stretch_wanted=0.0 if self.is_reached else wanted.stretch,
+            overlapping=overlapping,
+        )
