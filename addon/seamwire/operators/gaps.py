@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class MESH_OT_seamwire_close_gaps(EditMeshOperator, bpy.types.Operator):
-    """Draw wires where the end of a seam just misses another seam or the border, so that the islands separate"""  # noqa: D400 - a tooltip
+    """Draw wires where the end of a seam just misses another seam or the boundary, so that the islands separate"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_close_gaps"
     bl_label = "Close Gaps in Seams"
@@ -40,7 +40,7 @@ class MESH_OT_seamwire_close_gaps(EditMeshOperator, bpy.types.Operator):
             return {"CANCELLED"}
         found = self._find(meshes)
         if not found:
-            self.report({"INFO"}, "No gaps: no seam ends just before another seam or the border")
+            self.report({"INFO"}, "No gaps: no seam ends just before another seam or the boundary")
             return {"CANCELLED"}
         closed = sum(self._close(mesh, gaps) for mesh, gaps in found.items())
         if not closed:

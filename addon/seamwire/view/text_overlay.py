@@ -22,10 +22,10 @@ _METRICS = {
     "campen": "Campen's metric",
     "pottmann_kovacs": "Pottmann and Kovacs' metric",
     "concave": "concave creases",
-    "euclidean": "shortest ways",
+    "euclidean": "shortest paths",
 }
 _FOLLOWS = ("Least curvature", "Most curvature", "Concave creases")
-_FOLLOWS_IN = {"concave": ("Concave creases", "Shortest way"), "euclidean": ("Shortest way",)}
+_FOLLOWS_IN = {"concave": ("Concave creases", "Shortest path"), "euclidean": ("Shortest path",)}
 
 
 def _islands(islands: Islands) -> str:
