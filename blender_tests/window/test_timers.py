@@ -9,7 +9,6 @@ import traces
 from desk import Desk, choose, draw
 from scene import ADDON, chain, seams
 from seamwire.mesh.settings import settings
-from seamwire.view import edited_objects
 from seamwire.view.edited_objects import edited
 from seamwire.view.viewport import place_in
 
@@ -63,7 +62,7 @@ def test_a_chain_needs_no_timer_and_its_end_leaves_at_most_one(desk: Desk, take_
     settings().xray = True  # a setting is followed at once
     settings().xray = False
     ui.wait_until(lambda: not session.computing)
-    ui.wait_until(lambda: not bpy.app.timers.is_registered(edited_objects._tick), seconds=5.0)
+    ui.wait_until(lambda: not edited.timer.is_running, seconds=5.0)
     assert take_timers() == 0
     ui.click(desk.at(44))
     ui.wait_until(lambda: len(session.wires) == 1)

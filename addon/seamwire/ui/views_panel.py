@@ -8,6 +8,7 @@ import sys
 import bpy
 
 from ..mesh import settings as chosen
+from ..view.timer import Timer
 from .properties import draw_views
 
 
@@ -49,19 +50,21 @@ def _follow() -> None:
         object_mode.start()
 
 
+_timer = Timer(_follow, persistent=True)
+
+
 def register() -> None:
     """Add the panel, and show the views again that were on."""
     bpy.utils.register_class(VIEW3D_PT_seamwire_views)
     chosen.listeners.append(_follow)
-    bpy.app.timers.register(_follow, first_interval=0.5, persistent=True)
+    _timer.start(after=0.5)
 
 
 def unregister() -> None:
     """Remove the panel and the views."""
     if _follow in chosen.listeners:
         chosen.listeners.remove(_follow)
-    if bpy.app.timers.is_registered(_follow):
-        bpy.app.timers.unregister(_follow)
+    _timer.stop()
     module = sys.modules.get(f"{chosen.ADDON}.view.object_mode")
     if module is not None:
         module.object_mode.stop()

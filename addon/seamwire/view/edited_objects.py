@@ -15,6 +15,7 @@ import bpy
 
 from ..mesh import settings as chosen
 from .object_view import ObjectView, in_bounds, let_blender_tell
+from .timer import Timer
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -43,6 +44,8 @@ class EditedObjects:
         Whether a chain is being drawn. The chain then updates the objects, and they are drawn with every tool.
     covered
         Whether something else is drawn in place of the objects.
+    timer
+        Looks after running work.
     """
 
     def __init__(self) -> None:
@@ -51,6 +54,7 @@ class EditedObjects:
         self._error: Exception | None = None
         self._forgotten: dict[str, bool] = {}  # names, and whether that object was in front
         self.front: ObjectView | None = None
+        self.timer = Timer(self.tick)
         self.chain = False
         self.covered = False
         self.is_paused = False
@@ -129,8 +133,7 @@ class EditedObjects:
         self._forgotten.clear()
         while self._handles:
             bpy.types.SpaceView3D.draw_handler_remove(self._handles.pop(), "WINDOW")
-        if bpy.app.timers.is_registered(_tick):
-            bpy.app.timers.unregister(_tick)
+        self.timer.stop()
         self.chain = False
         self.is_paused = False
         self._error = None
@@ -253,8 +256,7 @@ class EditedObjects:
 
     def watch(self) -> None:
         """Look after running work until it is done."""
-        if not bpy.app.timers.is_registered(_tick):
-            bpy.app.timers.register(_tick, first_interval=_RHYTHM)
+        self.timer.start(after=_RHYTHM)
 
     def poll(self) -> None:
         """Take in what was computed, and show it."""
@@ -367,11 +369,6 @@ def _in_edit_mode() -> list[bpy.types.Object]:
 
 edited = EditedObjects()
 """The edited objects of this Blender."""
-
-
-def _tick() -> float | None:
-    """Blender finds a timer by the identity of its function, and a bound method is another object at each access."""
-    return edited.tick()
 
 
 def _on_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:

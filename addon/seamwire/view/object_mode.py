@@ -18,6 +18,7 @@ from .gpu_draw import Eye, blended
 from .legend import Legend
 from .metric_views import MetricViews
 from .overlay import free_room
+from .timer import Timer
 
 if TYPE_CHECKING:
     from ..core.base.mesh_arrays import Arrays
@@ -65,6 +66,8 @@ class ObjectModeViews:
         self._handles: list[object] = []
         self._changed = 0.0
         self._stale = False
+        self._timer = Timer(self.tick, persistent=True)
+        self._end = Timer(self.stop)  # handlers cannot be removed while they draw
 
     def start(self) -> None:
         """Begin; to be called again does no harm."""
@@ -77,7 +80,7 @@ class ObjectModeViews:
         ]
         for name in _EVENTS:
             getattr(bpy.app.handlers, name).append(_on_change)
-        bpy.app.timers.register(_tick, first_interval=0.0, persistent=True)
+        self._timer.start()
 
     def stop(self) -> None:
         """End, and forget what was read."""
@@ -86,9 +89,8 @@ class ObjectModeViews:
         for name in _EVENTS:
             if _on_change in getattr(bpy.app.handlers, name):
                 getattr(bpy.app.handlers, name).remove(_on_change)
-        for timer in (_tick, _stop):
-            if bpy.app.timers.is_registered(timer):
-                bpy.app.timers.unregister(timer)
+        self._timer.stop()
+        self._end.stop()
         self._forget()
 
     @property
@@ -147,7 +149,7 @@ class ObjectModeViews:
             # Printed once: it would come with every redraw.
             self._shown = None
             sys.excepthook(*sys.exc_info())
-            bpy.app.timers.register(_stop, first_interval=0.0)
+            self._end.start()
 
     def _draw_in_scene(self, obj: bpy.types.Object) -> None:
         if self._shown.views is None:
@@ -183,15 +185,6 @@ def _redraw() -> None:
 
 object_mode = ObjectModeViews()
 """The views in this Blender."""
-
-
-def _tick() -> float | None:
-    """Blender finds a timer by the identity of its function, and a bound method is another object at each access."""
-    return object_mode.tick()
-
-
-def _stop() -> None:
-    object_mode.stop()
 
 
 @bpy.app.handlers.persistent

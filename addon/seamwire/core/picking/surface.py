@@ -33,7 +33,7 @@ class Surface:
     Attributes
     ----------
     points, edges, triangles, polygons, to_object
-        Those of the arrays.
+        As in the arrays.
     to_points
         (3, 3) takes object coordinates to those of the points.
     triangles_at, edges_at
