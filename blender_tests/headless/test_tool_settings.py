@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which settings the tool shows where, and what becomes of those that it no longer has."""
 
+from dataclasses import fields
 from types import SimpleNamespace
 
 import bpy
 import pytest
 from scene import add_grid, edit
+from seamwire.core.drawing.options import Options
 from seamwire.mesh import settings as chosen
+from seamwire.operators import chain_acts
 from seamwire.ui import properties
+from seamwire.words.keys import Action
 
 pytestmark = pytest.mark.every_blender
 
@@ -111,3 +115,15 @@ def test_scripts_can_use_every_metric() -> None:
     for metric in ("campen", "pottmann_kovacs"):
         assert bpy.ops.mesh.seamwire_mark(chains="0 12", metric=metric, objects="*") == {"FINISHED"}
         bpy.ops.mesh.mark_seam(clear=True)
+
+
+def test_options_have_the_defaults_of_the_settings(tool: chosen.SeamwireSettings) -> None:
+    options = Options()
+    for field in fields(Options):
+        prop = tool.bl_rna.properties.get(field.name)
+        if prop is not None and prop.type in {"BOOLEAN", "ENUM"} and field.name not in {"along", "finish"}:
+            assert prop.default == getattr(options, field.name), field.name
+
+
+def test_each_action_of_a_chain_is_in_the_table() -> None:
+    assert set(Action) <= set(chain_acts.ACTS)

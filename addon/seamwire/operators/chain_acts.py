@@ -44,7 +44,7 @@ def _nothing(_state: ChainState, _given: Given) -> None:
     """Leave everything as it is."""
 
 
-_ACTS: dict[Action | Sign, Callable[[ChainState, Given], bool | None]] = {
+ACTS: dict[Action | Sign, Callable[[ChainState, Given], bool | None]] = {
     Action.CLICK: gestures.click,
     Action.NEW_CHAIN: gestures.click,
     Action.LOOP: gestures.click,
@@ -79,7 +79,7 @@ _ACTS: dict[Action | Sign, Callable[[ChainState, Given], bool | None]] = {
     Sign.REPEAT: _nothing,
 }
 """The function for each meaning. If it returns True, Blender has the event too."""
-_FIRST = {**_ACTS, Action.REMOVE: gestures.remove, Action.NEXT: gestures.retrace}
+_FIRST = {**ACTS, Action.REMOVE: gestures.remove, Action.NEXT: gestures.retrace}
 """The function for a press that begins a chain. If it returns False, it has found nothing to act on."""
 _BLENDERS = frozenset({Sign.TICK, Sign.AWAY, Sign.HOVER, Sign.OTHER_TOOL, Sign.NOTHING})
 """Signs that Blender always receives too."""
@@ -91,7 +91,7 @@ def act(state: ChainState, given: Given) -> bool:
         state.say("")
         if given.what is not Action.NEXT:
             state.peek = ""
-    return bool(_ACTS[given.what](state, given)) or given.what in _BLENDERS
+    return bool(ACTS[given.what](state, given)) or given.what in _BLENDERS
 
 
 def act_first(state: ChainState, given: Given) -> bool:
