@@ -1,22 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The stage of the paper's figures: meshes with colors, thick lines, ellipses and balls, rendered by Blender's Workbench, and PNG files.
+"""The stage of the paper's figures: meshes with colors, thick lines, ellipses and balls, rendered by Blender's Workbench.
 
 Workbench needs a display, a virtual one will do, and no samples: pictures are clean and small.
 """
 
 from __future__ import annotations
 
-import struct
-import zlib
 from math import cos, radians, sin
 from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
-from mathutils import Euler, Vector
+from mathutils import Euler, Matrix, Vector
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
     from pathlib import Path
 
     from numpy.typing import ArrayLike, NDArray
@@ -24,10 +21,11 @@ if TYPE_CHECKING:
 CLAY = (0.97, 0.97, 0.98)
 INK = (0.08, 0.08, 0.10)
 SEED = (0.15, 0.35, 0.95)
+_AMBIENT = 0.38
+_LIGHTS = (((-0.45, 0.55, 0.70), 0.52), ((0.75, 0.10, 0.55), 0.16), ((0.0, 0.0, 1.0), 0.0), ((0.0, 0.0, 1.0), 0.0))
+"""Where each light comes from, in the viewer's axes, and its brightness."""
 _SIDES = 8
 """Of a tube."""
-_LEVELS = 31
-"""Of each color in files: what is smooth then packs well, and no eye sees the steps."""
 
 
 class Stage:
@@ -40,10 +38,14 @@ class Stage:
     view
         Azimuth and elevation of the viewer, degrees.
     width
-        Of the picture, pixels; it is as high as the model needs.
+        Of the picture, pixels.
+    ratio
+        Its height as a part of the width; None: it is as high as the model needs.
     """
 
-    def __init__(self, points: NDArray[np.float64], view: tuple[float, float], width: int) -> None:
+    def __init__(
+        self, points: NDArray[np.float64], view: tuple[float, float], width: int, ratio: float | None = None
+    ) -> None:
         bpy.data.batch_remove([*bpy.data.objects, *bpy.data.meshes, *bpy.data.cameras])
         self._low = points.min(axis=0)
         self._scale = 1.0 / float(np.ptp(points, axis=0).max())
@@ -54,7 +56,9 @@ class Stage:
         self._view = view
         seen = self._corners @ np.array(_turn(*view).to_matrix())
         wide, high, _ = np.ptp(seen, axis=0)
-        self._settings((width, int(np.ceil(width * min(1.5, (high + 0.06 * wide) / (1.06 * wide))))))
+        if ratio is None:
+            ratio = min(1.5, (high + 0.06 * wide) / (1.06 * wide))
+        self._settings((width, int(np.ceil(width * ratio))))
 
     def _placed(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         return (points - self._low) * self._scale - self._middle
@@ -174,38 +178,66 @@ class Stage:
         scene.render.engine = "BLENDER_WORKBENCH"
         scene.render.resolution_x, scene.render.resolution_y = size
         scene.render.resolution_percentage = 100
-        scene.display.render_aa = "16"
+        scene.display.render_aa = "8"
         shading = scene.display.shading
         shading.light, shading.color_type = "STUDIO", "VERTEX"
         shading.show_cavity, shading.cavity_type = True, "WORLD"
         shading.cavity_ridge_factor, shading.cavity_valley_factor = 0.3, 1.0
         shading.show_shadows, shading.shadow_intensity = False, 0.25
-        shading.show_specular_highlight = True
+        shading.show_specular_highlight = False
+        _set_lights()
         scene.display.matcap_ssao_distance = 0.06
         scene.render.film_transparent = True
         scene.view_settings.view_transform = "Standard"
         scene.render.image_settings.file_format = "PNG"
         scene.render.image_settings.color_mode = "RGBA"
 
+    def pixel(self, place: NDArray[np.float64]) -> tuple[int, int]:
+        """Return the row and column of the picture where a place in the model's coordinates is."""
+        turned, aim, extent = self._camera()
+        right, up, _ = turned @ (self._placed(np.asarray(place)) - aim)
+        render = bpy.context.scene.render
+        width, height = render.resolution_x, render.resolution_y
+        return round(0.5 * height - up / extent * width), round(0.5 * width + right / extent * width)
+
+    def _camera(self) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+        """Return the viewer's axes, (3, 3), what is in the middle, and how wide the part is that is seen."""
+        render = bpy.context.scene.render
+        width, height = render.resolution_x, render.resolution_y
+        turned = np.array(_turn(*self._view).to_matrix().inverted())
+        seen = self._corners @ turned.T
+        low, top = seen.min(axis=0), seen.max(axis=0)
+        aim = turned.T @ (0.5 * (low + top)) if self._aim is None else self._aim
+        extent = max(top[0] - low[0], (top[1] - low[1]) * width / height)
+        return turned, aim, 1.06 * extent / self._zoom
+
     def render(self, path: Path) -> NDArray[np.float64]:
         """Return the picture, (height, width, 3), top row first, on white."""
+        turned, aim, extent = self._camera()
+        return self._shot(path, turned, aim, extent)
+
+    def render_part(self, path: Path, place: NDArray[np.float64], zoom: float, size: int) -> NDArray[np.float64]:
+        """Return a square of the picture around a place in the model's coordinates, so many times larger, `size` pixels wide."""
+        turned, _, extent = self._camera()
+        render = bpy.context.scene.render
+        before = render.resolution_x, render.resolution_y
+        self._settings((size, size))
+        picture = self._shot(path, turned, self._placed(np.asarray(place)), extent * size / before[0] / zoom)
+        self._settings(before)
+        return picture
+
+    @staticmethod
+    def _shot(path: Path, turned: NDArray[np.float64], aim: NDArray[np.float64], extent: float) -> NDArray[np.float64]:
         scene = bpy.context.scene
         camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
         scene.collection.objects.link(camera)
         scene.camera = camera
-        turn = _turn(*self._view)
-        towards = turn.to_matrix() @ Vector((0.0, 0.0, 1.0))
-        camera.rotation_euler = turn
+        camera.rotation_euler = Matrix(turned.T.tolist()).to_euler()
         camera.data.type = "ORTHO"
-        turned = np.array(turn.to_matrix().inverted())
-        seen = self._corners @ turned.T
-        low, top = seen.min(axis=0), seen.max(axis=0)
-        aim = turned.T @ (0.5 * (low + top)) if self._aim is None else self._aim
         width, height = scene.render.resolution_x, scene.render.resolution_y
-        extent = max(top[0] - low[0], (top[1] - low[1]) * width / height)
         # The scale of an orthographic camera is of the longer side.
-        camera.data.ortho_scale = 1.06 * extent / self._zoom * max(1.0, height / width)
-        camera.location = Vector(aim.tolist()) + 4.0 * towards
+        camera.data.ortho_scale = extent * max(1.0, height / width)
+        camera.location = Vector((aim + 4.0 * turned[2]).tolist())
         camera.data.clip_start, camera.data.clip_end = 0.1, 8.0
         scene.render.filepath = str(path)
         bpy.ops.render.render(write_still=True)
@@ -218,48 +250,22 @@ class Stage:
         return pixels[..., :3] * pixels[..., 3:] + 1.0 - pixels[..., 3:]
 
 
+def _set_lights() -> None:
+    """Light the stage softly from the upper left: no part is so dark that its color is not seen."""
+    system = bpy.context.preferences.system
+    system.use_studio_light_edit = True
+    system.light_ambient = (_AMBIENT,) * 3
+    for light, (direction, brightness) in zip(system.solid_lights, _LIGHTS, strict=False):
+        light.use = brightness > 0.0
+        light.diffuse_color, light.specular_color = (brightness,) * 3, (0.0,) * 3
+        light.direction, light.smooth = direction, 0.2
+
+
 def _turn(azimuth: float, elevation: float) -> Euler:
     """Return how a camera is turned that looks at the origin from azimuth and elevation, degrees."""
     flat, high = radians(azimuth), radians(elevation)
     towards = Vector((cos(flat) * cos(high), sin(flat) * cos(high), sin(high)))
     return (-towards).to_track_quat("-Z", "Y").to_euler()
-
-
-def beside(pictures: Sequence[Sequence[NDArray[np.float64]]]) -> NDArray[np.float64]:
-    """Return rows of pictures as one, on white; those of a row are set on its bottom."""
-    rows = []
-    for row in pictures:
-        high = max(len(picture) for picture in row)
-        rows.append(
-            np.concatenate(
-                [np.pad(one, ((high - len(one), 0), (0, 0), (0, 0)), constant_values=1.0) for one in row], axis=1
-            )
-        )
-    return np.concatenate(rows, axis=0)
-
-
-def save(picture: NDArray[np.float64], path: Path) -> None:
-    """Write a picture, (height, width, 3), as a PNG that is packed tightly."""
-    steps = np.round(np.clip(picture, 0.0, 1.0) * _LEVELS)
-    rows = np.round(steps * (255.0 / _LEVELS)).astype(np.uint8)
-    height, width, _ = rows.shape
-    flat = rows.reshape(height, -1).astype(np.int16)
-    left = np.concatenate([np.zeros((height, 3), dtype=np.int16), flat[:, :-3]], axis=1)
-    above = np.concatenate([np.zeros((1, 3 * width), dtype=np.int16), flat[:-1]], axis=0)
-    # Of each row the filter of PNG whose differences are smallest.
-    filtered = np.stack([flat, flat - left, flat - above])
-    cost = np.abs(filtered.astype(np.int8).astype(np.int16)).sum(axis=2)
-    best = cost.argmin(axis=0)
-    chosen = filtered[best, np.arange(height)].astype(np.uint8)
-    data = np.concatenate([best[:, None].astype(np.uint8), chosen], axis=1).tobytes()
-
-    def chunk(kind: bytes, content: bytes) -> bytes:
-        return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
-
-    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    path.write_bytes(
-        b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(data, 9)) + chunk(b"IEND", b"")
-    )
 
 
 def _linear(color: NDArray[np.float64]) -> NDArray[np.float64]:

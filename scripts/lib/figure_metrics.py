@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Figures 1 to 6 of the paper: metrics, their norms and their paths."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+from figure_sheet import Bar, Key, Panel, sheet
+from figure_stage import INK
+from figure_studio import RIDGE, VALLEY, anisotropy_bar
+from seamwire.core.fields import color_maps
+
+if TYPE_CHECKING:
+    import seamwire_core
+    from figure_models import Model
+    from figure_studio import Studio
+    from PIL import Image
+
+METRICS = ("euclidean", "pottmann_kovacs", "campen", "feature")
+NAMES = {"euclidean": "Euclidean", "campen": "Campen", "pottmann_kovacs": "Pottmann-Kovacs", "feature": "ours"}
+COLORS = {
+    "euclidean": (0.85, 0.12, 0.10),
+    "campen": (0.80, 0.15, 0.75),
+    "pottmann_kovacs": (0.10, 0.62, 0.20),
+    "feature": (0.12, 0.30, 0.90),
+}
+"""Those of Figure 4."""
+ANISOTROPY = 20.0
+_ENDS = (
+    (((0.02, 0.572, 0.792), (0.608, 0.183, 0.826)), "along a ridge"),
+    (((0.523, 0.834, 0.448), (0.289, 0.48, 0.28)), "along a valley"),
+)
+"""Between which places of rocker-arm the wires of Figure 4 run: some of those where the four metrics differ most."""
+_RIM = (0.98, 0.30, 0.43)
+"""Where Figure 6 looks closer: a ridge beside a flat part of rocker-arm."""
+
+
+def _strength(kind: str) -> dict[str, float]:
+    return {} if kind == "euclidean" else {"max_anisotropy": ANISOTROPY}
+
+
+def shortest_paths(studio: Studio) -> Image.Image:
+    """Figure 1: paths in the Euclidean metric and in ours, and a network of wires."""
+    model = studio.model("fertility")
+    seed = model.vertex_at(0.5, 0.2, 0.95)
+    panels = []
+    for kind, strength, title in (("euclidean", {}, "Euclidean"), ("feature", {"gamma": 0.1}, "ours, γ = 0.1")):
+        stage = studio.stage(model, 3)
+        bar = studio.add_paths(stage, model, model.field(kind, seed, **strength))
+        panels.append(Panel(studio.render(stage), title, bar))
+    stage = studio.empty_stage(model, 3)
+    studio.add_network(stage, model)
+    panels.append(Panel(studio.render(stage), "a network of wires"))
+    return sheet([panels])
+
+
+def on_a_sphere(studio: Studio) -> Image.Image:
+    """Figure 3: Campen's metric, alpha = 20, and ours, gamma = .1, on a nearly umbilical surface."""
+    model = studio.models["sphere"]
+    seed = model.vertex_at(0.42, 0.06, 0.5)
+    panels: list[Panel] = []
+    for kind, strength, name in (
+        ("campen", {"alpha": 20.0}, "Campen, α = 20"),
+        ("feature", {"gamma": 0.1}, "ours, γ = 0.1"),
+    ):
+        stage = studio.stage(model, 4)
+        studio.add_ellipses(stage, model, model.metric(kind, **strength))
+        panels.append(Panel(studio.render(stage), f"{name}: norms", anisotropy_bar()))
+        stage = studio.stage(model, 4)
+        bar = studio.add_paths(stage, model, model.field(kind, seed, **strength))
+        panels.append(Panel(studio.render(stage), "paths", bar))
+    return sheet([panels])
+
+
+def along_ridge_and_valley(studio: Studio) -> Image.Image:
+    """Figure 4: geodesics of four metrics between points of a curved ridge, and of a curved valley."""
+    model = studio.model("rocker-arm")
+    panels = []
+    for ends, title in _ENDS:
+        start, end = (model.vertex_at(*place) for place in ends)
+        wires = {kind: model.field(kind, start, **_strength(kind)).trace(end) for kind in METRICS}
+        stage = studio.stage(model, 2, 0.8)
+        faces = np.concatenate([wire.faces for wire in wires.values()])
+        normal = model.curvature.normals[model.triangles[faces]].mean(axis=(0, 1))
+        for kind, wire in wires.items():
+            # Ours lies over the wider one of Campen's, which is seen on both sides.
+            lift = 0.004 * model.size * normal if kind == "feature" else 0.0
+            stage.line(wire.points + lift, COLORS[kind], 0.010 if kind == "campen" else 0.006)
+        places = np.concatenate([wire.points for wire in wires.values()])
+        stage.balls(places[[0, len(wires["euclidean"].points) - 1]], INK, 0.011)
+        stage.turn_to(normal)
+        low, top = places.min(axis=0), places.max(axis=0)
+        stage.look_at(0.5 * (low + top), min(3.0, 0.75 * model.size / float(np.linalg.norm(top - low))))
+        panels.append(Panel(studio.render(stage), title, Key(tuple((NAMES[kind], COLORS[kind]) for kind in METRICS))))
+    return sheet([panels])
+
+
+def feature_strength(studio: Studio) -> Image.Image:
+    """Figure 5: s as heat, ridges and valleys with the largest values of s, and the signed curvature beside them."""
+    model = studio.model("armadillo", "suzanne")
+    smoothed = studio.core.smoothed_curvatures(model.surface, model.curvature)
+    limit = float(np.percentile(model.strength, 97))
+    bend = float(np.percentile(np.abs(smoothed.k1), 97))
+    lines = studio.core.crest_lines(model.surface, smoothed)
+    viridis = partial(color_maps.colors, of=color_maps.VIRIDIS)
+    signed = partial(color_maps.colors, of=color_maps.PURPLE_ORANGE)
+    stage = studio.stage(model, 3, colors=viridis(model.strength / limit))
+    panels = [Panel(studio.render(stage), "feature strength s", Bar("s", "0", f"{limit:.0f}", viridis))]
+    stage = studio.stage(model, 3)
+    studio.add_crests(stage, lines)
+    key = Key((("ridge", RIDGE), ("valley", VALLEY)))
+    panels.append(Panel(studio.render(stage), "ridges and valleys [YBS05]", key))
+    stage = studio.stage(model, 3, colors=signed(0.5 + 0.5 * smoothed.k1 / bend))
+    panels.append(Panel(studio.render(stage), "larger curvature", Bar("κ₁", f"{-bend:.0f}", f"{bend:.0f}", signed)))
+    print(f"   Figure 5: {maxima_and_crests(model, lines)}")
+    return sheet([panels])
+
+
+def maxima_and_crests(model: Model, lines: seamwire_core.CrestLines) -> str:
+    """Return how far vertices where s is largest, and all vertices, are from crest lines."""
+    a, b = model.surface.edges.T
+    highest = model.strength.copy()
+    np.maximum.at(highest, a, model.strength[b])
+    np.maximum.at(highest, b, model.strength[a])
+    top = np.flatnonzero((highest == model.strength) & (model.strength >= np.percentile(model.strength, 90)))
+    every = np.arange(0, len(model.points), max(1, len(model.points) // 3000))
+    edge = float(np.linalg.norm(model.points[a] - model.points[b], axis=1).mean())
+    texts = []
+    for name, vertices in ((f"{len(top)} local maxima of s in its top tenth", top), ("all vertices", every)):
+        away = [
+            float(np.sqrt(((lines.points - place) ** 2).sum(axis=1).min())) / edge for place in model.points[vertices]
+        ]
+        within = 100.0 * np.mean(np.array(away) <= 1.0)
+        texts.append(f"{name}: median {np.median(away):.2f} edges from a crest line, {within:.0f} % within one edge")
+    return "; ".join(texts)
+
+
+def four_metrics(studio: Studio) -> Image.Image:
+    """Figure 6: norms and paths of four metrics, A = 20, and a part of each close by."""
+    model = studio.model("rocker-arm")
+    seed, place = model.vertex_at(0.85, 0.1, 0.6), model.points[model.vertex_at(*_RIM)]
+    rows: list[list[Panel]] = [[], []]
+    for kind in METRICS:
+        stage = studio.stage(model, 4)
+        studio.add_ellipses(stage, model, model.metric(kind, **_strength(kind)))
+        picture = studio.render_with_inset(stage, place)
+        rows[0].append(Panel(picture, f"{NAMES[kind]}: norms", anisotropy_bar()))
+        stage = studio.stage(model, 4)
+        bar = studio.add_paths(stage, model, model.field(kind, seed, **_strength(kind)))
+        rows[1].append(Panel(studio.render_with_inset(stage, place), f"{NAMES[kind]}: paths", bar))
+    return sheet(rows)

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Figures 10 to 12 of the paper: a scribble, and networks of wires."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from figure_sheet import Panel, sheet
+from figure_stage import INK, SEED
+from figure_studio import ISLANDS, STROKE, anisotropy_bar
+from shape_proxies import shape_proxies
+
+if TYPE_CHECKING:
+    from figure_models import Model
+    from figure_studio import Studio
+    from numpy.typing import NDArray
+    from PIL import Image
+
+_FLAT = ((0.9, 0.05, 0.62), (0.9, 0.1, 0.45), (0.9, 0.3, 0.4))
+"""Where the stroke of Figure 10 begins, what it leads over and where it ends: on the flat side of rocker-arm."""
+PROXIES = 40
+"""Regions of the variational shape approximation in Figure 11."""
+
+
+def scribble(studio: Studio) -> Image.Image:
+    """Figure 10: the metric on a flat part, a scribble for a part of the way, the metric that it makes, and wires in both."""
+    model = studio.model("rocker-arm")
+    start, over, end = (model.vertex_at(*place) for place in _FLAT)
+    points, faces = _arc_on(model, start, over, end)
+    metric = model.metric("feature", gamma=0.1)
+    # The middle of the way alone: wires find the rest.
+    part = slice(len(points) // 4, 3 * len(points) // 4)
+    stroke = studio.core.Scribble(points[part], faces=faces[part])
+    drawn = studio.core.apply_scribbles(model.surface, metric, [stroke])
+    panels = []
+    for shown, title in (("metric", "metric"), ("stroke", "scribble"), ("drawn", "metric with it"), ("wires", "wires")):
+        stage = studio.stage(model, 4)
+        if shown in {"metric", "drawn"}:
+            studio.add_ellipses(stage, model, metric if shown == "metric" else drawn)
+        if shown in {"stroke", "wires"}:
+            stage.line(points[part], STROKE, 0.006)
+        if shown == "wires":
+            for one, color in ((metric, (0.5, 0.5, 0.52)), (drawn, INK)):
+                field = studio.core.distance_field(model.embed(one, max_error=0.01), start)
+                stage.line(field.trace(end).points, color, 0.008)
+        if shown != "metric":
+            stage.balls(model.points[[start, end]], SEED, 0.013)
+        panels.append(Panel(studio.render(stage), title, anisotropy_bar() if shown in {"metric", "drawn"} else None))
+    return sheet([panels])
+
+
+def _arc_on(model: Model, start: int, over: int, end: int) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    """Return a round stroke on a model from a vertex over one to another, (p, 3), and the triangle of each point."""
+    a, b, c = model.points[[start, over, end]]
+    t = np.linspace(0.0, 1.0, 80)[:, None]
+    arc = (1 - t) ** 2 * a + 2 * t * (1 - t) * (2 * b - 0.5 * (a + c)) + t**2 * c
+    tree = model.core.RayTree(model.points, model.triangles)
+    away = 0.2 * model.size * model.curvature.normals[over]
+    hits = [(place + away, tree.first_hit(place + away, -away)) for place in arc]
+    places, faces = zip(*((place - hit[1] * away, hit[0]) for place, hit in hits if hit is not None), strict=True)
+    return np.array(places), np.array(faces, dtype=np.int32)
+
+
+def segmentation(studio: Studio) -> Image.Image:
+    """Figure 11: ridges and valleys, variational shape approximation, a network of wires, and what it cuts the model into."""
+    model = studio.model("rocker-arm", "fandisk")
+    lines = studio.core.crest_lines(model.surface, studio.core.smoothed_curvatures(model.surface, model.curvature))
+    stage = studio.stage(model, 4)
+    studio.add_crests(stage, lines)
+    panels = [Panel(studio.render(stage), "ridges and valleys")]
+    regions = shape_proxies(model.points, model.triangles, PROXIES)
+    stage = studio.stage(model, 4, colors=np.array(ISLANDS)[_spread_colors(model.triangles, regions)])
+    panels.append(Panel(studio.render(stage), "shape approximation"))
+    for filled in (False, True):
+        stage = studio.empty_stage(model, 4)
+        studio.add_network(stage, model, filled)
+        panels.append(Panel(studio.render(stage), "its islands" if filled else "a network of wires"))
+    return sheet([panels])
+
+
+def more_segmentations(studio: Studio) -> Image.Image:
+    """Figure 12: networks on other models."""
+    used = studio.model("rocker-arm", "fandisk")
+    others = [model for model in studio.models.values() if model is not used and model.name != "sphere"][:4]
+    panels = []
+    for model in others:
+        stage = studio.empty_stage(model, 4)
+        studio.add_network(stage, model)
+        panels.append(Panel(studio.render(stage), model.name))
+    return sheet([panels])
+
+
+def _spread_colors(triangles: NDArray[np.int32], regions: NDArray[np.int32]) -> NDArray[np.int64]:
+    """Return a color's number for each triangle: regions that touch have others, as far as there are enough."""
+    corners = np.stack([triangles.ravel(), np.repeat(regions, 3)], axis=1)
+    corners = np.unique(corners, axis=0)
+    same = corners[1:, 0] == corners[:-1, 0]
+    touching: dict[int, set[int]] = {}
+    for one, other in np.stack([corners[:-1, 1], corners[1:, 1]], axis=1)[same].tolist():
+        touching.setdefault(one, set()).add(other)
+        touching.setdefault(other, set()).add(one)
+    colors = np.zeros(int(regions.max()) + 1, dtype=np.int64)
+    for region in range(len(colors)):
+        taken = {int(colors[other]) for other in touching.get(region, ()) if other < region}
+        colors[region] = min(set(range(len(ISLANDS))) - taken, default=region % len(ISLANDS))
+    return colors[regions]
