@@ -30,7 +30,7 @@ _CUT_CRUMB = 0.25
 
 @dataclass(frozen=True)
 class Wanted:
-    """What the seams are for.
+    """Requirements for the seams.
 
     Parameters
     ----------
@@ -96,14 +96,14 @@ class Suggestions:
     options
         How wires are planned.
     wanted
-        What the seams are for.
+        Requirements for the seams.
 
     Attributes
     ----------
     notices
         Problems with the wires that are stored with the meshes.
     problem
-        Why there is no object to cut, if there is none.
+        Why no object can be cut.
 
     Raises
     ------

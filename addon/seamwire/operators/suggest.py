@@ -210,7 +210,7 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
         self.report({"WARNING"}, text)
 
     def _wanted(self) -> Wanted:
-        """Return what the seams are for. The worst island has the limit of all."""
+        """Return the requirements for the seams. The worst island has the limit of all."""
         from ..mesh.suggestions import Wanted
 
         limit = "DISTORTION" if self.limit == "WORST" else self.limit
