@@ -9,36 +9,18 @@ In the background pytest simply runs; with a window in turns with Blender (see `
 """
 
 import faulthandler
-import importlib
 import os
-import pkgutil
 import sys
-import traceback
 from pathlib import Path
 
 sys.path.insert(0, os.environ["SEAMWIRE_BLENDER_PACKAGES"])
 sys.path.insert(0, str(Path(__file__).parent))
 
-import addon_utils
 import bpy
 import pytest
+from enabling import enable_addon
 from progress import plugins
 from turns import leave, play
-
-ADDON = os.environ.get("SEAMWIRE_ADDON", "seamwire")
-
-
-def enable_addon() -> None:
-    """Enable the add-on and fail loudly where Blender would only print."""
-    failures: list[str] = []
-    module = addon_utils.enable(ADDON, default_set=True, handle_error=lambda _: failures.append(traceback.format_exc()))
-    if module is None or failures:
-        sys.stderr.write(f"The add-on {ADDON} could not be enabled.\n" + "".join(failures))
-        leave(3)
-    for part in pkgutil.walk_packages(module.__path__, f"{ADDON}."):
-        importlib.import_module(part.name)
-    for name in [name for name in sys.modules if name == ADDON or name.startswith(f"{ADDON}.")]:
-        sys.modules["seamwire" + name.removeprefix(ADDON)] = sys.modules[name]
 
 
 def run_pytest() -> int:

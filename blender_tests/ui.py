@@ -208,13 +208,18 @@ class Ui:
 
 def display() -> NDArray[np.float32]:
     """Return what is on the virtual display: (height, width, 3), bottom row first."""
+    return display_bytes().astype(np.float32) / 255.0
+
+
+def display_bytes() -> NDArray[np.uint8]:
+    """As `display`, with colors from 0 to 255."""
     data = Path(os.environ["SEAMWIRE_SCREEN"]).read_bytes()
     # An X window dump: 25 numbers, the window's name, the color map, then rows of blue, green, red and a byte without meaning.
     header = struct.unpack(">25I", data[:100])
     size, width, height, row, colors = header[0], header[4], header[5], header[12], header[19]
     pixels = np.frombuffer(data, dtype=np.uint8, offset=size + 12 * colors, count=row * height)
     pixels = pixels.reshape(height, row)[::-1, : 4 * width].reshape(height, width, 4)
-    return pixels[..., 2::-1].astype(np.float32) / 255.0
+    return pixels[..., 2::-1]
 
 
 class RealUi(Ui):

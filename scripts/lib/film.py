@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Films the tool at work in Blender's window, with simulated events and the display's own pixels; scripts/animation runs this.
 
-``blender ... --python scripts/lib/film.py -- PART FOLDER``, the part as scripts/animation has it, leaves frames.raw or guide-*.png in the
-folder. The simulated mouse has no pointer on the display: one is drawn into the frames where it would be.
+``blender ... --python scripts/lib/film.py -- PART FOLDER`` takes a part that scripts/animation names. It leaves guide-*.png in the folder,
+or writes frames to frames.raw there, which may be a pipe. The simulated mouse has no pointer on the display, so one is drawn into the frames.
+
+Films run in real time. Each frame is one step of a clock: events are sent for its time, and the display is read when the tool has
+answered. When the tool's answer took longer than a frame, the film stands still for that time. Drawing Blender's window is not counted,
+because the processor draws it here.
 """
 
 import math
@@ -10,6 +14,7 @@ import os
 import struct
 import subprocess
 import sys
+import time
 import zlib
 from functools import partial
 from pathlib import Path
@@ -17,11 +22,11 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [os.environ["SEAMWIRE_BLENDER_PACKAGES"], str(ROOT / "blender_tests")]
 
-import addon_utils
 import bpy
 import numpy as np
 import show
 import ui as driver
+from enabling import enable_addon
 from mathutils import Euler, Vector
 from numpy.typing import NDArray
 from turns import play_strictly
@@ -37,21 +42,32 @@ WORDS = (1.0, 1.0, 1.0, 1.0)
 
 
 class Film:
-    """A hand that moves as people do, and a camera on the display."""
+    """A hand that moves as people do, and a camera on the display. A time of 1 is a frame of a GIF, 80 ms."""
+
+    STEP = 0.08
 
     def __init__(self, folder: Path) -> None:
         self.ui = driver.Ui()
+        # Pictures have more pixels than films, and not smaller letters.
+        bpy.context.preferences.view.ui_scale = max(1.0, self.ui.window.width / 1280.0)
         self.folder = folder
+        self.rate = 1
+        """How many frames a step has."""
+        self.bare = 0.0
+        """The seconds that an event takes when the tool has nothing to do: Blender's own time."""
         self.frames: list[NDArray[np.uint8]] = []
+        self.late: list[int] = []
+        """For how many frames the film stood still each time the tool was late."""
         self.at = (200.0, 120.0)
         self.pressed = False
         self.filming = True
         self.obj: bpy.types.Object | None = None
         self.caption = ""
+        self.is_subtitle = False
         bpy.types.SpaceView3D.draw_handler_add(self._draw_caption, (), "WINDOW", "POST_PIXEL")
 
     def _draw_caption(self) -> None:
-        """Write under the headers what is being done."""
+        """Write what is being done, under the headers or as a subtitle."""
         if not self.caption:
             return
         from seamwire.view import gpu_draw as paint
@@ -61,74 +77,88 @@ class Film:
         size = paint.text_size(1.0, 1.9)
         paint.set_text(size)
         wide = paint.text_width(self.caption)
-        x, y = left + (width - wide) / 2.0, bottom + height - 2.6 * size
+        x, y = left + (width - wide) / 2.0, bottom + (1.6 * size if self.is_subtitle else height - 2.6 * size)
         with paint.blended("NONE"):
             paint.draw_rectangle((x - size, y - 0.65 * size), (x + wide + size, y + 1.25 * size), BAND, 0.5 * size)
             paint.draw_text(self.caption, (x, y), WORDS, shadow=False)
 
-    def say(self, caption: str, frames: int = 0) -> None:
+    def say(self, caption: str, steps: int = 0) -> None:
         """Write something else, and let it be read."""
         self.caption = caption
-        self.hold(frames)
+        self.hold(steps)
 
     def shot(self) -> NDArray[np.uint8]:
         """Return the display as it is, with the pointer: (height, width, 3), top row first."""
         self.ui.wait(2, redraw=True)
         window = self.ui.window
-        picture = (driver.display()[: window.height, : window.width] * 255.0).astype(np.uint8)
+        picture = driver.display_bytes()[: window.height, : window.width].copy()
         x, y = self.at
         draw_pointer(picture, (self.ui.region.x + x, self.ui.region.y + y), self.pressed)
         return picture[::-1]
 
-    def hold(self, frames: int) -> None:
+    def hold(self, steps: int) -> None:
         """Let the picture stand."""
+        self._film(steps * self.rate)
+
+    def _film(self, frames: int) -> None:
         if self.filming and frames:
             self.frames += [self.shot()] * frames
 
-    def go(self, to: tuple[float, float], frames: int = 10, **modifiers: bool) -> None:
+    def go(self, to: tuple[float, float], steps: int = 10, **modifiers: bool) -> None:
         """Move the pointer, slowly at both ends."""
-        start = self.at
+        start, frames = self.at, steps * self.rate
         for i in range(1, frames + 1) if self.filming else [1]:
             share = i / frames if self.filming else 1.0
             share = share * share * (3.0 - 2.0 * share)
             self.at = (start[0] + share * (to[0] - start[0]), start[1] + share * (to[1] - start[1]))
+            began = time.perf_counter()
             self.ui.move(self.at, **modifiers)
-            self.settle()
-            self.hold(1)
+            self.settle(began)
+            self._film(1)
 
-    def settle(self) -> None:
-        """Wait until what is shown is final: a film is to show the tool, and not this machine."""
-        drawing = session()
-        if drawing is not None:
+    def settle(self, began: float | None = None) -> None:
+        """Wait until what is shown is final. If the film shows the time since it began, stand still for it."""
+        began = began or time.perf_counter()
+        if session() is not None:
             self.ui.wait_until(lambda: session() is None or not session().computing, 60.0)
+        late = int((time.perf_counter() - began - self.bare) / self.STEP * self.rate)
+        if self.filming and self.frames and late > 0:
+            self.late.append(late)
+            self.frames += [self.frames[-1]] * late
+
+    def send(self, kind: str, value: str, **modifiers: bool) -> None:
+        """Send an event where the pointer is, and let the tool answer."""
+        began = time.perf_counter()
+        self.ui.event(kind, value, self.at, **modifiers)
+        self.settle(began)
 
     def click(self, button: str = "LEFTMOUSE", **modifiers: bool) -> None:
         """Press and release a button where the pointer is."""
-        self.ui.event(button, "PRESS", self.at, **modifiers)
         self.pressed = True
-        self.hold(2)
+        self.send(button, "PRESS", **modifiers)
+        self.hold(1)
         self.pressed = False
-        self.ui.event(button, "RELEASE", self.at, **modifiers)
-        self.settle()
+        self.send(button, "RELEASE", **modifiers)
         self.hold(2)
 
-    def peek(self, to: tuple[float, float], frames: int = 10) -> None:
+    def peek(self, to: tuple[float, float], steps: int = 10) -> None:
         """Point at an edge and hold Alt, which shows the loop that a click takes."""
-        self.go(to, frames)
+        self.go(to, steps)
+        began = time.perf_counter()
         self.ui.event("LEFT_ALT", "PRESS", self.at, alt=True)
-        self.ui.wait_until(lambda: session().loop_preview is not None)
-        self.settle()
+        self.ui.wait_until(lambda: offered() is not None)
+        self.settle(began)
 
     def take(self) -> None:
         """Take the loop that is shown, and let go of Alt."""
         self.click(alt=True)
-        self.ui.event("LEFT_ALT", "RELEASE", self.at)
-        self.settle()
+        self.send("LEFT_ALT", "RELEASE")
 
-    def key(self, name: str) -> None:
+    def key(self, name: str, **modifiers: bool) -> None:
         """Press a key."""
-        self.ui.key(name)
-        self.settle()
+        began = time.perf_counter()
+        self.ui.key(name, **modifiers)
+        self.settle(began)
         self.hold(2)
 
     def seen(self, point: Vector) -> tuple[float, float]:
@@ -187,13 +217,15 @@ class Film:
 
     def write(self) -> None:
         """Keep the film: its frames one after the other, three bytes a pixel."""
+        late = sum(self.late) / self.rate * self.STEP
+        print(f"{len(self.frames) / self.rate * self.STEP:.1f} s, of which the tool was late for {late:.1f} s", flush=True)
         with (self.folder / "frames.raw").open("wb") as file:
             for frame in self.frames:
                 file.write(np.ascontiguousarray(frame[:, :, :3]).tobytes())
 
-    def picture(self, name: str, step: int = 1) -> None:
-        """Keep the window as a picture of the guide. Colors in steps of more than 1 make a smaller file."""
-        write_png(self.folder / f"guide-{name}.png", self.shot() // step * step)
+    def picture(self, name: str) -> None:
+        """Keep the window as a picture of the guide."""
+        write_png(self.folder / f"guide-{name}.png", self.shot())
 
 
 def settings() -> bpy.types.PropertyGroup:
@@ -218,6 +250,11 @@ def session() -> object | None:
     if running:
         return running[0].session
     return edited.front.session if edited.front is not None else None
+
+
+def offered() -> str | None:
+    """Return the kind of the loop that a click would add, if one is shown."""
+    return session().picture.offered.kind
 
 
 def draw_pointer(picture: NDArray[np.uint8], tip: tuple[float, float], pressed: bool) -> None:
@@ -296,69 +333,63 @@ def start(film: Film) -> None:
     film.ui.move(film.at)
     film.ui.wait_until(lambda: session() is not None, 60.0)
     film.settle()
+    seconds = []
+    for _ in range(7):
+        film.ui.area.tag_redraw()
+        began = time.perf_counter()
+        film.ui.move((20.0, 20.0))
+        seconds.append(time.perf_counter() - began)
+    film.bare = float(np.median(seconds))
+    film.ui.move(film.at)
+    film.settle()
 
 
 def animation(film: Film) -> None:
     """Play what the README shows."""
     stage(film)
-    film.at = film.vertex(0.9, -0.4, -0.6)
+    film.obj.data.use_mirror_x = True
+    film.at = film.vertex(0.55, -0.55, 0.9)
     start(film)
-    film.say("Click: a seed", 4)
-    film.go(film.vertex(0.0, -0.6, 0.80), 8)
+    film.say("Click, move, click", 3)
+    film.go(film.vertex(0.0, -0.6, 0.80), 7)
     film.click()
-    film.say("Two wires follow the cursor along the shape")
-    film.go(film.vertex(0.45, -0.60, 0.72), 7)
-    film.go(film.vertex(0.80, -0.40, 0.40), 9)
-    film.hold(4)
-    film.say("W: the other one")
-    film.key("W")
-    film.hold(8)
-    film.key("W")
-    film.hold(7)
-    film.say("Click: keep it, and go on")
+    film.go(film.vertex(0.45, -0.60, 0.72), 5)
+    film.go(film.vertex(0.80, -0.40, 0.40), 7)
     film.click()
-    film.go(film.vertex(0.55, -0.40, -0.30), 10)
+    film.go(film.vertex(0.55, -0.40, -0.30), 8)
     film.click()
-    film.go(film.vertex(0.25, -0.65, -0.25), 6)
-    film.go(film.vertex(0.0, -0.75, -0.08), 6)
+    film.go(film.vertex(0.0, -0.75, -0.08), 9)
     film.click()
     film.click("RIGHTMOUSE")
-    film.say("Drag a seed: its wires follow")
+    film.say("Drag a seed")
     film.go(film.vertex(0.55, -0.40, -0.30), 7)
-    film.ui.event("LEFTMOUSE", "PRESS", film.at)
-    film.pressed = True
-    film.go(film.vertex(0.62, -0.40, -0.10), 6)
-    film.go(film.vertex(0.50, -0.45, -0.22), 6)
-    film.pressed = False
-    film.ui.event("LEFTMOUSE", "RELEASE", film.at)
-    film.settle()
-    film.hold(2)
-    film.say("The mirror of the mesh: mirrored")
-    film.obj.data.use_mirror_x = True
-    film.hold(7)
-    film.say("Alt: the whole loop, before the click")
-    film.peek(film.edge(EYE), 9)
-    film.hold(6)
-    film.take()
-    film.peek(film.edge(EAR), 9)
+    drag(film, film.vertex(0.62, -0.40, -0.10))
+    film.say("Alt-click: the loop around the eye")
+    film.peek(film.edge(EYE), 8)
     film.hold(4)
     film.take()
-    film.say("Alt and the wheel: the strip up to the seams, past poles, the whole strip")
-    film.peek(film.middle_edge(0.0, -0.45, 0.9), 10)
-    film.hold(8)
-    while session().loop_choice != "WHOLE":
-        film.ui.wheel(up=True, alt=True)
-        film.settle()
-        film.hold(7)
+    film.peek(film.edge(EAR), 9)
+    film.hold(2)
     film.take()
-    film.say("The islands that the seams make are tinted")
+    film.peek(film.middle_edge(0.0, -0.45, 0.9), 9)
+    film.hold(2)
+    film.take()
+    film.say("Unwrapped")
     film.go(film.vertex(0.9, -0.4, -0.6), 6)
-    film.hold(12)
-    film.say("They are seams at once: unwrapped")
-    film.hold(6)
     unwrap(film)
-    film.hold(24)
+    film.hold(18)
     film.write()
+
+
+def drag(film: Film, *places: tuple[float, float]) -> None:
+    """Drag what is under the pointer past some places, and let go of it."""
+    film.pressed = True
+    film.send("LEFTMOUSE", "PRESS")
+    for place in places:
+        film.go(place, 7)
+    film.pressed = False
+    film.send("LEFTMOUSE", "RELEASE")
+    film.hold(2)
 
 
 def unwrap(film: Film) -> None:
@@ -393,6 +424,94 @@ def unwrap(film: Film) -> None:
     ui.wait(6, redraw=True)
 
 
+def job(film: Film) -> None:
+    """Play a whole job, from a mesh without seams to its UV map."""
+    stage(film)
+    film.rate, film.is_subtitle = 2, True
+    with film.ui.override():
+        bpy.ops.wm.tool_set_by_id(name="builtin.select_box")
+    film.at = film.vertex(0.9, -0.4, -0.6)
+    film.ui.move(film.at)
+    film.say("This head needs a UV map. It has no seams yet.", 30)
+    film.say("Ctrl Alt W takes the tool.")
+    film.hold(12)
+    film.key("W", ctrl=True, alt=True)
+    start(film)
+    film.hold(16)
+    film.say("Mirror X: the other side gets the same seams.")
+    film.obj.data.use_mirror_x = True
+    film.hold(24)
+    film.say("A click begins a wire.")
+    film.go(film.vertex(0.0, -0.6, 0.80), 12)
+    film.hold(5)
+    film.click()
+    film.say("Wires follow the cursor along the shape.")
+    film.go(film.vertex(0.45, -0.60, 0.72), 10)
+    film.go(film.vertex(0.80, -0.40, 0.40), 14)
+    film.hold(8)
+    film.say("W takes the other wire, and the first one again.")
+    film.key("W")
+    film.hold(14)
+    film.key("W")
+    film.hold(12)
+    film.say("A click keeps the wire, and the next one begins there.")
+    film.click()
+    film.go(film.vertex(0.55, -0.40, -0.30), 16)
+    film.hold(4)
+    film.click()
+    film.go(film.vertex(0.25, -0.65, -0.25), 9)
+    film.go(film.vertex(0.0, -0.75, -0.08), 9)
+    film.hold(4)
+    film.click()
+    film.say("A right click ends the chain. Its wires are seams.")
+    film.click("RIGHTMOUSE")
+    film.hold(20)
+    film.say("A seed can be dragged. Its wires follow.")
+    film.go(film.vertex(0.55, -0.40, -0.30), 12)
+    film.hold(4)
+    drag(film, film.vertex(0.60, -0.40, -0.20), film.vertex(0.62, -0.40, -0.10), film.vertex(0.50, -0.45, -0.22))
+    film.hold(14)
+    film.say("Alt shows the loop around the eye. A click takes it.")
+    film.peek(film.edge(EYE), 14)
+    film.hold(16)
+    film.take()
+    film.hold(6)
+    film.say("The ear gets one as well.")
+    film.peek(film.edge(EAR), 14)
+    film.hold(12)
+    film.take()
+    film.hold(6)
+    film.say("The last loop opens the head in the middle. The wheel makes it longer.")
+    film.peek(film.middle_edge(0.0, -0.45, 0.9), 14)
+    film.hold(12)
+    while offered() != "WHOLE":
+        film.ui.wheel(up=True, alt=True)
+        film.settle()
+        film.hold(9)
+    film.take()
+    film.say("Every island has its own color. We look at the other side.")
+    film.go(film.vertex(0.9, -0.4, -0.6), 10)
+    film.hold(10)
+    for around in (*np.linspace(0.46, math.pi - 0.5, 30)[1:], None, *np.linspace(math.pi - 0.5, 0.46, 24)[1:]):
+        if around is None:
+            film.hold(14)
+            continue
+        film.ui.view.view_rotation = Euler((1.24, 0.0, around)).to_quaternion()
+        film.hold(1)
+    film.say("Unwrap, as always in Blender.")
+    film.hold(16)
+    unwrap(film)
+    film.hold(30)
+    film.say("The view shows how much the map stretches: red is twice the mean.")
+    with film.ui.override():
+        bpy.ops.wm.tool_set_by_id(name="seamwire.draw")
+    settings().heat = "AREA"
+    film.ui.wait(20, redraw=True)
+    film.hold(50)
+    film.say("Done: 12 presses, and every island lies flat.", 36)
+    film.write()
+
+
 def guide(film: Film) -> None:
     """Take what the guide shows, one picture after the other."""
     film.filming = False
@@ -423,7 +542,7 @@ def guide(film: Film) -> None:
     film.ui.event("LEFTMOUSE", "PRESS", film.at)
     film.go(film.vertex(0.50, -0.45, -0.10))
     film.go(film.vertex(0.62, -0.40, -0.10))
-    film.ui.wait_until(lambda: all(wire is not None for wire in session().moved))
+    film.ui.wait_until(lambda: session().moved and not session().computing)
     film.picture("drag")
     film.ui.event("LEFTMOUSE", "RELEASE", film.at)
     film.settle()
@@ -432,7 +551,6 @@ def guide(film: Film) -> None:
     film.take()
     film.obj.data.use_mirror_x = True
     film.peek(film.edge(EAR))
-    film.picture("mirror")
     film.take()
     film.peek(film.middle_edge(0.0, -0.45, 0.9))
     film.picture("strip")
@@ -455,25 +573,27 @@ def tool(film: Film) -> None:
     stage(film)
     film.at = film.vertex(0.0, -0.6, 0.80)
     show_card(True)
+    for _ in range(20):  # the tool is at the end of the toolbar
+        film.ui.wheel(up=False, at=(30.0, 300.0))
     film.ui.space.show_gizmo = True
     start(film)
     film.ui.wait(20, redraw=True)
-    film.picture(f"tool-{version}-card", step=8)
+    film.picture(f"tool-{version}-card")
     film.ui.space.show_gizmo = False
     show_card(False)
     film.ui.wait(20, redraw=True)
-    film.picture(f"tool-{version}-before", step=8)
+    film.picture(f"tool-{version}-before")
     for kind, name in (("menu", "VIEW3D_MT_seamwire"), ("panel", "VIEW3D_PT_seamwire_overlays")):
         with film.ui.override():
             getattr(bpy.ops.wm, f"call_{kind}")(name=name)
         film.ui.wait(6)
-        film.picture(f"tool-{version}-{kind}", step=8)
+        film.picture(f"tool-{version}-{kind}")
         film.ui.key("ESC")
         film.ui.wait(6)
     film.click()
     film.go(film.vertex(0.80, -0.40, 0.40))
     film.ui.wait(20, redraw=True)
-    film.picture(f"tool-{version}-chain", step=8)
+    film.picture(f"tool-{version}-chain")
     film.key("ESC")
 
 
@@ -524,7 +644,7 @@ def stretch(film: Film) -> None:
 
 
 def views(film: Film) -> None:
-    """Take each view of the metric in object mode, six in one picture."""
+    """Take each view of the metric in object mode, six in one picture. Take wires behind the surface in one of them."""
     from seamwire.view.object_mode import object_mode
 
     film.filming = False
@@ -554,12 +674,12 @@ def views(film: Film) -> None:
         top = film.ui.window.height - region.y - region.height
         right = region.x + region.width
         # The right part, where the legend is, at half the size.
-        part = picture[top + 60 : top + 60 + 600, right - 760 : right]
-        shots.append(part.reshape(300, 2, 380, 2, 3).mean(axis=(1, 3)).astype(np.uint8) // 4 * 4)
+        part = picture[top + 75 : top + 75 + 800, right - 1068 : right]
+        shots.append(part.reshape(400, 2, 534, 2, 3).mean(axis=(1, 3)).astype(np.uint8))
         for name in shown:
             settings().property_unset(name)
     whole = np.concatenate([np.concatenate(shots[:3], axis=1), np.concatenate(shots[3:], axis=1)])
-    write_png(film.folder / "guide-views.png", whole)
+    write_png(film.folder / "guide-views.png", whole[:, :1600])
     settings().property_unset("views_in_object_mode")
     film.ui.wait(20)
 
@@ -649,7 +769,7 @@ def limbs(film: Film) -> None:
     film.go(film.vertex(-0.33, -0.1, -0.18), 6)
     for key, held in (("LEFT_SHIFT", {"shift": True}), ("LEFT_ALT", {"shift": True, "alt": True})):
         film.ui.event(key, "PRESS", film.at, **held)
-    film.ui.wait_until(lambda: session().loop_preview is not None)
+    film.ui.wait_until(lambda: offered() is not None)
     film.settle()
     film.hold(4)
     for place in ((-0.33, -0.1, -0.14), (-0.33, -0.1, -0.1)):
@@ -694,6 +814,42 @@ STEPS = (
     (BEHIND, (0.299, 0.018, -0.105), False),
     *((BEHIND, place, place is line[0]) for line in LINES for place in line),
 )
+
+
+def figure_pictures(film: Film) -> None:
+    """Take the preview of a mirrored wire on a figure, and wires behind a surface that heat colors."""
+    film.filming = False
+    stage(film)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.object.delete()
+    film.obj = figure()
+    with film.ui.override():
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.mesh.symmetrize(direction="POSITIVE_X")
+        bpy.ops.mesh.select_all(action="DESELECT")
+    film.obj.data.use_mirror_x = True
+    settings().along, settings().finish = "SURFACE", "SNAP"
+    film.ui.view.view_rotation = Euler((1.45, 0.0, 0.12)).to_quaternion()
+    film.ui.view.view_location = (0.0, 0.0, 0.4)
+    film.ui.view.view_distance = 2.9
+    film.ui.wait(4, redraw=True)
+    film.at = film.vertex(0.12, -0.3, -0.2)
+    start(film)
+    film.click()
+    film.go(film.vertex(0.34, -0.1, 0.48))
+    film.picture("mirror")
+    film.click()
+    film.click("RIGHTMOUSE")
+    for place in ((0.0, -0.12, 0.86), (0.36, -0.12, 0.6), (0.19, -0.15, -0.3)):
+        film.peek(film.vertex(*place))
+        film.take()
+    settings().heat = "STRENGTH"
+    film.ui.view.view_rotation = Euler((1.4, 0.0, BEHIND + 0.2)).to_quaternion()
+    film.go((80.0, 80.0))
+    film.ui.wait_until(lambda: not session().computing, 60.0)
+    film.ui.wait(40, redraw=True)
+    film.picture("heat")
 
 
 def character(film: Film) -> None:
@@ -830,6 +986,39 @@ def draw_stroke(film: Film, places: list[tuple[float, float]]) -> None:
     film.settle()
 
 
+def install(film: Film) -> None:
+    """Take how the add-on is installed from a file: the menu, the file, and the result."""
+    film.filming = False
+    preferences = bpy.context.preferences
+    preferences.view.ui_scale = 1.6
+    preferences.view.filebrowser_display_type = "SCREEN"
+    with film.ui.override():
+        bpy.ops.screen.screen_full_area(use_hide_panels=True)
+    film.ui.wait(8)
+    film.ui = driver.Ui()
+    window, area = film.ui.window, film.ui.area
+    area.ui_type = "PREFERENCES"
+    preferences.active_section = "EXTENSIONS"
+    film.ui.wait(10, redraw=True)
+    film.ui.region = next(region for region in area.regions if region.type == "WINDOW")
+    film.at = (film.ui.region.width - 30.0, film.ui.region.height - 30.0)
+    film.ui.click(film.at)
+    film.ui.wait(10)
+    version = ".".join(map(str, bpy.app.version[:2]))
+    write_png(film.folder / f"install-{version}-menu.png", film.shot())
+    film.ui.key("ESC")
+    with bpy.context.temp_override(window=window, area=area, region=film.ui.region):
+        bpy.ops.extensions.package_install_files("INVOKE_DEFAULT", filepath=os.environ["SEAMWIRE_PACKAGE"])
+    film.ui.wait(30)
+    write_png(film.folder / f"install-{version}-file.png", film.shot())
+    film.ui.key("ESC")
+    film.ui.wait(10)
+    preferences.active_section = "ADDONS"
+    bpy.context.window_manager.extension_search = "Seamwire"
+    film.ui.wait(20, redraw=True)
+    write_png(film.folder / f"install-{version}-done.png", film.shot())
+
+
 def looks(film: Film) -> None:
     """Take all that the overlay draws in Blender's themes, shadings and display scales, to be looked at."""
     film.filming = False
@@ -879,9 +1068,9 @@ def looks(film: Film) -> None:
     film.key("ESC")
 
 
-addon_utils.enable("seamwire", default_set=True)
+enable_addon()
 show_card(False)
 kind, target = sys.argv[sys.argv.index("--") + 1 :]
-parts = (animation, limbs, character, guide, tool, cut, stretch, views, looks)
+parts = (animation, job, limbs, character, guide, tool, cut, stretch, views, figure_pictures, install, looks)
 part = next(part for part in parts if part.__name__ == kind)
 play_strictly(lambda: part(Film(Path(target))))
